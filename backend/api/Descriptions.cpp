@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/api/Descriptions.h"
+
+namespace filament::backend {
+namespace {
+
+bool isUniform(BindingType type) {
+    return type == BindingType::UniformBuffer || type == BindingType::DynamicUniformBuffer;
+}
+
+} // namespace
+
+uint8_t flatBinding(ProgramLayout const& layout, uint32_t group, uint8_t binding) {
+    uint8_t uniforms = 0, textures = 0;
+    for (uint32_t g = 0; g < kMaxBindGroups; ++g) {
+        for (uint32_t i = 0; i < layout[g].count; ++i) {
+            BindingDesc const& at = layout[g].bindings[i];
+            const bool wanted = g == group && at.binding == binding;
+            if (isUniform(at.type)) {
+                if (wanted) return uniforms;
+                ++uniforms;
+            } else if (at.type == BindingType::SampledTexture) {
+                if (wanted) return textures;
+                ++textures;
+            }
+        }
+    }
+    return 0xFF;
+}
+
+} // namespace filament::backend

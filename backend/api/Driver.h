@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Driver: replays command streams on one device.
+///   Thread  created, used and destroyed on one thread, the driver thread; info() and statistics() from any.
+///   Fails   a broken command stream is a bug of the caller (layers/Validated names it). What the device refuses
+///           (out of memory, a shader that does not compile, a lost device) goes to ResultSink::onError, and the
+///           stream goes on without that object: draws with it are skipped.
+#pragma once
+
+#include "backend/api/Commands.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace filament::backend {
+
+enum class BackendType : uint8_t { Null, Vulkan, Gles };
+const char* toString(BackendType type);
+
+enum class ShaderLanguage : uint8_t { SpirV, Essl310 };
+
+struct DeviceLimits {
+    uint32_t maxTextureSize = 2048;
+    uint32_t maxColorAttachments = 4;
+    uint32_t maxUniformBlockBytes = 16384;
+    uint32_t uniformOffsetAlignment = 256; ///< power of two
+    uint32_t maxTextureUnits = 16;         ///< sampled textures of one program
+    uint32_t maxVertexAttributes = 16;
+    uint32_t maxSamples = 4;
+    float maxAnisotropy = 1;
+};
+
+struct DeviceFeatures {
+    bool mergedPasses = false;  ///< subpass input or framebuffer fetch: PassLayout::subpassCount > 1
+    bool timers = false;
+    bool blockCompression = false; ///< BC1..BC7
+    bool depthClamp = false;
+};
+
+/// What can be known about a device; constant for the life of the driver.
+struct DeviceInfo {
+    BackendType backend = BackendType::Null;
+    ShaderLanguage shaderLanguage = ShaderLanguage::SpirV;
+    std::string deviceName;  ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driverName;  ///< "Mesa 22.3.6" and the API version
+    DeviceLimits limits;
+    DeviceFeatures features;
+};
+
+/// Running totals since the driver was made.
+struct DriverStatistics {
+    uint64_t commands = 0;
+    uint64_t draws = 0;
+    uint64_t pipelinesCreated = 0;
+    uint64_t programsCreated = 0;
+    uint64_t passes = 0;
+    uint64_t pipelinesCreatedInPasses = 0; ///< late creations: each one is a hitch
+    uint64_t deviceBytes = 0;              ///< memory now allocated for buffers and textures
+};
+
+enum class DriverErrorKind : uint8_t { Validation, ShaderCompile, OutOfMemory, DeviceLost, Other };
+
+/// Where a driver answers. Called on the driver thread only; implementations return quickly.
+class ResultSink {
+public:
+    virtual ~ResultSink() = default;
+    virtual void onReadback(Ticket ticket, std::span<const std::byte> bytes) = 0;
+    virtual void onTimer(Ticket ticket, uint64_t nanoseconds) = 0;
+    /// One line: what, on which object (debug name), and what to do.
+    virtual void onError(DriverErrorKind kind, std::string_view message) = 0;
+};
+
+class Driver {
+public:
+    virtual ~Driver() = default;
+    virtual DeviceInfo const& info() const = 0;
+    virtual void execute(CommandView commands) = 0;
+    /// Returns when the device has finished everything and every ticket is answered.
+    virtual void waitIdle() = 0;
+    virtual DriverStatistics statistics() const = 0;
+};
+
+struct DriverOptions {
+    std::string requireDevice;  ///< case-insensitive part of DeviceInfo::deviceName; empty: the first usable one
+    bool validation = false;    ///< Vulkan layers with synchronization validation; KHR_debug on GLES -> onError
+};
+
+} // namespace filament::backend

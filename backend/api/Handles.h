@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The names of everything a driver keeps. Made by the recording side (backend/stream), so that creating never waits.
+#pragma once
+
+#include "filament_core/base/Handle.h"
+
+namespace filament::backend {
+
+using BufferHandle = Handle<struct BufferTag>;
+using TextureHandle = Handle<struct TextureTag>;
+using SamplerHandle = Handle<struct SamplerTag>;
+using ProgramHandle = Handle<struct ProgramTag>;
+using PipelineHandle = Handle<struct PipelineTag>;
+using BindGroupHandle = Handle<struct BindGroupTag>;
+
+/// Names one answer of the driver (a read-back, a timer). Never reused within a process; zero is none.
+struct Ticket {
+    uint64_t value = 0;
+    explicit operator bool() const { return value != 0; }
+    friend bool operator==(Ticket, Ticket) = default;
+    friend auto operator<=>(Ticket, Ticket) = default;
+};
+
+} // namespace filament::backend
+
+template <>
+struct std::hash<filament::backend::Ticket> {
+    size_t operator()(filament::backend::Ticket ticket) const noexcept { return std::hash<uint64_t>{}(ticket.value); }
+};

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+/// CommandStream: the app's end of the driver. Gives out handles and command buffers, owns the driver thread.
+///   Thread  handles and tickets: any. acquire()/submit(): one app thread. Results: any.
+///   Memory  three command buffers, reused; acquire() waits while two submitted frames are still unreplayed.
+///   Fails   start() if no driver can be made. Afterwards never; device errors come out of takeErrors().
+#pragma once
+
+#include "backend/api/Driver.h"
+#include "backend/stream/CommandBuffer.h"
+#include "filament_core/base/Result.h"
+
+#include <chrono>
+#include <functional>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace filament::backend {
+
+/// Runs on the driver thread; makes the driver that the thread will own.
+using DriverFactory = std::function<Result<std::unique_ptr<Driver>>(ResultSink&)>;
+
+struct DriverError {
+    DriverErrorKind kind;
+    std::string message;
+};
+
+/// Wall-clock of the last replayed frame, nanoseconds of steady_clock.
+struct FrameTiming {
+    uint64_t frame = 0;      ///< CmdBeginFrame::frame, or the running number of the submission
+    int64_t submitted = 0;   ///< submit() called
+    int64_t replayBegin = 0; ///< the driver thread took it
+    int64_t replayEnd = 0;   ///< the driver thread is done with it (the GPU may still work)
+};
+
+struct CommandStreamOptions {
+    uint32_t maxFramesAhead = 2;   ///< submitted but not yet replayed
+    int driverCore = -1;           ///< pin the driver thread to this core; -1: do not
+    bool ownThread = true;         ///< false: replay inside submit(), on the caller (single-threaded platforms, tests)
+};
+
+class CommandStream {
+public:
+    /// Starts the driver thread and waits until the factory answered.
+    static Result<std::unique_ptr<CommandStream>> start(DriverFactory factory, CommandStreamOptions options = {});
+    /// Replays what was submitted, waits for the device, ends the thread.
+    ~CommandStream();
+    CommandStream(CommandStream const&) = delete;
+    CommandStream& operator=(CommandStream const&) = delete;
+
+    DeviceInfo const& info() const;
+    DriverStatistics statistics() const;
+
+    // ---- handles: allocated at once, created when the command is replayed
+    BufferHandle allocateBuffer();
+    TextureHandle allocateTexture();
+    SamplerHandle allocateSampler();
+    ProgramHandle allocateProgram();
+    PipelineHandle allocatePipeline();
+    BindGroupHandle allocateBindGroup();
+    /// Returns the name for reuse; call right after recording the matching CmdDestroy.
+    void free(BufferHandle handle);
+    void free(TextureHandle handle);
+    void free(SamplerHandle handle);
+    void free(ProgramHandle handle);
+    void free(PipelineHandle handle);
+    void free(BindGroupHandle handle);
+    /// Live handles of all types: zero when everything was destroyed.
+    uint32_t liveHandles() const;
+    Ticket nextTicket();
+
+    // ---- frames
+    /// An empty buffer to record into. Waits for back-pressure (see options.maxFramesAhead).
+    CommandBuffer& acquire();
+    /// Hands the acquired buffer to the driver thread; returns at once.
+    void submit(CommandBuffer& commands);
+    /// Waits until everything submitted was replayed and the device is idle.
+    void waitIdle();
+    /// Nanoseconds that acquire() has waited in total.
+    uint64_t backPressureNanoseconds() const;
+    std::vector<FrameTiming> takeTimings();
+
+    // ---- answers
+    /// The bytes of a read-back, once; nothing while it is under way.
+    std::optional<std::vector<std::byte>> takeReadback(Ticket ticket);
+    /// The blocking form. Timeout if it takes longer, DeviceLost if it never will.
+    Result<std::vector<std::byte>> waitReadback(Ticket ticket, std::chrono::milliseconds timeout = std::chrono::seconds(60));
+    std::optional<uint64_t> takeTimer(Ticket ticket); ///< GPU nanoseconds
+    /// Errors since the last call, oldest first.
+    std::vector<DriverError> takeErrors();
+
+private:
+    CommandStream();
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+} // namespace filament::backend

@@ -1,0 +1,51 @@
+# Debian's packages as targets; scripts/packages.txt is the list that ./run and ./check install.
+find_package(Threads REQUIRED)
+find_package(fmt REQUIRED)
+find_package(glm REQUIRED)
+find_package(Vulkan REQUIRED)
+find_package(PNG REQUIRED)
+find_package(glslang REQUIRED)
+find_package(SPIRV-Tools-opt REQUIRED)
+find_package(spirv_cross_core REQUIRED HINTS /usr/share/spirv_cross_core/cmake)
+find_package(spirv_cross_glsl REQUIRED HINTS /usr/share/spirv_cross_glsl/cmake)
+find_package(TinyGLTF REQUIRED)
+find_package(meshoptimizer REQUIRED)
+find_package(tinyexr REQUIRED)
+find_package(draco REQUIRED)
+find_package(PkgConfig REQUIRED)
+pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
+pkg_check_modules(HWLOC REQUIRED IMPORTED_TARGET hwloc)
+
+add_library(hwloc ALIAS PkgConfig::HWLOC)
+
+# moodycamel's queue is headers only.
+find_path(CONCURRENTQUEUE_INCLUDE concurrentqueue.h PATH_SUFFIXES concurrentqueue/moodycamel concurrentqueue moodycamel REQUIRED)
+add_library(concurrentqueue INTERFACE)
+target_include_directories(concurrentqueue SYSTEM INTERFACE ${CONCURRENTQUEUE_INCLUDE})
+
+# Vulkan is loaded at run time: no link against the loader, so that a machine without one still runs OpenGL ES.
+add_library(volk INTERFACE)
+target_include_directories(volk SYSTEM INTERFACE ${Vulkan_INCLUDE_DIRS})
+target_compile_definitions(volk INTERFACE VK_NO_PROTOTYPES)
+target_link_libraries(volk INTERFACE ${CMAKE_DL_LIBS})
+
+add_library(egl INTERFACE)
+target_link_libraries(egl INTERFACE PkgConfig::EGL ${CMAKE_DL_LIBS})
+
+# GLSL -> SPIR-V -> optimised -> ESSL
+add_library(shader_tools INTERFACE)
+target_link_libraries(shader_tools INTERFACE
+    glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits SPIRV-Tools-opt
+    spirv-cross-glsl spirv-cross-core)
+
+add_library(asset_codecs INTERFACE)
+target_link_libraries(asset_codecs INTERFACE
+    TinyGLTF::TinyGLTF meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG)
+
+find_package(CLI11 QUIET)
+if(FILAMENT_BUILD_TESTS)
+    find_package(GTest REQUIRED)
+endif()
+if(FILAMENT_BUILD_BENCHES)
+    find_package(benchmark REQUIRED)
+endif()

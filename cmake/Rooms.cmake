@@ -1,0 +1,73 @@
+# A room is a folder: every .cpp in it belongs to one library of the same name, its headers are included from the
+# repository root, so that the layer is visible at the include.
+
+add_library(filament_options INTERFACE)
+target_compile_options(filament_options INTERFACE
+    -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+    -ffp-contract=off) # the same bits from every compiler
+target_include_directories(filament_options INTERFACE
+    ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/filament_core/include)
+target_compile_definitions(filament_options INTERFACE GLM_FORCE_XYZW_ONLY GLM_ENABLE_EXPERIMENTAL)
+if(FILAMENT_SANITIZE)
+    target_compile_options(filament_options INTERFACE
+        -fsanitize=${FILAMENT_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+    target_link_options(filament_options INTERFACE -fsanitize=${FILAMENT_SANITIZE})
+endif()
+
+# filament_core/base -> base, backend/vulkan -> backend_vulkan
+function(filament_room_name folder result)
+    string(REGEX REPLACE "^filament_core/" "" name ${folder})
+    string(REPLACE "/" "_" name ${name})
+    set(${result} ${name} PARENT_SCOPE)
+endfunction()
+
+function(filament_room folder)
+    cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+    filament_room_name(${folder} name)
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+    if(sources)
+        add_library(${name} STATIC ${sources})
+        target_link_libraries(${name} PUBLIC filament_options ${ARG_LINK})
+    else()
+        add_library(${name} INTERFACE)
+        target_link_libraries(${name} INTERFACE filament_options ${ARG_LINK})
+    endif()
+endfunction()
+
+# A program of one folder or one file.
+function(filament_program name)
+    cmake_parse_arguments(ARG "" "" "SOURCES;LINK" ${ARGN})
+    add_executable(${name} ${ARG_SOURCES})
+    target_link_libraries(${name} PRIVATE filament_options ${ARG_LINK})
+    set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
+endfunction()
+
+# One test program per mirrored folder: tests/<folder>/*.cpp.
+function(filament_tests folder)
+    cmake_parse_arguments(ARG "GPU" "" "LINK" ${ARGN})
+    string(REPLACE "/" "_" name ${folder})
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${folder}/*.cpp)
+    if(NOT sources)
+        return()
+    endif()
+    filament_program(${name}_tests SOURCES ${sources} LINK ${ARG_LINK} GTest::gmock GTest::gtest_main)
+    target_compile_definitions(${name}_tests PRIVATE
+        FILAMENT_ASSET_DIR="${FILAMENT_ASSET_DIR}" FILAMENT_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
+        FILAMENT_BINARY_DIR="${CMAKE_BINARY_DIR}")
+    add_test(NAME ${name} COMMAND ${name}_tests)
+    if(ARG_GPU)
+        set_tests_properties(${name} PROPERTIES LABELS gpu)
+    else()
+        set_tests_properties(${name} PROPERTIES LABELS unit)
+    endif()
+endfunction()
+
+# One Google Benchmark program per file: bench/<folder>/<Name>Bench.cpp.
+function(filament_bench folder)
+    cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+    string(REPLACE "/" "_" name ${folder})
+    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/bench/${folder}/*.cpp)
+    if(sources)
+        filament_program(${name}_bench SOURCES ${sources} LINK ${ARG_LINK} benchmark::benchmark_main)
+    endif()
+endfunction()

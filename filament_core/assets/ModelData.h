@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ModelData: a glTF file as plain values, ready to upload. No device, no engine.
+///   Vertices are de-quantised as far as the GPU cannot do it itself, tangent frames are quaternions (MikkTSpace where
+///   the file gives none), colours are linear, texture coordinates keep glTF's origin (v = 0 is the top row).
+///   Indices into the vectors are checked by the loader: every one is valid or kNone.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "filament_core/assets/Image.h"
+#include "filament_core/math/Math.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace filament::assets {
+
+inline constexpr uint32_t kNone = ~0u;
+
+struct TextureRef {
+    uint32_t image = kNone;   ///< into ModelData::images; kNone: the factor alone
+    backend::SamplerDesc sampler{};
+    uint32_t uvSet = 0;       ///< 0 or 1
+    float3x3 uvTransform{ 1.0f }; ///< KHR_texture_transform as uv' = (M * (u, v, 1)).xy
+    bool hasTransform = false;
+};
+
+enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
+
+/// glTF 2.0 metallic-roughness. Colours are linear Rec. 709.
+struct MaterialData {
+    std::string name;
+    float4 baseColorFactor{ 1.0f };
+    float metallicFactor = 1, roughnessFactor = 1;
+    float normalScale = 1, occlusionStrength = 1;
+    float3 emissiveFactor{ 0.0f };
+    float emissiveStrength = 1; ///< KHR_materials_emissive_strength: nits per unit
+    TextureRef baseColor, metallicRoughness, normal, occlusion, emissive;
+    AlphaMode alphaMode = AlphaMode::Opaque;
+    float alphaCutoff = 0.5f;
+    bool doubleSided = false;
+    bool unlit = false;
+};
+
+/// One draw's worth of geometry. Positions and all other attributes are interleaved in one stream.
+struct PrimitiveData {
+    backend::Topology topology = backend::Topology::Triangles;
+    backend::VertexLayout layout{}; ///< buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4)
+    std::vector<std::byte> vertices;
+    std::vector<std::byte> indices; ///< always indexed
+    backend::IndexType indexType = backend::IndexType::UInt16;
+    uint32_t vertexCount = 0, indexCount = 0;
+    uint32_t material = kNone; ///< kNone: glTF's default material
+    float3 boundsMin{ 0.0f }, boundsMax{ 0.0f };
+    bool hasColor = false, hasUv0 = false, hasUv1 = false;
+    bool hasTangents = false; ///< false: no normals could be made either (points, lines)
+};
+
+struct MeshData {
+    std::string name;
+    std::vector<PrimitiveData> primitives;
+};
+
+enum class LightType : uint8_t { Directional, Point, Spot };
+
+/// KHR_lights_punctual: shines along -Z of its node.
+struct LightData {
+    std::string name;
+    LightType type = LightType::Point;
+    float3 color{ 1.0f };     ///< linear
+    float intensity = 1;      ///< lux (directional) or candela (point, spot)
+    float rangeMeters = 0;    ///< 0: unlimited
+    float innerConeRadians = 0, outerConeRadians = 0.7853982f;
+};
+
+struct NodeData {
+    std::string name;
+    double4x4 worldFromNode{ 1.0 }; ///< of the rest pose, hierarchy already applied
+    uint32_t mesh = kNone;
+    uint32_t light = kNone;
+    std::vector<float> morphWeights; ///< applied by the loader to the rest pose already
+};
+
+struct ModelData {
+    std::string name;
+    std::vector<Image> images; ///< with full mip chains; format RGBA8Srgb for colours, RGBA8 for data
+    std::vector<MaterialData> materials;
+    std::vector<MeshData> meshes;
+    std::vector<NodeData> nodes; ///< of the default scene, parents before children
+    std::vector<LightData> lights;
+    std::vector<std::string> warnings; ///< one line each: unsupported extensions, repaired values
+};
+
+} // namespace filament::assets

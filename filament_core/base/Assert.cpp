@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/base/Assert.h"
+
+#include <cstdio>
+#include <cstdlib>
+
+namespace filament {
+
+void assertionFailed(const char* file, int line, const char* condition, const char* rule) {
+    std::fprintf(stderr, "%s:%d: rule broken: %s (%s)\n", file, line, rule, condition);
+    std::fflush(stderr);
+    std::abort();
+}
+
+} // namespace filament

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FILAMENT_ASSERT(condition, "the rule that the caller broke"): a bug of the caller, caught in every build.
+///   Fails   prints file, line, condition and rule on standard error, then aborts.
+///   Cost    one predicted branch; for hot loops use FILAMENT_DEBUG_ASSERT, which is gone when NDEBUG is set.
+#pragma once
+
+namespace filament {
+
+[[noreturn]] void assertionFailed(const char* file, int line, const char* condition, const char* rule);
+
+} // namespace filament
+
+#define FILAMENT_ASSERT(condition, rule)                                                                      \
+    (__builtin_expect(static_cast<bool>(condition), 1)                                                        \
+            ? static_cast<void>(0)                                                                            \
+            : ::filament::assertionFailed(__FILE__, __LINE__, #condition, rule))
+
+#ifdef NDEBUG
+#define FILAMENT_DEBUG_ASSERT(condition, rule) static_cast<void>(0)
+#else
+#define FILAMENT_DEBUG_ASSERT(condition, rule) FILAMENT_ASSERT(condition, rule)
+#endif

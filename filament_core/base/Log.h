@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Log: one line of text to whoever listens.
+///   Thread  any; lines never interleave.
+///   Sink    standard error by default; setLogSink replaces it (tests collect, tools prefix).
+///   Cost    formats only when the severity is at or above the threshold.
+#pragma once
+
+#include <fmt/core.h>
+
+#include <functional>
+#include <string_view>
+
+namespace filament {
+
+enum class Severity : unsigned char { Debug, Info, Warning, Error };
+
+using LogSink = std::function<void(Severity, std::string_view line)>;
+
+/// Replaces the sink; an empty function restores standard error. Returns the one before.
+LogSink setLogSink(LogSink sink);
+
+/// Lines below this severity are dropped before they are formatted. Default: Info.
+void setLogThreshold(Severity severity);
+bool logs(Severity severity);
+
+void logLine(Severity severity, std::string_view line);
+
+template <class... Args>
+void log(Severity severity, fmt::format_string<Args...> format, Args&&... args) {
+    if (logs(severity)) logLine(severity, fmt::vformat(format, fmt::make_format_args(args...)));
+}
+
+} // namespace filament

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The vector and matrix types of the interface: GLM's, under the names of the shading language.
+///   Matrices are column-major and multiply column vectors; a name reads `resultFromSource`.
+///   Space is right-handed, +Y up, metres; angles are radians unless the name says degrees.
+#pragma once
+
+#include <glm/mat3x3.hpp>
+#include <glm/mat4x4.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <cstdint>
+
+namespace filament {
+
+using float2 = glm::vec2;
+using float3 = glm::vec3;
+using float4 = glm::vec4;
+using float3x3 = glm::mat3;
+using float4x4 = glm::mat4;
+using double2 = glm::dvec2;
+using double3 = glm::dvec3;
+using double4 = glm::dvec4;
+using double3x3 = glm::dmat3;
+using double4x4 = glm::dmat4;
+using uint2 = glm::uvec2;
+using int2 = glm::ivec2;
+
+} // namespace filament

@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Photometric units as types, so that a lux value cannot become candelas by accident.
+///   Each is a plain float with a name: no conversions, no arithmetic between units.
+#pragma once
+
+namespace filament {
+
+struct Lux { float value = 0; };     ///< illuminance, lm/m^2: suns, environments
+struct Lumen { float value = 0; };   ///< luminous power: bulbs
+struct Candela { float value = 0; }; ///< luminous intensity, lm/sr: spots
+struct Nits { float value = 0; };    ///< luminance, cd/m^2: emissive surfaces, skies
+
+} // namespace filament

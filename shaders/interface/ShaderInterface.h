@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Uniform blocks, bind groups and vertex locations that C++ and GLSL agree on. C++ reads this file; the material
+/// compiler puts shaders/interface/interface.glsl, its GLSL twin, before every shader; a test compares the two by
+/// reflection (names, offsets, sizes).
+///   std140 with float4 and float4x4 members only, so that both languages agree on the layout without padding rules.
+///   Space   positions are relative to the camera: world axes, camera at the origin, metres.
+///   Light   photometric values are pre-exposed on the CPU: multiplied by 1 / (1.2 * 2^EV100).
+#pragma once
+
+#include "filament_core/math/Math.h"
+
+#include <array>
+#include <cstdint>
+
+namespace filament::shader {
+
+// ---- vertex attribute locations (all shaders)
+enum AttributeLocation : uint8_t {
+    kAttributePosition = 0, ///< float3
+    kAttributeTangents = 1, ///< float4 quaternion of the tangent frame; w < 0: the bitangent is flipped
+    kAttributeColor = 2,    ///< float4, linear
+    kAttributeUv0 = 3,      ///< float2
+    kAttributeUv1 = 4,      ///< float2
+    kAttributeJoints = 5,   ///< uint4
+    kAttributeWeights = 6,  ///< float4
+    kAttributeCustom0 = 7,  ///< float4, 7..14
+    kAttributeInstance = 15, ///< uint, per instance: index into ObjectUniforms::objects of the bound window
+};
+
+// ---- bind groups
+inline constexpr uint32_t kGroupView = 0;     ///< what all draws of a view share
+inline constexpr uint32_t kGroupMaterial = 1; ///< MaterialParams block (binding 0) and the material's samplers (1..)
+
+enum ViewBinding : uint8_t {
+    kBindingFrame = 0,       ///< FrameUniforms, dynamic
+    kBindingObjects = 1,     ///< ObjectUniforms, dynamic: windows of kObjectsPerWindow objects
+    kBindingLights = 2,      ///< LightUniforms, dynamic
+    kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
+    kBindingDfg = 4,         ///< sampler2D: split-sum terms
+    kBindingSky = 5,         ///< samplerCube: unfiltered environment
+};
+
+// ---- FrameUniforms
+struct FrameUniforms {
+    float4x4 clipFromWorld;      ///< world relative to the camera
+    float4x4 worldFromClip;
+    float4x4 viewFromWorld;
+    float4x4 clipFromView;
+    float4 cameraPosition;       ///< xyz: absolute world position, for procedural materials only; w: unused
+    float4 viewport;             ///< xy: pixels, zw: 1 / pixels
+    float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: time in seconds; w: unused
+    float4 sunDirection;         ///< xyz: towards the sun, unit; w: 1 if there is a sun
+    float4 sunIlluminance;       ///< rgb: pre-exposed linear colour x lux
+    float4 ambient;              ///< x: pre-exposed IBL lux; y: level of roughness 1; z: SH bands; w: light count
+    float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: unused
+    std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients
+    float4x4 worldFromEnvironment;       ///< rotation of the environment
+};
+
+inline constexpr uint32_t kObjectsPerWindow = 256;
+
+/// One instance: the rows of the affine transform from object to camera-relative world space.
+struct ObjectData {
+    float4 row0, row1, row2;
+    float4 flags; ///< x: +1, or -1 if the transform mirrors (flips the bitangent and the front face); yzw: unused
+};
+
+struct ObjectUniforms {
+    std::array<ObjectData, kObjectsPerWindow> objects; // 16 KiB: the least that every device offers
+};
+
+inline constexpr uint32_t kMaxPunctualLights = 256;
+
+/// A point or spot light, pre-exposed.
+struct LightData {
+    float4 positionRange;   ///< xyz: relative to the camera; w: 1 / range^2 (0: unlimited)
+    float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; w: 1 for spots, 0 for points
+    float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
+    float4 offset;          ///< x: spot offset -cosOuter * scale; yzw: unused
+};
+
+struct LightUniforms {
+    std::array<LightData, kMaxPunctualLights> lights;
+};
+
+static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(LightUniforms) == 16384);
+static_assert(sizeof(FrameUniforms) % 16 == 0);
+
+} // namespace filament::shader

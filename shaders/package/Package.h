@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+/// MaterialPackage: a compiled material as plain values, and its file form.
+///   Format  own, little-endian: magic, version, 64-bit checksum, sections with lengths (unknown sections are skipped).
+///           Byte-identical for equal content; documented in docs/package-format.md.
+///   Fails   readPackage(): Corrupt or Unsupported with the reason, for any bytes whatsoever; never crashes, never
+///           allocates more than a small multiple of the input.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "filament_core/base/Result.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace filament::shader {
+
+enum class MaterialDomain : uint8_t { Surface, PostProcess };
+enum class ShadingModel : uint8_t { Unlit, Lit };
+enum class Blending : uint8_t { Opaque, Masked, Transparent, Fade, Add, Multiply, Screen };
+enum class Culling : uint8_t { None, Front, Back, FrontAndBack };
+enum class VertexDomain : uint8_t { Object, World, View, Device };
+
+enum class ParameterType : uint8_t {
+    Bool, Bool2, Bool3, Bool4, Float, Float2, Float3, Float4, Int, Int2, Int3, Int4, Uint, Uint2, Uint3, Uint4,
+    Float3x3, Float4x4,                          ///< std140 columns of 16 bytes
+    Sampler2D, Sampler2DArray, SamplerCube, SubpassInput,
+};
+bool isTexture(ParameterType type); ///< samplers and subpass inputs
+
+struct Parameter {
+    std::string name;
+    ParameterType type = ParameterType::Float;
+    uint32_t arraySize = 0;  ///< 0: not an array
+    uint32_t offset = 0;     ///< bytes in the MaterialParams block; textures: 0
+    uint8_t binding = 0;     ///< textures: binding in kGroupMaterial
+    friend bool operator==(Parameter const&, Parameter const&) = default;
+};
+
+struct Constant {
+    std::string name;
+    uint32_t id = 0; ///< specialisation id, the same on both APIs
+    backend::ConstantValue::Type type = backend::ConstantValue::Type::Bool;
+    uint32_t defaultBits = 0;
+    friend bool operator==(Constant const&, Constant const&) = default;
+};
+
+/// What the scene may ask of a material; a set of bits is a variant key.
+enum VariantBit : uint8_t {
+    kVariantSun = 1,       ///< directionalLighting
+    kVariantPunctual = 2,  ///< dynamicLighting
+};
+
+struct Variant {
+    uint8_t key = 0;
+    std::vector<uint32_t> vertexSpirv, fragmentSpirv;
+    std::string vertexEssl, fragmentEssl;
+    friend bool operator==(Variant const&, Variant const&) = default;
+};
+
+struct MaterialPackage {
+    std::string name;
+    MaterialDomain domain = MaterialDomain::Surface;
+    ShadingModel shading = ShadingModel::Lit;
+    Blending blending = Blending::Opaque;
+    Culling culling = Culling::Back;
+    VertexDomain vertexDomain = VertexDomain::Object;
+    bool doubleSided = false;
+    bool colorWrite = true, depthWrite = true, depthCulling = true;
+    float maskThreshold = 0.4f;
+    uint32_t requiredAttributes = 0; ///< bit n: AttributeLocation n is read
+    uint32_t uniformBytes = 0;       ///< size of the MaterialParams block, a multiple of 16; 0: none
+    std::vector<Parameter> parameters;
+    std::vector<Constant> constants;
+    backend::ProgramLayout layout{}; ///< the same for all variants
+    std::vector<Variant> variants;   ///< ascending by key
+    friend bool operator==(MaterialPackage const&, MaterialPackage const&) = default;
+
+    Variant const* findVariant(uint8_t key) const;
+    Parameter const* findParameter(std::string_view name) const;
+    Constant const* findConstant(std::string_view name) const;
+};
+
+Result<MaterialPackage> readPackage(std::span<const std::byte> bytes);
+std::vector<std::byte> writePackage(MaterialPackage const& package);
+
+} // namespace filament::shader
