@@ -6,6 +6,8 @@
 #include "backend/api/Format.h"
 #include "backend/api/Handles.h"
 
+#include <filament/Sampler.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -82,23 +84,11 @@ struct TextureDesc {
     std::string_view debugName;
 };
 
-enum class Filter : uint8_t { Nearest, Linear };
-enum class MipFilter : uint8_t { None, Nearest, Linear };
-enum class WrapMode : uint8_t { Repeat, MirroredRepeat, ClampToEdge };
-/// `None` means: no comparison, an ordinary sampler.
-enum class CompareOp : uint8_t { None, Never, Less, Equal, LessEqual, Greater, NotEqual, GreaterEqual, Always };
-
-struct SamplerDesc {
-    Filter magFilter = Filter::Nearest;
-    Filter minFilter = Filter::Nearest;
-    MipFilter mipFilter = MipFilter::None;
-    WrapMode wrapU = WrapMode::ClampToEdge;
-    WrapMode wrapV = WrapMode::ClampToEdge;
-    WrapMode wrapW = WrapMode::ClampToEdge;
-    CompareOp compare = CompareOp::None;
-    uint8_t anisotropy = 1; ///< 1..16
-    friend bool operator==(SamplerDesc const&, SamplerDesc const&) = default;
-};
+using filament::CompareOp;
+using filament::Filter;
+using filament::MipFilter;
+using filament::WrapMode;
+using SamplerDesc = filament::Sampler;
 
 // ---------------------------------------------------------------------------------------------- programs
 

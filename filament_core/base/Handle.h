@@ -1,36 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Handle: a small typed name for something that lives in a table. Zero is none.
-///   Bits    20 bits of index, 12 bits of generation; the generation tells a stale handle from a live one.
-///   Thread  a plain value.
-/// HandleAllocator: gives handles out and takes them back; 64 live allocators cost nothing but their table.
+/// HandleAllocator: gives handles out and takes them back.
 ///   Thread  any; one short lock per call. Never waits for a driver or a device.
 ///   Limits  2^20 live handles; beyond it allocate() asserts, naming the type's limit.
 #pragma once
 
 #include "filament_core/base/Assert.h"
 
+#include <filament/Handle.h>
+
 #include <cstdint>
-#include <functional>
 #include <mutex>
 #include <vector>
 
 namespace filament {
-
-template <class Tag>
-struct Handle {
-    static constexpr uint32_t kIndexBits = 20;
-    static constexpr uint32_t kIndexMask = (1u << kIndexBits) - 1;
-    static constexpr uint32_t kMaxGeneration = (1u << (32 - kIndexBits)) - 1;
-
-    uint32_t bits = 0;
-
-    static Handle make(uint32_t index, uint32_t generation) { return { (generation << kIndexBits) | index }; }
-    uint32_t index() const { return bits & kIndexMask; }
-    uint32_t generation() const { return bits >> kIndexBits; }
-    explicit operator bool() const { return bits != 0; }
-    friend bool operator==(Handle, Handle) = default;
-    friend auto operator<=>(Handle, Handle) = default;
-};
 
 template <class Tag>
 class HandleAllocator {
@@ -78,8 +60,3 @@ private:
 };
 
 } // namespace filament
-
-template <class Tag>
-struct std::hash<filament::Handle<Tag>> {
-    size_t operator()(filament::Handle<Tag> handle) const noexcept { return std::hash<uint32_t>{}(handle.bits); }
-};
