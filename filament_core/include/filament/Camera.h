@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Camera: where one looks from, through which lens, and how bright the film is. A plain value.
+///   Position and orientation are double precision: the image is the same a million kilometres from the origin.
+///   The depth buffer is reversed with an infinite far plane; there is nothing to tune but the near plane.
+#pragma once
+
+#include <filament/Math.h>
+
+namespace filament {
+
+/// Photographic exposure. Lagarde & de Rousiers 2014, "Moving Frostbite to PBR", section 5.1.
+struct Exposure {
+    float aperture = 16.0f;             ///< f-stops, > 0
+    float shutterSeconds = 1.0f / 125;  ///< > 0
+    float iso = 100.0f;                 ///< > 0
+
+    /// log2(N^2 / t * 100 / S)
+    float ev100() const;
+    /// What a luminance in nits is multiplied by before tone mapping: 1 / (1.2 * 2^EV100).
+    float factor() const;
+};
+
+struct Lens {
+    float verticalFovDegrees = 45.0f; ///< (0, 180)
+    float nearMeters = 0.01f;         ///< > 0; distance of the near plane
+};
+
+struct Camera {
+    double4x4 worldFromView{ 1.0 }; ///< rigid: rotation and position. Looks down -Z, +Y is up
+    Lens lens{};
+    Exposure exposure{};
+
+    /// `up` need not be perpendicular; when it is parallel to the view another one is taken.
+    static Camera lookAt(double3 eye, double3 at, Lens lens = {}, Exposure exposure = {}, double3 up = { 0, 1, 0 });
+
+    double3 position() const { return double3(worldFromView[3]); }
+    /// Clip from view: +Y of the view is row 0 of the image, z = near / distance (1 at the near plane, 0 at infinity).
+    float4x4 clipFromView(float aspect) const;
+};
+
+} // namespace filament

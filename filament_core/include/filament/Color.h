@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Color: linear Rec. 709 / sRGB primaries, D65. Everything in the engine is linear until the tone mapper.
+#pragma once
+
+#include <filament/Math.h>
+
+namespace filament {
+
+using LinearColor = float3; ///< linear, >= 0; reflectances in [0, 1]
+
+namespace color {
+
+/// IEC 61966-2-1 electro-optical transfer, per component; `encoded` in [0, 1].
+LinearColor linearFromSrgb(float3 encoded);
+float3 srgbFromLinear(LinearColor linear);
+
+/// Chromaticity of a black body, luminance 1. `kelvin` in [1000, 15000]. Krystek 1985 (CIE 1960 UCS).
+LinearColor fromTemperature(float kelvin);
+
+/// CIE Y of a linear Rec. 709 colour.
+float luminance(LinearColor linear);
+
+} // namespace color
+} // namespace filament

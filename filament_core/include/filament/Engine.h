@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Engine: one device, its driver thread, its workers, and every object made from them.
+///   Thread    one thread per engine (the app thread); several engines on several threads are fine.
+///   Wait      creating never waits for the driver thread. create() and the destructor do.
+///   Errors    create() says why there is no device and what to install. Later the device's own errors (out of memory,
+///             a shader it rejects) come out of takeErrors(), one line each; what depends on them is not drawn.
+///   Bits      with the default options the same calls give the same image bits on Vulkan and OpenGL ES of Mesa's
+///             CPU drivers, for any number of workers.
+#pragma once
+
+#include <filament/Objects.h>
+#include <filament/Result.h>
+
+#include <cstdint>
+#include <filesystem>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament {
+
+enum class Backend : uint8_t { Vulkan, Gles, Null };
+const char* toString(Backend backend);
+
+struct DeviceDescription {
+    Backend backend = Backend::Null;
+    std::string device; ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driver; ///< name and version
+    uint32_t maxTextureSize = 0;
+    uint32_t maxSamples = 1;
+};
+
+/// Every device that createEngine could use now; backends without a driver installed are absent.
+std::vector<DeviceDescription> listDevices();
+
+enum class ThreadAffinity : uint8_t { None, Pin };
+
+struct EngineOptions {
+    Backend backend = Backend::Vulkan;
+    std::string requireDevice;   ///< case-insensitive part of the device's name; empty: the first usable
+    int workers = -1;            ///< job threads besides the app thread; -1: one per remaining core; 0: none
+    ThreadAffinity affinity = ThreadAffinity::None;
+    int driverCore = -1;         ///< pin the driver thread to this core; -1: do not
+    bool validation = false;     ///< check every stream; Vulkan validation layers or KHR_debug on top
+    std::filesystem::path traceFile; ///< write every command as text, for replay; empty: do not
+    std::filesystem::path cacheDirectory; ///< baked environments; empty: $XDG_CACHE_HOME/filament_core
+};
+
+/// Running totals of an engine.
+struct EngineStatistics {
+    uint64_t draws = 0;
+    uint64_t pipelinesCreated = 0;
+    uint64_t pipelinesCreatedInPasses = 0;
+    uint64_t commands = 0;
+    uint64_t deviceBytes = 0;
+    uint64_t backPressureNanoseconds = 0; ///< the app has waited this long for the driver thread
+};
+
+class Engine;
+
+/// Owns one object: destroys it at the end of the scope. The engine must outlive it.
+template <class T>
+class Owned {
+public:
+    Owned() = default;
+    Owned(Engine& engine, T object) : mEngine(&engine), mObject(object) {}
+    Owned(Owned&& other) noexcept : mEngine(other.mEngine), mObject(other.release()) {}
+    Owned& operator=(Owned&& other) noexcept;
+    ~Owned() { reset(); }
+
+    T get() const { return mObject; }
+    operator T() const { return mObject; }
+    T release() { T object = mObject; mObject = {}; return object; }
+    void reset();
+
+private:
+    Engine* mEngine = nullptr;
+    T mObject{};
+};
+
+class Engine {
+public:
+    static Result<Engine> create(EngineOptions const& options = {});
+    Engine(Engine&&) noexcept;
+    Engine& operator=(Engine&&) noexcept;
+    /// Waits for the device; objects still alive are named in a warning and freed.
+    ~Engine();
+
+    DeviceDescription const& device() const;
+    EngineStatistics statistics() const;
+    /// Errors of device and driver since the last call, oldest first.
+    std::vector<std::string> takeErrors();
+    /// Waits until everything submitted has run.
+    void waitIdle();
+
+    Texture create(TextureDesc const& desc);
+    VertexBuffer create(VertexBufferDesc const& desc);
+    IndexBuffer create(IndexBufferDesc const& desc);
+    IndirectLight create(IndirectLightDesc const& desc);
+    Skybox create(SkyboxDesc const& desc);
+    RenderTarget create(RenderTargetDesc const& desc);
+    SwapChain create(SwapChainDesc const& desc);
+    /// Corrupt or Unsupported package; an unknown constant is NotFound with the nearest name.
+    Result<Material> create(MaterialDesc const& desc);
+    /// Parameters start at zero, textures at opaque white.
+    MaterialInstance createInstance(Material material, std::string name = {});
+
+    /// NotFound names the nearest parameter; InvalidArgument names the type it has.
+    Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
+    Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler = {});
+    /// Raster state that may change at run time. `doubleSided` only if the material was compiled for it.
+    void setCullingDisabled(MaterialInstance instance, bool disabled);
+
+    void destroy(Texture texture);
+    void destroy(VertexBuffer buffer);
+    void destroy(IndexBuffer buffer);
+    void destroy(Material material); ///< its instances must be destroyed first
+    void destroy(MaterialInstance instance);
+    void destroy(IndirectLight light);
+    void destroy(Skybox skybox);
+    void destroy(RenderTarget target);
+    void destroy(SwapChain swapChain);
+
+    template <class T>
+    Owned<T> own(T object) { return Owned<T>(*this, object); }
+
+    struct Impl;
+    Impl& impl() { return *mImpl; } ///< for the engine's own files
+
+private:
+    explicit Engine(std::unique_ptr<Impl> impl);
+    std::unique_ptr<Impl> mImpl;
+};
+
+template <class T>
+Owned<T>& Owned<T>::operator=(Owned&& other) noexcept {
+    if (this != &other) {
+        reset();
+        mEngine = other.mEngine;
+        mObject = other.release();
+    }
+    return *this;
+}
+
+template <class T>
+void Owned<T>::reset() {
+    if (mObject) mEngine->destroy(release());
+}
+
+} // namespace filament

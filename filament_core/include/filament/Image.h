@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Image: pixels in memory, tightly packed, row 0 at the top.
+#pragma once
+
+#include <filament/Format.h>
+#include <filament/Result.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <vector>
+
+namespace filament {
+
+struct Image {
+    uint32_t width = 0, height = 0;
+    Format format = Format::RGBA8; ///< of Renderer: RGBA8 (display) or RGBA16F (scene-linear)
+    std::vector<std::byte> pixels;
+};
+
+/// RGBA8 only. Errors: Unreadable with path and reason.
+Result<void> savePng(std::filesystem::path const& path, Image const& image);
+/// RGBA16F only, stored as half floats.
+Result<void> saveExr(std::filesystem::path const& path, Image const& image);
+
+} // namespace filament

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Lights, in photometric units. Plain descriptions: Scene::add takes them and gives a handle.
+#pragma once
+
+#include <filament/Color.h>
+#include <filament/Math.h>
+#include <filament/Units.h>
+
+namespace filament {
+
+/// Parallel light. A scene shades with its brightest sun; more are an error of the scene and reported as a warning.
+struct SunLight {
+    float3 directionWorld{ 0, -1, 0 }; ///< in which the light travels; need not be unit, must not be zero
+    Lux illuminance{ 110'000 };        ///< on a surface facing it, >= 0
+    LinearColor color{ 1.0f };
+};
+
+struct PointLight {
+    double3 positionWorld{ 0 };
+    Candela intensity{ 100 };  ///< >= 0. From lumens: lm / (4 pi)
+    LinearColor color{ 1.0f };
+    float rangeMeters = 0;     ///< beyond it the light is exactly zero; 0: unlimited
+};
+
+struct SpotLight {
+    double3 positionWorld{ 0 };
+    float3 directionWorld{ 0, 0, -1 };
+    Candela intensity{ 100 };
+    LinearColor color{ 1.0f };
+    float rangeMeters = 0;
+    float innerConeRadians = 0;          ///< [0, outer)
+    float outerConeRadians = 0.7853982f; ///< (inner, pi/2]
+};
+
+} // namespace filament

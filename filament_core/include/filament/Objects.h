@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The objects of an engine: small typed handles and the descriptions they are made from.
+///   Every description is valid when default-initialised except for the fields that say otherwise.
+///   Lifetime  until Engine::destroy, or the end of the engine, which names what was forgotten. Owned<T> does it by RAII.
+#pragma once
+
+#include <filament/Format.h>
+#include <filament/Handle.h>
+#include <filament/Math.h>
+#include <filament/Sampler.h>
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace filament {
+
+using Texture = Handle<struct TextureObject>;
+using VertexBuffer = Handle<struct VertexBufferObject>;
+using IndexBuffer = Handle<struct IndexBufferObject>;
+using Material = Handle<struct MaterialObject>;
+using MaterialInstance = Handle<struct MaterialInstanceObject>;
+using IndirectLight = Handle<struct IndirectLightObject>;
+using Skybox = Handle<struct SkyboxObject>;
+using RenderTarget = Handle<struct RenderTargetObject>;
+using SwapChain = Handle<struct SwapChainObject>;
+
+enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube };
+
+/// `pixels`: level 0, then level 1, ...; each level all layers, rows tightly packed, row 0 at the top. May be empty:
+/// the contents are then undefined. Copied before the call returns.
+struct TextureDesc {
+    TextureKind kind = TextureKind::Texture2D;
+    Format format = Format::RGBA8;
+    uint32_t width = 1, height = 1; ///< >= 1, at most DeviceInfo::maxTextureSize
+    uint32_t layers = 1;            ///< 6 for a cube
+    uint32_t levels = 1;            ///< mip levels given in `pixels`
+    bool generateMips = false;      ///< fill levels 1.. from level 0 on the device; `pixels` then has level 0 only
+    bool renderable = false;        ///< may be the colour of a RenderTarget
+    std::span<const std::byte> pixels;
+    std::string name;
+};
+
+/// What the shaders call the attribute.
+enum class Attribute : uint8_t {
+    Position = 0, ///< float3
+    Tangents = 1, ///< float4: quaternion of the tangent frame (x tangent, z normal); w < 0: bitangent flipped
+    Color = 2,    ///< float4, linear
+    Uv0 = 3, Uv1 = 4, ///< float2
+    Joints = 5, Weights = 6,
+    Custom0 = 7,  ///< float4; Custom0 + 7 is the last
+};
+
+struct AttributeDesc {
+    Attribute attribute = Attribute::Position;
+    VertexFormat format = VertexFormat::Float3;
+    uint32_t offset = 0; ///< bytes from the start of a vertex
+};
+
+/// One interleaved stream. `data` is copied before the call returns.
+struct VertexBufferDesc {
+    uint32_t vertexCount = 0; ///< > 0
+    uint32_t stride = 0;      ///< bytes, > 0, multiple of 4
+    std::vector<AttributeDesc> attributes;
+    std::span<const std::byte> data; ///< vertexCount * stride bytes
+    std::string name;
+};
+
+enum class IndexFormat : uint8_t { UInt16, UInt32 };
+
+struct IndexBufferDesc {
+    uint32_t indexCount = 0; ///< > 0
+    IndexFormat format = IndexFormat::UInt16;
+    std::span<const std::byte> data;
+    std::string name;
+};
+
+enum class PrimitiveType : uint8_t { Triangles, TriangleStrip, Lines, LineStrip, Points };
+
+/// Value of a constant parameter ("constants" of the .mat file), fixed when the material is loaded.
+struct MaterialConstant {
+    std::string name;
+    std::variant<bool, int32_t, float> value;
+};
+
+/// `package`: the bytes of a .fmat file, written by matc.
+struct MaterialDesc {
+    std::span<const std::byte> package;
+    std::vector<MaterialConstant> constants;
+    std::string name; ///< empty: the name in the package
+};
+
+/// Value of a parameter; integers, booleans and matrices by their GLSL sizes.
+using ParameterValue = std::variant<bool, int32_t, uint32_t, float, float2, float3, float4, float3x3, float4x4>;
+
+/// Pre-filtered environment: irradiance and specular reflections of everything far away.
+struct IndirectLightDesc {
+    Texture specular;                 ///< cube; level i holds perceptual roughness 1 - sqrt(1 - i / (levels - 1))
+    uint32_t specularLevels = 1;
+    std::array<float4, 9> irradianceSh{}; ///< rgb; see shaders/lib/ibl.glsl, irradianceSh()
+    std::string name;
+};
+
+struct SkyboxDesc {
+    Texture cube;
+    std::string name;
+};
+
+struct RenderTargetDesc {
+    Texture color; ///< renderable RGBA8, or RGBA16F (then scene-linear, without tone mapping)
+    std::string name;
+};
+
+/// Headless: a ring of images that frames are presented to and read back from.
+struct SwapChainDesc {
+    uint2 size{ 1280, 720 }; ///< pixels, >= 1
+    uint32_t imageCount = 2; ///< [1, 4]
+    Format format = Format::RGBA8; ///< RGBA8 (display) or RGBA16F (scene-linear, without tone mapping)
+    std::string name;
+};
+
+} // namespace filament

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Renderer: scene and view in, pixels out.
+///   Thread  the app thread of the engine.
+///   Wait    render() returns when the scene has been read and the frame is submitted; it waits only when the driver
+///           thread is two frames behind. The blocking forms wait for the pixels.
+///   Memory  after warm-up a frame allocates nothing from the heap.
+#pragma once
+
+#include <filament/Engine.h>
+#include <filament/Image.h>
+#include <filament/Scene.h>
+#include <filament/View.h>
+
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace filament {
+
+/// Names pixels that are on their way.
+struct PixelTicket {
+    uint64_t value = 0;
+    explicit operator bool() const { return value != 0; }
+};
+
+struct PassTiming {
+    std::string name;
+    double gpuMilliseconds = 0;
+};
+
+/// Of one frame; complete when the driver thread and the device are done with it.
+struct FrameTimings {
+    uint64_t frame = 0;
+    double prepareMilliseconds = 0;  ///< app thread and workers: cull, sort, upload data
+    double recordMilliseconds = 0;   ///< app thread: graph and commands
+    double replayMilliseconds = 0;   ///< driver thread
+    double gpuMilliseconds = 0;      ///< device, sum of passes; 0 without timers
+    double beginSeconds = 0, submitSeconds = 0;            ///< app thread, since the engine started
+    double replayBeginSeconds = 0, replayEndSeconds = 0;   ///< driver thread
+    double workerBusyMilliseconds = 0; ///< all workers together, while the frame was prepared
+    std::vector<PassTiming> passes;
+};
+
+/// Counts of the frame rendered last.
+struct FrameStatistics {
+    uint64_t frame = 0;
+    uint32_t renderables = 0, visible = 0, culled = 0;
+    uint32_t draws = 0, triangles = 0;
+    uint32_t lights = 0;
+    uint32_t passesRun = 0, passesCulled = 0;
+};
+
+class Renderer {
+public:
+    explicit Renderer(Engine& engine);
+    Renderer(Renderer&&) noexcept;
+    ~Renderer();
+
+    /// Into the next image of a swap chain / into a render target of view.size. Returns at once.
+    void render(Scene const& scene, View const& view, SwapChain swapChain);
+    void render(Scene const& scene, View const& view, RenderTarget target);
+
+    /// Asks for the pixels rendered last; poll takePixels().
+    PixelTicket readPixels(SwapChain swapChain);
+    PixelTicket readPixels(RenderTarget target);
+    std::optional<Image> takePixels(PixelTicket ticket);
+    Result<Image> waitPixels(PixelTicket ticket);
+
+    /// The blocking form: one frame into an image of its own. Display-referred RGBA8.
+    Result<Image> renderToImage(Scene const& scene, View const& view);
+
+    FrameStatistics statistics() const;
+    std::vector<FrameTimings> takeTimings(); ///< finished frames, oldest first
+    /// What the last frame ran, what it did not, and why: one decision a line.
+    std::string explain() const;
+    /// The frame graph of the last frame, for graphviz.
+    std::string graphviz() const;
+
+    struct Impl;
+
+private:
+    std::unique_ptr<Impl> mImpl;
+};
+
+} // namespace filament

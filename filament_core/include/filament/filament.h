@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The whole public API. Start at Engine.h; samples/hello is the shortest complete program.
+#pragma once
+
+#include <filament/Camera.h>
+#include <filament/Color.h>
+#include <filament/Engine.h>
+#include <filament/Environment.h>
+#include <filament/Gltf.h>
+#include <filament/Image.h>
+#include <filament/Light.h>
+#include <filament/Math.h>
+#include <filament/Objects.h>
+#include <filament/Renderer.h>
+#include <filament/Result.h>
+#include <filament/Scene.h>
+#include <filament/Units.h>
+#include <filament/View.h>
