@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The shader library as C++: the very text that the GPU runs, in namespace filament::shader::lib over GLM's types.
+///   Use     tests check the BRDF before it has a pixel; the environment baker samples with the same functions.
+///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and the C++ compiler rounds
+///           transcendental functions its own way.
+///   Rules   for the .glsl files: no swizzles but .x .y .z .w, literals end in f, vec3(v4) truncates, built-ins are those
+///           listed below, functions only.
+///   Memory  none. Thread: pure functions.
+#pragma once
+
+#include <filament/Math.h>
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace filament::shader::lib {
+
+using glm::uint;
+using glm::vec2;
+using glm::vec3;
+using glm::vec4;
+
+using glm::clamp;
+using glm::cos;
+using glm::cross;
+using glm::dot;
+using glm::exp2;
+using glm::fract;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::pow;
+using glm::sin;
+using glm::sqrt;
+
+// GLSL functions have no linkage: internal here, and not every includer calls every one.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+namespace {
+
+#include "shaders/lib/math.glsl"
+// the rest needs math.glsl and, except for clarity, no order
+#include "shaders/lib/aa.glsl"
+#include "shaders/lib/ao.glsl"
+#include "shaders/lib/brdf.glsl"
+#include "shaders/lib/color.glsl"
+#include "shaders/lib/ibl.glsl"
+#include "shaders/lib/light.glsl"
+#include "shaders/lib/sampling.glsl"
+#include "shaders/lib/tangent.glsl"
+
+} // namespace
+#pragma GCC diagnostic pop
+
+#undef OUT
+
+} // namespace filament::shader::lib

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// Geometric specular anti-aliasing: what the pixel cannot resolve in normals becomes roughness.
+
+// Kaplanyan 2016, "Stable Specular Highlights"; Tokuyoshi and Kaplanyan 2019, "Improved Geometric Specular
+// Antialiasing", eq. 7 with the isotropic kernel.
+// ddxNormal, ddyNormal: screen-space derivatives of the geometric world normal. variance: screen-space filter, usually
+// 0.15 (0: off); threshold: the most that may be added to alpha^2, usually 0.2. Returns [perceptualRoughness, 1].
+float filteredPerceptualRoughness(float perceptualRoughness, vec3 ddxNormal, vec3 ddyNormal, float variance,
+        float threshold) {
+    float kernel = variance * (dot(ddxNormal, ddxNormal) + dot(ddyNormal, ddyNormal));
+    float alpha = perceptualRoughness * perceptualRoughness;
+    float alphaSquared = saturate(alpha * alpha + min(2.0f * kernel, threshold));
+    return sqrt(sqrt(alphaSquared));
+}

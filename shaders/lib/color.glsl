@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// From scene-referred linear Rec. 709 to what a display takes: tone mappers, transfer functions, dither noise.
+
+const int kToneMapLinear = 0; // clamps
+const int kToneMapAces = 1;   // fit of the ACES reference rendering transform
+const int kToneMapFilmic = 2; // the camera-like curve of 'Uncharted 2'
+const int kToneMapMobile = 3; // one division, transfer function included
+
+// Relative luminance of linear Rec. 709. ITU-R BT.709-6, item 3.2.
+float luminance(vec3 linear) { return dot(linear, vec3(0.2126f, 0.7152f, 0.0722f)); }
+
+// Narkowicz 2015, "ACES Filmic Tone Mapping Curve". x >= 0; leaves [0, 1] by 3 % from x = 12 on.
+vec3 toneMapAces(vec3 x) { return (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f); }
+
+// Hable 2010, "Uncharted 2: HDR Lighting": shoulder 0.15, linear 0.50 at 0.10, toe 0.20 with 0.02 / 0.30.
+vec3 hableCurve(vec3 x) { return (x * (0.15f * x + 0.05f) + 0.004f) / (x * (0.15f * x + 0.50f) + 0.06f) - 0.066666667f; }
+
+// Hable's operator with his exposure bias 2; white is where the curve reaches 1.
+vec3 toneMapFilmic(vec3 x) {
+    const float white = 11.2f;
+    return hableCurve(2.0f * x) / hableCurve(vec3(white));
+}
+
+// The fit of ACES followed by the sRGB transfer in one rational function: Guy and Agopian 2018, "High performance on
+// mobile". The result goes to the display as it is: no srgbFromLinear() after it.
+vec3 toneMapMobile(vec3 x) { return x / (x + vec3(0.155f)) * 1.019f; }
+
+// Whether the mapper's result is display code already, so that no transfer function may follow.
+bool toneMapIncludesTransfer(int mapper) { return mapper == kToneMapMobile; }
+
+// Scene-referred, exposed linear colour -> [0, 1]. Negative components (out of gamut) count as 0; huge values are cut
+// at 1e4, where all curves are flat, so that x^2 cannot overflow fp16's or fp32's range on the way.
+vec3 toneMap(vec3 color, int mapper) {
+    vec3 x = clamp(color, 0.0f, 1e4f);
+    if (mapper == kToneMapAces) {
+        x = toneMapAces(x);
+    } else if (mapper == kToneMapFilmic) {
+        x = toneMapFilmic(x);
+    } else if (mapper == kToneMapMobile) {
+        x = toneMapMobile(x);
+    }
+    return saturate(x);
+}
+
+// IEC 61966-2-1, the sRGB transfer function, one component. [0, 1] -> [0, 1].
+float srgbFromLinear(float x) {
+    return x <= 0.0031308f ? 12.92f * x : 1.055f * pow(x, 1.0f / 2.4f) - 0.055f;
+}
+
+// IEC 61966-2-1, inverse transfer function, one component. [0, 1] -> [0, 1].
+float linearFromSrgb(float x) {
+    return x <= 0.04045f ? x * (1.0f / 12.92f) : pow((x + 0.055f) * (1.0f / 1.055f), 2.4f);
+}
+
+vec3 srgbFromLinear(vec3 x) { return vec3(srgbFromLinear(x.x), srgbFromLinear(x.y), srgbFromLinear(x.z)); }
+vec3 linearFromSrgb(vec3 x) { return vec3(linearFromSrgb(x.x), linearFromSrgb(x.y), linearFromSrgb(x.z)); }
+
+// Noise that is nearly uniform in every 3x3 block: for dithering and for rotating sample patterns. Jimenez 2014,
+// "Next Generation Post Processing in Call of Duty: Advanced Warfare". pixel: gl_FragCoord.xy. Returns [0, 1).
+float interleavedGradientNoise(vec2 pixel) {
+    return fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
+}

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// Lighting from a distant environment: which mip level, which direction, and the diffuse part.
+
+// The mip level of the pre-filtered environment for a roughness. levelOfRoughnessOne * r * (2 - r) gives the rough
+// half of the range more levels than log2 would: with 5 levels they hold roughness^2 0, 0.018, 0.086, 0.25, 1.
+// perceptualRoughness in [0, 1]. Returns [0, levelOfRoughnessOne].
+float levelFromPerceptualRoughness(float perceptualRoughness, float levelOfRoughnessOne) {
+    return levelOfRoughnessOne * perceptualRoughness * (2.0f - perceptualRoughness);
+}
+
+// Inverse of levelFromPerceptualRoughness, for whoever fills the levels. level in [0, levelOfRoughnessOne].
+float perceptualRoughnessFromLevel(float level, float levelOfRoughnessOne) {
+    return 1.0f - sqrt(max(1.0f - level / levelOfRoughnessOne, 0.0f));
+}
+
+// Where a rough lobe really points: off the mirror direction r towards the normal n. Lagarde and de Rousiers 2014,
+// "Moving Frostbite to Physically Based Rendering", section 4.9.3, with the quadratic weight alpha^2.
+// Not normalised: a cube map look-up does not need it. n, r unit, alpha in [0, 1].
+vec3 dominantSpecularDirection(vec3 n, vec3 r, float alpha) { return mix(r, n, alpha * alpha); }
+
+// Irradiance / pi: the radiance leaving a white Lambert reflector with normal n. Ramamoorthi and Hanrahan 2001, "An
+// Efficient Representation for Irradiance Environment Maps". The cosine lobe, the normalisation of the basis and 1/pi
+// are folded into the coefficients (IblBaker.h): only the polynomials are left.
+// sh[i].xyz in the environment's unit; n unit; bands 1, 2 or 3 cost 1, 4 or 9 coefficients. Returns values >= 0.
+vec3 irradianceSh(const vec4 sh[9], vec3 n, int bands) {
+    vec3 e = vec3(sh[0]);
+    if (bands >= 2) {
+        e += vec3(sh[1]) * n.y + vec3(sh[2]) * n.z + vec3(sh[3]) * n.x;
+    }
+    if (bands >= 3) {
+        e += vec3(sh[4]) * (n.x * n.y) + vec3(sh[5]) * (n.y * n.z) + vec3(sh[6]) * (3.0f * n.z * n.z - 1.0f);
+        e += vec3(sh[7]) * (n.z * n.x) + vec3(sh[8]) * (n.x * n.x - n.y * n.y);
+    }
+    return max(e, vec3(0.0f));
+}

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// Low-discrepancy points and how they become directions. z is the normal; u in [0, 1)^2.
+
+// Van der Corput's sequence in base 2: the bits of i mirrored at the point. [0, 1); the low 8 bits, which a float could
+// not hold and would round up to 1, are cut.
+float radicalInverse(uint i) {
+    uint bits = (i << 16u) | (i >> 16u);
+    bits = ((bits & 0x55555555u) << 1u) | ((bits & 0xAAAAAAAAu) >> 1u);
+    bits = ((bits & 0x33333333u) << 2u) | ((bits & 0xCCCCCCCCu) >> 2u);
+    bits = ((bits & 0x0F0F0F0Fu) << 4u) | ((bits & 0xF0F0F0F0u) >> 4u);
+    bits = ((bits & 0x00FF00FFu) << 8u) | ((bits & 0xFF00FF00u) >> 8u);
+    return float(bits >> 8u) * 5.9604645e-8f; // 2^-24
+}
+
+// Point i of a Hammersley set of 1 / inverseCount points. Hammersley 1960, "Monte Carlo Methods for Solving
+// Multivariable Problems".
+vec2 hammersley(uint i, float inverseCount) { return vec2(float(i) * inverseCount, radicalInverse(i)); }
+
+// A direction at azimuth 2 pi u around z with the given cosine.
+vec3 directionFromAzimuth(float u, float cosTheta) {
+    float sinTheta = sqrt(max(1.0f - cosTheta * cosTheta, 0.0f));
+    float phi = kTwoPi * u;
+    return vec3(cos(phi) * sinTheta, sin(phi) * sinTheta, cosTheta);
+}
+
+// Half vector distributed as D(h) noh. Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces",
+// eq. 35. alpha in [0, 1].
+vec3 importanceSampleGgx(vec2 u, float alpha) {
+    float cosTheta2 = (1.0f - u.y) / (1.0f + (alpha + 1.0f) * ((alpha - 1.0f) * u.y));
+    return directionFromAzimuth(u.x, sqrt(cosTheta2));
+}
+
+// Density cos / pi. Malley's method: Pharr et al. 2016, "Physically Based Rendering", section 13.6.3.
+vec3 hemisphereCosineSample(vec2 u) { return directionFromAzimuth(u.x, sqrt(1.0f - u.y)); }
+
+// Density 1 / (2 pi).
+vec3 hemisphereUniformSample(vec2 u) { return directionFromAzimuth(u.x, 1.0f - u.y); }
