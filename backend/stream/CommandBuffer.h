@@ -2,11 +2,12 @@
 /// CommandBuffer: a recorded stream. Commands are plain structs in linear chunks; payloads live beside them.
 ///   Thread  one recorder at a time. Several buffers may be recorded in parallel and joined in order with append().
 ///   Memory  chunks of 64 KiB, larger for larger payloads; grows without limit, never aborts, never overruns. reset() keeps
-///           the chunks, so a steady frame allocates nothing.
+///           the chunks, so a steady frame allocates nothing; an oversized chunk that one whole frame did not need is freed.
 ///   Names   every span and string_view given to record() inside a command is copied into the buffer.
 #pragma once
 
 #include "backend/api/Commands.h"
+#include "backend/stream/CommandPayload.h"
 
 #include <cstring>
 #include <memory>
@@ -45,6 +46,49 @@ public:
     size_t commandCount() const;
     size_t bytesUsed() const;
     size_t bytesReserved() const;
+
+private:
+    struct FreeAligned {
+        void operator()(std::byte* data) const { ::operator delete[](data, std::align_val_t{ kBlockAlignment }); }
+    };
+    struct Block {
+        std::unique_ptr<std::byte[], FreeAligned> data;
+        size_t size = 0;
+    };
+    struct Range {
+        std::byte* at = nullptr;
+        std::byte* end = nullptr;
+        size_t left() const { return static_cast<size_t>(end - at); }
+    };
+    static constexpr size_t kBlockBytes = 64 * 1024;
+    static constexpr size_t kBlockAlignment = 64;
+
+    template <class C>
+    void adopt(C& command) {
+        if constexpr (kHasPayload<C>) adoptPayload(command, *this);
+    }
+
+    void append(uint32_t id, const void* command, size_t size, size_t alignment) {
+        FILAMENT_DEBUG_ASSERT(alignment <= kCommandAlignment, "a command is aligned to 16 bytes at most");
+        static_cast<void>(alignment);
+        const size_t bytes = (2 * kCommandAlignment - 1 + size) & ~(kCommandAlignment - 1);
+        if (bytes > mCommands.left()) [[unlikely]] startChunk(bytes);
+        new (mCommands.at) CommandHeader{ id, static_cast<uint32_t>(bytes) };
+        std::memcpy(mCommands.at + kCommandAlignment, command, size);
+        mCommands.at += bytes;
+        mChunks.back().size += bytes;
+        ++mCommandCount;
+    }
+
+    Block& takeBlock(size_t bytes);
+    void startChunk(size_t bytes);
+
+    Range mCommands, mPayload;          // what is left of the newest block of each kind
+    std::vector<CommandChunk> mChunks;  // command blocks in order
+    std::vector<Block> mUsed;           // owns the memory of commands and payloads
+    std::vector<Block> mSpare;          // kept for the next frame
+    size_t mCommandCount = 0;
+    size_t mPayloadBytes = 0;
 };
 
 } // namespace filament::backend

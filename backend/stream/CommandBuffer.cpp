@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/stream/CommandBuffer.h"
+
+#include "filament_core/base/Assert.h"
+
+#include <algorithm>
+#include <iterator>
+#include <utility>
+
+namespace filament::backend {
+
+CommandBuffer::CommandBuffer() = default;
+CommandBuffer::~CommandBuffer() = default;
+
+CommandBuffer::CommandBuffer(CommandBuffer&& other) noexcept { *this = std::move(other); }
+
+CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
+    mCommands = std::exchange(other.mCommands, {});
+    mPayload = std::exchange(other.mPayload, {});
+    mChunks = std::exchange(other.mChunks, {});
+    mUsed = std::exchange(other.mUsed, {});
+    mSpare = std::exchange(other.mSpare, {});
+    mCommandCount = std::exchange(other.mCommandCount, 0);
+    mPayloadBytes = std::exchange(other.mPayloadBytes, 0);
+    return *this;
+}
+
+// The smallest spare block that is large enough, or a new one: large blocks stay for large payloads.
+CommandBuffer::Block& CommandBuffer::takeBlock(size_t bytes) {
+    const size_t size = std::max(bytes, kBlockBytes);
+    auto best = mSpare.end();
+    for (auto it = mSpare.begin(); it != mSpare.end(); ++it) {
+        if (it->size >= size && (best == mSpare.end() || it->size < best->size)) best = it;
+    }
+    if (best != mSpare.end()) {
+        mUsed.push_back(std::move(*best));
+        mSpare.erase(best);
+        return mUsed.back();
+    }
+    auto* data = static_cast<std::byte*>(::operator new[](size, std::align_val_t{ kBlockAlignment }));
+    mUsed.push_back({ std::unique_ptr<std::byte[], FreeAligned>(data), size });
+    return mUsed.back();
+}
+
+void CommandBuffer::startChunk(size_t bytes) {
+    Block const& block = takeBlock(bytes);
+    mCommands = { block.data.get(), block.data.get() + block.size };
+    mChunks.push_back({ block.data.get(), 0 });
+}
+
+std::span<std::byte> CommandBuffer::allocate(size_t bytes, size_t alignment) {
+    FILAMENT_ASSERT(alignment > 0 && alignment <= kBlockAlignment && (alignment & (alignment - 1)) == 0,
+            "payload alignment is a power of two up to 64");
+    mPayloadBytes += bytes;
+    const size_t padding = (0 - reinterpret_cast<uintptr_t>(mPayload.at)) & (alignment - 1);
+    if (bytes <= mPayload.left() && padding <= mPayload.left() - bytes) {
+        std::byte* data = mPayload.at + padding;
+        mPayload.at = data + bytes;
+        return { data, bytes };
+    }
+    Block const& block = takeBlock(bytes);
+    const Range rest{ block.data.get() + bytes, block.data.get() + block.size };
+    if (rest.left() >= mPayload.left()) mPayload = rest;
+    return { block.data.get(), bytes };
+}
+
+void CommandBuffer::append(CommandBuffer&& tail) {
+    FILAMENT_ASSERT(&tail != this, "a command buffer cannot be appended to itself");
+    if (!tail.mChunks.empty()) {
+        mChunks.insert(mChunks.end(), tail.mChunks.begin(), tail.mChunks.end());
+        mCommands = tail.mCommands;
+    }
+    if (tail.mPayload.left() > mPayload.left()) mPayload = tail.mPayload;
+    mCommandCount += tail.mCommandCount;
+    mPayloadBytes += tail.mPayloadBytes;
+
+    // Blocks for blocks: the tail gets spare ones back, so that joining the same buffers every frame allocates nothing.
+    const size_t moved = tail.mUsed.size();
+    const size_t returned = std::min(moved, mSpare.size());
+    std::move(tail.mUsed.begin(), tail.mUsed.end(), std::back_inserter(mUsed));
+    std::move(mSpare.end() - static_cast<std::ptrdiff_t>(returned), mSpare.end(), std::back_inserter(tail.mSpare));
+    mSpare.resize(mSpare.size() - returned);
+    tail.mUsed.clear();
+    tail.mChunks.clear();
+    tail.mCommands = tail.mPayload = {};
+    tail.mCommandCount = tail.mPayloadBytes = 0;
+}
+
+void CommandBuffer::reset() {
+    std::erase_if(mSpare, [](Block const& block) { return block.size > kBlockBytes; });
+    std::move(mUsed.begin(), mUsed.end(), std::back_inserter(mSpare));
+    mUsed.clear();
+    mChunks.clear();
+    mCommands = mPayload = {};
+    mCommandCount = mPayloadBytes = 0;
+}
+
+CommandView CommandBuffer::view() const { return mChunks; }
+
+size_t CommandBuffer::commandCount() const { return mCommandCount; }
+
+size_t CommandBuffer::bytesUsed() const {
+    size_t sum = mPayloadBytes;
+    for (CommandChunk const& chunk : mChunks) sum += chunk.size;
+    return sum;
+}
+
+size_t CommandBuffer::bytesReserved() const {
+    size_t sum = 0;
+    for (Block const& block : mUsed) sum += block.size;
+    for (Block const& block : mSpare) sum += block.size;
+    return sum;
+}
+
+} // namespace filament::backend
