@@ -4,8 +4,10 @@
 
 #include <filament/Math.h>
 
+#include <glm/common.hpp>
 #include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
 
 #include <numbers>
 

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FramePacket: what is seen in one view of one frame. The only thing that passes read of a scene.
+///   In      made by prepareFrame (PrepareFrame.h).
+///   Thread  a plain value, read-only once made.
+///   Memory  spans into the frame arena: valid until the end of the frame.
+#pragma once
+
+#include "backend/api/Handles.h"
+#include "filament_core/scene/SceneData.h"
+#include "shaders/interface/ShaderInterface.h"
+
+#include <cstdint>
+#include <span>
+
+namespace filament::prepare {
+
+/// Instances [firstObject, firstObject + instanceCount) of FramePacket::objects, all of one window, share geometry,
+/// material and raster state.
+struct DrawCall {
+    scene::MaterialInstance const* material = nullptr;
+    scene::Geometry const* geometry = nullptr;
+    uint32_t firstObject = 0;
+    uint32_t instanceCount = 1;
+    bool mirrored = false;
+};
+
+struct PacketCounts {
+    uint32_t renderables = 0;
+    uint32_t visible = 0;
+    uint32_t outOfView = 0;      ///< their box is outside of the frustum
+    uint32_t nothingToDraw = 0;  ///< no indices, or a transform that collapses them
+    uint32_t lights = 0;         ///< punctual lights that reach into the view
+    uint32_t lightsOutOfView = 0;
+    uint32_t lightsOverLimit = 0; ///< in view, but beyond kMaxPunctualLights: the dimmest
+    uint32_t suns = 0;
+    uint64_t triangles = 0;
+};
+
+struct FramePacket {
+    shader::FrameUniforms frame{};
+    std::span<const shader::LightData> lights;
+    std::span<const shader::ObjectData> objects; ///< in draw order
+    std::span<const DrawCall> opaque;            ///< opaque and masked, roughly front to back
+    std::span<const DrawCall> blended;           ///< back to front
+    uint8_t variant = 0;                         ///< shader::VariantBit set that the scene's lights select
+    backend::TextureHandle specular;             ///< none: no indirect light
+    backend::TextureHandle sky;                  ///< none: no skybox
+    PacketCounts counts;
+};
+
+} // namespace filament::prepare

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/PrepareFrame.h"
+
+#include "filament_core/prepare/DrawList.h"
+#include "filament_core/prepare/SelectLights.h"
+#include "filament_core/prepare/ViewConstants.h"
+
+namespace filament::prepare {
+namespace {
+
+uint8_t variantFor(PacketCounts const& counts) {
+    return static_cast<uint8_t>((counts.suns ? shader::kVariantSun : 0) | (counts.lights ? shader::kVariantPunctual : 0));
+}
+
+} // namespace
+
+FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view) {
+    FramePacket packet;
+    const ViewSpace space = makeViewSpace(view);
+    writeFrameUniforms(packet.frame, space, view, scene);
+    packet.lights = selectLights(arena, scene.lights, space, packet.frame, packet.counts);
+    packet.variant = variantFor(packet.counts);
+
+    const auto visibility = cullRenderables(jobs, arena, scene.renderables, space);
+    const auto items = sortVisible(jobs, arena, scene.renderables, visibility, space, packet.counts);
+    packet.objects = writeObjects(jobs, arena, scene.renderables, items, space);
+    const DrawLists draws = mergeInstances(arena, scene.renderables, items, packet.counts);
+    packet.opaque = draws.opaque;
+    packet.blended = draws.blended;
+    packet.specular = scene.indirectLight.specular;
+    packet.sky = scene.skybox.cube;
+    return packet;
+}
+
+} // namespace filament::prepare

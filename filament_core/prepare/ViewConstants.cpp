@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/ViewConstants.h"
+
+#include <cmath>
+
+namespace filament::prepare {
+namespace {
+
+float4x4 rotationY(float radians) {
+    const float c = std::cos(radians), s = std::sin(radians);
+    return float4x4(float4(c, 0, -s, 0), float4(0, 1, 0, 0), float4(s, 0, c, 0), float4(0, 0, 0, 1));
+}
+
+} // namespace
+
+ViewSpace makeViewSpace(ViewInput const& view) {
+    FILAMENT_ASSERT(view.size.x > 0 && view.size.y > 0, "a view has at least one pixel");
+    ViewSpace space;
+    space.cameraWorld = view.camera.position();
+    const double3x3 worldFromView(view.camera.worldFromView);
+    space.forward = -float3(worldFromView[2]);
+    space.viewFromWorld = float4x4(double4x4(glm::transpose(worldFromView)));
+    space.clipFromView = view.camera.clipFromView(static_cast<float>(view.size.x) / static_cast<float>(view.size.y));
+    space.clipFromWorld = space.clipFromView * space.viewFromWorld;
+    space.frustum = frustumFromClip(space.clipFromWorld);
+    space.exposure = view.camera.exposure.factor();
+    return space;
+}
+
+void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, ViewInput const& view,
+        scene::SceneData const& scene) {
+    const float width = static_cast<float>(view.size.x), height = static_cast<float>(view.size.y);
+    frame.clipFromWorld = space.clipFromWorld;
+    frame.worldFromClip = float4x4(glm::inverse(double4x4(space.clipFromWorld)));
+    frame.viewFromWorld = space.viewFromWorld;
+    frame.clipFromView = space.clipFromView;
+    frame.cameraPosition = float4(float3(space.cameraWorld), 0);
+    frame.viewport = float4(width, height, 1 / width, 1 / height);
+    frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), static_cast<float>(view.timeSeconds), 0);
+
+    scene::IndirectLightState const& light = scene.indirectLight;
+    const float ambient = light.specular ? light.illuminance.value * space.exposure : 0.0f;
+    frame.ambient = float4(ambient, light.levelOfRoughnessOne, 3, 0);
+    frame.irradianceSh = light.irradianceSh;
+    frame.worldFromEnvironment = rotationY(light.specular ? light.rotationRadians : scene.skybox.rotationRadians);
+    frame.skyFactor = float4(float3(scene.skybox.illuminance.value * space.exposure), 0);
+}
+
+} // namespace filament::prepare

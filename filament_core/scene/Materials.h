@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Materials and instances as the frame sees them: which programs, which parameters, which raster state.
+///   Thread  written by the app thread between frames, read by workers during prepare.
+///   Life    instances point to their material; renderables point to their instance. Both have stable addresses.
+#pragma once
+
+#include "backend/api/Handles.h"
+#include "shaders/package/Package.h"
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace filament::scene {
+
+inline constexpr uint32_t kVariantCount = 4; ///< combinations of shader::VariantBit
+
+struct Material {
+    uint32_t id = 0; ///< small and dense: part of the sort key
+    std::string name;
+    shader::MaterialPackage package;
+    std::vector<backend::ConstantValue> constants;
+    std::array<backend::ProgramHandle, kVariantCount> programs{}; ///< made when first needed
+    uint32_t instanceCount = 0;
+
+    bool isBlended() const {
+        return package.blending != shader::Blending::Opaque && package.blending != shader::Blending::Masked;
+    }
+};
+
+struct TextureBinding {
+    backend::TextureHandle texture;
+    backend::SamplerHandle sampler;
+};
+
+struct MaterialInstance {
+    uint32_t id = 0; ///< small and dense: part of the sort key
+    Material* material = nullptr;
+    std::string name;
+    std::vector<std::byte> parameters;       ///< the MaterialParams block, std140
+    std::vector<TextureBinding> textures;    ///< parallel to the package's texture parameters, in their order
+    bool cullingDisabled = false;
+    bool parametersDirty = true;
+    bool texturesDirty = true;
+    backend::BufferHandle buffer;            ///< none while the material has no block
+    backend::BindGroupHandle group;
+};
+
+} // namespace filament::scene
