@@ -25,8 +25,8 @@ const char* toString(Backend backend);
 
 struct DeviceDescription {
     Backend backend = Backend::Null;
-    std::string device; ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string driver; ///< name and version
+    std::string device{}; ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driver{}; ///< name and version
     uint32_t maxTextureSize = 0;
     uint32_t maxSamples = 1;
 };
@@ -38,13 +38,13 @@ enum class ThreadAffinity : uint8_t { None, Pin };
 
 struct EngineOptions {
     Backend backend = Backend::Vulkan;
-    std::string requireDevice;   ///< case-insensitive part of the device's name; empty: the first usable
+    std::string requireDevice{}; ///< case-insensitive part of the device's name; empty: the first usable
     int workers = -1;            ///< job threads besides the app thread; -1: one per remaining core; 0: none
     ThreadAffinity affinity = ThreadAffinity::None;
     int driverCore = -1;         ///< pin the driver thread to this core; -1: do not
     bool validation = false;     ///< check every stream; Vulkan validation layers or KHR_debug on top
-    std::filesystem::path traceFile; ///< write every command as text, for replay; empty: do not
-    std::filesystem::path cacheDirectory; ///< baked environments; empty: $XDG_CACHE_HOME/filament_core
+    std::filesystem::path traceFile{}; ///< write every command as text, for replay; empty: do not
+    std::filesystem::path cacheDirectory{}; ///< baked environments; empty: $XDG_CACHE_HOME/filament_core
 };
 
 /// Running totals of an engine.

@@ -20,7 +20,7 @@ namespace filament {
 using LoadProgress = std::function<void(std::string_view stage, size_t done, size_t total)>;
 
 struct GltfLoadOptions {
-    LoadProgress progress;
+    LoadProgress progress{};
 };
 
 class Model {

@@ -15,7 +15,7 @@ namespace filament {
 struct Image {
     uint32_t width = 0, height = 0;
     Format format = Format::RGBA8; ///< of Renderer: RGBA8 (display) or RGBA16F (scene-linear)
-    std::vector<std::byte> pixels;
+    std::vector<std::byte> pixels{};
 };
 
 /// RGBA8 only. Errors: Unreadable with path and reason.

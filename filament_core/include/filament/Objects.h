@@ -41,8 +41,8 @@ struct TextureDesc {
     uint32_t levels = 1;            ///< mip levels given in `pixels`
     bool generateMips = false;      ///< fill levels 1.. from level 0 on the device; `pixels` then has level 0 only
     bool renderable = false;        ///< may be the colour of a RenderTarget
-    std::span<const std::byte> pixels;
-    std::string name;
+    std::span<const std::byte> pixels{};
+    std::string name{};
 };
 
 /// What the shaders call the attribute.
@@ -65,9 +65,9 @@ struct AttributeDesc {
 struct VertexBufferDesc {
     uint32_t vertexCount = 0; ///< > 0
     uint32_t stride = 0;      ///< bytes, > 0, multiple of 4
-    std::vector<AttributeDesc> attributes;
-    std::span<const std::byte> data; ///< vertexCount * stride bytes
-    std::string name;
+    std::vector<AttributeDesc> attributes{};
+    std::span<const std::byte> data{}; ///< vertexCount * stride bytes
+    std::string name{};
 };
 
 enum class IndexFormat : uint8_t { UInt16, UInt32 };
@@ -75,23 +75,23 @@ enum class IndexFormat : uint8_t { UInt16, UInt32 };
 struct IndexBufferDesc {
     uint32_t indexCount = 0; ///< > 0
     IndexFormat format = IndexFormat::UInt16;
-    std::span<const std::byte> data;
-    std::string name;
+    std::span<const std::byte> data{};
+    std::string name{};
 };
 
 enum class PrimitiveType : uint8_t { Triangles, TriangleStrip, Lines, LineStrip, Points };
 
 /// Value of a constant parameter ("constants" of the .mat file), fixed when the material is loaded.
 struct MaterialConstant {
-    std::string name;
-    std::variant<bool, int32_t, float> value;
+    std::string name{};
+    std::variant<bool, int32_t, float> value{};
 };
 
 /// `package`: the bytes of a .fmat file, written by matc.
 struct MaterialDesc {
-    std::span<const std::byte> package;
-    std::vector<MaterialConstant> constants;
-    std::string name; ///< empty: the name in the package
+    std::span<const std::byte> package{};
+    std::vector<MaterialConstant> constants{};
+    std::string name{}; ///< empty: the name in the package
 };
 
 /// Value of a parameter; integers, booleans and matrices by their GLSL sizes.
@@ -99,20 +99,20 @@ using ParameterValue = std::variant<bool, int32_t, uint32_t, float, float2, floa
 
 /// Pre-filtered environment: irradiance and specular reflections of everything far away.
 struct IndirectLightDesc {
-    Texture specular;                 ///< cube; level i holds perceptual roughness 1 - sqrt(1 - i / (levels - 1))
+    Texture specular{};               ///< cube; level i holds perceptual roughness 1 - sqrt(1 - i / (levels - 1))
     uint32_t specularLevels = 1;
     std::array<float4, 9> irradianceSh{}; ///< rgb; see shaders/lib/ibl.glsl, irradianceSh()
-    std::string name;
+    std::string name{};
 };
 
 struct SkyboxDesc {
-    Texture cube;
-    std::string name;
+    Texture cube{};
+    std::string name{};
 };
 
 struct RenderTargetDesc {
-    Texture color; ///< renderable RGBA8, or RGBA16F (then scene-linear, without tone mapping)
-    std::string name;
+    Texture color{}; ///< renderable RGBA8, or RGBA16F (then scene-linear, without tone mapping)
+    std::string name{};
 };
 
 /// Headless: a ring of images that frames are presented to and read back from.
@@ -120,7 +120,7 @@ struct SwapChainDesc {
     uint2 size{ 1280, 720 }; ///< pixels, >= 1
     uint32_t imageCount = 2; ///< [1, 4]
     Format format = Format::RGBA8; ///< RGBA8 (display) or RGBA16F (scene-linear, without tone mapping)
-    std::string name;
+    std::string name{};
 };
 
 } // namespace filament
