@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/CompileProgram.h"
+
+#include "shaders/compiler/ExactLowering.h"
+#include "shaders/compiler/GlslToSpirv.h"
+#include "shaders/compiler/ReflectLayout.h"
+#include "shaders/compiler/SpirvToEssl.h"
+
+#include <utility>
+
+namespace filament::shader {
+namespace {
+
+using Words = std::vector<uint32_t>;
+
+/// GLSL -> optimised and lowered SPIR-V, still with names.
+Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
+        ProgramCompileOptions const& options) {
+    Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
+    if (spirv && options.optimize) spirv = optimizeSpirv(*spirv);
+    if (spirv && options.exact) spirv = lowerExactly(*spirv); // last, so that no pass re-forms what it spelled out
+    return spirv;
+}
+
+Result<void> writeStage(Words const& lowered, ProgramCompileOptions const& options,
+        backend::ProgramLayout const& layout, Words& spirv, std::string& essl) {
+    if (options.spirv) {
+        Result<Words> stripped = stripSpirv(lowered);
+        if (!stripped) return stripped.error();
+        spirv = std::move(*stripped);
+    }
+    if (options.essl) {
+        Result<std::string> text = esslFromSpirv(lowered, layout);
+        if (!text) return text.error();
+        essl = std::move(*text);
+    }
+    return {};
+}
+
+} // namespace
+
+Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
+        ProgramCompileOptions const& options) {
+    Result<Words> vertex = lowerStage(vertexGlsl, backend::ShaderStage::Vertex, options.vertexName, options);
+    if (!vertex) return vertex.error();
+    Result<Words> fragment = lowerStage(fragmentGlsl, backend::ShaderStage::Fragment, options.fragmentName, options);
+    if (!fragment) return fragment.error();
+
+    Result<StageResources> used = reflectResources(*vertex, *fragment, options.dynamicUniformBuffers);
+    if (!used) return used.error();
+    if (options.layout) {
+        if (Result<void> contained = checkContains(*options.layout, used->layout); !contained) return contained.error();
+    }
+
+    ProgramShaders shaders;
+    shaders.layout = options.layout.value_or(used->layout);
+    shaders.vertexInputs = used->vertexInputs;
+    Result<void> written = writeStage(*vertex, options, shaders.layout, shaders.vertexSpirv, shaders.vertexEssl);
+    if (written) written = writeStage(*fragment, options, shaders.layout, shaders.fragmentSpirv, shaders.fragmentEssl);
+    if (!written) return written.error();
+    return shaders;
+}
+
+} // namespace filament::shader

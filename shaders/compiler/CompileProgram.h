@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+/// compileProgram: two GLSL 450 stages -> the SPIR-V that Vulkan takes and the ESSL 3.10 that OpenGL ES takes.
+///   Steps   glslang (SPIR-V 1.3, Vulkan 1.1 rules) -> SPIRV-Tools performance passes -> exact lowering -> reflection
+///           -> SPIR-V, and SPIRV-Cross -> ESSL. Both languages come from the same lowered module.
+///   Exact   `exact` spells the operations that Mesa lowers differently for the two languages (ExactLowering.h), so that
+///           both devices do the same arithmetic in the same order.
+///   ESSL    bindings are numbered with backend::flatBinding; everything is highp unless the source says otherwise;
+///           a subpass input becomes a framebuffer fetch of the colour attachment of the same index; the value of
+///           specialisation constant N is the macro SPIRV_CROSS_CONSTANT_ID_N, to be defined after the #version line.
+///   Thread  any; calls are independent and equal input gives equal bytes.
+///   Fails   InvalidArgument with "file:line: reason" for GLSL errors and for a layout that lacks a binding;
+///           Unsupported for what ESSL cannot express. Cost: about 50 ms, half of it the optimiser.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "filament_core/base/Result.h"
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament::shader {
+
+struct SetBinding {
+    uint8_t set = 0, binding = 0;
+    friend bool operator==(SetBinding, SetBinding) = default;
+};
+
+struct ProgramCompileOptions {
+    bool exact = true;    ///< same bits on both APIs
+    bool optimize = true; ///< false: as glslang wrote it, for debugging
+    bool spirv = true;    ///< languages wanted; reflection happens in any case
+    bool essl = true;
+    /// Uniform buffers with a dynamic offset; nothing: all of group 0.
+    std::optional<std::vector<SetBinding>> dynamicUniformBuffers = std::nullopt;
+    /// The layout to number by, which must contain every binding that the shaders use; nothing: reflected from them.
+    std::optional<backend::ProgramLayout> layout = std::nullopt;
+    std::string_view vertexName = "vertex";     ///< stands before the line in errors, until a #line names another
+    std::string_view fragmentName = "fragment";
+};
+
+struct ProgramShaders {
+    std::vector<uint32_t> vertexSpirv, fragmentSpirv; ///< entry point "main"
+    std::string vertexEssl, fragmentEssl;             ///< #version 310 es
+    backend::ProgramLayout layout{};
+    uint32_t vertexInputs = 0; ///< bit n: attribute location n is read
+};
+
+Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
+        ProgramCompileOptions const& options = {});
+
+} // namespace filament::shader

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/ExactFormulas.h"
+
+#include <algorithm>
+#include <array>
+#include <vector>
+
+namespace filament::shader {
+
+// ---------------------------------------------------------------------------------------------- geometry, blending
+
+Value exactLength(Value v) {
+    return v.isVector() ? call(GLSLstd450Sqrt, { dot(v, v) }) : call(GLSLstd450FAbs, { v });
+}
+
+Value exactNormalize(Value v) {
+    return v.isVector() ? v * call(GLSLstd450InverseSqrt, { dot(v, v) }) : call(GLSLstd450FSign, { v });
+}
+
+Value exactReflect(Value incident, Value normal) { return incident - normal * (2.0f * dot(normal, incident)); }
+
+Value exactRefract(Value incident, Value normal, Value eta) {
+    const Value cosine = dot(normal, incident);
+    const Value k = 1.0f - (eta * eta) * (1.0f - cosine * cosine);
+    const Value root = call(GLSLstd450Sqrt, { call(GLSLstd450FMax, { k, k.like(0.0f) }) });
+    const Value bent = incident * eta - normal * (eta * cosine + root);
+    return selectLess(k, k.like(0.0f), incident.like(0.0f), bent); // total internal reflection
+}
+
+Value exactFaceForward(Value normal, Value incident, Value reference) {
+    const Value facing = dot(reference, incident);
+    return selectLess(facing, facing.like(0.0f), normal, -normal);
+}
+
+Value exactMix(Value a, Value b, Value t) { return a + (b - a) * t; }
+
+Value exactSmoothStep(Value edge0, Value edge1, Value x) {
+    const auto low = edge0.editor->constantOf(edge0.id), high = edge0.editor->constantOf(edge1.id);
+    Value width = edge1;
+    if (!low.empty() && low.size() == high.size()) { // a constant width is divided by like any other constant
+        std::vector<float> difference(low.size());
+        std::ranges::transform(high, low, difference.begin(), [](float b, float a) { return b - a; });
+        width.id = edge1.editor->constant(difference, edge1.type());
+    } else {
+        width = edge1 - edge0;
+    }
+    const Value ratio = exactDivide(x - edge0, width);
+    const Value t = call(GLSLstd450FMin, { call(GLSLstd450FMax, { ratio, x.like(0.0f) }), x.like(1.0f) });
+    return (t * t) * (3.0f - 2.0f * t);
+}
+
+Value exactMod(Value x, Value y) { return x - y * call(GLSLstd450Floor, { exactDivide(x, y) }); }
+
+Value exactDivide(Value x, Value y) {
+    const std::span<const float> divisor = y.editor->constantOf(y.id);
+    if (divisor.empty()) {
+        // What follows from a specialisation constant is a constant to the driver: it gets the reciprocal, too.
+        return y.editor->isConstantExpression(y.id) ? x * (1.0f / y) : x / y;
+    }
+    std::vector<float> reciprocal(divisor.size());
+    std::ranges::transform(divisor, reciprocal.begin(), [](float value) { return 1.0f / value; });
+    return x * Value{ y.editor, y.editor->constant(reciprocal, y.type()) };
+}
+
+// ---------------------------------------------------------------------------------------------- one variable
+
+// Through the two-argument arc tangent, because GLSL leaves the polynomial of asin to the driver.
+Value exactAsin(Value x) { return call(GLSLstd450Atan2, { x, call(GLSLstd450Sqrt, { (1.0f - x) * (1.0f + x) }) }); }
+
+Value exactSinh(Value x) { return 0.5f * (call(GLSLstd450Exp, { x }) - call(GLSLstd450Exp, { -x })); }
+
+Value exactCosh(Value x) { return 0.5f * (call(GLSLstd450Exp, { x }) + call(GLSLstd450Exp, { -x })); }
+
+Value exactTanh(Value x) {
+    // Beyond 10 the result rounds to 1; the clamp keeps exp from overflowing.
+    const Value clamped = call(GLSLstd450FMin, { call(GLSLstd450FMax, { x, x.like(-10.0f) }), x.like(10.0f) });
+    const Value grows = call(GLSLstd450Exp, { clamped }), falls = call(GLSLstd450Exp, { -clamped });
+    return (grows - falls) / (grows + falls);
+}
+
+Value exactAsinh(Value x) {
+    const Value magnitude = call(GLSLstd450FAbs, { x });
+    const Value root = call(GLSLstd450Sqrt, { 1.0f + magnitude * magnitude });
+    return call(GLSLstd450FSign, { x }) * call(GLSLstd450Log, { magnitude + root });
+}
+
+Value exactAcosh(Value x) { return call(GLSLstd450Log, { x + call(GLSLstd450Sqrt, { x * x - 1.0f }) }); }
+
+Value exactAtanh(Value x) { return 0.5f * call(GLSLstd450Log, { (1.0f + x) / (1.0f - x) }); }
+
+// ---------------------------------------------------------------------------------------------- matrices
+
+Value exactMatrixTimesVector(Value m, Value v) {
+    std::vector<Value> terms;
+    for (uint32_t i = 0; i < m.size(); ++i) terms.push_back(m[i] * v[i]);
+    return sum(terms);
+}
+
+Value exactVectorTimesMatrix(Value v, Value m, SpirvEditor::Id type) {
+    std::vector<Value> components;
+    for (uint32_t i = 0; i < m.size(); ++i) components.push_back(dot(v, m[i]));
+    return compose(type, components);
+}
+
+Value exactMatrixTimesMatrix(Value a, Value b, SpirvEditor::Id type) {
+    std::vector<Value> columns;
+    for (uint32_t i = 0; i < b.size(); ++i) columns.push_back(exactMatrixTimesVector(a, b[i]));
+    return compose(type, columns);
+}
+
+Value exactOuterProduct(Value column, Value row, SpirvEditor::Id type) {
+    std::vector<Value> columns;
+    for (uint32_t i = 0; i < row.size(); ++i) columns.push_back(column * row[i]);
+    return compose(type, columns);
+}
+
+namespace {
+
+using Grid = std::array<std::array<Value, 4>, 4>; // [column][row]
+
+Grid elementsOf(Value m) {
+    Grid grid;
+    for (uint32_t c = 0; c < m.size(); ++c) {
+        const Value column = m[c];
+        for (uint32_t r = 0; r < column.size(); ++r) grid[c][r] = column[r];
+    }
+    return grid;
+}
+
+/// Of rows r, s in columns c, d.
+Value minor2(Grid const& m, uint32_t c, uint32_t d, uint32_t r, uint32_t s) {
+    return m[c][r] * m[d][s] - m[d][r] * m[c][s];
+}
+
+/// Determinant of what remains of an n x n matrix without one column and one row, with the sign of the cofactor.
+Value cofactor(Grid const& m, uint32_t n, uint32_t column, uint32_t row) {
+    std::array<uint32_t, 3> c{}, r{};
+    for (uint32_t i = 0, ci = 0, ri = 0; i < n; ++i) {
+        if (i != column) c[ci++] = i;
+        if (i != row) r[ri++] = i;
+    }
+    Value value = m[c[0]][r[0]]; // n == 2
+    if (n == 3) value = minor2(m, c[0], c[1], r[0], r[1]);
+    if (n == 4) { // along the first remaining column
+        const Value a = m[c[0]][r[0]] * minor2(m, c[1], c[2], r[1], r[2]);
+        const Value b = m[c[0]][r[1]] * minor2(m, c[1], c[2], r[0], r[2]);
+        value = (a - b) + m[c[0]][r[2]] * minor2(m, c[1], c[2], r[0], r[1]);
+    }
+    return (column + row) % 2 == 0 ? value : -value;
+}
+
+/// Expansion along the first column (Laplace).
+Value determinant(Grid const& m, uint32_t n) {
+    std::vector<Value> terms;
+    for (uint32_t row = 0; row < n; ++row) terms.push_back(m[0][row] * cofactor(m, n, 0, row));
+    return sum(terms);
+}
+
+} // namespace
+
+Value exactDeterminant(Value m) { return determinant(elementsOf(m), m.size()); }
+
+Value exactInverse(Value m) {
+    const uint32_t n = m.size();
+    const Grid grid = elementsOf(m);
+    const Value scale = 1.0f / determinant(grid, n);
+    const SpirvEditor::Id columnType = m.editor->elementType(m.type());
+    std::vector<Value> columns;
+    for (uint32_t c = 0; c < n; ++c) { // the adjugate is the transpose of the cofactors
+        std::vector<Value> rows;
+        for (uint32_t r = 0; r < n; ++r) rows.push_back(cofactor(grid, n, r, c));
+        columns.push_back(compose(columnType, rows) * scale);
+    }
+    return compose(m.type(), columns);
+}
+
+} // namespace filament::shader

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/ExactLowering.h"
+
+#include "shaders/compiler/ExactFormulas.h"
+#include "shaders/compiler/SpirvEditor.h"
+
+#include <numbers>
+
+namespace filament::shader {
+namespace {
+
+using Id = SpirvEditor::Id;
+using Instruction = SpirvEditor::Instruction;
+
+constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180.0f;
+constexpr float kDegreesPerRadian = 180.0f / std::numbers::pi_v<float>;
+
+class Lowering {
+public:
+    Lowering(SpirvEditor& editor, Instruction const& at) : mEditor(editor), mAt(at) {}
+
+    Id run() const {
+        if (!mEditor.isFloat32(mAt.type)) return 0;
+        if (mAt.op == spv::OpExtInst) return mEditor.isExtended(mAt) ? lowerExtended().id : 0;
+        return lowerCore().id;
+    }
+
+private:
+    Value operand(uint32_t index) const { return { &mEditor, mAt.operands[index] }; }
+    Value argument(uint32_t index) const { return operand(2 + index); } // behind the import and the function
+
+    Value lowerCore() const {
+        switch (mAt.op) {
+            case spv::OpDot: return dot(operand(0), operand(1));
+            case spv::OpMatrixTimesVector: return exactMatrixTimesVector(operand(0), operand(1));
+            case spv::OpVectorTimesMatrix: return exactVectorTimesMatrix(operand(0), operand(1), mAt.type);
+            case spv::OpMatrixTimesMatrix: return exactMatrixTimesMatrix(operand(0), operand(1), mAt.type);
+            case spv::OpOuterProduct: return exactOuterProduct(operand(0), operand(1), mAt.type);
+            case spv::OpFMod: return exactMod(operand(0), operand(1));
+            case spv::OpFDiv: return lowerDivision();
+            default: return {};
+        }
+    }
+
+    Value lowerDivision() const {
+        const Value divisor = operand(1);
+        return mEditor.isConstantExpression(divisor.id) ? exactDivide(operand(0), divisor) : Value{};
+    }
+
+    Value lowerExtended() const {
+        switch (mAt.operands[1]) {
+            case GLSLstd450Length: return exactLength(argument(0));
+            case GLSLstd450Distance: return exactLength(argument(0) - argument(1));
+            case GLSLstd450Normalize: return exactNormalize(argument(0));
+            case GLSLstd450Reflect: return exactReflect(argument(0), argument(1));
+            case GLSLstd450Refract: return exactRefract(argument(0), argument(1), argument(2));
+            case GLSLstd450FaceForward: return exactFaceForward(argument(0), argument(1), argument(2));
+            case GLSLstd450FMix: return exactMix(argument(0), argument(1), argument(2));
+            case GLSLstd450SmoothStep: return exactSmoothStep(argument(0), argument(1), argument(2));
+            case GLSLstd450Fma: return argument(0) * argument(1) + argument(2);
+            case GLSLstd450Determinant: return exactDeterminant(argument(0));
+            case GLSLstd450MatrixInverse: return exactInverse(argument(0));
+            default: return lowerOneVariable();
+        }
+    }
+
+    Value lowerOneVariable() const {
+        switch (mAt.operands[1]) {
+            case GLSLstd450Radians: return kRadiansPerDegree * argument(0);
+            case GLSLstd450Degrees: return kDegreesPerRadian * argument(0);
+            case GLSLstd450Asin: return exactAsin(argument(0));
+            case GLSLstd450Sinh: return exactSinh(argument(0));
+            case GLSLstd450Cosh: return exactCosh(argument(0));
+            case GLSLstd450Tanh: return exactTanh(argument(0));
+            case GLSLstd450Asinh: return exactAsinh(argument(0));
+            case GLSLstd450Acosh: return exactAcosh(argument(0));
+            case GLSLstd450Atanh: return exactAtanh(argument(0));
+            default: return {};
+        }
+    }
+
+    SpirvEditor& mEditor;
+    Instruction const& mAt;
+};
+
+} // namespace
+
+std::vector<uint32_t> lowerExactly(std::span<const uint32_t> spirv) {
+    SpirvEditor editor(spirv);
+    return editor.rewrite([&](Instruction const& at) { return Lowering(editor, at).run(); });
+}
+
+} // namespace filament::shader

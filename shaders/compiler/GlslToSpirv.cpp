@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/GlslToSpirv.h"
+
+#include <glslang/Public/ResourceLimits.h>
+#include <glslang/Public/ShaderLang.h>
+#include <glslang/SPIRV/GlslangToSpv.h>
+#include <spirv-tools/optimizer.hpp>
+
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace filament::shader {
+namespace {
+
+/// glslang keeps process-wide tables; they are made once and kept until the process ends.
+struct GlslangProcess {
+    GlslangProcess() { glslang::InitializeProcess(); }
+    ~GlslangProcess() { glslang::FinalizeProcess(); }
+};
+
+struct LogSummary {
+    std::string firstError;
+    size_t errors = 0;
+};
+
+/// glslang's log holds lines like "ERROR: file:12: 'x' : undeclared identifier", and a count at the end.
+LogSummary summarize(std::string_view logText) {
+    constexpr std::string_view kPrefix = "ERROR: ";
+    LogSummary summary;
+    while (!logText.empty()) {
+        const size_t end = logText.find('\n');
+        std::string_view line = logText.substr(0, end);
+        logText.remove_prefix(end == std::string_view::npos ? logText.size() : end + 1);
+        if (!line.starts_with(kPrefix)) continue;
+        line.remove_prefix(kPrefix.size());
+        const bool isCount = line.find("compilation errors.") != std::string_view::npos;
+        const bool isEcho = line.find("compilation terminated") != std::string_view::npos;
+        if (isCount || isEcho) continue;
+        if (summary.errors++ == 0) summary.firstError = line;
+    }
+    return summary;
+}
+
+Error compileError(const char* log, std::string_view name) {
+    const LogSummary summary = summarize(log);
+    if (summary.errors == 0) return fail(ErrorCode::InvalidArgument, "{}: the shader does not compile: {}", name, log);
+    if (summary.errors == 1) return fail(ErrorCode::InvalidArgument, "{}", summary.firstError);
+    return fail(ErrorCode::InvalidArgument, "{} (and {} more)", summary.firstError, summary.errors - 1);
+}
+
+using PassSetup = void (*)(spvtools::Optimizer&);
+
+Result<std::vector<uint32_t>> runPasses(std::span<const uint32_t> spirv, PassSetup setup) {
+    std::string complaint;
+    spvtools::Optimizer optimizer(SPV_ENV_VULKAN_1_1);
+    optimizer.SetMessageConsumer([&](spv_message_level_t, const char*, spv_position_t const&, const char* text) {
+        if (complaint.empty()) complaint = text;
+    });
+    setup(optimizer);
+    spvtools::OptimizerOptions options;
+    options.set_run_validator(false); // the tests validate; the input comes from glslang
+    std::vector<uint32_t> result;
+    if (!optimizer.Run(spirv.data(), spirv.size(), &result, options)) {
+        return fail(ErrorCode::Internal, "the SPIR-V optimiser refused a module: {}", complaint);
+    }
+    return result;
+}
+
+} // namespace
+
+Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name) {
+    static const GlslangProcess process;
+    const EShLanguage language = stage == backend::ShaderStage::Vertex ? EShLangVertex : EShLangFragment;
+    const std::string nameText(name);
+    const char* text = glsl.data();
+    const char* textName = nameText.c_str();
+    const int length = static_cast<int>(glsl.size());
+
+    glslang::TShader shader(language);
+    shader.setStringsWithLengthsAndNames(&text, &length, &textName, 1);
+    shader.setEnvInput(glslang::EShSourceGlsl, language, glslang::EShClientVulkan, 100);
+    shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
+    shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
+    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+    if (!shader.parse(GetDefaultResources(), 450, false, messages)) return compileError(shader.getInfoLog(), name);
+
+    glslang::TProgram program;
+    program.addShader(&shader);
+    if (!program.link(messages)) return compileError(program.getInfoLog(), name);
+
+    std::vector<uint32_t> spirv;
+    glslang::SpvOptions options;
+    options.disableOptimizer = true; // optimizeSpirv() is a step of its own
+    glslang::GlslangToSpv(*program.getIntermediate(language), spirv, &options);
+    return spirv;
+}
+
+Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv) {
+    return runPasses(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterPerformancePasses(); });
+}
+
+Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv) {
+    return runPasses(spirv, [](spvtools::Optimizer& optimizer) {
+        optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass());
+        optimizer.RegisterPass(spvtools::CreateCompactIdsPass());
+    });
+}
+
+} // namespace filament::shader

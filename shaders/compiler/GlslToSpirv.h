@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The first two steps of compileProgram, around glslang and SPIRV-Tools.
+///   Thread  any. Memory: what the result holds. Deterministic.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "filament_core/base/Result.h"
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace filament::shader {
+
+/// GLSL 450 with Vulkan semantics -> SPIR-V 1.3 with names. `#line n "file"` is understood and `name` is the file until then.
+///   Fails   InvalidArgument, "file:line: reason" of the first error and how many more there are.
+Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name);
+
+/// SPIRV-Tools' performance passes. Fails: Internal if the module is not valid.
+Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv);
+
+/// Drops the names, which no driver needs.
+Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv);
+
+} // namespace filament::shader

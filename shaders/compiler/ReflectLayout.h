@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Reads the bind group layout and the vertex inputs out of the SPIR-V of both stages.
+///   Thread  any. Cost: two parses.
+///   Fails   InvalidArgument: a set or binding beyond the limits, the same binding declared as two different things,
+///           a resource kind that no BindingType stands for (storage buffers, separate samplers, arrays of samplers).
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "filament_core/base/Result.h"
+#include "shaders/compiler/CompileProgram.h"
+
+#include <cstdint>
+#include <span>
+
+namespace filament::shader {
+
+struct StageResources {
+    backend::ProgramLayout layout{};
+    uint32_t vertexInputs = 0; ///< bit n: location n is read
+};
+
+/// `dynamicBuffers` as in ProgramCompileOptions.
+Result<StageResources> reflectResources(std::span<const uint32_t> vertexSpirv, std::span<const uint32_t> fragmentSpirv,
+        std::optional<std::vector<SetBinding>> const& dynamicBuffers);
+
+/// InvalidArgument, naming the binding, unless `layout` has all of `used` with the same types and stages.
+Result<void> checkContains(backend::ProgramLayout const& layout, backend::ProgramLayout const& used);
+
+} // namespace filament::shader

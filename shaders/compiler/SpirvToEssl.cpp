@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/SpirvToEssl.h"
+
+#include "shaders/compiler/FetchOutputs.h"
+
+#include <spirv_cross/spirv_glsl.hpp>
+
+#include <exception>
+
+namespace filament::shader {
+namespace {
+
+using spirv_cross::CompilerGLSL;
+
+void setOptions(CompilerGLSL& compiler) {
+    CompilerGLSL::Options options = compiler.get_common_options();
+    options.version = 310;
+    options.es = true;
+    options.vulkan_semantics = false;
+    options.fragment.default_float_precision = CompilerGLSL::Options::Highp;
+    options.fragment.default_int_precision = CompilerGLSL::Options::Highp;
+    compiler.set_common_options(options);
+}
+
+/// OpenGL ES has one row of block indices and one of texture units.
+void renumber(CompilerGLSL& compiler, spirv_cross::Resource const& resource, backend::ProgramLayout const& layout) {
+    const uint32_t set = compiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
+    const uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
+    compiler.set_decoration(resource.id, spv::DecorationDescriptorSet, 0);
+    compiler.set_decoration(resource.id, spv::DecorationBinding,
+            backend::flatBinding(layout, set, static_cast<uint8_t>(binding)));
+}
+
+void renumberAll(CompilerGLSL& compiler, backend::ProgramLayout const& layout) {
+    const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
+    for (auto const& buffer : resources.uniform_buffers) renumber(compiler, buffer, layout);
+    for (auto const& image : resources.sampled_images) renumber(compiler, image, layout);
+    for (auto const& input : resources.subpass_inputs) {
+        const uint32_t index = compiler.get_decoration(input.id, spv::DecorationInputAttachmentIndex);
+        compiler.remap_ext_framebuffer_fetch(index, index, true); // attachment i is colour attachment i of the pass
+    }
+}
+
+} // namespace
+
+Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::ProgramLayout const& layout) {
+    try {
+        CompilerGLSL compiler(withFetchOutputs(spirv));
+        setOptions(compiler);
+        renumberAll(compiler, layout);
+        return compiler.compile();
+    } catch (std::exception const& error) {
+        return fail(ErrorCode::Unsupported, "the shader cannot be expressed in ESSL 3.10: {}", error.what());
+    }
+}
+
+} // namespace filament::shader
