@@ -84,7 +84,8 @@ public:
     // ---- answers
     /// The bytes of a read-back, once; nothing while it is under way.
     std::optional<std::vector<std::byte>> takeReadback(Ticket ticket);
-    /// The blocking form. Timeout if it takes longer, DeviceLost if it never will.
+    /// The blocking form, for read-backs that were submitted. Timeout if it takes longer, DeviceLost if the device is
+    /// gone, NotFound if the device finished all work without an answer (the read-back failed: see takeErrors()).
     Result<std::vector<std::byte>> waitReadback(Ticket ticket, std::chrono::milliseconds timeout = std::chrono::seconds(60));
     std::optional<uint64_t> takeTimer(Ticket ticket); ///< GPU nanoseconds
     /// Errors since the last call, oldest first.

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/stream/CommandStream.h"
+
+#include "backend/stream/DriverThread.h"
+#include "backend/stream/ResultMailbox.h"
+
+#include <atomic>
+
+namespace filament::backend {
+namespace {
+
+std::atomic<uint64_t> gLastTicket{ 0 }; // tickets are never reused within a process
+
+} // namespace
+
+struct CommandStream::State {
+    explicit State(CommandStreamOptions const& options) : driver(options, mailbox) {}
+
+    ResultMailbox mailbox; // outlives the driver, which answers into it
+    DriverThread driver;
+    HandleAllocator<BufferTag> buffers;
+    HandleAllocator<TextureTag> textures;
+    HandleAllocator<SamplerTag> samplers;
+    HandleAllocator<ProgramTag> programs;
+    HandleAllocator<PipelineTag> pipelines;
+    HandleAllocator<BindGroupTag> bindGroups;
+};
+
+CommandStream::CommandStream() = default;
+CommandStream::~CommandStream() = default;
+
+Result<std::unique_ptr<CommandStream>> CommandStream::start(DriverFactory factory, CommandStreamOptions options) {
+    std::unique_ptr<CommandStream> stream(new CommandStream);
+    stream->mState = std::make_unique<State>(options);
+    if (Result<void> started = stream->mState->driver.start(std::move(factory)); !started) return started.error();
+    return stream;
+}
+
+DeviceInfo const& CommandStream::info() const { return mState->driver.info(); }
+DriverStatistics CommandStream::statistics() const { return mState->driver.statistics(); }
+
+BufferHandle CommandStream::allocateBuffer() { return mState->buffers.allocate(); }
+TextureHandle CommandStream::allocateTexture() { return mState->textures.allocate(); }
+SamplerHandle CommandStream::allocateSampler() { return mState->samplers.allocate(); }
+ProgramHandle CommandStream::allocateProgram() { return mState->programs.allocate(); }
+PipelineHandle CommandStream::allocatePipeline() { return mState->pipelines.allocate(); }
+BindGroupHandle CommandStream::allocateBindGroup() { return mState->bindGroups.allocate(); }
+
+void CommandStream::free(BufferHandle handle) { mState->buffers.free(handle); }
+void CommandStream::free(TextureHandle handle) { mState->textures.free(handle); }
+void CommandStream::free(SamplerHandle handle) { mState->samplers.free(handle); }
+void CommandStream::free(ProgramHandle handle) { mState->programs.free(handle); }
+void CommandStream::free(PipelineHandle handle) { mState->pipelines.free(handle); }
+void CommandStream::free(BindGroupHandle handle) { mState->bindGroups.free(handle); }
+
+uint32_t CommandStream::liveHandles() const {
+    return mState->buffers.liveCount() + mState->textures.liveCount() + mState->samplers.liveCount() +
+            mState->programs.liveCount() + mState->pipelines.liveCount() + mState->bindGroups.liveCount();
+}
+
+Ticket CommandStream::nextTicket() { return { gLastTicket.fetch_add(1, std::memory_order_relaxed) + 1 }; }
+
+CommandBuffer& CommandStream::acquire() { return mState->driver.acquire(); }
+void CommandStream::submit(CommandBuffer& commands) { mState->driver.submit(commands); }
+void CommandStream::waitIdle() { mState->driver.waitIdle(); }
+uint64_t CommandStream::backPressureNanoseconds() const { return mState->driver.backPressureNanoseconds(); }
+std::vector<FrameTiming> CommandStream::takeTimings() { return mState->mailbox.takeTimings(); }
+
+std::optional<std::vector<std::byte>> CommandStream::takeReadback(Ticket ticket) {
+    return mState->mailbox.takeReadback(ticket);
+}
+
+Result<std::vector<std::byte>> CommandStream::waitReadback(Ticket ticket, std::chrono::milliseconds timeout) {
+    const auto deadline = std::chrono::steady_clock::now() + timeout;
+    if (std::optional<std::vector<std::byte>> bytes = takeReadback(ticket)) return std::move(*bytes);
+    const uint64_t submission = mState->driver.requestIdle(); // or the answer would wait for the next frame
+    const ResultMailbox::Wait outcome = mState->mailbox.waitFor(ticket, submission, deadline);
+    if (outcome == ResultMailbox::Wait::Answered) {
+        // Two threads may wait for one ticket; the other one may have been faster.
+        if (std::optional<std::vector<std::byte>> bytes = takeReadback(ticket)) return std::move(*bytes);
+        return fail(ErrorCode::NotFound, "read-back {} was taken by somebody else: each is given out once", ticket.value);
+    }
+    if (outcome == ResultMailbox::Wait::DeviceLost) {
+        return fail(ErrorCode::DeviceLost, "read-back {}: the device was lost; make a new engine", ticket.value);
+    }
+    if (outcome == ResultMailbox::Wait::TimedOut) {
+        return fail(ErrorCode::Timeout, "read-back {}: no answer within {} ms; the device is busy or hangs", ticket.value,
+                timeout.count());
+    }
+    return fail(ErrorCode::NotFound, "read-back {}: the device finished all submitted work without answering it; was it "
+                "submitted, and does takeErrors() say why it failed?", ticket.value);
+}
+
+std::optional<uint64_t> CommandStream::takeTimer(Ticket ticket) { return mState->mailbox.takeTimer(ticket); }
+std::vector<DriverError> CommandStream::takeErrors() { return mState->mailbox.takeErrors(); }
+
+} // namespace filament::backend

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+/// DriverThread: owns a driver and the thread that it lives on; replays submitted buffers in order.
+///   Thread  the driver is made, used and destroyed on the own thread (or, without one, on the caller's). start(),
+///           acquire(), submit(): one app thread. waitIdle(), requestIdle(), statistics(): any while it lives.
+///   Memory  maxFramesAhead + 1 command buffers, reused in turn. A steady frame allocates nothing.
+///   Fails   start() with the factory's error. After DeviceLost buffers come and go, but are no longer replayed.
+///   Cost    a submit is one lock and one wake-up; the threads block, nobody spins.
+#pragma once
+
+#include "backend/api/Driver.h"
+#include "backend/stream/CommandStream.h"
+#include "backend/stream/ResultMailbox.h"
+
+#include <condition_variable>
+#include <cstdint>
+#include <memory>
+#include <mutex>
+#include <thread>
+#include <vector>
+
+namespace filament::backend {
+
+class DriverThread {
+public:
+    explicit DriverThread(CommandStreamOptions const& options, ResultMailbox& mailbox);
+    /// Replays everything submitted, waits for the device, destroys the driver, ends the thread.
+    ~DriverThread();
+    DriverThread(DriverThread const&) = delete;
+    DriverThread& operator=(DriverThread const&) = delete;
+
+    Result<void> start(DriverFactory factory);
+
+    DeviceInfo const& info() const { return mInfo; }
+    DriverStatistics statistics() const { return mDriver->statistics(); }
+    uint64_t backPressureNanoseconds() const;
+
+    CommandBuffer& acquire();
+    void submit(CommandBuffer& commands);
+    /// Asks for an idle device after everything submitted so far; ResultMailbox::onIdle() answers with the number.
+    uint64_t requestIdle();
+    void waitIdle();
+
+private:
+    struct Slot {
+        CommandBuffer commands;
+        int64_t submitted = 0;
+    };
+
+    void run(DriverFactory factory, Result<void>& outcome);
+    Result<void> makeDriver(DriverFactory const& factory);
+    void serve();
+    void replaySlot(uint64_t submission);
+    void settle(uint64_t submission);
+    Slot& slotOf(uint64_t submission) { return mSlots[submission % mSlots.size()]; }
+
+    const CommandStreamOptions mOptions;
+    ResultMailbox& mMailbox;
+    std::unique_ptr<Driver> mDriver;
+    DeviceInfo mInfo;
+    std::vector<Slot> mSlots;
+    CommandBuffer* mAcquired = nullptr; // app thread
+    std::thread mThread;
+
+    mutable std::mutex mMutex;
+    std::condition_variable mWork;     // for the driver thread
+    std::condition_variable mProgress; // for everybody else
+    // Submissions are numbered from 1; the count of each stage is the number of the last one that passed it.
+    uint64_t mSubmitted = 0;
+    uint64_t mReplayed = 0;
+    uint64_t mIdleWanted = 0; // highest submission after which somebody wants an idle device
+    uint64_t mIdleReached = 0;
+    uint64_t mBackPressure = 0;
+    bool mStarted = false;
+    bool mStopping = false;
+};
+
+} // namespace filament::backend

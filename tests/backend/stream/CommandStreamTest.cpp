@@ -1,0 +1,329 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/stream/CommandStream.h"
+
+#include "backend/null/NullDriver.h"
+#include "tests/backend/stream/CountAllocations.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <pthread.h>
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <future>
+#include <thread>
+
+namespace filament::backend {
+namespace {
+
+using namespace std::chrono_literals;
+
+/// What a test wants to know about a driver's life, and to make it do.
+struct Script {
+    std::atomic<int> executed{ 0 }, idled{ 0 }, destroyed{ 0 };
+    std::atomic<bool> strayThread{ false }; ///< called from another thread than the one that made it
+    std::string threadName;
+    std::function<void(ResultSink&)> onExecute; ///< runs inside execute()
+};
+
+class ScriptedDriver final : public Driver {
+public:
+    ScriptedDriver(Script& script, ResultSink& sink) : mScript(script), mSink(sink) {
+        mInfo.deviceName = "scripted";
+        std::array<char, 16> name{};
+        pthread_getname_np(pthread_self(), name.data(), name.size());
+        mScript.threadName = name.data();
+    }
+    ~ScriptedDriver() override {
+        check();
+        ++mScript.destroyed;
+    }
+    DeviceInfo const& info() const override { return mInfo; }
+    void execute(CommandView) override {
+        check();
+        if (mScript.onExecute) mScript.onExecute(mSink);
+        ++mScript.executed;
+    }
+    void waitIdle() override {
+        check();
+        ++mScript.idled;
+    }
+    DriverStatistics statistics() const override { return { .commands = static_cast<uint64_t>(mScript.executed) }; }
+
+private:
+    void check() {
+        if (std::this_thread::get_id() != mHome) mScript.strayThread = true;
+    }
+    Script& mScript;
+    ResultSink& mSink;
+    DeviceInfo mInfo;
+    std::thread::id mHome = std::this_thread::get_id();
+};
+
+std::unique_ptr<CommandStream> startScripted(Script& script, CommandStreamOptions options = {}) {
+    auto stream = CommandStream::start(
+            [&](ResultSink& sink) -> Result<std::unique_ptr<Driver>> { return { std::make_unique<ScriptedDriver>(script, sink) }; },
+            options);
+    EXPECT_TRUE(stream.ok());
+    return std::move(*stream);
+}
+
+std::unique_ptr<CommandStream> startNull(CommandStreamOptions options = {}) {
+    auto stream = CommandStream::start(
+            [](ResultSink& sink) -> Result<std::unique_ptr<Driver>> { return createNullDriver(sink); }, options);
+    EXPECT_TRUE(stream.ok());
+    return std::move(*stream);
+}
+
+class BothThreadModes : public testing::TestWithParam<bool> {
+protected:
+    CommandStreamOptions options() const { return { .ownThread = GetParam() }; }
+};
+INSTANTIATE_TEST_SUITE_P(CommandStream, BothThreadModes, testing::Values(true, false),
+        [](auto const& mode) { return mode.param ? "OwnThread" : "Inline"; });
+
+TEST_P(BothThreadModes, TheDriverLivesAndDiesOnOneThread) {
+    Script script;
+    {
+        auto stream = startScripted(script, options());
+        for (int i = 0; i < 5; ++i) stream->submit(stream->acquire());
+        stream->waitIdle();
+    }
+    EXPECT_EQ(script.executed, 5);
+    EXPECT_EQ(script.destroyed, 1);
+    EXPECT_FALSE(script.strayThread);
+    EXPECT_EQ(script.threadName == "driver", GetParam());
+}
+
+TEST_P(BothThreadModes, AFailingFactoryIsAnErrorWithItsOwnText) {
+    auto stream = CommandStream::start(
+            [](ResultSink&) -> Result<std::unique_ptr<Driver>> {
+                return fail(ErrorCode::DeviceUnavailable, "no device: install mesa-vulkan-drivers");
+            },
+            options());
+    ASSERT_FALSE(stream.ok());
+    EXPECT_EQ(stream.error().code, ErrorCode::DeviceUnavailable);
+    EXPECT_EQ(stream.error().message, "no device: install mesa-vulkan-drivers");
+}
+
+TEST_P(BothThreadModes, ShutdownReplaysWhatWasSubmittedAndWaitsForTheDevice) {
+    Script script;
+    script.onExecute = [](ResultSink&) { std::this_thread::sleep_for(10ms); };
+    {
+        auto stream = startScripted(script, options());
+        stream->submit(stream->acquire());
+        stream->submit(stream->acquire());
+    }
+    EXPECT_EQ(script.executed, 2);
+    EXPECT_GE(script.idled, 1);
+    EXPECT_EQ(script.destroyed, 1);
+}
+
+TEST_P(BothThreadModes, ReadbacksTimersAndErrorsComeOutOnce) {
+    Script script;
+    auto stream = startScripted(script, options());
+    const Ticket picture = stream->nextTicket(), timer = stream->nextTicket();
+    const std::array bytes{ std::byte{ 1 }, std::byte{ 2 } };
+    script.onExecute = [&](ResultSink& sink) {
+        sink.onReadback(picture, bytes);
+        sink.onTimer(timer, 77);
+        sink.onError(DriverErrorKind::ShaderCompile, "program 'x': line 3: no such function");
+    };
+    stream->submit(stream->acquire());
+    stream->waitIdle();
+    EXPECT_THAT(stream->takeReadback(picture).value(), testing::ElementsAre(std::byte{ 1 }, std::byte{ 2 }));
+    EXPECT_FALSE(stream->takeReadback(picture).has_value());
+    EXPECT_EQ(stream->takeTimer(timer), 77u);
+    EXPECT_FALSE(stream->takeTimer(timer).has_value());
+    const std::vector<DriverError> errors = stream->takeErrors();
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_EQ(errors[0].kind, DriverErrorKind::ShaderCompile);
+    EXPECT_TRUE(stream->takeErrors().empty());
+}
+
+TEST_P(BothThreadModes, WaitingForAReadbackNeedsNoFurtherFrame) {
+    auto stream = startNull(options());
+    const TextureHandle texture = stream->allocateTexture();
+    const Ticket ticket = stream->nextTicket();
+    CommandBuffer& commands = stream->acquire();
+    commands.record(CmdCreateTexture{ texture, { .width = 4, .height = 2 } });
+    commands.record(CmdReadTexture{ .texture = texture, .rect = { 0, 0, 4, 2 }, .ticket = ticket });
+    stream->submit(commands); // no CmdEndFrame: the null driver answers when it idles
+    Result<std::vector<std::byte>> bytes = stream->waitReadback(ticket, 10s);
+    ASSERT_TRUE(bytes.ok()) << bytes.error().message;
+    EXPECT_EQ(bytes->size(), 4u * 2u * 4u);
+}
+
+TEST_P(BothThreadModes, WaitingForWhatWasNeverAskedEndsAtOnce) {
+    auto stream = startNull(options());
+    stream->submit(stream->acquire());
+    const auto begin = std::chrono::steady_clock::now();
+    Result<std::vector<std::byte>> bytes = stream->waitReadback(stream->nextTicket(), 60s);
+    ASSERT_FALSE(bytes.ok());
+    EXPECT_EQ(bytes.error().code, ErrorCode::NotFound);
+    EXPECT_LT(std::chrono::steady_clock::now() - begin, 30s);
+}
+
+TEST_P(BothThreadModes, ALostDeviceEndsWaitsAndStopsReplaying) {
+    Script script;
+    script.onExecute = [](ResultSink& sink) { sink.onError(DriverErrorKind::DeviceLost, "the device was removed"); };
+    auto stream = startScripted(script, options());
+    for (int i = 0; i < 8; ++i) stream->submit(stream->acquire());
+    Result<std::vector<std::byte>> bytes = stream->waitReadback(stream->nextTicket(), 60s);
+    ASSERT_FALSE(bytes.ok());
+    EXPECT_EQ(bytes.error().code, ErrorCode::DeviceLost);
+    stream->waitIdle();
+    EXPECT_EQ(script.executed, 1) << "nothing is replayed on a lost device";
+    EXPECT_EQ(script.idled, 0);
+}
+
+TEST_P(BothThreadModes, TimingsCarryTheAppsFrameNumbersInOrder) {
+    auto stream = startNull(options());
+    for (uint64_t frame = 40; frame < 43; ++frame) {
+        CommandBuffer& commands = stream->acquire();
+        commands.record(CmdPushGroup{ "frame" });
+        commands.record(CmdBeginFrame{ frame });
+        stream->submit(commands);
+    }
+    stream->submit(stream->acquire());
+    stream->waitIdle();
+    const std::vector<FrameTiming> timings = stream->takeTimings();
+    ASSERT_EQ(timings.size(), 4u);
+    EXPECT_EQ(timings[0].frame, 40u);
+    EXPECT_EQ(timings[2].frame, 42u);
+    EXPECT_EQ(timings[3].frame, 4u) << "without CmdBeginFrame: the running number";
+    for (FrameTiming const& timing : timings) {
+        EXPECT_LE(timing.submitted, timing.replayBegin);
+        EXPECT_LE(timing.replayBegin, timing.replayEnd);
+    }
+    EXPECT_TRUE(stream->takeTimings().empty());
+}
+
+TEST_P(BothThreadModes, ErrorsBeyondTheLimitAreCountedNotKept) {
+    Script script;
+    script.onExecute = [](ResultSink& sink) {
+        for (int i = 0; i < 1000; ++i) sink.onError(DriverErrorKind::Other, "again");
+    };
+    auto stream = startScripted(script, options());
+    stream->submit(stream->acquire());
+    stream->waitIdle();
+    const std::vector<DriverError> errors = stream->takeErrors();
+    ASSERT_EQ(errors.size(), 257u);
+    EXPECT_THAT(errors.back().message, testing::HasSubstr("744 more errors"));
+}
+
+TEST(CommandStream, AcquireWaitsWhileTwoSubmittedFramesAreUnreplayed) {
+    Script script;
+    std::promise<void> gate;
+    std::shared_future<void> opened = gate.get_future().share();
+    script.onExecute = [opened](ResultSink&) { opened.wait(); };
+    auto stream = startScripted(script);
+    stream->submit(stream->acquire());
+    stream->submit(stream->acquire());
+    std::atomic<bool> acquired{ false };
+    std::thread app([&] {
+        CommandBuffer& third = stream->acquire();
+        acquired = true;
+        stream->submit(third);
+    });
+    std::this_thread::sleep_for(50ms);
+    EXPECT_FALSE(acquired) << "two frames are ahead already";
+    gate.set_value();
+    app.join();
+    stream->waitIdle();
+    EXPECT_EQ(script.executed, 3);
+    EXPECT_GT(stream->backPressureNanoseconds(), 10'000'000u);
+}
+
+TEST(CommandStream, ATimeoutNamesTheTicketAndTheStreamGoesOn) {
+    Script script;
+    std::promise<void> gate;
+    script.onExecute = [opened = gate.get_future().share()](ResultSink&) { opened.wait(); };
+    auto stream = startScripted(script);
+    stream->submit(stream->acquire());
+    Result<std::vector<std::byte>> bytes = stream->waitReadback(stream->nextTicket(), 20ms);
+    ASSERT_FALSE(bytes.ok());
+    EXPECT_EQ(bytes.error().code, ErrorCode::Timeout);
+    gate.set_value();
+    stream->waitIdle();
+    EXPECT_EQ(script.executed, 1);
+}
+
+TEST(CommandStream, TicketsAreNeverReusedEvenAcrossStreams) {
+    auto first = startNull();
+    auto second = startNull();
+    std::vector<uint64_t> values;
+    for (int i = 0; i < 4; ++i) {
+        values.push_back(first->nextTicket().value);
+        values.push_back(second->nextTicket().value);
+    }
+    EXPECT_THAT(values, testing::Each(testing::Ne(0u)));
+    EXPECT_EQ(std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()), values.end());
+}
+
+TEST(CommandStream, LiveHandlesCountsAllTypes) {
+    auto stream = startNull();
+    const BufferHandle buffer = stream->allocateBuffer();
+    const PipelineHandle pipeline = stream->allocatePipeline();
+    EXPECT_EQ(stream->liveHandles(), 2u);
+    stream->free(buffer);
+    stream->free(pipeline);
+    EXPECT_EQ(stream->liveHandles(), 0u);
+    EXPECT_NE(stream->allocateBuffer(), buffer) << "the same index comes back under another generation";
+}
+
+TEST(CommandStream, PollsFromManyThreadsWhileFramesRun) {
+    Script script;
+    auto stream = startScripted(script);
+    std::vector<Ticket> tickets;
+    for (int i = 0; i < 200; ++i) tickets.push_back(stream->nextTicket());
+    std::atomic<size_t> answered{ 0 };
+    script.onExecute = [&, next = size_t{ 0 }](ResultSink& sink) mutable {
+        sink.onReadback(tickets[next++], std::array{ std::byte{ 5 } });
+    };
+    std::atomic<size_t> taken{ 0 };
+    std::vector<std::thread> pollers;
+    for (int i = 0; i < 3; ++i) {
+        pollers.emplace_back([&] {
+            while (taken < tickets.size()) {
+                for (const Ticket ticket : tickets) taken += stream->takeReadback(ticket).has_value();
+                std::this_thread::yield();
+            }
+        });
+    }
+    for (size_t i = 0; i < tickets.size(); ++i) stream->submit(stream->acquire());
+    for (std::thread& poller : pollers) poller.join();
+    EXPECT_EQ(taken, tickets.size());
+}
+
+TEST(CommandStream, ASteadyFrameAllocatesNothing) {
+    auto stream = startNull();
+    const BufferHandle buffer = stream->allocateBuffer();
+    std::vector<std::byte> bytes(10'000);
+    CommandBuffer& first = stream->acquire();
+    first.record(CmdCreateBuffer{ buffer, { .size = bytes.size(), .usage = BufferUsage::Uniform, .debugName = "frame" } });
+    stream->submit(first);
+    std::vector<Ticket> timers(1, stream->nextTicket());
+    const auto frame = [&](uint64_t number) {
+        CommandBuffer& commands = stream->acquire();
+        commands.record(CmdBeginFrame{ number });
+        commands.record(CmdUpdateBuffer{ buffer, 0, bytes });
+        commands.record(CmdBeginTimer{ timers[0] });
+        for (uint32_t i = 0; i < 3000; ++i) commands.record(CmdDraw{ .vertexCount = 3 });
+        commands.record(CmdEndTimer{ timers[0] });
+        commands.record(CmdEndFrame{ number });
+        stream->submit(commands);
+        static_cast<void>(stream->takeTimer(timers[0]));
+    };
+    for (uint64_t number = 0; number < 16; ++number) frame(number);
+    stream->waitIdle();
+    const uint64_t before = allocationCount();
+    for (uint64_t number = 0; number < 64; ++number) frame(number);
+    stream->waitIdle();
+    EXPECT_EQ(allocationCount() - before, 0u);
+}
+
+} // namespace
+} // namespace filament::backend

@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Replaces the global operator new of this test program by one that counts.
+#pragma once
+
+#include <cstdint>
+
+namespace filament {
+
+/// Heap allocations of the whole process so far, all threads.
+uint64_t allocationCount();
+
+} // namespace filament
