@@ -4,6 +4,7 @@
 add_library(filament_options INTERFACE)
 target_compile_options(filament_options INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
+    -Wno-missing-field-initializers # descriptions name the fields they set, the rest has defaults
     -ffp-contract=off) # the same bits from every compiler
 target_include_directories(filament_options INTERFACE
     ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/filament_core/include)

@@ -1,0 +1,158 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/Engine.h>
+
+#include "backend/create/CreateDriver.h"
+#include "backend/layers/Traced.h"
+#include "backend/layers/Validated.h"
+#include "filament_core/base/Log.h"
+#include "filament_core/base/Result.h"
+#include "filament_core/engine/DefaultObjects.h"
+#include "filament_core/engine/EngineImpl.h"
+
+namespace filament {
+namespace {
+
+using namespace backend;
+
+BackendType backendType(Backend backend) {
+    switch (backend) {
+        case Backend::Vulkan: return BackendType::Vulkan;
+        case Backend::Gles: return BackendType::Gles;
+        case Backend::Null: return BackendType::Null;
+    }
+    return BackendType::Null;
+}
+
+Backend publicBackend(BackendType type) {
+    switch (type) {
+        case BackendType::Vulkan: return Backend::Vulkan;
+        case BackendType::Gles: return Backend::Gles;
+        case BackendType::Null: return Backend::Null;
+    }
+    return Backend::Null;
+}
+
+DeviceDescription describe(DeviceInfo const& info) {
+    return { publicBackend(info.backend), info.deviceName, info.driverName, info.limits.maxTextureSize,
+        info.limits.maxSamples };
+}
+
+// The driver with the layers that the options ask for around it.
+DriverFactory driverFactory(EngineOptions const& options) {
+    return [options](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
+        const DriverOptions driverOptions{ options.requireDevice, options.validation };
+        auto driver = createDriver(backendType(options.backend), driverOptions, sink);
+        if (!driver) return driver.error();
+        std::unique_ptr<Driver> outermost = std::move(*driver);
+        if (!options.traceFile.empty()) {
+            auto traced = trace(std::move(outermost), options.traceFile);
+            if (!traced) return traced.error();
+            outermost = std::move(*traced);
+        }
+        if (options.validation) outermost = validate(std::move(outermost), sink);
+        return outermost;
+    };
+}
+
+jobs::JobSystemOptions jobOptions(EngineOptions const& options) {
+    return { options.workers, options.affinity == ThreadAffinity::Pin ? jobs::Affinity::Pin : jobs::Affinity::None };
+}
+
+template <class Table>
+void reportLeaks(Table const& table, const char* what) {
+    table.forEach([&](auto const& state) {
+        log(Severity::Warning, "{} '{}' was not destroyed before its engine", what, state.name);
+    });
+}
+
+} // namespace
+
+const char* toString(Backend backend) {
+    switch (backend) {
+        case Backend::Vulkan: return "vulkan";
+        case Backend::Gles: return "gles";
+        case Backend::Null: return "null";
+    }
+    return "unknown";
+}
+
+std::vector<DeviceDescription> listDevices() {
+    std::vector<DeviceDescription> devices;
+    for (DeviceInfo const& info : backend::listDevices()) devices.push_back(describe(info));
+    return devices;
+}
+
+Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> commandStream)
+        : options(std::move(engineOptions)), stream(std::move(commandStream)), jobs(jobOptions(options)),
+          device(describe(stream->info())), pipelines(*stream, layouts), samplers(*stream) {
+    createDefaultObjects(*this);
+}
+
+Engine::Impl::~Impl() {
+    destroyDefaultObjects(*this);
+    reportLeaks(swapChains, "swap chain");
+    reportLeaks(renderTargets, "render target");
+    reportLeaks(indirectLights, "indirect light");
+    reportLeaks(skyboxes, "skybox");
+    reportLeaks(instances, "material instance");
+    reportLeaks(materials, "material");
+    reportLeaks(vertexBuffers, "vertex buffer");
+    reportLeaks(indexBuffers, "index buffer");
+    reportLeaks(textures, "texture");
+    samplers.destroyAll(pending);
+    flush(); // the driver frees what is left when it ends
+    collectErrors();
+    for (std::string const& error : errors) log(Severity::Error, "{}", error);
+}
+
+void Engine::Impl::flush() {
+    CommandBuffer& commands = stream->acquire();
+    drainPending(commands);
+    stream->submit(commands);
+}
+
+void Engine::Impl::drainPending(CommandBuffer& commands) {
+    if (pending.commandCount() > 0) commands.append(std::move(pending));
+    for (MaterialInstance handle : dirtyInstances) updateInstance(instances.get(handle), commands);
+    dirtyInstances.clear();
+}
+
+void Engine::Impl::collectErrors() {
+    for (DriverError& error : stream->takeErrors()) errors.push_back(std::move(error.message));
+}
+
+double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {
+    const auto origin = std::chrono::duration_cast<std::chrono::nanoseconds>(start.time_since_epoch()).count();
+    return static_cast<double>(steadyNanoseconds - origin) * 1e-9;
+}
+
+Result<Engine> Engine::create(EngineOptions const& options) {
+    auto stream = CommandStream::start(driverFactory(options), { .driverCore = options.driverCore });
+    if (!stream) return stream.error();
+    return Engine(std::make_unique<Impl>(options, std::move(*stream)));
+}
+
+Engine::Engine(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
+Engine::Engine(Engine&&) noexcept = default;
+Engine& Engine::operator=(Engine&&) noexcept = default;
+Engine::~Engine() = default;
+
+DeviceDescription const& Engine::device() const { return mImpl->device; }
+
+EngineStatistics Engine::statistics() const {
+    const DriverStatistics driver = mImpl->stream->statistics();
+    return { driver.draws, driver.pipelinesCreated, driver.pipelinesCreatedInPasses, driver.commands,
+        driver.deviceBytes, mImpl->stream->backPressureNanoseconds() };
+}
+
+std::vector<std::string> Engine::takeErrors() {
+    mImpl->collectErrors();
+    return std::exchange(mImpl->errors, {});
+}
+
+void Engine::waitIdle() {
+    mImpl->flush();
+    mImpl->stream->waitIdle();
+}
+
+} // namespace filament

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ObjectTable: the objects of one type behind their handles. Addresses are stable.
+///   Thread  the app thread.
+///   Fails   a handle that was destroyed or never made asserts, naming the type.
+#pragma once
+
+#include "filament_core/base/Handle.h"
+
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace filament::engine {
+
+template <class Tag, class State>
+class ObjectTable {
+public:
+    template <class... Args>
+    Handle<Tag> add(Args&&... args) {
+        const Handle<Tag> handle = mHandles.allocate();
+        if (handle.index() >= mStates.size()) mStates.resize(handle.index() + 1);
+        mStates[handle.index()] = std::make_unique<State>(std::forward<Args>(args)...);
+        return handle;
+    }
+
+    State& get(Handle<Tag> handle) {
+        FILAMENT_ASSERT(mHandles.isLive(handle), "a handle is used only between create() and destroy()");
+        return *mStates[handle.index()];
+    }
+    State const& get(Handle<Tag> handle) const { return const_cast<ObjectTable*>(this)->get(handle); }
+
+    void remove(Handle<Tag> handle) {
+        get(handle);
+        mStates[handle.index()].reset();
+        mHandles.free(handle);
+    }
+
+    /// visit(state) for every live object, in order of index.
+    template <class F>
+    void forEach(F&& visit) const {
+        for (auto const& state : mStates) {
+            if (state) visit(*state);
+        }
+    }
+
+private:
+    HandleAllocator<Tag> mHandles;
+    std::vector<std::unique_ptr<State>> mStates;
+};
+
+} // namespace filament::engine

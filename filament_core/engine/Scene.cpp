@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/Scene.h>
+
+#include "filament_core/engine/ModelImpl.h"
+#include "filament_core/engine/SceneImpl.h"
+
+#include <filament/Environment.h>
+
+#include <cmath>
+
+namespace filament {
+namespace {
+
+using scene::LightRecord;
+
+backend::Topology topology(PrimitiveType primitive) {
+    switch (primitive) {
+        case PrimitiveType::Triangles: return backend::Topology::Triangles;
+        case PrimitiveType::TriangleStrip: return backend::Topology::TriangleStrip;
+        case PrimitiveType::Lines: return backend::Topology::Lines;
+        case PrimitiveType::LineStrip: return backend::Topology::LineStrip;
+        case PrimitiveType::Points: return backend::Topology::Points;
+    }
+    return backend::Topology::Triangles;
+}
+
+float3 unitDirection(float3 direction) {
+    const float length = glm::length(direction);
+    FILAMENT_ASSERT(length > 0 && std::isfinite(length), "a light's direction is finite and not zero");
+    return direction / length;
+}
+
+// Rotation and scale of the directions, then of the positions, of a light inside of a model.
+struct PlaceLight {
+    Scene& scene;
+    double4x4 const& worldFromModel;
+
+    double3 position(double3 model) const { return double3(worldFromModel * double4(model, 1.0)); }
+    float3 direction(float3 model) const {
+        const double3 world = double3x3(worldFromModel) * double3(model);
+        return glm::length(world) > 0 ? float3(glm::normalize(world)) : model;
+    }
+    void operator()(SunLight light) const {
+        light.directionWorld = direction(light.directionWorld);
+        scene.add(light);
+    }
+    void operator()(PointLight light) const {
+        light.positionWorld = position(light.positionWorld);
+        scene.add(light);
+    }
+    void operator()(SpotLight light) const {
+        light.positionWorld = position(light.positionWorld);
+        light.directionWorld = direction(light.directionWorld);
+        scene.add(light);
+    }
+};
+
+} // namespace
+
+Scene::Scene(Engine& engine) : mImpl(new Impl{ engine.impl(), {} }) {}
+Scene::Scene(Scene&&) noexcept = default;
+Scene::~Scene() = default;
+
+Renderable Scene::add(RenderableDesc const& desc) {
+    Engine::Impl& engine = mImpl->engine;
+    engine::VertexBufferState const& vertices = engine.vertexBuffers.get(desc.vertices);
+    engine::IndexBufferState const& indices = engine.indexBuffers.get(desc.indices);
+    FILAMENT_ASSERT(desc.firstIndex <= indices.indexCount && desc.indexCount <= indices.indexCount - desc.firstIndex,
+            "a renderable's indices lie inside of its index buffer");
+    const scene::Geometry geometry{ vertices.handle, indices.handle,
+        engine.layouts.intern({ vertices.layout, topology(desc.primitive) }), desc.firstIndex,
+        desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex, indices.type };
+    return scene::addRenderable(mImpl->data, { geometry, &engine.instances.get(desc.material), desc.boundsMin,
+            desc.boundsMax, desc.worldFromObject, desc.culled, desc.name });
+}
+
+Light Scene::add(SunLight const& light) {
+    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Sun,
+            .directionWorld = unitDirection(light.directionWorld), .color = light.color,
+            .intensity = light.illuminance.value });
+}
+
+Light Scene::add(PointLight const& light) {
+    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Point, .positionWorld = light.positionWorld,
+            .color = light.color, .intensity = light.intensity.value, .rangeMeters = light.rangeMeters });
+}
+
+Light Scene::add(SpotLight const& light) {
+    FILAMENT_ASSERT(light.innerConeRadians >= 0 && light.innerConeRadians < light.outerConeRadians &&
+            light.outerConeRadians <= 1.5707964f, "a spot has 0 <= inner < outer <= pi/2");
+    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Spot, .positionWorld = light.positionWorld,
+            .directionWorld = unitDirection(light.directionWorld), .color = light.color,
+            .intensity = light.intensity.value, .rangeMeters = light.rangeMeters,
+            .innerConeRadians = light.innerConeRadians, .outerConeRadians = light.outerConeRadians });
+}
+
+void Scene::add(Model const& model, double4x4 const& worldFromModel) {
+    for (RenderableDesc part : model.impl().parts) {
+        part.worldFromObject = worldFromModel * part.worldFromObject;
+        add(part);
+    }
+    for (Model::Impl::PartLight const& light : model.impl().lights) {
+        std::visit(PlaceLight{ *this, worldFromModel }, light);
+    }
+}
+
+void Scene::remove(Renderable renderable) { scene::removeRenderable(mImpl->data, renderable); }
+void Scene::remove(Light light) { scene::removeLight(mImpl->data, light); }
+
+void Scene::setTransform(Renderable renderable, double4x4 const& worldFromObject) {
+    scene::setTransform(mImpl->data, renderable, worldFromObject);
+}
+
+void Scene::setEnvironment(Environment const& environment, EnvironmentSettings const& settings) {
+    setIndirectLight(environment.indirectLight(), settings.illuminance, settings.rotationRadians);
+    setSkybox(settings.skybox ? environment.skybox() : Skybox{}, settings.illuminance, settings.rotationRadians);
+}
+
+void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians) {
+    scene::IndirectLightState state;
+    if (light) state = mImpl->engine.indirectLights.get(light).light;
+    state.illuminance = illuminance;
+    state.rotationRadians = rotationRadians;
+    mImpl->data.indirectLight = state;
+}
+
+void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
+    mImpl->data.skybox = { skybox ? mImpl->engine.skyboxes.get(skybox).cube : backend::TextureHandle{}, illuminance,
+        rotationRadians };
+}
+
+Box Scene::bounds() const { return scene::sceneBounds(mImpl->data); }
+uint32_t Scene::renderableCount() const { return mImpl->data.renderables.count(); }
+uint32_t Scene::lightCount() const { return mImpl->data.lights.index.size(); }
+
+} // namespace filament

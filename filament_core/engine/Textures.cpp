@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// Textures, buffers, targets: public descriptions -> commands.
+#include "filament_core/base/Log.h"
+#include "filament_core/engine/EngineImpl.h"
+
+#include <algorithm>
+
+namespace filament {
+namespace {
+
+using namespace backend;
+
+TextureType textureType(TextureKind kind) {
+    switch (kind) {
+        case TextureKind::Texture2D: return TextureType::Texture2D;
+        case TextureKind::Texture2DArray: return TextureType::Texture2DArray;
+        case TextureKind::Cube: return TextureType::Cube;
+    }
+    return TextureType::Texture2D;
+}
+
+backend::TextureDesc backendDesc(filament::TextureDesc const& desc) {
+    FILAMENT_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.levels > 0,
+            "a texture has at least one texel, layer and level");
+    FILAMENT_ASSERT(desc.kind != TextureKind::Cube || (desc.layers == 6 && desc.width == desc.height),
+            "a cube has six square layers");
+    const uint32_t full = fullMipCount(desc.width, desc.height);
+    FILAMENT_ASSERT(desc.levels <= full, "a texture has at most floor(log2(size)) + 1 levels");
+    TextureUsage usage = TextureUsage::Sampled | TextureUsage::TransferTarget | TextureUsage::TransferSource;
+    if (desc.renderable) usage = usage | TextureUsage::ColorAttachment;
+    return { .type = textureType(desc.kind), .format = desc.format, .usage = usage,
+        .levels = static_cast<uint8_t>(desc.generateMips ? full : desc.levels),
+        .layers = static_cast<uint16_t>(desc.layers), .width = desc.width, .height = desc.height };
+}
+
+// One upload a level; all layers of a level are contiguous.
+void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc) {
+    const uint32_t levels = desc.generateMips ? 1 : desc.levels;
+    size_t offset = 0;
+    for (uint32_t level = 0; level < levels; ++level) {
+        const uint32_t width = std::max(1u, desc.width >> level), height = std::max(1u, desc.height >> level);
+        const size_t bytes = imageBytes(desc.format, width, height) * desc.layers;
+        FILAMENT_ASSERT(offset + bytes <= desc.pixels.size(), "`pixels` holds all layers of all levels");
+        commands.record(CmdUploadTexture{ handle, static_cast<uint8_t>(level), 0, static_cast<uint16_t>(desc.layers),
+                { 0, 0, width, height }, desc.pixels.subspan(offset, bytes) });
+        offset += bytes;
+    }
+}
+
+BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<const std::byte> data,
+        std::string const& name) {
+    const BufferHandle handle = engine.stream->allocateBuffer();
+    engine.pending.record(CmdCreateBuffer{ handle, { data.size(), usage, name } });
+    engine.pending.record(CmdUpdateBuffer{ handle, 0, data });
+    return handle;
+}
+
+void destroyBuffer(Engine::Impl& engine, BufferHandle handle) {
+    engine.pending.record(CmdDestroyBuffer{ handle });
+    engine.stream->free(handle);
+}
+
+} // namespace
+
+Texture Engine::Impl::createTexture(filament::TextureDesc const& desc) {
+    const Texture texture = textures.add();
+    engine::TextureState& state = textures.get(texture);
+    state.handle = stream->allocateTexture();
+    state.desc = backendDesc(desc);
+    state.name = desc.name;
+    backend::TextureDesc created = state.desc;
+    created.debugName = state.name;
+    pending.record(CmdCreateTexture{ state.handle, created });
+    if (!desc.pixels.empty()) uploadLevels(pending, state.handle, desc);
+    if (desc.generateMips && !desc.pixels.empty()) pending.record(CmdGenerateMips{ state.handle });
+    return texture;
+}
+
+Texture Engine::create(filament::TextureDesc const& desc) { return mImpl->createTexture(desc); }
+
+VertexBuffer Engine::create(VertexBufferDesc const& desc) {
+    FILAMENT_ASSERT(desc.vertexCount > 0 && desc.stride > 0 && desc.stride % 4 == 0,
+            "a vertex buffer has vertices and a stride that is a multiple of 4");
+    FILAMENT_ASSERT(desc.data.size() == static_cast<size_t>(desc.vertexCount) * desc.stride,
+            "`data` holds vertexCount * stride bytes");
+    FILAMENT_ASSERT(desc.attributes.size() < kMaxVertexAttributes, "at most 15 vertex attributes");
+    const VertexBuffer handle = mImpl->vertexBuffers.add();
+    engine::VertexBufferState& state = mImpl->vertexBuffers.get(handle);
+    for (AttributeDesc const& attribute : desc.attributes) {
+        FILAMENT_ASSERT(attribute.offset + vertexFormatInfo(attribute.format).bytes <= desc.stride,
+                "an attribute lies inside of the stride");
+        state.layout.attributes[state.layout.attributeCount++] = { static_cast<uint8_t>(attribute.attribute), 0,
+            attribute.format, static_cast<uint16_t>(attribute.offset) };
+    }
+    state.layout.buffers[0].stride = static_cast<uint16_t>(desc.stride);
+    state.layout.bufferCount = 1;
+    state.vertexCount = desc.vertexCount;
+    state.name = desc.name;
+    state.handle = createBuffer(*mImpl, BufferUsage::Vertex, desc.data, desc.name);
+    return handle;
+}
+
+IndexBuffer Engine::create(IndexBufferDesc const& desc) {
+    const size_t bytes = static_cast<size_t>(desc.indexCount) * (desc.format == IndexFormat::UInt16 ? 2 : 4);
+    FILAMENT_ASSERT(desc.indexCount > 0 && desc.data.size() == bytes, "`data` holds indexCount indices, at least one");
+    const IndexBuffer handle = mImpl->indexBuffers.add();
+    engine::IndexBufferState& state = mImpl->indexBuffers.get(handle);
+    state.type = desc.format == IndexFormat::UInt16 ? IndexType::UInt16 : IndexType::UInt32;
+    state.indexCount = desc.indexCount;
+    state.name = desc.name;
+    state.handle = createBuffer(*mImpl, BufferUsage::Index, desc.data, desc.name);
+    return handle;
+}
+
+IndirectLight Engine::create(IndirectLightDesc const& desc) {
+    const IndirectLight handle = mImpl->indirectLights.add();
+    engine::IndirectLightState& state = mImpl->indirectLights.get(handle);
+    state.light.specular = mImpl->textureHandle(desc.specular);
+    state.light.levelOfRoughnessOne = static_cast<float>(desc.specularLevels - 1);
+    state.light.irradianceSh = desc.irradianceSh;
+    state.name = desc.name;
+    return handle;
+}
+
+Skybox Engine::create(SkyboxDesc const& desc) {
+    const Skybox handle = mImpl->skyboxes.add();
+    mImpl->skyboxes.get(handle) = { mImpl->textureHandle(desc.cube), desc.name };
+    return handle;
+}
+
+RenderTarget Engine::create(RenderTargetDesc const& desc) {
+    FILAMENT_ASSERT(has(mImpl->textures.get(desc.color).desc.usage, TextureUsage::ColorAttachment),
+            "the colour of a render target is a renderable texture");
+    const RenderTarget handle = mImpl->renderTargets.add();
+    mImpl->renderTargets.get(handle) = { desc.color, desc.name };
+    return handle;
+}
+
+SwapChain Engine::create(SwapChainDesc const& desc) {
+    FILAMENT_ASSERT(desc.size.x > 0 && desc.size.y > 0, "a swap chain has at least one pixel");
+    FILAMENT_ASSERT(desc.imageCount >= 1 && desc.imageCount <= 4, "a swap chain has 1 to 4 images");
+    const SwapChain handle = mImpl->swapChains.add();
+    engine::SwapChainState& state = mImpl->swapChains.get(handle);
+    state.size = desc.size;
+    state.name = desc.name;
+    for (uint32_t i = 0; i < desc.imageCount; ++i) {
+        state.images.push_back(create(filament::TextureDesc{ .format = desc.format, .width = desc.size.x,
+                .height = desc.size.y, .renderable = true, .name = desc.name }));
+    }
+    return handle;
+}
+
+void Engine::destroy(Texture texture) {
+    const TextureHandle handle = mImpl->textureHandle(texture);
+    mImpl->pending.record(CmdDestroyTexture{ handle });
+    mImpl->stream->free(handle);
+    mImpl->textures.remove(texture);
+}
+
+void Engine::destroy(VertexBuffer buffer) {
+    destroyBuffer(*mImpl, mImpl->vertexBuffers.get(buffer).handle);
+    mImpl->vertexBuffers.remove(buffer);
+}
+
+void Engine::destroy(IndexBuffer buffer) {
+    destroyBuffer(*mImpl, mImpl->indexBuffers.get(buffer).handle);
+    mImpl->indexBuffers.remove(buffer);
+}
+
+void Engine::destroy(IndirectLight light) { mImpl->indirectLights.remove(light); }
+void Engine::destroy(Skybox skybox) { mImpl->skyboxes.remove(skybox); }
+void Engine::destroy(RenderTarget target) { mImpl->renderTargets.remove(target); }
+
+void Engine::destroy(SwapChain swapChain) {
+    for (Texture image : mImpl->swapChains.get(swapChain).images) destroy(image);
+    mImpl->swapChains.remove(swapChain);
+}
+
+} // namespace filament

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/Pipelines.h"
+
+#include "filament_core/base/Log.h"
+#include "shaders/interface/ShaderInterface.h"
+
+#include <algorithm>
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+
+constexpr uint32_t kNoGeometry = 0xFFF;
+
+// material 20 bits | geometry layout 12 | slot 8 | variant 4 | culling off 1 | mirrored 1
+uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint8_t variant, bool cullingDisabled,
+        bool mirrored) {
+    FILAMENT_ASSERT(material < 1u << 20 && geometryLayout <= kNoGeometry && slot < 256,
+            "at most 2^20 materials, 4095 vertex layouts and 256 pass layouts");
+    return static_cast<uint64_t>(material) << 32 | static_cast<uint64_t>(geometryLayout) << 20 |
+            static_cast<uint64_t>(slot) << 8 | static_cast<uint64_t>(variant) << 4 |
+            static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
+}
+
+CullMode cullMode(shader::Culling culling) {
+    switch (culling) {
+        case shader::Culling::None: return CullMode::None;
+        case shader::Culling::Front: return CullMode::Front;
+        case shader::Culling::Back: return CullMode::Back;
+        case shader::Culling::FrontAndBack: return CullMode::Back; // nothing is drawn: see colorWrite below
+    }
+    return CullMode::Back;
+}
+
+// Colours are pre-multiplied (DESIGN: conventions); coverage accumulates in alpha.
+BlendState blendState(shader::Blending blending) {
+    BlendState over{ .enabled = true, .srcColor = BlendFactor::One, .dstColor = BlendFactor::OneMinusSrcAlpha,
+        .srcAlpha = BlendFactor::One, .dstAlpha = BlendFactor::OneMinusSrcAlpha };
+    switch (blending) {
+        case shader::Blending::Opaque:
+        case shader::Blending::Masked: return {};
+        case shader::Blending::Transparent:
+        case shader::Blending::Fade: return over;
+        case shader::Blending::Add:
+            over.dstColor = over.dstAlpha = BlendFactor::One;
+            return over;
+        case shader::Blending::Multiply:
+            over.srcColor = BlendFactor::Zero, over.dstColor = BlendFactor::SrcColor;
+            over.srcAlpha = BlendFactor::Zero, over.dstAlpha = BlendFactor::SrcAlpha;
+            return over;
+        case shader::Blending::Screen:
+            over.dstColor = BlendFactor::OneMinusSrcColor, over.dstAlpha = BlendFactor::OneMinusSrcAlpha;
+            return over;
+    }
+    return over;
+}
+
+// The geometry's own attributes, then the instance index in the next buffer slot.
+VertexLayout withInstanceIndex(VertexLayout layout) {
+    FILAMENT_ASSERT(layout.bufferCount < kMaxVertexBuffers && layout.attributeCount < kMaxVertexAttributes,
+            "a vertex layout leaves room for the instance index");
+    layout.attributes[layout.attributeCount++] = { shader::kAttributeInstance, layout.bufferCount, VertexFormat::UInt, 0 };
+    layout.buffers[layout.bufferCount++] = { sizeof(uint32_t), true };
+    return layout;
+}
+
+} // namespace
+
+uint32_t PipelineCache::slot(PassSlot const& slot) {
+    const auto found = std::find(mSlots.begin(), mSlots.end(), slot);
+    if (found != mSlots.end()) return static_cast<uint32_t>(found - mSlots.begin());
+    mSlots.push_back(slot);
+    return static_cast<uint32_t>(mSlots.size() - 1);
+}
+
+ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& material, uint8_t variant) {
+    ProgramHandle& program = material.programs[variant];
+    if (program) return program;
+    shader::Variant const* code = material.package.findVariant(variant);
+    if (!code) {
+        log(Severity::Warning, "material '{}' was compiled without variant {} (variantFilter): it is not drawn",
+                material.name, variant);
+        return {};
+    }
+    const bool spirv = mStream.info().shaderLanguage == ShaderLanguage::SpirV;
+    ProgramDesc desc{ .constants = material.constants, .layout = material.package.layout, .debugName = material.name };
+    desc.vertex = spirv ? std::as_bytes(std::span(code->vertexSpirv)) : std::as_bytes(std::span(code->vertexEssl));
+    desc.fragment = spirv ? std::as_bytes(std::span(code->fragmentSpirv)) : std::as_bytes(std::span(code->fragmentEssl));
+    program = mStream.allocateProgram();
+    setup.record(CmdCreateProgram{ program, desc });
+    return program;
+}
+
+PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
+        uint32_t geometryLayout, bool mirrored) const {
+    shader::MaterialPackage const& package = material.package;
+    PipelineDesc desc{ .pass = slot.layout, .subpass = slot.subpass, .debugName = material.name };
+    desc.raster.cull = cullingDisabled ? CullMode::None : cullMode(package.culling);
+    desc.raster.frontFace = mirrored ? FrontFace::Clockwise : FrontFace::CounterClockwise;
+    desc.raster.alphaToCoverage = package.blending == shader::Blending::Masked && slot.layout.samples > 1;
+    if (geometryLayout != kNoGeometry) {
+        desc.vertices = withInstanceIndex(mLayouts[geometryLayout].vertices);
+        desc.raster.topology = mLayouts[geometryLayout].topology;
+    }
+    const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
+    if (hasDepth && package.depthCulling) {
+        // Reversed depth. Equal passes too: the sky sits exactly at the far plane, decals exactly on their surface.
+        desc.depthStencil.depthCompare = CompareOp::GreaterEqual;
+        desc.depthStencil.depthWrite = package.depthWrite && !material.isBlended();
+    }
+    BlendState blend = blendState(package.blending);
+    if (!package.colorWrite || package.culling == shader::Culling::FrontAndBack) blend.writeMask = 0;
+    desc.blend.fill(blend);
+    return desc;
+}
+
+PipelineHandle PipelineCache::create(CommandBuffer& setup, uint64_t key, PipelineDesc const& desc, uint32_t material) {
+    const PipelineHandle handle = mStream.allocatePipeline();
+    setup.record(CmdCreatePipeline{ handle, desc });
+    mPipelines.emplace(key, Entry{ handle, material });
+    return handle;
+}
+
+PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, scene::MaterialInstance const& instance,
+        uint32_t geometryLayout, uint8_t variant, bool mirrored) {
+    scene::Material& material = *instance.material;
+    if (material.package.shading == shader::ShadingModel::Unlit) variant = 0; // lights select nothing
+    const uint64_t key = makeKey(material.id, geometryLayout, slot, variant, instance.cullingDisabled, mirrored);
+    if (const auto found = mPipelines.find(key); found != mPipelines.end()) return found->second.handle;
+
+    const ProgramHandle program = programFor(setup, material, variant);
+    if (!program) {
+        mPipelines.emplace(key, Entry{ {}, material.id }); // warn once
+        return {};
+    }
+    PipelineDesc desc = describe(mSlots[slot], material, instance.cullingDisabled, geometryLayout, mirrored);
+    desc.program = program;
+    return create(setup, key, desc, material.id);
+}
+
+PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t slot, scene::Material& material) {
+    const uint64_t key = makeKey(material.id, kNoGeometry, slot, 0, true, false);
+    if (const auto found = mPipelines.find(key); found != mPipelines.end()) return found->second.handle;
+    PipelineDesc desc = describe(mSlots[slot], material, true, kNoGeometry, false);
+    desc.program = programFor(setup, material, 0);
+    FILAMENT_ASSERT(desc.program, "a full-screen material has variant 0");
+    return create(setup, key, desc, material.id);
+}
+
+void PipelineCache::forget(CommandBuffer& commands, scene::Material& material) {
+    std::erase_if(mPipelines, [&](auto const& item) {
+        Entry const& entry = item.second;
+        if (entry.material != material.id) return false;
+        if (entry.handle) {
+            commands.record(CmdDestroyPipeline{ entry.handle });
+            mStream.free(entry.handle);
+        }
+        return true;
+    });
+    for (ProgramHandle& program : material.programs) {
+        if (!program) continue;
+        commands.record(CmdDestroyProgram{ program });
+        mStream.free(program);
+        program = {};
+    }
+}
+
+} // namespace filament::passes

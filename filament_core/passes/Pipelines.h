@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// PipelineCache: which device pipeline draws a material with a geometry in a pass. Programs and pipelines are made here,
+/// when first asked for, and never inside a pass: passes choose their pipelines before they record.
+///   Thread  the app thread.
+///   Memory  one map entry a combination; lookups allocate nothing.
+///   Fails   a variant that the material filtered out gives no pipeline and one warning naming material and variant.
+#pragma once
+
+#include "backend/stream/CommandStream.h"
+#include "filament_core/scene/SceneData.h"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace filament::passes {
+
+/// Where a pipeline draws.
+struct PassSlot {
+    backend::PassLayout layout{};
+    uint8_t subpass = 0;
+    friend bool operator==(PassSlot const&, PassSlot const&) = default;
+};
+
+class PipelineCache {
+public:
+    PipelineCache(backend::CommandStream& stream, scene::GeometryLayouts const& layouts)
+            : mStream(stream), mLayouts(layouts) {}
+
+    /// Interns a pass; the result goes into pipelineFor(). Cheap for the few passes of a frame.
+    uint32_t slot(PassSlot const& slot);
+
+    /// Records creation into `setup` when the pipeline does not exist yet. None: the draw must be skipped.
+    backend::PipelineHandle pipelineFor(backend::CommandBuffer& setup, uint32_t slot,
+            scene::MaterialInstance const& instance, uint32_t geometryLayout, uint8_t variant, bool mirrored);
+
+    /// For full-screen materials: no vertices, no depth test unless the material asks for one.
+    backend::PipelineHandle fullscreenPipeline(backend::CommandBuffer& setup, uint32_t slot, scene::Material& material);
+
+    /// Destroys programs and pipelines of one material.
+    void forget(backend::CommandBuffer& commands, scene::Material& material);
+
+    size_t size() const { return mPipelines.size(); }
+
+private:
+    struct Entry {
+        backend::PipelineHandle handle;
+        uint32_t material = 0;
+    };
+
+    backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material& material, uint8_t variant);
+    backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
+            uint32_t geometryLayout, bool mirrored) const;
+    backend::PipelineHandle create(backend::CommandBuffer& setup, uint64_t key, backend::PipelineDesc const& desc,
+            uint32_t material);
+
+    backend::CommandStream& mStream;
+    scene::GeometryLayouts const& mLayouts;
+    std::vector<PassSlot> mSlots;
+    std::unordered_map<uint64_t, Entry> mPipelines;
+};
+
+} // namespace filament::passes
