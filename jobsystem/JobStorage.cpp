@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobsystem/JobStorage.h"
+
+namespace filament::jobs {
+
+JobStorage::JobStorage(uint32_t capacity)
+        : mJobs(std::make_unique_for_overwrite<Job[]>(capacity)),
+          mNextInBatch(std::make_unique<std::atomic<uint32_t>[]>(capacity)),
+          mNextBatch(std::make_unique<std::atomic<uint32_t>[]>(capacity)) {
+    for (uint32_t first = 0; first < capacity; first += kBatch) {
+        const uint32_t last = (capacity - first < kBatch ? capacity : first + kBatch) - 1;
+        for (uint32_t job = first; job < last; ++job) mNextInBatch[job].store(job + 1, std::memory_order_relaxed);
+        mNextInBatch[last].store(kNone, std::memory_order_relaxed);
+        pushBatch(first);
+    }
+}
+
+void JobStorage::pushBatch(uint32_t first) {
+    uint64_t head = mHead.load(std::memory_order_relaxed);
+    uint64_t next = 0;
+    do {
+        mNextBatch[first].store(static_cast<uint32_t>(head), std::memory_order_relaxed);
+        next = (((head >> 32) + 1) << 32) | first;
+    } while (!mHead.compare_exchange_weak(head, next, std::memory_order_release, std::memory_order_relaxed));
+}
+
+uint32_t JobStorage::popBatch() {
+    uint64_t head = mHead.load(std::memory_order_acquire);
+    uint64_t next = 0;
+    do {
+        const auto first = static_cast<uint32_t>(head);
+        if (first == kNone) return kNone;
+        next = (((head >> 32) + 1) << 32) | mNextBatch[first].load(std::memory_order_relaxed);
+    } while (!mHead.compare_exchange_weak(head, next, std::memory_order_acquire, std::memory_order_acquire));
+    return static_cast<uint32_t>(head);
+}
+
+void JobStorage::refill(Cache& cache) {
+    for (uint32_t job = popBatch(); job != kNone; job = mNextInBatch[job].load(std::memory_order_relaxed)) {
+        cache.free[cache.count++] = job;
+    }
+}
+
+void JobStorage::flush(Cache& cache) {
+    // The jobs released longest ago go, so that the next allocation is still warm in this core's cache.
+    for (uint32_t i = 0; i + 1 < kBatch; ++i) {
+        mNextInBatch[cache.free[i]].store(cache.free[i + 1], std::memory_order_relaxed);
+    }
+    mNextInBatch[cache.free[kBatch - 1]].store(kNone, std::memory_order_relaxed);
+    pushBatch(cache.free[0]);
+    for (uint32_t i = kBatch; i < cache.count; ++i) cache.free[i - kBatch] = cache.free[i];
+    cache.count -= kBatch;
+}
+
+Job* JobStorage::allocate(Cache* cache) {
+    if (cache) {
+        if (cache->count == 0) refill(*cache);
+        return cache->count == 0 ? nullptr : &mJobs[cache->free[--cache->count]];
+    }
+    const uint32_t job = popBatch();
+    if (job == kNone) return nullptr;
+    const uint32_t rest = mNextInBatch[job].load(std::memory_order_relaxed);
+    if (rest != kNone) pushBatch(rest);
+    return &mJobs[job];
+}
+
+void JobStorage::release(Cache* cache, Job& job) {
+    const auto index = static_cast<uint32_t>(&job - mJobs.get());
+    if (cache) {
+        if (cache->count == cache->free.size()) flush(*cache);
+        cache->free[cache->count++] = index;
+        return;
+    }
+    mNextInBatch[index].store(kNone, std::memory_order_relaxed);
+    pushBatch(index);
+}
+
+} // namespace filament::jobs

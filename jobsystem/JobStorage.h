@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+/// JobStorage: a fixed pool of jobs. Every thread keeps a few free ones at hand; the rest lie in batches on a shared stack.
+///   Thread  a Cache belongs to one thread at a time; without a Cache any thread may allocate and release.
+///   Memory  72 bytes a job, all of it allocated by the constructor.
+///   Limits  a Cache holds back up to 64 free jobs.
+///   Fails   allocate() returns null when no job is free.
+///   Cost    a few instructions; once in 32 calls one compare-and-swap on the shared stack.
+#pragma once
+
+#include "jobsystem/Job.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace filament::jobs {
+
+class JobStorage {
+public:
+    static constexpr uint32_t kBatch = 32;
+
+    struct Cache {
+        std::array<uint32_t, 2 * kBatch> free{};
+        uint32_t count = 0;
+    };
+
+    explicit JobStorage(uint32_t capacity);
+
+    Job* allocate(Cache* cache);
+    void release(Cache* cache, Job& job);
+
+private:
+    // The stack of batches (Treiber 1986) is named by indices; the upper half of the head counts changes, so that a head
+    // that came back (ABA) is not taken for the same. Links live beside the jobs and are atomic, because a thread that
+    // is about to lose the race still reads them.
+    void pushBatch(uint32_t first);
+    uint32_t popBatch(); // kNone if the stack is empty
+    void refill(Cache& cache);
+    void flush(Cache& cache);
+
+    static constexpr uint32_t kNone = ~0u;
+
+    std::unique_ptr<Job[]> mJobs;
+    std::unique_ptr<std::atomic<uint32_t>[]> mNextInBatch;
+    std::unique_ptr<std::atomic<uint32_t>[]> mNextBatch; // of the first job of a batch
+    alignas(kCacheLineBytes) std::atomic<uint64_t> mHead{ kNone }; // changes << 32 | first job of the top batch
+};
+
+} // namespace filament::jobs

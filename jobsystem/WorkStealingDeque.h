@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// WorkStealingDeque: one thread pushes and takes at the bottom, every other thread steals from the top.
+///   Source  Chase and Lev 2005, "Dynamic circular work-stealing deque"; the orderings follow Le, Pop, Cohen and Zappa
+///           Nardelli 2013, "Correct and efficient work-stealing for weak memory models", with sequentially consistent
+///           accesses in place of their fences: thread sanitizers understand those, and push() needs one anyway (below).
+///   Thread  push(), take(): the owner. steal(), isEmpty(): any.
+///   Memory  8 bytes a slot, never grows: a full deque refuses, and its owner runs the job itself. So no buffer is
+///           ever replaced under a thief's hands, and a recursion that forks without end stays in bounded memory.
+///   Order   push() is one point in the single total order of seq_cst operations. A thread that pushes and then asks
+///           "does anybody sleep?" and a thread that announces its sleep and then looks into the deque cannot both miss.
+#pragma once
+
+#include "jobsystem/Job.h"
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+namespace filament::jobs {
+
+template <class T, uint32_t kSlots>
+class WorkStealingDeque {
+    static_assert((kSlots & (kSlots - 1)) == 0, "slots are addressed with a mask");
+
+public:
+    /// False if the deque is full.
+    bool push(T* item) {
+        const int64_t bottom = mBottom.load(std::memory_order_relaxed);
+        if (bottom - mTop.load(std::memory_order_acquire) >= kSlots) return false;
+        slot(bottom).store(item, std::memory_order_relaxed);
+        mBottom.exchange(bottom + 1, std::memory_order_seq_cst); // publishes the item; see Order
+        return true;
+    }
+
+    /// The item pushed last, or null.
+    T* take() {
+        const int64_t bottom = mBottom.load(std::memory_order_relaxed) - 1;
+        if (mTop.load(std::memory_order_relaxed) > bottom) return nullptr; // top never passes bottom: surely empty
+        mBottom.exchange(bottom, std::memory_order_seq_cst); // claims the item before looking who else does
+        int64_t top = mTop.load(std::memory_order_seq_cst);
+        if (top < bottom) return slot(bottom).load(std::memory_order_relaxed);
+        T* item = nullptr;
+        if (top == bottom) { // the last item: whoever moves top owns it
+            item = slot(bottom).load(std::memory_order_relaxed);
+            if (!mTop.compare_exchange_strong(top, top + 1, std::memory_order_seq_cst)) item = nullptr;
+        }
+        mBottom.store(bottom + 1, std::memory_order_release);
+        return item;
+    }
+
+    /// The oldest item, or null. Null means empty: a race lost to another thief is retried.
+    T* steal() {
+        int64_t top = mTop.load(std::memory_order_seq_cst);
+        while (top < mBottom.load(std::memory_order_seq_cst)) {
+            T* item = slot(top).load(std::memory_order_relaxed);
+            if (mTop.compare_exchange_strong(top, top + 1, std::memory_order_seq_cst)) return item;
+        }
+        return nullptr;
+    }
+
+    bool isEmpty() const {
+        return mTop.load(std::memory_order_seq_cst) >= mBottom.load(std::memory_order_seq_cst);
+    }
+
+private:
+    std::atomic<T*>& slot(int64_t at) { return mSlots[static_cast<uint64_t>(at) & (kSlots - 1)]; }
+
+    alignas(kCacheLineBytes) std::atomic<int64_t> mTop{ 0 };    // thieves
+    alignas(kCacheLineBytes) std::atomic<int64_t> mBottom{ 0 }; // the owner
+    alignas(kCacheLineBytes) std::array<std::atomic<T*>, kSlots> mSlots{};
+};
+
+} // namespace filament::jobs
