@@ -13,7 +13,6 @@ find_package(meshoptimizer REQUIRED)
 find_package(tinyexr REQUIRED)
 find_package(draco REQUIRED)
 find_package(PkgConfig REQUIRED)
-pkg_check_modules(EGL REQUIRED IMPORTED_TARGET egl)
 pkg_check_modules(HWLOC REQUIRED IMPORTED_TARGET hwloc)
 
 add_library(hwloc ALIAS PkgConfig::HWLOC)
@@ -29,8 +28,13 @@ target_include_directories(volk SYSTEM INTERFACE ${Vulkan_INCLUDE_DIRS})
 target_compile_definitions(volk INTERFACE VK_NO_PROTOTYPES)
 target_link_libraries(volk INTERFACE ${CMAKE_DL_LIBS})
 
+# OpenGL ES likewise: headers only, libEGL.so.1 is opened at run time.
+find_path(EGL_INCLUDE EGL/egl.h REQUIRED)
+find_path(GLES_INCLUDE GLES3/gl32.h REQUIRED)
 add_library(egl INTERFACE)
-target_link_libraries(egl INTERFACE PkgConfig::EGL ${CMAKE_DL_LIBS})
+target_include_directories(egl SYSTEM INTERFACE ${EGL_INCLUDE} ${GLES_INCLUDE})
+target_compile_definitions(egl INTERFACE EGL_NO_X11)
+target_link_libraries(egl INTERFACE ${CMAKE_DL_LIBS})
 
 # GLSL -> SPIR-V -> optimised -> ESSL
 add_library(shader_tools INTERFACE)
@@ -42,7 +46,8 @@ add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
     TinyGLTF::TinyGLTF meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG)
 
-find_package(CLI11 QUIET)
+find_package(CLI11 REQUIRED)
+find_package(nlohmann_json REQUIRED)
 if(FILAMENT_BUILD_TESTS)
     find_package(GTest REQUIRED)
 endif()

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// compareImages: how many pixels of two pictures are the same bits, and how far apart the others are.
+///   In      two images of one size and format: RGBA8 or RGBA16F, tightly packed.
+///   Out     counts, and the largest difference of a component in steps of 1/255 (half floats: rounded up, so that
+///           0 means identical; not-a-number against anything else is 255).
+///   Thread  any; no shared state.  Cost: about 2 ms a megapixel.
+///   Fails   InvalidArgument when sizes, formats or byte counts do not fit each other.
+#pragma once
+
+#include "filament_core/base/Result.h"
+
+#include <filament/Image.h>
+
+#include <cstdint>
+#include <string>
+
+namespace filament::tools {
+
+struct ImageComparison {
+    uint64_t pixels = 0;
+    uint64_t identical = 0;      ///< all components have the same bits
+    uint32_t maxDifference = 0;  ///< [0, 255]
+
+    bool within(uint32_t tolerance) const { return maxDifference <= tolerance; }
+    /// "identical: 99.9999 % of pixels, max difference 1/255". Rounded down: 100.0000 means every pixel.
+    std::string line() const;
+};
+
+Result<ImageComparison> compareImages(Image const& a, Image const& b);
+
+/// A picture of the differences, RGBA8: `a` dimmed to a quarter where the bits agree, yellow (1/255) to red (from
+/// 16/255 on) where they do not. The images must be comparable (compareImages succeeded).
+Image differenceImage(Image const& a, Image const& b);
+
+} // namespace filament::tools

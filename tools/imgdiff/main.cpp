@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+// imgdiff A.png B.png [--out DIFF.png] [--tolerance N]: the comparison of filament-render for any two pictures.
+// Exit status: 0 within the tolerance, 1 not, 2 when there was nothing to compare.
+#include "filament_core/assets/ImageWriter.h"
+#include "tools/imgdiff/ImageCompare.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+
+namespace filament::tools {
+namespace {
+
+Result<Image> loadPng(std::string const& path) {
+    Result<assets::Image> image = assets::readPng(path);
+    if (!image) return image.error();
+    return Image{ .width = image->width, .height = image->height, .pixels = std::move(image->data) };
+}
+
+int failed(Error const& error) {
+    std::fprintf(stderr, "imgdiff: error: %s\n", error.message.c_str());
+    return 2;
+}
+
+int compareFiles(std::string const& pathA, std::string const& pathB, std::string const& out, uint32_t tolerance) {
+    const Result<Image> a = loadPng(pathA), b = loadPng(pathB);
+    if (!a) return failed(a.error());
+    if (!b) return failed(b.error());
+    const Result<ImageComparison> comparison = compareImages(*a, *b);
+    if (!comparison) return failed(comparison.error());
+    std::printf("%s\n", comparison->line().c_str());
+    if (!out.empty()) {
+        const Image picture = differenceImage(*a, *b);
+        const Result<void> saved = assets::writePng(out, picture.width, picture.height, picture.pixels);
+        if (!saved) return failed(saved.error());
+    }
+    return comparison->within(tolerance) ? 0 : 1;
+}
+
+} // namespace
+} // namespace filament::tools
+
+int main(int argc, char** argv) {
+    CLI::App app{ "Says how many pixels of two PNG files are the same and how far apart the others are." };
+    std::string a, b, out;
+    uint32_t tolerance = 0;
+    app.add_option("A", a, "first picture")->required();
+    app.add_option("B", b, "second picture")->required();
+    app.add_option("--out", out, "write a picture of the differences");
+    app.add_option("--tolerance", tolerance, "largest difference in 1/255 that still counts as equal");
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::CallForHelp const&) {
+        std::fputs(app.help().c_str(), stdout);
+        return 0;
+    } catch (CLI::Error const& error) {
+        return filament::tools::failed({ filament::ErrorCode::InvalidArgument, error.what() });
+    }
+    return filament::tools::compareFiles(a, b, out, tolerance);
+}
