@@ -27,7 +27,7 @@ ROOMS = {
     "backend/gles": ["base", "math", "backend/api", "backend/stream"],
     "backend/create": ["base", "backend/api", "backend/stream", "backend/null", "backend/vulkan", "backend/gles"],
     "framegraph": ["base", "jobsystem", "backend/api", "backend/stream"],
-    "shaders/package": ["base", "math", "backend/api"],
+    "shaders/package": ["base", "math", "backend/api", "shaders/interface"],
     "shaders/compiler": ["base", "math", "jobsystem", "backend/api", "shaders/package", "shaders/interface"],
     "filament_core/scene": ["base", "math", "backend/api", "shaders/package", "shaders/interface"],
     "filament_core/assets": ["base", "math", "scene", "jobsystem", "backend/api", "shaders/package",

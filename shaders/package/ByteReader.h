@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ByteReader: little-endian values out of bytes that nobody vouches for.
+///   Fails   reading past the end gives zeros and empty spans, and failed() stays true from then on.
+///   Memory  allocates only what it returns, never more than the bytes that are there.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace filament::shader {
+
+class ByteReader {
+public:
+    explicit ByteReader(std::span<const std::byte> bytes) : mRest(bytes) {}
+
+    bool failed() const { return mFailed; }
+    bool atEnd() const { return mRest.empty(); }
+
+    std::span<const std::byte> bytes(size_t count) {
+        if (count > mRest.size()) {
+            mFailed = true;
+            mRest = {};
+            return {};
+        }
+        const auto taken = mRest.first(count);
+        mRest = mRest.subspan(count);
+        return taken;
+    }
+
+    uint8_t u8() {
+        const auto byte = bytes(1);
+        return byte.empty() ? uint8_t{ 0 } : static_cast<uint8_t>(byte[0]);
+    }
+
+    uint32_t u32() {
+        const auto four = bytes(4);
+        uint32_t value = 0;
+        for (size_t i = 0; i < four.size(); ++i) value |= static_cast<uint32_t>(four[i]) << (8 * i);
+        return value;
+    }
+
+    uint64_t u64() {
+        const uint64_t low = u32();
+        return low | static_cast<uint64_t>(u32()) << 32;
+    }
+
+    float f32() { return std::bit_cast<float>(u32()); }
+
+    std::string text() {
+        const auto characters = bytes(u32());
+        return { reinterpret_cast<const char*>(characters.data()), characters.size() };
+    }
+
+    std::vector<uint32_t> words() {
+        const size_t count = u32();
+        ByteReader from(bytes(4 * count));
+        std::vector<uint32_t> values(failed() ? 0 : count);
+        for (uint32_t& value : values) value = from.u32();
+        return values;
+    }
+
+private:
+    std::span<const std::byte> mRest;
+    bool mFailed = false;
+};
+
+} // namespace filament::shader

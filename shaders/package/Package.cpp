@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/package/Package.h"
+
+#include <algorithm>
+
+namespace filament::shader {
+namespace {
+
+template <class T, class Key>
+T const* find(std::vector<T> const& things, Key const& key, auto member) {
+    const auto found = std::ranges::find(things, key, member);
+    return found == things.end() ? nullptr : &*found;
+}
+
+} // namespace
+
+Variant const* MaterialPackage::findVariant(uint8_t key) const { return find(variants, key, &Variant::key); }
+
+Parameter const* MaterialPackage::findParameter(std::string_view wanted) const {
+    return find(parameters, wanted, &Parameter::name);
+}
+
+Constant const* MaterialPackage::findConstant(std::string_view wanted) const {
+    return find(constants, wanted, &Constant::name);
+}
+
+} // namespace filament::shader

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What reader and writer of the package format share; the format is described in docs/package-format.md.
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+
+namespace filament::shader::format {
+
+constexpr uint32_t tag(const char (&text)[5]) {
+    return static_cast<uint32_t>(static_cast<uint8_t>(text[0])) | static_cast<uint32_t>(static_cast<uint8_t>(text[1])) << 8
+            | static_cast<uint32_t>(static_cast<uint8_t>(text[2])) << 16
+            | static_cast<uint32_t>(static_cast<uint8_t>(text[3])) << 24;
+}
+
+inline constexpr uint32_t kMagic = tag("FMAT");
+inline constexpr uint32_t kVersion = 1;     ///< counts up when old readers would misunderstand a file
+inline constexpr size_t kHeaderBytes = 16;  ///< magic, version, checksum of everything behind the header
+
+inline constexpr uint32_t kSectionGeneral = tag("GENL");
+inline constexpr uint32_t kSectionParameters = tag("PARM");
+inline constexpr uint32_t kSectionConstants = tag("CNST");
+inline constexpr uint32_t kSectionLayout = tag("LAYT");
+inline constexpr uint32_t kSectionVariants = tag("VARI");
+
+inline constexpr uint32_t kMaxParameters = 1024;
+inline constexpr uint32_t kMaxConstants = 1024;
+inline constexpr uint32_t kMaxVariants = 256; ///< a key is one byte
+
+} // namespace filament::shader::format

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/base/Hash.h"
+#include "shaders/package/ByteReader.h"
+#include "shaders/package/Package.h"
+#include "shaders/package/PackageFormat.h"
+#include "shaders/package/ParameterLayout.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <set>
+
+namespace filament::shader {
+namespace {
+
+using namespace format;
+using Sections = std::map<uint32_t, std::span<const std::byte>>;
+
+Error corrupt(std::string_view what) {
+    return fail(ErrorCode::Corrupt, "material package: {}; compile the material again with matc", what);
+}
+
+/// Sets `value` if the byte is one of the enumerators up to `last`.
+template <class E>
+bool readEnum(ByteReader& in, E& value, E last) {
+    const uint8_t raw = in.u8();
+    value = static_cast<E>(raw);
+    return raw <= static_cast<uint8_t>(last);
+}
+
+bool readBool(ByteReader& in, bool& value) {
+    const uint8_t raw = in.u8();
+    value = raw != 0;
+    return raw <= 1;
+}
+
+// ---------------------------------------------------------------------------------------------- file and sections
+
+Result<std::span<const std::byte>> checkHeader(std::span<const std::byte> bytes) {
+    ByteReader in(bytes);
+    if (in.u32() != kMagic || in.failed()) return corrupt("this is not a material package (wrong magic)");
+    const uint32_t version = in.u32();
+    const uint64_t checksum = in.u64();
+    if (in.failed()) return corrupt("the file ends within its header");
+    if (version != kVersion) {
+        return fail(ErrorCode::Unsupported, "material package: version {} is not version {} of this engine; compile the "
+                "material again with the matc of this engine", version, kVersion);
+    }
+    const auto content = bytes.subspan(kHeaderBytes);
+    if (hashBytes(content) != checksum) return corrupt("the checksum does not match, the file is damaged or cut short");
+    return content;
+}
+
+Result<Sections> splitSections(std::span<const std::byte> content) {
+    Sections sections;
+    ByteReader in(content);
+    while (!in.atEnd()) {
+        const uint32_t tag = in.u32();
+        const auto body = in.bytes(in.u32());
+        if (in.failed()) return corrupt("a section is longer than the file");
+        if (!sections.emplace(tag, body).second) return corrupt("a section appears twice");
+    }
+    for (const uint32_t tag :
+            { kSectionGeneral, kSectionParameters, kSectionConstants, kSectionLayout, kSectionVariants }) {
+        if (!sections.contains(tag)) return corrupt("a required section is missing");
+    }
+    return sections;
+}
+
+// ---------------------------------------------------------------------------------------------- one function a section
+
+bool readGeneral(ByteReader in, MaterialPackage& out) {
+    out.name = in.text();
+    const bool enums = readEnum(in, out.domain, MaterialDomain::PostProcess)
+            && readEnum(in, out.shading, ShadingModel::Lit) && readEnum(in, out.blending, Blending::Screen)
+            && readEnum(in, out.culling, Culling::FrontAndBack) && readEnum(in, out.vertexDomain, VertexDomain::Device);
+    const bool flags = enums && readBool(in, out.doubleSided) && readBool(in, out.colorWrite)
+            && readBool(in, out.depthWrite) && readBool(in, out.depthCulling);
+    out.maskThreshold = in.f32();
+    out.requiredAttributes = in.u32();
+    out.uniformBytes = in.u32();
+    const bool threshold = out.maskThreshold >= 0 && out.maskThreshold <= 1; // false for NaN
+    const bool attributes = out.requiredAttributes < 1u << backend::kMaxVertexAttributes;
+    return flags && threshold && attributes && out.uniformBytes % 16 == 0 && in.atEnd() && !in.failed();
+}
+
+bool readParameters(ByteReader in, std::vector<Parameter>& out) {
+    const uint32_t count = in.u32();
+    if (count > kMaxParameters) return false;
+    for (uint32_t i = 0; i < count && !in.failed(); ++i) {
+        Parameter parameter;
+        parameter.name = in.text();
+        if (!readEnum(in, parameter.type, ParameterType::SubpassInput)) return false;
+        parameter.arraySize = in.u32();
+        parameter.offset = in.u32();
+        parameter.binding = in.u8();
+        out.push_back(std::move(parameter));
+    }
+    return in.atEnd() && !in.failed();
+}
+
+bool readConstants(ByteReader in, std::vector<Constant>& out) {
+    const uint32_t count = in.u32();
+    if (count > kMaxConstants) return false;
+    for (uint32_t i = 0; i < count && !in.failed(); ++i) {
+        Constant constant;
+        constant.name = in.text();
+        constant.id = in.u32();
+        if (!readEnum(in, constant.type, backend::ConstantValue::Type::Float)) return false;
+        constant.defaultBits = in.u32();
+        out.push_back(std::move(constant));
+    }
+    return in.atEnd() && !in.failed();
+}
+
+bool readGroup(ByteReader& in, backend::BindGroupLayout& group) {
+    group.count = in.u8();
+    if (group.count > backend::kMaxBindings) return false;
+    for (uint32_t i = 0; i < group.count; ++i) {
+        backend::BindingDesc& at = group.bindings[i];
+        at.binding = in.u8();
+        const bool type = readEnum(in, at.type, backend::BindingType::InputAttachment);
+        const bool stages = readEnum(in, at.stages, backend::ShaderStage::Both) && at.stages != backend::ShaderStage{};
+        at.inputAttachment = in.u8();
+        const bool ascends = i == 0 || at.binding > group.bindings[i - 1].binding;
+        const bool inRange = at.binding < backend::kMaxBindings && at.inputAttachment < backend::kMaxColorAttachments;
+        if (!type || !stages || !ascends || !inRange) return false;
+    }
+    return group.dynamicCount() <= backend::kMaxDynamicOffsets;
+}
+
+bool readLayout(ByteReader in, backend::ProgramLayout& out) {
+    if (in.u8() != out.size()) return false;
+    for (backend::BindGroupLayout& group : out) {
+        if (!readGroup(in, group)) return false;
+    }
+    return in.atEnd() && !in.failed();
+}
+
+bool readVariants(ByteReader in, std::vector<Variant>& out) {
+    const uint32_t count = in.u32();
+    if (count > kMaxVariants) return false;
+    for (uint32_t i = 0; i < count && !in.failed(); ++i) {
+        Variant variant;
+        variant.key = in.u8();
+        variant.vertexSpirv = in.words();
+        variant.fragmentSpirv = in.words();
+        variant.vertexEssl = in.text();
+        variant.fragmentEssl = in.text();
+        if (!out.empty() && variant.key <= out.back().key) return false;
+        out.push_back(std::move(variant));
+    }
+    return in.atEnd() && !in.failed();
+}
+
+// ---------------------------------------------------------------------------------------------- do the parts agree?
+
+template <class T>
+bool namesAreUnique(std::vector<T> const& things) {
+    std::set<std::string_view> names;
+    return std::ranges::all_of(things, [&](T const& thing) { return !thing.name.empty() && names.insert(thing.name).second; });
+}
+
+bool fits(Parameter const& parameter, uint32_t uniformBytes) {
+    if (isTexture(parameter.type)) return parameter.arraySize == 0 && parameter.binding < backend::kMaxBindings;
+    const uint32_t alignment = parameter.arraySize > 0 ? 16 : valueAlignment(parameter.type);
+    return parameter.offset % alignment == 0 && parameter.offset + parameterBytes(parameter) <= uniformBytes;
+}
+
+Result<void> checkConsistency(MaterialPackage const& package) {
+    if (!namesAreUnique(package.parameters)) return corrupt("two parameters have the same name, or one has none");
+    if (!namesAreUnique(package.constants)) return corrupt("two constants have the same name, or one has none");
+    for (Parameter const& parameter : package.parameters) {
+        if (!fits(parameter, package.uniformBytes)) return corrupt("a parameter lies outside of its block");
+    }
+    return {};
+}
+
+} // namespace
+
+Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
+    const Result<std::span<const std::byte>> content = checkHeader(bytes);
+    if (!content) return content.error();
+    Result<Sections> sections = splitSections(*content);
+    if (!sections) return sections.error();
+    const auto section = [&](uint32_t tag) { return ByteReader((*sections)[tag]); };
+
+    MaterialPackage package;
+    if (!readGeneral(section(kSectionGeneral), package)) return corrupt("the general section is malformed");
+    if (!readParameters(section(kSectionParameters), package.parameters)) return corrupt("the parameters are malformed");
+    if (!readConstants(section(kSectionConstants), package.constants)) return corrupt("the constants are malformed");
+    if (!readLayout(section(kSectionLayout), package.layout)) return corrupt("the binding layout is malformed");
+    if (!readVariants(section(kSectionVariants), package.variants)) return corrupt("the variants are malformed");
+    if (Result<void> consistent = checkConsistency(package); !consistent) return consistent.error();
+    return package;
+}
+
+} // namespace filament::shader

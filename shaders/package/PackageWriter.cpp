@@ -1,0 +1,134 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/base/Hash.h"
+#include "shaders/package/Package.h"
+#include "shaders/package/PackageFormat.h"
+
+#include <bit>
+#include <string_view>
+
+namespace filament::shader {
+namespace {
+
+using namespace format;
+
+class ByteWriter {
+public:
+    void u8(uint32_t value) { mBytes.push_back(static_cast<std::byte>(value)); }
+    void u32(uint32_t value) {
+        for (int shift = 0; shift < 32; shift += 8) u8(value >> shift & 0xFF);
+    }
+    void u64(uint64_t value) {
+        u32(static_cast<uint32_t>(value));
+        u32(static_cast<uint32_t>(value >> 32));
+    }
+    void f32(float value) { u32(std::bit_cast<uint32_t>(value)); }
+    void text(std::string_view value) {
+        u32(static_cast<uint32_t>(value.size()));
+        append(std::as_bytes(std::span(value)));
+    }
+    void words(std::span<const uint32_t> values) {
+        u32(static_cast<uint32_t>(values.size()));
+        for (const uint32_t value : values) u32(value);
+    }
+    void append(std::span<const std::byte> bytes) { mBytes.insert(mBytes.end(), bytes.begin(), bytes.end()); }
+    void section(uint32_t tag, ByteWriter const& content) {
+        u32(tag);
+        u32(static_cast<uint32_t>(content.mBytes.size()));
+        append(content.mBytes);
+    }
+    std::vector<std::byte> const& bytes() const { return mBytes; }
+
+private:
+    std::vector<std::byte> mBytes;
+};
+
+ByteWriter generalSection(MaterialPackage const& package) {
+    ByteWriter out;
+    out.text(package.name);
+    out.u8(static_cast<uint32_t>(package.domain));
+    out.u8(static_cast<uint32_t>(package.shading));
+    out.u8(static_cast<uint32_t>(package.blending));
+    out.u8(static_cast<uint32_t>(package.culling));
+    out.u8(static_cast<uint32_t>(package.vertexDomain));
+    out.u8(package.doubleSided);
+    out.u8(package.colorWrite);
+    out.u8(package.depthWrite);
+    out.u8(package.depthCulling);
+    out.f32(package.maskThreshold);
+    out.u32(package.requiredAttributes);
+    out.u32(package.uniformBytes);
+    return out;
+}
+
+ByteWriter parameterSection(std::span<const Parameter> parameters) {
+    ByteWriter out;
+    out.u32(static_cast<uint32_t>(parameters.size()));
+    for (Parameter const& parameter : parameters) {
+        out.text(parameter.name);
+        out.u8(static_cast<uint32_t>(parameter.type));
+        out.u32(parameter.arraySize);
+        out.u32(parameter.offset);
+        out.u8(parameter.binding);
+    }
+    return out;
+}
+
+ByteWriter constantSection(std::span<const Constant> constants) {
+    ByteWriter out;
+    out.u32(static_cast<uint32_t>(constants.size()));
+    for (Constant const& constant : constants) {
+        out.text(constant.name);
+        out.u32(constant.id);
+        out.u8(static_cast<uint32_t>(constant.type));
+        out.u32(constant.defaultBits);
+    }
+    return out;
+}
+
+ByteWriter layoutSection(backend::ProgramLayout const& layout) {
+    ByteWriter out;
+    out.u8(static_cast<uint32_t>(layout.size()));
+    for (backend::BindGroupLayout const& group : layout) {
+        out.u8(group.count);
+        for (uint32_t i = 0; i < group.count; ++i) {
+            out.u8(group.bindings[i].binding);
+            out.u8(static_cast<uint32_t>(group.bindings[i].type));
+            out.u8(static_cast<uint32_t>(group.bindings[i].stages));
+            out.u8(group.bindings[i].inputAttachment);
+        }
+    }
+    return out;
+}
+
+ByteWriter variantSection(std::span<const Variant> variants) {
+    ByteWriter out;
+    out.u32(static_cast<uint32_t>(variants.size()));
+    for (Variant const& variant : variants) {
+        out.u8(variant.key);
+        out.words(variant.vertexSpirv);
+        out.words(variant.fragmentSpirv);
+        out.text(variant.vertexEssl);
+        out.text(variant.fragmentEssl);
+    }
+    return out;
+}
+
+} // namespace
+
+std::vector<std::byte> writePackage(MaterialPackage const& package) {
+    ByteWriter sections;
+    sections.section(kSectionGeneral, generalSection(package));
+    sections.section(kSectionParameters, parameterSection(package.parameters));
+    sections.section(kSectionConstants, constantSection(package.constants));
+    sections.section(kSectionLayout, layoutSection(package.layout));
+    sections.section(kSectionVariants, variantSection(package.variants));
+
+    ByteWriter file;
+    file.u32(kMagic);
+    file.u32(kVersion);
+    file.u64(hashBytes(sections.bytes()));
+    file.append(sections.bytes());
+    return file.bytes();
+}
+
+} // namespace filament::shader

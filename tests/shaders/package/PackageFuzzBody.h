@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One body for the fuzzer (tests/fuzz/PackageFuzz.cpp) and for the replay test: any bytes give a package or an error.
+#pragma once
+
+#include "filament_core/base/Assert.h"
+#include "filament_core/base/Hash.h"
+#include "shaders/package/Package.h"
+
+#include <cstring>
+#include <span>
+#include <vector>
+
+namespace filament::shader::test {
+
+inline constexpr size_t kPackageChecksumAt = 8, kPackageContentAt = 16;
+
+/// The same bytes with a checksum that matches, so that mutations reach the code behind it.
+inline std::vector<std::byte> withValidChecksum(std::span<const std::byte> bytes) {
+    std::vector<std::byte> fixed(bytes.begin(), bytes.end());
+    if (fixed.size() < kPackageContentAt) return fixed;
+    const uint64_t checksum = hashBytes(std::span<const std::byte>(fixed).subspan(kPackageContentAt));
+    std::memcpy(fixed.data() + kPackageChecksumAt, &checksum, sizeof checksum); // little-endian hosts only, like the tests
+    return fixed;
+}
+
+/// What was read can be written, and reads back as the same. Returns whether the bytes were a package.
+inline bool readAndRewrite(std::span<const std::byte> bytes) {
+    const Result<MaterialPackage> package = readPackage(bytes);
+    if (!package) {
+        FILAMENT_ASSERT(!package.error().message.empty(), "every refusal says why");
+        return false;
+    }
+    const Result<MaterialPackage> again = readPackage(writePackage(*package));
+    FILAMENT_ASSERT(again.ok(), "what was read can be written and read again");
+    FILAMENT_ASSERT(writePackage(*again) == writePackage(*package), "rewriting changes nothing");
+    return true;
+}
+
+inline bool fuzzPackage(std::span<const std::byte> bytes) {
+    const bool asIs = readAndRewrite(bytes);
+    return readAndRewrite(withValidChecksum(bytes)) || asIs;
+}
+
+} // namespace filament::shader::test

@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/package/Package.h"
+
+#include "filament_core/base/Hash.h"
+#include "shaders/package/ParameterLayout.h"
+#include "tests/shaders/package/PackageFuzzBody.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <random>
+
+namespace filament::shader {
+namespace {
+
+using test::fuzzPackage;
+using test::withValidChecksum;
+using ::testing::HasSubstr;
+
+MaterialPackage fullPackage() {
+    MaterialPackage package;
+    package.name = "Wet pavement";
+    package.blending = Blending::Masked;
+    package.culling = Culling::None;
+    package.vertexDomain = VertexDomain::World;
+    package.doubleSided = true;
+    package.depthWrite = false;
+    package.maskThreshold = 0.25f;
+    package.requiredAttributes = 0b1011;
+    package.parameters = { { .name = "tint", .type = ParameterType::Float3 },
+        { .name = "weights", .type = ParameterType::Float, .arraySize = 3 },
+        { .name = "uvMatrix", .type = ParameterType::Float3x3 },
+        { .name = "albedo", .type = ParameterType::Sampler2D, .binding = 1 } };
+    package.uniformBytes = assignOffsets(package.parameters);
+    package.constants = { { .name = "hasAlbedo", .id = 0 },
+        { .name = "steps", .id = 1, .type = backend::ConstantValue::Type::Int, .defaultBits = 7 } };
+    package.layout[1].count = 2;
+    package.layout[1].bindings[0] = { .binding = 0, .type = backend::BindingType::UniformBuffer };
+    package.layout[1].bindings[1] = { .binding = 1, .type = backend::BindingType::SampledTexture };
+    package.variants = { { .key = 0, .vertexSpirv = { 1, 2 }, .fragmentSpirv = { 3 }, .vertexEssl = "v", .fragmentEssl = "f" },
+        { .key = kVariantSun, .fragmentSpirv = { 4, 5, 6 }, .fragmentEssl = "sun" } };
+    return package;
+}
+
+TEST(Package, ReadsBackWhatWasWritten) {
+    const MaterialPackage package = fullPackage();
+    const Result<MaterialPackage> read = readPackage(writePackage(package));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, package);
+}
+
+TEST(Package, ReadsBackThePackageWithNothingInIt) {
+    const Result<MaterialPackage> read = readPackage(writePackage({}));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, MaterialPackage{});
+}
+
+TEST(Package, IsEqualBytesForEqualMaterials) { EXPECT_EQ(writePackage(fullPackage()), writePackage(fullPackage())); }
+
+TEST(Package, FindsItsPartsByNameAndKey) {
+    const MaterialPackage package = fullPackage();
+    EXPECT_EQ(package.findVariant(kVariantSun), &package.variants[1]);
+    EXPECT_EQ(package.findVariant(kVariantPunctual), nullptr);
+    EXPECT_EQ(package.findParameter("albedo"), &package.parameters[3]);
+    EXPECT_EQ(package.findParameter("Albedo"), nullptr);
+    EXPECT_EQ(package.findConstant("steps"), &package.constants[1]);
+    EXPECT_EQ(package.findConstant(""), nullptr);
+}
+
+TEST(Package, RefusesEveryTruncation) {
+    const std::vector<std::byte> bytes = writePackage(fullPackage());
+    for (size_t size = 0; size < bytes.size(); ++size) {
+        const auto head = std::span(bytes).first(size);
+        EXPECT_FALSE(readPackage(head)) << "cut at " << size;
+        const Result<MaterialPackage> fixed = readPackage(withValidChecksum(head));
+        ASSERT_FALSE(fixed) << "cut at " << size;
+        EXPECT_EQ(fixed.error().code, ErrorCode::Corrupt);
+    }
+}
+
+TEST(Package, DetectsEverySingleFlippedBit) {
+    std::vector<std::byte> bytes = writePackage(fullPackage());
+    for (size_t bit = 0; bit < bytes.size() * 8; ++bit) {
+        const auto mask = std::byte{ 1 } << static_cast<int>(bit % 8);
+        bytes[bit / 8] ^= mask;
+        EXPECT_FALSE(readPackage(bytes)) << "bit " << bit;
+        bytes[bit / 8] ^= mask;
+    }
+}
+
+TEST(Package, SurvivesRandomMutationsWithAValidChecksum) {
+    const std::vector<std::byte> original = writePackage(fullPackage());
+    std::mt19937 random(20'000);
+    size_t accepted = 0;
+    for (int round = 0; round < 20'000; ++round) {
+        std::vector<std::byte> bytes = original;
+        for (uint32_t edits = 1 + random() % 4; edits > 0; --edits) {
+            const size_t at = random() % bytes.size();
+            switch (random() % 4) {
+                case 0: bytes[at] = static_cast<std::byte>(random()); break;
+                case 1: bytes[at] = std::byte{ 0xFF }; break;
+                case 2: bytes.erase(bytes.begin() + static_cast<ptrdiff_t>(at)); break;
+                default: bytes.insert(bytes.begin() + static_cast<ptrdiff_t>(at), static_cast<std::byte>(random())); break;
+            }
+        }
+        accepted += fuzzPackage(bytes);
+    }
+    EXPECT_GT(accepted, 0u) << "mutations of names and shader text are still packages, so the deep paths were reached";
+    EXPECT_LT(accepted, 20'000u);
+}
+
+TEST(Package, SkipsSectionsThatItDoesNotKnow) {
+    std::vector<std::byte> bytes = writePackage(fullPackage());
+    for (const char letter : { 'N', 'E', 'W', '!' }) bytes.push_back(static_cast<std::byte>(letter));
+    for (const int byte : { 2, 0, 0, 0, 9, 9 }) bytes.push_back(static_cast<std::byte>(byte));
+    const Result<MaterialPackage> read = readPackage(withValidChecksum(bytes));
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(*read, fullPackage());
+}
+
+TEST(Package, SaysWhichVersionItWouldNeed) {
+    std::vector<std::byte> bytes = writePackage(fullPackage());
+    bytes[4] = std::byte{ 99 };
+    const Result<MaterialPackage> read = readPackage(bytes);
+    ASSERT_FALSE(read);
+    EXPECT_EQ(read.error().code, ErrorCode::Unsupported);
+    EXPECT_THAT(read.error().message, HasSubstr("version 99"));
+}
+
+TEST(Package, RefusesParametersOutsideOfTheirBlock) {
+    MaterialPackage package = fullPackage();
+    package.parameters[0].offset = package.uniformBytes;
+    EXPECT_FALSE(readPackage(writePackage(package)));
+    package = fullPackage();
+    package.parameters[1].arraySize = 0x1000'0000; // 2^28 elements of 16 bytes overflow 32 bits
+    EXPECT_FALSE(readPackage(writePackage(package)));
+}
+
+TEST(Package, RefusesTwoParametersOfTheSameName) {
+    MaterialPackage package = fullPackage();
+    package.parameters[1].name = package.parameters[0].name;
+    const Result<MaterialPackage> read = readPackage(writePackage(package));
+    ASSERT_FALSE(read);
+    EXPECT_THAT(read.error().message, HasSubstr("same name"));
+}
+
+// ---------------------------------------------------------------------------------------------- std140
+
+struct Std140Rule {
+    ParameterType type;
+    uint32_t bytes, alignment, stride;
+};
+
+TEST(ParameterLayout, FollowsTheRulesOfStd140) {
+    constexpr std::array kRules{ Std140Rule{ ParameterType::Bool, 4, 4, 16 }, Std140Rule{ ParameterType::Float, 4, 4, 16 },
+        Std140Rule{ ParameterType::Float2, 8, 8, 16 }, Std140Rule{ ParameterType::Int3, 12, 16, 16 },
+        Std140Rule{ ParameterType::Uint4, 16, 16, 16 }, Std140Rule{ ParameterType::Float3x3, 48, 16, 48 },
+        Std140Rule{ ParameterType::Float4x4, 64, 16, 64 }, Std140Rule{ ParameterType::SamplerCube, 0, 0, 0 } };
+    for (Std140Rule const& rule : kRules) {
+        EXPECT_EQ(valueBytes(rule.type), rule.bytes);
+        EXPECT_EQ(valueAlignment(rule.type), rule.alignment);
+        EXPECT_EQ(arrayStride(rule.type), rule.stride);
+    }
+}
+
+TEST(ParameterLayout, PlacesAFloatIntoTheGapBehindAFloat3) {
+    std::vector<Parameter> parameters{ { .name = "a", .type = ParameterType::Float3 }, { .name = "b", .type = ParameterType::Float },
+        { .name = "c", .type = ParameterType::Float, .arraySize = 2 }, { .name = "d", .type = ParameterType::Float2 } };
+    EXPECT_EQ(assignOffsets(parameters), 64u);
+    EXPECT_EQ(parameters[1].offset, 12u);
+    EXPECT_EQ(parameters[2].offset, 16u);
+    EXPECT_EQ(parameters[3].offset, 48u);
+}
+
+} // namespace
+} // namespace filament::shader
