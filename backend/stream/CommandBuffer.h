@@ -27,7 +27,7 @@ public:
     template <class C>
     void record(C command) {
         adopt(command);
-        append(kCommandId<C>, &command, sizeof(C), alignof(C));
+        append(command);
     }
 
     /// Uninitialised payload memory that lives as long as this buffer's contents; align <= 64. Point a command's span
@@ -36,7 +36,7 @@ public:
 
     /// record() for commands whose spans already point into this buffer.
     template <class C>
-    void recordAdopted(C const& command) { append(kCommandId<C>, &command, sizeof(C), alignof(C)); }
+    void recordAdopted(C const& command) { append(command); }
 
     /// Moves all commands of `tail` behind the ones here; `tail` is left empty.
     void append(CommandBuffer&& tail);
@@ -68,15 +68,16 @@ private:
         if constexpr (kHasPayload<C>) adoptPayload(command, *this);
     }
 
-    void append(uint32_t id, const void* command, size_t size, size_t alignment) {
-        FILAMENT_DEBUG_ASSERT(alignment <= kCommandAlignment, "a command is aligned to 16 bytes at most");
-        static_cast<void>(alignment);
-        const size_t bytes = (2 * kCommandAlignment - 1 + size) & ~(kCommandAlignment - 1);
-        if (bytes > mCommands.left()) [[unlikely]] startChunk(bytes);
-        new (mCommands.at) CommandHeader{ id, static_cast<uint32_t>(bytes) };
-        std::memcpy(mCommands.at + kCommandAlignment, command, size);
-        mCommands.at += bytes;
-        mChunks.back().size += bytes;
+    template <class C>
+    void append(C const& command) {
+        static_assert(alignof(C) <= kCommandAlignment && std::is_trivially_copyable_v<C>, "a command is plain data");
+        constexpr size_t kBytes = (2 * kCommandAlignment - 1 + sizeof(C)) & ~(kCommandAlignment - 1);
+        if (kBytes > mCommands.left()) [[unlikely]] startChunk(kBytes);
+        std::byte* const at = mCommands.at;
+        new (at) CommandHeader{ kCommandId<C>, static_cast<uint32_t>(kBytes) };
+        new (at + kCommandAlignment) C(command); // in place: no detour over the stack
+        mCommands.at = at + kBytes;
+        mChunks.back().size += kBytes;
         ++mCommandCount;
     }
 
