@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/Image.h>
+
+#include "filament_core/assets/ImageWriter.h"
+#include "filament_core/base/Assert.h"
+
+namespace filament {
+
+Result<void> savePng(std::filesystem::path const& path, Image const& image) {
+    FILAMENT_ASSERT(image.format == Format::RGBA8, "a PNG is written from RGBA8 pixels");
+    return assets::writePng(path, image.width, image.height, image.pixels);
+}
+
+Result<void> saveExr(std::filesystem::path const& path, Image const& image) {
+    FILAMENT_ASSERT(image.format == Format::RGBA16F, "an EXR is written from RGBA16F pixels");
+    return assets::writeExr(path, image.width, image.height, std::span<const std::byte>(image.pixels));
+}
+
+} // namespace filament

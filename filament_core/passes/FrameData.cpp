@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/FrameData.h"
+
+#include "shaders/package/ViewLayout.h"
+
+#include <algorithm>
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using shader::FrameUniforms;
+using shader::kObjectsPerWindow;
+
+constexpr uint32_t kWindowBytes = sizeof(shader::ObjectUniforms);
+
+template <class T>
+std::span<const std::byte> bytesOf(T const& value) {
+    return std::as_bytes(std::span(&value, 1));
+}
+
+} // namespace
+
+BufferHandle FrameData::createBuffer(CommandBuffer& commands, uint64_t bytes, const char* name) {
+    const BufferHandle handle = mStream.allocateBuffer();
+    commands.record(CmdCreateBuffer{ handle, { bytes, BufferUsage::Uniform, name } });
+    return handle;
+}
+
+void FrameData::release(CommandBuffer& commands, BindGroupHandle& group) {
+    if (!group) return;
+    commands.record(CmdDestroyBindGroup{ group });
+    mStream.free(group);
+    group = {};
+}
+
+void FrameData::release(CommandBuffer& commands, BufferHandle& buffer) {
+    if (!buffer) return;
+    commands.record(CmdDestroyBuffer{ buffer });
+    mStream.free(buffer);
+    buffer = {};
+}
+
+void FrameData::grow(CommandBuffer& commands, Set& set, uint32_t windows) {
+    release(commands, set.view);
+    release(commands, set.objects);
+    set.windows = std::max(windows, set.windows * 2);
+    set.objects = createBuffer(commands, static_cast<uint64_t>(set.windows) * kWindowBytes, "objects");
+    if (set.frame) return;
+    set.frame = createBuffer(commands, sizeof(FrameUniforms), "frame");
+    set.lights = createBuffer(commands, sizeof(shader::LightUniforms), "lights");
+    const BindGroupEntry entry{ .binding = shader::kBindingFrame, .buffer = set.frame, .size = sizeof(FrameUniforms) };
+    set.post = mStream.allocateBindGroup();
+    commands.record(CmdCreateBindGroup{ set.post, { shader::viewGroupLayout(shader::MaterialDomain::PostProcess), std::span(&entry, 1), "post" } });
+}
+
+void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& textures) {
+    release(commands, set.view);
+    set.textures = textures;
+    const std::array<BindGroupEntry, 6> entries{ {
+            { .binding = shader::kBindingFrame, .buffer = set.frame, .size = sizeof(FrameUniforms) },
+            { .binding = shader::kBindingObjects, .buffer = set.objects, .size = kWindowBytes },
+            { .binding = shader::kBindingLights, .buffer = set.lights, .size = sizeof(shader::LightUniforms) },
+            { .binding = shader::kBindingSpecular, .texture = textures.specular, .sampler = textures.cubeSampler },
+            { .binding = shader::kBindingDfg, .texture = textures.dfg, .sampler = textures.dfgSampler },
+            { .binding = shader::kBindingSky, .texture = textures.sky, .sampler = textures.cubeSampler },
+    } };
+    set.view = mStream.allocateBindGroup();
+    commands.record(CmdCreateBindGroup{ set.view, { shader::viewGroupLayout(), entries, "view" } });
+}
+
+void FrameData::upload(CommandBuffer& commands, prepare::FramePacket const& packet, ViewTextures const& textures) {
+    mCurrent = (mCurrent + 1) % mSets.size();
+    Set& set = mSets[mCurrent];
+    const auto objects = static_cast<uint32_t>(packet.objects.size());
+    const uint32_t windows = std::max(1u, (objects + kObjectsPerWindow - 1) / kObjectsPerWindow);
+    if (windows > set.windows) grow(commands, set, windows);
+    if (!set.view || set.textures != textures) bind(commands, set, textures);
+
+    commands.record(CmdUpdateBuffer{ set.frame, 0, bytesOf(packet.frame) });
+    if (!packet.lights.empty()) commands.record(CmdUpdateBuffer{ set.lights, 0, std::as_bytes(packet.lights) });
+    if (objects > 0) commands.record(CmdUpdateBuffer{ set.objects, 0, std::as_bytes(packet.objects) });
+}
+
+CmdBindGroup FrameData::bindView(BindGroupHandle group, uint32_t object) {
+    // In the order of the layout: frame, objects, lights.
+    return { group, shader::kGroupView, 3, { 0, object / kObjectsPerWindow * kWindowBytes, 0 } };
+}
+
+void FrameData::destroy(CommandBuffer& commands) {
+    for (Set& set : mSets) {
+        release(commands, set.view);
+        release(commands, set.post);
+        release(commands, set.frame);
+        release(commands, set.lights);
+        release(commands, set.objects);
+        set = {};
+    }
+}
+
+} // namespace filament::passes

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FrameData: the uniform data of a frame on the device, and the bind group through which shaders see it.
+///   In      a FramePacket.   Out: a bind group for kGroupView and offsets into it.
+///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They grow to
+///           the largest frame and stay.
+///   Thread  the app thread. Records outside of passes.
+#pragma once
+
+#include "backend/stream/CommandStream.h"
+#include "filament_core/prepare/FramePacket.h"
+
+#include <array>
+
+namespace filament::passes {
+
+/// The textures of the view group; every handle is set.
+struct ViewTextures {
+    backend::TextureHandle specular, dfg, sky;
+    backend::SamplerHandle cubeSampler; ///< trilinear
+    backend::SamplerHandle dfgSampler;  ///< bilinear, clamped
+    friend bool operator==(ViewTextures const&, ViewTextures const&) = default;
+};
+
+class FrameData {
+public:
+    explicit FrameData(backend::CommandStream& stream) : mStream(stream) {}
+
+    /// Uploads the packet into the next set and makes its bind group current.
+    void upload(backend::CommandBuffer& commands, prepare::FramePacket const& packet, ViewTextures const& textures);
+    void destroy(backend::CommandBuffer& commands);
+
+    backend::BindGroupHandle viewGroup() const { return mSets[mCurrent].view; }
+    /// Group 0 of post-process materials: the frame block only.
+    backend::BindGroupHandle postGroup() const { return mSets[mCurrent].post; }
+    /// Dynamic offsets of viewGroup() for the window that holds `object`.
+    static backend::CmdBindGroup bindView(backend::BindGroupHandle group, uint32_t object);
+
+private:
+    struct Set {
+        backend::BufferHandle frame, lights, objects;
+        uint32_t windows = 0; ///< capacity of `objects`
+        ViewTextures textures{};
+        backend::BindGroupHandle view, post;
+    };
+
+    backend::BufferHandle createBuffer(backend::CommandBuffer& commands, uint64_t bytes, const char* name);
+    void release(backend::CommandBuffer& commands, backend::BindGroupHandle& group);
+    void release(backend::CommandBuffer& commands, backend::BufferHandle& buffer);
+    void grow(backend::CommandBuffer& commands, Set& set, uint32_t windows);
+    void bind(backend::CommandBuffer& commands, Set& set, ViewTextures const& textures);
+
+    backend::CommandStream& mStream;
+    std::array<Set, 3> mSets{};
+    uint32_t mCurrent = 0;
+};
+
+} // namespace filament::passes

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/base/Arena.h"
+#include "filament_core/base/Handle.h"
+#include "filament_core/base/Hash.h"
+#include "filament_core/base/Log.h"
+#include "filament_core/base/Result.h"
+#include "filament_core/base/Suggest.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <set>
+#include <string>
+#include <thread>
+
+namespace filament {
+namespace {
+
+TEST(Arena, KeepsItsBlocksSoThatASecondFrameReservesNothing) {
+    Arena arena(1024);
+    for (int i = 0; i < 100; ++i) arena.array<uint64_t>(17);
+    const size_t reserved = arena.bytesReserved();
+    arena.reset();
+    EXPECT_EQ(arena.bytesUsed(), 0u);
+    for (int i = 0; i < 100; ++i) arena.array<uint64_t>(17);
+    EXPECT_EQ(arena.bytesReserved(), reserved);
+}
+
+TEST(Arena, AlignsAndValueInitialises) {
+    Arena arena(256);
+    arena.allocate(1, 1);
+    struct alignas(64) Line { float values[16]; };
+    for (int round = 0; round < 5; ++round) {
+        const std::span<Line> lines = arena.array<Line>(3);
+        EXPECT_EQ(reinterpret_cast<uintptr_t>(lines.data()) % 64, 0u);
+        for (Line const& line : lines) {
+            for (float value : line.values) EXPECT_EQ(value, 0.0f);
+        }
+    }
+}
+
+TEST(Arena, ServesARequestLargerThanItsBlocks) {
+    Arena arena(64);
+    const std::span<std::byte> large = arena.array<std::byte>(100'000);
+    large.back() = std::byte{ 1 };
+    EXPECT_EQ(large.size(), 100'000u);
+}
+
+TEST(HandleAllocator, TellsAStaleHandleFromTheNextOwnerOfItsIndex) {
+    HandleAllocator<struct TestTag> handles;
+    const auto first = handles.allocate();
+    handles.free(first);
+    const auto second = handles.allocate();
+    EXPECT_EQ(first.index(), second.index());
+    EXPECT_NE(first, second);
+    EXPECT_FALSE(handles.isLive(first));
+    EXPECT_TRUE(handles.isLive(second));
+    EXPECT_EQ(handles.liveCount(), 1u);
+}
+
+TEST(HandleAllocator, NeverGivesOutZeroEvenWhenGenerationsWrap) {
+    HandleAllocator<struct TestTag> handles;
+    for (uint32_t i = 0; i < 2 * Handle<struct TestTag>::kMaxGeneration; ++i) {
+        const auto handle = handles.allocate();
+        ASSERT_TRUE(handle);
+        handles.free(handle);
+    }
+}
+
+TEST(HandleAllocatorDeathTest, RefusesToFreeTwice) {
+    HandleAllocator<struct TestTag> handles;
+    const auto handle = handles.allocate();
+    handles.free(handle);
+    EXPECT_DEATH(handles.free(handle), "freed once");
+}
+
+TEST(HandleAllocator, GivesDistinctHandlesToConcurrentCallers) {
+    HandleAllocator<struct TestTag> handles;
+    std::array<std::vector<uint32_t>, 4> given;
+    {
+        std::array<std::jthread, 4> threads;
+        for (size_t t = 0; t < threads.size(); ++t) {
+            threads[t] = std::jthread([&, t] {
+                for (int i = 0; i < 1000; ++i) given[t].push_back(handles.allocate().bits);
+            });
+        }
+    }
+    std::set<uint32_t> all;
+    for (auto const& one : given) all.insert(one.begin(), one.end());
+    EXPECT_EQ(all.size(), 4000u);
+}
+
+TEST(Hash, DependsOnEveryByteAndOnTheLength) {
+    std::array<std::byte, 67> bytes{};
+    std::set<uint64_t> hashes;
+    for (size_t length = 0; length <= bytes.size(); ++length) hashes.insert(hashBytes(std::span(bytes).first(length)));
+    for (std::byte& byte : bytes) {
+        byte = std::byte{ 1 };
+        hashes.insert(hashBytes(bytes));
+        byte = std::byte{ 0 };
+    }
+    EXPECT_EQ(hashes.size(), bytes.size() + 1 + bytes.size());
+}
+
+TEST(Hash, IsTheSameOnEveryRun) {
+    // Stored caches and determinism checks rely on these values.
+    EXPECT_EQ(hashString("filament"), hashString(std::string("fila") + "ment"));
+    EXPECT_NE(hashString("filament", 1), hashString("filament", 2));
+    EXPECT_NE(hashCombine(1, 2), hashCombine(2, 1));
+}
+
+TEST(Suggest, FindsTheNearestNameAndStaysSilentWhenNothingIsNear) {
+    const std::array<std::string_view, 3> known{ "roughness", "metallic", "baseColor" };
+    EXPECT_EQ(suggestion("roughnes", known), "; did you mean 'roughness'?");
+    EXPECT_EQ(suggestion("basecolour", known), "; did you mean 'baseColor'?");
+    EXPECT_EQ(suggestion("transmission", known), "");
+    EXPECT_EQ(suggestion("x", {}), "");
+}
+
+TEST(Result, CarriesAValueOrTheReasonThatThereIsNone) {
+    const Result<int> good = 3;
+    const Result<int> bad = fail(ErrorCode::NotFound, "no file '{}'", "a.gltf");
+    EXPECT_TRUE(good.ok());
+    EXPECT_EQ(*good, 3);
+    EXPECT_FALSE(bad);
+    EXPECT_EQ(bad.error().message, "no file 'a.gltf'");
+    EXPECT_STREQ(toString(bad.error().code), "not found");
+}
+
+TEST(Log, GivesWholeLinesToTheSinkAndDropsWhatIsBelowTheThreshold) {
+    std::vector<std::string> lines;
+    const LogSink before = setLogSink([&](Severity, std::string_view line) { lines.emplace_back(line); });
+    log(Severity::Debug, "hidden {}", 1);
+    log(Severity::Warning, "seen {}", 2);
+    setLogSink(before);
+    EXPECT_EQ(lines, std::vector<std::string>{ "seen 2" });
+}
+
+} // namespace
+} // namespace filament

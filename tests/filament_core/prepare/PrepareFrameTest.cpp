@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/PrepareFrame.h"
+
+#include "filament_core/base/Hash.h"
+
+#include <gtest/gtest.h>
+
+#include <deque>
+
+namespace filament::prepare {
+namespace {
+
+using scene::LightRecord;
+
+/// A scene of unit boxes, with handles made up: prepare never looks behind them.
+struct PrepareFrameTest : testing::Test {
+    std::deque<scene::Material> materials;
+    std::deque<scene::MaterialInstance> instances;
+    scene::SceneData scene;
+    jobs::JobSystem jobs{ { .workers = 1 } };
+    Arena arena;
+    ViewInput view{ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }), .size = { 640, 480 } };
+
+    scene::MaterialInstance* material(shader::Blending blending) {
+        materials.emplace_back();
+        materials.back().id = static_cast<uint32_t>(materials.size());
+        materials.back().package.blending = blending;
+        instances.push_back({ .id = static_cast<uint32_t>(instances.size()), .material = &materials.back() });
+        return &instances.back();
+    }
+
+    Renderable add(double3 at, scene::MaterialInstance const* instance, uint32_t mesh = 1, double scaleX = 1) {
+        double4x4 world(1.0);
+        world[0][0] = scaleX;
+        world[3] = double4(at, 1);
+        const scene::Geometry geometry{ .vertices = backend::BufferHandle::make(mesh, 1),
+            .indices = backend::BufferHandle::make(mesh, 1), .indexCount = 36 };
+        return addRenderable(scene, { .geometry = geometry, .material = instance, .boundsMin = float3(-0.5f),
+                                            .boundsMax = float3(0.5f), .worldFromObject = world });
+    }
+
+    FramePacket prepare() { return prepareFrame(jobs, arena, scene, view); }
+};
+
+TEST_F(PrepareFrameTest, DropsWhatTheCameraCannotSeeAndSaysWhy) {
+    auto* opaque = material(shader::Blending::Opaque);
+    add({ 0, 0, 0 }, opaque);
+    add({ 0, 0, 20 }, opaque);
+    add({ 100, 0, 0 }, opaque);
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.counts.renderables, 3u);
+    EXPECT_EQ(packet.counts.visible, 1u);
+    EXPECT_EQ(packet.counts.outOfView, 2u);
+    EXPECT_EQ(packet.objects.size(), 1u);
+}
+
+TEST_F(PrepareFrameTest, PositionsAreRelativeToTheCameraAtAnyDistanceFromTheOrigin) {
+    auto* opaque = material(shader::Blending::Opaque);
+    add({ 0.25, 0, 0 }, opaque);
+    const FramePacket near = prepare();
+    const shader::ObjectData reference = near.objects[0];
+
+    const double3 far(1e7, -3e6, 5e6);
+    setTransform(scene, Renderable{ Renderable::make(0, 1) }, [&] {
+        double4x4 world(1.0);
+        world[3] = double4(far + double3(0.25, 0, 0), 1);
+        return world;
+    }());
+    view.camera = Camera::lookAt(far + double3(0, 0, 10), far);
+    const FramePacket moved = prepare();
+    ASSERT_EQ(moved.objects.size(), 1u);
+    EXPECT_EQ(moved.objects[0].row0, reference.row0);
+    EXPECT_EQ(moved.objects[0].row1, reference.row1);
+    EXPECT_EQ(moved.objects[0].row2, reference.row2);
+}
+
+TEST_F(PrepareFrameTest, MergesEqualNeighboursIntoOneInstancedDraw) {
+    auto* a = material(shader::Blending::Opaque);
+    auto* b = material(shader::Blending::Opaque);
+    for (int i = 0; i < 10; ++i) {
+        add({ i * 0.2 - 1, 0, 0 }, a);
+        add({ i * 0.2 - 1, 1, 0 }, b);
+    }
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.opaque.size(), 2u);
+    EXPECT_EQ(packet.opaque[0].instanceCount + packet.opaque[1].instanceCount, 20u);
+    EXPECT_EQ(packet.counts.triangles, 20u * 12u);
+}
+
+TEST_F(PrepareFrameTest, NoDrawCrossesAWindowOfObjects) {
+    auto* a = material(shader::Blending::Opaque);
+    for (int i = 0; i < 1000; ++i) add({ 0, 0, 0 }, a);
+    const FramePacket packet = prepare();
+    uint32_t covered = 0;
+    for (DrawCall const& draw : packet.opaque) {
+        EXPECT_EQ(draw.firstObject, covered);
+        EXPECT_EQ(draw.firstObject / shader::kObjectsPerWindow,
+                (draw.firstObject + draw.instanceCount - 1) / shader::kObjectsPerWindow);
+        covered += draw.instanceCount;
+    }
+    EXPECT_EQ(covered, 1000u);
+    EXPECT_EQ(packet.opaque.size(), 4u);
+}
+
+TEST_F(PrepareFrameTest, MirroredInstancesDrawApart) {
+    auto* a = material(shader::Blending::Opaque);
+    add({ 0, 0, 0 }, a);
+    add({ 0, 0, 0 }, a, 1, -1.0);
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.opaque.size(), 2u);
+    EXPECT_NE(packet.opaque[0].mirrored, packet.opaque[1].mirrored);
+    EXPECT_EQ(packet.objects[packet.opaque[0].mirrored ? 0 : 1].flags.x, -1.0f);
+}
+
+TEST_F(PrepareFrameTest, DrawsOpaqueFrontToBackAndBlendedBackToFront) {
+    auto* solid = material(shader::Blending::Opaque);
+    auto* glass = material(shader::Blending::Transparent);
+    for (uint32_t i = 0; i < 4; ++i) {
+        add({ 0, 0, -20.0 * i }, solid, 10 + i);
+        add({ 0, 0, -20.0 * i }, glass, 20 + i);
+    }
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.opaque.size(), 4u);
+    ASSERT_EQ(packet.blended.size(), 4u);
+    for (uint32_t i = 0; i < 4; ++i) {
+        EXPECT_EQ(packet.opaque[i].geometry->vertices.index(), 10 + i);
+        EXPECT_EQ(packet.blended[i].geometry->vertices.index(), 23 - i);
+    }
+}
+
+TEST_F(PrepareFrameTest, IsTheSameForAnyNumberOfWorkers) {
+    auto* solid = material(shader::Blending::Opaque);
+    auto* glass = material(shader::Blending::Transparent);
+    uint32_t random = 7;
+    const auto next = [&] { return (random = random * 1664525u + 1013904223u) >> 8; };
+    for (int i = 0; i < 5000; ++i) {
+        add({ next() % 40 - 20.0, next() % 40 - 20.0, -static_cast<double>(next() % 60) }, next() % 3 ? solid : glass,
+                next() % 5);
+    }
+    uint64_t reference = 0;
+    for (int workers : { 0, 1, 2, 3, 16 }) {
+        jobs::JobSystem other({ .workers = workers });
+        const FramePacket packet = prepareFrame(other, arena, scene, view);
+        uint64_t hash = hashBytes(std::as_bytes(packet.objects));
+        for (DrawCall const& draw : packet.opaque) hash = hashCombine(hash, draw.firstObject * 4096ull + draw.instanceCount);
+        for (DrawCall const& draw : packet.blended) hash = hashCombine(hash, draw.firstObject * 4096ull + draw.instanceCount);
+        if (workers == 0) reference = hash;
+        EXPECT_EQ(hash, reference) << workers << " workers";
+    }
+}
+
+TEST_F(PrepareFrameTest, PreExposesLightsInFullPrecision) {
+    addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, -1, 0 }, .intensity = 110'000 });
+    const FramePacket packet = prepare();
+    EXPECT_NEAR(packet.frame.sunIlluminance.x, 2.86462f, 1e-4f);
+    EXPECT_EQ(packet.frame.sunDirection, float4(0, 1, 0, 1));
+    EXPECT_EQ(packet.variant, shader::kVariantSun);
+}
+
+TEST_F(PrepareFrameTest, ShadesWithTheBrightestSun) {
+    addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 1, 0, 0 }, .intensity = 10 });
+    addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, 0, 1 }, .intensity = 20 });
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.frame.sunDirection, float4(0, 0, -1, 1));
+    EXPECT_EQ(packet.counts.suns, 2u);
+}
+
+TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {
+    for (uint32_t i = 0; i < shader::kMaxPunctualLights + 44; ++i) {
+        addLight(scene, { .type = LightRecord::Type::Point, .intensity = 1.0f + static_cast<float>(i) });
+    }
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.lights.size(), shader::kMaxPunctualLights);
+    EXPECT_EQ(packet.counts.lightsOverLimit, 44u);
+    const float exposure = packet.frame.exposure.x;
+    for (shader::LightData const& light : packet.lights) EXPECT_GE(light.colorIntensity.x, 45.0f * exposure * 0.999f);
+}
+
+TEST_F(PrepareFrameTest, DropsALightWhoseRangeEndsBeforeTheView) {
+    addLight(scene, { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 30 }, .intensity = 1, .rangeMeters = 5 });
+    addLight(scene, { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 12 }, .intensity = 1, .rangeMeters = 5 });
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.lights.size(), 1u);
+    EXPECT_EQ(packet.counts.lightsOutOfView, 1u);
+    EXPECT_EQ(packet.frame.ambient.w, 1.0f);
+}
+
+TEST_F(PrepareFrameTest, AnEmptySceneIsAnEmptyPacket) {
+    const FramePacket packet = prepare();
+    EXPECT_TRUE(packet.opaque.empty());
+    EXPECT_TRUE(packet.blended.empty());
+    EXPECT_EQ(packet.variant, 0);
+    EXPECT_EQ(packet.frame.ambient.x, 0.0f);
+}
+
+} // namespace
+} // namespace filament::prepare
