@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/DfgTable.h"
+
+#include "filament_core/base/Assert.h"
+#include "filament_core/math/Half.h"
+#include "shaders/lib/LibCpp.h"
+
+#include <cstring>
+
+namespace filament::assets {
+
+namespace lib = shader::lib;
+
+// Half vectors drawn with density D noh leave V nol 4 voh / noh of the integrand. Karis 2013, "Real Shading in Unreal
+// Engine 4"; 4 is V's own denominator.
+float2 integrateDfg(float nov, float alpha, uint32_t samples) {
+    const float inverseCount = 1.0f / static_cast<float>(samples);
+    const float3 v(std::sqrt(1.0f - nov * nov), 0, nov);
+    float2 sum(0.0f);
+    for (uint32_t i = 0; i < samples; ++i) {
+        const float3 h = lib::importanceSampleGgx(lib::hammersley(i, inverseCount), alpha);
+        const float voh = glm::dot(v, h);
+        const float nol = 2 * voh * h.z - v.z;
+        if (nol <= 0 || voh <= 0) continue;
+        const float visibility = lib::visibilitySmithGgxCorrelated(nov, nol, alpha) * nol * (voh / h.z);
+        sum += float2(visibility * lib::pow5(1.0f - std::min(voh, 1.0f)), visibility);
+    }
+    return sum * (4.0f * inverseCount);
+}
+
+Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size, uint32_t samples) {
+    FILAMENT_ASSERT(size > 0 && samples > 0, "a DFG table has at least one entry of one sample");
+    Image table{ .width = size, .height = size, .format = backend::Format::RG16F, .data = {} };
+    table.data.resize(table.levelBytes(0));
+    jobs::parallelFor(jobs, size, 1, [&](size_t begin, size_t end) {
+        for (size_t y = begin; y < end; ++y) {
+            const float roughness = (static_cast<float>(y) + 0.5f) / static_cast<float>(size);
+            const float alpha = lib::alphaFromPerceptual(lib::clampPerceptualRoughness(roughness));
+            for (size_t x = 0; x < size; ++x) {
+                const float2 dfg = integrateDfg((static_cast<float>(x) + 0.5f) / static_cast<float>(size), alpha, samples);
+                const uint16_t halves[2] = { halfFromFloat(dfg.x), halfFromFloat(dfg.y) };
+                std::memcpy(table.data.data() + (y * size + x) * sizeof(halves), halves, sizeof(halves));
+            }
+        }
+    });
+    return table;
+}
+
+} // namespace filament::assets

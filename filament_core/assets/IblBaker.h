@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// IblBaker: what image-based lighting looks up, computed from an environment.
+///   In      an IblCube (radiance with mip chain).
+///   Out     prefilterSpecular(): one cube level per roughness, see shaders/lib/ibl.glsl for which;
+///           irradianceSh(): nine coefficients in exactly the form that shaders/lib/ibl.glsl evaluates;
+///           encodeCube(): any levels as texels of a GPU format.
+///   Source  split sum with V = N, samples weighted by n.l: Karis 2013, "Real Shading in Unreal Engine 4". Each sample
+///           reads the mip level that covers its share of the lobe: Krivanek and Colbert 2008, "Real-time Shading with
+///           Filtered Importance Sampling". SH: Ramamoorthi and Hanrahan 2001; no windowing.
+///   Thread  runs on the job system; sums have a fixed order, so the bits do not depend on the workers.
+///   Memory  the results, 16 bytes a texel before encoding.
+///   Fails   never.  Cost: bench/filament_core/assets/IblBench.cpp
+#pragma once
+
+#include "filament_core/assets/IblCube.h"
+#include "filament_core/assets/Image.h"
+
+#include <array>
+#include <functional>
+#include <span>
+
+namespace filament::assets {
+
+/// Levels of a specular cube: down to 16 texels a face, the least that still looks smooth at roughness 1; at least 2.
+uint32_t specularLevelCount(uint32_t faceSize);
+
+/// Called on the calling thread after each level: levels done, levels in total.
+using IblProgress = std::function<void(size_t done, size_t total)>;
+
+/// `faceSize` is a power of two of at least 2 and at most cube[0].size(); `samples` >= 1 a texel.
+std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSize, uint32_t samples,
+        jobs::JobSystem& jobs, IblProgress const& progress = {});
+
+/// Irradiance / pi as polynomial coefficients; w is 0. A constant environment L gives (L, 0, 0, ...).
+std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& jobs);
+
+/// What a GPU format could not hold.
+struct EncodeLoss {
+    uint64_t clippedTexels = 0; ///< with at least one component above the format's maximum
+    double lostEnergy = 0;      ///< fraction of radiance * solid angle lost by clipping, over all encoded levels
+};
+
+struct EncodedCube {
+    Image image;
+    EncodeLoss loss;
+};
+
+/// `levels` each half the size of the one before; `format` is RGBA16F (alpha 1) or R11G11B10F. Clamps at the format's
+/// maximum: a sun never becomes infinite.
+EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format format, jobs::JobSystem& jobs);
+
+} // namespace filament::assets
