@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+// cmgen: bakes an environment and shows what the engine will look up: cube faces per mip level, spherical harmonics,
+// the DFG table. Exit status 0: done, 1: it failed (one line on standard error), 2: wrong arguments.
+#include "filament_core/assets/DfgTable.h"
+#include "filament_core/assets/Environment.h"
+#include "filament_core/assets/ImageWriter.h"
+#include "filament_core/math/Half.h"
+#include "shaders/lib/LibCpp.h"
+
+#include <CLI/CLI.hpp>
+
+#include <chrono>
+#include <cstdio>
+#include <cstring>
+#include <map>
+#include <string>
+
+#include <unistd.h>
+
+using namespace filament;
+using namespace filament::assets;
+
+namespace {
+
+struct Arguments {
+    std::filesystem::path environment, out = ".";
+    uint32_t size = 256, samples = 512, dfgSize = 64;
+    int workers = -1;
+    backend::Format format = backend::Format::RGBA16F;
+    bool previews = false; // .png beside .exr
+    float exposure = 1;
+};
+
+// One level of a cube as a horizontal cross: the sides in a row, top and bottom over and under +z.
+struct Cross {
+    uint32_t size = 0; // of a face
+    std::vector<float3> pixels;
+    uint32_t width() const { return 4 * size; }
+    uint32_t height() const { return 3 * size; }
+};
+
+constexpr std::array<uint2, 6> kCrossPlaces{ { { 2, 1 }, { 0, 1 }, { 1, 0 }, { 1, 2 }, { 1, 1 }, { 3, 1 } } };
+
+float3 decodeTexel(const std::byte* at, backend::Format format) {
+    if (format == backend::Format::R11G11B10F) {
+        uint32_t bits = 0;
+        std::memcpy(&bits, at, sizeof(bits));
+        return unpackR11G11B10F(bits);
+    }
+    std::array<uint16_t, 4> halves{};
+    std::memcpy(halves.data(), at, sizeof(halves));
+    return { floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2]) };
+}
+
+Cross crossOf(Image const& cube, uint32_t level) {
+    Cross cross{ .size = std::max(1u, cube.width >> level), .pixels = {} };
+    cross.pixels.resize(size_t(cross.width()) * cross.height());
+    const size_t texelBytes = backend::formatInfo(cube.format).bytesPerBlock;
+    const std::byte* at = cube.data.data() + cube.levelOffset(level);
+    for (uint2 place : kCrossPlaces) {
+        for (uint32_t y = 0; y < cross.size; ++y) {
+            for (uint32_t x = 0; x < cross.size; ++x, at += texelBytes) {
+                const size_t row = place.y * cross.size + y, column = place.x * cross.size + x;
+                cross.pixels[row * cross.width() + column] = decodeTexel(at, cube.format);
+            }
+        }
+    }
+    return cross;
+}
+
+Result<void> writePreview(std::filesystem::path const& path, Cross const& cross, float exposure) {
+    namespace lib = shader::lib;
+    std::vector<std::byte> rgba;
+    rgba.reserve(cross.pixels.size() * 4);
+    for (float3 const& pixel : cross.pixels) {
+        const float3 display = lib::srgbFromLinear(lib::toneMap(pixel * exposure, lib::kToneMapAces));
+        for (const float value : { display.x, display.y, display.z }) {
+            rgba.push_back(static_cast<std::byte>(value * 255.0f + 0.5f));
+        }
+        rgba.push_back(std::byte{ 255 });
+    }
+    return writePng(path, cross.width(), cross.height(), rgba);
+}
+
+Result<void> writeCube(Arguments const& arguments, Image const& cube, std::string const& name) {
+    for (uint32_t level = 0; level < cube.levels; ++level) {
+        const Cross cross = crossOf(cube, level);
+        const std::string file = cube.levels > 1 ? fmt::format("{}-{}", name, level) : name;
+        auto written = writeExr(arguments.out / (file + ".exr"), cross.width(), cross.height(), cross.pixels);
+        if (written && arguments.previews) written = writePreview(arguments.out / (file + ".png"), cross, arguments.exposure);
+        if (!written) return written;
+    }
+    return {};
+}
+
+Result<void> writeSh(std::filesystem::path const& path, std::array<float4, 9> const& sh) {
+    static constexpr const char* kPolynomials[9] = { "1", "y", "z", "x", "xy", "yz", "3zz-1", "zx", "xx-yy" };
+    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), std::fclose);
+    if (!file) return fail(ErrorCode::Unreadable, "cannot write '{}'; choose a directory you may write to", path.string());
+    fmt::print(file.get(), "# irradiance / pi = sum of coefficient * polynomial of the normal; red, green, blue\n");
+    for (size_t i = 0; i < 9; ++i) {
+        fmt::print(file.get(), "{:12.8f} {:12.8f} {:12.8f}  # {}\n", sh[i].x, sh[i].y, sh[i].z, kPolynomials[i]);
+    }
+    return {};
+}
+
+Result<void> writeDfg(std::filesystem::path const& path, Image const& table) {
+    std::vector<float3> pixels;
+    for (size_t i = 0; i < table.data.size(); i += 4) {
+        std::array<uint16_t, 2> halves{};
+        std::memcpy(halves.data(), table.data.data() + i, sizeof(halves));
+        pixels.emplace_back(floatFromHalf(halves[0]), floatFromHalf(halves[1]), 0.0f);
+    }
+    return writeExr(path, table.width, table.height, pixels);
+}
+
+void printProgress(std::string_view stage, size_t done, size_t total) {
+    std::fprintf(stderr, "\r\033[K%.*s %zu/%zu", static_cast<int>(stage.size()), stage.data(), done, total);
+    std::fflush(stderr);
+}
+
+void printLoss(const char* name, EncodeLoss const& loss) {
+    if (loss.clippedTexels == 0) return;
+    std::printf("%s: %llu texels clipped, %.3g %% of the energy lost\n", name,
+            static_cast<unsigned long long>(loss.clippedTexels), 100 * loss.lostEnergy);
+}
+
+Result<void> run(Arguments const& arguments) {
+    jobs::JobSystem jobs({ .workers = arguments.workers });
+    const bool terminal = ::isatty(STDERR_FILENO) != 0;
+    EnvironmentOptions options{ .useCache = false, .faceSize = arguments.size, .samples = arguments.samples,
+        .format = arguments.format };
+    if (terminal) options.progress = printProgress;
+    const auto start = std::chrono::steady_clock::now();
+    const Result<EnvironmentData> data = loadEnvironment(arguments.environment, jobs, options);
+    if (terminal) std::fprintf(stderr, "\r\033[K");
+    if (!data) return data.error();
+    const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
+
+    std::error_code error;
+    std::filesystem::create_directories(arguments.out, error); // a failure shows at the first file, with its path
+    auto done = writeCube(arguments, data->specular, "specular");
+    if (done) done = writeCube(arguments, data->sky, "sky");
+    if (done) done = writeSh(arguments.out / "sh.txt", data->irradianceSh);
+    if (done) done = writeDfg(arguments.out / "dfg.exr", bakeDfgTable(jobs, arguments.dfgSize));
+    if (!done) return done;
+    std::printf("%u x %u -> %u levels from %u texels a face, baked in %.0f ms\n", data->statistics.sourceWidth,
+            data->statistics.sourceHeight, data->specular.levels, data->specular.width, elapsed.count());
+    printLoss("specular", data->statistics.specularLoss);
+    printLoss("sky", data->statistics.skyLoss);
+    return {};
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Arguments arguments;
+    CLI::App app("Bakes an equirectangular .hdr or .exr: specular-N.exr, sky.exr, sh.txt, dfg.exr");
+    app.add_option("environment", arguments.environment, "the picture")->required();
+    app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")->capture_default_str();
+    app.add_option("--samples", arguments.samples, "importance samples a texel")->capture_default_str();
+    const std::map<std::string, backend::Format> formats{ { "rgba16f", backend::Format::RGBA16F },
+        { "r11g11b10f", backend::Format::R11G11B10F } };
+    app.add_option("--format", arguments.format, "rgba16f or r11g11b10f")
+            ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+    app.add_option("--out", arguments.out, "directory for the results")->capture_default_str();
+    app.add_option("--workers", arguments.workers, "threads besides the main one; -1: all cores");
+    app.add_flag("--png", arguments.previews, "tone-mapped previews beside the .exr files");
+    app.add_option("--exposure", arguments.exposure, "factor of the previews")->capture_default_str();
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::ParseError const& problem) {
+        return app.exit(problem) == 0 ? 0 : 2;
+    }
+    const Result<void> done = run(arguments);
+    if (done) return 0;
+    std::fprintf(stderr, "cmgen: %s\n", done.error().message.c_str());
+    return 1;
+}
