@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/GltfMeshes.h"
+
+#include "filament_core/assets/Accessor.h"
+#include "filament_core/assets/GltfGeometry.h"
+
+#include <exception>
+
+namespace filament::assets {
+namespace {
+
+/// The texture coordinates that the material's normal map reads, kNone without one.
+uint32_t normalMapUvSet(GltfDocument const& document, uint32_t material) {
+    if (material == kNone || document.materials[material].normal.texture == kNone) return kNone;
+    return document.materials[material].normal.uvSet;
+}
+
+void replaceOverflow(std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
+    const std::span<float> numbers(&geometry.positions[0].x, geometry.positions.size() * 3);
+    const size_t broken = replaceNonFinite(numbers);
+    if (broken > 0) diagnostics.warn("{}: {} coordinates overflow after morphing and skinning, and became 0", path, broken);
+}
+
+PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
+        std::string const& path, GltfDiagnostics& diagnostics) {
+    GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
+    if (!diagnostics.ok() || geometry.positions.empty()) return {};
+    makeList(primitive.draco ? GltfMode::Triangles : primitive.mode, path, geometry, diagnostics);
+    if (diagnostics.ok()) applyMorphTargets(document, primitive, request.weights, geometry, diagnostics);
+    if (!diagnostics.ok() || geometry.indices.empty()) return {};
+    dropUnusedVertices(geometry);
+    if (request.skin != kNone) applySkin(request.worldFromBind, path, geometry, diagnostics);
+    if (!diagnostics.ok()) return {};
+    replaceOverflow(path, geometry, diagnostics);
+    addFlatNormals(geometry);
+    if (const uint32_t uvSet = normalMapUvSet(document, primitive.material); uvSet != kNone) addTangents(geometry, uvSet);
+    return packGeometry(std::move(geometry));
+}
+
+} // namespace
+
+std::vector<GltfPrimitiveJob> listPrimitives(
+        GltfDocument const& document, GltfScene const& scene, GltfDiagnostics& diagnostics) {
+    constexpr uint64_t kMaxVertices = uint64_t{ 1 } << 27, kMaxIndices = uint64_t{ 1 } << 29;
+    std::vector<GltfPrimitiveJob> jobs;
+    uint64_t vertices = 0, indices = 0;
+    for (uint32_t r = 0; r < scene.meshes.size(); ++r) {
+        std::vector<GltfPrimitive> const& primitives = document.meshes[scene.meshes[r].mesh].primitives;
+        for (uint32_t p = 0; p < primitives.size(); ++p) {
+            jobs.push_back({ .request = r, .primitive = p, .data = {}, .diagnostics = {} });
+            const uint32_t position = primitives[p].attributes.position;
+            if (position != kNone) vertices += document.accessors[position].count;
+            if (primitives[p].indices != kNone) indices += document.accessors[primitives[p].indices].count;
+        }
+    }
+    if (vertices > kMaxVertices || indices > kMaxIndices) {
+        diagnostics.refuse(ErrorCode::Unsupported, "the scene has {} vertices and {} indices, beyond {} and {}", vertices,
+                indices, kMaxVertices, kMaxIndices);
+    }
+    return jobs;
+}
+
+void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GltfPrimitiveJob& job) {
+    GltfMeshRequest const& request = scene.meshes[job.request];
+    const std::string path = fmt::format("meshes[{}].primitives[{}]", request.mesh, job.primitive);
+    GltfPrimitive const& primitive = document.meshes[request.mesh].primitives[job.primitive];
+    try {
+        job.data = build(document, request, primitive, path, job.diagnostics);
+    } catch (std::exception const& exception) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "{}: {}", path, exception.what());
+    }
+}
+
+std::vector<MeshData> collectMeshes(
+        GltfDocument const& document, GltfScene const& scene, std::vector<GltfPrimitiveJob>& jobs) {
+    std::vector<MeshData> meshes;
+    for (GltfMeshRequest const& request : scene.meshes) meshes.push_back({ document.meshes[request.mesh].name, {} });
+    for (GltfPrimitiveJob& job : jobs) {
+        if (job.data.indexCount == 0) continue;
+        job.data.material = document.meshes[scene.meshes[job.request].mesh].primitives[job.primitive].material;
+        meshes[job.request].primitives.push_back(std::move(job.data));
+    }
+    return meshes;
+}
+
+} // namespace filament::assets

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/GltfScene.h"
+
+#include "filament_core/assets/Accessor.h"
+#include "filament_core/assets/TangentFrame.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace filament::assets {
+namespace {
+
+bool isFinite(double4x4 const& matrix) {
+    double sum = 0; // inf and NaN survive sums of products with 0
+    for (int column = 0; column < 4; ++column) sum += glm::dot(matrix[column], double4(0.0));
+    return std::isfinite(sum);
+}
+
+/// World transforms of all nodes, also of joints outside the scene. The parser proved that the links are a forest.
+std::vector<double4x4> worldTransforms(GltfDocument const& document, GltfDiagnostics& diagnostics) {
+    std::vector<double4x4> worldFromNode(document.nodes.size(), double4x4(1.0));
+    std::vector<bool> isChild(document.nodes.size(), false);
+    for (GltfNode const& node : document.nodes) {
+        for (const uint32_t child : node.children) isChild[child] = true;
+    }
+    std::vector<uint32_t> open;
+    for (uint32_t i = 0; i < document.nodes.size(); ++i) {
+        worldFromNode[i] = document.nodes[i].parentFromNode;
+        if (!isChild[i]) open.push_back(i);
+    }
+    while (!open.empty()) {
+        const uint32_t parent = open.back();
+        open.pop_back();
+        if (!isFinite(worldFromNode[parent])) {
+            diagnostics.refuse(ErrorCode::Corrupt, "nodes[{}]: its transform is not finite", parent);
+        }
+        for (const uint32_t child : document.nodes[parent].children) {
+            worldFromNode[child] = worldFromNode[parent] * document.nodes[child].parentFromNode;
+            open.push_back(child);
+        }
+    }
+    return worldFromNode;
+}
+
+/// Section 3.7.3.3: the node of the mesh does not matter, only its joints do.
+std::vector<float4x4> jointTransforms(GltfDocument const& document, uint32_t skinIndex,
+        std::vector<double4x4> const& worldFromNode, GltfDiagnostics& diagnostics) {
+    GltfSkin const& skin = document.skins[skinIndex];
+    const std::vector<float4x4> inverseBind
+            = readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics);
+    if (skin.joints.empty() || (!inverseBind.empty() && inverseBind.size() < skin.joints.size())) {
+        diagnostics.refuse(ErrorCode::Corrupt, "skins[{}]: {} joints and {} inverse bind matrices do not go together",
+                skinIndex, skin.joints.size(), inverseBind.size());
+        return {};
+    }
+    std::vector<float4x4> transforms;
+    for (size_t i = 0; i < skin.joints.size(); ++i) {
+        const double4x4 bind = inverseBind.empty() ? double4x4(1.0) : double4x4(inverseBind[i]);
+        transforms.emplace_back(worldFromNode[skin.joints[i]] * bind);
+    }
+    return transforms;
+}
+
+/// Finds or adds the mesh requests of a scene.
+class RequestList {
+public:
+    RequestList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfScene& scene,
+            GltfDiagnostics& diagnostics)
+        : mDocument(document), mWorldFromNode(worldFromNode), mScene(scene), mDiagnostics(diagnostics) {}
+
+    uint32_t requestFor(GltfNode const& node) {
+        std::vector<float> const& weights = node.weights.empty() ? mDocument.meshes[node.mesh].weights : node.weights;
+        const auto next = static_cast<uint32_t>(mScene.meshes.size());
+        const auto [entry, isNew] = mKnown.try_emplace({ node.mesh, node.skin, weights }, next);
+        if (!isNew) return entry->second;
+        GltfMeshRequest request{ node.mesh, node.skin, weights, {} };
+        if (node.skin != kNone) {
+            request.worldFromBind = jointTransforms(mDocument, node.skin, mWorldFromNode, mDiagnostics);
+        }
+        mScene.meshes.push_back(std::move(request));
+        return next;
+    }
+
+private:
+    GltfDocument const& mDocument;
+    std::vector<double4x4> const& mWorldFromNode;
+    GltfScene& mScene;
+    GltfDiagnostics& mDiagnostics;
+    std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> mKnown;
+};
+
+double4x4 transformOf(float3 translation, float4 rotation, float3 scale) {
+    const glm::dquat q(static_cast<double>(rotation.w), static_cast<double>(rotation.x), static_cast<double>(rotation.y),
+            static_cast<double>(rotation.z));
+    const double length = std::sqrt(glm::dot(q, q));
+    double4x4 matrix = length > 1e-6 ? double4x4(glm::mat3_cast(q * (1.0 / length))) : double4x4(1.0);
+    for (int axis = 0; axis < 3; ++axis) matrix[axis] *= static_cast<double>(scale[axis]);
+    matrix[3] = double4(double3(translation), 1.0);
+    return matrix;
+}
+
+/// EXT_mesh_gpu_instancing: the transforms of the instances, or the identity alone.
+std::vector<double4x4> instanceTransforms(GltfDocument const& document, uint32_t index, GltfDiagnostics& diagnostics) {
+    constexpr size_t kMaxInstances = size_t{ 1 } << 20;
+    if (!document.nodes[index].instancing) return { double4x4(1.0) };
+    GltfInstancing const& source = *document.nodes[index].instancing;
+    const auto translations = readVectors<float3>(document, source.translation, "TRANSLATION", diagnostics);
+    const auto rotations = readVectors<float4>(document, source.rotation, "ROTATION", diagnostics);
+    const auto scales = readVectors<float3>(document, source.scale, "SCALE", diagnostics);
+    const size_t count = std::max({ translations.size(), rotations.size(), scales.size() });
+    const auto fits = [&](size_t size) { return size == 0 || size == count; };
+    if (!fits(translations.size()) || !fits(rotations.size()) || !fits(scales.size()) || count > kMaxInstances) {
+        diagnostics.refuse(ErrorCode::Corrupt, "nodes[{}]: the instance attributes differ in length, or are more than {}",
+                index, kMaxInstances);
+        return {};
+    }
+    std::vector<double4x4> transforms;
+    for (size_t i = 0; i < count; ++i) {
+        transforms.push_back(transformOf(translations.empty() ? float3(0.0f) : translations[i],
+                rotations.empty() ? float4(0, 0, 0, 1) : rotations[i], scales.empty() ? float3(1.0f) : scales[i]));
+    }
+    return transforms;
+}
+
+void addNode(GltfDocument const& document, uint32_t index, double4x4 const& worldFromNode, RequestList& requests,
+        GltfScene& scene, GltfDiagnostics& diagnostics) {
+    GltfNode const& node = document.nodes[index];
+    NodeData data{ .name = node.name, .worldFromNode = worldFromNode, .light = node.light, .morphWeights = {} };
+    // a light beside a mesh stands alone: it shines once, from its node, however the mesh is placed
+    if (node.mesh == kNone || node.light != kNone) scene.nodes.push_back(data);
+    if (node.mesh == kNone || !diagnostics.ok()) return;
+    data.light = kNone;
+    const uint32_t mesh = requests.requestFor(node);
+    data.morphWeights = scene.meshes[mesh].weights;
+    for (double4x4 const& nodeFromInstance : instanceTransforms(document, index, diagnostics)) {
+        data.mesh = mesh;
+        data.worldFromNode = node.skin == kNone ? worldFromNode * nodeFromInstance : double4x4(1.0);
+        scene.nodes.push_back(data);
+    }
+}
+
+} // namespace
+
+GltfScene planScene(GltfDocument const& document, GltfDiagnostics& diagnostics) {
+    GltfScene scene;
+    const std::vector<double4x4> worldFromNode = worldTransforms(document, diagnostics);
+    RequestList requests(document, worldFromNode, scene, diagnostics);
+    std::vector<uint32_t> open(document.roots.rbegin(), document.roots.rend());
+    while (!open.empty() && diagnostics.ok()) {
+        const uint32_t index = open.back();
+        open.pop_back();
+        addNode(document, index, worldFromNode[index], requests, scene, diagnostics);
+        std::vector<uint32_t> const& children = document.nodes[index].children;
+        open.insert(open.end(), children.rbegin(), children.rend());
+    }
+    return scene;
+}
+
+} // namespace filament::assets
