@@ -22,7 +22,7 @@ BufferHandle createInstanceIds(Engine::Impl& engine) {
 }
 
 Texture createDfg(Engine::Impl& engine) {
-    const assets::Image table = assets::dfgTable();
+    static const assets::Image table = assets::bakeDfgTable(engine.jobs); // the same for every engine of the process
     return engine.createTexture({ .format = table.format, .width = table.width, .height = table.height,
             .pixels = table.data, .name = "dfg" });
 }

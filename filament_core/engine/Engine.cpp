@@ -132,9 +132,14 @@ Result<Engine> Engine::create(EngineOptions const& options) {
     return Engine(std::make_unique<Impl>(options, std::move(*stream)));
 }
 
-Engine::Engine(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
-Engine::Engine(Engine&&) noexcept = default;
-Engine& Engine::operator=(Engine&&) noexcept = default;
+Engine::Engine(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) { mImpl->self = this; }
+Engine::Engine(Engine&& other) noexcept : mImpl(std::move(other.mImpl)) { mImpl->self = this; }
+Engine& Engine::operator=(Engine&& other) noexcept {
+    mImpl = std::move(other.mImpl);
+    mImpl->self = this;
+    return *this;
+}
+Engine& Engine::of(Impl& impl) { return *impl.self; }
 Engine::~Engine() = default;
 
 DeviceDescription const& Engine::device() const { return mImpl->device; }

@@ -95,6 +95,7 @@ struct Engine::Impl {
     void markDirty(MaterialInstance instance);
     backend::TextureHandle textureHandle(Texture texture) const { return textures.get(texture).handle; }
 
+    Engine* self = nullptr; ///< follows moves of the Engine
     EngineOptions options;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     std::unique_ptr<backend::CommandStream> stream;

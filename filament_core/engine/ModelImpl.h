@@ -15,10 +15,10 @@ namespace filament {
 struct Model::Impl {
     using PartLight = std::variant<SunLight, PointLight, SpotLight>; ///< in model space
 
-    explicit Impl(Engine& owner) : engine(&owner.impl()) {}
+    explicit Impl(Engine& owner) : engine(owner.impl()) {}
     ~Impl();
 
-    Engine::Impl* engine;
+    Engine::Impl& engine;
     std::string name;
     std::vector<RenderableDesc> parts; ///< worldFromObject holds modelFromObject
     std::vector<PartLight> lights;

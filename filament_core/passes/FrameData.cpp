@@ -70,7 +70,7 @@ void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& text
 }
 
 void FrameData::upload(CommandBuffer& commands, prepare::FramePacket const& packet, ViewTextures const& textures) {
-    mCurrent = (mCurrent + 1) % mSets.size();
+    mCurrent = (mCurrent + 1) % static_cast<uint32_t>(mSets.size());
     Set& set = mSets[mCurrent];
     const auto objects = static_cast<uint32_t>(packet.objects.size());
     const uint32_t windows = std::max(1u, (objects + kObjectsPerWindow - 1) / kObjectsPerWindow);

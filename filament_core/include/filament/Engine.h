@@ -57,27 +57,8 @@ struct EngineStatistics {
     uint64_t backPressureNanoseconds = 0; ///< the app has waited this long for the driver thread
 };
 
-class Engine;
-
-/// Owns one object: destroys it at the end of the scope. The engine must outlive it.
 template <class T>
-class Owned {
-public:
-    Owned() = default;
-    Owned(Engine& engine, T object) : mEngine(&engine), mObject(object) {}
-    Owned(Owned&& other) noexcept : mEngine(other.mEngine), mObject(other.release()) {}
-    Owned& operator=(Owned&& other) noexcept;
-    ~Owned() { reset(); }
-
-    T get() const { return mObject; }
-    operator T() const { return mObject; }
-    T release() { T object = mObject; mObject = {}; return object; }
-    void reset();
-
-private:
-    Engine* mEngine = nullptr;
-    T mObject{};
-};
+class Owned;
 
 class Engine {
 public:
@@ -123,29 +104,53 @@ public:
     void destroy(SwapChain swapChain);
 
     template <class T>
-    Owned<T> own(T object) { return Owned<T>(*this, object); }
+    Owned<T> own(T object);
 
     struct Impl;
-    Impl& impl() { return *mImpl; } ///< for the engine's own files
+    Impl& impl() { return *mImpl; } ///< for the engine's own files; stays where it is when the Engine is moved
+    static Engine& of(Impl& impl);  ///< the Engine that holds it now
 
 private:
     explicit Engine(std::unique_ptr<Impl> impl);
     std::unique_ptr<Impl> mImpl;
 };
 
+/// Owns one object: destroys it at the end of the scope. The engine must outlive it; it may be moved meanwhile.
 template <class T>
-Owned<T>& Owned<T>::operator=(Owned&& other) noexcept {
-    if (this != &other) {
-        reset();
-        mEngine = other.mEngine;
-        mObject = other.release();
+class Owned {
+public:
+    Owned() = default;
+    Owned(Engine& engine, T object) : mEngine(&engine.impl()), mObject(object) {}
+    Owned(Owned&& other) noexcept : mEngine(other.mEngine), mObject(other.release()) {}
+    Owned& operator=(Owned&& other) noexcept {
+        if (this != &other) {
+            reset();
+            mEngine = other.mEngine;
+            mObject = other.release();
+        }
+        return *this;
     }
-    return *this;
-}
+    ~Owned() { reset(); }
+
+    T get() const { return mObject; }
+    operator T() const { return mObject; }
+    T release() {
+        const T object = mObject;
+        mObject = {};
+        return object;
+    }
+    void reset() {
+        if (mObject) Engine::of(*mEngine).destroy(release());
+    }
+
+private:
+    Engine::Impl* mEngine = nullptr;
+    T mObject{};
+};
 
 template <class T>
-void Owned<T>::reset() {
-    if (mObject) mEngine->destroy(release());
+Owned<T> Engine::own(T object) {
+    return Owned<T>(*this, object);
 }
 
 } // namespace filament

@@ -16,7 +16,7 @@
 
 namespace filament {
 
-/// Called on the loading thread: stage name, steps done, steps in total.
+/// Stage name, steps done, steps in total. From the loading thread or a worker, never from two at once.
 using LoadProgress = std::function<void(std::string_view stage, size_t done, size_t total)>;
 
 struct GltfLoadOptions {

@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/Gltf.h>
+
+#include "filament_core/assets/GltfLoader.h"
+#include "filament_core/engine/GltfMaterials.h"
+#include "filament_core/engine/ModelImpl.h"
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+namespace filament {
+namespace {
+
+using assets::kNone;
+using assets::ModelData;
+using assets::PrimitiveData;
+
+PrimitiveType primitiveType(backend::Topology topology) {
+    switch (topology) {
+        case backend::Topology::Triangles: return PrimitiveType::Triangles;
+        case backend::Topology::TriangleStrip: return PrimitiveType::TriangleStrip;
+        case backend::Topology::Lines: return PrimitiveType::Lines;
+        case backend::Topology::LineStrip: return PrimitiveType::LineStrip;
+        case backend::Topology::Points: return PrimitiveType::Points;
+    }
+    return PrimitiveType::Triangles;
+}
+
+/// Uploads one ModelData and places its meshes: each step fills a part of the Model.
+class ModelBuilder {
+public:
+    ModelBuilder(Engine& engine, ModelData const& data)
+            : mEngine(engine), mData(data), mModel(std::make_unique<Model::Impl>(engine)) {}
+
+    std::unique_ptr<Model::Impl> build() {
+        mModel->name = mData.name;
+        mModel->warnings = mData.warnings;
+        uploadImages();
+        uploadMeshes();
+        placeNodes();
+        return std::move(mModel);
+    }
+
+private:
+    void uploadImages() {
+        for (assets::Image const& image : mData.images) {
+            mModel->textures.push_back(mEngine.create(TextureDesc{ .format = image.format, .width = image.width,
+                    .height = image.height, .levels = image.levels, .pixels = image.data, .name = mData.name }));
+        }
+    }
+
+    void uploadMeshes() {
+        GltfMaterials materials(mEngine, *mModel, mModel->textures);
+        std::map<std::pair<uint32_t, bool>, MaterialInstance> instances; // one a material, with and without colours
+        for (assets::MeshData const& mesh : mData.meshes) {
+            std::vector<RenderableDesc>& parts = mMeshes.emplace_back();
+            for (PrimitiveData const& primitive : mesh.primitives) {
+                MaterialInstance& instance = instances[{ primitive.material, primitive.hasColor }];
+                if (!instance) instance = materials.instanceFor(materialOf(primitive), primitive.hasColor);
+                parts.push_back(upload(primitive, instance, mesh.name));
+            }
+        }
+    }
+
+    assets::MaterialData const& materialOf(PrimitiveData const& primitive) const {
+        static const assets::MaterialData defaultMaterial{ .name = "glTF default" };
+        return primitive.material == kNone ? defaultMaterial : mData.materials[primitive.material];
+    }
+
+    RenderableDesc upload(PrimitiveData const& primitive, MaterialInstance instance, std::string const& name) {
+        VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount, .stride = primitive.layout.buffers[0].stride,
+            .data = primitive.vertices, .name = name };
+        for (uint32_t i = 0; i < primitive.layout.attributeCount; ++i) {
+            backend::VertexAttribute const& attribute = primitive.layout.attributes[i];
+            vertices.attributes.push_back({ static_cast<Attribute>(attribute.location), attribute.format, attribute.offset });
+        }
+        const bool wide = primitive.indexType == backend::IndexType::UInt32;
+        RenderableDesc part{ .vertices = mEngine.create(vertices),
+            .indices = mEngine.create(IndexBufferDesc{ .indexCount = primitive.indexCount,
+                    .format = wide ? IndexFormat::UInt32 : IndexFormat::UInt16, .data = primitive.indices, .name = name }),
+            .material = instance, .primitive = primitiveType(primitive.topology), .boundsMin = primitive.boundsMin,
+            .boundsMax = primitive.boundsMax, .name = name };
+        mModel->vertexBuffers.push_back(part.vertices);
+        mModel->indexBuffers.push_back(part.indices);
+        return part;
+    }
+
+    void placeNodes() {
+        for (assets::NodeData const& node : mData.nodes) {
+            if (node.mesh != kNone) {
+                for (RenderableDesc part : mMeshes[node.mesh]) {
+                    part.worldFromObject = node.worldFromNode;
+                    growBounds(part);
+                    mModel->parts.push_back(std::move(part));
+                }
+            }
+            if (node.light != kNone) placeLight(mData.lights[node.light], node.worldFromNode);
+        }
+    }
+
+    void growBounds(RenderableDesc const& part) {
+        const CenteredBox box = boxFromMinMax(part.boundsMin, part.boundsMax);
+        const double3 center(part.worldFromObject * double4(double3(box.center), 1.0));
+        const double3 half(transformedHalfExtent(part.worldFromObject, box.halfExtent));
+        mModel->bounds.min = glm::min(mModel->bounds.min, center - half);
+        mModel->bounds.max = glm::max(mModel->bounds.max, center + half);
+    }
+
+    void placeLight(assets::LightData const& light, double4x4 const& world) {
+        const double3 position(world[3]);
+        const double3 axis = -double3(world[2]); // KHR_lights_punctual: along -Z of the node
+        const float3 direction = glm::length(axis) > 0 ? float3(glm::normalize(axis)) : float3(0, 0, -1);
+        switch (light.type) {
+            case assets::LightType::Directional:
+                mModel->lights.push_back(SunLight{ direction, Lux{ light.intensity }, light.color });
+                break;
+            case assets::LightType::Point:
+                mModel->lights.push_back(PointLight{ position, Candela{ light.intensity }, light.color, light.rangeMeters });
+                break;
+            case assets::LightType::Spot:
+                mModel->lights.push_back(SpotLight{ position, direction, Candela{ light.intensity }, light.color,
+                        light.rangeMeters, light.innerConeRadians, light.outerConeRadians });
+                break;
+        }
+    }
+
+    Engine& mEngine;
+    ModelData const& mData;
+    std::unique_ptr<Model::Impl> mModel;
+    std::vector<std::vector<RenderableDesc>> mMeshes; // by mesh of the file, one an own primitive
+};
+
+} // namespace
+
+Model::Impl::~Impl() {
+    Engine& owner = Engine::of(engine);
+    for (MaterialInstance instance : instances) owner.destroy(instance);
+    for (Material material : materials) owner.destroy(material);
+    for (VertexBuffer buffer : vertexBuffers) owner.destroy(buffer);
+    for (IndexBuffer buffer : indexBuffers) owner.destroy(buffer);
+    for (Texture texture : textures) owner.destroy(texture);
+}
+
+Model::Model(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
+Model::Model(Model&&) noexcept = default;
+Model& Model::operator=(Model&&) noexcept = default;
+Model::~Model() = default;
+
+std::string const& Model::name() const { return mImpl->name; }
+Box Model::bounds() const { return mImpl->bounds; }
+size_t Model::renderableCount() const { return mImpl->parts.size(); }
+std::vector<std::string> const& Model::warnings() const { return mImpl->warnings; }
+
+Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
+    assets::GltfOptions loaderOptions;
+    if (options.progress) {
+        loaderOptions.progress = [&](assets::GltfStage stage, size_t done, size_t total) {
+            options.progress(stage == assets::GltfStage::Structure ? "reading" : "decoding", done, total);
+        };
+    }
+    auto data = assets::loadGltf(path, engine.impl().jobs, loaderOptions);
+    if (!data) return data.error();
+    std::unique_ptr<Model::Impl> model = ModelBuilder(engine, *data).build();
+    engine.impl().flush(); // the driver thread uploads while the caller goes on
+    return Model(std::move(model));
+}
+
+} // namespace filament

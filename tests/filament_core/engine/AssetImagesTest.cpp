@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real files, both APIs, every environment: the same bits.
+#include "tests/filament_core/engine/RenderFixture.h"
+
+#include <array>
+#include <fstream>
+
+namespace filament {
+namespace {
+
+constexpr std::array kModels{ "FlightHelmet/FlightHelmet.gltf", "SheenChair/SheenChair.gltf",
+    "NormalTangentTest/NormalTangentTest.glb", "AlphaBlendModeTest/AlphaBlendModeTest.glb",
+    "TextureSettingsTest/TextureSettingsTest.gltf", "TextureCoordinateTest/TextureCoordinateTest.glb",
+    "TextureLinearInterpolationTest/TextureLinearInterpolationTest.glb", "VertexColorTest/VertexColorTest.glb",
+    "OrientationTest/OrientationTest.glb", "MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb",
+    "UnlitTest/UnlitTest.glb", "EmissiveStrengthTest/EmissiveStrengthTest.glb",
+    "TextureTransformTest/TextureTransformTest.gltf", "BoxInterleaved/BoxInterleaved.gltf",
+    "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf", "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb",
+    "LightsPunctualLamp/LightsPunctualLamp.gltf", "LittlestTokyo/LittlestTokyo.glb" };
+constexpr std::array kEnvironments{ "studio_small_03_1k.hdr", "st_fagans_interior_1k.hdr", "spiaggia_di_mondello_1k.hdr" };
+
+double4x4 fitted(Box const& box) {
+    const double3 size = box.max - box.min, center = (box.max + box.min) * 0.5;
+    const double scale = 1.0 / std::max({ size.x, size.y, size.z });
+    double4x4 fit(scale);
+    fit[3] = double4(-center * scale, 1);
+    return fit;
+}
+
+/// One engine with every environment loaded, kept for all models: loading is not what these tests measure.
+struct Stage {
+    Engine engine;
+    std::vector<Environment> environments;
+
+    static std::unique_ptr<Stage> make(Backend backend) {
+        auto engine = test::makeEngine(backend);
+        if (!engine) return nullptr;
+        auto stage = std::unique_ptr<Stage>(new Stage{ std::move(*engine), {} });
+        for (const char* name : kEnvironments) {
+            auto environment = loadEnvironment(stage->engine, test::assetDir() / "environments" / name);
+            if (!environment) {
+                ADD_FAILURE() << environment.error().message;
+                return nullptr;
+            }
+            stage->environments.push_back(std::move(*environment));
+        }
+        return stage;
+    }
+};
+
+class AssetImagesTest : public testing::TestWithParam<const char*> {
+protected:
+    static void SetUpTestSuite() {
+        if (test::assetDir().empty()) return;
+        sVulkan = Stage::make(Backend::Vulkan);
+        sGles = Stage::make(Backend::Gles);
+    }
+    static void TearDownTestSuite() {
+        sVulkan.reset();
+        sGles.reset();
+    }
+
+    static Result<std::vector<Image>> render(Stage& stage, std::string const& file) {
+        auto model = loadGltf(stage.engine, test::assetDir() / "models" / file);
+        if (!model) return model.error();
+        Scene scene(stage.engine);
+        scene.add(*model, fitted(model->bounds()));
+        View view{ .camera = Camera::lookAt({ 0.9, 0.6, 1.5 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 }),
+            .size = { 320, 240 } };
+        std::vector<Image> images;
+        Renderer renderer(stage.engine);
+        for (Environment const& environment : stage.environments) {
+            scene.setEnvironment(environment);
+            auto image = renderer.renderToImage(scene, view);
+            if (!image) return image.error();
+            images.push_back(std::move(*image));
+        }
+        return images;
+    }
+
+    inline static std::unique_ptr<Stage> sVulkan, sGles;
+};
+
+size_t differingPixels(Image const& a, Image const& b) {
+    size_t count = 0;
+    for (size_t i = 0; i < a.pixels.size(); i += 4) count += std::memcmp(&a.pixels[i], &b.pixels[i], 4) != 0;
+    return count;
+}
+
+bool isFlat(Image const& image) {
+    for (size_t i = 4; i < image.pixels.size(); i += 4) {
+        if (std::memcmp(&image.pixels[i], &image.pixels[0], 4) != 0) return false;
+    }
+    return true;
+}
+
+TEST_P(AssetImagesTest, HasTheSameBitsOnBothApis) {
+    if (test::assetDir().empty()) GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
+    ASSERT_TRUE(sVulkan && sGles);
+    auto vulkan = render(*sVulkan, GetParam());
+    auto gles = render(*sGles, GetParam());
+    ASSERT_TRUE(vulkan.ok()) << vulkan.error().message;
+    ASSERT_TRUE(gles.ok()) << gles.error().message;
+    for (size_t i = 0; i < kEnvironments.size(); ++i) {
+        EXPECT_EQ(differingPixels((*vulkan)[i], (*gles)[i]), 0u) << kEnvironments[i];
+        EXPECT_FALSE(isFlat((*vulkan)[i])) << kEnvironments[i];
+    }
+    test::expectNoErrors(sVulkan->engine);
+    test::expectNoErrors(sGles->engine);
+}
+
+INSTANTIATE_TEST_SUITE_P(Models, AssetImagesTest, testing::ValuesIn(kModels), [](auto const& info) {
+    std::string name = std::filesystem::path(info.param).parent_path().string();
+    std::erase(name, '-');
+    return name;
+});
+
+} // namespace
+} // namespace filament

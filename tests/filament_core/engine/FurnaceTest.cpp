@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// White furnace: in a constant environment a surface that absorbs nothing is invisible.
+#include "filament_core/engine/GltfMaterials.h"
+#include "tests/filament_core/engine/RenderFixture.h"
+#include "tests/scenes/Sphere.h"
+
+#include "shaders/package/EngineMaterials.h"
+
+namespace filament {
+namespace {
+
+/// A sphere in an environment of radiance 1, exposure undone, so that pixels are radiances.
+class Furnace {
+public:
+    explicit Furnace(Engine& engine) : mEngine(engine), mScene(engine) {
+        const std::vector<uint16_t> ones(6 * (16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1) * 4, halfFromFloat(1.0f));
+        mCube = engine.own(engine.create(TextureDesc{ .kind = TextureKind::Cube, .format = Format::RGBA16F, .width = 16,
+                .height = 16, .layers = 6, .levels = 5, .pixels = std::as_bytes(std::span(ones)), .name = "ones" }));
+        IndirectLightDesc light{ .specular = mCube, .specularLevels = 5, .name = "furnace" };
+        light.irradianceSh[0] = float4(1);
+        mLight = engine.own(engine.create(light));
+        mScene.setIndirectLight(mLight, Lux{ 1 / mView.camera.exposure.factor() });
+        const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere());
+        mVertices = engine.own(sphere.vertices);
+        mIndices = engine.own(sphere.indices);
+        mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
+        mInstance = engine.own(engine.createInstance(mMaterial, "white"));
+        mScene.add({ .vertices = mVertices, .indices = mIndices, .material = mInstance, .boundsMin = float3(-1),
+                .boundsMax = float3(1), .name = "sphere" });
+        mView.camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, { .verticalFovDegrees = 45 });
+        mView.size = { 96, 96 };
+        mView.clearColor = float4(1); // what the skybox of this environment would be
+    }
+
+    Image render(float4 baseColor, float metallic, float roughness) {
+        EXPECT_TRUE(mEngine.set(mInstance, "baseColorFactor", baseColor));
+        EXPECT_TRUE(mEngine.set(mInstance, "metallicFactor", metallic));
+        EXPECT_TRUE(mEngine.set(mInstance, "roughnessFactor", roughness));
+        return test::renderLinear(mEngine, mScene, mView);
+    }
+
+private:
+    Engine& mEngine;
+    View mView;
+    Owned<Texture> mCube;
+    Owned<IndirectLight> mLight;
+    Owned<VertexBuffer> mVertices;
+    Owned<IndexBuffer> mIndices;
+    Owned<Material> mMaterial;
+    Owned<MaterialInstance> mInstance;
+    Scene mScene;
+};
+
+struct Extremes {
+    float least = 1e9f, most = -1e9f;
+};
+
+Extremes extremes(Image const& image) {
+    Extremes result;
+    for (uint32_t y = 0; y < image.height; ++y) {
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const float4 pixel = test::halfPixel(image, x, y);
+            for (int c = 0; c < 3; ++c) {
+                result.least = std::min(result.least, pixel[c]);
+                result.most = std::max(result.most, pixel[c]);
+                EXPECT_TRUE(std::isfinite(pixel[c]));
+            }
+        }
+    }
+    return result;
+}
+
+class FurnaceTest : public testing::TestWithParam<Backend> {};
+
+TEST_P(FurnaceTest, AWhiteMetalSphereIsInvisibleAtEveryRoughness) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    Furnace furnace(*engine);
+    for (int step = 0; step <= 10; ++step) {
+        const float roughness = static_cast<float>(step) / 10;
+        const Extremes pixels = extremes(furnace.render(float4(1), 1, roughness));
+        EXPECT_GE(pixels.least, 0.99f) << "roughness " << roughness;
+        EXPECT_LE(pixels.most, 1.01f) << "roughness " << roughness;
+    }
+    test::expectNoErrors(*engine);
+}
+
+TEST_P(FurnaceTest, ADielectricNeverReflectsMoreThanItReceives) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    Furnace furnace(*engine);
+    for (int step = 0; step <= 4; ++step) {
+        const float roughness = static_cast<float>(step) / 4;
+        const Extremes white = extremes(furnace.render(float4(1), 0, roughness));
+        EXPECT_LE(white.most, 1.0f + 1.0f / 1024) << "roughness " << roughness; // one step of fp16 above 1
+        EXPECT_GE(white.least, 0.8f) << "a white dielectric loses little, roughness " << roughness;
+    }
+    test::expectNoErrors(*engine);
+}
+
+TEST_P(FurnaceTest, ABlackDielectricShowsItsFresnelReflectanceOnly) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    Furnace furnace(*engine);
+    const Image image = furnace.render(float4(0, 0, 0, 1), 0, 0.0f);
+    // Facing the camera: Schlick at normal incidence is F0 = 4 %.
+    EXPECT_NEAR(test::halfPixel(image, 48, 48).x, 0.04f, 0.004f);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothApis, FurnaceTest, testing::ValuesIn(test::kBothApis),
+        [](auto const& info) { return std::string(toString(info.param)); });
+
+} // namespace
+} // namespace filament

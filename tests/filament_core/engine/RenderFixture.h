@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the image tests share: an engine on a named backend, pictures as floats, skips in plain words.
+#pragma once
+
+#include "filament_core/math/Half.h"
+
+#include <filament/filament.h>
+
+#include <gtest/gtest.h>
+
+#include <cstring>
+#include <filesystem>
+#include <memory>
+#include <optional>
+#include <string>
+
+namespace filament::test {
+
+inline constexpr Backend kBothApis[] = { Backend::Vulkan, Backend::Gles };
+
+/// An engine with validation on, or nothing with a test failure: both APIs are part of the promise.
+inline std::optional<Engine> makeEngine(Backend backend, int workers = 1) {
+    auto engine = Engine::create({ .backend = backend, .workers = workers, .validation = true });
+    if (!engine) {
+        ADD_FAILURE() << toString(backend) << ": " << engine.error().message;
+        return std::nullopt;
+    }
+    return std::optional<Engine>(std::move(*engine));
+}
+
+/// Errors that the device or a validation layer reported; a test expects none.
+inline void expectNoErrors(Engine& engine) {
+    for (std::string const& error : engine.takeErrors()) ADD_FAILURE() << toString(engine.device().backend) << ": " << error;
+}
+
+/// Renders one frame into scene-linear half floats: no tone mapping.
+inline Image renderLinear(Engine& engine, Scene const& scene, View const& view) {
+    Renderer renderer(engine);
+    const Owned<SwapChain> target = engine.own(engine.create(SwapChainDesc{ .size = view.size, .imageCount = 1,
+            .format = Format::RGBA16F, .name = "linear" }));
+    renderer.render(scene, view, target);
+    auto image = renderer.waitPixels(renderer.readPixels(target));
+    if (!image) {
+        ADD_FAILURE() << image.error().message;
+        return {};
+    }
+    return std::move(*image);
+}
+
+inline float4 halfPixel(Image const& image, uint32_t x, uint32_t y) {
+    uint16_t bits[4];
+    std::memcpy(bits, image.pixels.data() + (static_cast<size_t>(y) * image.width + x) * 8, sizeof(bits));
+    return { floatFromHalf(bits[0]), floatFromHalf(bits[1]), floatFromHalf(bits[2]), floatFromHalf(bits[3]) };
+}
+
+inline float4 bytePixel(Image const& image, uint32_t x, uint32_t y) {
+    const auto* p = reinterpret_cast<const uint8_t*>(image.pixels.data()) + (static_cast<size_t>(y) * image.width + x) * 4;
+    return float4(p[0], p[1], p[2], p[3]) / 255.0f;
+}
+
+inline std::filesystem::path assetDir() { return FILAMENT_ASSET_DIR; }
+
+} // namespace filament::test
