@@ -2,26 +2,29 @@
 // From scene-referred linear Rec. 709 to what a display takes: tone mappers, transfer functions, dither noise.
 
 const int kToneMapLinear = 0; // clamps
-const int kToneMapAces = 1;   // fit of the ACES reference rendering transform
-const int kToneMapFilmic = 2; // the camera-like curve of 'Uncharted 2'
+const int kToneMapAces = 1;   // the ACES rendering transforms, with their desaturation of highlights
+const int kToneMapFilmic = 2; // the ACES curve per component: more contrast, hues shift
 const int kToneMapMobile = 3; // one division, transfer function included
 
 // Relative luminance of linear Rec. 709. ITU-R BT.709-6, item 3.2.
 float luminance(vec3 linear) { return dot(linear, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
-// Narkowicz 2015, "ACES Filmic Tone Mapping Curve". x >= 0; leaves [0, 1] by 3 % from x = 12 on.
-vec3 toneMapAces(vec3 x) { return (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f); }
-
-// Hable 2010, "Uncharted 2: HDR Lighting": shoulder 0.15, linear 0.50 at 0.10, toe 0.20 with 0.02 / 0.30.
-vec3 hableCurve(vec3 x) { return (x * (0.15f * x + 0.05f) + 0.004f) / (x * (0.15f * x + 0.50f) + 0.06f) - 0.066666667f; }
-
-// Hable's operator with his exposure bias 2; white is where the curve reaches 1.
-vec3 toneMapFilmic(vec3 x) {
-    const float white = 11.2f;
-    return hableCurve(2.0f * x) / hableCurve(vec3(white));
+// ACES reference rendering and output transform for a Rec. 709 display, fitted by Hill: "ACES.hlsl" of Pettineo's
+// BakingLab, 2016. The two matrices go to and from the space where the curve is applied, which desaturates bright colours.
+// x >= 0; the result may leave [0, 1] by a few per cent in saturated colours.
+vec3 toneMapAces(vec3 x) {
+    vec3 v = vec3(dot(x, vec3(0.59719f, 0.35458f, 0.04823f)), dot(x, vec3(0.07600f, 0.90834f, 0.01566f)),
+            dot(x, vec3(0.02840f, 0.13383f, 0.83777f)));
+    vec3 y = (v * (v + 0.0245786f) - 0.000090537f) / (v * (0.983729f * v + 0.4329510f) + 0.238081f);
+    return vec3(dot(y, vec3(1.60475f, -0.53108f, -0.07367f)), dot(y, vec3(-0.10208f, 1.10813f, -0.00605f)),
+            dot(y, vec3(-0.00327f, -0.07276f, 1.07602f)));
 }
 
-// The fit of ACES followed by the sRGB transfer in one rational function: Guy and Agopian 2018, "High performance on
+// The curve of ACES per component and brighter: Narkowicz 2015, "ACES Filmic Tone Mapping Curve". x >= 0; the result
+// exceeds 1 from x = 7.2 on, by 3 % at most.
+vec3 toneMapFilmic(vec3 x) { return (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f); }
+
+// About toneMapFilmic() followed by the sRGB transfer, in one division: Guy and Agopian 2018, "High performance on
 // mobile". The result goes to the display as it is: no srgbFromLinear() after it.
 vec3 toneMapMobile(vec3 x) { return x / (x + vec3(0.155f)) * 1.019f; }
 
@@ -29,7 +32,7 @@ vec3 toneMapMobile(vec3 x) { return x / (x + vec3(0.155f)) * 1.019f; }
 bool toneMapIncludesTransfer(int mapper) { return mapper == kToneMapMobile; }
 
 // Scene-referred, exposed linear colour -> [0, 1]. Negative components (out of gamut) count as 0; huge values are cut
-// at 1e4, where all curves are flat, so that x^2 cannot overflow fp16's or fp32's range on the way.
+// at 1e4, where all curves are flat, so that x^2 cannot overflow fp32 on the way.
 vec3 toneMap(vec3 color, int mapper) {
     vec3 x = clamp(color, 0.0f, 1e4f);
     if (mapper == kToneMapAces) {

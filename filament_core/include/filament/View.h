@@ -12,8 +12,8 @@ namespace filament {
 
 enum class ToneMapper : uint8_t {
     Linear, ///< clamp to [0, 1]
-    Aces,   ///< Narkowicz 2015, fit of the ACES curve
-    Filmic, ///< Hable's shoulder-toe curve
+    Aces,   ///< Hill's fit of the ACES transforms: highlights desaturate
+    Filmic, ///< Narkowicz 2015, the ACES curve per component
     Mobile, ///< x / (x + 0.155) * 1.019: transfer function included
 };
 const char* toString(ToneMapper toneMapper);
