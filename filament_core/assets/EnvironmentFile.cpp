@@ -1,14 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/EnvironmentFile.h"
 
+#include <atomic>
 #include <cerrno>
 #include <cstdio>
-#include <cstdlib>
 #include <cstring>
 #include <memory>
 #include <string>
 #include <system_error>
 
+#include <fcntl.h>
 #include <unistd.h>
 
 namespace filament::assets {
@@ -67,8 +68,9 @@ Result<void> replaceFile(std::filesystem::path const& path, std::span<const std:
         std::filesystem::create_directories(path.parent_path(), error);
         if (error) return unwritable(path, error.message().c_str());
     }
-    std::string temporary = path.string() + ".XXXXXX";
-    const int descriptor = ::mkstemp(temporary.data());
+    static std::atomic<uint32_t> serial{ 0 }; // unique among the writers of this process; the id, among processes
+    const std::string temporary = fmt::format("{}.{}-{}", path.string(), ::getpid(), serial.fetch_add(1));
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) return unwritable(path, std::strerror(errno));
     const bool wrote = writeAll(descriptor, bytes);
     const int writeError = errno;
