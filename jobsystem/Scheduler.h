@@ -18,6 +18,9 @@
 #include "jobsystem/ParkingLot.h"
 #include "jobsystem/WorkStealingDeque.h"
 
+#if defined(__SANITIZE_THREAD__) // the queue has fences that gcc's thread sanitizer ignores, and orders its data without
+#pragma GCC diagnostic ignored "-Wtsan"
+#endif
 #include <concurrentqueue.h>
 
 #include <atomic>

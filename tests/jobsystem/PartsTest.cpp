@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// The parts below the scheduler, each alone: deque, storage, parking lot, cores.
+#include "jobsystem/CpuSet.h"
+#include "jobsystem/JobStorage.h"
+#include "jobsystem/ParkingLot.h"
+#include "jobsystem/WorkStealingDeque.h"
+
+#include <gtest/gtest.h>
+
+#include <atomic>
+#include <chrono>
+#include <set>
+#include <thread>
+#include <vector>
+
+namespace filament::jobs {
+namespace {
+
+TEST(WorkStealingDeque, TheOwnerTakesTheNewestAndAThiefTheOldest) {
+    WorkStealingDeque<int, 8> deque;
+    int items[4] = {};
+    for (int& item : items) ASSERT_TRUE(deque.push(&item));
+    EXPECT_EQ(deque.steal(), &items[0]);
+    EXPECT_EQ(deque.take(), &items[3]);
+    EXPECT_EQ(deque.steal(), &items[1]);
+    EXPECT_EQ(deque.take(), &items[2]);
+    EXPECT_EQ(deque.take(), nullptr);
+    EXPECT_EQ(deque.steal(), nullptr);
+    EXPECT_TRUE(deque.isEmpty());
+}
+
+TEST(WorkStealingDeque, RefusesWhenFullAndAcceptsAgainAfterATheft) {
+    WorkStealingDeque<int, 4> deque;
+    int items[5] = {};
+    for (int i = 0; i < 4; ++i) ASSERT_TRUE(deque.push(&items[i]));
+    EXPECT_FALSE(deque.push(&items[4]));
+    EXPECT_EQ(deque.steal(), &items[0]);
+    EXPECT_TRUE(deque.push(&items[4]));
+    EXPECT_EQ(deque.take(), &items[4]);
+}
+
+TEST(WorkStealingDeque, UnderThievesEveryItemComesOutExactlyOnce) {
+    constexpr int kItems = 200'000;
+    WorkStealingDeque<int, 64> deque;
+    std::vector<int> items(kItems, 0); // plain: two threads on one item would be a race that the sanitizer reports
+    std::atomic<bool> done = false;
+    const auto thief = [&] {
+        while (!done.load()) {
+            if (int* item = deque.steal()) ++*item;
+        }
+    };
+    std::thread first(thief), second(thief);
+    for (int i = 0; i < kItems; ++i) {
+        while (!deque.push(&items[i])) {
+            if (int* item = deque.take()) ++*item;
+        }
+        if (i % 3 == 0) {
+            if (int* item = deque.take()) ++*item;
+        }
+    }
+    while (int* item = deque.take()) ++*item;
+    done = true;
+    first.join();
+    second.join();
+    for (int i = 0; i < kItems; ++i) ASSERT_EQ(items[i], 1) << "item " << i;
+}
+
+TEST(JobStorage, GivesOutEveryJobOnceAndThenNull) {
+    JobStorage storage(100); // not a multiple of the batch size
+    JobStorage::Cache cache;
+    std::set<Job*> jobs;
+    while (Job* job = storage.allocate(jobs.size() % 2 ? &cache : nullptr)) ASSERT_TRUE(jobs.insert(job).second);
+    while (Job* job = storage.allocate(&cache)) ASSERT_TRUE(jobs.insert(job).second);
+    EXPECT_EQ(jobs.size(), 100u);
+    EXPECT_EQ(storage.allocate(nullptr), nullptr);
+}
+
+TEST(JobStorage, WhatOneThreadReleasesAnotherCanAllocate) {
+    JobStorage storage(256);
+    JobStorage::Cache mine, theirs;
+    for (int round = 0; round < 50; ++round) {
+        std::vector<Job*> jobs;
+        for (int i = 0; i < 128; ++i) jobs.push_back(storage.allocate(&mine));
+        for (Job* job : jobs) {
+            ASSERT_NE(job, nullptr) << "round " << round;
+            storage.release(&theirs, *job);
+        }
+    }
+}
+
+TEST(JobStorage, ThreadsNeverHoldTheSameJob) {
+    JobStorage storage(512);
+    const auto churn = [&](bool cached) {
+        JobStorage::Cache cache;
+        std::vector<Job*> held;
+        for (int i = 0; i < 50'000; ++i) {
+            if (Job* job = held.size() < 60 ? storage.allocate(cached ? &cache : nullptr) : nullptr) {
+                job->captures[0] = std::byte{ 1 }; // a plain write: shared jobs would be a race
+                held.push_back(job);
+            }
+            if (i % 3 == 0 || held.size() == 60) {
+                storage.release(cached ? &cache : nullptr, *held.back());
+                held.pop_back();
+            }
+        }
+    };
+    std::thread first(churn, true), second(churn, true), third(churn, false);
+    first.join();
+    second.join();
+    third.join();
+}
+
+TEST(ParkingLot, AWakeUpBetweenPrepareAndParkIsNotLost) {
+    ParkingLot lot;
+    const ParkingLot::Ticket one = lot.prepare();
+    lot.wakeOne();
+    lot.park(one); // would hang
+    const ParkingLot::Ticket all = lot.prepare();
+    lot.wakeAll();
+    lot.park(all);
+    EXPECT_FALSE(lot.hasSleepers());
+}
+
+TEST(ParkingLot, AWakeUpThatMeetsACancelledSleepDoesNotSwallowTheNextOne) {
+    ParkingLot lot;
+    lot.prepare();
+    lot.wakeOne(); // answered by cancel(): that thread looks for work itself
+    lot.cancel();
+    const ParkingLot::Ticket ticket = lot.prepare();
+    lot.wakeOne();
+    lot.park(ticket); // would hang if the first wake-up still counted as under way
+    EXPECT_FALSE(lot.hasSleepers());
+}
+
+TEST(ParkingLot, TwoThreadsThatHandATokenToAndFroNeverBothSleep) {
+    constexpr int kRounds = 20'000;
+    ParkingLot lots[2];
+    std::atomic<int> token = 0; // seq_cst, as the protocol demands of what is published
+    const auto player = [&](int self) {
+        for (int round = 0; round < kRounds; ++round) {
+            while (token.load() != 2 * round + self) {
+                const ParkingLot::Ticket ticket = lots[self].prepare();
+                if (token.load() == 2 * round + self) {
+                    lots[self].cancel();
+                } else {
+                    lots[self].park(ticket);
+                }
+            }
+            token.fetch_add(1);
+            lots[1 - self].wakeOne();
+        }
+    };
+    std::thread first(player, 0), second(player, 1);
+    first.join();
+    second.join();
+    EXPECT_EQ(token.load(), 2 * kRounds);
+}
+
+TEST(CpuSet, PinningNarrowsTheCoresOfTheThreadToOne) {
+    const std::vector<int> cores = coresOfProcess();
+    ASSERT_FALSE(cores.empty());
+    std::thread([&] {
+        EXPECT_TRUE(pinThisThread(cores.back()));
+        EXPECT_EQ(coresOfProcess(), std::vector<int>{ cores.back() });
+    }).join();
+    EXPECT_EQ(coresOfProcess(), cores);
+}
+
+TEST(CpuSet, RefusesACoreThatDoesNotExist) {
+    testing::internal::CaptureStderr();
+    EXPECT_FALSE(pinThisThread(8191));
+    EXPECT_FALSE(pinThisThread(-1));
+    EXPECT_NE(testing::internal::GetCapturedStderr().find("cannot pin a thread to core 8191"), std::string::npos);
+}
+
+} // namespace
+} // namespace filament::jobs
