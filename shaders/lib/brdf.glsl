@@ -96,6 +96,6 @@ vec3 diffuseColor(vec3 baseColor, float metallic) { return baseColor * (1.0f - m
 // dfg.y in (0, 1]. Returns values >= 1.
 vec3 energyCompensation(vec3 f0, vec2 dfg) { return vec3(1.0f) + f0 * (1.0f / dfg.y - 1.0f); }
 
-// Directional albedo of the specular lobe including multiple scattering: the second factor of the split sum.
-// dfg.x <= dfg.y are the integrals weighted by Schlick's (1 - voh)^5 and by 1; energyCompensation() is in it already.
+// Directional albedo of the specular lobe, one bounce: the second factor of the split sum.
+// dfg.x <= dfg.y: the integrals weighted by Schlick's (1 - voh)^5 and by 1. Multiply by energyCompensation() as well.
 vec3 specularDfg(vec3 f0, vec2 dfg) { return mix(vec3(dfg.x), vec3(dfg.y), f0); }
