@@ -1,0 +1,152 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/vulkan/Barriers.h"
+
+#include "backend/vulkan/Buffer.h"
+#include "backend/vulkan/Texture.h"
+
+#include <algorithm>
+#include <array>
+
+namespace filament::backend::vulkan {
+namespace {
+
+constexpr VkPipelineStageFlags kShaders = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+constexpr VkPipelineStageFlags kDepthTests =
+        VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
+constexpr VkPipelineStageFlags kBufferReaders = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | kShaders;
+constexpr VkAccessFlags kBufferReads =
+        VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT;
+constexpr VkAccessFlags kColorAccess = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
+constexpr VkAccessFlags kDepthAccess =
+        VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
+
+constexpr std::array<UseInfo, static_cast<size_t>(Use::Count)> kUses{ {
+        { VK_IMAGE_LAYOUT_UNDEFINED, VK_PIPELINE_STAGE_TOP_OF_PIPE_BIT, 0, 0 },
+        { VK_IMAGE_LAYOUT_TRANSFER_SRC_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_READ_BIT, 0 },
+        { VK_IMAGE_LAYOUT_TRANSFER_DST_OPTIMAL, VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT,
+          VK_ACCESS_TRANSFER_WRITE_BIT },
+        { VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL, kShaders, VK_ACCESS_SHADER_READ_BIT, 0 },
+        { VK_IMAGE_LAYOUT_COLOR_ATTACHMENT_OPTIMAL, VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT, kColorAccess,
+          VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT },
+        { VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthTests, kDepthAccess,
+          VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT },
+        // Load and store operations and earlier subpasses write it as a colour attachment.
+        { VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
+          VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
+          kColorAccess | VK_ACCESS_INPUT_ATTACHMENT_READ_BIT, VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT },
+} };
+
+} // namespace
+
+UseInfo const& infoOf(Use use) { return kUses[static_cast<size_t>(use)]; }
+
+SubresourceUses::SubresourceUses(uint32_t levels, uint32_t layers)
+        : mLevels(levels), mLayers(layers), mUses(size_t{ levels } * layers, Use::Undefined) {}
+
+void SubresourceUses::set(SubresourceRange const& range, Use use) {
+    for (uint32_t level = range.level; level < range.level + range.levelCount; ++level) {
+        std::fill_n(mUses.begin() + level * mLayers + range.layer, range.layerCount, use);
+    }
+}
+
+bool SubresourceUses::isUniform(SubresourceRange const& range) const {
+    const Use first = at(range.level, range.layer);
+    for (uint32_t level = range.level; level < range.level + range.levelCount; ++level) {
+        const Use* const uses = mUses.data() + level * mLayers + range.layer;
+        if (!std::all_of(uses, uses + range.layerCount, [first](Use use) { return use == first; })) return false;
+    }
+    return true;
+}
+
+void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, Contents contents) {
+    UseInfo const& next = infoOf(use);
+    texture.uses.forEachPart(range, [&](SubresourceRange const& part, Use before) {
+        if (before == use && next.written == 0) return; // reading again
+        UseInfo const& last = infoOf(before);
+        auto barrier = make<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
+        barrier.srcAccessMask = last.written;
+        barrier.dstAccessMask = next.access;
+        barrier.oldLayout = contents == Contents::Discard ? VK_IMAGE_LAYOUT_UNDEFINED : last.layout;
+        barrier.newLayout = next.layout;
+        barrier.srcQueueFamilyIndex = barrier.dstQueueFamilyIndex = VK_QUEUE_FAMILY_IGNORED;
+        barrier.image = texture.image();
+        barrier.subresourceRange = { texture.aspects(), part.level, part.levelCount, part.layer, part.layerCount };
+        mImages.push_back(barrier);
+        mSourceStages |= last.stages;
+        mTargetStages |= next.stages;
+    });
+    leave(texture, range, use);
+}
+
+void Barriers::leave(Texture& texture, SubresourceRange const& range, Use use) {
+    texture.uses.set(range, use);
+    if (use != Use::ShaderRead) add(texture);
+}
+
+void Barriers::add(Texture& texture) {
+    if (!texture.isSampled() || texture.isUnsettled) return;
+    texture.isUnsettled = true;
+    mUnsettled.push_back(&texture);
+}
+
+void Barriers::forget(Texture& texture) {
+    if (texture.isUnsettled) std::erase(mUnsettled, &texture);
+    texture.isUnsettled = false;
+}
+
+void Barriers::bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end) {
+    constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    if (mPassesSinceTransfer) {
+        memory(kBufferReaders, 0, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT); // draws have read what is overwritten now
+        mPassesSinceTransfer = false;
+    }
+    if (buffer.overlapsWrites(mTransferEpoch, begin, end)) {
+        memory(kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT);
+        ++mTransferEpoch;
+    }
+    buffer.addWrite(mTransferEpoch, begin, end);
+    mTransferWrites = true;
+}
+
+void Barriers::hostRead() {
+    memory(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+           VK_ACCESS_HOST_READ_BIT);
+}
+
+void Barriers::beginPass(uint64_t pass) {
+    if (mTransferWrites) {
+        memory(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kBufferReaders, kBufferReads);
+        mTransferWrites = false;
+        ++mTransferEpoch;
+    }
+    std::erase_if(mUnsettled, [&](Texture* texture) {
+        if (texture->attachmentOfPass == pass) return false;
+        image(*texture, texture->uses.all(), Use::ShaderRead);
+        texture->isUnsettled = false;
+        return true;
+    });
+}
+
+void Barriers::memory(VkPipelineStageFlags sourceStages, VkAccessFlags written, VkPipelineStageFlags targetStages,
+                      VkAccessFlags access) {
+    mSourceStages |= sourceStages;
+    mTargetStages |= targetStages;
+    mWritten |= written;
+    mAccess |= access;
+    mHasMemoryBarrier = true;
+}
+
+void Barriers::flush(VolkDeviceTable const& fn, VkCommandBuffer commands) {
+    if (isEmpty()) return;
+    auto barrier = make<VkMemoryBarrier>(VK_STRUCTURE_TYPE_MEMORY_BARRIER);
+    barrier.srcAccessMask = mWritten;
+    barrier.dstAccessMask = mAccess;
+    fn.vkCmdPipelineBarrier(commands, mSourceStages, mTargetStages, 0, mHasMemoryBarrier ? 1 : 0, &barrier, 0, nullptr,
+                            static_cast<uint32_t>(mImages.size()), mImages.data());
+    mImages.clear();
+    mSourceStages = mTargetStages = 0;
+    mWritten = mAccess = 0;
+    mHasMemoryBarrier = false;
+}
+
+} // namespace filament::backend::vulkan

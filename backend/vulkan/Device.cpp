@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/vulkan/Device.h"
+
+#include <string>
+
+namespace filament::backend::vulkan {
+namespace {
+
+VkResult createHandle(InstanceFunctions const& fn, PhysicalDevice const& physical, VkDevice& handle) {
+    const float priority = 1;
+    auto queue = make<VkDeviceQueueCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_QUEUE_CREATE_INFO);
+    queue.queueFamilyIndex = physical.queueFamily;
+    queue.queueCount = 1;
+    queue.pQueuePriorities = &priority;
+
+    auto provoking = make<VkPhysicalDeviceProvokingVertexFeaturesEXT>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT);
+    provoking.provokingVertexLast = VK_TRUE;
+    auto half = make<VkPhysicalDeviceShaderFloat16Int8Features>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
+    half.shaderFloat16 = VK_TRUE;
+    auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+    features.features.samplerAnisotropy = physical.features.samplerAnisotropy;
+    features.features.depthClamp = physical.features.depthClamp;
+    features.features.textureCompressionBC = physical.features.textureCompressionBC;
+    features.features.independentBlend = physical.features.independentBlend;
+
+    std::vector<const char*> extensions;
+    if (physical.provokingVertexLast) {
+        extensions.push_back(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME);
+        provoking.pNext = features.pNext;
+        features.pNext = &provoking;
+    }
+    if (physical.halfFloatShaders) {
+        extensions.push_back(VK_KHR_SHADER_FLOAT16_INT8_EXTENSION_NAME);
+        half.pNext = features.pNext;
+        features.pNext = &half;
+    }
+
+    auto info = make<VkDeviceCreateInfo>(VK_STRUCTURE_TYPE_DEVICE_CREATE_INFO);
+    info.pNext = &features;
+    info.queueCreateInfoCount = 1;
+    info.pQueueCreateInfos = &queue;
+    info.enabledExtensionCount = static_cast<uint32_t>(extensions.size());
+    info.ppEnabledExtensionNames = extensions.data();
+    return fn.vkCreateDevice(physical.handle, &info, nullptr, &handle);
+}
+
+} // namespace
+
+Result<std::unique_ptr<Device>> Device::create(std::unique_ptr<Instance> instance, PhysicalDevice physical) {
+    std::unique_ptr<Device> device(new Device);
+    device->mInstance = std::move(instance);
+    device->mPhysical = std::move(physical);
+    const VkResult result = createHandle(device->mInstance->fn(), device->mPhysical, device->mHandle);
+    if (result != VK_SUCCESS) {
+        device->mHandle = VK_NULL_HANDLE;
+        return fail(ErrorCode::DeviceUnavailable, "Vulkan: '{}' refused to make a device ({}); update its driver",
+                    device->info().deviceName, toString(result));
+    }
+    volkLoadDeviceTable(&device->mFunctions, device->mHandle);
+    device->mFunctions.vkGetDeviceQueue(device->mHandle, device->mPhysical.queueFamily, 0, &device->mQueue);
+    device->mMemory = std::make_unique<Memory>(device->mFunctions, device->mHandle, device->mPhysical.memory);
+    return device;
+}
+
+Device::~Device() {
+    mMemory.reset();
+    if (mHandle != VK_NULL_HANDLE) mFunctions.vkDestroyDevice(mHandle, nullptr);
+}
+
+void Device::setNameBits(VkObjectType type, uint64_t handle, std::string_view name) const {
+    const std::string text(name); // a string_view need not end in zero
+    auto info = make<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);
+    info.objectType = type;
+    info.objectHandle = handle;
+    info.pObjectName = text.c_str();
+    mInstance->fn().vkSetDebugUtilsObjectNameEXT(mHandle, &info);
+}
+
+} // namespace filament::backend::vulkan

@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/vulkan/Executor.h"
+
+#include "backend/vulkan/Formats.h"
+#include "filament_core/base/Assert.h"
+
+#include <cstring>
+
+namespace filament::backend::vulkan {
+namespace {
+
+VkBufferImageCopy copyRegion(Texture const& texture, uint64_t bufferOffset, SubresourceRange const& range,
+                             Rect const& rect) {
+    VkBufferImageCopy region{};
+    region.bufferOffset = bufferOffset; // row length and image height 0: tightly packed
+    region.imageSubresource = { copyAspectOf(texture.format()), range.level, range.layer, range.layerCount };
+    region.imageOffset = { rect.x, rect.y, 0 };
+    region.imageExtent = { rect.width, rect.height, 1 };
+    return region;
+}
+
+bool covers(Rect const& rect, VkExtent2D extent) {
+    return rect.x == 0 && rect.y == 0 && rect.width == extent.width && rect.height == extent.height;
+}
+
+bool isEmpty(Rect const& rect) { return rect.width == 0 || rect.height == 0; }
+
+void setOffsets(VkOffset3D (&offsets)[2], Rect const& rect) {
+    offsets[0] = { rect.x, rect.y, 0 };
+    offsets[1] = { rect.x + static_cast<int32_t>(rect.width), rect.y + static_cast<int32_t>(rect.height), 1 };
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------------------------- uploads
+
+std::optional<StagedBytes> Executor::stage(std::span<const std::byte> bytes, std::string_view target) {
+    commands(); // opens the submission that staged bytes belong to
+    auto staged = mUpload->stage(bytes);
+    if (!staged) report(fail(ErrorCode::OutOfMemory, "upload of {} bytes to '{}'", bytes.size(), target));
+    return staged;
+}
+
+void Executor::execute(CmdUpdateBuffer const& command) {
+    Buffer* const buffer = mBuffers.find(command.buffer);
+    if (!buffer || command.bytes.empty()) return;
+    const uint64_t end = command.offset + command.bytes.size();
+    FILAMENT_ASSERT(end >= command.offset && end <= buffer->bytes(), "an update stays inside its buffer");
+    if (!buffer->isUsed && buffer->mapped()) {
+        std::memcpy(buffer->mapped() + command.offset, command.bytes.data(), command.bytes.size());
+        return; // visible to the submission that follows
+    }
+    const auto staged = stage(command.bytes, "a buffer");
+    if (!staged) return;
+    buffer->isUsed = true;
+    mBarriers.bufferWrite(*buffer, command.offset, end);
+    flushBarriers();
+    const VkBufferCopy region{ staged->offset, command.offset, command.bytes.size() };
+    mDevice->fn().vkCmdCopyBuffer(commands(), staged->buffer, buffer->handle(), 1, &region);
+}
+
+void Executor::execute(CmdUploadTexture const& command) {
+    Texture* const texture = mTextures.find(command.texture);
+    if (!texture || isEmpty(command.rect)) return;
+    if (hasStencil(texture->format())) {
+        return report(fail(ErrorCode::Unsupported, "texture '{}': depth with stencil cannot be uploaded; render it",
+                           texture->name()));
+    }
+    const uint64_t bytes = imageBytes(texture->format(), command.rect.width, command.rect.height) * command.layerCount;
+    FILAMENT_ASSERT(command.bytes.size() >= bytes, "an upload has the bytes of its rectangle in every layer");
+    const auto staged = stage(command.bytes.first(bytes), texture->name());
+    if (!staged) return;
+    const SubresourceRange range{ command.level, 1, command.layer, command.layerCount };
+    const bool replacesAll = covers(command.rect, texture->extent(command.level));
+    mBarriers.image(*texture, range, Use::TransferWrite, replacesAll ? Contents::Discard : Contents::Keep);
+    flushBarriers();
+    const VkBufferImageCopy region = copyRegion(*texture, staged->offset, range, command.rect);
+    mDevice->fn().vkCmdCopyBufferToImage(commands(), staged->buffer, texture->image(),
+                                         infoOf(Use::TransferWrite).layout, 1, &region);
+}
+
+// ---------------------------------------------------------------------------------------------- blits
+
+bool Executor::canBlit(Texture const& texture, VkFormatFeatureFlags needed, std::string_view what) {
+    VkFormatProperties properties{};
+    mDevice->instance().fn().vkGetPhysicalDeviceFormatProperties(mDevice->physical().handle, native(texture.format()),
+                                                                 &properties);
+    if ((properties.optimalTilingFeatures & needed) == needed) return true;
+    report(fail(ErrorCode::Unsupported, "{} of texture '{}': '{}' cannot filter {} that way; choose another format",
+                what, texture.name(), info().deviceName, formatInfo(texture.format()).name));
+    return false;
+}
+
+void Executor::recordBlit(Texture& source, VkImageBlit const& blit, Texture& target, Contents targetContents,
+                          Filter filter) {
+    VkImageSubresourceLayers const& from = blit.srcSubresource;
+    VkImageSubresourceLayers const& to = blit.dstSubresource;
+    mBarriers.image(source, { from.mipLevel, 1, from.baseArrayLayer, from.layerCount }, Use::TransferRead);
+    mBarriers.image(target, { to.mipLevel, 1, to.baseArrayLayer, to.layerCount }, Use::TransferWrite, targetContents);
+    flushBarriers();
+    mDevice->fn().vkCmdBlitImage(commands(), source.image(), infoOf(Use::TransferRead).layout, target.image(),
+                                 infoOf(Use::TransferWrite).layout, 1, &blit, native(filter));
+}
+
+void Executor::execute(CmdGenerateMips const& command) {
+    Texture* const texture = mTextures.find(command.texture);
+    if (!texture || texture->levels() == 1) return;
+    constexpr VkFormatFeatureFlags kNeeded = VK_FORMAT_FEATURE_BLIT_SRC_BIT | VK_FORMAT_FEATURE_BLIT_DST_BIT |
+                                             VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    if (!canBlit(*texture, kNeeded, "mips")) return;
+    for (uint32_t level = 1; level < texture->levels(); ++level) {
+        VkImageBlit blit{};
+        const VkExtent2D from = texture->extent(level - 1), to = texture->extent(level);
+        blit.srcSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, level - 1, 0, texture->layers() };
+        blit.dstSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, level, 0, texture->layers() };
+        setOffsets(blit.srcOffsets, { 0, 0, from.width, from.height });
+        setOffsets(blit.dstOffsets, { 0, 0, to.width, to.height });
+        recordBlit(*texture, blit, *texture, Contents::Discard, Filter::Linear);
+    }
+}
+
+void Executor::execute(CmdBlit const& command) {
+    Texture* const source = mTextures.find(command.source);
+    Texture* const target = mTextures.find(command.target);
+    if (!source || !target || isEmpty(command.sourceRect) || isEmpty(command.targetRect)) return;
+    VkFormatFeatureFlags needed = VK_FORMAT_FEATURE_BLIT_SRC_BIT;
+    if (command.filter == Filter::Linear) needed |= VK_FORMAT_FEATURE_SAMPLED_IMAGE_FILTER_LINEAR_BIT;
+    if (!canBlit(*source, needed, "blit") || !canBlit(*target, VK_FORMAT_FEATURE_BLIT_DST_BIT, "blit")) return;
+    VkImageBlit blit{};
+    blit.srcSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, command.sourceLevel, command.sourceLayer, 1 };
+    blit.dstSubresource = { VK_IMAGE_ASPECT_COLOR_BIT, command.targetLevel, command.targetLayer, 1 };
+    setOffsets(blit.srcOffsets, command.sourceRect);
+    setOffsets(blit.dstOffsets, command.targetRect);
+    const bool replacesAll = covers(command.targetRect, target->extent(command.targetLevel));
+    recordBlit(*source, blit, *target, replacesAll ? Contents::Discard : Contents::Keep, command.filter);
+}
+
+// ---------------------------------------------------------------------------------------------- read-backs
+
+void Executor::execute(CmdReadTexture const& command) {
+    Texture* const texture = mTextures.find(command.texture);
+    if (!texture || isEmpty(command.rect)) return mSink.onReadback(command.ticket, {});
+    auto target = mReadbacks->makeTarget(command, *texture);
+    if (!target) {
+        report(target.error());
+        return mSink.onReadback(command.ticket, {});
+    }
+    recordReadback(command, *texture, std::move(*target));
+}
+
+void Executor::recordReadback(CmdReadTexture const& command, Texture& texture, std::unique_ptr<Buffer> target) {
+    const SubresourceRange range{ command.level, 1, command.layer, 1 };
+    mBarriers.image(texture, range, Use::TransferRead);
+    VkCommandBuffer recording = commands();
+    flushBarriers();
+    const VkBufferImageCopy region = copyRegion(texture, 0, range, command.rect);
+    mDevice->fn().vkCmdCopyImageToBuffer(recording, texture.image(), infoOf(Use::TransferRead).layout, target->handle(),
+                                         1, &region);
+    mBarriers.hostRead();
+    mReadbacks->add(command.ticket, texture.format(), std::move(target), mSubmissions->recordingSerial());
+}
+
+} // namespace filament::backend::vulkan

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Our enums as Vulkan's. Pure functions; every enumerator has an answer.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "backend/vulkan/VulkanApi.h"
+
+namespace filament::backend::vulkan {
+
+VkFormat native(Format format);       ///< VK_FORMAT_UNDEFINED for None
+VkFormat native(VertexFormat format); ///< VK_FORMAT_UNDEFINED for None
+VkFilter native(Filter filter);
+VkSamplerAddressMode native(WrapMode mode);
+VkCompareOp native(CompareOp op); ///< None: always
+VkPrimitiveTopology native(Topology topology);
+VkCullModeFlags native(CullMode mode);
+VkStencilOp native(StencilOp op);
+VkBlendFactor native(BlendFactor factor);
+VkBlendOp native(BlendOp op);
+VkDescriptorType native(BindingType type);
+VkShaderStageFlags native(ShaderStage stages);
+VkAttachmentLoadOp native(LoadOp op);
+VkAttachmentStoreOp native(StoreOp op);
+VkIndexType native(IndexType type);
+
+/// Vulkan measures the sign of a triangle's area with y pointing down the picture, and calls positive
+/// counter-clockwise: that is how the triangle looks with row 0 at the top, so the names agree.
+VkFrontFace native(FrontFace face);
+
+/// All aspects of the format: what a barrier or an attachment view names.
+VkImageAspectFlags aspectsOf(Format format);
+/// The one aspect that is sampled and copied: colour, or depth without stencil.
+VkImageAspectFlags copyAspectOf(Format format);
+
+VkSampleCountFlagBits sampleBits(uint32_t samples);
+
+} // namespace filament::backend::vulkan

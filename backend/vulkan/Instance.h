@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Instance: the loader, the instance and the validation messenger.
+///   Thread  create(): any, also several at once. Afterwards one thread at a time.
+///   Fails   DeviceUnavailable without a loader, without Vulkan 1.1 or without any driver.
+///   Validation  asked for but not installed: one ResultSink::onError, and on without it.
+#pragma once
+
+#include "backend/api/Driver.h"
+#include "backend/vulkan/VulkanApi.h"
+
+#include <memory>
+#include <vector>
+
+namespace filament::backend::vulkan {
+
+/// What we call on the instance and its physical devices. The last three are null without debug utils.
+struct InstanceFunctions {
+    PFN_vkDestroyInstance vkDestroyInstance = nullptr;
+    PFN_vkEnumeratePhysicalDevices vkEnumeratePhysicalDevices = nullptr;
+    PFN_vkGetPhysicalDeviceProperties2 vkGetPhysicalDeviceProperties2 = nullptr;
+    PFN_vkGetPhysicalDeviceFeatures2 vkGetPhysicalDeviceFeatures2 = nullptr;
+    PFN_vkGetPhysicalDeviceMemoryProperties vkGetPhysicalDeviceMemoryProperties = nullptr;
+    PFN_vkGetPhysicalDeviceQueueFamilyProperties vkGetPhysicalDeviceQueueFamilyProperties = nullptr;
+    PFN_vkGetPhysicalDeviceFormatProperties vkGetPhysicalDeviceFormatProperties = nullptr;
+    PFN_vkGetPhysicalDeviceImageFormatProperties vkGetPhysicalDeviceImageFormatProperties = nullptr;
+    PFN_vkEnumerateDeviceExtensionProperties vkEnumerateDeviceExtensionProperties = nullptr;
+    PFN_vkCreateDevice vkCreateDevice = nullptr;
+    PFN_vkCreateDebugUtilsMessengerEXT vkCreateDebugUtilsMessengerEXT = nullptr;
+    PFN_vkDestroyDebugUtilsMessengerEXT vkDestroyDebugUtilsMessengerEXT = nullptr;
+    PFN_vkSetDebugUtilsObjectNameEXT vkSetDebugUtilsObjectNameEXT = nullptr;
+    PFN_vkCmdBeginDebugUtilsLabelEXT vkCmdBeginDebugUtilsLabelEXT = nullptr;
+    PFN_vkCmdEndDebugUtilsLabelEXT vkCmdEndDebugUtilsLabelEXT = nullptr;
+};
+
+class Instance {
+public:
+    /// `sink` hears validation messages and must outlive the instance; null: no validation.
+    static Result<std::unique_ptr<Instance>> create(ResultSink* sink);
+    ~Instance();
+    Instance(Instance const&) = delete;
+    Instance& operator=(Instance const&) = delete;
+
+    std::vector<VkPhysicalDevice> physicalDevices() const;
+
+    VkInstance handle() const { return mHandle; }
+    InstanceFunctions const& fn() const { return mFunctions; }
+    bool hasValidation() const { return mMessenger != VK_NULL_HANDLE; }
+
+private:
+    Instance() = default;
+    void loadFunctions();
+
+    VkInstance mHandle = VK_NULL_HANDLE;
+    VkDebugUtilsMessengerEXT mMessenger = VK_NULL_HANDLE;
+    InstanceFunctions mFunctions;
+};
+
+} // namespace filament::backend::vulkan

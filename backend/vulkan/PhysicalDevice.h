@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// PhysicalDevice: what one device offers, asked once, and which one of several to take.
+///   Thread  any; plain values afterwards.
+///   Needs   Vulkan 1.1, one queue family with graphics, and every format that formatInfo() calls renderable.
+///           Everything else (anisotropy, depth clamp, BC formats, provoking vertex, half floats) is used when there.
+#pragma once
+
+#include "backend/api/Driver.h"
+#include "backend/vulkan/Instance.h"
+#include "backend/vulkan/Quirks.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament::backend::vulkan {
+
+struct PhysicalDevice {
+    VkPhysicalDevice handle = VK_NULL_HANDLE;
+    DeviceInfo info;
+    VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
+    VkPhysicalDeviceMemoryProperties memory{};
+    VkPhysicalDeviceFeatures features{};
+    Quirks quirks;
+    uint32_t queueFamily = ~0u;
+    uint32_t timestampBits = 0;       ///< 0: no timestamps on that queue
+    float timestampNanoseconds = 1;   ///< of one tick
+    uint64_t copyOffsetAlignment = 4; ///< of bytes in a staging buffer
+    bool provokingVertexLast = false;
+    bool halfFloatShaders = false;
+    bool lazilyAllocatedMemory = false; ///< transient attachments may live in tile memory only
+    std::string unusable;               ///< empty, or why this driver cannot run on it
+};
+
+/// All devices of the instance, usable or not, in the order of the loader.
+std::vector<PhysicalDevice> surveyDevices(Instance const& instance);
+
+/// Index of the device to take: the first one whose name contains `required` (case-insensitive; empty: any), GPUs
+/// before CPUs. DeviceUnavailable lists what there is, and why it does not do.
+Result<size_t> chooseDevice(std::span<const PhysicalDevice> devices, std::string_view required);
+
+} // namespace filament::backend::vulkan

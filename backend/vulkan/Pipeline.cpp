@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/vulkan/Pipeline.h"
+
+#include "backend/vulkan/Formats.h"
+
+#include <algorithm>
+
+namespace filament::backend::vulkan {
+namespace {
+
+VkFormat zeroFormat(ScalarKind kind) {
+    switch (kind) {
+    case ScalarKind::Int:
+        return VK_FORMAT_R32_SINT;
+    case ScalarKind::UInt:
+        return VK_FORMAT_R32_UINT;
+    case ScalarKind::Float:
+        break;
+    }
+    return VK_FORMAT_R32_SFLOAT;
+}
+
+void addBuffer(VertexInput& input, VertexLayout const& layout, uint8_t slot) {
+    if ((input.bufferMask >> slot & 1) != 0) return;
+    input.bufferMask = static_cast<uint8_t>(input.bufferMask | 1u << slot);
+    VertexBufferLayout const& buffer = layout.buffers[slot];
+    input.buffers[input.bufferCount++] = { slot, buffer.stride,
+                                           buffer.perInstance ? VK_VERTEX_INPUT_RATE_INSTANCE
+                                                              : VK_VERTEX_INPUT_RATE_VERTEX };
+}
+
+/// Specialisation constants of both stages, 32 bits each.
+class Specialization {
+public:
+    explicit Specialization(std::span<const ConstantValue> constants) {
+        for (ConstantValue const& constant : constants) {
+            const auto offset = static_cast<uint32_t>(mData.size() * sizeof(uint32_t));
+            mEntries.push_back({ constant.id, offset, sizeof(uint32_t) });
+            mData.push_back(constant.bits);
+        }
+        mInfo = { static_cast<uint32_t>(mEntries.size()), mEntries.data(), mData.size() * sizeof(uint32_t),
+                  mData.data() };
+    }
+    Specialization(Specialization const&) = delete;
+    Specialization& operator=(Specialization const&) = delete;
+    VkSpecializationInfo const* info() const { return mEntries.empty() ? nullptr : &mInfo; }
+
+private:
+    std::vector<VkSpecializationMapEntry> mEntries;
+    std::vector<uint32_t> mData;
+    VkSpecializationInfo mInfo{};
+};
+
+VkPipelineShaderStageCreateInfo stageInfo(VkShaderStageFlagBits stage, VkShaderModule module,
+                                          Specialization const& constants) {
+    auto info = make<VkPipelineShaderStageCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_SHADER_STAGE_CREATE_INFO);
+    info.stage = stage;
+    info.module = module;
+    info.pName = "main";
+    info.pSpecializationInfo = constants.info();
+    return info;
+}
+
+VkPipelineRasterizationStateCreateInfo rasterInfo(Device const& device, RasterState const& raster) {
+    auto info =
+            make<VkPipelineRasterizationStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_STATE_CREATE_INFO);
+    info.depthClampEnable = raster.depthClamp && device.info().features.depthClamp;
+    info.polygonMode = VK_POLYGON_MODE_FILL;
+    info.cullMode = native(raster.cull);
+    info.frontFace = native(raster.frontFace);
+    info.depthBiasEnable = raster.depthBiasConstant != 0 || raster.depthBiasSlope != 0;
+    info.depthBiasConstantFactor = raster.depthBiasConstant;
+    info.depthBiasSlopeFactor = raster.depthBiasSlope;
+    info.lineWidth = 1;
+    return info;
+}
+
+VkStencilOpState stencilFace(StencilFace const& face) {
+    return { native(face.fail),
+             native(face.pass),
+             native(face.depthFail),
+             native(face.compare),
+             face.readMask,
+             face.writeMask,
+             0 };
+}
+
+VkPipelineDepthStencilStateCreateInfo depthInfo(PipelineDesc const& desc) {
+    auto info = make<VkPipelineDepthStencilStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DEPTH_STENCIL_STATE_CREATE_INFO);
+    if (desc.pass.depthFormat == Format::None || !desc.pass.subpasses[desc.subpass].usesDepth) return info;
+    DepthStencilState const& state = desc.depthStencil;
+    info.depthTestEnable = state.depthCompare != CompareOp::None;
+    info.depthWriteEnable = info.depthTestEnable && state.depthWrite;
+    info.depthCompareOp = native(state.depthCompare);
+    info.stencilTestEnable = state.stencilTest && hasStencil(desc.pass.depthFormat);
+    info.front = stencilFace(state.front);
+    info.back = stencilFace(state.back);
+    info.maxDepthBounds = 1;
+    return info;
+}
+
+VkPipelineColorBlendAttachmentState blendAttachment(BlendState const& blend, Format format) {
+    VkPipelineColorBlendAttachmentState info{};
+    info.blendEnable = blend.enabled && formatInfo(format).kind != FormatKind::UnsignedInteger;
+    info.srcColorBlendFactor = native(blend.srcColor);
+    info.dstColorBlendFactor = native(blend.dstColor);
+    info.colorBlendOp = native(blend.colorOp);
+    info.srcAlphaBlendFactor = native(blend.srcAlpha);
+    info.dstAlphaBlendFactor = native(blend.dstAlpha);
+    info.alphaBlendOp = native(blend.alphaOp);
+    info.colorWriteMask = blend.writeMask;
+    return info;
+}
+
+struct BlendInfo {
+    std::array<VkPipelineColorBlendAttachmentState, kMaxColorAttachments> attachments{};
+    VkPipelineColorBlendStateCreateInfo info =
+            make<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
+};
+
+/// What neither the subpass nor the program writes keeps its value.
+void fillBlend(BlendInfo& blend, Device const& device, PipelineDesc const& desc, uint32_t outputMask) {
+    const uint32_t written = writtenColors(desc.pass, desc.subpass) & outputMask;
+    for (uint32_t i = 0; i < desc.pass.colorCount; ++i) {
+        blend.attachments[i] = blendAttachment(desc.blend[i], desc.pass.colorFormats[i]);
+        if ((written >> i & 1) == 0) blend.attachments[i].colorWriteMask = 0;
+        if (!device.physical().features.independentBlend) blend.attachments[i] = blend.attachments[0];
+    }
+    blend.info.attachmentCount = desc.pass.colorCount;
+    blend.info.pAttachments = blend.attachments.data();
+}
+
+VkPipelineMultisampleStateCreateInfo multisampleInfo(PipelineDesc const& desc) {
+    auto info = make<VkPipelineMultisampleStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_MULTISAMPLE_STATE_CREATE_INFO);
+    info.rasterizationSamples = sampleBits(desc.pass.samples);
+    info.alphaToCoverageEnable = desc.raster.alphaToCoverage;
+    return info;
+}
+
+VkPipelineVertexInputStateCreateInfo vertexInfo(VertexInput const& input) {
+    auto info = make<VkPipelineVertexInputStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VERTEX_INPUT_STATE_CREATE_INFO);
+    info.vertexAttributeDescriptionCount = input.attributeCount;
+    info.pVertexAttributeDescriptions = input.attributes.data();
+    info.vertexBindingDescriptionCount = input.bufferCount;
+    info.pVertexBindingDescriptions = input.buffers.data();
+    return info;
+}
+
+} // namespace
+
+VertexInput vertexInputOf(VertexLayout const& layout, std::span<const ShaderInput> inputs) {
+    VertexInput result;
+    const auto attributes = std::span(layout.attributes).first(layout.attributeCount);
+    for (ShaderInput const& input : inputs) {
+        const auto source = std::ranges::find(attributes, input.location, &VertexAttribute::location);
+        VkVertexInputAttributeDescription& target = result.attributes[result.attributeCount++];
+        if (source != attributes.end()) {
+            target = { input.location, source->buffer, native(source->format), source->offset };
+            addBuffer(result, layout, source->buffer);
+        } else {
+            target = { input.location, kZeroBufferSlot, zeroFormat(input.kind), 0 };
+            result.readsZeros = true;
+        }
+    }
+    if (result.readsZeros) result.buffers[result.bufferCount++] = { kZeroBufferSlot, 0, VK_VERTEX_INPUT_RATE_VERTEX };
+    return result;
+}
+
+Result<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, VkPipelineCache cache, VkRenderPass pass,
+                                                   Program const& program, PipelineDesc const& desc) {
+    const Specialization constants(program.constants());
+    const std::array stages{ stageInfo(VK_SHADER_STAGE_VERTEX_BIT, program.vertex(), constants),
+                             stageInfo(VK_SHADER_STAGE_FRAGMENT_BIT, program.fragment(), constants) };
+    const VertexInput input = vertexInputOf(desc.vertices, program.inputs());
+    const VkPipelineVertexInputStateCreateInfo vertices = vertexInfo(input);
+    auto assembly =
+            make<VkPipelineInputAssemblyStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_INPUT_ASSEMBLY_STATE_CREATE_INFO);
+    assembly.topology = native(desc.raster.topology);
+    auto viewports = make<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
+    viewports.viewportCount = viewports.scissorCount = 1;
+    VkPipelineRasterizationStateCreateInfo raster = rasterInfo(device, desc.raster);
+    // OpenGL's convention. It also decides from which vertex triangle set-up starts, and with that the last bit.
+    auto provoking = make<VkPipelineRasterizationProvokingVertexStateCreateInfoEXT>(
+            VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT);
+    provoking.provokingVertexMode = VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT;
+    if (device.physical().provokingVertexLast) raster.pNext = &provoking;
+    const VkPipelineMultisampleStateCreateInfo multisample = multisampleInfo(desc);
+    const VkPipelineDepthStencilStateCreateInfo depth = depthInfo(desc);
+    BlendInfo blend;
+    fillBlend(blend, device, desc, program.outputMask());
+    constexpr std::array kDynamic{ VK_DYNAMIC_STATE_VIEWPORT, VK_DYNAMIC_STATE_SCISSOR,
+                                   VK_DYNAMIC_STATE_STENCIL_REFERENCE };
+    auto dynamic = make<VkPipelineDynamicStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_DYNAMIC_STATE_CREATE_INFO);
+    dynamic.dynamicStateCount = static_cast<uint32_t>(kDynamic.size());
+    dynamic.pDynamicStates = kDynamic.data();
+
+    auto info = make<VkGraphicsPipelineCreateInfo>(VK_STRUCTURE_TYPE_GRAPHICS_PIPELINE_CREATE_INFO);
+    info.stageCount = static_cast<uint32_t>(stages.size());
+    info.pStages = stages.data();
+    info.pVertexInputState = &vertices;
+    info.pInputAssemblyState = &assembly;
+    info.pViewportState = &viewports;
+    info.pRasterizationState = &raster;
+    info.pMultisampleState = &multisample;
+    info.pDepthStencilState = &depth;
+    info.pColorBlendState = &blend.info;
+    info.pDynamicState = &dynamic;
+    info.layout = program.layout().handle;
+    info.renderPass = pass;
+    info.subpass = desc.subpass;
+    std::unique_ptr<Pipeline> pipeline(new Pipeline(device, program.layout(), input));
+    const VkResult result =
+            device.fn().vkCreateGraphicsPipelines(device.handle(), cache, 1, &info, nullptr, &pipeline->mHandle);
+    if (result != VK_SUCCESS) {
+        return errorFromResult(result,
+                               fmt::format("pipeline '{}' of program '{}' refused", desc.debugName, program.name()));
+    }
+    device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline->mHandle, desc.debugName);
+    return pipeline;
+}
+
+} // namespace filament::backend::vulkan

@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/vulkan/Pipeline.h"
+
+#include <cstring>
+
+namespace filament::backend::vulkan {
+namespace {
+
+/// The words of a module, aligned; empty if the bytes are not whole words.
+std::vector<uint32_t> wordsOf(std::span<const std::byte> bytes) {
+    if (bytes.size() % sizeof(uint32_t) != 0) return {};
+    std::vector<uint32_t> words(bytes.size() / sizeof(uint32_t));
+    if (!words.empty()) std::memcpy(words.data(), bytes.data(), bytes.size());
+    return words;
+}
+
+struct Stage {
+    ShaderEdges edges;
+    VkShaderModule module = VK_NULL_HANDLE;
+};
+
+Result<Stage> makeStage(Device& device, std::span<const std::byte> bytes, ShaderStage stage, std::string_view program) {
+    const char* const stageName = stage == ShaderStage::Vertex ? "vertex" : "fragment";
+    const std::vector<uint32_t> words = wordsOf(bytes);
+    Result<ShaderEdges> edges = readEdges(words, stage);
+    if (!edges) {
+        return fail(ErrorCode::Corrupt, "program '{}', {} shader: {}; draws with it are skipped", program, stageName,
+                    edges.error().message);
+    }
+    Stage made{ .edges = std::move(*edges) };
+    auto info = make<VkShaderModuleCreateInfo>(VK_STRUCTURE_TYPE_SHADER_MODULE_CREATE_INFO);
+    info.codeSize = words.size() * sizeof(uint32_t);
+    info.pCode = words.data();
+    const VkResult result = device.fn().vkCreateShaderModule(device.handle(), &info, nullptr, &made.module);
+    if (result != VK_SUCCESS) {
+        return errorFromResult(result, fmt::format("program '{}', {} shader refused", program, stageName));
+    }
+    device.setName(VK_OBJECT_TYPE_SHADER_MODULE, made.module, program);
+    return made;
+}
+
+} // namespace
+
+Program::Program(Device& device, PipelineLayout const& layout, ProgramDesc const& desc)
+        : mDevice(device), mLayout(layout), mConstants(desc.constants.begin(), desc.constants.end()),
+          mName(desc.debugName) {}
+
+Result<std::unique_ptr<Program>> Program::create(Device& device, PipelineLayout const& layout,
+                                                 ProgramDesc const& desc) {
+    std::unique_ptr<Program> program(new Program(device, layout, desc));
+    Result<Stage> vertex = makeStage(device, desc.vertex, ShaderStage::Vertex, desc.debugName);
+    if (!vertex) return vertex.error();
+    program->mVertex = vertex->module;
+    program->mInputs = std::move(vertex->edges.inputs);
+    Result<Stage> fragment = makeStage(device, desc.fragment, ShaderStage::Fragment, desc.debugName);
+    if (!fragment) return fragment.error();
+    program->mFragment = fragment->module;
+    program->mOutputMask = fragment->edges.outputMask;
+    return program;
+}
+
+Program::~Program() {
+    mDevice.fn().vkDestroyShaderModule(mDevice.handle(), mVertex, nullptr);
+    mDevice.fn().vkDestroyShaderModule(mDevice.handle(), mFragment, nullptr);
+}
+
+} // namespace filament::backend::vulkan

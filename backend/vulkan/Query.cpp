@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/vulkan/Query.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace filament::backend::vulkan {
+namespace {
+
+/// Bytes of one texel in a copy: the depth aspect without stencil, D16 before it is widened.
+uint64_t copiedBytes(Format format, Rect const& rect) {
+    const uint64_t texels = uint64_t{ rect.width } * rect.height;
+    if (format == Format::D16) return texels * 2;
+    return hasDepth(format) ? texels * 4 : imageBytes(format, rect.width, rect.height);
+}
+
+/// The contract promises floats for every depth format.
+std::vector<float> floatsFromUnorm16(std::byte const* bytes, size_t count) {
+    std::vector<float> depths(count);
+    for (size_t i = 0; i < count; ++i) {
+        uint16_t value = 0;
+        std::memcpy(&value, bytes + i * sizeof value, sizeof value);
+        depths[i] = static_cast<float>(value) / 65535.0f;
+    }
+    return depths;
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------------------------- read-backs
+
+Result<std::unique_ptr<Buffer>> Readbacks::makeTarget(CmdReadTexture const& command, Texture const& texture) {
+    const std::string name = fmt::format("read-back of '{}'", texture.name());
+    return Buffer::create(mDevice, { copiedBytes(texture.format(), command.rect), VK_BUFFER_USAGE_TRANSFER_DST_BIT,
+                                     MemoryPurpose::Readback, name });
+}
+
+void Readbacks::add(Ticket ticket, Format format, std::unique_ptr<Buffer> target, uint64_t serial) {
+    mWaiting.push_back({ ticket, format, std::move(target), serial });
+}
+
+void Readbacks::answer(uint64_t finishedSerial, ResultSink& sink) {
+    while (!mWaiting.empty() && mWaiting.front().serial <= finishedSerial) {
+        Waiting const& front = mWaiting.front();
+        Buffer const& target = *front.target;
+        if (!target.mapped()) {
+            sink.onReadback(front.ticket, {}); // the driver refused to map it
+        } else if (front.format == Format::D16) {
+            const std::vector<float> depths = floatsFromUnorm16(target.mapped(), target.bytes() / 2);
+            sink.onReadback(front.ticket, std::as_bytes(std::span(depths)));
+        } else {
+            sink.onReadback(front.ticket, { target.mapped(), target.bytes() });
+        }
+        mWaiting.pop_front();
+    }
+}
+
+// ---------------------------------------------------------------------------------------------- timers
+
+Timers::~Timers() {
+    for (VkQueryPool pool : mPools) mDevice.fn().vkDestroyQueryPool(mDevice.handle(), pool, nullptr);
+}
+
+void Timers::begin(VkCommandBuffer commands, Ticket ticket) {
+    mRunning.push_back({ ticket, writeTimestamp(commands), kNone, 0 });
+}
+
+void Timers::end(VkCommandBuffer commands, Ticket ticket, uint64_t serial) {
+    const auto running = std::ranges::find(mRunning, ticket, &Timer::ticket);
+    if (running == mRunning.end()) return;
+    Timer timer = *running;
+    mRunning.erase(running);
+    timer.end = writeTimestamp(commands);
+    timer.serial = serial;
+    mWaiting.push_back(timer);
+}
+
+void Timers::answer(uint64_t finishedSerial, ResultSink& sink) {
+    while (!mWaiting.empty() && mWaiting.front().serial <= finishedSerial) {
+        const Timer timer = mWaiting.front();
+        mWaiting.pop_front();
+        sink.onTimer(timer.ticket, nanoseconds(timer));
+        recycle(timer);
+    }
+}
+
+uint32_t Timers::writeTimestamp(VkCommandBuffer commands) {
+    if (!mDevice.info().features.timers || (mFree.empty() && !addPool())) return kNone;
+    const uint32_t query = mFree.back();
+    mFree.pop_back();
+    VolkDeviceTable const& fn = mDevice.fn();
+    if (mDevice.quirks().timestampsNeedBarrier) {
+        fn.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
+                                nullptr, 0, nullptr, 0, nullptr);
+    }
+    VkQueryPool pool = mPools[query / kPoolSize];
+    fn.vkCmdResetQueryPool(commands, pool, query % kPoolSize, 1);
+    // Both ends at the bottom of the pipe: the time from the end of all work before to the end of the work in between.
+    fn.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, query % kPoolSize);
+    return query;
+}
+
+bool Timers::addPool() {
+    auto info = make<VkQueryPoolCreateInfo>(VK_STRUCTURE_TYPE_QUERY_POOL_CREATE_INFO);
+    info.queryType = VK_QUERY_TYPE_TIMESTAMP;
+    info.queryCount = kPoolSize;
+    VkQueryPool pool = VK_NULL_HANDLE;
+    if (mDevice.fn().vkCreateQueryPool(mDevice.handle(), &info, nullptr, &pool) != VK_SUCCESS) return false;
+    const auto first = static_cast<uint32_t>(mPools.size()) * kPoolSize;
+    for (uint32_t i = kPoolSize; i-- > 0;) mFree.push_back(first + i);
+    mPools.push_back(pool);
+    return true;
+}
+
+uint64_t Timers::nanoseconds(Timer const& timer) const {
+    if (timer.begin == kNone || timer.end == kNone) return 0;
+    const uint32_t bits = mDevice.physical().timestampBits;
+    const uint64_t mask = bits >= 64 ? ~uint64_t{ 0 } : (uint64_t{ 1 } << bits) - 1;
+    const uint64_t elapsed = (ticks(timer.end) - ticks(timer.begin)) & mask; // also right when the counter wrapped
+    return static_cast<uint64_t>(std::llround(static_cast<double>(elapsed) * mDevice.physical().timestampNanoseconds));
+}
+
+uint64_t Timers::ticks(uint32_t query) const {
+    uint64_t value = 0;
+    mDevice.fn().vkGetQueryPoolResults(mDevice.handle(), mPools[query / kPoolSize], query % kPoolSize, 1, sizeof value,
+                                       &value, sizeof value, VK_QUERY_RESULT_64_BIT);
+    return value;
+}
+
+void Timers::recycle(Timer const& timer) {
+    if (timer.begin != kNone) mFree.push_back(timer.begin);
+    if (timer.end != kNone) mFree.push_back(timer.end);
+}
+
+} // namespace filament::backend::vulkan

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Slots: the objects behind handles of one type.
+///   A handle finds its object only while index and generation agree; anything else finds nothing.
+///   Thread  the driver thread.
+///   Memory  16 bytes a slot, as many slots as handles were ever alive at once.
+///   Cost    one index and one comparison a look-up.
+#pragma once
+
+#include "filament_core/base/Handle.h"
+
+#include <memory>
+#include <utility>
+#include <vector>
+
+namespace filament::backend::vulkan {
+
+template <class H, class T>
+class Slots {
+public:
+    T* find(H handle) const {
+        if (!handle || handle.index() >= mSlots.size()) return nullptr;
+        Slot const& slot = mSlots[handle.index()];
+        return slot.handle == handle ? slot.object.get() : nullptr;
+    }
+
+    /// A null object (its creation failed) is found as nothing.
+    void put(H handle, std::unique_ptr<T> object) {
+        if (handle.index() >= mSlots.size()) mSlots.resize(handle.index() + size_t{ 1 });
+        mSlots[handle.index()] = { handle, std::move(object) };
+    }
+
+    std::unique_ptr<T> take(H handle) {
+        if (!find(handle)) return nullptr;
+        return std::exchange(mSlots[handle.index()], {}).object;
+    }
+
+    void clear() { mSlots.clear(); }
+
+private:
+    struct Slot {
+        H handle{};
+        std::unique_ptr<T> object;
+    };
+    std::vector<Slot> mSlots;
+};
+
+} // namespace filament::backend::vulkan

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/vulkan/Texture.h"
+
+#include "backend/vulkan/Formats.h"
+
+#include <algorithm>
+
+namespace filament::backend::vulkan {
+namespace {
+
+constexpr VkImageUsageFlags kAttachmentUsage = VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT |
+                                               VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT |
+                                               VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT;
+
+VkImageUsageFlags usageFlags(TextureUsage usage) {
+    VkImageUsageFlags flags = 0;
+    if (has(usage, TextureUsage::Sampled)) flags |= VK_IMAGE_USAGE_SAMPLED_BIT;
+    if (has(usage, TextureUsage::ColorAttachment)) flags |= VK_IMAGE_USAGE_COLOR_ATTACHMENT_BIT;
+    if (has(usage, TextureUsage::DepthAttachment)) flags |= VK_IMAGE_USAGE_DEPTH_STENCIL_ATTACHMENT_BIT;
+    if (has(usage, TextureUsage::InputAttachment)) flags |= VK_IMAGE_USAGE_INPUT_ATTACHMENT_BIT;
+    if (has(usage, TextureUsage::TransferSource)) flags |= VK_IMAGE_USAGE_TRANSFER_SRC_BIT;
+    if (has(usage, TextureUsage::TransferTarget)) flags |= VK_IMAGE_USAGE_TRANSFER_DST_BIT;
+    const bool attachmentOnly = flags != 0 && (flags & ~kAttachmentUsage) == 0;
+    if (has(usage, TextureUsage::Transient) && attachmentOnly) flags |= VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT;
+    return flags;
+}
+
+VkImageCreateInfo imageInfo(TextureDesc const& desc) {
+    auto info = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
+    info.flags = desc.type == TextureType::Cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
+    info.imageType = VK_IMAGE_TYPE_2D;
+    info.format = native(desc.format);
+    info.extent = { desc.width, desc.height, 1 };
+    info.mipLevels = desc.levels;
+    info.arrayLayers = desc.layers;
+    info.samples = sampleBits(desc.samples);
+    info.usage = usageFlags(desc.usage);
+    return info;
+}
+
+VkImageViewType viewType(TextureType type) {
+    switch (type) {
+    case TextureType::Texture2DArray:
+        return VK_IMAGE_VIEW_TYPE_2D_ARRAY;
+    case TextureType::Cube:
+        return VK_IMAGE_VIEW_TYPE_CUBE;
+    case TextureType::Texture2D:
+        break;
+    }
+    return VK_IMAGE_VIEW_TYPE_2D;
+}
+
+uint64_t bytesOf(TextureDesc const& desc) {
+    uint64_t bytes = 0;
+    for (uint32_t level = 0; level < desc.levels; ++level) {
+        bytes += imageBytes(desc.format, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level));
+    }
+    return bytes * desc.layers * desc.samples;
+}
+
+/// "texture 'hdr' (1280x720 RGBA16F, 3 levels, 1 layers, 4 samples, 9830400 bytes)"
+std::string describe(TextureDesc const& desc) {
+    return fmt::format("texture '{}' ({}x{} {}, {} levels, {} layers, {} samples, {} bytes)", desc.debugName,
+                       desc.width, desc.height, formatInfo(desc.format).name, desc.levels, desc.layers, desc.samples,
+                       bytesOf(desc));
+}
+
+/// Asks first: an image beyond these limits is invalid usage, not an error that vkCreateImage would report.
+Result<void> checkSupport(Device const& device, TextureDesc const& desc, VkImageCreateInfo const& info) {
+    VkImageFormatProperties limits{};
+    const VkResult result = device.instance().fn().vkGetPhysicalDeviceImageFormatProperties(
+            device.physical().handle, info.format, info.imageType, info.tiling, info.usage, info.flags, &limits);
+    if (result == VK_ERROR_FORMAT_NOT_SUPPORTED) {
+        return fail(ErrorCode::Unsupported, "{}: '{}' cannot use this format that way; choose another format or usage",
+                    describe(desc), device.info().deviceName);
+    }
+    if (result != VK_SUCCESS) return errorFromResult(result, describe(desc));
+    const bool fits = desc.width <= limits.maxExtent.width && desc.height <= limits.maxExtent.height &&
+                      desc.levels <= limits.maxMipLevels && desc.layers <= limits.maxArrayLayers &&
+                      (limits.sampleCounts & info.samples) != 0;
+    if (!fits) {
+        return fail(ErrorCode::Unsupported, "{}: beyond the limits of '{}' ({}x{}, {} levels, {} layers)",
+                    describe(desc), device.info().deviceName, limits.maxExtent.width, limits.maxExtent.height,
+                    limits.maxMipLevels, limits.maxArrayLayers);
+    }
+    if (bytesOf(desc) > limits.maxResourceSize) {
+        return fail(ErrorCode::OutOfMemory, "{}: '{}' allows {} bytes for one texture", describe(desc),
+                    device.info().deviceName, limits.maxResourceSize);
+    }
+    return {};
+}
+
+} // namespace
+
+Texture::Texture(Device& device, TextureDesc const& desc)
+        : uses(desc.levels, desc.layers), mDevice(device), mFormat(desc.format),
+          mAspects(aspectsOf(desc.format)), mExtent{ desc.width, desc.height }, mLevels(desc.levels),
+          mLayers(desc.layers), mName(desc.debugName) {}
+
+Result<std::unique_ptr<Texture>> Texture::create(Device& device, TextureDesc const& desc) {
+    if (Result<void> support = checkSupport(device, desc, imageInfo(desc)); !support) return support.error();
+    std::unique_ptr<Texture> texture(new Texture(device, desc));
+    VkResult result = texture->createImage(desc);
+    if (result == VK_SUCCESS && has(desc.usage, TextureUsage::Sampled)) {
+        result = texture->createView(viewType(desc.type), copyAspectOf(desc.format), texture->uses.all(),
+                                     texture->mSampledView);
+    }
+    if (result != VK_SUCCESS) return errorFromResult(result, describe(desc));
+    return texture;
+}
+
+VkResult Texture::createImage(TextureDesc const& desc) {
+    VolkDeviceTable const& fn = mDevice.fn();
+    const VkImageCreateInfo info = imageInfo(desc);
+    const VkResult created = fn.vkCreateImage(mDevice.handle(), &info, nullptr, &mImage);
+    if (created != VK_SUCCESS) return created;
+    mDevice.setName(VK_OBJECT_TYPE_IMAGE, mImage, mName);
+
+    VkMemoryRequirements needs{};
+    fn.vkGetImageMemoryRequirements(mDevice.handle(), mImage, &needs);
+    const bool isTransient = (info.usage & VK_IMAGE_USAGE_TRANSIENT_ATTACHMENT_BIT) != 0;
+    const auto allocation = mDevice.memory().allocate(needs, ResourceKind::Optimal,
+                                                      isTransient ? MemoryPurpose::Transient : MemoryPurpose::Device);
+    if (!allocation) return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    mAllocation = *allocation;
+    return fn.vkBindImageMemory(mDevice.handle(), mImage, Memory::handleOf(*allocation), allocation->offset);
+}
+
+VkResult Texture::createView(VkImageViewType type, VkImageAspectFlags aspects, SubresourceRange const& range,
+                             VkImageView& view) {
+    auto info = make<VkImageViewCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_VIEW_CREATE_INFO);
+    info.image = mImage;
+    info.viewType = type;
+    info.format = native(mFormat);
+    info.subresourceRange = { aspects, range.level, range.levelCount, range.layer, range.layerCount };
+    const VkResult result = mDevice.fn().vkCreateImageView(mDevice.handle(), &info, nullptr, &view);
+    if (result == VK_SUCCESS) mDevice.setName(VK_OBJECT_TYPE_IMAGE_VIEW, view, mName);
+    return result;
+}
+
+VkImageView Texture::attachmentView(uint32_t level, uint32_t layer) {
+    for (AttachmentView const& each : mAttachmentViews) {
+        if (each.level == level && each.layer == layer) return each.view;
+    }
+    AttachmentView made{ level, layer, VK_NULL_HANDLE };
+    const SubresourceRange range{ level, 1, layer, 1 };
+    if (createView(VK_IMAGE_VIEW_TYPE_2D, mAspects, range, made.view) != VK_SUCCESS) return VK_NULL_HANDLE;
+    mAttachmentViews.push_back(made);
+    return made.view;
+}
+
+bool Texture::owns(VkImageView view) const {
+    return std::ranges::any_of(mAttachmentViews, [view](AttachmentView const& each) { return each.view == view; });
+}
+
+Texture::~Texture() {
+    VolkDeviceTable const& fn = mDevice.fn();
+    for (AttachmentView const& each : mAttachmentViews) fn.vkDestroyImageView(mDevice.handle(), each.view, nullptr);
+    fn.vkDestroyImageView(mDevice.handle(), mSampledView, nullptr);
+    fn.vkDestroyImage(mDevice.handle(), mImage, nullptr);
+    if (mAllocation.bytes > 0) mDevice.memory().free(mAllocation);
+}
+
+} // namespace filament::backend::vulkan
