@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ObjectTable: which objects of one type live, and what they were made with; changes of one stream can be undone.
+///   Thread  one.
+///   Memory  live objects, plus those destroyed since the last commit().
+///   Cost    one hash look-up a call.
+#pragma once
+
+#include "filament_core/base/Handle.h"
+
+#include <cstdint>
+#include <optional>
+#include <unordered_map>
+#include <utility>
+#include <vector>
+
+namespace filament::backend {
+
+template <class Tag, class Object>
+class ObjectTable {
+public:
+    Object const* find(Handle<Tag> handle) const {
+        const auto it = mLive.find(handle);
+        return it == mLive.end() ? nullptr : &it->second;
+    }
+
+    /// Whether an object lives under this index, of whatever generation.
+    bool occupied(Handle<Tag> handle) const {
+        const auto it = mGenerations.find(handle.index());
+        return it != mGenerations.end() && it->second != 0;
+    }
+
+    /// Whether a handle was created and destroyed, as opposed to never created.
+    bool wasDestroyed(Handle<Tag> handle) const {
+        const auto it = mLastDead.find(handle.index());
+        return it != mLastDead.end() && it->second == handle;
+    }
+
+    /// The index must be free.
+    void create(Handle<Tag> handle, Object object) {
+        mLive.emplace(handle, std::move(object));
+        mGenerations[handle.index()] = handle.generation();
+        mChanges.push_back({ handle, std::nullopt });
+    }
+
+    /// The object must live.
+    void destroy(Handle<Tag> handle) {
+        const auto it = mLive.find(handle);
+        mChanges.push_back({ handle, std::move(it->second) });
+        mLive.erase(it);
+        mGenerations[handle.index()] = 0;
+        mLastDead[handle.index()] = handle;
+    }
+
+    void commit() { mChanges.clear(); }
+
+    /// As if nothing had happened since the last commit().
+    void rollback() {
+        for (auto it = mChanges.rbegin(); it != mChanges.rend(); ++it) {
+            if (it->destroyed) {
+                mLive.emplace(it->handle, std::move(*it->destroyed));
+                mGenerations[it->handle.index()] = it->handle.generation();
+                mLastDead.erase(it->handle.index());
+            } else {
+                mLive.erase(it->handle);
+                mGenerations[it->handle.index()] = 0;
+            }
+        }
+        mChanges.clear();
+    }
+
+private:
+    struct Change {
+        Handle<Tag> handle;
+        std::optional<Object> destroyed; ///< nothing: it was created
+    };
+    std::unordered_map<Handle<Tag>, Object> mLive;
+    std::unordered_map<uint32_t, uint32_t> mGenerations; // index -> live generation, 0: none
+    std::unordered_map<uint32_t, Handle<Tag>> mLastDead; // index -> what was destroyed last
+    std::vector<Change> mChanges;
+};
+
+} // namespace filament::backend

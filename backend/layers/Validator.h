@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Validator: the rules of backend/api, and a model of the driver's state to check them against.
+///   In      one stream after the other.  Out: reports to the sink; whether the stream may reach a driver.
+///   Files   ValidatorObjects.cpp (create, destroy), ValidatorContents.cpp (update, upload, blit, read),
+///           ValidatorPasses.cpp (passes, subpasses, timers, frames), ValidatorDraws.cpp (what a draw needs).
+///   Thread  one.
+#pragma once
+
+#include "backend/api/Driver.h"
+#include "backend/layers/ObjectTable.h"
+#include "backend/stream/CommandFields.h"
+
+#include <fmt/core.h>
+
+#include <string>
+#include <string_view>
+#include <unordered_set>
+#include <vector>
+
+namespace filament::backend {
+
+class Validator {
+public:
+    Validator(DeviceInfo const& info, ResultSink& sink) : mInfo(info), mSink(sink) {}
+
+    /// False: a driver could crash on this stream. The model is then as it was before it.
+    bool check(CommandView commands);
+
+    void execute(CmdCreateBuffer const& command);
+    void execute(CmdCreateTexture const& command);
+    void execute(CmdCreateSampler const& command);
+    void execute(CmdCreateProgram const& command);
+    void execute(CmdCreatePipeline const& command);
+    void execute(CmdCreateBindGroup const& command);
+    void execute(CmdDestroyBuffer const& command);
+    void execute(CmdDestroyTexture const& command);
+    void execute(CmdDestroySampler const& command);
+    void execute(CmdDestroyProgram const& command);
+    void execute(CmdDestroyPipeline const& command);
+    void execute(CmdDestroyBindGroup const& command);
+
+    void execute(CmdUpdateBuffer const& command);
+    void execute(CmdUploadTexture const& command);
+    void execute(CmdGenerateMips const& command);
+    void execute(CmdBlit const& command);
+    void execute(CmdReadTexture const& command);
+
+    void execute(CmdBeginPass const& command);
+    void execute(CmdNextSubpass const& command);
+    void execute(CmdEndPass const& command);
+    void execute(CmdBeginFrame const& command);
+    void execute(CmdEndFrame const& command);
+    void execute(CmdBeginTimer const& command);
+    void execute(CmdEndTimer const& command);
+    void execute(CmdPushGroup const& command);
+    void execute(CmdPopGroup const& command);
+
+    void execute(CmdSetViewport const& command);
+    void execute(CmdSetScissor const& command);
+    void execute(CmdSetStencilReference const& command);
+    void execute(CmdBindPipeline const& command);
+    void execute(CmdBindGroup const& command);
+    void execute(CmdBindVertexBuffers const& command);
+    void execute(CmdBindIndexBuffer const& command);
+    void execute(CmdDraw const& command);
+    void execute(CmdDrawIndexed const& command);
+
+private:
+    /// What a broken rule leads to in a real driver: a wrong picture, or a crash (then the stream is dropped).
+    enum class Harm : uint8_t { WrongResult, Crash };
+    enum class Place : uint8_t { OutsidePasses, InsidePass, Anywhere };
+
+    /// What objects were made with. Names are owned: the stream that carried them is gone.
+    struct BufferModel { std::string name; BufferDesc desc; };
+    struct TextureModel { std::string name; TextureDesc desc; };
+    struct SamplerModel { std::string name; SamplerDesc desc; };
+    struct ProgramModel { std::string name; ProgramLayout layout; };
+    struct PipelineModel { std::string name; PipelineDesc desc; ProgramLayout layout; };
+    struct BindGroupModel { std::string name; BindGroupLayout layout; std::vector<BindGroupEntry> entries; };
+
+    /// What a pass has bound; all of it is forgotten at every subpass.
+    struct Bound {
+        PipelineHandle pipeline;
+        std::array<BindGroupHandle, kMaxBindGroups> groups{};
+        CmdBindVertexBuffers vertices{};
+        CmdBindIndexBuffer indices{};
+    };
+
+    struct OpenPass {
+        std::string name;
+        PassDesc desc;
+        uint32_t subpass = 0;
+    };
+
+    // ---- reporting
+    template <class C>
+    void enter(Place place, std::string_view object = {}) {
+        mCommand = kFields<C>.name;
+        mObject = object;
+        mCommandCrashes = false;
+        enterPlace(place);
+    }
+    void enterPlace(Place place);
+    /// Reports `rule` unless it holds; returns whether it holds.
+    template <class... Args>
+    bool require(bool holds, Harm harm, fmt::format_string<Args...> rule, Args&&... args) {
+        if (!holds) report(harm, fmt::vformat(rule, fmt::make_format_args(args...)));
+        return holds;
+    }
+    void report(Harm harm, std::string const& rule);
+
+    // ---- objects by handle: report and return null if they are not alive
+    template <class Tag, class Object>
+    Object const* need(ObjectTable<Tag, Object> const& table, Handle<Tag> handle, std::string_view role);
+    template <class C, class Tag, class Object>
+    bool mayCreate(ObjectTable<Tag, Object> const& table, C const& command, std::string_view name);
+    template <class C, class Tag, class Object>
+    void destroy(ObjectTable<Tag, Object>& table, C const& command);
+
+    // ---- rules that several commands share
+    bool checkBindGroupLayout(BindGroupLayout const& layout, std::string_view where);
+    void checkTextureShape(TextureDesc const& desc);
+    void checkTextureUsage(TextureDesc const& desc);
+    void checkVertexLayout(VertexLayout const& layout);
+    void checkPipelineState(PipelineDesc const& desc, ProgramLayout const& program);
+    void checkEntry(BindingDesc const& binding, BindGroupEntry const& entry);
+    void checkUniformEntry(BindGroupEntry const& entry);
+    void checkTextureEntry(BindingDesc const& binding, BindGroupEntry const& entry);
+    bool checkRegion(TextureModel const& texture, std::string_view role, uint32_t level, uint32_t layer,
+            uint32_t layerCount, Rect const& rect);
+    bool checkBlitSide(TextureModel const& texture, std::string_view role, TextureUsage usage);
+    void checkTicket(Ticket ticket);
+    void checkPassLayout(PassLayout const& layout);
+    void checkSubpasses(PassLayout const& layout);
+    void checkColorAttachment(PassDesc const& desc, uint32_t index);
+    void checkDepthAttachment(PassDesc const& desc);
+    TextureModel const* checkAttachment(Attachment const& attachment, std::string_view role, Rect const& area);
+    void checkResolve(PassDesc const& desc, uint32_t index);
+    void checkAttachedOnce(PassDesc const& desc);
+
+    PipelineModel const* checkDrawState();
+    void checkGroup(PipelineModel const& pipeline, uint32_t index);
+    void checkGroupTextures(BindGroupModel const& group, uint32_t index);
+    void checkVertexRange(PipelineModel const& pipeline, uint64_t lastVertex, uint64_t lastInstance);
+    bool isAttached(TextureHandle texture) const;
+
+    template <class F>
+    void forEachTable(F&& visit);
+
+    DeviceInfo const& mInfo;
+    ResultSink& mSink;
+
+    ObjectTable<BufferTag, BufferModel> mBuffers;
+    ObjectTable<TextureTag, TextureModel> mTextures;
+    ObjectTable<SamplerTag, SamplerModel> mSamplers;
+    ObjectTable<ProgramTag, ProgramModel> mPrograms;
+    ObjectTable<PipelineTag, PipelineModel> mPipelines;
+    ObjectTable<BindGroupTag, BindGroupModel> mBindGroups;
+    std::unordered_set<Ticket> mUsedTickets;
+
+    std::optional<OpenPass> mPass;
+    Bound mBound;
+    bool mFrameOpen = false;
+    std::vector<Ticket> mOpenTimers;
+    std::vector<std::string> mOpenGroups;
+
+    // of the stream being checked
+    uint64_t mCommandIndex = 0; // from 1
+    const char* mCommand = "";
+    std::string_view mObject;
+    bool mCrashes = false;        // any command so far
+    bool mCommandCrashes = false; // the current one: such an object is not entered into the model
+};
+
+// ---------------------------------------------------------------------------------------------- shared templates
+
+template <class Tag, class Object>
+Object const* Validator::need(ObjectTable<Tag, Object> const& table, Handle<Tag> handle, std::string_view role) {
+    Object const* object = table.find(handle);
+    if (object) return object;
+    if (!handle) {
+        report(Harm::Crash, fmt::format("the {} is none; give it a handle that was created", role));
+    } else if (table.wasDestroyed(handle)) {
+        report(Harm::Crash, fmt::format("the {} {:#x} was destroyed; destroy after the last use", role, handle.bits));
+    } else {
+        report(Harm::Crash, fmt::format("the {} {:#x} does not exist; record its creation first", role, handle.bits));
+    }
+    return nullptr;
+}
+
+} // namespace filament::backend
