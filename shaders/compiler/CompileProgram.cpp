@@ -17,7 +17,7 @@ using Words = std::vector<uint32_t>;
 Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
         ProgramCompileOptions const& options) {
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
-    if (spirv && options.optimize) spirv = optimizeSpirv(*spirv);
+    if (spirv && options.optimization != Optimization::None) spirv = optimizeSpirv(*spirv, options.optimization);
     if (spirv && options.exact) spirv = lowerExactly(*spirv); // last, so that no pass re-forms what it spelled out
     return spirv;
 }

@@ -28,9 +28,15 @@ struct SetBinding {
     friend bool operator==(SetBinding, SetBinding) = default;
 };
 
+enum class Optimization : uint8_t {
+    None,        ///< as glslang wrote it, for debugging
+    Performance,
+    Size,        ///< SPIRV-Tools' passes for small modules
+};
+
 struct ProgramCompileOptions {
     bool exact = true;    ///< same bits on both APIs
-    bool optimize = true; ///< false: as glslang wrote it, for debugging
+    Optimization optimization = Optimization::Performance;
     bool spirv = true;    ///< languages wanted; reflection happens in any case
     bool essl = true;
     /// Uniform buffers with a dynamic offset; nothing: all of group 0.

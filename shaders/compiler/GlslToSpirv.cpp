@@ -96,7 +96,10 @@ Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::Shad
     return spirv;
 }
 
-Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv) {
+Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Optimization goal) {
+    if (goal == Optimization::Size) {
+        return runPasses(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterSizePasses(); });
+    }
     return runPasses(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterPerformancePasses(); });
 }
 

@@ -5,6 +5,7 @@
 
 #include "backend/api/Descriptions.h"
 #include "filament_core/base/Result.h"
+#include "shaders/compiler/CompileProgram.h"
 
 #include <cstdint>
 #include <span>
@@ -17,8 +18,8 @@ namespace filament::shader {
 ///   Fails   InvalidArgument, "file:line: reason" of the first error and how many more there are.
 Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name);
 
-/// SPIRV-Tools' performance passes. Fails: Internal if the module is not valid.
-Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv);
+/// SPIRV-Tools' passes for `goal`, which is not None. Fails: Internal if the module is not valid.
+Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Optimization goal = Optimization::Performance);
 
 /// Drops the names, which no driver needs.
 Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv);

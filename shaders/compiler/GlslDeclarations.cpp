@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/GlslDeclarations.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <bit>
+
+namespace filament::shader {
+namespace {
+
+constexpr uint32_t kFirstVariableLocation = 5; // behind those of shaders/material/varyings.glsl
+
+const char* glslType(ParameterType type) {
+    static constexpr const char* kNames[] = { "bool", "bvec2", "bvec3", "bvec4", "float", "vec2", "vec3", "vec4", "int", "ivec2",
+        "ivec3", "ivec4", "uint", "uvec2", "uvec3", "uvec4", "mat3", "mat4", "sampler2D", "sampler2DArray", "samplerCube",
+        "subpassInput" };
+    return kNames[static_cast<size_t>(type)];
+}
+
+/// Everything is highp unless the author asks for less: mediump really is fp16 on some devices.
+const char* glslPrecision(Precision precision) {
+    switch (precision) {
+        case Precision::Low: return "lowp ";
+        case Precision::Medium: return "mediump ";
+        case Precision::High:
+        case Precision::Default: return "";
+    }
+    return "";
+}
+
+bool takesPrecision(ParameterType type) { return type > ParameterType::Bool4; }
+
+void declareBlock(StageText& out, MaterialDefinition const& definition) {
+    if (definition.package.uniformBytes == 0) return;
+    out.line("layout(set = 1, binding = 0, std140) uniform MaterialParams {");
+    for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
+        Parameter const& parameter = definition.package.parameters[i];
+        if (isTexture(parameter.type)) continue;
+        ParameterSource const& source = definition.parameterSources[i];
+        out.originate(source.at);
+        const std::string array = parameter.arraySize > 0 ? fmt::format("[{}]", parameter.arraySize) : "";
+        const char* const precision = takesPrecision(parameter.type) ? glslPrecision(source.precision) : "";
+        out.line(fmt::format("{}{} {}{};", precision, glslType(parameter.type), parameter.name, array));
+    }
+    out.line("} materialParams;");
+}
+
+void declareTextures(StageText& out, MaterialDefinition const& definition) {
+    uint32_t attachment = 0;
+    for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
+        Parameter const& parameter = definition.package.parameters[i];
+        if (!isTexture(parameter.type)) continue;
+        const std::string index = parameter.type == ParameterType::SubpassInput
+                ? fmt::format("input_attachment_index = {}, ", attachment++) : "";
+        out.originate(definition.parameterSources[i].at);
+        out.line(fmt::format("layout({}set = 1, binding = {}) uniform {}{} materialParams_{};", index, parameter.binding,
+                glslPrecision(definition.parameterSources[i].precision), glslType(parameter.type), parameter.name));
+    }
+}
+
+std::string literal(Constant const& constant) {
+    switch (constant.type) {
+        case backend::ConstantValue::Type::Bool: return constant.defaultBits != 0 ? "true" : "false";
+        case backend::ConstantValue::Type::Int: return fmt::format("{}", static_cast<int32_t>(constant.defaultBits));
+        case backend::ConstantValue::Type::Float: {
+            std::string text = fmt::format("{:.9g}", std::bit_cast<float>(constant.defaultBits));
+            if (text.find_first_of(".e") == std::string::npos) text += ".0";
+            return text;
+        }
+    }
+    return "0";
+}
+
+void declareConstants(StageText& out, MaterialDefinition const& definition) {
+    static constexpr const char* kTypes[] = { "bool", "int", "float" };
+    for (Constant const& constant : definition.package.constants) {
+        out.line(fmt::format("layout(constant_id = {}) const {} materialConstants_{} = {};", constant.id,
+                kTypes[static_cast<size_t>(constant.type)], constant.name, literal(constant)));
+        out.define("materialConstant_" + constant.name, "materialConstants_" + constant.name);
+    }
+}
+
+} // namespace
+
+void declareInterface(StageText& out, MaterialDefinition const& definition) {
+    declareBlock(out, definition);
+    declareTextures(out, definition);
+    declareConstants(out, definition);
+}
+
+void declareVariables(StageText& out, MaterialDefinition const& definition) {
+    for (uint32_t i = 0; i < definition.variables.size(); ++i) {
+        Variable const& variable = definition.variables[i];
+        out.originate(variable.at);
+        out.line(fmt::format("layout(location = {}) VARYING {}vec4 variable_{};", kFirstVariableLocation + i,
+                glslPrecision(variable.precision), variable.name));
+    }
+}
+
+void defineVariableMacros(StageText& out, MaterialDefinition const& definition) {
+    std::string members, clear, write;
+    for (Variable const& variable : definition.variables) {
+        members += fmt::format("vec4 {}; ", variable.name);
+        clear += fmt::format("inputs.{} = vec4(0.0); ", variable.name);
+        write += fmt::format("variable_{0} = inputs.{0}; ", variable.name);
+    }
+    out.define("MATERIAL_VARIABLES_AS_MEMBERS", members);
+    out.define("MATERIAL_CLEAR_VARIABLES(inputs)", clear);
+    out.define("MATERIAL_WRITE_VARIABLES(inputs)", write);
+}
+
+} // namespace filament::shader

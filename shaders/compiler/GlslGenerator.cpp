@@ -1,0 +1,240 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/GlslGenerator.h"
+
+#include "shaders/compiler/CodeScan.h"
+#include "shaders/compiler/GlslDeclarations.h"
+#include "shaders/compiler/StageText.h"
+#include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/ViewLayout.h"
+
+#include <algorithm>
+#include <initializer_list>
+
+namespace filament::shader {
+namespace {
+
+const char* blendDefine(Blending blending) {
+    static constexpr const char* kNames[] = { "BLEND_MODE_OPAQUE", "BLEND_MODE_MASKED", "BLEND_MODE_TRANSPARENT", "BLEND_MODE_FADE",
+        "BLEND_MODE_ADD", "BLEND_MODE_MULTIPLY", "BLEND_MODE_SCREEN" };
+    return kNames[static_cast<size_t>(blending)];
+}
+
+const char* vertexDomainDefine(VertexDomain domain) {
+    static constexpr const char* kNames[] = { "VERTEX_DOMAIN_OBJECT", "VERTEX_DOMAIN_WORLD", "VERTEX_DOMAIN_VIEW", "VERTEX_DOMAIN_DEVICE" };
+    return kNames[static_cast<size_t>(domain)];
+}
+
+bool needsAttribute(MaterialDefinition const& definition, AttributeLocation location) {
+    return (definition.requiredAttributes >> location & 1) != 0;
+}
+
+void defineIf(StageText& out, bool condition, std::string_view name) {
+    if (condition) out.define(name);
+}
+
+Result<void> includeAll(StageText& out, std::initializer_list<std::string_view> paths) {
+    for (const std::string_view path : paths) {
+        if (Result<void> done = out.include(path); !done) return done;
+    }
+    return {};
+}
+
+void beginStage(StageText& out, std::string_view varying) {
+    out.line("#version 450");
+    out.line("#extension GL_GOOGLE_cpp_style_line_directive : require");
+    out.define("VARYING", varying);
+}
+
+/// Both stages must agree on these: they decide which varyings exist.
+void defineSurface(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs) {
+    MaterialPackage const& package = definition.package;
+    out.define(package.shading == ShadingModel::Lit ? "SHADING_MODEL_LIT" : "SHADING_MODEL_UNLIT");
+    out.define(blendDefine(package.blending));
+    out.define(vertexDomainDefine(package.vertexDomain));
+    defineIf(out, definition.flipUv, "FLIP_UV");
+    defineIf(out, definition.fullScreenTriangle, "FULL_SCREEN_TRIANGLE");
+    defineIf(out, package.doubleSided, "DOUBLE_SIDED");
+    defineIf(out, needsAttribute(definition, kAttributeColor), "HAS_COLOR");
+    defineIf(out, needsAttribute(definition, kAttributeUv0), "HAS_UV0");
+    defineIf(out, needsAttribute(definition, kAttributeUv1), "HAS_UV1");
+    defineIf(out, needs.worldPosition, "NEEDS_WORLD_POSITION");
+    defineIf(out, needs.normal, "NEEDS_NORMAL");
+    defineIf(out, needs.tangent, "NEEDS_TANGENT");
+    defineIf(out, needs.hasNormalMap, "HAS_NORMAL");
+    defineIf(out, needs.hasEmissive, "HAS_EMISSIVE");
+    defineIf(out, needs.hasAmbientOcclusion, "HAS_AMBIENT_OCCLUSION");
+    defineIf(out, needs.hasPostLightingColor, "HAS_POST_LIGHTING_COLOR");
+    defineIf(out, needs.clipSpaceTransform, "HAS_CLIP_SPACE_TRANSFORM");
+}
+
+void defineFragment(StageText& out, MaterialDefinition const& definition, uint8_t variantKey) {
+    defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
+    defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
+    SpecularAntiAliasing const& antiAliasing = definition.specularAntiAliasing;
+    if (!antiAliasing.enabled) return;
+    out.define("SPECULAR_ANTI_ALIASING");
+    out.define("SPECULAR_ANTI_ALIASING_VARIANCE", fmt::format("float({})", antiAliasing.variance));
+    out.define("SPECULAR_ANTI_ALIASING_THRESHOLD", fmt::format("float({})", antiAliasing.threshold));
+}
+
+void declareCustomAttributes(StageText& out, MaterialDefinition const& definition) {
+    for (uint32_t i = 0; i < 8; ++i) {
+        if ((definition.requiredAttributes >> (kAttributeCustom0 + i) & 1) == 0) continue;
+        out.line(fmt::format("layout(location = {}) in vec4 mesh_custom{};", kAttributeCustom0 + i, i));
+        out.line(fmt::format("vec4 getCustom{0}() {{ return mesh_custom{0}; }}", i));
+    }
+}
+
+Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, IncludeResolver const& includes) {
+    StageText out(includes);
+    beginStage(out, "out");
+    defineSurface(out, definition, needs);
+    defineIf(out, definition.vertex.has_value(), "HAS_MATERIAL_VERTEX");
+    defineVariableMacros(out, definition);
+    Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/lib/tangent.glsl", "shaders/interface/interface.glsl",
+            "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
+    if (!done) return done.error();
+    declareInterface(out, definition);
+    declareVariables(out, definition);
+    declareCustomAttributes(out, definition);
+    done = out.include("shaders/material/surface_vertex_api.glsl");
+    if (done && definition.vertex) done = out.block(*definition.vertex);
+    if (done) done = out.include("shaders/material/surface_vertex_main.glsl");
+    if (!done) return done.error();
+    return std::move(out).take();
+}
+
+Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint8_t variantKey,
+        IncludeResolver const& includes) {
+    const bool isLit = definition.package.shading == ShadingModel::Lit;
+    StageText out(includes);
+    beginStage(out, "in");
+    defineSurface(out, definition, needs);
+    defineFragment(out, definition, variantKey);
+    Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl", "shaders/material/api.glsl",
+            "shaders/material/varyings.glsl" });
+    if (!done) return done.error();
+    declareInterface(out, definition);
+    declareVariables(out, definition);
+    if (needs.luminance) done = out.include("shaders/lib/color.glsl");
+    if (done) done = out.include("shaders/material/surface_fragment_api.glsl");
+    if (done) done = out.block(definition.fragment);
+    if (done && isLit) done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/lib/ibl.glsl", "shaders/lib/light.glsl" });
+    if (done && isLit && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
+    if (done && isLit && needs.hasAmbientOcclusion) done = out.include("shaders/lib/ao.glsl");
+    if (done) done = out.include("shaders/material/surface_output.glsl");
+    if (done) done = out.include(isLit ? "shaders/material/surface_lit_main.glsl" : "shaders/material/surface_unlit_main.glsl");
+    if (!done) return done.error();
+    return std::move(out).take();
+}
+
+Result<std::string> postVertex(IncludeResolver const& includes) {
+    StageText out(includes);
+    beginStage(out, "out");
+    if (Result<void> done = out.include("shaders/post/post_vertex_main.glsl"); !done) return done.error();
+    return std::move(out).take();
+}
+
+Result<std::string> postFragment(MaterialDefinition const& definition, IncludeResolver const& includes) {
+    StageText out(includes);
+    beginStage(out, "in");
+    const auto inputs = std::ranges::count(definition.package.parameters, ParameterType::SubpassInput, &Parameter::type);
+    out.define("POST_OUTPUT_LOCATION", fmt::format("{}", inputs));
+    Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
+    if (!done) return done.error();
+    declareInterface(out, definition);
+    done = out.include("shaders/post/post_fragment_api.glsl");
+    if (done) done = out.block(definition.fragment);
+    if (done) done = out.include("shaders/post/post_fragment_main.glsl");
+    if (!done) return done.error();
+    return std::move(out).take();
+}
+
+/// The author's code with its includes, to be read by CodeScan.
+Result<std::string> expanded(std::optional<GlslBlock> const& block, IncludeResolver const& includes) {
+    StageText text(includes);
+    if (block) {
+        if (Result<void> done = text.block(*block); !done) return done.error();
+    }
+    return std::move(text).take();
+}
+
+Result<void> expectFunction(CodeScan const& code, std::string_view function, GlslBlock const& block, std::string_view signature) {
+    if (code.mentions(function)) return {};
+    return errorAt(block.at, fmt::format("this block must define {}", signature));
+}
+
+bool mentionsAny(CodeScan const& code, std::initializer_list<std::string_view> words) {
+    return std::ranges::any_of(words, [&](std::string_view word) { return code.mentions(word); });
+}
+
+Result<void> checkBlocks(MaterialDefinition const& definition, CodeScan const& fragment, CodeScan const& vertex) {
+    if (definition.package.domain == MaterialDomain::PostProcess) {
+        return expectFunction(fragment, "postProcess", definition.fragment, "void postProcess(inout PostProcessInputs inputs)");
+    }
+    Result<void> done = expectFunction(fragment, "material", definition.fragment, "void material(inout MaterialInputs material)");
+    if (done && definition.package.shading == ShadingModel::Lit) {
+        done = expectFunction(fragment, "prepareMaterial", definition.fragment, "material(), which must call prepareMaterial(material)");
+    }
+    if (done && definition.vertex) {
+        done = expectFunction(vertex, "materialVertex", *definition.vertex, "void materialVertex(inout MaterialVertexInputs material)");
+    }
+    return done;
+}
+
+} // namespace
+
+Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes) {
+    Result<std::string> fragmentText = expanded(definition.fragment, includes);
+    if (!fragmentText) return fragmentText.error();
+    Result<std::string> vertexText = expanded(definition.vertex, includes);
+    if (!vertexText) return vertexText.error();
+    const CodeScan fragment(*fragmentText), vertex(*vertexText);
+    if (Result<void> complete = checkBlocks(definition, fragment, vertex); !complete) return complete.error();
+
+    const bool isLit = definition.package.shading == ShadingModel::Lit;
+    MaterialNeeds needs;
+    needs.hasNormalMap = isLit && fragment.touches("normal");
+    needs.hasEmissive = fragment.touches("emissive");
+    needs.hasAmbientOcclusion = isLit && fragment.touches("ambientOcclusion");
+    needs.hasPostLightingColor = fragment.touches("postLightingColor");
+    needs.worldPosition = isLit || mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
+            "getWorldReflectedVector", "getNdotV" });
+    needs.normal = isLit || needsAttribute(definition, kAttributeTangents);
+    needs.tangent = needs.hasNormalMap || (needs.normal && fragment.mentions("getWorldTangentFrame"));
+    needs.clipSpaceTransform = definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");
+    needs.luminance = fragment.mentions("luminance");
+    return needs;
+}
+
+Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, IncludeResolver const& includes) {
+    return definition.package.domain == MaterialDomain::PostProcess ? postVertex(includes) : surfaceVertex(definition, needs, includes);
+}
+
+Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint8_t variantKey,
+        IncludeResolver const& includes) {
+    return definition.package.domain == MaterialDomain::PostProcess ? postFragment(definition, includes)
+                                                                     : surfaceFragment(definition, needs, variantKey, includes);
+}
+
+backend::ProgramLayout materialLayout(MaterialDefinition const& definition) {
+    using backend::BindingType;
+    using backend::ShaderStage;
+    backend::ProgramLayout layout{};
+    layout[kGroupView] = viewGroupLayout(definition.package.domain);
+    backend::BindGroupLayout& group = layout[kGroupMaterial];
+    if (definition.package.uniformBytes > 0) group.bindings[group.count++] = { .binding = 0, .type = BindingType::UniformBuffer };
+    uint8_t attachment = 0;
+    for (Parameter const& parameter : definition.package.parameters) {
+        if (!isTexture(parameter.type)) continue;
+        const bool isInput = parameter.type == ParameterType::SubpassInput;
+        const bool inVertex = definition.vertex && definition.vertex->text.find("materialParams_") != std::string::npos;
+        group.bindings[group.count++] = { .binding = parameter.binding,
+            .type = isInput ? BindingType::InputAttachment : BindingType::SampledTexture,
+            .stages = inVertex && !isInput ? ShaderStage::Both : ShaderStage::Fragment,
+            .inputAttachment = isInput ? attachment++ : uint8_t{ 0 } };
+    }
+    return layout;
+}
+
+} // namespace filament::shader

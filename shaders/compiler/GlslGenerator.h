@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GLSL 450 of one stage of one variant: defines, engine files, declarations, the author's block, entry point.
+///   In      a checked definition. Out: text for compileProgram(), with #line directives into the author's files.
+///   Thread  any. Deterministic.
+///   Fails   InvalidArgument: an include that cannot be found, a block that lacks its function.
+#pragma once
+
+#include "shaders/compiler/MaterialDefinition.h"
+
+#include <string>
+
+namespace filament::shader {
+
+/// What the author's code makes necessary; equal for all variants.
+struct MaterialNeeds {
+    bool worldPosition = false, normal = false, tangent = false;
+    bool hasNormalMap = false, hasEmissive = false, hasAmbientOcclusion = false, hasPostLightingColor = false;
+    bool clipSpaceTransform = false;
+    bool luminance = false; ///< calls luminance() of the colour library
+};
+
+Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes);
+
+Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, IncludeResolver const& includes);
+Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint8_t variantKey,
+        IncludeResolver const& includes);
+
+/// The bind group layout that all variants share: the engine's group 0, the material's group 1.
+backend::ProgramLayout materialLayout(MaterialDefinition const& definition);
+
+} // namespace filament::shader

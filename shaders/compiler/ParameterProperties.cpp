@@ -1,0 +1,253 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/ParameterProperties.h"
+
+#include "shaders/compiler/PropertyReader.h"
+#include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/ParameterLayout.h"
+
+#include <algorithm>
+#include <bit>
+#include <charconv>
+
+namespace filament::shader {
+namespace {
+
+constexpr uint32_t kMaxBlockBytes = 16384; // what every device offers
+constexpr size_t kMaxParameterCount = 256;
+
+using TypeName = std::pair<std::string_view, ParameterType>;
+constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", ParameterType::Bool2 },
+    { "bool3", ParameterType::Bool3 }, { "bool4", ParameterType::Bool4 }, { "float", ParameterType::Float },
+    { "float2", ParameterType::Float2 }, { "float3", ParameterType::Float3 }, { "float4", ParameterType::Float4 },
+    { "int", ParameterType::Int }, { "int2", ParameterType::Int2 }, { "int3", ParameterType::Int3 },
+    { "int4", ParameterType::Int4 }, { "uint", ParameterType::Uint }, { "uint2", ParameterType::Uint2 },
+    { "uint3", ParameterType::Uint3 }, { "uint4", ParameterType::Uint4 }, { "float3x3", ParameterType::Float3x3 },
+    { "mat3", ParameterType::Float3x3 }, { "float4x4", ParameterType::Float4x4 }, { "mat4", ParameterType::Float4x4 },
+    { "sampler2d", ParameterType::Sampler2D }, { "sampler2dArray", ParameterType::Sampler2DArray },
+    { "samplerCubemap", ParameterType::SamplerCube }, { "subpassInput", ParameterType::SubpassInput } };
+
+/// "float[9]" -> float, 9. The size stays 0 for what is no array.
+Result<void> readType(JsonValue const& value, Parameter& out) {
+    if (Result<void> isString = expectKind(value, JsonValue::Kind::String, "type"); !isString) return isString;
+    JsonValue base = value;
+    if (const size_t bracket = value.text.find('['); bracket != std::string::npos) {
+        const char* const last = value.text.data() + value.text.size();
+        const auto size = std::from_chars(value.text.data() + bracket + 1, last, out.arraySize);
+        const bool isSize = size.ec == std::errc{} && std::string_view(size.ptr, last) == "]";
+        if (!isSize || out.arraySize == 0 || out.arraySize > kMaxBlockBytes / 16) {
+            return errorAt(value.at, fmt::format("\"{}\": an array size is a number from 1 to {}", value.text, kMaxBlockBytes / 16));
+        }
+        base.text = value.text.substr(0, bracket);
+    }
+    if (equalIgnoringCase(base.text, "samplerExternal") || equalIgnoringCase(base.text, "sampler3d")) {
+        return errorAt(value.at, fmt::format("the type {} is known but not supported by this version", base.text), ErrorCode::Unsupported);
+    }
+    if (Result<void> known = readEnum(base, "type", kTypes, out.type); !known) return known;
+    if (out.arraySize > 0 && isTexture(out.type)) return errorAt(value.at, "samplers cannot be arrays; use sampler2dArray");
+    return {};
+}
+
+/// `format` of samplers: only float textures exist here.
+Result<void> checkFormat(JsonValue const& value) {
+    static constexpr std::pair<std::string_view, bool> kFormats[] = { { "float", true }, { "int", false } };
+    bool isFloat = true;
+    if (Result<void> known = readEnum(value, "format", kFormats, isFloat); !known) return known;
+    if (isFloat) return {};
+    return errorAt(value.at, "samplers of format int are known but not supported by this version", ErrorCode::Unsupported);
+}
+
+Result<void> requireMember(JsonValue const& object, std::string_view key, std::string_view what, JsonValue const*& out) {
+    out = findMember(object, key);
+    if (out) return {};
+    return errorAt(object.at, fmt::format("a {} needs the field '{}'", what, key));
+}
+
+/// `name` and `type`, which parameters and constants share.
+struct NamedEntry {
+    std::string name;
+    JsonValue const* type = nullptr;
+};
+
+Result<NamedEntry> readEntry(JsonValue const& item, std::span<const std::string_view> fields, std::string_view what) {
+    NamedEntry entry;
+    JsonValue const* name = nullptr;
+    Result<void> done = expectKind(item, JsonValue::Kind::Object, what);
+    if (done) done = expectOnly(item, fields, what);
+    if (done) done = requireMember(item, "name", what, name);
+    if (done) done = requireMember(item, "type", what, entry.type);
+    if (done) done = readIdentifier(*name, what, entry.name);
+    if (!done) return done.error();
+    return entry;
+}
+
+Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
+    static constexpr std::string_view kFields[] = { "name", "type", "precision", "format" };
+    Result<NamedEntry> entry = readEntry(item, kFields, "parameter");
+    if (!entry) return entry.error();
+    if (out.package.findParameter(entry->name)) {
+        return errorAt(item.at, fmt::format("there are two parameters '{}'", entry->name));
+    }
+    Parameter parameter{ .name = entry->name };
+    ParameterSource source{ .at = item.at };
+    Result<void> done = readType(*entry->type, parameter);
+    if (JsonValue const* precision = findMember(item, "precision"); done && precision) done = readPrecision(*precision, source.precision);
+    if (JsonValue const* format = findMember(item, "format"); done && format) done = checkFormat(*format);
+    if (!done) return done;
+    out.package.parameters.push_back(std::move(parameter));
+    out.parameterSources.push_back(std::move(source));
+    return {};
+}
+
+using ConstantType = backend::ConstantValue::Type;
+
+Result<void> readDefault(JsonValue const& value, Constant& out) {
+    if (out.type == ConstantType::Bool) {
+        bool boolean = false;
+        Result<void> done = readBool(value, "default", boolean);
+        out.defaultBits = boolean;
+        return done;
+    }
+    float number = 0;
+    if (Result<void> done = readNumber(value, "default", -3e38f, 3e38f, number); !done) return done;
+    if (out.type == ConstantType::Float) {
+        out.defaultBits = std::bit_cast<uint32_t>(number);
+        return {};
+    }
+    const auto integer = static_cast<int64_t>(std::clamp(value.number, -2147483648.0, 2147483647.0));
+    if (static_cast<double>(integer) != value.number) return errorAt(value.at, "the default of an int is a 32-bit integer");
+    out.defaultBits = static_cast<uint32_t>(static_cast<int32_t>(integer));
+    return {};
+}
+
+Result<void> readConstant(JsonValue const& item, MaterialDefinition& out) {
+    static constexpr std::string_view kFields[] = { "name", "type", "default" };
+    static constexpr std::pair<std::string_view, ConstantType> kConstantTypes[] = { { "bool", ConstantType::Bool },
+        { "int", ConstantType::Int }, { "float", ConstantType::Float } };
+    Result<NamedEntry> entry = readEntry(item, kFields, "constant");
+    if (!entry) return entry.error();
+    if (out.package.findConstant(entry->name)) {
+        return errorAt(item.at, fmt::format("there are two constants '{}'", entry->name));
+    }
+    Constant constant{ .name = entry->name, .id = static_cast<uint32_t>(out.package.constants.size()) };
+    Result<void> done = readEnum(*entry->type, "type", kConstantTypes, constant.type);
+    if (JsonValue const* value = findMember(item, "default"); done && value) done = readDefault(*value, constant);
+    if (!done) return done;
+    out.package.constants.push_back(std::move(constant));
+    return {};
+}
+
+/// A name, or { name, precision }.
+Result<void> readVariable(JsonValue const& item, MaterialDefinition& out) {
+    static constexpr std::string_view kFields[] = { "name", "precision" };
+    Variable variable{ .at = item.at };
+    Result<void> done;
+    if (item.kind == JsonValue::Kind::Object) {
+        JsonValue const* name = nullptr;
+        done = expectOnly(item, kFields, "variable");
+        if (done) done = requireMember(item, "name", "variable", name);
+        if (done) done = readIdentifier(*name, "variable", variable.name);
+        if (JsonValue const* precision = findMember(item, "precision"); done && precision) done = readPrecision(*precision, variable.precision);
+    } else {
+        done = readIdentifier(item, "variable", variable.name);
+    }
+    if (!done) return done;
+    if (out.variables.size() == kMaxVariables) return errorAt(item.at, fmt::format("a material has at most {} variables", kMaxVariables));
+    if (std::ranges::count(out.variables, variable.name, &Variable::name) > 0) {
+        return errorAt(item.at, fmt::format("there are two variables '{}'", variable.name));
+    }
+    out.variables.push_back(std::move(variable));
+    return {};
+}
+
+using ReadItem = Result<void> (*)(JsonValue const&, MaterialDefinition&);
+
+Result<void> readEach(JsonValue const& value, std::string_view what, size_t limit, ReadItem read, MaterialDefinition& out) {
+    if (Result<void> isArray = expectKind(value, JsonValue::Kind::Array, what); !isArray) return isArray;
+    if (value.items.size() > limit) return errorAt(value.at, fmt::format("'{}' has more than {} entries", what, limit));
+    for (JsonValue const& item : value.items) {
+        if (Result<void> done = read(item, out); !done) return done;
+    }
+    return {};
+}
+
+Result<void> readRequirement(JsonValue const& item, MaterialDefinition& out) {
+    static constexpr std::pair<std::string_view, uint32_t> kAttributes[] = { { "position", kAttributePosition },
+        { "tangents", kAttributeTangents }, { "color", kAttributeColor }, { "uv0", kAttributeUv0 }, { "uv1", kAttributeUv1 },
+        { "custom0", 7 }, { "custom1", 8 }, { "custom2", 9 }, { "custom3", 10 }, { "custom4", 11 }, { "custom5", 12 },
+        { "custom6", 13 }, { "custom7", 14 } };
+    uint32_t location = 0;
+    if (Result<void> done = readEnum(item, "requires", kAttributes, location); !done) return done;
+    out.requiredAttributes |= 1u << location;
+    return {};
+}
+
+constexpr std::pair<std::string_view, uint8_t> kVariantFilters[] = { { "directionalLighting", kVariantSun },
+    { "dynamicLighting", kVariantPunctual }, { "shadowReceiver", 0 }, { "skinning", 0 }, { "ssr", 0 }, { "stereo", 0 },
+    { "fog", 0 }, { "vsm", 0 } };
+
+Result<void> readFilter(JsonValue const& item, MaterialDefinition& out) {
+    uint8_t bits = 0;
+    if (Result<void> done = readEnum(item, "variantFilter", kVariantFilters, bits); !done) return done;
+    out.filteredVariants |= bits;
+    return {};
+}
+
+} // namespace
+
+Result<void> readParameters(JsonValue const& value, MaterialDefinition& out) {
+    return readEach(value, "parameters", kMaxParameterCount, readParameter, out);
+}
+
+Result<void> readConstants(JsonValue const& value, MaterialDefinition& out) {
+    return readEach(value, "constants", kMaxParameterCount, readConstant, out);
+}
+
+Result<void> readVariables(JsonValue const& value, MaterialDefinition& out) {
+    return readEach(value, "variables", kMaxVariables, readVariable, out);
+}
+
+Result<void> readRequires(JsonValue const& value, MaterialDefinition& out) {
+    return readEach(value, "requires", kMaxParameterCount, readRequirement, out);
+}
+
+Result<void> readVariantFilter(JsonValue const& value, MaterialDefinition& out) {
+    return readEach(value, "variantFilter", kMaxParameterCount, readFilter, out);
+}
+
+std::optional<uint8_t> variantBitsOfFilter(std::string_view name) {
+    for (auto const& [known, bits] : kVariantFilters) {
+        if (equalIgnoringCase(name, known)) return bits;
+    }
+    return std::nullopt;
+}
+
+std::vector<std::string_view> variantFilterNames() {
+    std::vector<std::string_view> names;
+    for (auto const& [name, bits] : kVariantFilters) names.push_back(name);
+    return names;
+}
+
+Result<void> layOutParameters(MaterialDefinition& definition) {
+    uint32_t binding = 1; // 0 is the block
+    for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
+        Parameter& parameter = definition.package.parameters[i];
+        if (!isTexture(parameter.type)) continue;
+        SourcePosition const& at = definition.parameterSources[i].at;
+        if (binding >= backend::kMaxBindings) {
+            return errorAt(at, fmt::format("a material has at most {} textures", backend::kMaxBindings - 1));
+        }
+        if (parameter.type == ParameterType::SubpassInput && definition.package.domain != MaterialDomain::PostProcess) {
+            return errorAt(at, "subpass inputs exist only in the domain postprocess");
+        }
+        parameter.binding = static_cast<uint8_t>(binding++);
+    }
+    uint64_t bytes = 0;
+    for (Parameter const& parameter : definition.package.parameters) bytes += parameterBytes(parameter);
+    definition.package.uniformBytes = assignOffsets(definition.package.parameters);
+    if (bytes > kMaxBlockBytes || definition.package.uniformBytes > kMaxBlockBytes) {
+        return fail(ErrorCode::InvalidArgument, "{}: the parameters take more than {} bytes", definition.fileName, kMaxBlockBytes);
+    }
+    return {};
+}
+
+} // namespace filament::shader

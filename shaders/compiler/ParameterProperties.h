@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The list properties of a material: parameters, constants, variables, requires, variantFilter (materials guide, 4.2).
+///   Fails   as MaterialDefinition.h says.
+#pragma once
+
+#include "shaders/compiler/MaterialDefinition.h"
+
+namespace filament::shader {
+
+Result<void> readParameters(JsonValue const& value, MaterialDefinition& out);
+Result<void> readConstants(JsonValue const& value, MaterialDefinition& out);
+Result<void> readVariables(JsonValue const& value, MaterialDefinition& out);
+Result<void> readRequires(JsonValue const& value, MaterialDefinition& out);
+Result<void> readVariantFilter(JsonValue const& value, MaterialDefinition& out);
+
+/// Assigns bindings and std140 offsets once all parameters are known. Fails: too many textures or bytes.
+Result<void> layOutParameters(MaterialDefinition& definition);
+
+} // namespace filament::shader

@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Which variants of a material exist: one for every combination of what the scene may ask of it and no filter excludes.
+///   Thread  any. Fails: never.
+#pragma once
+
+#include "shaders/package/Package.h"
+
+#include <cstdint>
+#include <vector>
+
+namespace filament::shader {
+
+/// The bits that can change the code of such a material: none for unlit and post-process ones.
+uint8_t selectableBits(MaterialDomain domain, ShadingModel shading);
+
+/// Ascending; always contains 0.
+std::vector<uint8_t> variantKeys(MaterialDomain domain, ShadingModel shading, uint8_t filteredBits);
+
+} // namespace filament::shader

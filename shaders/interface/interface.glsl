@@ -1,0 +1,56 @@
+// SPDX-License-Identifier: Apache-2.0
+// The GLSL twin of ShaderInterface.h, put before every shader. Equal names, offsets and sizes: a test reflects this
+// file and compares. Two records are named differently from C++, where materials use the C++ names for something else.
+
+const int kAttributePosition = 0;
+const int kAttributeTangents = 1;
+const int kAttributeColor = 2;
+const int kAttributeUv0 = 3;
+const int kAttributeUv1 = 4;
+const int kAttributeJoints = 5;
+const int kAttributeWeights = 6;
+const int kAttributeCustom0 = 7;
+const int kAttributeInstance = 15;
+
+const int kObjectsPerWindow = 256;
+const int kMaxPunctualLights = 256;
+
+layout(set = 0, binding = 0, std140) uniform FrameUniforms {
+    mat4 clipFromWorld; // the world is relative to the camera
+    mat4 worldFromClip;
+    mat4 viewFromWorld;
+    mat4 clipFromView;
+    vec4 cameraPosition;
+    vec4 viewport;
+    vec4 exposure;
+    vec4 sunDirection;
+    vec4 sunIlluminance;
+    vec4 ambient;
+    vec4 skyFactor;
+    vec4 irradianceSh[9];
+    mat4 worldFromEnvironment;
+} frameUniforms;
+
+struct ObjectRecord {
+    vec4 row0, row1, row2;
+    vec4 flags;
+};
+
+layout(set = 0, binding = 1, std140) uniform ObjectUniforms {
+    ObjectRecord objects[kObjectsPerWindow];
+} objectUniforms;
+
+struct LightRecord {
+    vec4 positionRange;
+    vec4 colorIntensity;
+    vec4 directionScale;
+    vec4 offset;
+};
+
+layout(set = 0, binding = 2, std140) uniform LightUniforms {
+    LightRecord lights[kMaxPunctualLights];
+} lightUniforms;
+
+layout(set = 0, binding = 3) uniform samplerCube viewSpecular;
+layout(set = 0, binding = 4) uniform sampler2D viewDfg;
+layout(set = 0, binding = 5) uniform samplerCube viewSky;

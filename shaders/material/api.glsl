@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// What every material may call in both stages: type names, mathematics, frame constants (materials guide, 4.5.1 - 4.5.4).
+// "World" is the camera-relative world of DESIGN: its axes are the user's, its origin is the camera.
+
+#define bool2 bvec2
+#define bool3 bvec3
+#define bool4 bvec4
+#define int2 ivec2
+#define int3 ivec3
+#define int4 ivec4
+#define uint2 uvec2
+#define uint3 uvec3
+#define uint4 uvec4
+#define float2 vec2
+#define float3 vec3
+#define float4 vec4
+#define float3x3 mat3
+#define float4x4 mat4
+
+const float PI = kPi;
+const float HALF_PI = 0.5 * kPi;
+
+float max3(vec3 v) { return max(v.x, max(v.y, v.z)); }
+vec4 mulMat4x4Float3(mat4 m, vec3 v) { return m * vec4(v, 1.0); }
+vec3 mulMat3x3Float3(mat4 m, vec3 v) { return mat3(m) * v; }
+
+// A zero vector stays zero instead of becoming NaN: zero scales and collapsed tangents end here.
+vec3 normalizeOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
+
+mat4 getClipFromWorldMatrix() { return frameUniforms.clipFromWorld; }
+mat4 getWorldFromClipMatrix() { return frameUniforms.worldFromClip; }
+mat4 getClipFromViewMatrix() { return frameUniforms.clipFromView; }
+mat4 getViewFromWorldMatrix() { return frameUniforms.viewFromWorld; }
+mat4 getWorldFromViewMatrix() { return transpose(frameUniforms.viewFromWorld); } // a rotation: the camera is the origin
+mat4 getViewFromClipMatrix() { return frameUniforms.viewFromWorld * frameUniforms.worldFromClip; }
+mat4 getUserWorldFromWorldMatrix() {
+    mat4 translation = mat4(1.0);
+    translation[3].xyz = frameUniforms.cameraPosition.xyz;
+    return translation;
+}
+
+vec4 getResolution() { return frameUniforms.viewport; }
+vec3 getWorldCameraPosition() { return vec3(0.0); }
+vec3 getWorldOffset() { return frameUniforms.cameraPosition.xyz; }
+float getTime() { return fract(frameUniforms.exposure.z); }
+vec4 getUserTime() { return vec4(frameUniforms.exposure.z, 0.0, 0.0, 0.0); }
+float getUserTimeMod(float m) { return mod(frameUniforms.exposure.z, m); }
+float getExposure() { return frameUniforms.exposure.x; }
+float getEV100() { return frameUniforms.exposure.y; }

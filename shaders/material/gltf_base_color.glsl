@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// Base colour and texture coordinates of glTF materials, lit and unlit. glTF 2.0 specification, 3.9.2 and 3.9.4.
+
+vec2 mapUv(int set, bool isTransformed, mat3 transform) {
+    vec2 uv = set == 0 ? getUV0() : getUV1();
+    return isTransformed ? (transform * vec3(uv, 1.0)).xy : uv;
+}
+
+vec4 gltfBaseColor() {
+    vec4 color = materialParams.baseColorFactor;
+    if (materialConstants_hasVertexColor) color *= getColor();
+    if (materialConstants_hasBaseColorMap) {
+        vec2 uv = mapUv(materialConstants_baseColorUv, materialConstants_baseColorTransform, materialParams.baseColorUvMatrix);
+        color *= texture(materialParams_baseColorMap, uv);
+    }
+#if defined(BLEND_MODE_TRANSPARENT)
+    color.rgb *= color.a; // glTF's colours are not pre-multiplied
+#endif
+    return color;
+}

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// The metallic-roughness model of glTF 2.0 (specification, 3.9): roughness in green, metallic in blue, occlusion in red.
+
+#include "shaders/material/gltf_base_color.glsl"
+
+vec3 gltfNormal() {
+    vec2 uv = mapUv(materialConstants_normalUv, materialConstants_normalTransform, materialParams.normalUvMatrix);
+    vec3 n = texture(materialParams_normalMap, uv).xyz * 2.0 - 1.0;
+    return vec3(n.xy * materialParams.normalScale, n.z);
+}
+
+void material(inout MaterialInputs material) {
+    if (materialConstants_hasNormalMap) material.normal = gltfNormal();
+    prepareMaterial(material);
+
+    material.baseColor = gltfBaseColor();
+    material.metallic = materialParams.metallicFactor;
+    material.roughness = materialParams.roughnessFactor;
+    if (materialConstants_hasMetallicRoughnessMap) {
+        vec2 uv = mapUv(materialConstants_metallicRoughnessUv, materialConstants_metallicRoughnessTransform,
+                materialParams.metallicRoughnessUvMatrix);
+        vec4 texel = texture(materialParams_metallicRoughnessMap, uv);
+        material.roughness *= texel.g;
+        material.metallic *= texel.b;
+    }
+    if (materialConstants_hasOcclusionMap) {
+        vec2 uv = mapUv(materialConstants_occlusionUv, materialConstants_occlusionTransform, materialParams.occlusionUvMatrix);
+        float occlusion = texture(materialParams_occlusionMap, uv).r;
+        material.ambientOcclusion = 1.0 + materialParams.occlusionStrength * (occlusion - 1.0);
+    }
+    material.emissive = vec4(materialParams.emissiveFactor, 1.0);
+    if (materialConstants_hasEmissiveMap) {
+        vec2 uv = mapUv(materialConstants_emissiveUv, materialConstants_emissiveTransform, materialParams.emissiveUvMatrix);
+        material.emissive.rgb *= texture(materialParams_emissiveMap, uv).rgb;
+    }
+}

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fragment stage of surface materials, what goes before the material's own code: MaterialInputs, prepareMaterial() and the
+// functions of the guide, 4.5.7.
+
+layout(location = 0) out vec4 fragment_color;
+
+struct MaterialInputs {
+    vec4 baseColor; // pre-multiplied by its alpha
+    vec4 emissive;  // rgb: nits; a: exposure weight
+    vec4 postLightingColor;
+#if defined(SHADING_MODEL_LIT)
+    float roughness;
+    float metallic;
+    float reflectance;
+    float ambientOcclusion;
+    vec3 normal; // in tangent space
+#endif
+};
+
+void initMaterial(out MaterialInputs material) {
+    material.baseColor = vec4(1.0);
+    material.emissive = vec4(0.0, 0.0, 0.0, 1.0);
+    material.postLightingColor = vec4(0.0);
+#if defined(SHADING_MODEL_LIT)
+    material.roughness = 1.0;
+    material.metallic = 0.0;
+    material.reflectance = 0.5;
+    material.ambientOcclusion = 1.0;
+    material.normal = vec3(0.0, 0.0, 1.0);
+#endif
+}
+
+// Grazing views would divide by zero in the visibility term and read outside of the DFG table.
+const float kMinNoV = 1e-4;
+
+// Filled by main() and prepareMaterial().
+mat3 shading_tangentToWorld;
+vec3 shading_geometricNormal;
+vec3 shading_normal;
+vec3 shading_view;
+vec3 shading_reflected;
+float shading_NoV;
+
+#if defined(NEEDS_WORLD_POSITION)
+vec3 getWorldPosition() { return vertex_worldPosition; }
+vec3 getUserWorldPosition() { return vertex_worldPosition + frameUniforms.cameraPosition.xyz; }
+vec3 getWorldViewVector() { return shading_view; }
+#endif
+#if defined(NEEDS_NORMAL)
+mat3 getWorldTangentFrame() { return shading_tangentToWorld; }
+vec3 getWorldNormalVector() { return shading_normal; }
+vec3 getWorldGeometricNormalVector() { return shading_geometricNormal; }
+#endif
+#if defined(NEEDS_NORMAL) && defined(NEEDS_WORLD_POSITION)
+vec3 getWorldReflectedVector() { return shading_reflected; }
+float getNdotV() { return shading_NoV; }
+#endif
+#if defined(HAS_COLOR)
+vec4 getColor() { return vertex_color; }
+#endif
+#if defined(HAS_UV0)
+vec2 getUV0() { return vertex_uv01.xy; }
+#endif
+#if defined(HAS_UV1)
+vec2 getUV1() { return vertex_uv01.zw; }
+#endif
+#if defined(BLEND_MODE_MASKED)
+float getMaskThreshold() { return materialParams._maskThreshold; }
+#endif
+vec3 getNormalizedViewportCoord() { return vec3(gl_FragCoord.xy * frameUniforms.viewport.zw, gl_FragCoord.z); }
+vec2 uvToRenderTargetUV(vec2 uv) { return uv; } // row 0 is the top row on both APIs
+
+// What the geometry says, before material(): view vector and tangent frame.
+void computeShadingGeometry() {
+#if defined(NEEDS_WORLD_POSITION)
+    shading_view = normalizeOrZero(-vertex_worldPosition); // the camera is the origin
+#endif
+#if defined(NEEDS_NORMAL)
+    vec3 n = vertex_worldNormal;
+#if defined(NEEDS_TANGENT)
+    // Interpolated and not normalised, as MikkTSpace defines it: the result of the normal map is.
+    vec3 t = vertex_worldTangent.xyz;
+    vec3 b = cross(n, t) * vertex_worldTangent.w;
+#else
+    vec3 t = vec3(0.0), b = vec3(0.0);
+#endif
+#if defined(DOUBLE_SIDED)
+    // The back of a surface is the same surface seen from behind: its whole frame looks the other way.
+    float side = gl_FrontFacing ? 1.0 : -1.0;
+    n *= side;
+    t *= side;
+    b *= side;
+#endif
+    shading_tangentToWorld = mat3(t, b, n);
+    shading_geometricNormal = normalizeOrZero(n);
+    shading_normal = shading_geometricNormal;
+#endif
+}
+
+void prepareMaterial(const MaterialInputs material) {
+#if defined(NEEDS_NORMAL) && defined(HAS_NORMAL)
+    shading_normal = normalizeOrZero(shading_tangentToWorld * material.normal);
+#endif
+#if defined(NEEDS_NORMAL) && defined(NEEDS_WORLD_POSITION)
+    shading_NoV = max(dot(shading_normal, shading_view), kMinNoV);
+    shading_reflected = reflect(-shading_view, shading_normal);
+#endif
+}

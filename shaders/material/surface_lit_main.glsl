@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fragment stage of lit surface materials, entry point: the standard model under image-based light, a sun and punctual
+// lights. All light arrives pre-exposed, so that the sums stay within fp16 even under 110 000 lux.
+
+struct Surface {
+    vec3 diffuse;             // albedo of the diffuse lobe, times alpha if the material is transparent
+    vec3 f0;
+    float f90;
+    float perceptualRoughness;
+    float alpha;              // of the distribution: perceptualRoughness^2
+    vec3 energyCompensation;
+    vec3 specularAlbedo;      // of the whole hemisphere
+    float visibility;         // ambient occlusion
+};
+
+float materialPerceptualRoughness(MaterialInputs material) {
+    float roughness = material.roughness;
+#if defined(SPECULAR_ANTI_ALIASING)
+    roughness = filteredPerceptualRoughness(roughness, dFdx(shading_geometricNormal), dFdy(shading_geometricNormal),
+            SPECULAR_ANTI_ALIASING_VARIANCE, SPECULAR_ANTI_ALIASING_THRESHOLD);
+#endif
+    return clampPerceptualRoughness(roughness);
+}
+
+Surface surfaceOf(MaterialInputs material) {
+    vec3 baseColor = material.baseColor.rgb;
+#if defined(BLEND_MODE_FADE)
+    baseColor /= max(material.baseColor.a, 1e-5); // fading scales the lit colour as a whole, see main()
+#endif
+    Surface surface;
+    surface.diffuse = diffuseColor(baseColor, material.metallic);
+    surface.f0 = f0FromBaseColor(baseColor, material.metallic, material.reflectance);
+    // Nothing real reflects less than 2 %; darker f0 means that the material wants no reflection at all. Lagarde and de
+    // Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
+    surface.f90 = saturate(dot(surface.f0, vec3(50.0 * 0.33)));
+    surface.perceptualRoughness = materialPerceptualRoughness(material);
+    surface.alpha = alphaFromPerceptual(surface.perceptualRoughness);
+    vec2 dfg = textureLod(viewDfg, vec2(shading_NoV, surface.perceptualRoughness), 0.0).xy;
+    surface.energyCompensation = energyCompensation(surface.f0, dfg);
+    surface.specularAlbedo = specularDfg(surface.f0, dfg);
+#if defined(HAS_AMBIENT_OCCLUSION)
+    surface.visibility = saturate(material.ambientOcclusion);
+#else
+    surface.visibility = 1.0;
+#endif
+    return surface;
+}
+
+vec3 environmentFromWorld(vec3 direction) { return direction * mat3(frameUniforms.worldFromEnvironment); }
+
+vec3 imageBasedLight(Surface surface) {
+    if (frameUniforms.ambient.x <= 0.0) return vec3(0.0); // no environment
+
+    vec3 irradiance = irradianceSh(frameUniforms.irradianceSh, environmentFromWorld(shading_normal),
+            int(frameUniforms.ambient.z));
+    vec3 diffuse = surface.diffuse * irradiance * (1.0 - surface.specularAlbedo) * surface.visibility;
+
+    vec3 direction = dominantSpecularDirection(shading_normal, shading_reflected, surface.alpha);
+    float level = levelFromPerceptualRoughness(surface.perceptualRoughness, frameUniforms.ambient.y);
+    vec3 radiance = textureLod(viewSpecular, environmentFromWorld(direction), level).rgb;
+    vec3 specular = surface.specularAlbedo * radiance;
+#if defined(HAS_AMBIENT_OCCLUSION)
+    specular *= specularOcclusion(shading_NoV, surface.visibility, surface.alpha);
+#endif
+    return (diffuse + specular) * frameUniforms.ambient.x;
+}
+
+#if defined(VARIANT_SUN) || defined(VARIANT_PUNCTUAL)
+
+// Light from one direction; illuminance at normal incidence, pre-exposed.
+vec3 directLight(Surface surface, vec3 light, vec3 illuminance) {
+    float nol = saturate(dot(shading_normal, light));
+    if (nol <= 0.0) return vec3(0.0);
+    vec3 halfway = normalizeOrZero(shading_view + light);
+    float noh = saturate(dot(shading_normal, halfway));
+    float voh = saturate(dot(shading_view, halfway));
+    float d = ndfGgx(noh, surface.alpha);
+    float v = visibilitySmithGgxCorrelated(shading_NoV, nol, surface.alpha);
+    vec3 specular = (d * v) * fresnelSchlick(surface.f0, surface.f90, voh) * surface.energyCompensation;
+    return (surface.diffuse * diffuseLambert() + specular) * illuminance * nol;
+}
+
+#endif
+
+#if defined(VARIANT_PUNCTUAL)
+
+vec3 punctualLights(Surface surface) {
+    vec3 sum = vec3(0.0);
+    int count = int(frameUniforms.ambient.w);
+    for (int i = 0; i < count; ++i) {
+        LightRecord light = lightUniforms.lights[i];
+        vec3 toLight = light.positionRange.xyz - vertex_worldPosition;
+        float attenuation = distanceAttenuation(toLight, light.positionRange.w);
+        if (attenuation <= 0.0) continue; // out of range
+        vec3 direction = normalizeOrZero(toLight);
+        if (light.colorIntensity.w > 0.0) {
+            attenuation *= spotAttenuation(direction, light.directionScale.xyz, light.directionScale.w, light.offset.x);
+            if (attenuation <= 0.0) continue; // outside of the cone
+        }
+        sum += directLight(surface, direction, light.colorIntensity.rgb * attenuation);
+    }
+    return sum;
+}
+
+#endif
+
+void main() {
+    MaterialInputs inputs;
+    initMaterial(inputs);
+    computeShadingGeometry();
+    material(inputs);
+    applyMask(inputs.baseColor);
+
+    Surface surface = surfaceOf(inputs);
+    vec3 light = imageBasedLight(surface);
+#if defined(VARIANT_SUN)
+    light += directLight(surface, frameUniforms.sunDirection.xyz, frameUniforms.sunIlluminance.rgb);
+#endif
+#if defined(VARIANT_PUNCTUAL)
+    light += punctualLights(surface);
+#endif
+#if defined(BLEND_MODE_FADE)
+    light *= inputs.baseColor.a;
+#endif
+
+    vec4 color = vec4(light, outputAlpha(inputs.baseColor.a));
+    addEmissive(inputs, color);
+    blendPostLighting(inputs, color);
+    fragment_color = color;
+}

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+// Vertex stage of surface materials, what goes before the material's own code: attributes, MaterialVertexInputs and the
+// functions of the guide, 4.5.6.
+
+#if defined(FULL_SCREEN_TRIANGLE)
+// Covers the picture at the far plane, without attributes: (-1, -1), (3, -1), (-1, 3).
+vec3 meshPosition() { return vec3(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.0); }
+#else
+layout(location = kAttributePosition) in vec3 mesh_position;
+vec3 meshPosition() { return mesh_position; }
+#endif
+#if defined(NEEDS_NORMAL)
+layout(location = kAttributeTangents) in vec4 mesh_tangents;
+#endif
+#if defined(HAS_COLOR)
+layout(location = kAttributeColor) in vec4 mesh_color;
+#endif
+#if defined(HAS_UV0)
+layout(location = kAttributeUv0) in vec2 mesh_uv0;
+#endif
+#if defined(HAS_UV1)
+layout(location = kAttributeUv1) in vec2 mesh_uv1;
+#endif
+#if defined(VERTEX_DOMAIN_OBJECT)
+layout(location = kAttributeInstance) in uint mesh_instance;
+#endif
+
+vec4 getPosition() { return vec4(meshPosition(), 1.0); }
+int getVertexIndex() { return gl_VertexIndex; }
+int getEyeIndex() { return 0; }
+
+#if defined(VERTEX_DOMAIN_OBJECT)
+
+mat4 getWorldFromModelMatrix() {
+    ObjectRecord object = objectUniforms.objects[mesh_instance];
+    return transpose(mat4(object.row0, object.row1, object.row2, vec4(0.0, 0.0, 0.0, 1.0)));
+}
+
+// The cofactor matrix: the inverse transpose times the determinant, which exists for singular matrices, too. Its sign
+// is that of the determinant, hence the flag of mirrored objects.
+mat3 getWorldFromModelNormalMatrix() {
+    ObjectRecord object = objectUniforms.objects[mesh_instance];
+    vec3 row0 = cross(object.row1.xyz, object.row2.xyz);
+    vec3 row1 = cross(object.row2.xyz, object.row0.xyz);
+    vec3 row2 = cross(object.row0.xyz, object.row1.xyz);
+    return transpose(mat3(row0, row1, row2)) * object.flags.x;
+}
+
+vec4 worldPositionOfVertex() {
+    ObjectRecord object = objectUniforms.objects[mesh_instance];
+    vec4 p = getPosition();
+    return vec4(dot(object.row0, p), dot(object.row1, p), dot(object.row2, p), 1.0);
+}
+
+vec3 directionToWorld(vec3 d) {
+    ObjectRecord object = objectUniforms.objects[mesh_instance];
+    return vec3(dot(object.row0.xyz, d), dot(object.row1.xyz, d), dot(object.row2.xyz, d));
+}
+
+vec3 normalToWorld(vec3 n) { return getWorldFromModelNormalMatrix() * n; }
+float bitangentSign() { return objectUniforms.objects[mesh_instance].flags.x; }
+
+#else
+
+mat4 getWorldFromModelMatrix() { return mat4(1.0); }
+mat3 getWorldFromModelNormalMatrix() { return mat3(1.0); }
+
+vec4 worldPositionOfVertex() {
+#if defined(VERTEX_DOMAIN_WORLD)
+    return vec4(meshPosition() - frameUniforms.cameraPosition.xyz, 1.0);
+#elif defined(VERTEX_DOMAIN_VIEW)
+    return getWorldFromViewMatrix() * getPosition();
+#else
+    vec4 p = frameUniforms.worldFromClip * getPosition();
+    return p.w != 0.0 ? p / p.w : p; // w = 0: a direction, the far plane is at infinity
+#endif
+}
+
+vec3 directionToWorld(vec3 d) {
+#if defined(VERTEX_DOMAIN_VIEW)
+    return mat3(getWorldFromViewMatrix()) * d;
+#else
+    return d;
+#endif
+}
+
+vec3 normalToWorld(vec3 n) { return directionToWorld(n); }
+float bitangentSign() { return 1.0; }
+
+#endif
+
+struct MaterialVertexInputs {
+#if defined(HAS_COLOR)
+    vec4 color;
+#endif
+#if defined(HAS_UV0)
+    vec2 uv0;
+#endif
+#if defined(HAS_UV1)
+    vec2 uv1;
+#endif
+#if defined(NEEDS_NORMAL)
+    vec3 worldNormal;
+#endif
+#if defined(HAS_CLIP_SPACE_TRANSFORM)
+    mat4 clipSpaceTransform;
+#endif
+    MATERIAL_VARIABLES_AS_MEMBERS
+    vec4 worldPosition;
+};
+
+vec2 meshUv(vec2 uv) {
+#if defined(FLIP_UV)
+    return vec2(uv.x, 1.0 - uv.y);
+#else
+    return uv;
+#endif
+}
