@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/Buffer.h"
+
+namespace filament::backend::gles {
+
+// Outside of vertex arrays and uniform slots, so that binding it disturbs nothing that State knows.
+static constexpr GLenum kEditTarget = GL_COPY_WRITE_BUFFER;
+
+Buffers::~Buffers() {
+    mBuffers.forEach([this](Buffer& buffer) { destroy(buffer); });
+}
+
+void Buffers::create(BufferHandle handle, BufferDesc const& desc) {
+    GlApi const& gl = mDevice.gl;
+    const bool changesOften = has(desc.usage, BufferUsage::Uniform);
+    Buffer buffer{ .size = desc.size, .hint = static_cast<GLenum>(changesOften ? GL_DYNAMIC_DRAW : GL_STATIC_DRAW) };
+    mDevice.beginCreation();
+    gl.GenBuffers(1, &buffer.name);
+    gl.BindBuffer(kEditTarget, buffer.name);
+    gl.BufferData(kEditTarget, static_cast<GLsizeiptr>(desc.size), nullptr, buffer.hint);
+    if (mDevice.created("buffer", desc.debugName)) {
+        mDevice.label(GL_BUFFER, buffer.name, desc.debugName);
+        mDevice.statistics.deviceBytes += desc.size;
+    } else {
+        gl.DeleteBuffers(1, &buffer.name);
+        buffer.name = 0;
+    }
+    mBuffers.insert(handle, buffer);
+}
+
+void Buffers::destroy(Buffer const& buffer) {
+    if (buffer.name == 0) return;
+    mDevice.state.forgetBuffer(buffer.name);
+    mDevice.gl.DeleteBuffers(1, &buffer.name);
+    mDevice.statistics.deviceBytes -= buffer.size;
+}
+
+void Buffers::update(BufferHandle handle, uint64_t offset, std::span<const std::byte> bytes) {
+    Buffer const* buffer = find(handle);
+    if (!buffer || bytes.empty()) return;
+    FILAMENT_ASSERT(offset + bytes.size() <= buffer->size, "an update stays inside its buffer");
+    GlApi const& gl = mDevice.gl;
+    gl.BindBuffer(kEditTarget, buffer->name);
+    if (bytes.size() == buffer->size) {
+        // New storage instead of a wait for draws that still read the old one.
+        gl.BufferData(kEditTarget, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), buffer->hint);
+    } else {
+        gl.BufferSubData(kEditTarget, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+    }
+}
+
+Buffer const* Buffers::find(BufferHandle handle) const {
+    Buffer const* buffer = mBuffers.find(handle);
+    return buffer && buffer->name ? buffer : nullptr;
+}
+
+} // namespace filament::backend::gles

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Buffers: vertex, index and uniform memory.
+///   Thread  the driver thread.
+///   Fails   out of memory is reported; the buffer stays in the table with name 0, and what uses it is skipped.
+#pragma once
+
+#include "backend/gles/Device.h"
+#include "backend/gles/Table.h"
+
+namespace filament::backend::gles {
+
+struct Buffer {
+    GLuint name = 0; ///< 0: creation failed
+    uint64_t size = 0;
+    GLenum hint = GL_STATIC_DRAW;
+};
+
+class Buffers {
+public:
+    explicit Buffers(Device& device) : mDevice(device) {}
+    ~Buffers();
+
+    void create(BufferHandle handle, BufferDesc const& desc);
+    /// The GL name that is gone now (0 if none): other caches must forget it first, see take().
+    std::unique_ptr<Buffer> take(BufferHandle handle) { return mBuffers.remove(handle); }
+    void destroy(Buffer const& buffer);
+    void update(BufferHandle handle, uint64_t offset, std::span<const std::byte> bytes);
+
+    /// Null if it does not exist or could not be made.
+    Buffer const* find(BufferHandle handle) const;
+
+private:
+    Device& mDevice;
+    Table<BufferTag, Buffer> mBuffers;
+};
+
+} // namespace filament::backend::gles

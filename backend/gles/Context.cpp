@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/Context.h"
+
+namespace filament::backend::gles {
+namespace {
+
+struct ContextWish {
+    EGLint minor;    // of ES 3.x
+    bool resetNotice; // tells a lost device from a broken one; not every driver has it
+};
+
+EGLContext createContext(Egl const& egl, EGLDisplay display, ContextWish wish, bool debug) {
+    std::vector<EGLint> attributes{ EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, wish.minor };
+    if (wish.resetNotice) {
+        attributes.insert(attributes.end(),
+                { EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT, EGL_LOSE_CONTEXT_ON_RESET_EXT });
+    }
+    if (debug) attributes.insert(attributes.end(), { EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE });
+    attributes.push_back(EGL_NONE);
+    return egl.CreateContext(display, EGL_NO_CONFIG_KHR, EGL_NO_CONTEXT, attributes.data());
+}
+
+} // namespace
+
+Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug) {
+    Result<DisplayReference> display = DisplayReference::acquire(egl, egl.display(source));
+    if (!display) return display.error();
+    const char* extensions = egl.QueryString(display->get(), EGL_EXTENSIONS);
+    if (!hasExtension(extensions, "EGL_KHR_surfaceless_context") || !egl.BindAPI(EGL_OPENGL_ES_API)) {
+        return fail(ErrorCode::Unsupported, "this EGL display has no OpenGL ES without a surface");
+    }
+    const bool reset = hasExtension(extensions, "EGL_EXT_create_context_robustness");
+    EGLContext context = EGL_NO_CONTEXT;
+    for (ContextWish wish : { ContextWish{ 2, true }, { 2, false }, { 1, true }, { 1, false } }) {
+        if (context == EGL_NO_CONTEXT && (reset || !wish.resetNotice)) {
+            context = createContext(egl, display->get(), wish, debug);
+        }
+    }
+    if (context == EGL_NO_CONTEXT) {
+        return fail(ErrorCode::Unsupported, "this EGL display offers no OpenGL ES 3.1 context (EGL error {:#x})",
+                egl.GetError());
+    }
+    Context made(egl, std::move(*display), context);
+    if (!egl.MakeCurrent(made.mDisplay.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+        return fail(ErrorCode::DeviceUnavailable, "the OpenGL ES context cannot be made current (EGL error {:#x})",
+                egl.GetError());
+    }
+    return made;
+}
+
+Context::~Context() {
+    if (mContext == EGL_NO_CONTEXT) return;
+    mEgl->MakeCurrent(mDisplay.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    mEgl->DestroyContext(mDisplay.get(), mContext);
+    mEgl->ReleaseThread();
+}
+
+void Context::makeCurrent() const {
+    if (mEgl->GetCurrentContext() == mContext) return;
+    mEgl->BindAPI(EGL_OPENGL_ES_API);
+    mEgl->MakeCurrent(mDisplay.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, mContext);
+}
+
+} // namespace filament::backend::gles

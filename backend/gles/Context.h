@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Context: one OpenGL ES context without a surface.
+///   Thread  made, used and destroyed on one thread; several may live on the same thread (makeCurrent() switches).
+///   Fails   create(): DeviceUnavailable (no driver) or Unsupported (older than ES 3.1).
+///   After   the destructor leaves no context current and releases what EGL keeps for the thread.
+#pragma once
+
+#include "backend/gles/Egl.h"
+
+namespace filament::backend::gles {
+
+class Context {
+public:
+    /// A current context on the display. `debug` asks for messages (KHR_debug).
+    static Result<Context> create(Egl const& egl, DisplaySource source, bool debug);
+    ~Context();
+    Context(Context&& other) noexcept
+            : mEgl(other.mEgl), mDisplay(std::move(other.mDisplay)),
+              mContext(std::exchange(other.mContext, EGL_NO_CONTEXT)) {}
+    Context& operator=(Context&&) = delete;
+
+    /// Free when it already is current on this thread.
+    void makeCurrent() const;
+    Egl const& egl() const { return *mEgl; }
+
+private:
+    Context(Egl const& egl, DisplayReference display, EGLContext context)
+            : mEgl(&egl), mDisplay(std::move(display)), mContext(context) {}
+    Egl const* mEgl;
+    DisplayReference mDisplay;
+    EGLContext mContext;
+};
+
+} // namespace filament::backend::gles

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// DepthReader: puts depth where it can be read, for devices without NV_read_depth.
+///   The rectangle is blitted into a 2D depth texture of the same format (which also takes it out of arrays and cubes)
+///   and drawn from there into an R32F texture, texel by texel; both copies are exact.
+///   Thread  the driver thread, outside of passes; leaves its own bindings in State, which knows.
+///   Memory  two textures per read-back, deleted when the next one begins.
+#pragma once
+
+#include "backend/gles/Framebuffers.h"
+
+namespace filament::backend::gles {
+
+class DepthReader {
+public:
+    DepthReader(Device& device, Framebuffers& framebuffers) : mDevice(device), mFramebuffers(framebuffers) {}
+    ~DepthReader();
+
+    /// A framebuffer whose colour image holds the rectangle at (0, 0) as R32F; 0 if it cannot be made (reported).
+    GLuint copy(Texture const& texture, uint32_t level, uint32_t layer, Rect const& rect);
+
+private:
+    Texture makeTexture(Format format, Rect const& rect);
+    bool prepareProgram();
+    void blit(Texture const& source, uint32_t level, uint32_t layer, Rect const& rect);
+    void draw(GLuint target, Rect const& rect);
+    void dropTextures();
+
+    Device& mDevice;
+    Framebuffers& mFramebuffers;
+    GLuint mProgram = 0, mVertexArray = 0;
+    Texture mDepth, mFloat;
+};
+
+} // namespace filament::backend::gles

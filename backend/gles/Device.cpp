@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/Device.h"
+
+namespace filament::backend::gles {
+namespace {
+
+// Errors, undefined behaviour and anything grave; performance hints are not the caller's bug, and what the shader compiler
+// says is in the program's own report.
+bool isWorthTelling(GLenum source, GLenum type, GLenum severity) {
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER || type == GL_DEBUG_TYPE_PERFORMANCE || severity == GL_DEBUG_SEVERITY_NOTIFICATION) return false;
+    return type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR || severity == GL_DEBUG_SEVERITY_HIGH;
+}
+
+void GL_APIENTRY onMessage(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message,
+        const void* user) {
+    auto const* device = static_cast<Device const*>(user);
+    if (device->creating || !isWorthTelling(source, type, severity)) return;
+    std::string_view text(message, static_cast<size_t>(length));
+    while (!text.empty() && text.back() == '\n') text.remove_suffix(1);
+    device->sink.onError(DriverErrorKind::Validation, fmt::format("OpenGL ES: {}", text));
+}
+
+} // namespace
+
+Device::Device(GlApi const& api, Quirks const& found, ResultSink& results, bool wantsMessages)
+        : gl(api), quirks(found), sink(results), messages(wantsMessages && found.debugMessages),
+          info(describeDevice(gl, quirks)), state(gl, quirks) {
+    if (!messages) return;
+    gl.DebugMessageCallback(&onMessage, this);
+    gl.Enable(GL_DEBUG_OUTPUT);
+    gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // on this thread, inside the call that is wrong
+}
+
+Device::~Device() {
+    if (messages) gl.DebugMessageCallback(nullptr, nullptr);
+}
+
+GLenum Device::takeError() {
+    const GLenum first = gl.GetError();
+    // A lost context answers GL_CONTEXT_LOST for ever on some drivers: bounded, not "until none".
+    for (int i = 0; i < 8 && first != GL_NO_ERROR && gl.GetError() != GL_NO_ERROR; ++i) {}
+    return first;
+}
+
+void Device::beginCreation() {
+    takeError();
+    creating = true;
+}
+
+bool Device::created(const char* what, std::string_view name) {
+    creating = false;
+    const GLenum found = takeError();
+    if (found == GL_NO_ERROR) return true;
+    const bool memory = found == GL_OUT_OF_MEMORY;
+    error(memory ? DriverErrorKind::OutOfMemory : DriverErrorKind::Other, "{} '{}': {}; what uses it is skipped{}", what, name,
+            glErrorName(found), memory ? ", free something or make it smaller" : "");
+    return false;
+}
+
+void Device::checkLost() {
+    if (lost) return;
+    const bool reset = quirks.resetStatus && gl.GetGraphicsResetStatus() != GL_NO_ERROR;
+    if (!reset && (quirks.resetStatus || gl.GetError() != GL_CONTEXT_LOST)) return;
+    lost = true;
+    error(DriverErrorKind::DeviceLost, "'{}' was reset; make a new engine", info.deviceName);
+}
+
+void Device::label(GLenum type, GLuint object, std::string_view name) {
+    if (messages && !name.empty()) gl.ObjectLabel(type, object, static_cast<GLsizei>(name.size()), name.data());
+}
+
+} // namespace filament::backend::gles

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Device: what every part of the driver works on: the functions, the cached state, and where errors go.
+///   Thread  the driver thread.
+#pragma once
+
+#include "backend/gles/State.h"
+
+#include <fmt/core.h>
+
+namespace filament::backend::gles {
+
+struct Device {
+    Device(GlApi const& api, Quirks const& found, ResultSink& results, bool wantsMessages);
+    ~Device();
+    Device(Device const&) = delete;
+    Device& operator=(Device const&) = delete;
+
+    template <class... Args>
+    void error(DriverErrorKind kind, fmt::format_string<Args...> format, Args&&... args) {
+        sink.onError(kind, fmt::vformat(format, fmt::make_format_args(args...)));
+    }
+
+    /// The first error since the last call, GL_NO_ERROR if none. Clears the rest.
+    GLenum takeError();
+    /// Around the calls that make an object: created() reports why it could not be made and returns false.
+    void beginCreation();
+    bool created(const char* what, std::string_view name);
+
+    /// Asks whether the context still works; reports DeviceLost the first time that it does not.
+    void checkLost();
+
+    /// Names an object for debuggers; free unless messages are on.
+    void label(GLenum type, GLuint object, std::string_view name);
+
+    GlApi const gl;
+    Quirks const quirks;
+    ResultSink& sink;
+    bool const messages; ///< validation: KHR_debug messages reach the sink
+    DeviceInfo const info;
+    State state;
+    DriverStatistics statistics; ///< of this thread; the driver publishes copies
+    bool creating = false;       ///< an error is one of beginCreation(): created() tells it
+    bool lost = false;           ///< the context is gone: nothing works any more
+};
+
+} // namespace filament::backend::gles

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The native enums of this backend: every value of backend/api that has one.
+///   Thread  any; constant tables.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "backend/gles/GlApi.h"
+
+namespace filament::backend::gles {
+
+/// How a format is stored and how its texels travel: exactly the bytes that Format.h promises.
+struct GlFormat {
+    GLenum internalFormat = 0;
+    GLenum format = 0; ///< 0 for block-compressed formats
+    GLenum type = 0;
+};
+
+GlFormat const& glFormat(Format format);
+
+/// One attribute as glVertexAttribFormat / glVertexAttribIFormat wants it.
+GLenum glVertexType(VertexFormat format);
+
+GLenum glTextureTarget(TextureDesc const& desc);
+GLenum glTopology(Topology topology);
+GLenum glCompare(CompareOp op); ///< None maps to GL_ALWAYS
+GLenum glStencilOp(StencilOp op);
+GLenum glBlendFactor(BlendFactor factor);
+GLenum glBlendOp(BlendOp op);
+GLenum glWrap(WrapMode mode);
+GLenum glMinFilter(SamplerDesc const& desc);
+GLenum glFilter(Filter filter);
+
+/// FrontFace is said about the picture, row 0 at the top. OpenGL decides in window coordinates with y up and row 0 at
+/// y = 0, so what it calls clockwise looks counter-clockwise in the picture.
+inline GLenum glFrontFace(FrontFace face) { return face == FrontFace::CounterClockwise ? GL_CW : GL_CCW; }
+
+/// "GL_OUT_OF_MEMORY" and the like.
+const char* glErrorName(GLenum error);
+
+} // namespace filament::backend::gles

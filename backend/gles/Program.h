@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Program: a linked vertex and fragment shader, with what draws need to know about it.
+///   In      ESSL 3.10 text whose blocks and textures carry `layout(binding = flatBinding(...))`; an empty fragment shader
+///           means that only depth is written.
+///   Constants  `#define SPIRV_CROSS_CONSTANT_ID_<id> value` lines go behind the #version line: the names that SPIRV-Cross
+///           gives specialisation constants, whose own default stands inside #ifndef.
+///   Thread  the driver thread.
+///   Fails   reported as ShaderCompile; name() is 0 and draws are skipped.
+#pragma once
+
+#include "backend/gles/Device.h"
+
+#include <string>
+#include <vector>
+
+namespace filament::backend::gles {
+
+/// The lines that give the constants their values.
+std::string constantDefinitions(std::span<const ConstantValue> constants);
+
+/// Number of every binding among the uniform blocks or the texture units of the program; 0xFF has none.
+using FlatBindings = std::array<std::array<uint8_t, kMaxBindings>, kMaxBindGroups>;
+FlatBindings flatBindings(ProgramLayout const& layout);
+
+/// A vertex attribute that the linked program reads.
+struct ProgramInput {
+    uint8_t location = 0;
+    GLenum scalarType = GL_FLOAT; ///< GL_FLOAT, GL_INT or GL_UNSIGNED_INT
+};
+
+class Program {
+public:
+    Program(Device& device, ProgramDesc const& desc);
+    ~Program();
+    Program(Program const&) = delete;
+    Program& operator=(Program const&) = delete;
+
+    GLuint name() const { return mName; }
+    FlatBindings const& bindings() const { return mBindings; }
+    std::span<const ProgramInput> inputs() const { return mInputs; }
+
+private:
+    void readInputs();
+
+    Device& mDevice;
+    GLuint mName = 0;
+    FlatBindings mBindings{};
+    std::vector<ProgramInput> mInputs;
+};
+
+} // namespace filament::backend::gles

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/Query.h"
+
+#include <algorithm>
+
+namespace filament::backend::gles {
+
+Queries::~Queries() {
+    for (Timer const& timer : mOpen) mSpare.push_back(timer.begin);
+    for (Timer const& timer : mEnded) mSpare.insert(mSpare.end(), { timer.begin, timer.end });
+    if (!mSpare.empty()) mDevice.gl.DeleteQueries(static_cast<GLsizei>(mSpare.size()), mSpare.data());
+}
+
+GLuint Queries::stamp() {
+    GLuint query = 0;
+    if (mSpare.empty()) {
+        mDevice.gl.GenQueries(1, &query);
+    } else {
+        query = mSpare.back();
+        mSpare.pop_back();
+    }
+    mDevice.gl.QueryCounter(query, GL_TIMESTAMP_EXT);
+    return query;
+}
+
+void Queries::beginTimer(Ticket ticket) {
+    if (mDevice.quirks.timers) mOpen.push_back({ ticket, stamp(), 0 });
+}
+
+void Queries::endTimer(Ticket ticket) {
+    if (!mDevice.quirks.timers) {
+        mDevice.sink.onTimer(ticket, 0);
+        return;
+    }
+    const auto open = std::find_if(mOpen.rbegin(), mOpen.rend(), [ticket](Timer const& timer) { return timer.ticket == ticket; });
+    FILAMENT_ASSERT(open != mOpen.rend(), "a timer that ends has begun");
+    mEnded.push_back({ ticket, open->begin, stamp() });
+    mOpen.erase(std::next(open).base());
+}
+
+uint64_t Queries::read(GLuint query) const {
+    GLuint64 nanoseconds = 0;
+    mDevice.gl.GetQueryObjectui64v(query, GL_QUERY_RESULT, &nanoseconds);
+    return nanoseconds;
+}
+
+void Queries::poll(bool wait) {
+    if (mEnded.empty() || mDevice.lost) return;
+    GLint disjoint = 0; // reading it clears it
+    mDevice.gl.GetIntegerv(GL_GPU_DISJOINT_EXT, &disjoint);
+    while (!mEnded.empty()) {
+        const Timer timer = mEnded.front();
+        GLuint available = 0;
+        if (!wait) mDevice.gl.GetQueryObjectuiv(timer.end, GL_QUERY_RESULT_AVAILABLE, &available);
+        if (!wait && !available) return;
+        mEnded.pop_front();
+        const uint64_t begin = read(timer.begin), end = read(timer.end);
+        mSpare.insert(mSpare.end(), { timer.begin, timer.end });
+        mDevice.sink.onTimer(timer.ticket, disjoint || end < begin ? 0 : end - begin);
+    }
+}
+
+void Queries::endFrame() {
+    mFrames.emplace_back(mDevice);
+    mDevice.gl.Flush();
+    if (mFrames.size() <= kFramesInFlight) return;
+    mFrames.front().wait();
+    mFrames.pop_front();
+}
+
+} // namespace filament::backend::gles

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Quirks: in what this implementation differs from the next one; the only place that reads extension strings.
+///   A bit that is false has a way around it, named here. Remove a bit when every device we accept has it.
+#pragma once
+
+#include "backend/api/Driver.h"
+#include "backend/gles/GlApi.h"
+#include "filament_core/base/Result.h"
+
+namespace filament::backend::gles {
+
+struct Quirks {
+    bool baseVertex = false;       ///< ES 3.2; else vertex buffers are bound at an offset (Vertices.cpp)
+    bool baseInstance = false;     ///< implies baseVertex; else per-instance buffers are bound at an offset
+    bool readDepth = false;        ///< NV_read_depth; else depth is drawn into an R32F texture first (Readback.cpp)
+    bool indexedBlend = false;     ///< ES 3.2; else every attachment blends and masks like the first
+    bool framebufferFetch = false; ///< needed for merged passes
+    bool timers = false;           ///< else a timer answers 0
+    bool blockCompression = false; ///< BC1..BC7 complete, or not offered
+    bool depthClamp = false;       ///< else geometry in front of the near plane is clipped
+    bool anisotropy = false;       ///< else samplers are isotropic
+    bool debugMessages = false;    ///< KHR_debug or ES 3.2
+    bool resetStatus = false;      ///< else a lost context shows as GL_CONTEXT_LOST from glGetError only
+
+    /// Asks the current context. Unsupported names what is missing for this driver.
+    static Result<Quirks> probe(GlApi const& gl);
+};
+
+/// What the current context is and can do.
+DeviceInfo describeDevice(GlApi const& gl, Quirks const& quirks);
+
+} // namespace filament::backend::gles

@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/Readback.h"
+
+#include "backend/gles/Repack.h"
+
+namespace filament::backend::gles {
+
+Readbacks::~Readbacks() {
+    for (Pending const& pending : mPending) mDevice.gl.DeleteBuffers(1, &pending.buffer);
+}
+
+std::optional<Readbacks::Source> Readbacks::open(CmdReadTexture const& command) {
+    Texture const* texture = mTextures.find(command.texture);
+    if (!texture) return {};
+    TextureDesc const& desc = texture->desc;
+    if (!formatInfo(desc.format).isRenderable || desc.samples > 1) {
+        mDevice.error(DriverErrorKind::Other, "a read-back needs a single-sampled texture of a renderable format, not {} x{}; "
+                "its ticket gets no answer", formatInfo(desc.format).name, desc.samples);
+        return {};
+    }
+    if (hasDepth(desc.format) && !mDevice.quirks.readDepth) {
+        const GLuint copy = mDepthReader.copy(*texture, command.level, command.layer, command.rect);
+        if (copy == 0) return {};
+        return Source{ copy, { 0, 0, command.rect.width, command.rect.height }, Format::R32F };
+    }
+    const GLuint single = mFramebuffers.single(Framebuffers::Side::Read, *texture, command.level, command.layer);
+    return Source{ single, command.rect, desc.format };
+}
+
+Readbacks::Plan Readbacks::planFor(Format format) const {
+    if (hasDepth(format)) return { GL_DEPTH_COMPONENT, GL_FLOAT, 4 };
+    GlFormat const& exact = glFormat(format);
+    GLint readFormat = 0, readType = 0;
+    mDevice.gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_FORMAT, &readFormat);
+    mDevice.gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &readType);
+    const bool direct = static_cast<GLenum>(readFormat) == exact.format && static_cast<GLenum>(readType) == exact.type;
+    if (direct || !canRepack(format)) return { exact.format, exact.type, formatInfo(format).bytesPerBlock };
+    // What every device must offer (OpenGL ES 3.1, 16.1.2).
+    FormatInfo const& info = formatInfo(format);
+    if (info.kind == FormatKind::UnsignedInteger) return { GL_RGBA_INTEGER, GL_UNSIGNED_INT, genericBytes(format), format };
+    return { GL_RGBA, static_cast<GLenum>(info.isFloat ? GL_FLOAT : GL_UNSIGNED_BYTE), genericBytes(format), format };
+}
+
+void Readbacks::read(CmdReadTexture const& command) {
+    const std::optional<Source> source = open(command);
+    if (!source) return;
+    GlApi const& gl = mDevice.gl;
+    mDevice.state.bindFramebuffers(source->framebuffer, source->framebuffer);
+    const uint64_t texels = static_cast<uint64_t>(source->rect.width) * source->rect.height;
+    Pending pending{ command.ticket, planFor(source->format), texels, 0, {} };
+    mDevice.beginCreation();
+    gl.GenBuffers(1, &pending.buffer);
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, pending.buffer);
+    gl.BufferData(GL_PIXEL_PACK_BUFFER, static_cast<GLsizeiptr>(pending.texels * pending.plan.texelBytes), nullptr,
+            GL_STREAM_READ);
+    gl.ReadPixels(source->rect.x, source->rect.y, static_cast<GLsizei>(source->rect.width),
+            static_cast<GLsizei>(source->rect.height), pending.plan.format, pending.plan.type, nullptr);
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    if (!mDevice.created("read-back of format", formatInfo(source->format).name)) {
+        gl.DeleteBuffers(1, &pending.buffer);
+        return;
+    }
+    pending.fence = Fence(mDevice);
+    mPending.push_back(std::move(pending));
+}
+
+void Readbacks::answer(Pending const& pending) {
+    GlApi const& gl = mDevice.gl;
+    const size_t bytes = pending.texels * pending.plan.texelBytes;
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, pending.buffer);
+    const void* mapped =
+            gl.MapBufferRange(GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
+    if (mapped) {
+        std::span<const std::byte> texels(static_cast<const std::byte*>(mapped), bytes);
+        if (pending.plan.repackTo != Format::None) {
+            mPacked.resize(pending.texels * formatInfo(pending.plan.repackTo).bytesPerBlock);
+            repack(pending.plan.repackTo, texels, mPacked);
+            texels = mPacked;
+        }
+        mDevice.sink.onReadback(pending.ticket, texels);
+        gl.UnmapBuffer(GL_PIXEL_PACK_BUFFER);
+    } else {
+        mDevice.checkLost();
+        mDevice.created("read-back", "mapping its buffer");
+    }
+    gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
+    gl.DeleteBuffers(1, &pending.buffer);
+}
+
+void Readbacks::poll(bool wait) {
+    while (!mPending.empty()) {
+        if (wait) {
+            mPending.front().fence.wait();
+        } else if (!mPending.front().fence.isReached()) {
+            return;
+        }
+        if (mDevice.lost) return;
+        answer(mPending.front());
+        mPending.pop_front();
+    }
+}
+
+} // namespace filament::backend::gles

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Read-backs: texels into a buffer of the driver, answered when the device got there.
+///   Out     tightly packed rows, row 0 first, in the texture's own format; depth formats as 32-bit floats.
+///   Thread  the driver thread.
+///   Memory  one pixel buffer per unanswered ticket.
+///   Fails   a texture that cannot be read is reported; its ticket stays without an answer.
+#pragma once
+
+#include "backend/gles/DepthReader.h"
+#include "backend/gles/Fence.h"
+
+#include <deque>
+#include <optional>
+#include <vector>
+
+namespace filament::backend::gles {
+
+class Readbacks {
+public:
+    Readbacks(Device& device, Textures const& textures, Framebuffers& framebuffers)
+            : mDevice(device), mTextures(textures), mFramebuffers(framebuffers), mDepthReader(device, framebuffers) {}
+    ~Readbacks();
+
+    void read(CmdReadTexture const& command);
+    /// Answers what is there; `wait`: everything.
+    void poll(bool wait);
+
+private:
+    /// How the device hands out texels of a format, and what must be done with them.
+    struct Plan {
+        GLenum format = 0, type = 0;
+        uint32_t texelBytes = 0;
+        Format repackTo = Format::None; ///< None: the bytes are right as they are
+    };
+    struct Pending {
+        Ticket ticket;
+        Plan plan;
+        uint64_t texels = 0;
+        GLuint buffer = 0;
+        Fence fence;
+    };
+    struct Source {
+        GLuint framebuffer = 0;
+        Rect rect;
+        Format format;
+    };
+    std::optional<Source> open(CmdReadTexture const& command);
+    Plan planFor(Format format) const; ///< asks the bound read framebuffer
+    void answer(Pending const& pending);
+
+    Device& mDevice;
+    Textures const& mTextures;
+    Framebuffers& mFramebuffers;
+    DepthReader mDepthReader;
+    std::deque<Pending> mPending; // oldest first
+    std::vector<std::byte> mPacked;
+};
+
+} // namespace filament::backend::gles

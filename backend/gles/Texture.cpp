@@ -1,0 +1,165 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/Texture.h"
+
+#include <algorithm>
+
+namespace filament::backend::gles {
+namespace {
+
+// Creation and uploads bind here; State knows, and draws rebind what they need.
+constexpr uint32_t kEditUnit = 0;
+
+struct Area {
+    GLint x, y;
+    GLsizei width, height;
+};
+
+Area areaOf(Rect const& rect) {
+    return { rect.x, rect.y, static_cast<GLsizei>(rect.width), static_cast<GLsizei>(rect.height) };
+}
+
+void uploadImage(GlApi const& gl, GLenum target, GLint level, Area area, GlFormat const& format,
+        std::span<const std::byte> bytes) {
+    if (format.format == 0) {
+        gl.CompressedTexSubImage2D(target, level, area.x, area.y, area.width, area.height, format.internalFormat,
+                static_cast<GLsizei>(bytes.size()), bytes.data());
+    } else {
+        gl.TexSubImage2D(target, level, area.x, area.y, area.width, area.height, format.format, format.type, bytes.data());
+    }
+}
+
+void uploadLayers(GlApi const& gl, GLint level, Area area, GLint layer, GLsizei layers, GlFormat const& format,
+        std::span<const std::byte> bytes) {
+    constexpr GLenum kTarget = GL_TEXTURE_2D_ARRAY;
+    if (format.format == 0) {
+        gl.CompressedTexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers,
+                format.internalFormat, static_cast<GLsizei>(bytes.size()), bytes.data());
+    } else {
+        gl.TexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers, format.format, format.type,
+                bytes.data());
+    }
+}
+
+} // namespace
+
+uint64_t textureBytes(TextureDesc const& desc) {
+    uint64_t bytes = 0;
+    for (uint32_t level = 0; level < desc.levels; ++level) {
+        bytes += imageBytes(desc.format, std::max(desc.width >> level, 1u), std::max(desc.height >> level, 1u));
+    }
+    return bytes * desc.layers * desc.samples;
+}
+
+Textures::~Textures() {
+    mTextures.forEach([this](Texture& texture) { destroy(texture); });
+    mSamplers.forEach([this](GLuint& sampler) { mDevice.gl.DeleteSamplers(1, &sampler); });
+}
+
+void Textures::allocate(Texture const& texture) {
+    GlApi const& gl = mDevice.gl;
+    TextureDesc const& desc = texture.desc;
+    const GLenum format = glFormat(desc.format).internalFormat;
+    const auto width = static_cast<GLsizei>(desc.width), height = static_cast<GLsizei>(desc.height);
+    mDevice.state.bindTexture(kEditUnit, texture.target, texture.name);
+    if (desc.samples > 1) {
+        gl.TexStorage2DMultisample(texture.target, desc.samples, format, width, height, GL_TRUE);
+        return;
+    }
+    if (desc.type == TextureType::Texture2DArray) {
+        gl.TexStorage3D(texture.target, desc.levels, format, width, height, desc.layers);
+    } else {
+        gl.TexStorage2D(texture.target, desc.levels, format, width, height);
+    }
+    gl.TexParameteri(texture.target, GL_TEXTURE_MAX_LEVEL, desc.levels - 1);
+}
+
+void Textures::create(TextureHandle handle, TextureDesc const& desc) {
+    Texture texture{ .target = glTextureTarget(desc), .desc = desc };
+    texture.desc.debugName = {};
+    const bool offered = !isCompressed(desc.format) || mDevice.quirks.blockCompression;
+    if (!offered) {
+        mDevice.error(DriverErrorKind::Other, "texture '{}': this device has no {}; see DeviceFeatures::blockCompression",
+                desc.debugName, formatInfo(desc.format).name);
+    } else {
+        mDevice.beginCreation();
+        mDevice.gl.GenTextures(1, &texture.name);
+        allocate(texture);
+        if (mDevice.created("texture", desc.debugName)) {
+            mDevice.label(GL_TEXTURE, texture.name, desc.debugName);
+            texture.bytes = textureBytes(desc);
+            mDevice.statistics.deviceBytes += texture.bytes;
+        } else {
+            destroy(texture);
+            texture.name = 0;
+        }
+    }
+    mTextures.insert(handle, texture);
+}
+
+void Textures::destroy(Texture const& texture) {
+    if (texture.name == 0) return;
+    mDevice.state.forgetTexture(texture.name);
+    mDevice.gl.DeleteTextures(1, &texture.name);
+    mDevice.statistics.deviceBytes -= texture.bytes;
+}
+
+void Textures::upload(CmdUploadTexture const& command) {
+    Texture const* texture = find(command.texture);
+    if (!texture) return;
+    const uint64_t layerBytes = imageBytes(texture->desc.format, command.rect.width, command.rect.height);
+    FILAMENT_ASSERT(command.bytes.size() == layerBytes * command.layerCount, "an upload brings exactly its texels");
+    GlFormat const& format = glFormat(texture->desc.format);
+    const Area area = areaOf(command.rect);
+    mDevice.state.bindTexture(kEditUnit, texture->target, texture->name);
+    if (texture->target == GL_TEXTURE_2D_ARRAY) {
+        uploadLayers(mDevice.gl, command.level, area, command.layer, command.layerCount, format, command.bytes);
+        return;
+    }
+    const GLenum first = texture->target == GL_TEXTURE_CUBE_MAP ? GL_TEXTURE_CUBE_MAP_POSITIVE_X : texture->target;
+    for (uint32_t i = 0; i < command.layerCount; ++i) {
+        uploadImage(mDevice.gl, first + command.layer + i, command.level, area, format,
+                command.bytes.subspan(i * layerBytes, layerBytes));
+    }
+}
+
+Texture const* Textures::find(TextureHandle handle) const {
+    Texture const* texture = mTextures.find(handle);
+    return texture && texture->name ? texture : nullptr;
+}
+
+// ---------------------------------------------------------------------------------------------- samplers
+
+void Textures::createSampler(SamplerHandle handle, SamplerDesc const& desc) {
+    GlApi const& gl = mDevice.gl;
+    GLuint sampler = 0;
+    gl.GenSamplers(1, &sampler);
+    const auto set = [&](GLenum what, GLenum value) { gl.SamplerParameteri(sampler, what, static_cast<GLint>(value)); };
+    set(GL_TEXTURE_MAG_FILTER, glFilter(desc.magFilter));
+    set(GL_TEXTURE_MIN_FILTER, glMinFilter(desc));
+    set(GL_TEXTURE_WRAP_S, glWrap(desc.wrapU));
+    set(GL_TEXTURE_WRAP_T, glWrap(desc.wrapV));
+    set(GL_TEXTURE_WRAP_R, glWrap(desc.wrapW));
+    if (desc.compare != CompareOp::None) {
+        set(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
+        set(GL_TEXTURE_COMPARE_FUNC, glCompare(desc.compare));
+    }
+    if (desc.anisotropy > 1 && mDevice.quirks.anisotropy) {
+        const float wanted = std::min(static_cast<float>(desc.anisotropy), mDevice.info.limits.maxAnisotropy);
+        gl.SamplerParameterf(sampler, GL_TEXTURE_MAX_ANISOTROPY_EXT, wanted);
+    }
+    mSamplers.insert(handle, sampler);
+}
+
+void Textures::destroySampler(SamplerHandle handle) {
+    const std::unique_ptr<GLuint> sampler = mSamplers.remove(handle);
+    if (!sampler) return;
+    mDevice.state.forgetSampler(*sampler);
+    mDevice.gl.DeleteSamplers(1, sampler.get());
+}
+
+GLuint Textures::findSampler(SamplerHandle handle) const {
+    GLuint const* sampler = mSamplers.find(handle);
+    return sampler ? *sampler : 0;
+}
+
+} // namespace filament::backend::gles

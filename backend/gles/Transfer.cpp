@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/Transfer.h"
+
+#include <algorithm>
+
+namespace filament::backend::gles {
+namespace {
+
+Rect wholeLevel(TextureDesc const& desc, uint32_t level) {
+    return { 0, 0, std::max(desc.width >> level, 1u), std::max(desc.height >> level, 1u) };
+}
+
+GLint right(Rect const& rect) { return rect.x + static_cast<GLint>(rect.width); }
+GLint bottom(Rect const& rect) { return rect.y + static_cast<GLint>(rect.height); }
+
+} // namespace
+
+bool Transfer::canCopy(Texture const& texture, const char* what) {
+    FormatInfo const& format = formatInfo(texture.desc.format);
+    if (format.isRenderable && format.kind <= FormatKind::UnsignedInteger && texture.desc.samples == 1) return true;
+    mDevice.error(DriverErrorKind::Other, "{} needs single-sampled textures of a renderable colour format, not {} x{}; skipped",
+            what, format.name, texture.desc.samples);
+    return false;
+}
+
+void Transfer::copy(Image const& source, Image const& target, Filter filter) {
+    const GLuint read = mFramebuffers.single(Framebuffers::Side::Read, source.texture, source.level, source.layer);
+    const GLuint draw = mFramebuffers.single(Framebuffers::Side::Draw, target.texture, target.level, target.layer);
+    mDevice.state.bindFramebuffers(draw, read);
+    mDevice.state.setScissor({}); // blits obey the scissor
+    mDevice.gl.BlitFramebuffer(source.rect.x, source.rect.y, right(source.rect), bottom(source.rect), target.rect.x,
+            target.rect.y, right(target.rect), bottom(target.rect), GL_COLOR_BUFFER_BIT, glFilter(filter));
+}
+
+void Transfer::blit(CmdBlit const& command) {
+    Texture const* source = mTextures.find(command.source);
+    Texture const* target = mTextures.find(command.target);
+    if (!source || !target || !canCopy(*source, "a blit") || !canCopy(*target, "a blit")) return;
+    copy({ *source, command.sourceLevel, command.sourceLayer, command.sourceRect },
+            { *target, command.targetLevel, command.targetLayer, command.targetRect }, command.filter);
+}
+
+void Transfer::generateMips(TextureHandle handle) {
+    Texture const* texture = mTextures.find(handle);
+    if (!texture || !canCopy(*texture, "generating mips")) return;
+    for (uint32_t layer = 0; layer < texture->desc.layers; ++layer) {
+        for (uint32_t level = 1; level < texture->desc.levels; ++level) {
+            copy({ *texture, level - 1, layer, wholeLevel(texture->desc, level - 1) },
+                    { *texture, level, layer, wholeLevel(texture->desc, level) }, Filter::Linear);
+        }
+    }
+}
+
+} // namespace filament::backend::gles

@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Vertices: vertex array objects, one per vertex layout, and the buffers bound to them.
+///   Thread  the driver thread.
+///   Memory  one GL object per different layout that a pipeline ever had; layouts are few, so none is dropped.
+#pragma once
+
+#include "backend/gles/Buffer.h"
+
+#include <memory>
+#include <vector>
+
+namespace filament::backend::gles {
+
+struct VertexArray {
+    struct Slot {
+        GLuint buffer = 0;
+        GLintptr offset = 0;
+        bool operator==(Slot const&) const = default;
+    };
+    GLuint name = 0;
+    VertexLayout layout{};
+    std::array<Slot, kMaxVertexBuffers> slots{}; ///< as bound in the object
+    GLuint indexBuffer = 0;                      ///< as bound in the object
+};
+
+/// What a pass has bound so far. Names are 0 when nothing usable is bound.
+struct VertexSources {
+    std::array<VertexArray::Slot, kMaxVertexBuffers> slots{};
+    GLuint indexBuffer = 0;
+    uint64_t indexOffset = 0;
+    IndexType indexType = IndexType::UInt16;
+};
+
+/// Where a draw starts reading, for devices that cannot say it in the draw call.
+struct DrawBase {
+    uint32_t instance = 0;
+    int32_t vertex = 0;
+};
+
+class Vertices {
+public:
+    explicit Vertices(Device& device) : mDevice(device) {}
+    ~Vertices();
+
+    /// Stays valid as long as this object.
+    VertexArray& get(VertexLayout const& layout);
+    /// Makes the object current with these buffers in it. False if a buffer that the layout needs is missing.
+    bool bind(VertexArray& array, VertexSources const& sources, bool indexed, DrawBase base);
+    /// Takes a buffer out of every object, before its name is deleted.
+    void forget(GLuint buffer);
+
+private:
+    void describe(VertexArray const& array);
+
+    Device& mDevice;
+    std::vector<std::unique_ptr<VertexArray>> mArrays;
+};
+
+} // namespace filament::backend::gles
