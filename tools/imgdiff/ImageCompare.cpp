@@ -11,9 +11,7 @@
 namespace filament::tools {
 namespace {
 
-size_t bytesPerPixel(Format format) {
-    return format == Format::RGBA8 ? 4 : format == Format::RGBA16F ? 8 : 0;
-}
+size_t bytesPerPixel(Format format) { return format == Format::RGBA8 ? 4 : format == Format::RGBA16F ? 8 : 0; }
 
 uint32_t componentDifference8(std::byte a, std::byte b) {
     const int difference = std::to_integer<int>(a) - std::to_integer<int>(b);
@@ -55,22 +53,23 @@ std::string ImageComparison::line() const {
     // In whole steps of 0.0001 %, so that no rounding can turn one wrong pixel into 100 %.
     const uint64_t steps = pixels ? identical * 1'000'000 / pixels : 0;
     return fmt::format("identical: {}.{:04} % of pixels, max difference {}/255", steps / 10'000, steps % 10'000,
-            maxDifference);
+                       maxDifference);
 }
 
 Result<ImageComparison> compareImages(Image const& a, Image const& b) {
     if (a.width != b.width || a.height != b.height) {
         return fail(ErrorCode::InvalidArgument, "cannot compare {}x{} with {}x{} pixels: make the sizes equal", a.width,
-                a.height, b.width, b.height);
+                    a.height, b.width, b.height);
     }
     const size_t stride = bytesPerPixel(a.format);
     if (a.format != b.format || stride == 0) {
-        return fail(ErrorCode::InvalidArgument, "cannot compare images of different formats: both RGBA8 or both RGBA16F");
+        return fail(ErrorCode::InvalidArgument,
+                    "cannot compare images of different formats: both RGBA8 or both RGBA16F");
     }
     const size_t pixels = size_t(a.width) * a.height;
     if (pixels == 0 || a.pixels.size() != pixels * stride || b.pixels.size() != pixels * stride) {
         return fail(ErrorCode::InvalidArgument, "cannot compare {} with {} bytes of pixels: {}x{} pixels take {}",
-                a.pixels.size(), b.pixels.size(), a.width, a.height, pixels * stride);
+                    a.pixels.size(), b.pixels.size(), a.width, a.height, pixels * stride);
     }
     ImageComparison result{ .pixels = pixels };
     for (size_t i = 0; i < pixels; ++i) {

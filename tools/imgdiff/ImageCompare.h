@@ -18,8 +18,8 @@ namespace filament::tools {
 
 struct ImageComparison {
     uint64_t pixels = 0;
-    uint64_t identical = 0;      ///< all components have the same bits
-    uint32_t maxDifference = 0;  ///< [0, 255]
+    uint64_t identical = 0;     ///< all components have the same bits
+    uint32_t maxDifference = 0; ///< [0, 255]
 
     bool within(uint32_t tolerance) const { return maxDifference <= tolerance; }
     /// "identical: 99.9999 % of pixels, max difference 1/255". Rounded down: 100.0000 means every pixel.

@@ -92,8 +92,8 @@ TEST(ImageCompare, SizesFormatsAndByteCountsMustFit) {
 TEST(ImageCompare, TheDifferencePictureDimsWhatAgreesAndReddensWithTheDistance) {
     const Image a = grey8(3, 1, 200);
     Image b = a;
-    b.pixels[4] = std::byte{ 201 };  // pixel 1: one step
-    b.pixels[8] = std::byte{ 100 };  // pixel 2: far
+    b.pixels[4] = std::byte{ 201 }; // pixel 1: one step
+    b.pixels[8] = std::byte{ 100 }; // pixel 2: far
     const Image picture = differenceImage(a, b);
     EXPECT_EQ(rgbAt(picture, 0), (std::array{ 50, 50, 50 }));
     EXPECT_EQ(rgbAt(picture, 1), (std::array{ 255, 240, 0 }));
