@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Trace: command streams as readable text, and back.
+///   Text     line 1 "filament-trace 1"; then "Stream" begins a submission and every other line is one command with named
+///            fields: Draw vertexCount=3 instanceCount=2. Fields with their default value are left out. '#' begins a comment.
+///   Values   numbers; names of enumerators, flags joined by '|'; handles index.generation; "text" with \xNN escapes;
+///            {structs}; [arrays], trailing defaults left out; bytes as hex, or @offset+size into the side file if > 64.
+///   Blob     the side file (FILE.bin): large payloads one after the other, in the order of the text.
+///   Exact    write(read(write(x))) == write(x), byte for byte; floats are shortest round-trip decimals.
+///   Fails    readTrace() with Corrupt and a line number for any bytes whatsoever; never crashes, never allocates more than
+///            a small multiple of its input.
+#pragma once
+
+#include "backend/stream/CommandBuffer.h"
+#include "filament_core/base/Result.h"
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament::backend {
+
+struct TraceText {
+    std::string text;
+    std::vector<std::byte> blob;
+};
+
+/// The first line of a trace.
+std::string_view traceHeader();
+
+/// Appends one submission; `blobBase` is how many bytes the side file had before out.blob.
+void writeTrace(CommandView commands, TraceText& out, size_t blobBase = 0);
+
+/// One command buffer for each submission of the trace.
+Result<std::vector<CommandBuffer>> readTrace(std::string_view text, std::span<const std::byte> blob);
+
+} // namespace filament::backend
