@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/FrameTimingLog.h"
+
+#include <algorithm>
+
+namespace filament::engine {
+namespace {
+
+using namespace std::chrono;
+
+int64_t nanoseconds(FrameTimingLog::TimePoint point) {
+    return duration_cast<std::chrono::nanoseconds>(point.time_since_epoch()).count();
+}
+
+double milliseconds(FrameTimingLog::TimePoint from, FrameTimingLog::TimePoint to) {
+    return duration<double, std::milli>(to - from).count();
+}
+
+} // namespace
+
+void FrameTimingLog::add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers) {
+    Record& record = mRecords[frame % mRecords.size()];
+    record = { .frame = frame, .stamps = stamps, .taken = false };
+    record.passCount = static_cast<uint32_t>(std::min(timers.size(), record.passes.size()));
+    for (uint32_t i = 0; i < record.passCount; ++i) {
+        Pass& pass = record.passes[i];
+        pass.ticket = timers[i].ticket;
+        timers[i].name.copy(pass.name.data(), pass.name.size() - 1);
+    }
+}
+
+bool FrameTimingLog::isComplete(Record& record) {
+    if (!record.replayed) return false;
+    bool complete = true;
+    for (uint32_t i = 0; i < record.passCount; ++i) {
+        Pass& pass = record.passes[i];
+        if (pass.milliseconds >= 0) continue;
+        const auto answer = mEngine.stream->takeTimer(pass.ticket);
+        if (answer) pass.milliseconds = static_cast<double>(*answer) * 1e-6;
+        complete = complete && answer;
+    }
+    return complete;
+}
+
+FrameTimings FrameTimingLog::publish(Record const& record) const {
+    FrameTimings timings;
+    timings.frame = record.frame;
+    timings.prepareMilliseconds = milliseconds(record.stamps.begin, record.stamps.prepared);
+    timings.recordMilliseconds = milliseconds(record.stamps.prepared, record.stamps.recorded);
+    timings.replayMilliseconds = static_cast<double>(record.replay.replayEnd - record.replay.replayBegin) * 1e-6;
+    timings.beginSeconds = mEngine.secondsSinceStart(nanoseconds(record.stamps.begin));
+    timings.submitSeconds = mEngine.secondsSinceStart(nanoseconds(record.stamps.recorded));
+    timings.replayBeginSeconds = mEngine.secondsSinceStart(record.replay.replayBegin);
+    timings.replayEndSeconds = mEngine.secondsSinceStart(record.replay.replayEnd);
+    for (uint32_t i = 0; i < record.passCount; ++i) {
+        timings.passes.push_back({ record.passes[i].name.data(), record.passes[i].milliseconds });
+        timings.gpuMilliseconds += record.passes[i].milliseconds;
+    }
+    return timings;
+}
+
+std::vector<FrameTimings> FrameTimingLog::take() {
+    for (backend::FrameTiming const& replay : mEngine.stream->takeTimings()) {
+        Record& record = mRecords[replay.frame % mRecords.size()];
+        if (record.frame != replay.frame || record.taken) continue;
+        record.replay = replay;
+        record.replayed = true;
+    }
+    std::vector<FrameTimings> finished;
+    for (Record& record : mRecords) {
+        if (record.taken || !isComplete(record)) continue;
+        finished.push_back(publish(record));
+        record.taken = true;
+    }
+    std::sort(finished.begin(), finished.end(),
+            [](FrameTimings const& a, FrameTimings const& b) { return a.frame < b.frame; });
+    return finished;
+}
+
+} // namespace filament::engine

@@ -1,0 +1,244 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/Renderer.h>
+
+#include "filament_core/base/Result.h"
+#include "filament_core/engine/FrameTimingLog.h"
+#include "filament_core/engine/SceneImpl.h"
+#include "filament_core/passes/ColorPass.h"
+#include "filament_core/passes/ToneMapPass.h"
+#include "filament_core/prepare/PrepareFrame.h"
+#include "framegraph/CompiledGraph.h"
+#include "framegraph/Explain.h"
+
+#include <map>
+
+namespace filament {
+namespace {
+
+using namespace backend;
+using framegraph::CompiledGraph;
+using framegraph::FrameGraph;
+using framegraph::TextureId;
+using passes::FrameContext;
+
+constexpr Sampler kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
+constexpr Sampler kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
+constexpr Sampler kNearest{};
+
+uint32_t countRunning(CompiledGraph const& plan) { return static_cast<uint32_t>(plan.order.size()); }
+
+} // namespace
+
+struct Renderer::Impl {
+    explicit Impl(Engine::Impl& owner)
+            : engine(owner), data(*owner.stream), graph(arena), transients(*owner.stream), timings(owner) {}
+
+    ~Impl() {
+        data.destroy(engine.pending);
+        transients.destroyAll(engine.pending);
+        if (imageTarget) Engine::of(engine).destroy(imageTarget);
+    }
+
+    /// The six-line frame of docs/architecture.md, with its measurements.
+    void render(Scene const& scene, View const& view, engine::TextureState const& target) {
+        arena.reset();
+        graph.reset();
+        timers.clear();
+        engine::FrameTimingLog::Stamps stamps{ .begin = clock() };
+        FrameContext* context = arena.make<FrameContext>();
+        context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().data,
+                { view.camera, view.size, view.timeSeconds });
+        stamps.prepared = clock();
+
+        CommandBuffer& commands = engine.stream->acquire(); // waits when two frames ahead
+        commands.record(CmdBeginFrame{ ++frame });
+        engine.drainPending(commands);
+        upload(commands, *context);
+        describe(*context, view, target);
+        plan = compile(graph, transients);
+        framegraph::record(commands, plan, engine.stream->info().features.timers ? &timers : nullptr);
+        commands.record(CmdEndFrame{ frame });
+        engine.stream->submit(commands);
+
+        stamps.recorded = clock();
+        timings.add(frame, stamps, timers);
+        count(context->packet);
+    }
+
+    void upload(CommandBuffer& commands, FrameContext& context) {
+        const auto sampler = [&](Sampler const& wanted) { return engine.samplers.get(wanted, commands); };
+        const TextureHandle black = engine.textureHandle(engine.defaults.blackCube);
+        data.upload(commands, context.packet,
+                { .specular = context.packet.specular ? context.packet.specular : black,
+                        .dfg = engine.textureHandle(engine.defaults.dfg),
+                        .sky = context.packet.sky ? context.packet.sky : black,
+                        .cubeSampler = sampler(kTrilinear), .dfgSampler = sampler(kBilinear) });
+        context.viewGroup = data.viewGroup();
+        context.postGroup = data.postGroup();
+        context.instanceIds = engine.defaults.instanceIds;
+        context.nearestSampler = sampler(kNearest);
+    }
+
+    /// Which passes the frame has. A scene-linear target takes the colour pass as it is.
+    void describe(FrameContext& context, View const& view, engine::TextureState const& target) {
+        FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
+        context.settings = { view.size, view.samples, view.clearColor };
+        context.arena = &arena;
+        context.pipelines = &engine.pipelines;
+        if (context.packet.sky) context.skybox = &engine.materials.get(engine.engineMaterial("skybox", {}));
+
+        const TextureId output = graph.importTexture(target.handle,
+                { .width = target.desc.width, .height = target.desc.height, .format = target.desc.format, .name = "output" },
+                framegraph::InitialContents::Undefined);
+        if (target.desc.format == Format::RGBA16F) {
+            passes::addColorPass(graph, &context, output);
+            return;
+        }
+        const TextureId color = graph.createTexture({ .width = view.size.x, .height = view.size.y,
+                .format = Format::RGBA16F, .name = "color" });
+        passes::addColorPass(graph, &context, color);
+        passes::addToneMapPass(graph, &context, toneMapMaterials(view.colorGrading), color, output);
+    }
+
+    passes::ToneMapMaterials toneMapMaterials(ColorGrading grading) {
+        const auto [entry, isNew] = toneMaps.try_emplace({ grading.toneMapper, grading.dither });
+        if (isNew) {
+            const std::vector<MaterialConstant> constants{ { "toneMapper", static_cast<int32_t>(grading.toneMapper) },
+                { "dither", grading.dither } };
+            entry->second.merged = &engine.materials.get(engine.engineMaterial("tonemap", constants));
+            entry->second.sampled = &engine.materials.get(engine.engineMaterial("tonemap_sampled", constants));
+        }
+        return entry->second;
+    }
+
+    void count(prepare::FramePacket const& packet) {
+        statistics.frame = frame;
+        statistics.renderables = packet.counts.renderables;
+        statistics.visible = packet.counts.visible;
+        statistics.culled = packet.counts.renderables - packet.counts.visible;
+        statistics.draws = static_cast<uint32_t>(packet.opaque.size() + packet.blended.size()) + (packet.sky ? 1 : 0);
+        statistics.triangles = static_cast<uint32_t>(packet.counts.triangles);
+        statistics.lights = packet.counts.lights + (packet.counts.suns ? 1 : 0);
+        statistics.passesRun = countRunning(plan);
+        statistics.passesCulled = static_cast<uint32_t>(plan.passes.size()) - statistics.passesRun;
+        counts = packet.counts;
+        hasSky = static_cast<bool>(packet.sky);
+        hasIndirectLight = static_cast<bool>(packet.specular);
+    }
+
+    PixelTicket read(engine::TextureState const& texture) {
+        const Ticket ticket = engine.stream->nextTicket();
+        engine.pending.record(CmdReadTexture{ texture.handle, 0, 0, { 0, 0, texture.desc.width, texture.desc.height }, ticket });
+        engine.flush();
+        pixels[ticket.value] = { .width = texture.desc.width, .height = texture.desc.height, .format = texture.desc.format };
+        return { ticket.value };
+    }
+
+    SwapChain imageTargetOf(uint2 size) {
+        if (imageTarget && engine.swapChains.get(imageTarget).size == size) return imageTarget;
+        Engine& owner = Engine::of(engine);
+        if (imageTarget) owner.destroy(imageTarget);
+        imageTarget = owner.create(SwapChainDesc{ .size = size, .imageCount = 1, .name = "renderToImage" });
+        return imageTarget;
+    }
+
+    static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
+
+    Engine::Impl& engine;
+    Arena arena;
+    passes::FrameData data;
+    FrameGraph graph;
+    framegraph::TransientPool transients;
+    CompiledGraph plan;
+    std::vector<framegraph::PassTimer> timers;
+    engine::FrameTimingLog timings;
+    std::map<std::pair<ToneMapper, bool>, passes::ToneMapMaterials> toneMaps;
+    std::map<uint64_t, Image> pixels; ///< of read-backs under way: everything but the bytes
+    SwapChain imageTarget;
+    uint64_t frame = 0;
+    FrameStatistics statistics;
+    prepare::PacketCounts counts;
+    bool hasSky = false, hasIndirectLight = false;
+};
+
+Renderer::Renderer(Engine& engine) : mImpl(new Impl(engine.impl())) {}
+Renderer::Renderer(Renderer&&) noexcept = default;
+Renderer::~Renderer() = default;
+
+void Renderer::render(Scene const& scene, View const& view, SwapChain swapChain) {
+    engine::SwapChainState& state = mImpl->engine.swapChains.get(swapChain);
+    FILAMENT_ASSERT(state.size == view.size, "a view has the size of its swap chain");
+    state.current = (state.current + 1) % static_cast<uint32_t>(state.images.size());
+    mImpl->render(scene, view, mImpl->engine.textures.get(state.images[state.current]));
+}
+
+void Renderer::render(Scene const& scene, View const& view, RenderTarget target) {
+    engine::TextureState const& color = mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color);
+    FILAMENT_ASSERT(color.desc.width == view.size.x && color.desc.height == view.size.y,
+            "a view has the size of its render target");
+    mImpl->render(scene, view, color);
+}
+
+PixelTicket Renderer::readPixels(SwapChain swapChain) {
+    engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
+    return mImpl->read(mImpl->engine.textures.get(state.images[state.current]));
+}
+
+PixelTicket Renderer::readPixels(RenderTarget target) {
+    return mImpl->read(mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color));
+}
+
+std::optional<Image> Renderer::takePixels(PixelTicket ticket) {
+    const auto entry = mImpl->pixels.find(ticket.value);
+    FILAMENT_ASSERT(entry != mImpl->pixels.end(), "a ticket is taken once, from the renderer that gave it");
+    auto bytes = mImpl->engine.stream->takeReadback({ ticket.value });
+    if (!bytes) return std::nullopt;
+    Image image = std::move(entry->second);
+    image.pixels = std::move(*bytes);
+    mImpl->pixels.erase(entry);
+    return image;
+}
+
+Result<Image> Renderer::waitPixels(PixelTicket ticket) {
+    const auto entry = mImpl->pixels.find(ticket.value);
+    FILAMENT_ASSERT(entry != mImpl->pixels.end(), "a ticket is taken once, from the renderer that gave it");
+    Image image = std::move(entry->second);
+    mImpl->pixels.erase(entry);
+    auto bytes = mImpl->engine.stream->waitReadback({ ticket.value });
+    if (!bytes) return bytes.error();
+    image.pixels = std::move(*bytes);
+    return image;
+}
+
+Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
+    const SwapChain target = mImpl->imageTargetOf(view.size);
+    render(scene, view, target);
+    return waitPixels(readPixels(target));
+}
+
+FrameStatistics Renderer::statistics() const { return mImpl->statistics; }
+std::vector<FrameTimings> Renderer::takeTimings() { return mImpl->timings.take(); }
+
+std::string Renderer::explain() const {
+    prepare::PacketCounts const& counts = mImpl->counts;
+    std::string text = fmt::format("frame {}: {} of {} renderables drawn, {} triangles in {} draws\n", mImpl->frame,
+            counts.visible, counts.renderables, counts.triangles, mImpl->statistics.draws);
+    if (counts.outOfView) text += fmt::format("  {} not drawn: their boxes are out of view\n", counts.outOfView);
+    if (counts.nothingToDraw) text += fmt::format("  {} not drawn: they have no indices\n", counts.nothingToDraw);
+    text += counts.suns ? fmt::format("sun: shaded{}\n", counts.suns > 1 ? ", the brightest of several" : "")
+                        : "sun: not in the shaders, the scene has none\n";
+    text += counts.lights ? fmt::format("punctual lights: {} reach the view, {} do not, {} beyond the limit\n", counts.lights,
+                                    counts.lightsOutOfView, counts.lightsOverLimit)
+                          : fmt::format("punctual lights: not in the shaders, none reaches the view ({} do not)\n",
+                                    counts.lightsOutOfView);
+    text += mImpl->hasIndirectLight ? "indirect light: from the environment\n" : "indirect light: none, the scene has no environment\n";
+    text += mImpl->hasSky ? "sky: drawn where nothing covers it\n" : "sky: not drawn, the scene has none\n";
+    if (mImpl->plan.graph) text += framegraph::toText(mImpl->plan);
+    return text;
+}
+
+std::string Renderer::graphviz() const {
+    return mImpl->plan.graph ? framegraph::toGraphviz(mImpl->plan) : std::string();
+}
+
+} // namespace filament

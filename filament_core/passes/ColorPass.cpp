@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/ColorPass.h"
+
+#include "filament_core/passes/DrawRecorder.h"
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using framegraph::FrameGraph;
+using framegraph::PassBuilder;
+using framegraph::PassContext;
+using framegraph::TextureId;
+
+struct ChosenPipelines {
+    std::span<const PipelineHandle> opaque, blended;
+    PipelineHandle sky;
+};
+
+ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
+    PipelineCache& pipelines = *context.pipelines;
+    prepare::FramePacket const& packet = context.packet;
+    const uint32_t slot = pipelines.slot({ pass.passLayout(), pass.subpass() });
+    ChosenPipelines chosen;
+    chosen.opaque = choosePipelines(*context.arena, pipelines, pass.commands(), slot, packet.opaque, packet.variant);
+    chosen.blended = choosePipelines(*context.arena, pipelines, pass.commands(), slot, packet.blended, packet.variant);
+    if (packet.sky) chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.skybox);
+    return chosen;
+}
+
+void recordSky(CommandBuffer& commands, FrameContext const& context, PipelineHandle pipeline) {
+    commands.record(CmdBindPipeline{ pipeline });
+    commands.record(FrameData::bindView(context.viewGroup, 0));
+    commands.record(CmdDraw{ 3 });
+}
+
+void recordScene(CommandBuffer& commands, FrameContext const& context, ChosenPipelines const& chosen) {
+    const DrawContext draws{ context.viewGroup, context.instanceIds };
+    recordDraws(commands, draws, context.packet.opaque, chosen.opaque);
+    if (chosen.sky) recordSky(commands, context, chosen.sky);
+    recordDraws(commands, draws, context.packet.blended, chosen.blended);
+}
+
+} // namespace
+
+void addColorPass(FrameGraph& graph, FrameContext const* context, TextureId color) {
+    const PassSettings settings = context->settings;
+    const framegraph::TextureDesc like = graph.texture(color).desc;
+    const TextureId depth = graph.createTexture({ .width = like.width, .height = like.height, .format = Format::D32F,
+            .samples = settings.samples, .name = "depth" });
+    const TextureId samples = settings.samples == 1 ? color
+                                                    : graph.createTexture({ .width = like.width, .height = like.height,
+                                                              .format = like.format, .samples = settings.samples, .name = "samples" });
+    graph.addPass(
+            "color",
+            [&](PassBuilder& pass) {
+                const float4 clear = settings.clearColor;
+                pass.writeColor(0, samples, { .clear = std::array{ clear.x, clear.y, clear.z, clear.w },
+                        .resolve = settings.samples == 1 ? TextureId{} : color });
+                pass.writeDepth(depth, { .clear = 0.0f });
+            },
+            [context](PassContext& pass) { return choose(pass, *context); },
+            [context](PassContext& pass, ChosenPipelines const& chosen) { recordScene(pass.commands(), *context, chosen); });
+}
+
+} // namespace filament::passes

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Colour pass: opaque and masked geometry, then the sky where nothing covers it, then blended geometry.
+///   Draws   pre-exposed scene-linear light, and a reversed depth buffer that lives only as long as the pass.
+///   Skips   the sky when the scene has none; what has no pipeline.
+#pragma once
+
+#include "filament_core/passes/FrameContext.h"
+
+namespace filament::passes {
+
+/// Declares the pass; it writes every pixel of `color`, which is single-sampled. With settings.samples > 1 it draws into
+/// a multisampled picture and resolves into `color`.
+void addColorPass(framegraph::FrameGraph& graph, FrameContext const* context, framegraph::TextureId color);
+
+} // namespace filament::passes

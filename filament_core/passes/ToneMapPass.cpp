@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/ToneMapPass.h"
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using framegraph::FrameGraph;
+using framegraph::PassBuilder;
+using framegraph::PassContext;
+using framegraph::TextureId;
+
+struct Chosen {
+    PipelineHandle pipeline;
+    BindGroupHandle input;
+};
+
+Chosen choose(PassContext& pass, FrameContext const& context, ToneMapMaterials materials, TextureId color) {
+    scene::Material& material = pass.isMerged(color) ? *materials.merged : *materials.sampled;
+    const uint32_t slot = context.pipelines->slot({ pass.passLayout(), pass.subpass() });
+    const BindGroupEntry entry{ .binding = material.package.findParameter("color")->binding,
+        .texture = pass.texture(color), .sampler = context.nearestSampler };
+    return { context.pipelines->fullscreenPipeline(pass.commands(), slot, material),
+        pass.bindGroup(material.package.layout[shader::kGroupMaterial], std::span(&entry, 1), "tone map") };
+}
+
+} // namespace
+
+void addToneMapPass(FrameGraph& graph, FrameContext const* context, ToneMapMaterials materials, TextureId color,
+        TextureId display) {
+    graph.addPass(
+            "tone map",
+            [&](PassBuilder& pass) {
+                pass.readInput(color);
+                pass.writeColor(0, display, { .overwrites = true });
+            },
+            [=](PassContext& pass) { return choose(pass, *context, materials, color); },
+            [=](PassContext& pass, Chosen const& chosen) {
+                CommandBuffer& commands = pass.commands();
+                commands.record(CmdBindPipeline{ chosen.pipeline });
+                commands.record(CmdBindGroup{ context->postGroup, shader::kGroupView, 1, {} });
+                commands.record(CmdBindGroup{ chosen.input, shader::kGroupMaterial });
+                commands.record(CmdDraw{ 3 });
+            });
+}
+
+} // namespace filament::passes
