@@ -18,7 +18,8 @@ std::optional<Readbacks::Source> Readbacks::open(CmdReadTexture const& command) 
                 "its ticket gets no answer", formatInfo(desc.format).name, desc.samples);
         return {};
     }
-    if (hasDepth(desc.format) && !mDevice.quirks.readDepth) {
+    const bool readsAsFloat = mDevice.quirks.readDepth && desc.format != Format::D16; // D16 reads as integers only
+    if (hasDepth(desc.format) && !readsAsFloat) {
         const GLuint copy = mDepthReader.copy(*texture, command.level, command.layer, command.rect);
         if (copy == 0) return {};
         return Source{ copy, { 0, 0, command.rect.width, command.rect.height }, Format::R32F };
