@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "framegraph/Explain.h"
+
+#include <fmt/format.h>
+
+#include <iterator>
+
+namespace filament::framegraph {
+namespace {
+
+using backend::LoadOp;
+using backend::StoreOp;
+
+using Text = std::back_insert_iterator<std::string>;
+
+std::string_view nameOf(CompiledGraph const& plan, TextureId texture) { return plan.graph->texture(texture).desc.name; }
+
+std::string reasonOf(CompiledGraph const& plan, PassDecision const& decision) {
+    switch (decision.reason) {
+        case Reason::Unread: return "culled: nobody reads what it writes";
+        case Reason::SideEffect: return "runs: it has a side effect";
+        case Reason::WritesOutput: return fmt::format("runs: it writes output '{}'", nameOf(plan, decision.because));
+        case Reason::ReadLater:
+            return fmt::format("runs: '{}' is read by '{}'", nameOf(plan, decision.because),
+                    plan.graph->passes()[decision.reader].name);
+    }
+    return {};
+}
+
+const char* mergeOf(Merge merge) {
+    switch (merge) {
+        case Merge::NotAsked: return "";
+        case Merge::Merged: return "; merged with the pass before it";
+        case Merge::DeviceCannot: return "; not merged: the device has no merged passes";
+        case Merge::NotBefore: return "; not merged: the pass before it did not write all of its inputs";
+        case Merge::DifferentSize: return "; not merged: the sizes differ";
+        case Merge::Multisampled: return "; not merged: multisampled";
+        case Merge::ReadsElsewhere: return "; not merged: an attachment is also sampled";
+        case Merge::ClearsAgain: return "; not merged: it clears an attachment that is in use";
+        case Merge::DifferentDepth: return "; not merged: it needs another depth attachment";
+        case Merge::TooManyAttachments: return "; not merged: too many colour attachments";
+        case Merge::TooManySubpasses: return "; not merged: too many subpasses";
+    }
+    return "";
+}
+
+const char* nameOf(LoadOp load) { return load == LoadOp::Load ? "load" : load == LoadOp::Clear ? "clear" : "discard"; }
+const char* nameOf(StoreOp store) { return store == StoreOp::Store ? "store" : "discard"; }
+
+void putAttachment(Text text, CompiledGraph const& plan, std::string_view role, GroupAttachment const& attachment) {
+    fmt::format_to(text, "    {} '{}'", role, nameOf(plan, attachment.texture));
+    if (attachment.level > 0) fmt::format_to(text, " level {}", attachment.level);
+    if (attachment.layer > 0) fmt::format_to(text, " layer {}", attachment.layer);
+    fmt::format_to(text, ": {}, {}", nameOf(attachment.load), nameOf(attachment.store));
+    if (attachment.resolve) fmt::format_to(text, ", resolve to '{}'", nameOf(plan, attachment.resolve));
+    fmt::format_to(text, "\n");
+}
+
+void putPasses(Text text, CompiledGraph const& plan) {
+    fmt::format_to(text, "passes: {} declared, {} run in {} groups\n", plan.passes.size(), plan.order.size(), plan.groups.size());
+    for (size_t i = 0; i < plan.passes.size(); ++i) {
+        PassDecision const& decision = plan.passes[i];
+        fmt::format_to(text, "  {} '{}' {}{}\n", i, plan.graph->passes()[i].name, reasonOf(plan, decision), mergeOf(decision.merge));
+    }
+}
+
+void putGroups(Text text, CompiledGraph const& plan) {
+    fmt::format_to(text, "groups:\n");
+    for (size_t i = 0; i < plan.groups.size(); ++i) {
+        PassGroup const& group = plan.groups[i];
+        if (!group.hasAttachments()) {
+            fmt::format_to(text, "  {} '{}' outside of passes\n", i, group.name);
+            continue;
+        }
+        fmt::format_to(text, "  {} '{}' {} x {}, {} sample(s), {} subpass(es)\n", i, group.name, group.width, group.height,
+                group.samples, group.count);
+        for (uint32_t c = 0; c < group.colorCount; ++c) putAttachment(text, plan, fmt::format("colour {}", c), group.colors[c]);
+        if (group.depth.texture) putAttachment(text, plan, "depth", group.depth);
+    }
+}
+
+// Other transients behind the same handle.
+void putSharing(Text text, CompiledGraph const& plan, size_t texture) {
+    const char* before = ", shares memory with ";
+    for (size_t i = 0; i < plan.textures.size(); ++i) {
+        if (i == texture || plan.textures[i].handle != plan.textures[texture].handle) continue;
+        fmt::format_to(text, "{}'{}'", before, plan.graph->textures()[i].desc.name);
+        before = ", ";
+    }
+}
+
+void putTextures(Text text, CompiledGraph const& plan) {
+    fmt::format_to(text, "textures:\n");
+    for (size_t i = 0; i < plan.textures.size(); ++i) {
+        Texture const& texture = plan.graph->textures()[i];
+        TexturePlan const& of = plan.textures[i];
+        fmt::format_to(text, "  '{}' {} x {} {}", texture.desc.name, texture.desc.width, texture.desc.height,
+                backend::formatInfo(texture.desc.format).name);
+        if (texture.desc.samples > 1) fmt::format_to(text, " {} samples", texture.desc.samples);
+        fmt::format_to(text, texture.isImported ? ", imported" : texture.isOutput ? ", output" : "");
+        if (!of.lifetime.isUsed()) {
+            fmt::format_to(text, ", unused\n");
+            continue;
+        }
+        fmt::format_to(text, ", groups {} to {}", of.lifetime.first, of.lifetime.last);
+        if (has(of.usage, backend::TextureUsage::Transient)) fmt::format_to(text, ", never leaves the tile");
+        if (!texture.isImported) putSharing(text, plan, i);
+        fmt::format_to(text, "\n");
+    }
+}
+
+// ---------------------------------------------------------------------------------------------- graphviz
+
+std::string escaped(std::string_view name) {
+    std::string result;
+    for (const char c : name) {
+        if (c == '"' || c == '\\') result += '\\';
+        result += c;
+    }
+    return result;
+}
+
+void putPassNode(Text text, CompiledGraph const& plan, uint32_t pass, const char* indent) {
+    fmt::format_to(text, "{}p{} [shape=box, label=\"{}\"{}];\n", indent, pass, escaped(plan.graph->passes()[pass].name),
+            plan.passes[pass].runs() ? "" : ", style=dashed");
+}
+
+void putPassNodes(Text text, CompiledGraph const& plan) {
+    for (uint32_t pass = 0; pass < plan.passes.size(); ++pass) {
+        const bool merged = plan.passes[pass].runs() && plan.groups[plan.passes[pass].group].count > 1;
+        if (!merged) putPassNode(text, plan, pass, "  ");
+    }
+    for (size_t i = 0; i < plan.groups.size(); ++i) {
+        if (plan.groups[i].count < 2) continue;
+        fmt::format_to(text, "  subgraph cluster_{} {{\n    label=\"merged\";\n", i);
+        for (const uint32_t pass : plan.order.subspan(plan.groups[i].first, plan.groups[i].count)) {
+            putPassNode(text, plan, pass, "    ");
+        }
+        fmt::format_to(text, "  }}\n");
+    }
+}
+
+void putEdges(Text text, CompiledGraph const& plan) {
+    for (size_t pass = 0; pass < plan.passes.size(); ++pass) {
+        for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
+            if (isPureRead(access.kind)) {
+                fmt::format_to(text, "  t{} -> p{}{};\n", access.texture.index(), pass,
+                        access.kind == AccessKind::Input ? " [label=\"pixel\"]" : "");
+            } else {
+                fmt::format_to(text, "  p{} -> t{};\n", pass, access.texture.index());
+            }
+            if (access.resolve) fmt::format_to(text, "  p{} -> t{} [label=\"resolve\"];\n", pass, access.resolve.index());
+        }
+    }
+}
+
+} // namespace
+
+std::string toText(CompiledGraph const& plan) {
+    std::string result;
+    const Text text(result);
+    putPasses(text, plan);
+    putGroups(text, plan);
+    putTextures(text, plan);
+    return result;
+}
+
+std::string toGraphviz(CompiledGraph const& plan) {
+    std::string result;
+    const Text text(result);
+    fmt::format_to(text, "digraph frame {{\n  rankdir=LR;\n");
+    putPassNodes(text, plan);
+    for (size_t i = 0; i < plan.textures.size(); ++i) {
+        Texture const& texture = plan.graph->textures()[i];
+        fmt::format_to(text, "  t{} [shape=ellipse, label=\"{}\\n{} x {} {}\"{}];\n", i, escaped(texture.desc.name),
+                texture.desc.width, texture.desc.height, backend::formatInfo(texture.desc.format).name,
+                texture.isOutput ? ", peripheries=2" : "");
+    }
+    putEdges(text, plan);
+    fmt::format_to(text, "}}\n");
+    return result;
+}
+
+} // namespace filament::framegraph

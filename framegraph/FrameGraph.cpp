@@ -1,0 +1,106 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "framegraph/FrameGraph.h"
+
+#include "framegraph/Require.h"
+
+namespace filament::framegraph {
+namespace {
+
+Previous previousOf(bool clears, bool overwrites) {
+    return clears ? Previous::Clear : overwrites ? Previous::Overwrite : Previous::Keep;
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------------------------- graph
+
+void FrameGraph::reset() {
+    mPasses.clear();
+    mTextures.clear();
+    mAccesses.clear();
+}
+
+TextureId FrameGraph::addTexture(Texture const& texture) {
+    TextureDesc const& desc = texture.desc;
+    require(!desc.name.empty(), "a texture of a frame graph has a name");
+    require(desc.format != backend::Format::None && desc.width > 0 && desc.height > 0,
+            "texture '{}': needs a format and a size of at least 1 x 1", desc.name);
+    require(mTextures.size() < 0xFFFF, "texture '{}': a frame graph holds 65 535 textures", desc.name);
+    mTextures.push_back(texture);
+    return { static_cast<uint32_t>(mTextures.size()) };
+}
+
+TextureId FrameGraph::createTexture(TextureDesc const& desc) { return addTexture({ .desc = desc }); }
+
+TextureId FrameGraph::importTexture(backend::TextureHandle texture, TextureDesc const& desc, InitialContents contents) {
+    require(static_cast<bool>(texture), "texture '{}': imported without a handle", desc.name);
+    return addTexture(
+            { .desc = desc, .imported = texture, .isImported = true, .contents = contents, .isOutput = true });
+}
+
+void FrameGraph::markOutput(TextureId texture) {
+    require(texture && texture.index() < mTextures.size(), "markOutput: the texture belongs to another graph or frame");
+    mTextures[texture.index()].isOutput = true;
+}
+
+PassBuilder FrameGraph::beginPass(std::string_view name, PassCode code) {
+    require(!name.empty(), "a pass has a name");
+    require(mPasses.size() < 0xFFFF, "pass '{}': a frame graph holds 65 535 passes", name);
+    mPasses.push_back({ .name = name, .code = code, .firstAccess = static_cast<uint32_t>(mAccesses.size()) });
+    return { *this, static_cast<uint32_t>(mPasses.size() - 1) };
+}
+
+void FrameGraph::declare(uint32_t pass, Access const& access) {
+    Pass& of = mPasses[pass];
+    require(pass + 1 == mPasses.size(), "pass '{}': declare its textures inside its set-up, not later", of.name);
+    require(access.texture && access.texture.index() < mTextures.size(),
+            "pass '{}': declares a texture of another graph or frame", of.name);
+    mAccesses.push_back(access);
+    ++of.accessCount;
+}
+
+// ---------------------------------------------------------------------------------------------- builder
+
+void PassBuilder::writeColor(uint8_t slot, TextureId texture, ColorTarget const& target) {
+    mGraph.declare(mPass, { .texture = texture,
+                                  .kind = AccessKind::Color,
+                                  .previous = previousOf(target.clear.has_value(), target.overwrites),
+                                  .slot = slot,
+                                  .level = target.level,
+                                  .layer = target.layer,
+                                  .clear = target.clear.value_or(std::array<float, 4>{}),
+                                  .resolve = target.resolve });
+}
+
+void PassBuilder::writeDepth(TextureId texture, DepthTarget const& target) {
+    mGraph.declare(mPass, { .texture = texture,
+                                  .kind = AccessKind::Depth,
+                                  .previous = previousOf(target.clear.has_value(), target.overwrites),
+                                  .level = target.level,
+                                  .layer = target.layer,
+                                  .clear = { target.clear.value_or(0.0f), static_cast<float>(target.clearStencil), 0, 0 } });
+}
+
+void PassBuilder::testDepth(TextureId texture, uint8_t level, uint16_t layer) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::DepthTest, .level = level, .layer = layer });
+}
+
+void PassBuilder::readSampled(TextureId texture) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Sampled });
+}
+
+void PassBuilder::readInput(TextureId texture) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Input });
+}
+
+void PassBuilder::readTransfer(TextureId texture) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::TransferRead });
+}
+
+void PassBuilder::writeTransfer(TextureId texture) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::TransferWrite });
+}
+
+void PassBuilder::sideEffect() { mGraph.declareSideEffect(mPass); }
+
+} // namespace filament::framegraph

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FrameGraph: which passes a frame has and which textures each of them reads and writes. Declarations only: nothing is
+/// created, ordered or recorded here; compile() decides, record() does.
+///   In      textures (created or imported) and passes in the order in which they should run.
+///   Thread  one at a time.
+///   Memory  pass code lives in the arena; lists keep their capacity over reset(). A steady frame allocates nothing.
+///           Captures of pass code are trivially destructible. Names are literals or live as long as the arena's contents.
+///   Limits  65 535 textures and passes.
+///   Fails   asserts on a declaration that contradicts itself, naming pass and texture: here and in compile().
+///
+///   TextureId hdr = graph.createTexture({ .width = w, .height = h, .format = Format::RGBA16F, .name = "hdr" });
+///   graph.addPass("sky", [&](PassBuilder& b) { b.writeColor(0, hdr, { .overwrites = true }); },
+///           [=](PassContext& c) { return makePipeline(c.commands(), c.passLayout(), c.subpass()); }, // outside of passes
+///           [=](PassContext& c, PipelineHandle sky) { drawFullScreen(c.commands(), sky); });         // inside the pass
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "filament_core/base/Arena.h"
+#include "framegraph/PassContext.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+#include <vector>
+
+namespace filament::framegraph {
+
+/// A texture as the graph sees it; how it may be used follows from what the passes do with it.
+struct TextureDesc {
+    uint32_t width = 1, height = 1;
+    backend::Format format = backend::Format::RGBA8;
+    uint8_t samples = 1;
+    uint8_t levels = 1;
+    uint16_t layers = 1;
+    backend::TextureType type = backend::TextureType::Texture2D;
+    std::string_view name{};
+};
+
+enum class InitialContents : uint8_t { Undefined, Keep };
+
+/// What a pass does with the contents that its attachment had before.
+enum class Previous : uint8_t {
+    Keep,      ///< draws over them (contents that never were written are undefined)
+    Clear,     ///< replaces them by a colour first
+    Overwrite, ///< covers every pixel: they are not even loaded
+};
+
+struct ColorTarget {
+    std::optional<std::array<float, 4>> clear{};
+    bool overwrites = false; ///< the pass writes every pixel
+    uint8_t level = 0;
+    uint16_t layer = 0;
+    TextureId resolve{};     ///< single-sampled texture that receives the average of the samples
+};
+
+struct DepthTarget {
+    std::optional<float> clear{}; ///< reversed z: 0 is far
+    uint8_t clearStencil = 0;
+    bool overwrites = false;
+    uint8_t level = 0;
+    uint16_t layer = 0;
+};
+
+enum class AccessKind : uint8_t { Color, Depth, DepthTest, Sampled, Input, TransferRead, TransferWrite };
+
+constexpr bool isAttachment(AccessKind kind) { return kind <= AccessKind::DepthTest; }
+constexpr bool isDepth(AccessKind kind) { return kind == AccessKind::Depth || kind == AccessKind::DepthTest; }
+/// Reads the contents whatever `Access::previous` says.
+constexpr bool isPureRead(AccessKind kind) {
+    return kind != AccessKind::Color && kind != AccessKind::Depth && kind != AccessKind::TransferWrite;
+}
+
+/// One pass's use of one texture.
+struct Access {
+    TextureId texture;
+    AccessKind kind = AccessKind::Sampled;
+    Previous previous = Previous::Keep; ///< attachments
+    uint8_t slot = 0;                   ///< Color: index when the pass runs by itself
+    uint8_t level = 0;
+    uint16_t layer = 0;
+    std::array<float, 4> clear{};
+    TextureId resolve{};
+};
+
+struct Texture {
+    TextureDesc desc;
+    backend::TextureHandle imported{};
+    bool isImported = false;
+    InitialContents contents = InitialContents::Undefined;
+    bool isOutput = false; ///< wanted after the last pass: imported or marked
+};
+
+struct Pass {
+    std::string_view name{};
+    PassCode code;
+    uint32_t firstAccess = 0, accessCount = 0;
+    bool hasSideEffect = false;
+};
+
+class FrameGraph;
+
+/// Given to the set-up of a pass: what it will read and write.
+class PassBuilder {
+public:
+    PassBuilder(FrameGraph& graph, uint32_t pass) : mGraph(graph), mPass(pass) {}
+
+    /// Slots 0, 1, ... without gaps; the fragment shader's output locations when the pass is not merged.
+    void writeColor(uint8_t slot, TextureId texture, ColorTarget const& target = {});
+    /// Tested and written.
+    void writeDepth(TextureId texture, DepthTarget const& target = {});
+    /// Attached for testing only; the pass's pipelines must not write it.
+    void testDepth(TextureId texture, uint8_t level = 0, uint16_t layer = 0);
+    /// Through a sampler, anywhere. Not together with an attachment of the same texture.
+    void readSampled(TextureId texture);
+    /// At the current pixel only. If the pass could be merged with the one that wrote the texture, it is a subpass input
+    /// (PassContext::isMerged() is true), otherwise the pass must sample it at the pixel's centre.
+    void readInput(TextureId texture);
+    /// Blits from it, reads it back, generates mips.
+    void readTransfer(TextureId texture);
+    /// Uploads or blits to it, generates mips; what is not written keeps its contents.
+    void writeTransfer(TextureId texture);
+    /// The pass runs even if nobody reads what it writes (read-backs, uploads to buffers).
+    void sideEffect();
+
+private:
+    FrameGraph& mGraph;
+    uint32_t mPass;
+};
+
+class FrameGraph {
+public:
+    /// The arena is reset by its owner, together with this graph: arena.reset(); graph.reset();
+    explicit FrameGraph(Arena& arena) : mArena(arena) {}
+    FrameGraph(FrameGraph const&) = delete;
+    FrameGraph& operator=(FrameGraph const&) = delete;
+
+    void reset();
+
+    /// Lives from its first to its last use in the frame; contents undefined before it is written.
+    TextureId createTexture(TextureDesc const& desc);
+    /// A texture that exists outside. What passes write to it is kept.
+    TextureId importTexture(backend::TextureHandle texture, TextureDesc const& desc, InitialContents contents);
+    /// Contents are wanted after the frame although no pass reads them. Imported textures are outputs anyway.
+    void markOutput(TextureId texture);
+
+    /// `setup(PassBuilder&)` is called at once, `execute(PassContext&)` by record(), if the pass runs. A pass with
+    /// attachments records the inside of a backend pass; one without records commands for outside of passes.
+    template <class Setup, class Execute>
+    PassId addPass(std::string_view name, Setup&& setup, Execute&& execute) {
+        return addPass(name, std::forward<Setup>(setup), [](PassContext&) { return Nothing{}; },
+                [execute = std::forward<Execute>(execute)](PassContext& context, Nothing) mutable { execute(context); });
+    }
+
+    /// Also has `prepare(PassContext&)`: called before the pass (or the merged pass that it is part of) begins, where
+    /// objects may be created and contents be uploaded; what it returns is given to `execute(PassContext&, value)`.
+    template <class Setup, class Prepare, class Execute>
+    PassId addPass(std::string_view name, Setup&& setup, Prepare&& prepare, Execute&& execute) {
+        PassBuilder builder = beginPass(name,
+                makePassCode(mArena, std::forward<Prepare>(prepare), std::forward<Execute>(execute)));
+        std::forward<Setup>(setup)(builder);
+        return { static_cast<uint32_t>(mPasses.size()) };
+    }
+
+    std::span<const Pass> passes() const { return mPasses; }
+    std::span<const Texture> textures() const { return mTextures; }
+    std::span<const Access> accesses(Pass const& pass) const { return std::span(mAccesses).subspan(pass.firstAccess, pass.accessCount); }
+    Texture const& texture(TextureId id) const { return mTextures[id.index()]; }
+    Arena& arena() const { return mArena; }
+
+    // For PassBuilder; `pass` is the newest one.
+    void declare(uint32_t pass, Access const& access);
+    void declareSideEffect(uint32_t pass) { mPasses[pass].hasSideEffect = true; }
+
+private:
+    struct Nothing {};
+
+    PassBuilder beginPass(std::string_view name, PassCode code);
+    TextureId addTexture(Texture const& texture);
+
+    Arena& mArena;
+    std::vector<Pass> mPasses;
+    std::vector<Texture> mTextures;
+    std::vector<Access> mAccesses; // pass after pass
+};
+
+} // namespace filament::framegraph

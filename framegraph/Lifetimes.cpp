@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "framegraph/CompileSteps.h"
+
+#include <algorithm>
+
+namespace filament::framegraph {
+namespace {
+
+using backend::TextureUsage;
+
+TextureUsage usageOf(AccessKind kind, bool isMerged) {
+    switch (kind) {
+        case AccessKind::Color: return TextureUsage::ColorAttachment;
+        case AccessKind::Depth:
+        case AccessKind::DepthTest: return TextureUsage::DepthAttachment;
+        case AccessKind::Sampled: return TextureUsage::Sampled;
+        case AccessKind::Input: return isMerged ? TextureUsage::InputAttachment : TextureUsage::Sampled;
+        case AccessKind::TransferRead: return TextureUsage::TransferSource;
+        case AccessKind::TransferWrite: return TextureUsage::TransferTarget;
+    }
+    return {};
+}
+
+// May live in tile memory: nothing but attachment of one group, and nobody wants it afterwards.
+bool isTransient(Texture const& texture, Lifetime const& lifetime, TextureUsage usage) {
+    constexpr auto kElsewhere = TextureUsage::Sampled | TextureUsage::TransferSource | TextureUsage::TransferTarget;
+    return !texture.isOutput && lifetime.isUsed() && lifetime.first == lifetime.last && !has(usage, kElsewhere) &&
+            texture.desc.levels == 1 && texture.desc.layers == 1;
+}
+
+backend::TextureDesc descOf(TextureDesc const& desc, TextureUsage usage) {
+    return { .type = desc.type, .format = desc.format, .usage = usage, .samples = desc.samples, .levels = desc.levels,
+        .layers = desc.layers, .width = desc.width, .height = desc.height, .debugName = desc.name };
+}
+
+} // namespace
+
+std::span<Lifetime> firstAndLastUse(FrameGraph const& graph, PassOrder const& order, std::span<const PassGroup> groups) {
+    const std::span<Lifetime> lifetimes = graph.arena().array<Lifetime>(graph.textures().size());
+    const auto touch = [&](TextureId texture, uint32_t group) {
+        if (!texture) return;
+        Lifetime& lifetime = lifetimes[texture.index()];
+        lifetime.first = std::min(lifetime.first, group);
+        lifetime.last = std::max(lifetime.last, group);
+    };
+    for (uint32_t group = 0; group < groups.size(); ++group) {
+        for (const uint32_t pass : order.order.subspan(groups[group].first, groups[group].count)) {
+            for (Access const& access : graph.accesses(graph.passes()[pass])) {
+                touch(access.texture, group);
+                touch(access.resolve, group);
+            }
+        }
+    }
+    return lifetimes;
+}
+
+std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& order, std::span<const Lifetime> lifetimes) {
+    const std::span<TextureUsage> usage = graph.arena().array<TextureUsage>(graph.textures().size());
+    const std::span<bool> isResolved = graph.arena().array<bool>(usage.size());
+    for (const uint32_t pass : order.order) {
+        const bool merged = order.decisions[pass].merge == Merge::Merged;
+        for (Access const& access : graph.accesses(graph.passes()[pass])) {
+            TextureUsage& of = usage[access.texture.index()];
+            of = of | usageOf(access.kind, merged);
+            if (!access.resolve) continue;
+            usage[access.resolve.index()] = usage[access.resolve.index()] | TextureUsage::ColorAttachment;
+            isResolved[access.resolve.index()] = true;
+        }
+    }
+    for (size_t i = 0; i < usage.size(); ++i) {
+        if (isTransient(graph.textures()[i], lifetimes[i], usage[i]) && !isResolved[i]) usage[i] = usage[i] | TextureUsage::Transient;
+    }
+    return usage;
+}
+
+std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const Lifetime> lifetimes,
+        std::span<const TextureUsage> usage, TransientPool& pool) {
+    const std::span<TexturePlan> plans = graph.arena().array<TexturePlan>(lifetimes.size());
+    const std::span<uint32_t> byFirstUse = graph.arena().array<uint32_t>(lifetimes.size());
+    for (uint32_t i = 0; i < byFirstUse.size(); ++i) byFirstUse[i] = i;
+    std::sort(byFirstUse.begin(), byFirstUse.end(), [&](uint32_t a, uint32_t b) {
+        return lifetimes[a].first != lifetimes[b].first ? lifetimes[a].first < lifetimes[b].first : a < b;
+    });
+    pool.beginGraph();
+    for (const uint32_t i : byFirstUse) {
+        Texture const& texture = graph.textures()[i];
+        plans[i] = { lifetimes[i], usage[i], texture.imported };
+        if (texture.isImported || !lifetimes[i].isUsed()) continue;
+        const uint32_t last = texture.isOutput ? kNone : lifetimes[i].last; // an output outlives the last group
+        plans[i].handle = pool.acquire(descOf(texture.desc, usage[i]), lifetimes[i].first, last);
+    }
+    return plans;
+}
+
+} // namespace filament::framegraph

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "framegraph/PassContext.h"
+
+#include "framegraph/CompiledGraph.h"
+#include "framegraph/Require.h"
+
+#include <algorithm>
+
+namespace filament::framegraph {
+
+void PassContext::requireDeclared(TextureId id) const {
+    Pass const& pass = mPlan.graph->passes()[mPass];
+    const auto accesses = mPlan.graph->accesses(pass);
+    require(id && id.index() < mPlan.textures.size(), "pass '{}': asks for a texture of another graph or frame", pass.name);
+    const bool declared = std::any_of(accesses.begin(), accesses.end(),
+            [&](Access const& access) { return access.texture == id || access.resolve == id; });
+    require(declared, "pass '{}': uses texture '{}' without having declared it", pass.name, mPlan.graph->texture(id).desc.name);
+}
+
+backend::CommandStream& PassContext::stream() { return mPlan.pool->stream(); }
+
+backend::TextureHandle PassContext::texture(TextureId id) const {
+    requireDeclared(id);
+    return mPlan.texture(id);
+}
+
+TextureDesc const& PassContext::desc(TextureId id) const {
+    requireDeclared(id);
+    return mPlan.graph->texture(id).desc;
+}
+
+backend::PassLayout const& PassContext::passLayout() const { return mPlan.groups[mPlan.passes[mPass].group].layout; }
+
+uint8_t PassContext::subpass() const { return mPlan.passes[mPass].subpass; }
+
+backend::Rect PassContext::area() const {
+    PassGroup const& group = mPlan.groups[mPlan.passes[mPass].group];
+    return { 0, 0, group.width, group.height };
+}
+
+bool PassContext::isMerged(TextureId id) const {
+    requireDeclared(id);
+    const auto accesses = mPlan.graph->accesses(mPlan.graph->passes()[mPass]);
+    const bool isInput = std::any_of(accesses.begin(), accesses.end(),
+            [&](Access const& access) { return access.texture == id && access.kind == AccessKind::Input; });
+    return isInput && mPlan.passes[mPass].merge == Merge::Merged;
+}
+
+uint8_t PassContext::colorIndex(TextureId id) const {
+    requireDeclared(id);
+    PassDecision const& decision = mPlan.passes[mPass];
+    PassGroup const& group = mPlan.groups[decision.group];
+    backend::SubpassDesc const& subpass = group.subpasses[decision.subpass];
+    for (uint8_t i = 0; i < group.colorCount; ++i) {
+        const bool isMine = ((subpass.colorMask | subpass.inputMask) >> i & 1) != 0;
+        if (isMine && group.colors[i].texture == id) return i;
+    }
+    require(false, "pass '{}': texture '{}' is no colour attachment of it", mPlan.graph->passes()[mPass].name,
+            mPlan.graph->texture(id).desc.name);
+    return 0;
+}
+
+backend::BindGroupHandle PassContext::bindGroup(backend::BindGroupLayout const& layout,
+        std::span<const backend::BindGroupEntry> entries, std::string_view name) {
+    require(!mInsidePass, "pass '{}': bind group '{}' is made inside of a pass; make it in prepare",
+            mPlan.graph->passes()[mPass].name, name);
+    return mPlan.pool->bindGroup(mCommands, { .layout = layout, .entries = entries, .debugName = name });
+}
+
+} // namespace filament::framegraph

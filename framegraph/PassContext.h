@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+/// PassContext: what the code of a pass sees while its commands are recorded. PassCode: that code, stored in an arena.
+///   Thread  the one that calls record().
+///   Memory  captures live in the graph's arena and are never destructed: trivially destructible ones only.
+///   Fails   asserts on textures that the pass did not declare, and on creating objects inside a pass.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "backend/stream/CommandBuffer.h"
+#include "filament_core/base/Arena.h"
+
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string_view>
+#include <type_traits>
+#include <utility>
+
+namespace filament::backend {
+class CommandStream;
+}
+
+namespace filament::framegraph {
+
+struct CompiledGraph;
+struct TextureDesc;
+
+/// Names a texture of one graph until the graph's reset(); zero is none.
+struct TextureId {
+    uint32_t value = 0;
+    uint32_t index() const { return value - 1; }
+    explicit operator bool() const { return value != 0; }
+    friend bool operator==(TextureId, TextureId) = default;
+};
+
+/// Names a pass of one graph until the graph's reset(); zero is none.
+struct PassId {
+    uint32_t value = 0;
+    uint32_t index() const { return value - 1; }
+    explicit operator bool() const { return value != 0; }
+    friend bool operator==(PassId, PassId) = default;
+};
+
+class PassContext {
+public:
+    PassContext(CompiledGraph const& plan, backend::CommandBuffer& commands) : mPlan(plan), mCommands(commands) {}
+
+    backend::CommandBuffer& commands() { return mCommands; }
+    /// To allocate handles and tickets.
+    backend::CommandStream& stream();
+
+    /// The texture behind an id that this pass declared.
+    backend::TextureHandle texture(TextureId id) const;
+    TextureDesc const& desc(TextureId id) const;
+
+    /// What pipelines of this pass are made for. Passes without attachments have none.
+    backend::PassLayout const& passLayout() const;
+    uint8_t subpass() const;
+    backend::Rect area() const;
+    /// True: the texture is a subpass input (BindingType::InputAttachment). False: the pass has to sample it.
+    bool isMerged(TextureId id) const;
+    /// Index of a colour attachment of this pass, or of its subpass input, in the backend pass: the output location that
+    /// the fragment shader writes, and BindingDesc::inputAttachment. The declared slot, unless the pass is merged.
+    uint8_t colorIndex(TextureId id) const;
+
+    /// A bind group that lives for this frame; equal ones are made once and kept while frames go on asking for them.
+    /// In `prepare` and in passes without attachments only.
+    backend::BindGroupHandle bindGroup(backend::BindGroupLayout const& layout,
+            std::span<const backend::BindGroupEntry> entries, std::string_view name);
+
+    // For record():
+    void enter(uint32_t pass, bool insidePass) { mPass = pass, mInsidePass = insidePass; }
+
+private:
+    void requireDeclared(TextureId id) const;
+
+    CompiledGraph const& mPlan;
+    backend::CommandBuffer& mCommands;
+    uint32_t mPass = 0;
+    bool mInsidePass = false;
+};
+
+struct PassCode {
+    void* object = nullptr;
+    void (*prepare)(void* object, PassContext& context) = nullptr;
+    void (*execute)(void* object, PassContext& context) = nullptr;
+};
+
+template <class Prepare, class Execute>
+PassCode makePassCode(Arena& arena, Prepare&& prepare, Execute&& execute) {
+    using Value = std::invoke_result_t<std::decay_t<Prepare>&, PassContext&>;
+    static_assert(!std::is_void_v<Value>, "prepare returns what execute needs");
+    struct Code {
+        std::decay_t<Prepare> prepare;
+        std::decay_t<Execute> execute;
+        std::optional<Value> value;
+    };
+    static_assert(std::is_trivially_destructible_v<Code>,
+            "pass code is never destructed: capture handles, ids, spans and plain values, by value");
+    return {
+        arena.make<Code>(std::forward<Prepare>(prepare), std::forward<Execute>(execute), std::nullopt),
+        [](void* object, PassContext& context) {
+            Code& code = *static_cast<Code*>(object);
+            code.value.emplace(code.prepare(context));
+        },
+        [](void* object, PassContext& context) {
+            Code& code = *static_cast<Code*>(object);
+            code.execute(context, *code.value);
+        },
+    };
+}
+
+} // namespace filament::framegraph

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "framegraph/CompiledGraph.h"
+
+#include "backend/stream/CommandStream.h"
+
+namespace filament::framegraph {
+namespace {
+
+using namespace backend;
+
+Attachment attachmentOf(CompiledGraph const& plan, GroupAttachment const& attachment) {
+    return { .texture = plan.texture(attachment.texture),
+        .level = attachment.level,
+        .layer = attachment.layer,
+        .load = attachment.load,
+        .store = attachment.store,
+        .clear = attachment.clear,
+        .resolve = attachment.resolve ? plan.texture(attachment.resolve) : TextureHandle{} };
+}
+
+PassDesc passDescOf(CompiledGraph const& plan, PassGroup const& group) {
+    PassDesc desc;
+    desc.layout = group.layout;
+    for (uint32_t i = 0; i < group.colorCount; ++i) desc.colors[i] = attachmentOf(plan, group.colors[i]);
+    if (group.depth.texture) desc.depth = attachmentOf(plan, group.depth);
+    desc.area = { 0, 0, group.width, group.height };
+    desc.debugName = group.name;
+    return desc;
+}
+
+void executePass(CommandBuffer& commands, CompiledGraph const& plan, PassContext& context, uint32_t pass, bool insidePass) {
+    Pass const& of = plan.graph->passes()[pass];
+    commands.record(CmdPushGroup{ of.name });
+    context.enter(pass, insidePass);
+    of.code.execute(of.code.object, context);
+    commands.record(CmdPopGroup{});
+}
+
+void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup const& group) {
+    PassContext context(plan, commands);
+    const std::span<const uint32_t> passes = plan.order.subspan(group.first, group.count);
+    for (const uint32_t pass : passes) {
+        PassCode const& code = plan.graph->passes()[pass].code;
+        context.enter(pass, false);
+        code.prepare(code.object, context);
+    }
+    if (!group.hasAttachments()) {
+        executePass(commands, plan, context, passes[0], false);
+        return;
+    }
+    commands.record(CmdBeginPass{ passDescOf(plan, group) });
+    for (size_t subpass = 0; subpass < passes.size(); ++subpass) {
+        if (subpass > 0) commands.record(CmdNextSubpass{});
+        executePass(commands, plan, context, passes[subpass], true);
+    }
+    commands.record(CmdEndPass{});
+}
+
+} // namespace
+
+void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers) {
+    plan.pool->recordCreations(commands);
+    if (timers) timers->clear();
+    for (PassGroup const& group : plan.groups) {
+        const Ticket ticket = timers ? plan.pool->stream().nextTicket() : Ticket{};
+        if (timers) {
+            timers->push_back({ group.name, ticket });
+            commands.record(CmdBeginTimer{ ticket });
+        }
+        recordGroup(commands, plan, group);
+        if (timers) commands.record(CmdEndTimer{ ticket });
+    }
+    plan.pool->recordEvictions(commands);
+}
+
+} // namespace filament::framegraph

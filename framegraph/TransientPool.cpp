@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "framegraph/TransientPool.h"
+
+#include "backend/stream/CommandStream.h"
+#include "filament_core/base/Assert.h"
+
+#include <algorithm>
+
+namespace filament::framegraph {
+namespace {
+
+using backend::BindGroupEntry;
+
+bool isSameButForTheName(backend::TextureDesc const& a, backend::TextureDesc const& b) {
+    return a.type == b.type && a.format == b.format && a.usage == b.usage && a.samples == b.samples && a.levels == b.levels &&
+            a.layers == b.layers && a.width == b.width && a.height == b.height;
+}
+
+bool isSameEntry(BindGroupEntry const& a, BindGroupEntry const& b) {
+    return a.binding == b.binding && a.buffer == b.buffer && a.offset == b.offset && a.size == b.size &&
+            a.texture == b.texture && a.sampler == b.sampler;
+}
+
+} // namespace
+
+TransientPool::TransientPool(backend::CommandStream& stream, uint32_t keepFrames)
+        : mStream(stream), mKeepFrames(keepFrames) {}
+
+TransientPool::~TransientPool() {
+    FILAMENT_ASSERT(mTextures.empty() && mBindGroups.empty(), "TransientPool::destroyAll() comes before the destructor");
+}
+
+void TransientPool::beginGraph() { ++mGraph; }
+
+backend::TextureHandle TransientPool::acquire(backend::TextureDesc const& desc, uint32_t first, uint32_t last) {
+    const auto isFree = [&](PooledTexture const& pooled) {
+        return (pooled.lastGraph != mGraph || pooled.busyUntil < first) && isSameButForTheName(pooled.desc, desc);
+    };
+    auto found = std::find_if(mTextures.begin(), mTextures.end(), isFree);
+    if (found == mTextures.end()) {
+        mTextures.push_back({ .desc = desc, .handle = mStream.allocateTexture() });
+        found = mTextures.end() - 1;
+    }
+    found->lastGraph = mGraph;
+    found->busyUntil = last;
+    return found->handle;
+}
+
+backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& commands, backend::BindGroupDesc const& desc) {
+    FILAMENT_ASSERT(desc.entries.size() <= backend::kMaxBindings, "a bind group has at most 16 entries");
+    const auto isSame = [&](PooledBindGroup const& pooled) {
+        return pooled.layout == desc.layout &&
+                std::equal(desc.entries.begin(), desc.entries.end(), pooled.entries.begin(),
+                        pooled.entries.begin() + pooled.count, isSameEntry);
+    };
+    const auto found = std::find_if(mBindGroups.begin(), mBindGroups.end(), isSame);
+    if (found != mBindGroups.end()) {
+        found->lastGraph = mGraph;
+        return found->handle;
+    }
+    PooledBindGroup made{ .layout = desc.layout,
+        .count = static_cast<uint8_t>(desc.entries.size()),
+        .handle = mStream.allocateBindGroup(),
+        .lastGraph = mGraph };
+    std::copy(desc.entries.begin(), desc.entries.end(), made.entries.begin());
+    mBindGroups.push_back(made);
+    commands.record(backend::CmdCreateBindGroup{ made.handle, desc });
+    return made.handle;
+}
+
+void TransientPool::recordCreations(backend::CommandBuffer& commands) {
+    for (PooledTexture& pooled : mTextures) {
+        if (pooled.isCreated) continue;
+        commands.record(backend::CmdCreateTexture{ pooled.handle, pooled.desc });
+        pooled.isCreated = true;
+        pooled.desc.debugName = {}; // lives no longer than the graph
+    }
+}
+
+void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
+    const auto isStale = [&](auto const& pooled) { return pooled.lastGraph + mKeepFrames < mGraph; };
+    std::erase_if(mBindGroups, [&](PooledBindGroup const& pooled) {
+        if (!isStale(pooled)) return false;
+        commands.record(backend::CmdDestroyBindGroup{ pooled.handle });
+        mStream.free(pooled.handle);
+        return true;
+    });
+    std::erase_if(mTextures, [&](PooledTexture const& pooled) {
+        if (!isStale(pooled)) return false;
+        if (pooled.isCreated) commands.record(backend::CmdDestroyTexture{ pooled.handle });
+        mStream.free(pooled.handle);
+        return true;
+    });
+}
+
+void TransientPool::destroyAll(backend::CommandBuffer& commands) {
+    mGraph += mKeepFrames + 1;
+    recordEvictions(commands);
+}
+
+} // namespace filament::framegraph

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+/// TransientPool: the textures (and bind groups) behind the transients of frame graphs, reused over passes and frames.
+///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes get the same texture.
+///   Thread  one at a time.
+///   Memory  device memory of everything that one of the last `keepFrames` graphs used; small lists on the heap that stop
+///           growing after warm-up.
+///   Fails   never. destroyAll() is called before the end, or the destructor asserts.
+///   Cost    a linear search over a few dozen entries for each transient.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "backend/stream/CommandBuffer.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace filament::backend {
+class CommandStream;
+}
+
+namespace filament::framegraph {
+
+class TransientPool {
+public:
+    /// `keepFrames`: how many graphs in a row may go without an object before it is destroyed.
+    explicit TransientPool(backend::CommandStream& stream, uint32_t keepFrames = 16);
+    ~TransientPool();
+    TransientPool(TransientPool const&) = delete;
+    TransientPool& operator=(TransientPool const&) = delete;
+
+    backend::CommandStream& stream() { return mStream; }
+
+    /// Starts a graph: every texture is free again.
+    void beginGraph();
+    /// A texture of this description that nobody else uses from `first` to `last`. Lifetimes of one graph are asked for
+    /// with `first` ascending.
+    backend::TextureHandle acquire(backend::TextureDesc const& desc, uint32_t first, uint32_t last);
+    /// See PassContext::bindGroup(). Records the creation if it is new.
+    backend::BindGroupHandle bindGroup(backend::CommandBuffer& commands, backend::BindGroupDesc const& desc);
+
+    /// Creates what acquire() promised since the last call.
+    void recordCreations(backend::CommandBuffer& commands);
+    /// Destroys what was not used for too long.
+    void recordEvictions(backend::CommandBuffer& commands);
+    void destroyAll(backend::CommandBuffer& commands);
+
+    uint32_t textureCount() const { return static_cast<uint32_t>(mTextures.size()); }
+    uint32_t bindGroupCount() const { return static_cast<uint32_t>(mBindGroups.size()); }
+
+private:
+    struct PooledTexture {
+        backend::TextureDesc desc;
+        backend::TextureHandle handle;
+        uint64_t lastGraph = 0;
+        uint32_t busyUntil = 0; // in graph `lastGraph`
+        bool isCreated = false;
+    };
+    struct PooledBindGroup {
+        backend::BindGroupLayout layout;
+        std::array<backend::BindGroupEntry, backend::kMaxBindings> entries{};
+        uint8_t count = 0;
+        backend::BindGroupHandle handle;
+        uint64_t lastGraph = 0;
+    };
+
+    backend::CommandStream& mStream;
+    const uint32_t mKeepFrames;
+    uint64_t mGraph = 1;
+    std::vector<PooledTexture> mTextures;
+    std::vector<PooledBindGroup> mBindGroups;
+};
+
+} // namespace filament::framegraph
