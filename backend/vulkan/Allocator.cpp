@@ -53,8 +53,8 @@ std::optional<Allocation> Allocator::allocateIn(MemoryBlock& block, MemoryReques
 
 MemoryBlock* Allocator::addBlock(uint32_t pool, MemoryRequest const& request) {
     // A nearly full device may still have room for a smaller block.
-    const uint64_t needed = (request.bytes + request.alignment) * 2;
-    for (uint64_t bytes = mOptions.blockBytes; bytes >= needed; bytes /= 4) {
+    const uint64_t least = request.bytes + request.alignment;
+    for (uint64_t bytes = mOptions.blockBytes; bytes >= least; bytes /= 4) {
         const std::optional<MemoryChunk> chunk = mSource.allocate(request.memoryType, bytes);
         if (!chunk) continue;
         mPools[pool].push_back(std::make_unique<MemoryBlock>(MemoryBlock{ *chunk, pool, RangeAllocator(bytes) }));

@@ -20,7 +20,9 @@ std::vector<uint32_t> spirvFromGlsl(ShaderStage stage, std::string const& text) 
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
     const auto rules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-    EXPECT_TRUE(shader.parse(GetDefaultResources(), 450, false, rules)) << shader.getInfoLog();
+    const bool parsed = shader.parse(GetDefaultResources(), 450, false, rules);
+    EXPECT_TRUE(parsed) << shader.getInfoLog();
+    if (!parsed) return {};
     glslang::TProgram program;
     program.addShader(&shader);
     EXPECT_TRUE(program.link(rules)) << program.getInfoLog();
