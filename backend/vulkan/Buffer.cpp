@@ -19,6 +19,7 @@ Result<std::unique_ptr<Buffer>> Buffer::create(Device& device, BufferDesc const&
 }
 
 Result<std::unique_ptr<Buffer>> Buffer::create(Device& device, BufferOptions const& options) {
+    if (options.bytes == 0) return fail(ErrorCode::InvalidArgument, "buffer '{}': size 0", options.debugName);
     std::unique_ptr<Buffer> buffer(new Buffer(device));
     VolkDeviceTable const& fn = device.fn();
     auto info = make<VkBufferCreateInfo>(VK_STRUCTURE_TYPE_BUFFER_CREATE_INFO);

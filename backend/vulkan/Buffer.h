@@ -2,7 +2,7 @@
 /// Buffer: a VkBuffer with its memory, and which of its bytes transfers have written lately.
 ///   Thread  the driver thread.
 ///   Memory  Device memory, mapped when the device has one that is both local and host-visible.
-///   Fails   create(): OutOfMemory with name and size.
+///   Fails   create(): OutOfMemory with name and size, InvalidArgument for size 0.
 #pragma once
 
 #include "backend/api/Descriptions.h"

@@ -68,7 +68,7 @@ TEST(Spirv, SurvivesEveryTruncationAndRandomDamage) {
     }
     std::mt19937 random(3);
     uint32_t refused = 0;
-    for (int round = 0; round < 20'000; ++round) {
+    for (int round = 0; round < 5'000; ++round) {
         std::vector<uint32_t> damaged = words;
         for (int hit = 0; hit < 4; ++hit) damaged[random() % damaged.size()] = static_cast<uint32_t>(random() >> (random() % 32));
         const auto edges = readEdges(damaged, ShaderStage::Vertex);
@@ -77,7 +77,7 @@ TEST(Spirv, SurvivesEveryTruncationAndRandomDamage) {
             EXPECT_LE(edges->inputs.size(), 32u);
         }
     }
-    EXPECT_GT(refused, 1000u);
+    EXPECT_GT(refused, 500u);
 }
 
 } // namespace
