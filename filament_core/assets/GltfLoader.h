@@ -32,7 +32,7 @@ enum class GltfStage : uint8_t {
 
 struct GltfOptions {
     /// Called after every step, with `done` growing from 0 to `total`; from any worker, but never from two at once.
-    std::function<void(GltfStage stage, size_t done, size_t total)> progress;
+    std::function<void(GltfStage stage, size_t done, size_t total)> progress = {};
     uint32_t maxTextureSize = 0; ///< texels; larger images start at a smaller mip level. 0: no limit
     std::string name = "model";  ///< what messages call a file in memory; loadGltf() fills it in
 };

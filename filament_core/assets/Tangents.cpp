@@ -194,37 +194,43 @@ void adoptDegenerateCorners(std::vector<uint32_t> const& vertices, Groups& group
     }
 }
 
+/// All corners, those of one group behind each other; corners without a group come last.
+std::vector<uint32_t> cornersByGroup(Groups const& groups) {
+    const size_t groupCount = groups.keepsOrientation.size();
+    const auto bucketOf = [&](uint32_t group) { return group == kNone ? groupCount : group; };
+    std::vector<uint32_t> next(groupCount + 2, 0); // where the next corner of a bucket goes
+    for (const uint32_t group : groups.ofCorner) ++next[bucketOf(group) + 1];
+    for (size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
+    std::vector<uint32_t> ordered(groups.ofCorner.size());
+    for (uint32_t c = 0; c < ordered.size(); ++c) ordered[next[bucketOf(groups.ofCorner[c])]++] = c;
+    return ordered;
+}
+
 /// Step 5: the first group of an input vertex keeps its number, others get copies at the end.
 TangentOutput splitVertices(TangentInput const& input, Groups const& groups, std::vector<float4> const& groupTangents) {
     TangentOutput output;
     const size_t count = input.positions.size();
-    std::vector<uint32_t> groupOfOutput(count, kNone), nextCopy(count, kNone); // chains of copies
-    output.sources.resize(count);
-    for (uint32_t i = 0; i < count; ++i) output.sources[i] = i;
-    output.indices.assign(input.indices.begin(), input.indices.end());
-    for (size_t c = 0; c < output.indices.size(); ++c) {
-        const uint32_t group = groups.ofCorner[c];
-        if (group == kNone) continue; // keeps the vertex as it is
-        uint32_t vertex = input.indices[c];
-        while (groupOfOutput[vertex] != kNone && groupOfOutput[vertex] != group && nextCopy[vertex] != kNone) {
-            vertex = nextCopy[vertex];
-        }
-        if (groupOfOutput[vertex] != kNone && groupOfOutput[vertex] != group) {
-            const auto copy = static_cast<uint32_t>(output.sources.size());
-            nextCopy[vertex] = copy;
-            output.sources.push_back(input.indices[c]);
-            groupOfOutput.push_back(kNone);
-            nextCopy.push_back(kNone);
-            vertex = copy;
-        }
-        groupOfOutput[vertex] = group;
-        output.indices[c] = vertex;
+    for (uint32_t i = 0; i < count; ++i) {
+        output.sources.push_back(i);
+        output.tangents.emplace_back(anyTangent(input.normals[i]), 1.0f); // of vertices that no triangle uses
     }
-    output.tangents.reserve(output.sources.size());
-    for (size_t i = 0; i < output.sources.size(); ++i) {
-        const uint32_t group = groupOfOutput[i];
-        const float4 unused(anyTangent(input.normals[output.sources[i]]), 1.0f);
-        output.tangents.push_back(group == kNone ? unused : groupTangents[group]);
+    output.indices.assign(input.indices.begin(), input.indices.end());
+    std::vector<uint32_t> lastGroup(count, kNone), outputVertex(count); // of each input vertex, in the current group
+    for (const uint32_t corner : cornersByGroup(groups)) {
+        const uint32_t group = groups.ofCorner[corner], vertex = input.indices[corner];
+        if (group == kNone) break; // the rest keeps its vertices as they are
+        if (lastGroup[vertex] != group) {
+            const bool isFirst = lastGroup[vertex] == kNone;
+            outputVertex[vertex] = isFirst ? vertex : static_cast<uint32_t>(output.sources.size());
+            if (isFirst) {
+                output.tangents[vertex] = groupTangents[group];
+            } else {
+                output.sources.push_back(vertex);
+                output.tangents.push_back(groupTangents[group]);
+            }
+            lastGroup[vertex] = group;
+        }
+        output.indices[corner] = outputVertex[vertex];
     }
     return output;
 }

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GltfFuzzBody: loads arbitrary bytes as glTF; one body for the fuzzer (tests/fuzz/GltfFuzz.cpp) and the mutation test.
+///   A file may be refused, with one line of text, or give a model that keeps every promise of ModelData.h.
+#pragma once
+
+#include "filament_core/assets/GltfLoader.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace filament::assets::test {
+
+inline const char* brokenPromise(ModelData const& model, Image const& image) {
+    if (image.width == 0 || image.height == 0 || image.data.size() != image.levelOffset(image.levels)) return "image size";
+    if (image.levels != backend::fullMipCount(image.width, image.height)) return "mip chain";
+    return model.images.empty() ? "image list" : nullptr;
+}
+
+inline const char* brokenPromise(ModelData const& model, MaterialData const& m) {
+    for (TextureRef const* texture : { &m.baseColor, &m.metallicRoughness, &m.normal, &m.occlusion, &m.emissive }) {
+        if (texture->image != kNone && texture->image >= model.images.size()) return "image index";
+        if (texture->uvSet > 1) return "uv set";
+    }
+    if (!(m.metallicFactor >= 0 && m.metallicFactor <= 1 && m.roughnessFactor >= 0 && m.roughnessFactor <= 1)) return "factor";
+    return std::isfinite(m.emissiveStrength) && m.emissiveStrength >= 0 ? nullptr : "emissive strength";
+}
+
+inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p) {
+    const size_t indexBytes = p.indexType == backend::IndexType::UInt16 ? 2 : 4;
+    if (p.vertexCount == 0 || p.indexCount == 0) return "empty primitive";
+    if (p.vertices.size() != size_t{ p.vertexCount } * p.layout.buffers[0].stride) return "vertex bytes";
+    if (p.indices.size() != p.indexCount * indexBytes) return "index bytes";
+    if (p.layout.buffers[0].stride % 4 != 0) return "stride";
+    for (uint32_t i = 0; i < p.layout.attributeCount; ++i) {
+        if (backend::vertexFormatInfo(p.layout.attributes[i].format).integer) return "integer attribute";
+    }
+    for (size_t i = 0; i < p.indexCount; ++i) {
+        uint32_t index = 0; // little-endian: two bytes are the low half
+        std::memcpy(&index, &p.indices[i * indexBytes], indexBytes);
+        if (index >= p.vertexCount) return "vertex index";
+    }
+    if (p.topology == backend::Topology::Triangles && (p.indexCount % 3 != 0 || !p.hasTangents)) return "triangles";
+    if (p.material != kNone && p.material >= model.materials.size()) return "material index";
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!std::isfinite(p.boundsMin[axis]) || !(p.boundsMin[axis] <= p.boundsMax[axis])) return "bounds";
+    }
+    return nullptr;
+}
+
+inline const char* brokenPromise(ModelData const& model, NodeData const& node) {
+    if (node.mesh != kNone && node.mesh >= model.meshes.size()) return "mesh index";
+    if (node.light != kNone && node.light >= model.lights.size()) return "light index";
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(node.worldFromNode[column][row])) return "transform";
+        }
+    }
+    return nullptr;
+}
+
+/// The first promise of ModelData.h that the model breaks; null if it keeps all.
+inline const char* brokenPromise(ModelData const& model) {
+    const char* broken = nullptr;
+    const auto check = [&](auto const& list) {
+        for (auto const& element : list) {
+            if (!broken) broken = brokenPromise(model, element);
+        }
+    };
+    check(model.images);
+    check(model.materials);
+    check(model.nodes);
+    for (MeshData const& mesh : model.meshes) check(mesh.primitives);
+    return broken;
+}
+
+/// Returns whether the file was loaded. Ends the process when something is wrong that no file may cause.
+inline bool fuzzGltf(std::span<const std::byte> file, std::filesystem::path const& baseDirectory = "no such folder") {
+    jobs::JobSystem jobs({ .workers = 0 });
+    const Result<ModelData> model = loadGltfFromMemory(file, baseDirectory, jobs);
+    const char* broken = nullptr;
+    if (model) broken = brokenPromise(*model);
+    if (!model && (model.error().message.empty() || model.error().message.find('\n') != std::string::npos)) broken = "message";
+    if (broken) {
+        std::fprintf(stderr, "a loaded file broke the promise about: %s\n", broken);
+        std::abort();
+    }
+    return model.ok();
+}
+
+} // namespace filament::assets::test
