@@ -37,7 +37,7 @@ Surface surfaceOf(MaterialInputs material) {
     surface.alpha = alphaFromPerceptual(surface.perceptualRoughness);
     vec2 dfg = textureLod(viewDfg, vec2(shading_NoV, surface.perceptualRoughness), 0.0).xy;
     surface.energyCompensation = energyCompensation(surface.f0, dfg);
-    surface.specularAlbedo = specularDfg(surface.f0, dfg);
+    surface.specularAlbedo = specularDfg(surface.f0, dfg) * surface.energyCompensation;
 #if defined(HAS_AMBIENT_OCCLUSION)
     surface.visibility = saturate(material.ambientOcclusion);
 #else
@@ -48,36 +48,42 @@ Surface surfaceOf(MaterialInputs material) {
 
 vec3 environmentFromWorld(vec3 direction) { return direction * mat3(frameUniforms.worldFromEnvironment); }
 
+// One way out of each function: an early return costs a loop in the code that the drivers see.
 vec3 imageBasedLight(Surface surface) {
-    if (frameUniforms.ambient.x <= 0.0) return vec3(0.0); // no environment
+    vec3 light = vec3(0.0);
+    if (frameUniforms.ambient.x > 0.0) { // else: no environment
+        vec3 irradiance = irradianceSh(frameUniforms.irradianceSh, environmentFromWorld(shading_normal),
+                int(frameUniforms.ambient.z));
+        vec3 diffuse = surface.diffuse * irradiance * (1.0 - surface.specularAlbedo) * surface.visibility;
 
-    vec3 irradiance = irradianceSh(frameUniforms.irradianceSh, environmentFromWorld(shading_normal),
-            int(frameUniforms.ambient.z));
-    vec3 diffuse = surface.diffuse * irradiance * (1.0 - surface.specularAlbedo) * surface.visibility;
-
-    vec3 direction = dominantSpecularDirection(shading_normal, shading_reflected, surface.alpha);
-    float level = levelFromPerceptualRoughness(surface.perceptualRoughness, frameUniforms.ambient.y);
-    vec3 radiance = textureLod(viewSpecular, environmentFromWorld(direction), level).rgb;
-    vec3 specular = surface.specularAlbedo * radiance;
+        vec3 direction = dominantSpecularDirection(shading_normal, shading_reflected, surface.alpha);
+        float level = levelFromPerceptualRoughness(surface.perceptualRoughness, frameUniforms.ambient.y);
+        vec3 radiance = textureLod(viewSpecular, environmentFromWorld(direction), level).rgb;
+        vec3 specular = surface.specularAlbedo * radiance;
 #if defined(HAS_AMBIENT_OCCLUSION)
-    specular *= specularOcclusion(shading_NoV, surface.visibility, surface.alpha);
+        specular *= specularOcclusion(shading_NoV, surface.visibility, surface.alpha);
 #endif
-    return (diffuse + specular) * frameUniforms.ambient.x;
+        light = (diffuse + specular) * frameUniforms.ambient.x;
+    }
+    return light;
 }
 
 #if defined(VARIANT_SUN) || defined(VARIANT_PUNCTUAL)
 
 // Light from one direction; illuminance at normal incidence, pre-exposed.
 vec3 directLight(Surface surface, vec3 light, vec3 illuminance) {
+    vec3 reflected = vec3(0.0);
     float nol = saturate(dot(shading_normal, light));
-    if (nol <= 0.0) return vec3(0.0);
-    vec3 halfway = normalizeOrZero(shading_view + light);
-    float noh = saturate(dot(shading_normal, halfway));
-    float voh = saturate(dot(shading_view, halfway));
-    float d = ndfGgx(noh, surface.alpha);
-    float v = visibilitySmithGgxCorrelated(shading_NoV, nol, surface.alpha);
-    vec3 specular = (d * v) * fresnelSchlick(surface.f0, surface.f90, voh) * surface.energyCompensation;
-    return (surface.diffuse * diffuseLambert() + specular) * illuminance * nol;
+    if (nol > 0.0) {
+        vec3 halfway = normalizeOrZero(shading_view + light);
+        float noh = saturate(dot(shading_normal, halfway));
+        float voh = saturate(dot(shading_view, halfway));
+        float d = ndfGgx(noh, surface.alpha);
+        float v = visibilitySmithGgxCorrelated(shading_NoV, nol, surface.alpha);
+        vec3 specular = (d * v) * fresnelSchlick(surface.f0, surface.f90, voh) * surface.energyCompensation;
+        reflected = (surface.diffuse * diffuseLambert() + specular) * illuminance * nol;
+    }
+    return reflected;
 }
 
 #endif
@@ -87,7 +93,7 @@ vec3 directLight(Surface surface, vec3 light, vec3 illuminance) {
 vec3 punctualLights(Surface surface) {
     vec3 sum = vec3(0.0);
     int count = int(frameUniforms.ambient.w);
-    for (int i = 0; i < count; ++i) {
+    for (int i = 0; i < count; ++i) { // a loop, however few lights: unrolled code takes seconds to compile
         LightRecord light = lightUniforms.lights[i];
         vec3 toLight = light.positionRange.xyz - vertex_worldPosition;
         float attenuation = distanceAttenuation(toLight, light.positionRange.w);
