@@ -16,10 +16,11 @@ struct Chosen {
 };
 
 Chosen choose(PassContext& pass, FrameContext const& context, ToneMapMaterials materials, TextureId color) {
-    scene::Material& material = pass.isMerged(color) ? *materials.merged : *materials.sampled;
+    const bool merged = pass.isMerged(color);
+    scene::Material& material = merged ? *materials.merged : *materials.sampled;
     const uint32_t slot = context.pipelines->slot({ pass.passLayout(), pass.subpass() });
     const BindGroupEntry entry{ .binding = material.package.findParameter("color")->binding,
-        .texture = pass.texture(color), .sampler = context.nearestSampler };
+        .texture = pass.texture(color), .sampler = merged ? SamplerHandle{} : context.nearestSampler };
     return { context.pipelines->fullscreenPipeline(pass.commands(), slot, material),
         pass.bindGroup(material.package.layout[shader::kGroupMaterial], std::span(&entry, 1), "tone map") };
 }
