@@ -2,6 +2,7 @@
 #include "shaders/compiler/CompileProgram.h"
 
 #include "shaders/compiler/ExactLowering.h"
+#include "shaders/compiler/ForbidReordering.h"
 #include "shaders/compiler/GlslToSpirv.h"
 #include "shaders/compiler/ReflectLayout.h"
 #include "shaders/compiler/SpirvToEssl.h"
@@ -18,7 +19,7 @@ Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std:
         ProgramCompileOptions const& options) {
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
     if (spirv && options.optimization != Optimization::None) spirv = optimizeSpirv(*spirv, options.optimization);
-    if (spirv && options.exact) spirv = lowerExactly(*spirv); // last, so that no pass re-forms what it spelled out
+    if (spirv && options.exact) spirv = forbidReordering(lowerExactly(*spirv)); // last: no pass re-forms what is spelled out
     return spirv;
 }
 

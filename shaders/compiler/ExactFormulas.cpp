@@ -3,6 +3,8 @@
 
 #include <algorithm>
 #include <array>
+#include <iterator>
+#include <numbers>
 #include <vector>
 
 namespace filament::shader {
@@ -25,6 +27,11 @@ Value exactRefract(Value incident, Value normal, Value eta) {
     const Value root = call(GLSLstd450Sqrt, { call(GLSLstd450FMax, { k, k.like(0.0f) }) });
     const Value bent = incident * eta - normal * (eta * cosine + root);
     return selectLess(k, k.like(0.0f), incident.like(0.0f), bent); // total internal reflection
+}
+
+Value exactCross(Value a, Value b) {
+    const Value parts[] = { a[1] * b[2] - b[1] * a[2], a[2] * b[0] - b[2] * a[0], a[0] * b[1] - b[0] * a[1] };
+    return compose(a.type(), parts);
 }
 
 Value exactFaceForward(Value normal, Value incident, Value reference) {
@@ -64,8 +71,38 @@ Value exactDivide(Value x, Value y) {
 
 // ---------------------------------------------------------------------------------------------- one variable
 
-// Through the two-argument arc tangent, because GLSL leaves the polynomial of asin to the driver.
-Value exactAsin(Value x) { return call(GLSLstd450Atan2, { x, call(GLSLstd450Sqrt, { (1.0f - x) * (1.0f + x) }) }); }
+Value exactTan(Value x) { return call(GLSLstd450Sin, { x }) / call(GLSLstd450Cos, { x }); }
+
+namespace {
+
+/// Arc tangent on [0, 1], absolute error below 2e-8. Abramowitz and Stegun 1964, "Handbook of Mathematical Functions", 4.4.49.
+Value arcTangentOfUnit(Value x) {
+    constexpr float kCoefficients[] = { 0.0028662257f, -0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f,
+        -0.1420889944f, 0.1999355085f, -0.3333314528f };
+    const Value square = x * x;
+    Value sum = x.like(kCoefficients[0]);
+    for (size_t i = 1; i < std::size(kCoefficients); ++i) sum = sum * square + x.like(kCoefficients[i]);
+    return x + x * (square * sum);
+}
+
+} // namespace
+
+// The drivers' own arc functions are polynomials that each front end marks and reorders in its own way.
+Value exactAtan2(Value y, Value x) {
+    constexpr float kPi = std::numbers::pi_v<float>;
+    const Value ax = call(GLSLstd450FAbs, { x }), ay = call(GLSLstd450FAbs, { y }), zero = x.like(0.0f);
+    const Value larger = call(GLSLstd450FMax, { call(GLSLstd450FMax, { ax, ay }), x.like(1e-37f) }); // atan(0, 0) is 0
+    const Value octant = arcTangentOfUnit(call(GLSLstd450FMin, { ax, ay }) / larger);
+    const Value quadrant = selectLess(ax, ay, 0.5f * kPi - octant, octant);
+    const Value half = selectLess(x, zero, kPi - quadrant, quadrant);
+    return selectLess(y, zero, -half, half);
+}
+
+Value exactAtan(Value x) { return exactAtan2(x, x.like(1.0f)); }
+
+Value exactAsin(Value x) { return exactAtan2(x, call(GLSLstd450Sqrt, { (1.0f - x) * (1.0f + x) })); }
+
+Value exactAcos(Value x) { return exactAtan2(call(GLSLstd450Sqrt, { (1.0f - x) * (1.0f + x) }), x); }
 
 Value exactSinh(Value x) { return 0.5f * (call(GLSLstd450Exp, { x }) - call(GLSLstd450Exp, { -x })); }
 

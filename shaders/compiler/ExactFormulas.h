@@ -12,6 +12,7 @@ Value exactLength(Value v);                               ///< sqrt(dot(v, v)); 
 Value exactNormalize(Value v);                            ///< v * inversesqrt(dot(v, v)); sign(v) for scalars
 Value exactReflect(Value incident, Value normal);         ///< I - N * (2 * dot(N, I))
 Value exactRefract(Value incident, Value normal, Value eta);
+Value exactCross(Value a, Value b);
 Value exactFaceForward(Value normal, Value incident, Value reference);
 Value exactMix(Value a, Value b, Value t);                ///< a + (b - a) * t
 Value exactSmoothStep(Value edge0, Value edge1, Value x);
@@ -19,7 +20,11 @@ Value exactMod(Value x, Value y);                         ///< x - y * floor(x /
 Value exactDivide(Value x, Value y);                      ///< by a constant: x * (1 / y)
 
 // ---- functions of one variable
+Value exactTan(Value x);                                  ///< sin(x) / cos(x)
+Value exactAtan2(Value y, Value x);
+Value exactAtan(Value x);
 Value exactAsin(Value x);
+Value exactAcos(Value x);
 Value exactSinh(Value x);
 Value exactCosh(Value x);
 Value exactTanh(Value x);

@@ -20,6 +20,7 @@ public:
     Lowering(SpirvEditor& editor, Instruction const& at) : mEditor(editor), mAt(at) {}
 
     Id run() const {
+        if (mAt.op == spv::OpSMod) return lowerSignedModulo();
         if (!mEditor.isFloat32(mAt.type)) return 0;
         if (mAt.op == spv::OpExtInst) return mEditor.isExtended(mAt) ? lowerExtended().id : 0;
         return lowerCore().id;
@@ -42,6 +43,13 @@ private:
         }
     }
 
+    /// GLSL leaves % of negative numbers open; here the quotient is cut towards zero, as in C++.
+    Id lowerSignedModulo() const {
+        const Id x = mAt.operands[0], y = mAt.operands[1];
+        const Id quotient = mEditor.emit(spv::OpSDiv, mAt.type, { x, y });
+        return mEditor.emit(spv::OpISub, mAt.type, { x, mEditor.emit(spv::OpIMul, mAt.type, { quotient, y }) });
+    }
+
     Value lowerDivision() const {
         const Value divisor = operand(1);
         return mEditor.isConstantExpression(divisor.id) ? exactDivide(operand(0), divisor) : Value{};
@@ -54,6 +62,7 @@ private:
             case GLSLstd450Normalize: return exactNormalize(argument(0));
             case GLSLstd450Reflect: return exactReflect(argument(0), argument(1));
             case GLSLstd450Refract: return exactRefract(argument(0), argument(1), argument(2));
+            case GLSLstd450Cross: return exactCross(argument(0), argument(1));
             case GLSLstd450FaceForward: return exactFaceForward(argument(0), argument(1), argument(2));
             case GLSLstd450FMix: return exactMix(argument(0), argument(1), argument(2));
             case GLSLstd450SmoothStep: return exactSmoothStep(argument(0), argument(1), argument(2));
@@ -68,7 +77,11 @@ private:
         switch (mAt.operands[1]) {
             case GLSLstd450Radians: return kRadiansPerDegree * argument(0);
             case GLSLstd450Degrees: return kDegreesPerRadian * argument(0);
+            case GLSLstd450Tan: return exactTan(argument(0));
             case GLSLstd450Asin: return exactAsin(argument(0));
+            case GLSLstd450Acos: return exactAcos(argument(0));
+            case GLSLstd450Atan: return exactAtan(argument(0));
+            case GLSLstd450Atan2: return exactAtan2(argument(0), argument(1));
             case GLSLstd450Sinh: return exactSinh(argument(0));
             case GLSLstd450Cosh: return exactCosh(argument(0));
             case GLSLstd450Tanh: return exactTanh(argument(0));

@@ -3,8 +3,8 @@
 ///   Why     Mesa takes SPIR-V and GLSL through different front ends, which expand some operations differently; the last
 ///           bit of a dot product then depends on the API. After this pass both see additions and multiplications.
 ///   What    dot, matrix products, outer product, determinant, inverse, normalize, length, distance, reflect, refract,
-///           faceforward, mix, smoothstep, fma, mod, asin, radians, degrees, the hyperbolic functions and their
-///           inverses, and division by a constant (multiplication by its rounded reciprocal).
+///           cross, faceforward, mix, smoothstep, fma, mod, tan, asin, acos, atan, radians, degrees, the hyperbolic functions and their
+///           inverses, division by a constant (multiplication by its rounded reciprocal), and % of signed integers.
 ///   In      valid SPIR-V; run it after the optimiser, which would re-form some of them.
 ///   Limits  32-bit floats; modf, frexp and ldexp stay as they are.
 ///   Thread  any. Fails: never for a valid module. Cost: one pass over the words.

@@ -40,7 +40,8 @@ Value operator/(float a, Value b);
 Value call(GLSLstd450 function, std::initializer_list<Value> arguments);
 Value compose(SpirvEditor::Id type, std::span<const Value> parts);
 Value repeat(Value scalar, SpirvEditor::Id type); ///< the scalar in every component of a vector type
-Value selectLess(Value a, Value b, Value ifLess, Value otherwise); ///< a < b, scalars; picks whole values
+/// a < b component by component; scalars a and b choose a whole vector.
+Value selectLess(Value a, Value b, Value ifLess, Value otherwise);
 Value dot(Value a, Value b);        ///< ((x + y) + z) + w
 Value sum(std::span<const Value> terms); ///< left to right
 

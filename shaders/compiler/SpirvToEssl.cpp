@@ -6,11 +6,29 @@
 #include <spirv_cross/spirv_glsl.hpp>
 
 #include <exception>
+#include <utility>
 
 namespace filament::shader {
 namespace {
 
 using spirv_cross::CompilerGLSL;
+
+/// SPIRV-Cross knows `precise` only from ESSL 3.20 on; here an extension brings it to 3.10, and a device without it, which
+/// cannot promise equal bits anyway, reads nothing in its place.
+class EsslCompiler final : public CompilerGLSL {
+public:
+    explicit EsslCompiler(std::vector<uint32_t> spirv) : CompilerGLSL(std::move(spirv)) {
+        for (const char* line : { "#extension GL_EXT_gpu_shader5 : enable", "#ifndef GL_EXT_gpu_shader5", "#define precise", "#endif" }) {
+            add_header_line(line);
+        }
+    }
+
+private:
+    void emit_header() override {
+        backend.support_precise_qualifier = true;
+        CompilerGLSL::emit_header();
+    }
+};
 
 void setOptions(CompilerGLSL& compiler) {
     CompilerGLSL::Options options = compiler.get_common_options();
@@ -45,7 +63,7 @@ void renumberAll(CompilerGLSL& compiler, backend::ProgramLayout const& layout) {
 
 Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::ProgramLayout const& layout) {
     try {
-        CompilerGLSL compiler(withFetchOutputs(spirv));
+        EsslCompiler compiler(withFetchOutputs(spirv));
         setOptions(compiler);
         renumberAll(compiler, layout);
         return compiler.compile();

@@ -55,6 +55,7 @@ INSTANTIATE_TEST_SUITE_P(EveryOperation, ExactLoweringOf, ::testing::Values(
         Operation{ "OpMatrixTimesMatrix", "(u.m * u.n)[2]" },
         Operation{ "OpOuterProduct", "outerProduct(u.a, u.b)[1]" },
         Operation{ "OpFMod", "mod(u.a, u.b)" },
+        Operation{ "OpSMod", "vec4(int(u.a.x) % int(u.a.y))" },
         Operation{ "OpFDiv", "u.a / 3.0" },
         Operation{ "OpFDiv", "u.a / vec4(3.0, 5.0, 7.0, 9.0)" },
         Operation{ "Length", "vec4(length(u.a), length(u.a.x), 0, 0)" },
@@ -70,7 +71,8 @@ INSTANTIATE_TEST_SUITE_P(EveryOperation, ExactLoweringOf, ::testing::Values(
         Operation{ "Determinant", "vec4(determinant(u.m), determinant(u.m3), determinant(mat2(u.a)), 0)" },
         Operation{ "MatrixInverse", "inverse(u.m)[0] + vec4(inverse(u.m3)[1], inverse(mat2(u.a))[1].x)" },
         Operation{ "Radians", "radians(u.a)" }, Operation{ "Degrees", "degrees(u.a)" },
-        Operation{ "Asin", "asin(u.a)" }, Operation{ "Sinh", "sinh(u.a)" }, Operation{ "Cosh", "cosh(u.a)" },
+        Operation{ "Cross", "vec4(cross(u.a.xyz, u.b.xyz), 1)" }, Operation{ "Tan", "tan(u.a)" }, Operation{ "Acos", "acos(u.a)" },
+        Operation{ "Atan", "atan(u.a)" }, Operation{ "Atan2", "atan(u.a, u.b)" }, Operation{ "Asin", "asin(u.a)" }, Operation{ "Sinh", "sinh(u.a)" }, Operation{ "Cosh", "cosh(u.a)" },
         Operation{ "Tanh", "tanh(u.a)" }, Operation{ "Asinh", "asinh(u.a)" }, Operation{ "Acosh", "acosh(u.a)" },
         Operation{ "Atanh", "atanh(u.a)" }),
         [](auto const& each) { return std::to_string(each.index) + "_" + each.param.opcode; });
