@@ -54,11 +54,11 @@ PUBLIC_USERS = ["filament_core/engine", "tools", "samples", "tests", "bench"]
 LIBRARIES = {
     r"vulkan/|volk\.h": ["backend/vulkan"],
     r"EGL/|GLES\d?/|GLES2/|KHR/": ["backend/gles"],
-    r"glslang/|SPIRV/|spirv-tools/|spirv_cross/|spirv_\w+\.hpp|spirv/": ["shaders/compiler"],
+    r"glslang/|SPIRV/|spirv-tools/|spirv_cross/|spirv_\w+\.hpp|spirv/": ["shaders/compiler", "tests"],
     r"tiny_gltf\.h|draco/|meshoptimizer\.h|stb_?image|stb/|tinyexr|png\.h|jpeglib\.h": ["filament_core/assets"],
-    r"nlohmann/": ["filament_core/assets", "tools", "tests"],
+    r"nlohmann/": ["filament_core/assets", "tools", "tests", "bench"],
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
-    r"CLI/": ["tools"],
+    r"CLI/": ["tools", "bench"],
     r"gtest/|gmock/": ["tests"],
     r"benchmark/": ["bench"],
 }

@@ -1,0 +1,183 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/filament-render/BackendRun.h"
+
+#include "tools/filament-render/Console.h"
+#include "tools/filament-render/HeapCounter.h"
+
+#include <filament/Environment.h>
+#include <filament/Gltf.h>
+#include <filament/Scene.h>
+
+#include <algorithm>
+#include <chrono>
+#include <utility>
+
+namespace filament::tools {
+namespace {
+
+class StopWatch {
+public:
+    double milliseconds() const {
+        return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - mStart).count();
+    }
+    /// Milliseconds since the start, which is now.
+    double lap() {
+        const double elapsed = milliseconds();
+        mStart = std::chrono::steady_clock::now();
+        return elapsed;
+    }
+
+private:
+    std::chrono::steady_clock::time_point mStart = std::chrono::steady_clock::now();
+};
+
+LoadProgress progressOf(Backend backend, const char* what) {
+    return [=](std::string_view stage, size_t done, size_t total) {
+        showProgress(fmt::format("{}: {}, {} {}/{}", fileStem(backend), what, stage, done, total));
+    };
+}
+
+/// Centre of the box at the origin, largest dimension 1. A point only moves.
+double4x4 fitted(Box const& box) {
+    if (box.empty()) return double4x4(1.0);
+    const double3 size = box.max - box.min, center = (box.min + box.max) * 0.5;
+    const double largest = std::max({ size.x, size.y, size.z });
+    const double scale = largest > 0 ? 1 / largest : 1;
+    double4x4 worldFromModel(scale);
+    worldFromModel[3] = double4(-scale * center, 1);
+    return worldFromModel;
+}
+
+View viewOf(Options const& options) {
+    return { .camera = Camera::lookAt(options.eye, options.at, { .verticalFovDegrees = options.fovDegrees },
+                                      options.exposure),
+             .size = options.size,
+             .colorGrading = options.colorGrading };
+}
+
+Result<Engine> createEngine(Options const& options, Backend backend) {
+    EngineOptions engineOptions{ .backend = backend, .requireDevice = options.requireDevice };
+    if (options.trace) engineOptions.traceFile = options.out / fmt::format("{}.trace", fileStem(backend));
+    Result<Engine> engine = Engine::create(engineOptions);
+    if (!engine) return engine;
+    const uint32_t largest = engine->device().maxTextureSize;
+    if (options.size.x > largest || options.size.y > largest) {
+        return fail(ErrorCode::Unsupported, "--size {}x{}: {} draws at most {} pixels a side; give a smaller size",
+                    options.size.x, options.size.y, engine->device().device, largest);
+    }
+    return engine;
+}
+
+/// Everything between a living engine and its first picture, in the order in which it must end.
+class Stage {
+public:
+    Stage(Engine& engine, Options const& options)
+            : mEngine(engine), mOptions(options), mScene(engine), mRenderer(engine) {}
+
+    Result<void> load(BackendRun& run, std::filesystem::path const& model, std::filesystem::path const& environment);
+    void drawFirst(BackendRun& run);
+    void drawOthers(BackendRun& run);
+    Result<Image> readPixels() { return mRenderer.waitPixels(mRenderer.readPixels(mTarget)); }
+    Renderer& renderer() { return mRenderer; }
+
+private:
+    Engine& mEngine;
+    Options const& mOptions;
+    std::optional<Model> mModel;
+    std::optional<Environment> mEnvironment;
+    Owned<Texture> mPixels;
+    Owned<RenderTarget> mTarget;
+    Scene mScene;
+    Renderer mRenderer;
+    View mView;
+};
+
+Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
+                         std::filesystem::path const& environment) {
+    StopWatch watch;
+    Result<Model> loaded = loadGltf(mEngine, model, { .progress = progressOf(run.backend, "model") });
+    if (!loaded) return loaded.error();
+    mModel.emplace(std::move(*loaded));
+    run.modelName = mModel->name();
+    run.warnings = mModel->warnings();
+    mScene.add(*mModel, mOptions.fit ? fitted(mModel->bounds()) : double4x4(1.0));
+    run.start.model = watch.lap();
+
+    if (!environment.empty()) {
+        Result<Environment> sky =
+                loadEnvironment(mEngine, environment, { .progress = progressOf(run.backend, "environment") });
+        if (!sky) return sky.error();
+        mEnvironment.emplace(std::move(*sky));
+        mScene.setEnvironment(*mEnvironment, { .illuminance = mOptions.iblIntensity, .skybox = mOptions.skybox });
+    }
+    run.start.environment = watch.lap();
+
+    if (mOptions.sun) mScene.add(*mOptions.sun);
+    const Format format = mOptions.format == PictureFormat::Exr ? Format::RGBA16F : Format::RGBA8;
+    mPixels = mEngine.own(mEngine.create(TextureDesc{ .format = format,
+                                                      .width = mOptions.size.x,
+                                                      .height = mOptions.size.y,
+                                                      .renderable = true,
+                                                      .name = "pixels" }));
+    mTarget = mEngine.own(mEngine.create(RenderTargetDesc{ .color = mPixels, .name = "pixels" }));
+    mView = viewOf(mOptions);
+    return {};
+}
+
+void Stage::drawFirst(BackendRun& run) {
+    showProgress(fmt::format("{}: first frame", fileStem(run.backend)));
+    const StopWatch watch;
+    mRenderer.render(mScene, mView, mTarget.get());
+    mEngine.waitIdle();
+    run.start.firstFrame = watch.milliseconds();
+    run.afterFirstFrame = mEngine.statistics();
+}
+
+void Stage::drawOthers(BackendRun& run) {
+    run.samples.resize(mOptions.frames - 1);
+    size_t frame = 1;
+    StopWatch watch;
+    uint64_t allocations = heapAllocations();
+    for (FrameSample& sample : run.samples) {
+        mRenderer.render(mScene, mView, mTarget.get());
+        const uint64_t now = heapAllocations();
+        sample = { .milliseconds = watch.lap(), .heapAllocations = now - std::exchange(allocations, now) };
+        if (++frame % 64 == 0)
+            showProgress(fmt::format("{}: frame {}/{}", fileStem(run.backend), frame, mOptions.frames));
+    }
+    mEngine.waitIdle();
+    run.atEnd = mEngine.statistics();
+}
+
+} // namespace
+
+const char* fileStem(Backend backend) {
+    return backend == Backend::Vulkan ? "vulkan" : backend == Backend::Gles ? "gles" : "null";
+}
+
+Result<BackendRun> runBackend(Options const& options, Backend backend, std::filesystem::path const& model,
+                              std::filesystem::path const& environment) {
+    BackendRun run{ .backend = backend };
+    const StopWatch whole;
+    Result<Engine> engine = createEngine(options, backend);
+    if (!engine) return engine.error();
+    run.device = engine->device();
+    run.start.engine = whole.milliseconds();
+
+    Stage stage(*engine, options);
+    if (const Result<void> loaded = stage.load(run, model, environment); !loaded) return loaded.error();
+    stage.drawFirst(run);
+    run.start.startToFirstFrame = whole.milliseconds();
+    stage.drawOthers(run);
+
+    Result<Image> image = stage.readPixels();
+    if (!image) return image.error();
+    run.image = std::move(*image);
+    run.timings = stage.renderer().takeTimings();
+    run.statistics = stage.renderer().statistics();
+    run.explanation = stage.renderer().explain();
+    run.errors = engine->takeErrors();
+    return run;
+}
+
+} // namespace filament::tools

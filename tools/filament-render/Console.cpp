@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/filament-render/Console.h"
+
+#include "filament_core/base/Log.h"
+
+#include <algorithm>
+#include <cstdio>
+#include <mutex>
+#include <set>
+#include <string>
+#include <unistd.h>
+
+namespace filament::tools {
+namespace {
+
+std::mutex gMutex;
+bool gProgressShown = false;
+
+void clearProgressLocked() {
+    if (!gProgressShown) return;
+    std::fputs("\r\x1b[K", stderr);
+    std::fflush(stderr);
+    gProgressShown = false;
+}
+
+std::string oneLine(std::string_view text) {
+    std::string line(text);
+    std::replace_if(
+            line.begin(), line.end(), [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return line;
+}
+
+} // namespace
+
+void showProgress(std::string_view text) {
+    static const bool sTerminal = ::isatty(STDERR_FILENO) == 1;
+    if (!sTerminal) return;
+    const std::lock_guard lock(gMutex);
+    std::fprintf(stderr, "\r\x1b[K%s", oneLine(text).c_str());
+    std::fflush(stderr);
+    gProgressShown = true;
+}
+
+void clearProgress() {
+    const std::lock_guard lock(gMutex);
+    clearProgressLocked();
+}
+
+void printWarning(std::string_view text) {
+    static std::set<std::string, std::less<>> sPrinted;
+    const std::lock_guard lock(gMutex);
+    const std::string line = oneLine(text);
+    if (!sPrinted.insert(line).second) return;
+    clearProgressLocked();
+    std::fprintf(stderr, "filament-render: warning: %s\n", line.c_str());
+}
+
+void printError(std::string_view text) {
+    const std::lock_guard lock(gMutex);
+    clearProgressLocked();
+    std::fprintf(stderr, "filament-render: error: %s\n", oneLine(text).c_str());
+}
+
+void routeLogToConsole() {
+    setLogThreshold(Severity::Warning);
+    setLogSink([](Severity, std::string_view line) { printWarning(line); });
+}
+
+} // namespace filament::tools

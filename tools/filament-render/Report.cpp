@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/filament-render/Report.h"
+
+#include "filament_core/assets/EnvironmentFile.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <iterator>
+#include <map>
+
+namespace filament::tools {
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+struct Spread {
+    double min = 0, median = 0, max = 0;
+};
+
+Spread spreadOf(std::vector<double> values) {
+    if (values.empty()) return {};
+    std::sort(values.begin(), values.end());
+    return { values.front(), values[values.size() / 2], values.back() };
+}
+
+Json toJson(Spread spread) { return { { "min", spread.min }, { "median", spread.median }, { "max", spread.max } }; }
+
+template <class Range, class Value>
+std::vector<double> column(Range const& range, Value const& value) {
+    std::vector<double> values;
+    for (auto const& element : range) values.push_back(value(element));
+    return values;
+}
+
+/// The timings without the first frame, which compiles and uploads.
+std::span<const FrameTimings> steadyTimings(BackendRun const& run) {
+    return std::span(run.timings).subspan(std::min<size_t>(1, run.timings.size()));
+}
+
+std::span<const FrameSample> steadySamples(BackendRun const& run) {
+    return std::span(run.samples).subspan(std::min(kWarmUpSamples, run.samples.size()));
+}
+
+struct PassTime {
+    std::string name;
+    Spread gpu;
+};
+
+/// Every pass of the steady frames (of the first frame if there is no other), in the order of their first run.
+std::vector<PassTime> passTimes(BackendRun const& run) {
+    const std::span<const FrameTimings> frames = run.timings.size() > 1 ? steadyTimings(run) : std::span(run.timings);
+    std::vector<std::string> order;
+    std::map<std::string, std::vector<double>> values;
+    for (FrameTimings const& frame : frames) {
+        for (PassTiming const& pass : frame.passes) {
+            auto& list = values[pass.name];
+            if (list.empty()) order.push_back(pass.name);
+            list.push_back(pass.gpuMilliseconds);
+        }
+    }
+    std::vector<PassTime> times;
+    for (std::string const& name : order) times.push_back({ name, spreadOf(values[name]) });
+    return times;
+}
+
+Json toJson(FrameTimings const& frame) {
+    Json passes = Json::array();
+    for (PassTiming const& pass : frame.passes)
+        passes.push_back({ { "name", pass.name }, { "gpuMs", pass.gpuMilliseconds } });
+    return { { "frame", frame.frame },
+             { "prepareMs", frame.prepareMilliseconds },
+             { "recordMs", frame.recordMilliseconds },
+             { "replayMs", frame.replayMilliseconds },
+             { "gpuMs", frame.gpuMilliseconds },
+             { "workerBusyMs", frame.workerBusyMilliseconds },
+             { "beginSeconds", frame.beginSeconds },
+             { "submitSeconds", frame.submitSeconds },
+             { "replayBeginSeconds", frame.replayBeginSeconds },
+             { "replayEndSeconds", frame.replayEndSeconds },
+             { "passes", std::move(passes) } };
+}
+
+Json startJson(BackendRun const& run) {
+    return { { "engineMs", run.start.engine },
+             { "modelMs", run.start.model },
+             { "environmentMs", run.start.environment },
+             { "firstFrameMs", run.start.firstFrame },
+             { "startToFirstFrameMs", run.start.startToFirstFrame } };
+}
+
+Json countsJson(BackendRun const& run) {
+    FrameStatistics const& last = run.statistics;
+    return { { "renderables", last.renderables },
+             { "visible", last.visible },
+             { "culled", last.culled },
+             { "lights", last.lights },
+             { "draws", last.draws },
+             { "triangles", last.triangles },
+             { "passesRun", last.passesRun },
+             { "passesCulled", last.passesCulled },
+             { "pipelinesCreated", run.atEnd.pipelinesCreated },
+             { "pipelinesCreatedDuringDraws", run.atEnd.pipelinesCreatedInPasses },
+             { "commands", run.atEnd.commands },
+             { "deviceBytes", run.atEnd.deviceBytes } };
+}
+
+/// How much of the driver thread's replay of frame n ran while the app thread was already making frame n + 1.
+double overlapMilliseconds(std::span<const FrameTimings> frames) {
+    double seconds = 0;
+    for (size_t i = 0; i + 1 < frames.size(); ++i) {
+        const double begin = std::max(frames[i].replayBeginSeconds, frames[i + 1].beginSeconds);
+        const double end = std::min(frames[i].replayEndSeconds, frames[i + 1].submitSeconds);
+        seconds += std::max(0.0, end - begin);
+    }
+    return seconds * 1000;
+}
+
+Json steadyJson(BackendRun const& run) {
+    const auto samples = steadySamples(run);
+    const auto frames = steadyTimings(run);
+    uint64_t allocations = 0;
+    for (FrameSample const& sample : samples) allocations += sample.heapAllocations;
+    const auto spread = [&](double FrameTimings::*member) {
+        return toJson(spreadOf(column(frames, [&](FrameTimings const& frame) { return frame.*member; })));
+    };
+    return { { "frames", samples.size() },
+             { "heapAllocations", allocations },
+             { "pipelinesCreated", run.atEnd.pipelinesCreated - run.afterFirstFrame.pipelinesCreated },
+             { "frameMs", toJson(spreadOf(column(samples, [](FrameSample const& s) { return s.milliseconds; }))) },
+             { "prepareMs", spread(&FrameTimings::prepareMilliseconds) },
+             { "recordMs", spread(&FrameTimings::recordMilliseconds) },
+             { "replayMs", spread(&FrameTimings::replayMilliseconds) },
+             { "gpuMs", spread(&FrameTimings::gpuMilliseconds) },
+             { "backPressureMs", static_cast<double>(run.atEnd.backPressureNanoseconds) * 1e-6 },
+             { "appAndDriverOverlapMs", overlapMilliseconds(frames) } };
+}
+
+Json runJson(BackendRun const& run) {
+    Json passes = Json::array(), frames = Json::array();
+    for (PassTime const& pass : passTimes(run))
+        passes.push_back({ { "name", pass.name }, { "gpuMs", toJson(pass.gpu) } });
+    for (FrameTimings const& frame : run.timings) frames.push_back(toJson(frame));
+    return { { "device", run.device.device }, { "driver", run.device.driver }, { "start", startJson(run) },
+             { "counts", countsJson(run) },   { "steady", steadyJson(run) },   { "passes", std::move(passes) },
+             { "frames", std::move(frames) }, { "warnings", run.warnings },    { "errors", run.errors } };
+}
+
+} // namespace
+
+Result<void> writeReport(std::filesystem::path const& path, ReportInput const& input) {
+    Json report{ { "model", input.model.string() },
+                 { "environment", input.environment.string() },
+                 { "size", { input.options.size.x, input.options.size.y } },
+                 { "frames", input.options.frames },
+                 { "toneMapper", toString(input.options.colorGrading.toneMapper) } };
+    for (BackendRun const& run : input.runs) report["backends"][fileStem(run.backend)] = runJson(run);
+    if (input.comparison) {
+        report["comparison"] = { { "pixels", input.comparison->pixels },
+                                 { "identical", input.comparison->identical },
+                                 { "maxDifference", input.comparison->maxDifference } };
+    }
+    report["errors"] = input.errors;
+    const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return assets::replaceFile(path, std::as_bytes(std::span(text)));
+}
+
+std::string timingText(BackendRun const& run) {
+    StartTimes const& start = run.start;
+    std::string text = fmt::format("{}: engine {:.1f} ms, model {:.1f}, environment {:.1f}, first frame {:.1f}; "
+                                   "start to first frame {:.1f} ms\n",
+                                   fileStem(run.backend), start.engine, start.model, start.environment,
+                                   start.firstFrame, start.startToFirstFrame);
+    auto out = std::back_inserter(text);
+    if (!steadySamples(run).empty()) {
+        const Spread frame = spreadOf(column(steadySamples(run), [](FrameSample const& s) { return s.milliseconds; }));
+        fmt::format_to(out, "{}: {} steady frames of {:.2f} / {:.2f} / {:.2f} ms (min / median / max)\n",
+                       fileStem(run.backend), steadySamples(run).size(), frame.min, frame.median, frame.max);
+    }
+    for (PassTime const& pass : passTimes(run)) {
+        fmt::format_to(out, "{}:   {:<24} {:8.3f} ms on the device\n", fileStem(run.backend), pass.name,
+                       pass.gpu.median);
+    }
+    return text;
+}
+
+} // namespace filament::tools

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// filament-render [MODEL] [options]: one command line, one or two backends, their pictures and the comparison of the
+// two. Exit status 0: everything asked for was drawn and, with two backends, all pixels are equal (within --tolerance).
+#include "tools/filament-render/BackendRun.h"
+#include "tools/filament-render/Console.h"
+#include "tools/filament-render/Options.h"
+#include "tools/filament-render/Report.h"
+#include "tools/imgdiff/ImageCompare.h"
+#include "tools/showcase/Showcase.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+namespace filament::tools {
+namespace {
+
+int failed(Error const& error) {
+    printError(error.message);
+    return 1;
+}
+
+int listAllDevices() {
+    const std::vector<DeviceDescription> devices = listDevices();
+    for (DeviceDescription const& device : devices) {
+        std::printf("%-7s %s, %s, %u pixels a side, MSAA %ux\n", fileStem(device.backend), device.device.c_str(),
+                    device.driver.c_str(), device.maxTextureSize, device.maxSamples);
+    }
+    if (!devices.empty()) return 0;
+    return failed(fail(ErrorCode::DeviceUnavailable,
+                       "no device of any backend; install mesa-vulkan-drivers, or libegl-mesa0 and libgl1-mesa-dri"));
+}
+
+/// What is drawn: the files of the command line, or the showcase, written into the folder of the pictures.
+Result<showcase::Files> chooseFiles(Options const& options) {
+    if (!options.model.empty()) return showcase::Files{ options.model, options.environment };
+    showProgress("making the showcase");
+    jobs::JobSystem jobs;
+    Result<showcase::Files> files = showcase::writeFiles(options.out, jobs);
+    if (files && !options.environment.empty()) files->environment = options.environment;
+    return files;
+}
+
+Result<void> makeFolder(std::filesystem::path const& folder) {
+    std::error_code error;
+    std::filesystem::create_directories(folder, error);
+    if (std::filesystem::is_directory(folder)) return {};
+    return fail(ErrorCode::Unreadable, "--out '{}': not a folder that can be made ({}); give another one",
+                folder.string(), error ? error.message() : "there is a file of that name");
+}
+
+std::filesystem::path picturePath(Options const& options, Backend backend) {
+    return options.out / fmt::format("{}.{}", fileStem(backend), options.format == PictureFormat::Exr ? "exr" : "png");
+}
+
+/// Draws and saves; what went wrong goes to `errors`, once, however many backends say it.
+std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& files,
+                                std::vector<std::string>& errors) {
+    const auto note = [&](std::string const& message) {
+        if (std::find(errors.begin(), errors.end(), message) == errors.end()) errors.push_back(message);
+    };
+    std::vector<BackendRun> runs;
+    for (const Backend backend : options.backends) {
+        Result<BackendRun> run = runBackend(options, backend, files.model, files.environment);
+        clearProgress();
+        if (!run) {
+            note(run.error().message);
+            continue;
+        }
+        for (std::string const& warning : run->warnings) printWarning(warning);
+        for (std::string const& error : run->errors) note(fmt::format("{}: {}", fileStem(backend), error));
+        const std::filesystem::path path = picturePath(options, backend);
+        const Result<void> saved =
+                options.format == PictureFormat::Exr ? saveExr(path, run->image) : savePng(path, run->image);
+        if (!saved)
+            note(saved.error().message);
+        else
+            std::printf("%-7s %s: %s\n", fileStem(backend), run->device.device.c_str(), path.string().c_str());
+        runs.push_back(std::move(*run));
+    }
+    return runs;
+}
+
+Result<ImageComparison> compareRuns(Options const& options, BackendRun const& a, BackendRun const& b) {
+    Result<ImageComparison> comparison = compareImages(a.image, b.image);
+    if (!comparison) return comparison;
+    std::printf("%s\n", comparison->line().c_str());
+    const Result<void> saved = savePng(options.out / "diff.png", differenceImage(a.image, b.image));
+    if (!saved) return saved.error();
+    return comparison;
+}
+
+int render(Options const& options) {
+    if (const Result<void> made = makeFolder(options.out); !made) return failed(made.error());
+    const Result<showcase::Files> files = chooseFiles(options);
+    if (!files) return failed(files.error());
+
+    std::vector<std::string> errors;
+    const std::vector<BackendRun> runs = drawAll(options, *files, errors);
+    std::optional<ImageComparison> comparison;
+    if (runs.size() == 2) {
+        const Result<ImageComparison> compared = compareRuns(options, runs[0], runs[1]);
+        if (compared)
+            comparison = *compared;
+        else
+            errors.push_back(compared.error().message);
+    }
+    for (BackendRun const& run : runs) {
+        if (options.explain) std::printf("%s\n%s\n", fileStem(run.backend), run.explanation.c_str());
+        if (options.timing) std::fputs(timingText(run).c_str(), stdout);
+    }
+    const Result<void> reported =
+            runs.empty() ? Result<void>{}
+                         : writeReport(options.out / "report.json",
+                                       { options, files->model, files->environment, runs, comparison, errors });
+    if (!reported) errors.push_back(reported.error().message);
+
+    if (!errors.empty()) return failed(fail(ErrorCode::Internal, "{}", fmt::join(errors, "; ")));
+    return comparison && !comparison->within(options.tolerance) ? 1 : 0;
+}
+
+} // namespace
+} // namespace filament::tools
+
+int main(int argc, char** argv) {
+    using namespace filament::tools;
+    routeLogToConsole();
+    try {
+        const auto options = parseOptions(argc, argv);
+        if (!options) return failed(options.error());
+        if (!*options) return 0;
+        return (*options)->listDevices ? listAllDevices() : render(**options);
+    } catch (std::exception const& error) {
+        printError(fmt::format("out of resources ({}); try a smaller model or size", error.what()));
+        return 1;
+    }
+}
