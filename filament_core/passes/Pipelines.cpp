@@ -23,8 +23,11 @@ uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint
             static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
 }
 
-CullMode cullMode(shader::Culling culling) {
-    switch (culling) {
+// A double-sided material shades both faces; its instances choose whether the back is drawn.
+CullMode cullMode(shader::MaterialPackage const& package, bool cullingDisabled) {
+    if (cullingDisabled) return CullMode::None;
+    if (package.doubleSided) return CullMode::Back;
+    switch (package.culling) {
         case shader::Culling::None: return CullMode::None;
         case shader::Culling::Front: return CullMode::Front;
         case shader::Culling::Back: return CullMode::Back;
@@ -96,7 +99,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         uint32_t geometryLayout, bool mirrored) const {
     shader::MaterialPackage const& package = material.package;
     PipelineDesc desc{ .pass = slot.layout, .subpass = slot.subpass, .debugName = material.name };
-    desc.raster.cull = cullingDisabled ? CullMode::None : cullMode(package.culling);
+    desc.raster.cull = cullMode(package, cullingDisabled);
     desc.raster.frontFace = mirrored ? FrontFace::Clockwise : FrontFace::CounterClockwise;
     desc.raster.alphaToCoverage = package.blending == shader::Blending::Masked && slot.layout.samples > 1;
     if (geometryLayout != kNoGeometry) {

@@ -28,7 +28,8 @@ void material(inout MaterialInputs material) {
         float occlusion = texture(materialParams_occlusionMap, uv).r;
         material.ambientOcclusion = 1.0 + materialParams.occlusionStrength * (occlusion - 1.0);
     }
-    material.emissive = vec4(materialParams.emissiveFactor, 1.0);
+    // Weight 0: glTF scenes are authored against a white of 1, not against nits under an exposure.
+    material.emissive = vec4(materialParams.emissiveFactor, 0.0);
     if (materialConstants_hasEmissiveMap) {
         vec2 uv = mapUv(materialConstants_emissiveUv, materialConstants_emissiveTransform, materialParams.emissiveUvMatrix);
         material.emissive.rgb *= texture(materialParams_emissiveMap, uv).rgb;
