@@ -50,7 +50,8 @@ Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_v
     Result<StageResources> used = reflectResources(*vertex, *fragment, options.dynamicUniformBuffers);
     if (!used) return used.error();
     if (options.layout) {
-        if (Result<void> contained = checkContains(*options.layout, used->layout); !contained) return contained.error();
+        const Result<void> contained = checkContains(*options.layout, used->layout);
+        if (!contained) return fail(contained.error().code, "{}: {}", options.fragmentName, contained.error().message);
     }
 
     ProgramShaders shaders;

@@ -41,7 +41,8 @@ public:
         : mCompiler(spirv.data(), spirv.size()), mStage(stage), mOut(out) {}
 
     Result<void> read(std::optional<std::vector<SetBinding>> const& dynamicBuffers) {
-        const spirv_cross::ShaderResources all = mCompiler.get_shader_resources();
+        // Declared but never read: not there, as for the drivers.
+        const spirv_cross::ShaderResources all = mCompiler.get_shader_resources(mCompiler.get_active_interface_variables());
         if (const char* unsupported = unsupportedKind(all)) {
             return fail(ErrorCode::InvalidArgument, "{} are not supported in shaders; use uniform blocks and combined "
                     "image samplers", unsupported);

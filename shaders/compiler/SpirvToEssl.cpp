@@ -40,6 +40,13 @@ void setOptions(CompilerGLSL& compiler) {
     compiler.set_common_options(options);
 }
 
+/// Without the optimiser a module declares more than it reads; outputs stay, also the unwritten ones of withFetchOutputs().
+void dropUnread(CompilerGLSL& compiler) {
+    auto active = compiler.get_active_interface_variables();
+    for (auto const& output : compiler.get_shader_resources().stage_outputs) active.insert(output.id);
+    compiler.set_enabled_interface_variables(std::move(active));
+}
+
 /// OpenGL ES has one row of block indices and one of texture units.
 void renumber(CompilerGLSL& compiler, spirv_cross::Resource const& resource, backend::ProgramLayout const& layout) {
     const uint32_t set = compiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
@@ -50,7 +57,7 @@ void renumber(CompilerGLSL& compiler, spirv_cross::Resource const& resource, bac
 }
 
 void renumberAll(CompilerGLSL& compiler, backend::ProgramLayout const& layout) {
-    const spirv_cross::ShaderResources resources = compiler.get_shader_resources();
+    const spirv_cross::ShaderResources resources = compiler.get_shader_resources(compiler.get_active_interface_variables());
     for (auto const& buffer : resources.uniform_buffers) renumber(compiler, buffer, layout);
     for (auto const& image : resources.sampled_images) renumber(compiler, image, layout);
     for (auto const& input : resources.subpass_inputs) {
@@ -65,6 +72,7 @@ Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::Prog
     try {
         EsslCompiler compiler(withFetchOutputs(spirv));
         setOptions(compiler);
+        dropUnread(compiler);
         renumberAll(compiler, layout);
         return compiler.compile();
     } catch (std::exception const& error) {

@@ -9,7 +9,7 @@ struct Surface {
     float perceptualRoughness;
     float alpha;              // of the distribution: perceptualRoughness^2
     vec3 energyCompensation;
-    vec3 specularAlbedo;      // of the whole hemisphere
+    vec3 specularAlbedo;      // of the whole hemisphere, with all bounces
     float visibility;         // ambient occlusion
 };
 

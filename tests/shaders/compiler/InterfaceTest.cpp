@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// shaders/interface/interface.glsl against shaders/interface/ShaderInterface.h, by reflection.
+#include "shaders/interface/ShaderInterface.h"
+
+#include "shaders/compiler/EmbeddedSources.h"
+#include "shaders/compiler/GlslToSpirv.h"
+#include "shaders/package/ViewLayout.h"
+
+#include <gtest/gtest.h>
+#include <spirv_cross/spirv_cross.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace filament::shader {
+namespace {
+
+struct Member {
+    const char* name;
+    size_t offset;
+};
+
+std::string interfaceText() {
+    const auto text = embeddedSource("shaders/interface/interface.glsl");
+    EXPECT_TRUE(text);
+    return "#version 450\n" + std::string(text.value_or(""));
+}
+
+/// Reflects a fragment shader that reads every block and texture of the interface.
+class Interface : public ::testing::Test {
+protected:
+    static std::vector<uint32_t> compiled() {
+        const Result<std::vector<uint32_t>> spirv = spirvFromGlsl(interfaceText() + R"(
+            layout(location = 0) out vec4 color;
+            void main() {
+                color = frameUniforms.viewport + objectUniforms.objects[0].row0 + lightUniforms.lights[0].offset
+                        + texture(viewSpecular, vec3(1.0)) + texture(viewDfg, vec2(0.5)) + texture(viewSky, vec3(1.0));
+            })", backend::ShaderStage::Fragment, "interface");
+        EXPECT_TRUE(spirv) << (spirv ? "" : spirv.error().message);
+        return spirv ? *spirv : std::vector<uint32_t>{};
+    }
+
+    spirv_cross::Resource block(uint32_t binding) {
+        for (auto const& buffer : mCompiler.get_shader_resources().uniform_buffers) {
+            if (mCompiler.get_decoration(buffer.id, spv::DecorationBinding) == binding) return buffer;
+        }
+        ADD_FAILURE() << "no uniform block at binding " << binding;
+        return {};
+    }
+
+    void expectMembers(spirv_cross::SPIRType const& type, std::vector<Member> const& members) {
+        ASSERT_EQ(type.member_types.size(), members.size()) << "a member is missing in one of the two files";
+        for (uint32_t i = 0; i < members.size(); ++i) {
+            EXPECT_EQ(mCompiler.get_member_name(type.self, i), members[i].name);
+            EXPECT_EQ(mCompiler.type_struct_member_offset(type, i), members[i].offset) << members[i].name;
+        }
+    }
+
+    /// The record type of a block that holds one array.
+    spirv_cross::SPIRType const& record(spirv_cross::SPIRType const& block) {
+        return mCompiler.get_type(mCompiler.get_type(block.member_types[0]).parent_type);
+    }
+
+    spirv_cross::Compiler mCompiler{ compiled() };
+};
+
+#define MEMBER(type, name) Member { #name, offsetof(type, name) }
+
+TEST_F(Interface, FrameUniformsAgree) {
+    const auto& type = mCompiler.get_type(block(kBindingFrame).base_type_id);
+    expectMembers(type, { MEMBER(FrameUniforms, clipFromWorld), MEMBER(FrameUniforms, worldFromClip),
+            MEMBER(FrameUniforms, viewFromWorld), MEMBER(FrameUniforms, clipFromView), MEMBER(FrameUniforms, cameraPosition),
+            MEMBER(FrameUniforms, viewport), MEMBER(FrameUniforms, exposure), MEMBER(FrameUniforms, sunDirection),
+            MEMBER(FrameUniforms, sunIlluminance), MEMBER(FrameUniforms, ambient), MEMBER(FrameUniforms, skyFactor),
+            MEMBER(FrameUniforms, irradianceSh), MEMBER(FrameUniforms, worldFromEnvironment) });
+    EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));
+}
+
+TEST_F(Interface, ObjectUniformsAgree) {
+    const auto& type = mCompiler.get_type(block(kBindingObjects).base_type_id);
+    expectMembers(type, { MEMBER(ObjectUniforms, objects) });
+    EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(ObjectUniforms));
+    expectMembers(record(type), { MEMBER(ObjectData, row0), MEMBER(ObjectData, row1), MEMBER(ObjectData, row2), MEMBER(ObjectData, flags) });
+    EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(ObjectData));
+}
+
+TEST_F(Interface, LightUniformsAgree) {
+    const auto& type = mCompiler.get_type(block(kBindingLights).base_type_id);
+    expectMembers(type, { MEMBER(LightUniforms, lights) });
+    EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(LightUniforms));
+    expectMembers(record(type), { MEMBER(LightData, positionRange), MEMBER(LightData, colorIntensity),
+            MEMBER(LightData, directionScale), MEMBER(LightData, offset) });
+    EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(LightData));
+}
+
+TEST_F(Interface, EveryResourceIsInTheViewLayout) {
+    const backend::BindGroupLayout layout = viewGroupLayout();
+    const spirv_cross::ShaderResources resources = mCompiler.get_shader_resources();
+    ASSERT_EQ(layout.count, resources.uniform_buffers.size() + resources.sampled_images.size());
+    for (auto const& list : { resources.uniform_buffers, resources.sampled_images }) {
+        for (auto const& resource : list) {
+            EXPECT_EQ(mCompiler.get_decoration(resource.id, spv::DecorationDescriptorSet), kGroupView);
+            const uint32_t binding = mCompiler.get_decoration(resource.id, spv::DecorationBinding);
+            const auto used = std::span(layout.bindings).first(layout.count);
+            EXPECT_EQ(std::ranges::count(used, binding, &backend::BindingDesc::binding), 1) << resource.name;
+        }
+    }
+}
+
+TEST(InterfaceLocations, AttributeLocationsAgree) {
+    const Result<std::vector<uint32_t>> spirv = spirvFromGlsl(interfaceText() + R"(
+        layout(location = kAttributePosition) in vec3 position;
+        layout(location = kAttributeTangents) in vec4 tangents;
+        layout(location = kAttributeColor) in vec4 color;
+        layout(location = kAttributeUv0) in vec2 uv0;
+        layout(location = kAttributeUv1) in vec2 uv1;
+        layout(location = kAttributeJoints) in uvec4 joints;
+        layout(location = kAttributeWeights) in vec4 weights;
+        layout(location = kAttributeCustom0) in vec4 custom0;
+        layout(location = kAttributeInstance) in uint instance;
+        void main() { gl_Position = vec4(position + tangents.xyz, 1.0) + color + vec4(uv0, uv1) + vec4(joints) + weights + custom0 + vec4(instance); }
+        )", backend::ShaderStage::Vertex, "attributes");
+    ASSERT_TRUE(spirv) << spirv.error().message;
+    spirv_cross::Compiler compiler(*spirv);
+    const std::vector<std::pair<std::string, uint32_t>> expected{ { "position", kAttributePosition },
+        { "tangents", kAttributeTangents }, { "color", kAttributeColor }, { "uv0", kAttributeUv0 }, { "uv1", kAttributeUv1 },
+        { "joints", kAttributeJoints }, { "weights", kAttributeWeights }, { "custom0", kAttributeCustom0 },
+        { "instance", kAttributeInstance } };
+    for (auto const& input : compiler.get_shader_resources().stage_inputs) {
+        const std::pair<std::string, uint32_t> found{ input.name, compiler.get_decoration(input.id, spv::DecorationLocation) };
+        EXPECT_EQ(std::ranges::count(expected, found), 1) << found.first << " at " << found.second;
+    }
+}
+
+TEST(InterfaceLimits, ArraySizesAgree) {
+    const std::string text = interfaceText();
+    EXPECT_NE(text.find("kObjectsPerWindow = " + std::to_string(kObjectsPerWindow) + ";"), std::string::npos);
+    EXPECT_NE(text.find("kMaxPunctualLights = " + std::to_string(kMaxPunctualLights) + ";"), std::string::npos);
+}
+
+} // namespace
+} // namespace filament::shader

@@ -1,0 +1,326 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/MaterialCompiler.h"
+
+#include "jobsystem/JobSystem.h"
+#include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/ViewLayout.h"
+#include "tests/shaders/compiler/SpirvTools.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <bit>
+
+namespace filament::shader {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+constexpr std::string_view kEmptyFragment = "\nfragment {\n void material(inout MaterialInputs material) { prepareMaterial(material); }\n}\n";
+
+std::string withProperties(std::string_view properties) {
+    return "material {\n" + std::string(properties) + "\n}" + std::string(kEmptyFragment);
+}
+
+/// Compiles without optimiser: the tests look at what is there, not at how fast it is.
+Result<MaterialPackage> compile(std::string_view text, CompileOptions options = {}) {
+    options.optimization = Optimization::None;
+    return compileMaterial(text, "wood.mat", options);
+}
+
+Error errorOf(std::string_view text) {
+    const Result<MaterialPackage> package = compile(text);
+    return package ? Error{ ErrorCode::Internal, "no error" } : package.error();
+}
+
+std::string fragmentOf(std::string_view fragmentBlock, std::string_view properties = "shadingModel : lit") {
+    const std::string text = "material {\n" + std::string(properties) + "\n}\nfragment {" + std::string(fragmentBlock) + "}\n";
+    const Result<std::string> glsl = preprocessMaterial(text, "wood.mat");
+    return glsl ? *glsl : glsl.error().message;
+}
+
+// ---------------------------------------------------------------------------------------------- properties
+
+TEST(MaterialCompiler, FillsInTheDefaultsOfTheGuide) {
+    const Result<MaterialPackage> package = compile(withProperties("name : stone"));
+    ASSERT_TRUE(package) << package.error().message;
+    EXPECT_EQ(package->name, "stone");
+    EXPECT_EQ(package->domain, MaterialDomain::Surface);
+    EXPECT_EQ(package->shading, ShadingModel::Lit);
+    EXPECT_EQ(package->blending, Blending::Opaque);
+    EXPECT_EQ(package->culling, Culling::Back);
+    EXPECT_EQ(package->vertexDomain, VertexDomain::Object);
+    EXPECT_TRUE(package->depthWrite && package->depthCulling && package->colorWrite);
+    EXPECT_FALSE(package->doubleSided);
+    EXPECT_EQ(package->maskThreshold, 0.4f);
+    EXPECT_EQ(package->uniformBytes, 0u);
+    EXPECT_EQ(package->requiredAttributes, 1u << kAttributePosition | 1u << kAttributeTangents);
+}
+
+TEST(MaterialCompiler, ReadsEnumValuesInAnyCase) {
+    const Result<MaterialPackage> package = compile(withProperties("shadingModel : UNLIT, blending : \"Transparent\", culling : FrontAndBack"));
+    ASSERT_TRUE(package) << package.error().message;
+    EXPECT_EQ(package->shading, ShadingModel::Unlit);
+    EXPECT_EQ(package->blending, Blending::Transparent);
+    EXPECT_EQ(package->culling, Culling::FrontAndBack);
+}
+
+TEST(MaterialCompiler, LetsDefaultsFollowFromOtherProperties) {
+    const Result<MaterialPackage> blended = compile(withProperties("shadingModel : unlit, blending : fade, doubleSided : true"));
+    ASSERT_TRUE(blended) << blended.error().message;
+    EXPECT_FALSE(blended->depthWrite) << "blended materials do not write depth";
+    EXPECT_EQ(blended->culling, Culling::None) << "double-sided materials are not culled";
+    const Result<MaterialPackage> explicitOnes =
+            compile(withProperties("shadingModel : unlit, blending : fade, doubleSided : true, depthWrite : true, culling : front"));
+    ASSERT_TRUE(explicitOnes) << explicitOnes.error().message;
+    EXPECT_TRUE(explicitOnes->depthWrite);
+    EXPECT_EQ(explicitOnes->culling, Culling::Front);
+}
+
+TEST(MaterialCompiler, LaysOutParametersOfEveryType) {
+    std::string list;
+    for (const char* type : { "bool", "bool2", "bool3", "bool4", "float", "float2", "float3", "float4", "int", "int2", "int3", "int4",
+                 "uint", "uint2", "uint3", "uint4", "float3x3", "float4x4", "float[3]", "mat3", "sampler2d", "sampler2dArray", "samplerCubemap" }) {
+        list += "{ name : p" + std::to_string(list.size()) + ", type : " + type + ", precision : high },\n";
+    }
+    const Result<MaterialPackage> package = compile(withProperties("shadingModel : unlit, parameters : [" + list + "]"));
+    ASSERT_TRUE(package) << package.error().message;
+    ASSERT_EQ(package->parameters.size(), 23u);
+    EXPECT_EQ(package->parameters[18].arraySize, 3u);
+    EXPECT_EQ(package->parameters[20].type, ParameterType::Sampler2D);
+    EXPECT_EQ(package->parameters[20].binding, 1);
+    EXPECT_EQ(package->parameters[22].binding, 3);
+    EXPECT_EQ(package->layout[kGroupMaterial].count, 4);
+}
+
+TEST(MaterialCompiler, KeepsConstantsWithTheirDefaults) {
+    const Result<MaterialPackage> package = compile(R"(material { shadingModel : unlit,
+        constants : [ { name : on, type : bool, default : true }, { name : count, type : int, default : -7 }, { name : scale, type : float, default : 0.25 } ] }
+        fragment { void material(inout MaterialInputs material) { prepareMaterial(material);
+            if (materialConstants_on && materialConstant_count < 0) material.baseColor *= materialConstants_scale; } })");
+    ASSERT_TRUE(package) << package.error().message;
+    ASSERT_EQ(package->constants.size(), 3u);
+    EXPECT_EQ(package->findConstant("on")->defaultBits, 1u);
+    EXPECT_EQ(static_cast<int32_t>(package->findConstant("count")->defaultBits), -7);
+    EXPECT_EQ(std::bit_cast<float>(package->findConstant("scale")->defaultBits), 0.25f);
+    EXPECT_THAT(package->variants[0].fragmentEssl, HasSubstr("#define SPIRV_CROSS_CONSTANT_ID_1 -7"));
+}
+
+TEST(MaterialCompiler, GivesMaskedMaterialsASettableThreshold) {
+    const Result<MaterialPackage> package = compile(withProperties("blending : masked, maskThreshold : 0.7, shadingModel : unlit"));
+    ASSERT_TRUE(package) << package.error().message;
+    EXPECT_EQ(package->maskThreshold, 0.7f);
+    ASSERT_NE(package->findParameter("_maskThreshold"), nullptr);
+    EXPECT_EQ(package->findParameter("_maskThreshold")->type, ParameterType::Float);
+    EXPECT_EQ(package->uniformBytes, 16u);
+}
+
+// ---------------------------------------------------------------------------------------------- errors
+
+TEST(MaterialCompiler, SuggestsTheNameThatWasProbablyMeant) {
+    EXPECT_EQ(errorOf(withProperties("shadingModle : lit")).message,
+            "wood.mat:2: there is no property 'shadingModle'; did you mean 'shadingModel'?");
+    EXPECT_THAT(errorOf(withProperties("blending : transparant")).message, HasSubstr("did you mean 'transparent'?"));
+    EXPECT_THAT(errorOf(withProperties("requires : [ uvO ]")).message, HasSubstr("did you mean 'uv0'?"));
+    EXPECT_THAT(errorOf(withProperties("parameters : [ { name : a, type : flaot } ]")).message, HasSubstr("did you mean 'float'?"));
+    EXPECT_THAT(errorOf(withProperties("parameters : [ { nmae : a, type : float } ]")).message, HasSubstr("did you mean 'name'?"));
+    EXPECT_THAT(errorOf(withProperties("variantFilter : [ dynamicLightning ]")).message, HasSubstr("did you mean 'dynamicLighting'?"));
+}
+
+TEST(MaterialCompiler, SaysWhichKnownFeaturesItLacks) {
+    for (const char* properties : { "refractionMode : cubemap", "shadingModel : cloth", "blending : custom", "customSurfaceShading : true",
+                 "parameters : [ { name : a, type : samplerExternal } ]" }) {
+        const Error error = errorOf(withProperties(properties));
+        EXPECT_EQ(error.code, ErrorCode::Unsupported) << properties;
+        EXPECT_THAT(error.message, HasSubstr("wood.mat:2: "));
+        EXPECT_THAT(error.message, HasSubstr("known but not supported by this version"));
+    }
+}
+
+TEST(MaterialCompiler, RefusesValuesOutsideOfTheirRangeOrType) {
+    for (const char* properties : { "maskThreshold : 1.5", "maskThreshold : high", "doubleSided : 1", "requires : uv0", "parameters : {}",
+                 "parameters : [ { name : 9lives, type : float } ]", "parameters : [ { name : gl_x, type : float } ]",
+                 "parameters : [ { name : a, type : float }, { name : a, type : int } ]", "parameters : [ { name : a } ]",
+                 "parameters : [ { name : a, type : float[0] } ]", "parameters : [ { name : a, type : float[99999999999] } ]",
+                 "parameters : [ { name : a, type : float[2000] } ]", "parameters : [ { name : a, type : sampler2d[4] } ]",
+                 "constants : [ { name : a, type : bool, default : 3 } ]", "constants : [ { name : a, type : int, default : 0.5 } ]",
+                 "constants : [ { name : a, type : float3 } ]", "variables : [ a, b, c, d, e ]", "variables : [ a, a ]",
+                 "name : a, name : b", "domain : postprocess, shadingModel : lit", "fullScreenTriangle : true",
+                 "parameters : [ { name : a, type : subpassInput } ]" }) {
+        const Error error = errorOf(withProperties(properties));
+        EXPECT_EQ(error.code, ErrorCode::InvalidArgument) << properties << ": " << error.message;
+        EXPECT_TRUE(error.message.starts_with("wood.mat:")) << error.message;
+    }
+}
+
+TEST(MaterialCompiler, ReportsGlslErrorsAtTheLineOfTheAuthorsFile) {
+    EXPECT_THAT(errorOf("material {\n shadingModel : lit\n}\n\nfragment {\n    void material(inout MaterialInputs material) {\n"
+                        "        prepareMaterial(material);\n        material.metalic = 1.0;\n    }\n}\n").message,
+            HasSubstr("wood.mat:8: 'metalic'"));
+    EXPECT_THAT(errorOf("material { shadingModel : unlit }\nvertex {\n\n void materialVertex(inout MaterialVertexInputs m) { oops; }\n}" + std::string(kEmptyFragment)).message,
+            HasSubstr("wood.mat:4: 'oops'"));
+}
+
+TEST(MaterialCompiler, ReportsGlslErrorsOfIncludedFilesThere) {
+    CompileOptions options;
+    options.includes = [](std::string_view path) -> std::optional<std::string> {
+        return path == "noise.glsl" ? std::optional<std::string>("float a;\nfloat noise() { return b; }\n") : std::nullopt;
+    };
+    const std::string text = "material { shadingModel : unlit }\nfragment {\n#include \"noise.glsl\"\nvoid material(inout MaterialInputs m) { prepareMaterial(m); }\n}";
+    const Result<MaterialPackage> package = compile(text, options);
+    ASSERT_FALSE(package);
+    EXPECT_THAT(package.error().message, HasSubstr("noise.glsl:2: 'b'"));
+    EXPECT_THAT(errorOf(text).message, HasSubstr("wood.mat:3: cannot find the file \"noise.glsl\""));
+}
+
+TEST(MaterialCompiler, SaysWhichFunctionABlockMustDefine) {
+    EXPECT_THAT(errorOf("material {}\nfragment { void main2() {} }").message, HasSubstr("void material(inout MaterialInputs material)"));
+    EXPECT_THAT(errorOf("material { shadingModel : lit }\nfragment { void material(inout MaterialInputs m) {} }").message,
+            HasSubstr("must call prepareMaterial(material)"));
+    EXPECT_THAT(errorOf("material {}\nvertex { }" + std::string(kEmptyFragment)).message, HasSubstr("materialVertex"));
+    EXPECT_THAT(errorOf("material {}").message, HasSubstr("there is no fragment block"));
+}
+
+// ---------------------------------------------------------------------------------------------- variants and layout
+
+TEST(MaterialCompiler, CompilesEveryVariantThatAStateCanSelectAndNoOther) {
+    const auto keys = [](std::string_view properties, uint8_t filtered = 0) {
+        const Result<MaterialPackage> package = compile(withProperties(properties), { .filteredVariants = filtered });
+        EXPECT_TRUE(package) << (package ? "" : package.error().message);
+        std::vector<int> found;
+        for (Variant const& variant : package->variants) found.push_back(variant.key);
+        return found;
+    };
+    EXPECT_EQ(keys("shadingModel : lit"), (std::vector<int>{ 0, 1, 2, 3 }));
+    EXPECT_EQ(keys("shadingModel : unlit"), (std::vector<int>{ 0 }));
+    EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ dynamicLighting, skinning ]"), (std::vector<int>{ 0, kVariantSun }));
+    EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ directionalLighting ]", kVariantPunctual), (std::vector<int>{ 0 }));
+}
+
+TEST(MaterialCompiler, GivesAllSurfaceMaterialsTheSameViewGroup) {
+    const Result<MaterialPackage> unlit = compile(withProperties("shadingModel : unlit"));
+    const Result<MaterialPackage> lit = compile(withProperties("shadingModel : lit"));
+    ASSERT_TRUE(unlit && lit);
+    EXPECT_EQ(unlit->layout[kGroupView], viewGroupLayout());
+    EXPECT_EQ(lit->layout[kGroupView], viewGroupLayout());
+}
+
+TEST(MaterialCompiler, ReadsAttachmentsInOrderAndWritesTheOneBehindThem) {
+    const Result<MaterialPackage> package = compile(R"(material { domain : postprocess,
+        parameters : [ { name : a, type : subpassInput }, { name : b, type : subpassInput } ] }
+        fragment { void postProcess(inout PostProcessInputs inputs) {
+            inputs.color = subpassLoad(materialParams_a) + subpassLoad(materialParams_b); } })");
+    ASSERT_TRUE(package) << package.error().message;
+    EXPECT_EQ(package->layout[kGroupView], viewGroupLayout(MaterialDomain::PostProcess));
+    EXPECT_EQ(package->layout[kGroupMaterial].bindings[1].inputAttachment, 1);
+    std::string const& essl = package->variants[0].fragmentEssl;
+    EXPECT_THAT(essl, HasSubstr("layout(location = 0) inout"));
+    EXPECT_THAT(essl, HasSubstr("layout(location = 1) inout"));
+    EXPECT_THAT(essl, HasSubstr("layout(location = 2) out"));
+    EXPECT_EQ(package->requiredAttributes, 0u);
+}
+
+TEST(MaterialCompiler, GivesTheSameBytesForAnyNumberOfWorkers) {
+    const std::string text = withProperties("shadingModel : lit");
+    const std::vector<std::byte> serial = writePackage(compile(text).value());
+    for (const int workers : { 0, 1, 3 }) {
+        jobs::JobSystem jobs({ .workers = workers });
+        EXPECT_EQ(writePackage(compile(text, { .jobs = &jobs }).value()), serial) << workers;
+    }
+}
+
+TEST(MaterialCompiler, LeavesOutTheLanguageThatNobodyAskedFor) {
+    const Result<MaterialPackage> vulkan = compile(withProperties("shadingModel : unlit"), { .essl = false });
+    ASSERT_TRUE(vulkan);
+    EXPECT_TRUE(vulkan->variants[0].vertexEssl.empty() && vulkan->variants[0].fragmentEssl.empty());
+    EXPECT_FALSE(vulkan->variants[0].fragmentSpirv.empty());
+    const Result<MaterialPackage> gles = compile(withProperties("shadingModel : unlit"), { .spirv = false });
+    ASSERT_TRUE(gles);
+    EXPECT_TRUE(gles->variants[0].vertexSpirv.empty() && gles->variants[0].fragmentSpirv.empty());
+    EXPECT_FALSE(gles->variants[0].fragmentEssl.empty());
+}
+
+// ---------------------------------------------------------------------------------------------- what costs nothing
+
+TEST(MaterialCompiler, PaysOnlyForPropertiesThatTheCodeSets) {
+    const std::string plain = fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); m.roughness = 0.5; }");
+    for (const char* define : { "#define HAS_NORMAL", "#define HAS_EMISSIVE", "#define HAS_AMBIENT_OCCLUSION", "#define NEEDS_TANGENT",
+                 "#define HAS_POST_LIGHTING_COLOR", "#define HAS_UV0" }) {
+        EXPECT_THAT(plain, Not(HasSubstr(define)));
+    }
+    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { m.normal.xy = vec2(0.1); prepareMaterial(m); }"), HasSubstr("#define NEEDS_TANGENT"));
+    EXPECT_THAT(fragmentOf("void glow(inout MaterialInputs x) { x . emissive = vec4(1); } void material(inout MaterialInputs m) { prepareMaterial(m); glow(m); }"),
+            HasSubstr("#define HAS_EMISSIVE"));
+}
+
+TEST(MaterialCompiler, IsNotFooledByCommentsOrParametersOfTheSameName) {
+    const std::string text = fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); /* m.normal */ // m.emissive\n"
+                                        " m.roughness = materialParams.emissive; }", "parameters : [ { name : emissive, type : float } ]");
+    EXPECT_THAT(text, Not(HasSubstr("#define HAS_NORMAL")));
+    EXPECT_THAT(text, Not(HasSubstr("#define HAS_EMISSIVE")));
+}
+
+TEST(MaterialCompiler, AssumesTheWorstOfMacros) {
+    EXPECT_THAT(fragmentOf("\n#define SET(x) m.x\nvoid material(inout MaterialInputs m) { SET(normal) = vec3(0, 0, 1); prepareMaterial(m); }"),
+            HasSubstr("#define HAS_NORMAL"));
+}
+
+TEST(MaterialCompiler, FlipsUvUnlessTold) {
+    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); }"), HasSubstr("#define FLIP_UV"));
+    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); }", "flipUV : false"), Not(HasSubstr("#define FLIP_UV")));
+}
+
+// ---------------------------------------------------------------------------------------------- the public shader API
+
+TEST(MaterialCompiler, OffersTheFunctionsOfTheGuide) {
+    const Result<MaterialPackage> package = compile(R"(material { shadingModel : lit, requires : [ uv0, uv1, color, custom0, custom7 ],
+        variables : [ eyeDirection, { name : tint, precision : medium } ], blending : masked, specularAntiAliasing : true }
+    vertex {
+        void materialVertex(inout MaterialVertexInputs material) {
+            material.color *= getCustom0() + getCustom7();
+            material.uv0 *= getUserTime().x;
+            material.worldPosition.xyz += mulMat3x3Float3(getWorldFromViewMatrix(), getPosition().xyz) * getTime();
+            material.worldNormal = getWorldFromModelNormalMatrix() * material.worldNormal;
+            material.eyeDirection = getWorldFromModelMatrix() * mulMat4x4Float3(getViewFromClipMatrix(), float3(1.0));
+            material.tint = float4(getVertexIndex() + getEyeIndex());
+        }
+    }
+    fragment {
+        void material(inout MaterialInputs material) {
+            material.normal = float3(0.0, 0.0, 1.0);
+            float3 geometric = getWorldGeometricNormalVector();
+            prepareMaterial(material);
+            material.baseColor = getColor() * variable_tint + variable_eyeDirection * luminance(float3(PI, HALF_PI, max3(geometric)));
+            material.baseColor.rgb += getWorldPosition() + getUserWorldPosition() + getWorldViewVector() + getWorldNormalVector()
+                    + getWorldReflectedVector() + getNormalizedViewportCoord() + getWorldTangentFrame()[0] + getWorldCameraPosition();
+            material.baseColor.xy += getUV0() + getUV1() + uvToRenderTargetUV(getResolution().zw);
+            material.roughness = saturate(getNdotV() + sq(getExposure()) + pow5(getEV100()) + getUserTimeMod(3.0)) + getMaskThreshold();
+            material.postLightingColor = (getUserWorldFromWorldMatrix() * getClipFromWorldMatrix() * getWorldFromClipMatrix())[0];
+        }
+    })");
+    ASSERT_TRUE(package) << package.error().message;
+    EXPECT_EQ(package->requiredAttributes, 1u << 0 | 1u << 1 | 1u << 2 | 1u << 3 | 1u << 4 | 1u << 7 | 1u << 14);
+    for (Variant const& variant : package->variants) {
+        EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << int{ variant.key };
+        EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << int{ variant.key };
+    }
+}
+
+TEST(MaterialCompiler, CompilesEveryVertexDomainAndBlending) {
+    for (const char* domain : { "object", "world", "view", "device" }) {
+        for (const char* blending : { "opaque", "masked", "transparent", "fade", "add", "multiply", "screen" }) {
+            const Result<MaterialPackage> package = compile("material { vertexDomain : " + std::string(domain) + ", blending : " + blending
+                    + ", doubleSided : true, variantFilter : [ dynamicLighting ] }\nfragment { void material(inout MaterialInputs m) {"
+                      " m.normal = vec3(0, 0, 1); prepareMaterial(m); m.emissive = vec4(1.0); m.ambientOcclusion = 0.5; } }");
+            ASSERT_TRUE(package) << domain << " " << blending << ": " << package.error().message;
+            for (Variant const& variant : package->variants) {
+                EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << domain;
+                EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << blending;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace filament::shader

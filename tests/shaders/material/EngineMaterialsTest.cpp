@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/package/EngineMaterials.h"
+
+#include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/Package.h"
+#include "shaders/package/ViewLayout.h"
+#include "tests/shaders/compiler/SpirvTools.h"
+
+#include <gtest/gtest.h>
+
+namespace filament::shader {
+namespace {
+
+MaterialPackage read(std::string_view name) {
+    const Result<MaterialPackage> package = readPackage(engineMaterial(name));
+    EXPECT_TRUE(package) << name << ": " << (package ? "" : package.error().message);
+    return package ? *package : MaterialPackage{};
+}
+
+TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
+    ASSERT_GE(engineMaterialNames().size(), 9u);
+    for (const std::string_view name : engineMaterialNames()) {
+        const MaterialPackage package = read(name);
+        EXPECT_EQ(package.name, name);
+        const size_t expected = package.shading == ShadingModel::Lit ? 4 : 1;
+        EXPECT_EQ(package.variants.size(), expected) << name;
+        for (Variant const& variant : package.variants) {
+            EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << name << " " << int{ variant.key };
+            EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << name << " " << int{ variant.key };
+            EXPECT_TRUE(variant.vertexEssl.starts_with("#version 310 es")) << name;
+            EXPECT_TRUE(variant.fragmentEssl.starts_with("#version 310 es")) << name;
+        }
+        EXPECT_EQ(package.layout[kGroupView], viewGroupLayout(package.domain)) << name;
+    }
+}
+
+TEST(EngineMaterials, AreAnEmptySpanForAnUnknownName) { EXPECT_TRUE(engineMaterial("gltf_lit").empty()); }
+
+TEST(EngineMaterials, OfferTheLoaderTheSameInterfaceInAllLitGltfMaterials) {
+    const MaterialPackage opaque = read("gltf_lit_opaque");
+    for (const char* other : { "gltf_lit_masked", "gltf_lit_blended" }) {
+        const MaterialPackage package = read(other);
+        EXPECT_EQ(package.constants, opaque.constants) << other;
+        for (Parameter const& parameter : opaque.parameters) {
+            const Parameter* found = package.findParameter(parameter.name);
+            ASSERT_NE(found, nullptr) << other << " lacks " << parameter.name;
+            EXPECT_EQ(*found, parameter);
+        }
+    }
+    EXPECT_NE(read("gltf_lit_masked").findParameter("_maskThreshold"), nullptr);
+    EXPECT_EQ(read("gltf_lit_blended").blending, Blending::Transparent);
+    EXPECT_FALSE(read("gltf_lit_blended").depthWrite);
+}
+
+TEST(EngineMaterials, SkyAndPostProcessNeedNoGeometry) {
+    for (const char* name : { "skybox", "tonemap", "tonemap_sampled" }) EXPECT_EQ(read(name).requiredAttributes, 0u) << name;
+    EXPECT_EQ(read("tonemap").layout[kGroupMaterial].bindings[0].type, backend::BindingType::InputAttachment);
+    EXPECT_EQ(read("tonemap_sampled").layout[kGroupMaterial].bindings[0].type, backend::BindingType::SampledTexture);
+}
+
+} // namespace
+} // namespace filament::shader
