@@ -6,6 +6,7 @@
 #include "filament_core/assets/HdrReader.h"
 #include "filament_core/base/Log.h"
 
+#include <algorithm>
 #include <bit>
 #include <cstdlib>
 #include <new>
@@ -81,7 +82,7 @@ Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs
 
 } // namespace
 
-uint32_t skyFaceSize(uint32_t sourceWidth) { return sourceWidth / 4 > 256 ? 512 : 256; }
+uint32_t skyFaceSize(uint32_t sourceWidth) { return std::clamp(std::bit_ceil((sourceWidth + 3) / 4), 16u, 512u); }
 
 std::filesystem::path environmentCacheDirectory(EnvironmentOptions const& options) {
     if (!options.cacheDirectory.empty()) return options.cacheDirectory;

@@ -5,7 +5,7 @@
 ///   Cache   one file per content of the picture, options and baker version, in `cacheDirectory`. Damaged files are found
 ///           by their checksum and baked again; a directory that cannot be written costs a warning, not the result.
 ///   Thread  any; two loads of the same picture at once bake twice and leave one file.
-///   Memory  the picture and about 40 MiB while baking; 7.3 MiB for the result with faces of 256 texels in RGBA16F.
+///   Memory  the picture and about 60 MiB while baking; 7.3 MiB for the result with faces of 256 texels in RGBA16F.
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory with file, reason and cure; InvalidArgument for options.
 ///   Cost    a 1024 x 512 picture: about a second on two cores the first time, then about 10 ms.
 #pragma once
@@ -29,7 +29,7 @@ struct EnvironmentOptions {
     std::filesystem::path cacheDirectory{};
     bool useCache = true;
     uint32_t faceSize = 256; ///< texels of a specular face, power of two in [16, 2048]
-    uint32_t samples = 512;  ///< importance samples a texel, [1, 65536]
+    uint32_t samples = 512;  ///< pieces of the sky that each texel integrates, about; [1, 65536]
     backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F
     EnvironmentProgress progress{};
 };
@@ -55,7 +55,7 @@ Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs:
 /// Without file and cache: for generated skies.
 Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs, EnvironmentOptions const& options = {});
 
-/// Texels of a sky face for a picture of this width: 256 or 512, whichever is at least as dense along the horizon.
+/// Texels of a sky face for a picture of this width, a power of two in [16, 512]: a quarter of the horizon and more.
 uint32_t skyFaceSize(uint32_t sourceWidth);
 
 /// Where `options` says, or the user's cache directory; empty if there is none.

@@ -26,7 +26,7 @@ const char* cureOf(ErrorCode code) {
     }
 }
 
-float repaired(float value, float largestFinite, HdrRepairs& repairs) {
+float repaired(float value, float largestReal, HdrRepairs& repairs) {
     if (std::isnan(value)) {
         ++repairs.notANumber;
         return 0;
@@ -35,9 +35,9 @@ float repaired(float value, float largestFinite, HdrRepairs& repairs) {
         ++repairs.negative;
         return 0;
     }
-    if (std::isinf(value)) {
+    if (value > kMaxRadiance) {
         ++repairs.infinite;
-        return largestFinite;
+        return largestReal;
     }
     return value;
 }
@@ -57,7 +57,7 @@ void sanitise(HdrImage& image) {
     float largest = 0;
     for (float3 const& pixel : image.pixels) {
         for (const float value : { pixel.x, pixel.y, pixel.z }) {
-            if (std::isfinite(value)) largest = std::max(largest, value);
+            if (value <= kMaxRadiance) largest = std::max(largest, value);
         }
     }
     for (float3& pixel : image.pixels) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/IblBaker.h"
 
+#include "filament_core/assets/IblTree.h"
 #include "filament_core/base/Assert.h"
 #include "filament_core/math/Half.h"
 #include "shaders/lib/LibCpp.h"
@@ -12,65 +13,9 @@ namespace filament::assets {
 namespace {
 
 constexpr uint32_t kSmallestSpecularFace = 16;
-constexpr size_t kTexelsPerJob = 8; // about 50 microseconds at 512 samples
+constexpr size_t kTexelsPerJob = 8; // about 50 microseconds at 512 pieces
 
-// A sample of the lobe around +z, the same for all texels of a level.
-struct LobeSample {
-    float3 direction;      // towards the light
-    float weight;          // n.l, normalised over the lobe
-    uint32_t fineLevel;    // of the cube
-    float coarseness;      // [0, 1): how much of the next level
-};
-
-// Solid angle of a sample over solid angle of a texel of the cube's first level tells the mip level; one more hides the
-// gaps between samples (K = 4 in Krivanek and Colbert's section 20.4).
-std::vector<LobeSample> sampleLobe(float alpha, uint32_t count, IblCube const& cube) {
-    namespace lib = shader::lib;
-    const float inverseCount = 1.0f / static_cast<float>(count);
-    const auto size = static_cast<float>(cube.front().size());
-    const float texelSolidAngle = 4.0f * kPi / (6.0f * size * size);
-    const auto lastLevel = static_cast<float>(cube.size() - 1);
-    std::vector<LobeSample> samples;
-    double weights = 0;
-    for (uint32_t i = 0; i < count; ++i) {
-        const float3 h = lib::importanceSampleGgx(lib::hammersley(i, inverseCount), alpha);
-        const float3 l(2 * h.z * h.x, 2 * h.z * h.y, 2 * h.z * h.z - 1); // the view vector mirrored at h
-        if (l.z <= 0) continue;
-        const float density = lib::ndfGgx(h.z, alpha) * 0.25f; // D noh / (4 voh), and voh = noh
-        const float sampleSolidAngle = inverseCount / density;
-        const float level = std::clamp(0.5f * std::log2(sampleSolidAngle / texelSolidAngle) + 1.0f, 0.0f, lastLevel);
-        const float fine = std::min(std::floor(level), std::max(lastLevel - 1.0f, 0.0f));
-        samples.push_back({ l, l.z, static_cast<uint32_t>(fine), level - fine });
-        weights += l.z;
-    }
-    for (LobeSample& sample : samples) sample.weight = static_cast<float>(sample.weight / weights);
-    return samples;
-}
-
-struct Frame {
-    float3 x, y, z;
-};
-
-Frame frameAround(float3 normal) {
-    const float3 up = std::fabs(normal.z) < 0.99f ? float3(0, 0, 1) : float3(1, 0, 0);
-    const float3 x = glm::normalize(glm::cross(up, normal));
-    return { x, glm::cross(normal, x), normal };
-}
-
-Texel integrateLobe(IblCube const& cube, std::span<const LobeSample> samples, Frame const& frame) {
-    Texel sum{};
-    for (LobeSample const& sample : samples) {
-        const float3 l = frame.x * sample.direction.x + frame.y * sample.direction.y + frame.z * sample.direction.z;
-        const CubePoint point = cubeFromDirection(l);
-        const Texel fine = cube[sample.fineLevel].sample(point);
-        const Texel coarse = cube[sample.fineLevel + 1].sample(point);
-        sum += (fine + (coarse - fine) * splat(sample.coarseness)) * splat(sample.weight);
-    }
-    return sum;
-}
-
-IblCubeLevel prefilterLevel(IblCube const& cube, uint32_t size, float alpha, uint32_t sampleCount, jobs::JobSystem& jobs) {
-    const std::vector<LobeSample> samples = sampleLobe(alpha, sampleCount, cube);
+IblCubeLevel prefilterLevel(IblTree const& tree, uint32_t size, Lobe const& lobe, jobs::JobSystem& jobs) {
     IblCubeLevel level(size);
     const size_t faceTexels = size_t(size) * size;
     jobs::parallelFor(jobs, 6 * faceTexels, kTexelsPerJob, [&](size_t begin, size_t end) {
@@ -78,7 +23,8 @@ IblCubeLevel prefilterLevel(IblCube const& cube, uint32_t size, float alpha, uin
             const auto face = static_cast<uint32_t>(i / faceTexels);
             const int x = static_cast<int>(i % size), y = static_cast<int>(i % faceTexels / size);
             const CubePoint centre{ face, faceCoordinate(x, size), faceCoordinate(y, size) };
-            level.at(face, x, y) = integrateLobe(cube, samples, frameAround(glm::normalize(directionFromCube(centre))));
+            const float3 light = tree.integrate(glm::normalize(directionFromCube(centre)), lobe);
+            level.at(face, x, y) = Texel{ light.x, light.y, light.z, 0 };
         }
     });
     level.fillBorder();
@@ -157,19 +103,20 @@ uint32_t specularLevelCount(uint32_t faceSize) {
     return std::max(steps, 2u);
 }
 
-std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSize, uint32_t samples,
+std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSize, uint32_t pieces,
         jobs::JobSystem& jobs, IblProgress const& progress) {
     FILAMENT_ASSERT(std::has_single_bit(faceSize) && faceSize >= 2, "the size of a cube face is a power of two, 2 or more");
     FILAMENT_ASSERT(faceSize <= cube.front().size(), "a specular cube is no finer than the environment it comes from");
-    FILAMENT_ASSERT(samples > 0, "a lobe is integrated with one sample or more");
+    FILAMENT_ASSERT(pieces > 0, "a lobe is integrated over one piece of the sky or more");
     const uint32_t count = specularLevelCount(faceSize);
     const auto last = static_cast<float>(count - 1);
+    const IblTree tree(cube, jobs);
     std::vector<IblCubeLevel> levels{ cube[std::bit_width(cube.front().size() / faceSize) - 1u] };
     for (uint32_t i = 1; i < count; ++i) {
         if (progress) progress(i, count);
         const float roughness = shader::lib::perceptualRoughnessFromLevel(static_cast<float>(i), last);
         const float alpha = shader::lib::alphaFromPerceptual(shader::lib::clampPerceptualRoughness(roughness));
-        levels.push_back(prefilterLevel(cube, faceSize >> i, alpha, samples, jobs));
+        levels.push_back(prefilterLevel(tree, faceSize >> i, Lobe::ofPieces(alpha, pieces), jobs));
     }
     if (progress) progress(count, count);
     return levels;

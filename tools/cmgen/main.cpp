@@ -158,7 +158,7 @@ int main(int argc, char** argv) {
     CLI::App app("Bakes an equirectangular .hdr or .exr: specular-N.exr, sky.exr, sh.txt, dfg.exr");
     app.add_option("environment", arguments.environment, "the picture")->required();
     app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")->capture_default_str();
-    app.add_option("--samples", arguments.samples, "importance samples a texel")->capture_default_str();
+    app.add_option("--samples", arguments.samples, "pieces of the sky that each texel integrates, about")->capture_default_str();
     const std::map<std::string, backend::Format> formats{ { "rgba16f", backend::Format::RGBA16F },
         { "r11g11b10f", backend::Format::R11G11B10F } };
     app.add_option("--format", arguments.format, "rgba16f or r11g11b10f")
