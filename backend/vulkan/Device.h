@@ -27,7 +27,6 @@ public:
     Memory& memory() { return *mMemory; }
     PhysicalDevice const& physical() const { return mPhysical; }
     DeviceInfo const& info() const { return mPhysical.info; }
-    Quirks const& quirks() const { return mPhysical.quirks; }
     Instance const& instance() const { return *mInstance; }
 
     /// Names an object for validation messages and captures; does nothing without validation.

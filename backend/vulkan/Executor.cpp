@@ -33,7 +33,11 @@ Result<std::unique_ptr<Executor>> Executor::create(DriverOptions const& options,
     if (!choice) return choice.error();
     auto device = Device::create(std::move(*instance), std::move(devices[*choice]));
     if (!device) return device.error();
-    std::unique_ptr<Executor> executor(new Executor(std::move(*device), sink));
+    return create(std::move(*device), sink);
+}
+
+Result<std::unique_ptr<Executor>> Executor::create(std::unique_ptr<Device> device, ResultSink& sink) {
+    std::unique_ptr<Executor> executor(new Executor(std::move(device), sink));
     if (Result<void> ready = executor->initialize(); !ready) return ready.error();
     return executor;
 }

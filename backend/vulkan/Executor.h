@@ -35,6 +35,8 @@ namespace filament::backend::vulkan {
 class Executor final : public Driver {
 public:
     static Result<std::unique_ptr<Executor>> create(DriverOptions const& options, ResultSink& sink);
+    /// On a device that somebody else chose.
+    static Result<std::unique_ptr<Executor>> create(std::unique_ptr<Device> device, ResultSink& sink);
     ~Executor() override;
 
     DeviceInfo const& info() const override { return mDevice->info(); }

@@ -7,7 +7,6 @@
 
 #include "backend/api/Driver.h"
 #include "backend/vulkan/Instance.h"
-#include "backend/vulkan/Quirks.h"
 
 #include <span>
 #include <string>
@@ -22,7 +21,6 @@ struct PhysicalDevice {
     VkPhysicalDeviceType type = VK_PHYSICAL_DEVICE_TYPE_OTHER;
     VkPhysicalDeviceMemoryProperties memory{};
     VkPhysicalDeviceFeatures features{};
-    Quirks quirks;
     uint32_t queueFamily = ~0u;
     uint32_t timestampBits = 0;       ///< 0: no timestamps on that queue
     float timestampNanoseconds = 1;   ///< of one tick

@@ -5,6 +5,7 @@
 ///   Limits  attributes that the program does not read are left out; those that the layout lacks come from a buffer of
 ///           zeros with stride 0 at slot kZeroBufferSlot, which makes them (0, 0, 0, 1). Fragment outputs that the
 ///           program does not write leave their attachment alone.
+///           A device without independentBlend blends and masks all attachments like attachment 0.
 ///   Fails   create(): Corrupt with the program's name for SPIR-V that cannot be read; Internal or OutOfMemory
 ///   otherwise. Cost    create() compiles: milliseconds on lavapipe, which compiles the rest at the first draw.
 #pragma once

@@ -90,10 +90,6 @@ uint32_t Timers::writeTimestamp(VkCommandBuffer commands) {
     const uint32_t query = mFree.back();
     mFree.pop_back();
     VolkDeviceTable const& fn = mDevice.fn();
-    if (mDevice.quirks().timestampsNeedBarrier) {
-        fn.vkCmdPipelineBarrier(commands, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, VK_PIPELINE_STAGE_ALL_COMMANDS_BIT, 0, 0,
-                                nullptr, 0, nullptr, 0, nullptr);
-    }
     VkQueryPool pool = mPools[query / kPoolSize];
     fn.vkCmdResetQueryPool(commands, pool, query % kPoolSize, 1);
     // Both ends at the bottom of the pipe: the time from the end of all work before to the end of the work in between.

@@ -145,16 +145,14 @@ TEST(AllocatorDeathTest, MemoryIsGivenBackBeforeItsAllocatorGoes) {
 // ---------------------------------------------------------------------------------------------- memory types
 
 VkPhysicalDeviceMemoryProperties discreteGpu() {
-    constexpr VkMemoryPropertyFlags kHost =
-            VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
+    constexpr VkMemoryPropertyFlags kHost = VK_MEMORY_PROPERTY_HOST_VISIBLE_BIT | VK_MEMORY_PROPERTY_HOST_COHERENT_BIT;
     VkPhysicalDeviceMemoryProperties memory{};
     memory.memoryTypeCount = 6;
     memory.memoryTypes[0].propertyFlags = 0;
     memory.memoryTypes[1].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT;
     memory.memoryTypes[2].propertyFlags = kHost;
     memory.memoryTypes[3].propertyFlags = kHost | VK_MEMORY_PROPERTY_HOST_CACHED_BIT;
-    memory.memoryTypes[4].propertyFlags =
-            VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT;
+    memory.memoryTypes[4].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_LAZILY_ALLOCATED_BIT;
     memory.memoryTypes[5].propertyFlags = VK_MEMORY_PROPERTY_DEVICE_LOCAL_BIT | VK_MEMORY_PROPERTY_PROTECTED_BIT;
     return memory;
 }

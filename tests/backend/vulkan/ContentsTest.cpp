@@ -22,7 +22,11 @@ std::span<const std::byte> bytesOf(std::vector<T> const& values) {
 
 TEST_F(DriverTest, AnUploadReplacesExactlyItsRectangleOfItsLevelAndLayers) {
     const TextureHandle texture = makeTexture({ .type = TextureType::Texture2DArray,
-            .usage = TextureUsage::Sampled | kTransferBoth, .levels = 2, .layers = 3, .width = 8, .height = 4 });
+                                                .usage = TextureUsage::Sampled | kTransferBoth,
+                                                .levels = 2,
+                                                .layers = 3,
+                                                .width = 8,
+                                                .height = 4 });
     const std::vector<Rgba8> whole(4 * 2 * 3, Rgba8{ 9, 9, 9, 9 });
     commands.record(CmdUploadTexture{ texture, 1, 0, 3, { 0, 0, 4, 2 }, bytesOf(whole) });
     const std::vector<Rgba8> part = gradient(2 * 1 * 2);
@@ -30,9 +34,9 @@ TEST_F(DriverTest, AnUploadReplacesExactlyItsRectangleOfItsLevelAndLayers) {
     const Rgba8 nine{ 9, 9, 9, 9 };
     EXPECT_EQ(readPixels(texture, 4, 2, 1, 0), std::vector<Rgba8>(8, nine));
     EXPECT_EQ(readPixels(texture, 4, 2, 1, 1),
-            (std::vector<Rgba8>{ nine, nine, nine, nine, nine, part[0], part[1], nine }));
+              (std::vector<Rgba8>{ nine, nine, nine, nine, nine, part[0], part[1], nine }));
     EXPECT_EQ(readPixels(texture, 4, 2, 1, 2),
-            (std::vector<Rgba8>{ nine, nine, nine, nine, nine, part[2], part[3], nine }));
+              (std::vector<Rgba8>{ nine, nine, nine, nine, nine, part[2], part[3], nine }));
 }
 
 TEST_F(DriverTest, UploadsLargerThanTheStagingRingArriveWhole) {
@@ -47,7 +51,8 @@ TEST_F(DriverTest, UploadsLargerThanTheStagingRingArriveWhole) {
 }
 
 TEST_F(DriverTest, ManyUploadsInOneStreamOutgrowTheRingWithoutMixingUp) {
-    constexpr uint32_t kCount = 40, kSide = 512; // 1 MiB each: the ring grows from 4 to 32 MiB, then buffers of their own
+    constexpr uint32_t kCount = 40,
+                       kSide = 512; // 1 MiB each: the ring grows from 4 to 32 MiB, then buffers of their own
     std::vector<TextureHandle> textures;
     for (uint32_t i = 0; i < kCount; ++i) {
         textures.push_back(makeTexture({ .usage = kTransferBoth, .width = kSide, .height = kSide }));
@@ -61,18 +66,25 @@ TEST_F(DriverTest, ManyUploadsInOneStreamOutgrowTheRingWithoutMixingUp) {
 
 TEST_F(DriverTest, MipsAreTwoByTwoAveragesInEveryLayer) {
     const TextureHandle texture = makeTexture({ .type = TextureType::Cube,
-            .usage = TextureUsage::Sampled | kTransferBoth, .levels = 3, .layers = 6, .width = 4, .height = 4 });
+                                                .usage = TextureUsage::Sampled | kTransferBoth,
+                                                .levels = 3,
+                                                .layers = 6,
+                                                .width = 4,
+                                                .height = 4 });
     std::vector<Rgba8> texels(4 * 4 * 6);
     for (uint32_t i = 0; i < texels.size(); ++i) {
         const uint32_t x = i % 4, y = i / 4 % 4, face = i / 16;
-        texels[i] = { static_cast<uint8_t>(x * 40), static_cast<uint8_t>(y * 40), static_cast<uint8_t>(face * 40), 255 };
+        texels[i] = { static_cast<uint8_t>(x * 40), static_cast<uint8_t>(y * 40), static_cast<uint8_t>(face * 40),
+                      255 };
     }
     commands.record(CmdUploadTexture{ texture, 0, 0, 6, { 0, 0, 4, 4 }, bytesOf(texels) });
     commands.record(CmdGenerateMips{ texture });
     for (uint16_t face = 0; face < 6; ++face) {
         const auto blue = static_cast<uint8_t>(face * 40);
-        EXPECT_EQ(readPixels(texture, 2, 2, 1, face), (std::vector<Rgba8>{ { 20, 20, blue, 255 }, { 100, 20, blue, 255 },
-                                                              { 20, 100, blue, 255 }, { 100, 100, blue, 255 } }));
+        EXPECT_EQ(readPixels(texture, 2, 2, 1, face), (std::vector<Rgba8>{ { 20, 20, blue, 255 },
+                                                                           { 100, 20, blue, 255 },
+                                                                           { 20, 100, blue, 255 },
+                                                                           { 100, 100, blue, 255 } }));
         EXPECT_EQ(readPixels(texture, 1, 1, 2, face), (std::vector<Rgba8>{ { 60, 60, blue, 255 } }));
     }
 }
@@ -83,7 +95,8 @@ TEST_F(DriverTest, ABlitScalesIntoItsRectangleAndLeavesTheRest) {
     const std::vector<Rgba8> two = gradient(2, 50), six = gradient(6);
     commands.record(CmdUploadTexture{ source, 0, 0, 1, { 0, 0, 2, 1 }, bytesOf(two) });
     commands.record(CmdUploadTexture{ target, 0, 0, 1, { 0, 0, 6, 1 }, bytesOf(six) });
-    commands.record(CmdBlit{ .source = source, .target = target, .sourceRect = { 0, 0, 2, 1 }, .targetRect = { 1, 0, 4, 1 } });
+    commands.record(
+            CmdBlit{ .source = source, .target = target, .sourceRect = { 0, 0, 2, 1 }, .targetRect = { 1, 0, 4, 1 } });
     EXPECT_EQ(readPixels(target, 6, 1), (std::vector<Rgba8>{ six[0], two[0], two[0], two[1], two[1], six[5] }));
 }
 
@@ -109,8 +122,10 @@ protected:
         const ProgramHandle program = makeProgram(kFullScreenVertex, R"(
             layout(set = 0, binding = 0) uniform Block { vec4 value; };
             layout(location = 0) out float color;
-            void main() { color = value.x + value.y; })", layout);
-        pipeline = makePipeline({ .program = program, .pass = colorLayout(Format::R32F), .raster = { .cull = CullMode::None } });
+            void main() { color = value.x + value.y; })",
+                                                  layout);
+        pipeline = makePipeline(
+                { .program = program, .pass = colorLayout(Format::R32F), .raster = { .cull = CullMode::None } });
         uniforms = makeBuffer(BufferUsage::Uniform, std::vector<float>{ 1, 0, 0, 0 });
         group = makeGroup(layout[0], { { .binding = 0, .buffer = uniforms, .size = 16 } });
         target = makeTarget(4, 1, Format::R32F);
@@ -161,7 +176,7 @@ TEST_P(DepthReadTest, DepthIsReadBackAsFloats) {
 }
 
 INSTANTIATE_TEST_SUITE_P(AllDepthFormats, DepthReadTest, ::testing::Values(Format::D16, Format::D32F, Format::D32FS8),
-        [](auto const& format) { return formatInfo(format.param).name; });
+                         [](auto const& format) { return formatInfo(format.param).name; });
 
 TEST_F(DriverTest, ADepthTextureIsSampledThroughACompareSampler) {
     ProgramLayout layout;
@@ -171,7 +186,7 @@ TEST_F(DriverTest, ADepthTextureIsSampledThroughACompareSampler) {
         layout(set = 0, binding = 3) uniform sampler2DShadow shadow;
         layout(location = 0) out vec4 color;
         void main() { color = vec4(texture(shadow, vec3(0.5, 0.5, 0.3)), texture(shadow, vec3(0.5, 0.5, 0.7)), 0.0, 1.0); })",
-            layout);
+                                              layout);
     const PipelineHandle pipeline =
             makePipeline({ .program = program, .pass = colorLayout(), .raster = { .cull = CullMode::None } });
     const auto sampler = handle<SamplerHandle>();

@@ -61,7 +61,8 @@ TEST_F(DriverTest, AttributesThatTheLayoutLacksReadZeroZeroZeroOne) {
         void main() {
             value = missing + vec4(missingInteger) * 0.5; // (0, 0, 0, 1.5) if the w components are 1
             gl_Position = vec4(position, 0.5, 1.0);
-        })", R"(
+        })",
+                                              R"(
         layout(location = 0) in vec4 value;
         layout(location = 0) out vec4 color;
         void main() { color = value; })");
@@ -103,7 +104,8 @@ TEST_F(DriverTest, EveryDrawSeesItsOwnDynamicOffset) {
     commands.record(CmdBindPipeline{ pipeline });
     for (uint32_t i = 0; i < 4; ++i) {
         commands.record(CmdSetScissor{ { static_cast<int32_t>(i), 0, 1, 1 } });
-        commands.record(CmdBindGroup{ .group = group, .index = 1, .dynamicCount = 1, .dynamicOffsets = { i * stride } });
+        commands.record(
+                CmdBindGroup{ .group = group, .index = 1, .dynamicCount = 1, .dynamicOffsets = { i * stride } });
         commands.record(CmdDraw{ .vertexCount = 3 });
     }
     endPass();
@@ -117,7 +119,8 @@ TEST_F(DriverTest, GroupsBoundBeforeThePipelineStayBoundAcrossPipelinesOfTheSame
     const ProgramHandle invert = makeProgram(kFullScreenVertex, R"(
         layout(set = 1, binding = 0) uniform Block { vec4 value; };
         layout(location = 0) out vec4 color;
-        void main() { color = vec4(1.0) - value; })", layout);
+        void main() { color = vec4(1.0) - value; })",
+                                             layout);
     const RasterState raster{ .cull = CullMode::None };
     const PipelineHandle first = makePipeline({ .program = copy, .pass = colorLayout(), .raster = raster });
     const PipelineHandle second = makePipeline({ .program = invert, .pass = colorLayout(), .raster = raster });
@@ -152,21 +155,24 @@ TEST_F(DriverTest, NothingBoundInOnePassIsBoundInTheNext) {
 }
 
 TEST_F(DriverTest, SpecializationConstantsOfAllTypesReachBothStages) {
-    const std::array<ConstantValue, 3> constants{ ConstantValue{ 0, 1, ConstantValue::Type::Bool },
-        ConstantValue{ 1, 51, ConstantValue::Type::Int },
-        ConstantValue{ 2, std::bit_cast<uint32_t>(0.4f), ConstantValue::Type::Float } };
+    const std::array<ConstantValue, 3> constants{
+        ConstantValue{ 0, 1, ConstantValue::Type::Bool }, ConstantValue{ 1, 51, ConstantValue::Type::Int },
+        ConstantValue{ 2, std::bit_cast<uint32_t>(0.4f), ConstantValue::Type::Float }
+    };
     const ProgramHandle program = makeProgram(R"(
         layout(constant_id = 1) const int kRed = 0;
         layout(location = 0) out float red;
         void main() {
             red = float(kRed) / 255.0;
             gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.5, 1.0);
-        })", R"(
+        })",
+                                              R"(
         layout(constant_id = 0) const bool kBlue = false;
         layout(constant_id = 2) const float kGreen = 0.0;
         layout(location = 0) in float red;
         layout(location = 0) out vec4 color;
-        void main() { color = vec4(red, kGreen, kBlue ? 1.0 : 0.0, 1.0); })", {}, constants);
+        void main() { color = vec4(red, kGreen, kBlue ? 1.0 : 0.0, 1.0); })",
+                                              {}, constants);
     const PipelineHandle pipeline =
             makePipeline({ .program = program, .pass = colorLayout(), .raster = { .cull = CullMode::None } });
     const TextureHandle target = makeTarget(1, 1);
@@ -182,7 +188,8 @@ TEST_F(DriverTest, FirstInstanceOffsetsPerInstanceAttributesAndVertexOffsetTheIn
         layout(location = 0) in vec2 position;
         layout(location = 1) in vec4 tint;
         layout(location = 0) out vec4 value;
-        void main() { value = tint; gl_Position = vec4(position, 0.5, 1.0); })", R"(
+        void main() { value = tint; gl_Position = vec4(position, 0.5, 1.0); })",
+                                              R"(
         layout(location = 0) in vec4 value;
         layout(location = 0) out vec4 color;
         void main() { color = value; })");
@@ -195,8 +202,8 @@ TEST_F(DriverTest, FirstInstanceOffsetsPerInstanceAttributesAndVertexOffsetTheIn
     // Two vertices of nonsense in front, skipped by the vertex offset.
     const BufferHandle corners =
             makeBuffer(BufferUsage::Vertex, std::vector<float>{ 0, 0, 0, 0, -1, -1, 3, -1, -1, 3 });
-    const BufferHandle tints = makeBuffer(
-            BufferUsage::Vertex, std::vector<uint8_t>{ 1, 1, 1, 1, 2, 2, 2, 2, 10, 20, 30, 40 });
+    const BufferHandle tints =
+            makeBuffer(BufferUsage::Vertex, std::vector<uint8_t>{ 1, 1, 1, 1, 2, 2, 2, 2, 10, 20, 30, 40 });
     const BufferHandle indices = makeBuffer(BufferUsage::Index, std::vector<uint32_t>{ 99, 0, 1, 2 });
     const TextureHandle target = makeTarget(1, 1);
     beginPass(target, 1, 1);
@@ -215,7 +222,8 @@ TEST_F(DriverTest, FlatVaryingsComeFromTheLastVertex) {
         void main() {
             corner = uint(gl_VertexIndex);
             gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.5, 1.0);
-        })", R"(
+        })",
+                                              R"(
         layout(location = 0) flat in uint corner;
         layout(location = 0) out uint color;
         void main() { color = corner + 40u; })");
@@ -254,7 +262,8 @@ TEST_F(DriverTest, ReversedDepthKeepsTheNearerSurfaceAndStencilCountsBoth) {
         void main() {
             gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0,
                     float(gl_InstanceIndex) * 0.25 + 0.25, 1.0);
-        })", kRedFragment);
+        })",
+                                              kRedFragment);
     PassLayout layout = colorLayout();
     layout.depthFormat = Format::D32FS8;
     PipelineDesc desc{ .program = program, .pass = layout, .raster = { .cull = CullMode::None } };
@@ -289,8 +298,9 @@ TEST_F(DriverTest, PremultipliedBlendingAddsWhatTheTargetStillShows) {
         layout(location = 0) out vec4 color;
         void main() { color = vec4(0.25, 0.0, 0.0, 0.5); })");
     PipelineDesc desc{ .program = program, .pass = colorLayout(Format::RGBA32F), .raster = { .cull = CullMode::None } };
-    desc.blend[0] = { .enabled = true, .dstColor = BlendFactor::OneMinusSrcAlpha,
-        .dstAlpha = BlendFactor::OneMinusSrcAlpha };
+    desc.blend[0] = { .enabled = true,
+                      .dstColor = BlendFactor::OneMinusSrcAlpha,
+                      .dstAlpha = BlendFactor::OneMinusSrcAlpha };
     const PipelineHandle pipeline = makePipeline(desc);
     const TextureHandle target = makeTarget(1, 1, Format::RGBA32F);
     beginPass(target, 1, 1, { 1, 1, 0, 1 }, Format::RGBA32F);

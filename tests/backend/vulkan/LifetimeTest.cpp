@@ -18,7 +18,8 @@ TEST_F(DriverTest, ObjectsDestroyedRightAfterTheirLastUseStillServeIt) {
     for (uint64_t frame = 0; frame < 8; ++frame) {
         commands.record(CmdBeginFrame{ frame });
         const ProgramHandle program = makeProgram(kFullScreenVertex, kRedFragment);
-        const PipelineHandle pipeline = makePipeline({ .program = program, .pass = colorLayout(), .raster = kNoCulling });
+        const PipelineHandle pipeline =
+                makePipeline({ .program = program, .pass = colorLayout(), .raster = kNoCulling });
         commands.record(CmdDestroyProgram{ program });
         const TextureHandle target = makeTarget(64, 64);
         beginPass(target, 64, 64);
@@ -153,12 +154,12 @@ protected:
 
 TEST_F(FailureTest, ATextureTooLargeForTheDeviceIsAnErrorAndItsPassesAreSkipped) {
     const TextureHandle huge = makeTexture({ .type = TextureType::Texture2DArray,
-            .format = Format::RGBA32F,
-            .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource,
-            .layers = 2048,
-            .width = 16384,
-            .height = 16384,
-            .debugName = "huge" });
+                                             .format = Format::RGBA32F,
+                                             .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource,
+                                             .layers = 2048,
+                                             .width = 16384,
+                                             .height = 16384,
+                                             .debugName = "huge" });
     beginPass(huge, 16, 16, {}, Format::RGBA32F);
     commands.record(CmdDraw{ .vertexCount = 3 });
     endPass();
@@ -168,10 +169,10 @@ TEST_F(FailureTest, ATextureTooLargeForTheDeviceIsAnErrorAndItsPassesAreSkipped)
 
 TEST_F(FailureTest, ABufferThatTheDeviceHasNoMemoryForNamesItsSize) {
     const auto original = driver->device().fn().vkAllocateMemory;
-    driver->device().functionsForTest().vkAllocateMemory =
-            [](VkDevice, VkMemoryAllocateInfo const*, VkAllocationCallbacks const*, VkDeviceMemory*) {
-                return VK_ERROR_OUT_OF_DEVICE_MEMORY;
-            };
+    driver->device().functionsForTest().vkAllocateMemory = [](VkDevice, VkMemoryAllocateInfo const*,
+                                                              VkAllocationCallbacks const*, VkDeviceMemory*) {
+        return VK_ERROR_OUT_OF_DEVICE_MEMORY;
+    };
     const auto buffer = handle<BufferHandle>();
     commands.record(CmdCreateBuffer{ buffer, { .size = 100 << 20, .debugName = "vertices" } });
     commands.record(CmdUpdateBuffer{ buffer, 0, std::as_bytes(std::span("text")) });
@@ -182,8 +183,11 @@ TEST_F(FailureTest, ABufferThatTheDeviceHasNoMemoryForNamesItsSize) {
 }
 
 TEST_F(FailureTest, AFormatThatTheDeviceCannotUseThatWayIsAnError) {
-    makeTexture({ .format = Format::BC7, .usage = TextureUsage::ColorAttachment, .width = 4, .height = 4,
-            .debugName = "blocks" });
+    makeTexture({ .format = Format::BC7,
+                  .usage = TextureUsage::ColorAttachment,
+                  .width = 4,
+                  .height = 4,
+                  .debugName = "blocks" });
     finish();
     EXPECT_TRUE(hasError(DriverErrorKind::Other, "texture 'blocks' (4x4 BC7")) << allErrors();
 }
@@ -195,7 +199,8 @@ TEST_F(FailureTest, BrokenSpirvIsACompileErrorAndItsDrawsAreSkipped) {
     desc.vertex = std::as_bytes(std::span(vertex));
     desc.fragment = std::as_bytes(std::span("this is not SPIR-V")).first(16);
     commands.record(CmdCreateProgram{ program, desc });
-    EXPECT_FALSE(draws(makePipeline({ .program = program, .pass = colorLayout(), .raster = kNoCulling, .debugName = "p" })));
+    EXPECT_FALSE(
+            draws(makePipeline({ .program = program, .pass = colorLayout(), .raster = kNoCulling, .debugName = "p" })));
     EXPECT_TRUE(hasError(DriverErrorKind::ShaderCompile, "program 'broken', fragment shader")) << allErrors();
     EXPECT_TRUE(hasError(DriverErrorKind::ShaderCompile, "pipeline 'p'")) << allErrors();
 }
@@ -207,11 +212,13 @@ TEST_F(FailureTest, ABindGroupWithoutItsTextureIsAnErrorAndItsDrawsAreSkipped) {
     const ProgramHandle program = makeProgram(kFullScreenVertex, R"(
         layout(set = 0, binding = 0) uniform sampler2D source;
         layout(location = 0) out vec4 color;
-        void main() { color = texture(source, vec2(0.5)); })", layout);
+        void main() { color = texture(source, vec2(0.5)); })",
+                                              layout);
     const PipelineHandle pipeline = makePipeline({ .program = program, .pass = colorLayout(), .raster = kNoCulling });
     const BindGroupHandle group = makeGroup(layout[0], { { .binding = 0, .texture = handle<TextureHandle>() } });
     EXPECT_FALSE(draws(pipeline, group));
-    EXPECT_TRUE(hasError(DriverErrorKind::Other, "bind group 'group': binding 0 has no sampled texture")) << allErrors();
+    EXPECT_TRUE(hasError(DriverErrorKind::Other, "bind group 'group': binding 0 has no sampled texture"))
+            << allErrors();
 }
 
 TEST_F(FailureTest, ALostDeviceIsReportedOnceAndLaterStreamsAreSwallowed) {
@@ -245,6 +252,61 @@ TEST_F(FailureTest, ValidationIsAwake) {
     sink.errors.clear();
 }
 
+TEST(VulkanDriver, DrawsOnADeviceWithoutAnyOptionalFeature) {
+    CollectingSink sink;
+    auto instance = Instance::create(&sink);
+    if (!instance) GTEST_SKIP() << instance.error().message;
+    std::vector<PhysicalDevice> devices = surveyDevices(**instance);
+    const auto choice = chooseDevice(devices, "");
+    if (!choice) GTEST_SKIP() << choice.error().message;
+    PhysicalDevice plain = devices[*choice];
+    plain.features = {};
+    plain.provokingVertexLast = plain.halfFloatShaders = false;
+    plain.info.features = { .mergedPasses = true };
+    plain.info.limits.maxAnisotropy = 1;
+    auto device = Device::create(std::move(*instance), plain);
+    ASSERT_TRUE(device) << device.error().message;
+    auto driver = Executor::create(std::move(*device), sink);
+    ASSERT_TRUE(driver) << driver.error().message;
+
+    const std::vector<uint32_t> vertex = spirvFromGlsl(ShaderStage::Vertex, kFullScreenVertex);
+    const std::vector<uint32_t> fragment = spirvFromGlsl(ShaderStage::Fragment, R"(
+        layout(location = 0) out vec4 a;
+        layout(location = 1) out vec4 b;
+        void main() { a = b = vec4(1.0, 0.0, 0.0, 1.0); })");
+    CommandBuffer commands;
+    const auto program = ProgramHandle::make(1, 1);
+    ProgramDesc desc{ .debugName = "plain" };
+    desc.vertex = std::as_bytes(std::span(vertex));
+    desc.fragment = std::as_bytes(std::span(fragment));
+    commands.record(CmdCreateProgram{ program, desc });
+    PassDesc pass{ .area = { 0, 0, 1, 1 } };
+    pass.layout.colorFormats = { Format::RGBA8, Format::RGBA8 };
+    pass.layout.colorCount = 2;
+    const auto pipeline = PipelineHandle::make(1, 1);
+    RasterState raster{ .cull = CullMode::None, .depthClamp = true };
+    commands.record(CmdCreatePipeline{ pipeline, { .program = program, .pass = pass.layout, .raster = raster } });
+    commands.record(CmdCreateSampler{ SamplerHandle::make(1, 1), { .anisotropy = 16 } });
+    for (uint32_t i = 0; i < 2; ++i) {
+        pass.colors[i].texture = TextureHandle::make(i, 1);
+        commands.record(CmdCreateTexture{ pass.colors[i].texture,
+                                          { .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource } });
+    }
+    commands.record(CmdBeginPass{ pass });
+    commands.record(CmdBindPipeline{ pipeline });
+    commands.record(CmdDraw{ .vertexCount = 3 });
+    commands.record(CmdEndPass{});
+    commands.record(CmdBeginTimer{ { 1 } });
+    commands.record(CmdEndTimer{ { 1 } });
+    commands.record(CmdReadTexture{ pass.colors[0].texture, 0, 0, { 0, 0, 1, 1 }, { 2 } });
+    (*driver)->execute(commands.view());
+    (*driver)->waitIdle();
+    for (auto const& error : sink.errors) ADD_FAILURE() << error.message;
+    ASSERT_EQ(sink.readbacks[2].size(), 4u);
+    EXPECT_EQ(sink.readbacks[2][0], std::byte{ 255 });
+    EXPECT_EQ(sink.timers.at(1), 0u) << "without timestamps a timer is answered with 0";
+}
+
 TEST(VulkanDriver, GoesOnWithoutValidationWhenTheLayerIsNotInstalled) {
     if (listVulkanDevices().empty()) GTEST_SKIP() << "no Vulkan device";
     setenv("VK_LAYER_PATH", "/nonexistent", 1); // the loader reads it for each instance
@@ -268,7 +330,8 @@ TEST(VulkanDriver, SeveralLiveOnSeveralThreads) {
             if (!driver) return;
             CommandBuffer commands;
             const auto target = TextureHandle::make(1, 1);
-            commands.record(CmdCreateTexture{ target, { .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource } });
+            commands.record(CmdCreateTexture{
+                    target, { .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource } });
             PassDesc pass{ .area = { 0, 0, 1, 1 } };
             pass.layout.colorFormats[0] = Format::RGBA8;
             pass.layout.colorCount = 1;

@@ -63,9 +63,9 @@ TEST(SubresourceUses, AMixedRangeFallsIntoRunsOfLayersPerLevel) {
     SubresourceUses uses(2, 6);
     uses.set({ 1, 1, 2, 3 }, Use::TransferWrite);
     EXPECT_EQ(partsOf(uses, uses.all()), (std::vector<Part>{ { { 0, 1, 0, 6 }, Use::Undefined },
-                                                 { { 1, 1, 0, 2 }, Use::Undefined },
-                                                 { { 1, 1, 2, 3 }, Use::TransferWrite },
-                                                 { { 1, 1, 5, 1 }, Use::Undefined } }));
+                                                             { { 1, 1, 0, 2 }, Use::Undefined },
+                                                             { { 1, 1, 2, 3 }, Use::TransferWrite },
+                                                             { { 1, 1, 5, 1 }, Use::Undefined } }));
     EXPECT_EQ(partsOf(uses, { 1, 1, 3, 2 }), (std::vector<Part>{ { { 1, 1, 3, 2 }, Use::TransferWrite } }));
 }
 
@@ -167,9 +167,9 @@ PhysicalDevice device(const char* name, VkPhysicalDeviceType type, const char* u
 
 std::vector<PhysicalDevice> someDevices() {
     return { device("llvmpipe (LLVM 15.0.6, 256 bits)", VK_PHYSICAL_DEVICE_TYPE_CPU),
-        device("Intel UHD", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU),
-        device("Old Radeon", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, "cannot render to D32FS8"),
-        device("GeForce", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU) };
+             device("Intel UHD", VK_PHYSICAL_DEVICE_TYPE_INTEGRATED_GPU),
+             device("Old Radeon", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU, "cannot render to D32FS8"),
+             device("GeForce", VK_PHYSICAL_DEVICE_TYPE_DISCRETE_GPU) };
 }
 
 TEST(ChooseDevice, TakesTheDiscreteGpuUnlessANameIsRequired) {

@@ -39,12 +39,14 @@ protected:
         const ProgramHandle second = makeProgram(kFullScreenVertex, R"(
             layout(input_attachment_index = 0, set = 0, binding = 0) uniform subpassInput hdr;
             layout(location = 1) out vec4 color;
-            void main() { color = subpassLoad(hdr) * vec4(0.8, 2.0, 1.0, 1.0); })", groups);
+            void main() { color = subpassLoad(hdr) * vec4(0.8, 2.0, 1.0, 1.0); })",
+                                                 groups);
         const PipelineHandle write = makePipeline({ .program = first, .pass = layout, .raster = kNoCulling });
         const PipelineHandle tonemap =
                 makePipeline({ .program = second, .pass = layout, .subpass = 1, .raster = kNoCulling });
 
-        hdr = makeTexture({ .format = Format::RGBA16F, .usage = hdrUsage, .width = 2, .height = 1, .debugName = "hdr" });
+        hdr = makeTexture(
+                { .format = Format::RGBA16F, .usage = hdrUsage, .width = 2, .height = 1, .debugName = "hdr" });
         const TextureHandle ldr = makeTarget(2, 1), depth = makeTarget(2, 1, Format::D32F);
         const BindGroupHandle input = makeGroup(groups[0], { { .binding = 0, .texture = hdr } });
         PassDesc pass{ .layout = layout, .area = { 0, 0, 2, 1 }, .debugName = "merged" };
@@ -88,7 +90,8 @@ TEST_F(DriverTest, AResolveAveragesTheSamplesOfAnEdge) {
             vec2 corner = vec2(gl_VertexIndex == 1 ? 0.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0);
             gl_Position = vec4(gl_VertexIndex == 1 ? 0.0 : (gl_VertexIndex == 2 ? 0.0 : -9.0), gl_VertexIndex == 1 ? -9.0 :
                     (gl_VertexIndex == 2 ? 9.0 : 0.0), 0.5, 1.0);
-        })", kRedFragment);
+        })",
+                                              kRedFragment);
     PassLayout layout = colorLayout();
     layout.samples = 4;
     layout.resolveMask = 1;
@@ -117,7 +120,8 @@ protected:
         const ProgramHandle program = makeProgram(kFullScreenVertex, R"(
             layout(set = 0, binding = 0) uniform sampler2D source;
             layout(location = 0) out vec4 color;
-            void main() { color = textureLod(source, vec2(0.5), 0.0) + vec4(1.0 / 255.0); })", layout);
+            void main() { color = textureLod(source, vec2(0.5), 0.0) + vec4(1.0 / 255.0); })",
+                                                  layout);
         pipeline = makePipeline({ .program = program, .pass = colorLayout(), .raster = kNoCulling });
         sampler = handle<SamplerHandle>();
         commands.record(CmdCreateSampler{ sampler, {} });
@@ -158,7 +162,10 @@ TEST_F(FeedbackTest, ATextureThatNothingHasWrittenMayBeSampled) {
 
 TEST_F(FeedbackTest, LevelsRenderedOneByOneAreSampledTogetherLater) {
     const TextureHandle chain = makeTexture({ .usage = TextureUsage::Sampled | TextureUsage::ColorAttachment,
-            .levels = 3, .width = 4, .height = 4, .debugName = "chain" });
+                                              .levels = 3,
+                                              .width = 4,
+                                              .height = 4,
+                                              .debugName = "chain" });
     for (uint8_t level = 0; level < 3; ++level) {
         PassDesc pass{ .layout = colorLayout(), .area = { 0, 0, 4u >> level, 4u >> level } };
         pass.colors[0] = { .texture = chain, .level = level, .clear = { 0.2f, 0, 0, 0 } };

@@ -18,8 +18,8 @@ TEST(Spirv, FindsVertexInputsWithTheirTypesAndIgnoresBuiltIns) {
         void main() { gl_Position = vec4(a, float(b.x) + float(c)) + float(gl_VertexIndex); color = vec4(1.0); })");
     const auto edges = readEdges(words, ShaderStage::Vertex);
     ASSERT_TRUE(edges) << edges.error().message;
-    EXPECT_EQ(edges->inputs, (std::vector<ShaderInput>{
-                                     { 0, ScalarKind::Int }, { 2, ScalarKind::Float }, { 15, ScalarKind::UInt } }));
+    EXPECT_EQ(edges->inputs,
+              (std::vector<ShaderInput>{ { 0, ScalarKind::Int }, { 2, ScalarKind::Float }, { 15, ScalarKind::UInt } }));
 }
 
 TEST(Spirv, CountsALocationPerMatrixColumnAndArrayElement) {
@@ -70,7 +70,8 @@ TEST(Spirv, SurvivesEveryTruncationAndRandomDamage) {
     uint32_t refused = 0;
     for (int round = 0; round < 5'000; ++round) {
         std::vector<uint32_t> damaged = words;
-        for (int hit = 0; hit < 4; ++hit) damaged[random() % damaged.size()] = static_cast<uint32_t>(random() >> (random() % 32));
+        for (int hit = 0; hit < 4; ++hit)
+            damaged[random() % damaged.size()] = static_cast<uint32_t>(random() >> (random() % 32));
         const auto edges = readEdges(damaged, ShaderStage::Vertex);
         refused += !edges;
         if (edges) {
