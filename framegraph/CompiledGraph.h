@@ -4,7 +4,7 @@
 ///   Thread  one at a time, for each pool.
 ///   Memory  the plan lives in the graph's arena and refers to graph and pool; valid until one of them is reset.
 ///   Fails   compile() asserts on a graph that breaks a rule, naming pass and texture (see Check.cpp). record(): never.
-///   Cost    about 0.2 us a pass to compile, a few commands a pass to record.
+///   Cost    declare 0.06, compile 1.1, record 0.06 us a pass (20 passes); compiling grows with the square of the passes.
 #pragma once
 
 #include "backend/api/Descriptions.h"

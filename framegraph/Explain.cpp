@@ -97,7 +97,7 @@ void putTextures(Text text, CompiledGraph const& plan) {
         fmt::format_to(text, "  '{}' {} x {} {}", texture.desc.name, texture.desc.width, texture.desc.height,
                 backend::formatInfo(texture.desc.format).name);
         if (texture.desc.samples > 1) fmt::format_to(text, " {} samples", texture.desc.samples);
-        fmt::format_to(text, texture.isImported ? ", imported" : texture.isOutput ? ", output" : "");
+        fmt::format_to(text, "{}", texture.isImported ? ", imported" : texture.isOutput ? ", output" : "");
         if (!of.lifetime.isUsed()) {
             fmt::format_to(text, ", unused\n");
             continue;
