@@ -1,0 +1,163 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Gpu: short ways to say what a test of the driver contract draws. One per test and API; what it made it destroys.
+///   Stream  everything goes through CommandStream, the Validated layer and the API's own validation. One stream per API and
+///           process, so that start-up is paid once.
+///   Checks  finish() fails the test if the driver reported anything that the test did not take, or kept device memory.
+#pragma once
+
+#include "backend/stream/CommandStream.h"
+#include "shaders/compiler/CompileProgram.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <cstring>
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace filament::backend {
+
+using Bytes = std::vector<std::byte>;
+using Rgba = std::array<float, 4>;
+using Rgba8 = std::array<uint8_t, 4>;
+
+template <class T>
+Bytes bytesOf(std::vector<T> const& values) {
+    Bytes bytes(values.size() * sizeof(T));
+    std::memcpy(bytes.data(), values.data(), bytes.size());
+    return bytes;
+}
+
+/// A triangle that covers the target; gl_Position.z = 0.5.
+extern const std::string_view kFullScreenVertex;
+/// Vertices as they are: location 0 vec4 position (clip space), location 1 vec4 color.
+extern const std::string_view kColorVertex;
+/// location 0 of the fragment stage: the color of kColorVertex.
+extern const std::string_view kColorFragment;
+
+/// A fragment stage of version 450 whose main() is `body`; `declarations` stand before it; writes `vec4 result`.
+std::string fragmentOf(std::string_view declarations, std::string_view body);
+
+struct Program {
+    ProgramHandle handle;
+    ProgramLayout layout{};
+};
+
+/// What a full-screen draw into a fresh target needs; everything else has a default.
+struct Paint {
+    uint32_t width = 4, height = 4;
+    Format format = Format::RGBA32F;
+    std::array<BindGroupHandle, kMaxBindGroups> groups{};
+};
+
+class Gpu {
+public:
+    explicit Gpu(CommandStream& stream);
+
+    DeviceInfo const& info() const { return mStream.info(); }
+    DriverStatistics statistics() const { return mStream.statistics(); }
+    BackendType backend() const { return info().backend; }
+
+    // ---- objects
+    BufferHandle buffer(BufferUsage usage, uint64_t size);
+    template <class T>
+    BufferHandle buffer(BufferUsage usage, std::vector<T> const& contents) {
+        const BufferHandle handle = buffer(usage, contents.size() * sizeof(T));
+        update(handle, contents);
+        return handle;
+    }
+    TextureHandle texture(TextureDesc desc);
+    /// A target that can also be sampled and read back.
+    TextureHandle target(Format format, uint32_t width, uint32_t height, uint8_t samples = 1);
+    /// A sampled 2D texture of one level.
+    TextureHandle image(Format format, uint32_t width, uint32_t height, Bytes const& texels);
+    SamplerHandle sampler(SamplerDesc desc = {});
+    /// Compiles GLSL 450 for this API (once a process and text). No uniform buffer is dynamic unless it is listed.
+    Program program(std::string_view vertex, std::string_view fragment, std::vector<ConstantValue> const& constants = {},
+            std::vector<shader::SetBinding> dynamic = {});
+    /// Code as it is, for programs that must fail.
+    ProgramHandle rawProgram(std::string_view vertex, std::string_view fragment);
+    PipelineHandle pipeline(PipelineDesc desc);
+    BindGroupHandle group(Program const& program, uint32_t index, std::vector<BindGroupEntry> const& entries);
+    BindGroupHandle imageGroup(Program const& program, TextureHandle texture, SamplerHandle sampler, uint32_t index = 1);
+
+    // ---- commands
+    CommandBuffer& commands(); ///< of the open submission
+    template <class C>
+    void record(C const& command) { commands().record(command); }
+    template <class T>
+    void update(BufferHandle handle, std::vector<T> const& contents, uint64_t offset = 0) {
+        record(CmdUpdateBuffer{ handle, offset, std::as_bytes(std::span(contents)) });
+    }
+    void upload(TextureHandle texture, Rect rect, Bytes const& texels, uint8_t level = 0, uint16_t layer = 0, uint16_t layers = 1);
+    /// A full-screen draw into a fresh target of paint.format; returns the target.
+    TextureHandle paint(Program const& program, Paint const& paint = {});
+    void submit();
+    Ticket nextTicket() { return mStream.nextTicket(); }
+    uint64_t timerOf(Ticket ticket); ///< waits for it
+
+    // ---- answers
+    /// Waits. What is read is also what the two APIs are compared by.
+    Bytes read(TextureHandle texture, Rect rect, uint8_t level = 0, uint16_t layer = 0);
+    template <class T>
+    std::vector<T> readAs(TextureHandle texture, Rect rect, uint8_t level = 0, uint16_t layer = 0) {
+        const Bytes bytes = read(texture, rect, level, layer);
+        std::vector<T> values(bytes.size() / sizeof(T));
+        std::memcpy(values.data(), bytes.data(), values.size() * sizeof(T));
+        EXPECT_EQ(bytes.size(), size_t{ rect.width } * rect.height * sizeof(T));
+        values.resize(size_t{ rect.width } * rect.height);
+        return values;
+    }
+    /// Errors so far; a test that provokes errors takes them.
+    std::vector<DriverError> takeErrors();
+
+    /// Destroys everything and checks that nothing went wrong. Returns all read-backs in order.
+    std::vector<Bytes> finish();
+
+private:
+    CommandStream& mStream;
+    CommandBuffer* mOpen = nullptr;
+    uint64_t mFrame = 0;
+    uint64_t mBytesBefore = 0;
+    std::vector<std::function<void()>> mDestroy;
+    std::vector<Bytes> mReadbacks;
+};
+
+/// Formats of a pass over these textures, all cleared to 0 and stored.
+PassDesc passOver(std::initializer_list<std::pair<TextureHandle, Format>> colors, uint32_t width, uint32_t height);
+/// No culling, no depth, triangles without vertex buffers.
+PipelineDesc pipelineFor(Program const& program, PassLayout const& pass);
+/// Adds the vertex layout of kColorVertex: buffer 0, stride 32.
+void useColorVertices(PipelineDesc& desc);
+
+struct ColorVertex {
+    Rgba position, color;
+};
+
+// ---------------------------------------------------------------------------------------------- one test, three runs
+
+enum class Run : uint8_t { Vulkan, Gles, SameBits };
+std::string nameOf(Run run);
+
+class DriverContract : public testing::TestWithParam<Run> {
+protected:
+    /// Runs the body on one API, or on both to compare all that they read back.
+    void runOn(void (*body)(Gpu&));
+
+private:
+    static void skipReason(BackendType backend);
+};
+
+} // namespace filament::backend
+
+/// DRIVER_SUITE once per file, then DRIVER_TEST(Suite, Name) { ... gpu ... }: on Vulkan, on OpenGL ES, and both compared.
+#define DRIVER_SUITE(Suite)                                                                     \
+    class Suite : public DriverContract {};                                                     \
+    INSTANTIATE_TEST_SUITE_P(Driver, Suite, testing::Values(Run::Vulkan, Run::Gles, Run::SameBits), \
+            [](auto const& run) { return nameOf(run.param); })
+
+#define DRIVER_TEST(Suite, Name)                   \
+    static void Suite##Name(Gpu& gpu);             \
+    TEST_P(Suite, Name) { runOn(&Suite##Name); }   \
+    static void Suite##Name([[maybe_unused]] Gpu& gpu)

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Texel: the formats of backend/api spelled out a second time, slowly, to check drivers against.
+///   encodeTexel  the bytes of one colour as its format stores it, rounded to nearest.
+///   decodeTexel  what a shader reads from these bytes: components that the format lacks are 0, 0, 0, 1.
+///   Uncompressed colour formats only.
+#pragma once
+
+#include "tests/backend/create/Gpu.h"
+
+namespace filament::backend {
+
+Bytes encodeTexel(Format format, Rgba const& color);
+Rgba decodeTexel(Format format, const std::byte* bytes);
+
+double linearFromSrgb(double encoded); ///< IEC 61966-2-1
+double srgbFromLinear(double linear);
+
+} // namespace filament::backend
