@@ -13,9 +13,9 @@
 namespace filament::backend {
 namespace {
 
-/// Mesa's software rasteriser computes with vectors as wide as the processor has, and their width shows in the last bit of
-/// some pixels: 256 is what every x86-64 machine of the last decade has, and what stored images were made with. A value that
-/// the user set stays. Once, before the first Mesa driver is loaded, because the driver reads it when it starts.
+/// Mesa's software rasteriser computes with vectors as wide as the processor has, and their width shows in the last bit
+/// of some pixels: 256 is what every x86-64 machine of the last decade has, and what stored images were made with. A
+/// value that the user set stays. Once, before the first Mesa driver is loaded, because it reads the value when it starts.
 void fixSoftwareVectorWidth() {
     static std::once_flag once;
     std::call_once(once, [] { setenv("LP_NATIVE_VECTOR_WIDTH", "256", 0); });

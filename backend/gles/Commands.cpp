@@ -108,9 +108,11 @@ void Commands::execute(CmdDraw const& command) {
     const bool based = mDevice.quirks.baseInstance;
     if (!prepareDraw(false, { .instance = based ? 0 : command.firstInstance })) return;
     const auto first = static_cast<GLint>(command.firstVertex);
-    const auto vertices = static_cast<GLsizei>(command.vertexCount), instances = static_cast<GLsizei>(command.instanceCount);
+    const auto vertices = static_cast<GLsizei>(command.vertexCount),
+               instances = static_cast<GLsizei>(command.instanceCount);
     if (based && command.firstInstance != 0) {
-        mDevice.gl.DrawArraysInstancedBaseInstance(mPipeline->topology, first, vertices, instances, command.firstInstance);
+        mDevice.gl.DrawArraysInstancedBaseInstance(
+                mPipeline->topology, first, vertices, instances, command.firstInstance);
     } else {
         mDevice.gl.DrawArraysInstanced(mPipeline->topology, first, vertices, instances);
     }
@@ -118,13 +120,15 @@ void Commands::execute(CmdDraw const& command) {
 
 void Commands::execute(CmdDrawIndexed const& command) {
     Quirks const& quirks = mDevice.quirks;
-    const DrawBase emulated{ quirks.baseInstance ? 0 : command.firstInstance, quirks.baseVertex ? 0 : command.vertexOffset };
+    const DrawBase emulated{ quirks.baseInstance ? 0 : command.firstInstance,
+        quirks.baseVertex ? 0 : command.vertexOffset };
     if (!prepareDraw(true, emulated)) return;
     const bool wide = mSources.indexType == IndexType::UInt32;
     const GLenum type = wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT;
     const uint64_t start = mSources.indexOffset + static_cast<uint64_t>(command.firstIndex) * (wide ? 4 : 2);
     auto const* indices = reinterpret_cast<const void*>(static_cast<uintptr_t>(start)); // an offset in the bound buffer
-    const auto count = static_cast<GLsizei>(command.indexCount), instances = static_cast<GLsizei>(command.instanceCount);
+    const auto count = static_cast<GLsizei>(command.indexCount),
+               instances = static_cast<GLsizei>(command.instanceCount);
     const GLenum mode = mPipeline->topology;
     GlApi const& gl = mDevice.gl;
     if (quirks.baseInstance && command.firstInstance != 0) {
@@ -159,7 +163,8 @@ void Commands::poll(bool wait) {
 
 void Commands::execute(CmdPushGroup const& command) {
     if (!mDevice.messages) return;
-    mDevice.gl.PushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(command.name.size()), command.name.data());
+    mDevice.gl.PushDebugGroup(
+            GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(command.name.size()), command.name.data());
 }
 
 void Commands::execute(CmdPopGroup const&) {

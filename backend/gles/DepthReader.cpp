@@ -67,8 +67,8 @@ void DepthReader::blit(Texture const& source, uint32_t level, uint32_t layer, Re
     const auto width = static_cast<GLint>(rect.width), height = static_cast<GLint>(rect.height);
     mDevice.state.bindFramebuffers(draw, read);
     mDevice.state.setScissor({});
-    mDevice.gl.BlitFramebuffer(rect.x, rect.y, rect.x + width, rect.y + height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT,
-            GL_NEAREST);
+    mDevice.gl.BlitFramebuffer(
+            rect.x, rect.y, rect.x + width, rect.y + height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
 void DepthReader::draw(GLuint target, Rect const& rect) {

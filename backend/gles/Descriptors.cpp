@@ -9,7 +9,8 @@ namespace {
 constexpr uint32_t kAllGroups = (1u << kMaxBindGroups) - 1;
 constexpr uint8_t kNoSlot = 0xFF;
 
-BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures const& textures) {
+BindGroup::Slot resolve(
+        BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures const& textures) {
     BindGroup::Slot slot{ .type = type };
     if (type == BindingType::UniformBuffer || type == BindingType::DynamicUniformBuffer) {
         Buffer const* buffer = buffers.find(entry.buffer);

@@ -4,11 +4,12 @@
 namespace filament::backend::gles {
 namespace {
 
-// Errors, undefined behaviour and anything grave; performance hints are not the caller's bug, and what the shader compiler
-// says is in the program's own report.
+// Errors, undefined behaviour and anything grave. Performance hints are not the caller's bug, and what the shader
+// compiler says is in the program's own report.
 bool isWorthTelling(GLenum source, GLenum type, GLenum severity) {
-    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER || type == GL_DEBUG_TYPE_PERFORMANCE || severity == GL_DEBUG_SEVERITY_NOTIFICATION) return false;
-    return type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR || severity == GL_DEBUG_SEVERITY_HIGH;
+    if (source == GL_DEBUG_SOURCE_SHADER_COMPILER || type == GL_DEBUG_TYPE_PERFORMANCE) return false;
+    return type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
+           severity == GL_DEBUG_SEVERITY_HIGH;
 }
 
 void GL_APIENTRY onMessage(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message,
@@ -52,8 +53,8 @@ bool Device::created(const char* what, std::string_view name) {
     const GLenum found = takeError();
     if (found == GL_NO_ERROR) return true;
     const bool memory = found == GL_OUT_OF_MEMORY;
-    error(memory ? DriverErrorKind::OutOfMemory : DriverErrorKind::Other, "{} '{}': {}; what uses it is skipped{}", what, name,
-            glErrorName(found), memory ? ", free something or make it smaller" : "");
+    error(memory ? DriverErrorKind::OutOfMemory : DriverErrorKind::Other, "{} '{}': {}; what uses it is skipped{}",
+            what, name, glErrorName(found), memory ? ", free something or make it smaller" : "");
     return false;
 }
 

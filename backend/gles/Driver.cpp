@@ -77,7 +77,8 @@ DriverStatistics GlesDriver::statistics() const {
     return mPublished;
 }
 
-Result<std::unique_ptr<Driver>> createFilteredDriver(DriverOptions const& options, ResultSink& sink, QuirkFilter filter) {
+Result<std::unique_ptr<Driver>> createFilteredDriver(
+        DriverOptions const& options, ResultSink& sink, QuirkFilter filter) {
     Result<Egl const*> egl = Egl::load();
     if (!egl) return egl.error();
     Error refusal{ ErrorCode::DeviceUnavailable,
@@ -97,7 +98,8 @@ Result<std::unique_ptr<Driver>> createFilteredDriver(DriverOptions const& option
         if (others.find(name) == std::string::npos) others += (others.empty() ? "'" : ", '") + name + "'";
     }
     if (others.empty()) return refusal;
-    return fail(ErrorCode::DeviceUnavailable, "no OpenGL ES device is called '{}'; there is {}", options.requireDevice, others);
+    return fail(ErrorCode::DeviceUnavailable, "no OpenGL ES device is called '{}'; there is {}", options.requireDevice,
+            others);
 }
 
 } // namespace gles

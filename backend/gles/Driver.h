@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The driver behind GlesDriver.h: a context, and the commands that run in it.
-///   Thread  as backend/api/Driver.h; makes its context current whenever it is entered, so that several drivers may live on
-///           one thread.
+///   Thread  as backend/api/Driver.h; makes its context current whenever it is entered, so that several drivers may
+///           live on one thread.
 #pragma once
 
 #include "backend/gles/Commands.h"
@@ -16,7 +16,8 @@ namespace filament::backend::gles {
 using QuirkFilter = void (*)(Quirks&);
 
 /// createGlesDriver() with a filter.
-Result<std::unique_ptr<Driver>> createFilteredDriver(DriverOptions const& options, ResultSink& sink, QuirkFilter filter);
+Result<std::unique_ptr<Driver>> createFilteredDriver(
+        DriverOptions const& options, ResultSink& sink, QuirkFilter filter);
 
 /// A context that this driver can work with.
 struct OpenDevice {

@@ -58,7 +58,8 @@ Result<Egl const*> Egl::load() {
     static Egl library;
     static const bool opened = library.open(); // once per process, whichever thread comes first
     if (opened) return &library;
-    return fail(ErrorCode::DeviceUnavailable, "OpenGL ES: libEGL.so.1 cannot be opened or is older than 1.5; {}", kInstall);
+    return fail(
+            ErrorCode::DeviceUnavailable, "OpenGL ES: libEGL.so.1 cannot be opened or is older than 1.5; {}", kInstall);
 }
 
 std::vector<DisplaySource> Egl::displaySources() const {
@@ -77,7 +78,9 @@ EGLDisplay Egl::display(DisplaySource source) const {
 }
 
 Result<DisplayReference> DisplayReference::acquire(Egl const& egl, EGLDisplay display) {
-    if (display == EGL_NO_DISPLAY) return fail(ErrorCode::DeviceUnavailable, "EGL offers no such display; {}", kInstall);
+    if (display == EGL_NO_DISPLAY) {
+        return fail(ErrorCode::DeviceUnavailable, "EGL offers no such display; {}", kInstall);
+    }
     const std::lock_guard lock(displays().mutex);
     uint32_t& references = displays().references[display];
     if (references == 0 && !egl.Initialize(display, nullptr, nullptr)) {

@@ -81,8 +81,9 @@ GLuint Framebuffers::create(FramebufferKey const& wanted, std::string_view what)
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return object;
     mDevice.error(DriverErrorKind::Other,
-            "'{}': the driver refuses this set of attachments (framebuffer status {:#x}); it is skipped. Attachments of one "
-            "pass need equal sample counts and renderable formats", what, status);
+            "'{}': the driver refuses this set of attachments (framebuffer status {:#x}); it is skipped. "
+            "Attachments of one pass need equal sample counts and renderable formats",
+            what, status);
     destroy(object);
     return 0;
 }

@@ -37,10 +37,10 @@ public:
     explicit Framebuffers(Device& device) : mDevice(device) {}
     ~Framebuffers();
 
-    /// The object's name; 0 if the driver refuses. `what` names the user in the report. May change the bound framebuffers.
+    /// The object's name; 0 if the driver refuses (reported under `what`). May change the bound framebuffers.
     GLuint get(FramebufferKey const& wanted, std::string_view what);
-    /// One colour or depth image alone, to copy from or to: two objects a kind, attached anew for every image, because an
-    /// image is seldom copied twice. Valid until the next call for the same side. Changes the bound framebuffers.
+    /// One colour or depth image alone, to copy from or to: two objects a kind, attached anew for every image, because
+    /// an image is seldom copied twice. Valid until the next call for the same side. May change the bound framebuffers.
     enum class Side : uint8_t { Read, Draw };
     GLuint single(Side side, Texture const& texture, uint32_t level, uint32_t layer);
     /// Drops every framebuffer with this texture in it.

@@ -78,8 +78,8 @@ void Pass::clear() {
 void Pass::clearColor(uint32_t index) {
     std::array<float, 4> const& value = mDesc.colors[index].clear;
     if (formatInfo(mDesc.layout.colorFormats[index]).kind == FormatKind::UnsignedInteger) {
-        const GLuint words[] = { static_cast<GLuint>(value[0]), static_cast<GLuint>(value[1]), static_cast<GLuint>(value[2]),
-            static_cast<GLuint>(value[3]) };
+        const GLuint words[] = { static_cast<GLuint>(value[0]), static_cast<GLuint>(value[1]),
+            static_cast<GLuint>(value[2]), static_cast<GLuint>(value[3]) };
         mDevice.gl.ClearBufferuiv(GL_COLOR, static_cast<GLint>(index), words);
     } else {
         mDevice.gl.ClearBufferfv(GL_COLOR, static_cast<GLint>(index), value.data());

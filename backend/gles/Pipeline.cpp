@@ -8,7 +8,8 @@ namespace {
 
 bool providesLocation(VertexLayout const& layout, uint8_t location) {
     const auto end = layout.attributes.begin() + layout.attributeCount;
-    return std::any_of(layout.attributes.begin(), end, [=](VertexAttribute const& at) { return at.location == location; });
+    return std::any_of(
+            layout.attributes.begin(), end, [=](VertexAttribute const& at) { return at.location == location; });
 }
 
 std::vector<ProgramInput> inputsWithoutArray(Program const& program, VertexLayout const& layout) {
@@ -53,7 +54,9 @@ void applyPipeline(State& state, Pipeline const& pipeline, uint8_t frontReferenc
     state.setRaster(pipeline.raster);
     state.setDepthStencil(pipeline.depthStencil, frontReference, backReference);
     for (uint32_t i = 0; i < pipeline.colorCount; ++i) state.setBlend(i, pipeline.blend[i]);
-    for (ProgramInput const& input : pipeline.constantInputs) state.setConstantAttribute(input.location, input.scalarType);
+    for (ProgramInput const& input : pipeline.constantInputs) {
+        state.setConstantAttribute(input.location, input.scalarType);
+    }
 }
 
 } // namespace filament::backend::gles

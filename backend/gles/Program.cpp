@@ -85,8 +85,8 @@ Program::Program(Device& device, ProgramDesc const& desc) : mDevice(device), mBi
     const std::string constants = constantDefinitions(desc.constants);
     const SplitText vertex = splitAfterVersion(asText(desc.vertex));
     const SplitText fragment = splitAfterVersion(desc.fragment.empty() ? kNoFragment : asText(desc.fragment));
-    mName = linkProgram(device, { vertex.version, constants, vertex.body }, { fragment.version, constants, fragment.body },
-            desc.debugName);
+    mName = linkProgram(device, { vertex.version, constants, vertex.body },
+            { fragment.version, constants, fragment.body }, desc.debugName);
     ++device.statistics.programsCreated;
     if (!mName) return;
     device.label(GL_PROGRAM, mName, desc.debugName);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Program: a linked vertex and fragment shader, with what draws need to know about it.
-///   In      ESSL 3.10 text whose blocks and textures carry `layout(binding = flatBinding(...))`; an empty fragment shader
-///           means that only depth is written.
-///   Constants  `#define SPIRV_CROSS_CONSTANT_ID_<id> value` lines go behind the #version line: the names that SPIRV-Cross
-///           gives specialisation constants, whose own default stands inside #ifndef.
+///   In      ESSL 3.10 text whose blocks and textures carry `layout(binding = flatBinding(...))`; an empty fragment
+///           shader means that only depth is written. Specialisation constants become
+///           `#define SPIRV_CROSS_CONSTANT_ID_<id> value` behind the #version line: the names that SPIRV-Cross gives
+///           them, whose own default stands inside #ifndef.
 ///   Thread  the driver thread.
 ///   Fails   reported as ShaderCompile; name() is 0 and draws are skipped.
 #pragma once

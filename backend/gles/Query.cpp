@@ -32,7 +32,8 @@ void Queries::endTimer(Ticket ticket) {
         mDevice.sink.onTimer(ticket, 0);
         return;
     }
-    const auto open = std::find_if(mOpen.rbegin(), mOpen.rend(), [ticket](Timer const& timer) { return timer.ticket == ticket; });
+    const auto open =
+            std::find_if(mOpen.rbegin(), mOpen.rend(), [ticket](Timer const& timer) { return timer.ticket == ticket; });
     FILAMENT_ASSERT(open != mOpen.rend(), "a timer that ends has begun");
     mEnded.push_back({ ticket, open->begin, stamp() });
     mOpen.erase(std::next(open).base());

@@ -69,7 +69,8 @@ Result<Quirks> Quirks::probe(GlApi const& gl) {
     quirks.anisotropy = names.contains("GL_EXT_texture_filter_anisotropic");
     quirks.debugMessages = gl.DebugMessageCallback && gl.ObjectLabel && gl.PushDebugGroup && gl.PopDebugGroup &&
             (es32 || names.contains("GL_KHR_debug"));
-    quirks.resetStatus = gl.GetGraphicsResetStatus && (es32 || hasAny(names, { "GL_KHR_robustness", "GL_EXT_robustness" }));
+    quirks.resetStatus =
+            gl.GetGraphicsResetStatus && (es32 || hasAny(names, { "GL_KHR_robustness", "GL_EXT_robustness" }));
     return quirks;
 }
 
@@ -86,7 +87,8 @@ DeviceInfo describeDevice(GlApi const& gl, Quirks const& quirks) {
     limits.maxUniformBlockBytes = static_cast<uint32_t>(integer(gl, GL_MAX_UNIFORM_BLOCK_SIZE));
     limits.uniformOffsetAlignment = static_cast<uint32_t>(integer(gl, GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
     limits.maxTextureUnits = static_cast<uint32_t>(integer(gl, GL_MAX_TEXTURE_IMAGE_UNITS));
-    limits.maxVertexAttributes = std::min(static_cast<uint32_t>(integer(gl, GL_MAX_VERTEX_ATTRIBS)), kMaxVertexAttributes);
+    limits.maxVertexAttributes =
+            std::min(static_cast<uint32_t>(integer(gl, GL_MAX_VERTEX_ATTRIBS)), kMaxVertexAttributes);
     limits.maxSamples = std::min(static_cast<uint32_t>(integer(gl, GL_MAX_SAMPLES)), 4u);
     if (quirks.anisotropy) gl.GetFloatv(GL_MAX_TEXTURE_MAX_ANISOTROPY_EXT, &limits.maxAnisotropy);
     info.features = {

@@ -14,8 +14,10 @@ std::optional<Readbacks::Source> Readbacks::open(CmdReadTexture const& command) 
     if (!texture) return {};
     TextureDesc const& desc = texture->desc;
     if (!formatInfo(desc.format).isRenderable || desc.samples > 1) {
-        mDevice.error(DriverErrorKind::Other, "a read-back needs a single-sampled texture of a renderable format, not {} x{}; "
-                "its ticket gets no answer", formatInfo(desc.format).name, desc.samples);
+        mDevice.error(DriverErrorKind::Other,
+                "a read-back needs a single-sampled texture of a renderable format, not {} x{}; "
+                "its ticket gets no answer",
+                formatInfo(desc.format).name, desc.samples);
         return {};
     }
     const bool readsAsFloat = mDevice.quirks.readDepth && desc.format != Format::D16; // D16 reads as integers only
@@ -38,8 +40,9 @@ Readbacks::Plan Readbacks::planFor(Format format) const {
     if (direct || !canRepack(format)) return { exact.format, exact.type, formatInfo(format).bytesPerBlock };
     // What every device must offer (OpenGL ES 3.1, 16.1.2).
     FormatInfo const& info = formatInfo(format);
-    if (info.kind == FormatKind::UnsignedInteger) return { GL_RGBA_INTEGER, GL_UNSIGNED_INT, genericBytes(format), format };
-    return { GL_RGBA, static_cast<GLenum>(info.isFloat ? GL_FLOAT : GL_UNSIGNED_BYTE), genericBytes(format), format };
+    const uint32_t bytes = genericBytes(format);
+    if (info.kind == FormatKind::UnsignedInteger) return { GL_RGBA_INTEGER, GL_UNSIGNED_INT, bytes, format };
+    return { GL_RGBA, static_cast<GLenum>(info.isFloat ? GL_FLOAT : GL_UNSIGNED_BYTE), bytes, format };
 }
 
 void Readbacks::read(CmdReadTexture const& command) {

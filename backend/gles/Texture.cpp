@@ -24,7 +24,8 @@ void uploadImage(GlApi const& gl, GLenum target, GLint level, Area area, GlForma
         gl.CompressedTexSubImage2D(target, level, area.x, area.y, area.width, area.height, format.internalFormat,
                 static_cast<GLsizei>(bytes.size()), bytes.data());
     } else {
-        gl.TexSubImage2D(target, level, area.x, area.y, area.width, area.height, format.format, format.type, bytes.data());
+        gl.TexSubImage2D(
+                target, level, area.x, area.y, area.width, area.height, format.format, format.type, bytes.data());
     }
 }
 
@@ -35,8 +36,8 @@ void uploadLayers(GlApi const& gl, GLint level, Area area, GLint layer, GLsizei 
         gl.CompressedTexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers,
                 format.internalFormat, static_cast<GLsizei>(bytes.size()), bytes.data());
     } else {
-        gl.TexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers, format.format, format.type,
-                bytes.data());
+        gl.TexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers, format.format,
+                format.type, bytes.data());
     }
 }
 
@@ -78,8 +79,9 @@ void Textures::create(TextureHandle handle, TextureDesc const& desc) {
     texture.desc.debugName = {};
     const bool offered = !isCompressed(desc.format) || mDevice.quirks.blockCompression;
     if (!offered) {
-        mDevice.error(DriverErrorKind::Other, "texture '{}': this device has no {}; see DeviceFeatures::blockCompression",
-                desc.debugName, formatInfo(desc.format).name);
+        mDevice.error(DriverErrorKind::Other,
+                "texture '{}': this device has no {}; see DeviceFeatures::blockCompression", desc.debugName,
+                formatInfo(desc.format).name);
     } else {
         mDevice.beginCreation();
         mDevice.gl.GenTextures(1, &texture.name);

@@ -2,8 +2,8 @@
 /// Textures and samplers: storage, uploads, sampling state.
 ///   Thread  the driver thread.
 ///   Memory  immutable storage; attachments are textures as well (multisampled ones too), so that any can be sampled.
-///   Fails   out of memory or a format that the device lacks is reported; the texture stays in the table with name 0, and
-///           what uses it is skipped.
+///   Fails   out of memory or a format that the device lacks is reported; the texture stays in the table with name 0,
+///           and what uses it is skipped.
 #pragma once
 
 #include "backend/gles/Device.h"

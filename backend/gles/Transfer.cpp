@@ -18,8 +18,9 @@ GLint bottom(Rect const& rect) { return rect.y + static_cast<GLint>(rect.height)
 bool Transfer::canCopy(Texture const& texture, const char* what) {
     FormatInfo const& format = formatInfo(texture.desc.format);
     if (format.isRenderable && format.kind <= FormatKind::UnsignedInteger && texture.desc.samples == 1) return true;
-    mDevice.error(DriverErrorKind::Other, "{} needs single-sampled textures of a renderable colour format, not {} x{}; skipped",
-            what, format.name, texture.desc.samples);
+    mDevice.error(DriverErrorKind::Other,
+            "{} needs single-sampled textures of a renderable colour format, not {} x{}; skipped", what, format.name,
+            texture.desc.samples);
     return false;
 }
 

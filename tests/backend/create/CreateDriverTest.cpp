@@ -21,7 +21,8 @@ TEST(CreateDriverTest, EveryListedDeviceCanBeMadeByItsName) {
     EXPECT_FALSE(devices.empty());
     for (DeviceInfo const& device : devices) {
         SilentSink sink;
-        Result<std::unique_ptr<Driver>> driver = createDriver(device.backend, { .requireDevice = device.deviceName }, sink);
+        Result<std::unique_ptr<Driver>> driver =
+                createDriver(device.backend, { .requireDevice = device.deviceName }, sink);
         ASSERT_TRUE(driver) << driver.error().message;
         EXPECT_EQ((*driver)->info().deviceName, device.deviceName);
         EXPECT_EQ((*driver)->info().backend, device.backend);
@@ -31,7 +32,8 @@ TEST(CreateDriverTest, EveryListedDeviceCanBeMadeByItsName) {
 TEST(CreateDriverTest, AnUnknownDeviceIsAnErrorThatNamesItAndWhatThereIs) {
     for (DeviceInfo const& device : listDevices()) {
         SilentSink sink;
-        const Result<std::unique_ptr<Driver>> driver = createDriver(device.backend, { .requireDevice = "no such card" }, sink);
+        const Result<std::unique_ptr<Driver>> driver =
+                createDriver(device.backend, { .requireDevice = "no such card" }, sink);
         ASSERT_FALSE(driver);
         EXPECT_EQ(driver.error().code, ErrorCode::DeviceUnavailable);
         EXPECT_NE(driver.error().message.find("no such card"), std::string::npos);

@@ -69,9 +69,11 @@ bool clearsCorrectly(Driver& driver, CollectingSink& sink, uint8_t value, int ro
     desc.width = desc.height = 16;
     commands.record(CmdCreateTexture{ image, desc });
     for (int round = 1; round <= rounds; ++round) {
-        commands.record(CmdBeginPass{ colorPass(image, Format::RGBA8, 16, 16, { static_cast<float>(value) / 255.0f }) });
+        commands.record(
+                CmdBeginPass{ colorPass(image, Format::RGBA8, 16, 16, { static_cast<float>(value) / 255.0f }) });
         commands.record(CmdEndPass{});
-        commands.record(CmdReadTexture{ .texture = image, .rect = { 0, 0, 16, 16 }, .ticket = { static_cast<uint64_t>(round) } });
+        commands.record(CmdReadTexture{
+                .texture = image, .rect = { 0, 0, 16, 16 }, .ticket = { static_cast<uint64_t>(round) } });
         commands.record(CmdEndFrame{});
         driver.execute(commands.view());
         commands.reset();

@@ -203,7 +203,8 @@ protected:
             commands.record(CmdDrawIndexed{ .indexCount = 4, .instanceCount = 2, .firstIndex = 1,
                     .vertexOffset = vertexOffset, .firstInstance = firstInstance });
         } else {
-            commands.record(CmdDraw{ .vertexCount = 4, .instanceCount = 2, .firstVertex = 2, .firstInstance = firstInstance });
+            commands.record(
+                    CmdDraw{ .vertexCount = 4, .instanceCount = 2, .firstVertex = 2, .firstInstance = firstInstance });
         }
         commands.record(CmdEndPass{});
         return read<float>(row, { 0, 0, 4, 1 });
@@ -267,7 +268,8 @@ TEST_F(DrawTest, APipelineOutlivesItsProgramHandle) {
 }
 
 TEST(ConstantDefinitionsTest, TheyAreDefinesFollowedByTheNumberOfTheNextLine) {
-    const ConstantValue constants[] = { { 0, 1, ConstantValue::Type::Bool }, { 7, 0xFFFFFFFFu, ConstantValue::Type::Int } };
+    const ConstantValue constants[] = { { 0, 1, ConstantValue::Type::Bool },
+        { 7, 0xFFFFFFFFu, ConstantValue::Type::Int } };
     EXPECT_EQ(constantDefinitions(constants),
             "#define SPIRV_CROSS_CONSTANT_ID_0 true\n#define SPIRV_CROSS_CONSTANT_ID_7 (-1)\n#line 2\n");
     EXPECT_EQ(constantDefinitions({}), "");

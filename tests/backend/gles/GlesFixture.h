@@ -25,7 +25,9 @@ public:
         readbacks[ticket.value].assign(bytes.begin(), bytes.end());
     }
     void onTimer(Ticket ticket, uint64_t nanoseconds) override { timers[ticket.value] = nanoseconds; }
-    void onError(DriverErrorKind kind, std::string_view message) override { errors.push_back({ kind, std::string(message) }); }
+    void onError(DriverErrorKind kind, std::string_view message) override {
+        errors.push_back({ kind, std::string(message) });
+    }
 
     std::map<uint64_t, std::vector<std::byte>> readbacks;
     std::map<uint64_t, uint64_t> timers;
@@ -86,7 +88,8 @@ protected:
 
     /// A texture to draw into and read from.
     TextureHandle target(Format format, uint32_t width, uint32_t height) {
-        const TextureUsage attachment = hasDepth(format) ? TextureUsage::DepthAttachment : TextureUsage::ColorAttachment;
+        const TextureUsage attachment =
+                hasDepth(format) ? TextureUsage::DepthAttachment : TextureUsage::ColorAttachment;
         TextureDesc desc;
         desc.format = format;
         desc.usage = attachment | TextureUsage::TransferSource | TextureUsage::Sampled;

@@ -99,13 +99,12 @@ TEST_F(GlesTest, AnSrgbResolveAveragesLight) {
     pass.layout.resolveMask = 1;
     pass.colors[0].resolve = resolved;
     constexpr std::string_view kHalfCovered = R"(#version 310 es
+        #extension GL_OES_sample_variables : require
         layout(location = 0) out highp vec4 color;
         void main() { color = vec4(1.0); gl_SampleMask[0] = 3; })";
-    constexpr std::string_view kExtension = "#version 310 es\n#extension GL_OES_sample_variables : require\n";
-    const std::string fragment = std::string(kExtension) + std::string(kHalfCovered.substr(kHalfCovered.find('\n') + 1));
-    drawFullScreen(pass, simplePipeline(program(kFullScreenVertex, fragment), pass.layout));
-    // Half of the light is 0.5, which sRGB stores as 187.5 (IEC 61966-2-1) and llvmpipe's polynomial as 187; half of the
-    // code values would be 128.
+    drawFullScreen(pass, simplePipeline(program(kFullScreenVertex, kHalfCovered), pass.layout));
+    // Half of the light is 0.5, which sRGB stores as 187.5 (IEC 61966-2-1) and llvmpipe's polynomial as 187; the mean of
+    // the code values would be 128.
     EXPECT_NEAR(read<Rgba>(resolved, { 0, 0, 1, 1 }).at(0)[0], 187.5, 0.5);
 }
 

@@ -39,9 +39,9 @@ TEST_P(FormatTest, AnUploadReadsBackByteForByte) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Renderable, FormatTest,
-        testing::Values(Format::R8, Format::RG8, Format::RGBA8, Format::RGBA8Srgb, Format::R8UI, Format::R32UI, Format::RG32UI,
-                Format::RGBA8UI, Format::RGB10A2, Format::R16F, Format::RG16F, Format::RGBA16F, Format::R32F, Format::RG32F,
-                Format::RGBA32F, Format::R11G11B10F),
+        testing::Values(Format::R8, Format::RG8, Format::RGBA8, Format::RGBA8Srgb, Format::R8UI, Format::R32UI,
+                Format::RG32UI, Format::RGBA8UI, Format::RGB10A2, Format::R16F, Format::RG16F, Format::RGBA16F,
+                Format::R32F, Format::RG32F, Format::RGBA32F, Format::R11G11B10F),
         [](auto const& tested) { return std::string(formatInfo(tested.param).name); });
 
 TEST_F(GlesTest, AnUploadReplacesItsRectangleOfItsLayersOnly) {
@@ -50,7 +50,8 @@ TEST_F(GlesTest, AnUploadReplacesItsRectangleOfItsLayersOnly) {
     desc.layers = 3;
     const TextureHandle image = texture(desc);
     const std::vector<uint8_t> zeros(24, 0), ones{ 1, 2, 3, 4 };
-    commands.record(CmdUploadTexture{ .texture = image, .layerCount = 3, .rect = { 0, 0, 4, 2 }, .bytes = bytesOf(zeros) });
+    commands.record(
+            CmdUploadTexture{ .texture = image, .layerCount = 3, .rect = { 0, 0, 4, 2 }, .bytes = bytesOf(zeros) });
     commands.record(CmdUploadTexture{
             .texture = image, .layer = 1, .layerCount = 2, .rect = { 2, 1, 2, 1 }, .bytes = bytesOf(ones) });
     EXPECT_EQ(read<uint8_t>(image, { 0, 0, 4, 2 }, 0, 0), (std::vector<uint8_t>{ 0, 0, 0, 0, 0, 0, 0, 0 }));
@@ -122,7 +123,8 @@ TEST_F(GlesTest, EveryLayerGetsItsOwnMipLevels) {
     for (int face = 0; face < 6; ++face) {
         for (int i = 0; i < 4; ++i) faces.push_back(static_cast<float>(face * 10 + i));
     }
-    commands.record(CmdUploadTexture{ .texture = cube, .layerCount = 6, .rect = { 0, 0, 2, 2 }, .bytes = bytesOf(faces) });
+    commands.record(
+            CmdUploadTexture{ .texture = cube, .layerCount = 6, .rect = { 0, 0, 2, 2 }, .bytes = bytesOf(faces) });
     commands.record(CmdGenerateMips{ cube });
     for (uint16_t face = 0; face < 6; ++face) {
         EXPECT_EQ(read<float>(cube, { 0, 0, 1, 1 }, 1, face).at(0), static_cast<float>(face) * 10 + 1.5f);
