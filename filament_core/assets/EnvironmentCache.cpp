@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "cached environments a
 
 constexpr uint64_t kMagic = 0x31564E454C494600; // "\0FILENV1"
 /// Raised with every change of the baker's results or of this layout.
-constexpr uint32_t kBakerVersion = 1;
+constexpr uint32_t kBakerVersion = 2;
 constexpr uint32_t kMaxFaceSize = 2048, kMaxLevels = 16;
 
 struct CubeHeader {
