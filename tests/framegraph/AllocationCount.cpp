@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "AllocationCount.h"
+#include "tests/framegraph/AllocationCount.h"
 
 #include <atomic>
 #include <cstdlib>

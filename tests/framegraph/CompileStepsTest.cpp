@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Each step of compile() by itself, without a device.
-#include "GraphFixture.h"
+#include "tests/framegraph/GraphFixture.h"
 
 namespace filament::framegraph {
 namespace {

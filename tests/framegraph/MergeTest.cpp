@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "GraphFixture.h"
+#include "tests/framegraph/GraphFixture.h"
 
 namespace filament::framegraph {
 namespace {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // compile() and record() against a validated null driver: what the commands say, what the pool keeps, what is explained.
-#include "AllocationCount.h"
-#include "GraphFixture.h"
+#include "tests/framegraph/AllocationCount.h"
+#include "tests/framegraph/GraphFixture.h"
 
 namespace filament::framegraph {
 namespace {

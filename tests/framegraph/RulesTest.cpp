@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every rule of a graph names the pass and the texture that break it.
-#include "GraphFixture.h"
+#include "tests/framegraph/GraphFixture.h"
 
 namespace filament::framegraph {
 namespace {
