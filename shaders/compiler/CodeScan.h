@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// CodeScan: what a piece of GLSL mentions, found by reading its words. Decides what a material pays for.
-///   May say yes too often (the material then computes something that it ignores), never no for code that really does it:
-///   where macros could hide a member access, any mention of the word counts.
+///   May say yes too often (the material then computes something that it ignores), never no for code that really does
+///   it: where macros could hide a member access, any mention of the word counts.
 ///   Thread  any, once made. Memory: the words of the text.
 #pragma once
 

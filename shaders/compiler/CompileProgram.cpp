@@ -19,7 +19,8 @@ Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std:
         ProgramCompileOptions const& options) {
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
     if (spirv && options.optimization != Optimization::None) spirv = optimizeSpirv(*spirv, options.optimization);
-    if (spirv && options.exact) spirv = forbidReordering(lowerExactly(*spirv)); // last: no pass re-forms what is spelled out
+    if (spirv && options.exact)
+        spirv = forbidReordering(lowerExactly(*spirv)); // last: no pass re-forms what is spelled out
     return spirv;
 }
 

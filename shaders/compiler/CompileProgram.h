@@ -2,14 +2,14 @@
 /// compileProgram: two GLSL 450 stages -> the SPIR-V that Vulkan takes and the ESSL 3.10 that OpenGL ES takes.
 ///   Steps   glslang (SPIR-V 1.3, Vulkan 1.1 rules) -> SPIRV-Tools performance passes -> exact lowering -> reflection
 ///           -> SPIR-V, and SPIRV-Cross -> ESSL. Both languages come from the same lowered module.
-///   Exact   `exact` spells the operations that Mesa lowers differently for the two languages (ExactLowering.h), so that
-///           both devices do the same arithmetic in the same order.
+///   Exact   `exact` spells out the operations that Mesa expands differently for the two languages (ExactLowering.h)
+///           and forbids reordering (ForbidReordering.h): both devices do the same arithmetic in the same order.
 ///   ESSL    bindings are numbered with backend::flatBinding; everything is highp unless the source says otherwise;
 ///           a subpass input becomes a framebuffer fetch of the colour attachment of the same index; the value of
-///           specialisation constant N is the macro SPIRV_CROSS_CONSTANT_ID_N, to be defined after the #version line.
+///           specialisation constant N is the macro SPIRV_CROSS_CONSTANT_ID_N, defined behind the #version line.
 ///   Thread  any; calls are independent and equal input gives equal bytes.
 ///   Fails   InvalidArgument with "file:line: reason" for GLSL errors and for a layout that lacks a binding;
-///           Unsupported for what ESSL cannot express. Cost: about 50 ms, half of it the optimiser.
+///           Unsupported for what ESSL cannot express. Cost: 5 to 50 ms, half of it the optimiser.
 #pragma once
 
 #include "backend/api/Descriptions.h"

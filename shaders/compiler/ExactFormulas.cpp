@@ -75,7 +75,8 @@ Value exactTan(Value x) { return call(GLSLstd450Sin, { x }) / call(GLSLstd450Cos
 
 namespace {
 
-/// Arc tangent on [0, 1], absolute error below 2e-8. Abramowitz and Stegun 1964, "Handbook of Mathematical Functions", 4.4.49.
+/// Arc tangent on [0, 1], absolute error below 2e-8. Abramowitz and Stegun 1964, "Handbook of Mathematical
+/// Functions", 4.4.49.
 Value arcTangentOfUnit(Value x) {
     constexpr float kCoefficients[] = { 0.0028662257f, -0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f,
         -0.1420889944f, 0.1999355085f, -0.3333314528f };

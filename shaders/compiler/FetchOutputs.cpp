@@ -27,10 +27,12 @@ Survey survey(std::span<const uint32_t> words) {
     for (size_t at = kHeaderWords; at < words.size() && found.functions == 0; at += words[at] >> 16) {
         const auto op = static_cast<spv::Op>(words[at] & 0xFFFF);
         const std::span<const uint32_t> operands = words.subspan(at + 1, (words[at] >> 16) - 1);
-        if (found.annotationsEnd == 0 && op >= spv::OpTypeVoid && op <= spv::OpTypeForwardPointer) found.annotationsEnd = at;
+        if (found.annotationsEnd == 0 && op >= spv::OpTypeVoid && op <= spv::OpTypeForwardPointer)
+            found.annotationsEnd = at;
         if (op == spv::OpEntryPoint) found.entryPoint = at;
         if (op == spv::OpFunction) found.functions = at;
-        if (op == spv::OpDecorate && operands[1] == spv::DecorationInputAttachmentIndex) found.inputIndices.insert(operands[2]);
+        if (op == spv::OpDecorate && operands[1] == spv::DecorationInputAttachmentIndex)
+            found.inputIndices.insert(operands[2]);
         if (op == spv::OpDecorate && operands[1] == spv::DecorationLocation) locationOf[operands[0]] = operands[2];
         if (op == spv::OpTypeFloat && operands[1] == 32) float32 = operands[0];
         if (op == spv::OpTypeVector && operands[1] == float32 && operands[2] == 4) found.vec4 = operands[0];
@@ -59,11 +61,13 @@ std::vector<uint32_t> withFetchOutputs(std::span<const uint32_t> spirv) {
         if (at.outputLocations.contains(location)) continue;
         if (at.outputVec4 == 0) { // a subpass load makes vec4s, so that type is there
             at.outputVec4 = bound++;
-            globals.insert(globals.end(), { head(4, spv::OpTypePointer), at.outputVec4, spv::StorageClassOutput, at.vec4 });
+            globals.insert(globals.end(),
+                           { head(4, spv::OpTypePointer), at.outputVec4, spv::StorageClassOutput, at.vec4 });
         }
         const uint32_t variable = bound++;
         interface.push_back(variable);
-        annotations.insert(annotations.end(), { head(4, spv::OpDecorate), variable, spv::DecorationLocation, location });
+        annotations.insert(annotations.end(),
+                           { head(4, spv::OpDecorate), variable, spv::DecorationLocation, location });
         globals.insert(globals.end(), { head(4, spv::OpVariable), at.outputVec4, variable, spv::StorageClassOutput });
     }
 

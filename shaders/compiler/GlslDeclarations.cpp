@@ -12,9 +12,11 @@ namespace {
 constexpr uint32_t kFirstVariableLocation = 5; // behind those of shaders/material/varyings.glsl
 
 const char* glslType(ParameterType type) {
-    static constexpr const char* kNames[] = { "bool", "bvec2", "bvec3", "bvec4", "float", "vec2", "vec3", "vec4", "int", "ivec2",
-        "ivec3", "ivec4", "uint", "uvec2", "uvec3", "uvec4", "mat3", "mat4", "sampler2D", "sampler2DArray", "samplerCube",
-        "subpassInput" };
+    static constexpr const char* kNames[] = { "bool",        "bvec2",       "bvec3", "bvec4",     "float",
+                                              "vec2",        "vec3",        "vec4",  "int",       "ivec2",
+                                              "ivec3",       "ivec4",       "uint",  "uvec2",     "uvec3",
+                                              "uvec4",       "mat3",        "mat4",  "sampler2D", "sampler2DArray",
+                                              "samplerCube", "subpassInput" };
     return kNames[static_cast<size_t>(type)];
 }
 
@@ -54,8 +56,9 @@ void declareTextures(StageText& out, MaterialDefinition const& definition) {
         const std::string index = parameter.type == ParameterType::SubpassInput
                 ? fmt::format("input_attachment_index = {}, ", attachment++) : "";
         out.originate(definition.parameterSources[i].at);
-        out.line(fmt::format("layout({}set = 1, binding = {}) uniform {}{} materialParams_{};", index, parameter.binding,
-                glslPrecision(definition.parameterSources[i].precision), glslType(parameter.type), parameter.name));
+        out.line(fmt::format("layout({}set = 1, binding = {}) uniform {}{} materialParams_{};", index,
+                             parameter.binding, glslPrecision(definition.parameterSources[i].precision),
+                             glslType(parameter.type), parameter.name));
     }
 }
 

@@ -14,13 +14,15 @@ namespace filament::shader {
 namespace {
 
 const char* blendDefine(Blending blending) {
-    static constexpr const char* kNames[] = { "BLEND_MODE_OPAQUE", "BLEND_MODE_MASKED", "BLEND_MODE_TRANSPARENT", "BLEND_MODE_FADE",
-        "BLEND_MODE_ADD", "BLEND_MODE_MULTIPLY", "BLEND_MODE_SCREEN" };
+    static constexpr const char* kNames[] = { "BLEND_MODE_OPAQUE", "BLEND_MODE_MASKED", "BLEND_MODE_TRANSPARENT",
+                                              "BLEND_MODE_FADE",   "BLEND_MODE_ADD",    "BLEND_MODE_MULTIPLY",
+                                              "BLEND_MODE_SCREEN" };
     return kNames[static_cast<size_t>(blending)];
 }
 
 const char* vertexDomainDefine(VertexDomain domain) {
-    static constexpr const char* kNames[] = { "VERTEX_DOMAIN_OBJECT", "VERTEX_DOMAIN_WORLD", "VERTEX_DOMAIN_VIEW", "VERTEX_DOMAIN_DEVICE" };
+    static constexpr const char* kNames[] = { "VERTEX_DOMAIN_OBJECT", "VERTEX_DOMAIN_WORLD", "VERTEX_DOMAIN_VIEW",
+                                              "VERTEX_DOMAIN_DEVICE" };
     return kNames[static_cast<size_t>(domain)];
 }
 
@@ -85,14 +87,16 @@ void declareCustomAttributes(StageText& out, MaterialDefinition const& definitio
     }
 }
 
-Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, IncludeResolver const& includes) {
+Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                  IncludeResolver const& includes) {
     StageText out(includes);
     beginStage(out, "out");
     defineSurface(out, definition, needs);
     defineIf(out, definition.vertex.has_value(), "HAS_MATERIAL_VERTEX");
     defineVariableMacros(out, definition);
-    Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/lib/tangent.glsl", "shaders/interface/interface.glsl",
-            "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
+    Result<void> done =
+            includeAll(out, { "shaders/lib/math.glsl", "shaders/lib/tangent.glsl", "shaders/interface/interface.glsl",
+                              "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
     if (!done) return done.error();
     declareInterface(out, definition);
     declareVariables(out, definition);
@@ -104,26 +108,29 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     return std::move(out).take();
 }
 
-Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint8_t variantKey,
-        IncludeResolver const& includes) {
+Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                    uint8_t variantKey, IncludeResolver const& includes) {
     const bool isLit = definition.package.shading == ShadingModel::Lit;
     StageText out(includes);
     beginStage(out, "in");
     defineSurface(out, definition, needs);
     defineFragment(out, definition, variantKey);
-    Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl", "shaders/material/api.glsl",
-            "shaders/material/varyings.glsl" });
+    Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl",
+                                          "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
     if (!done) return done.error();
     declareInterface(out, definition);
     declareVariables(out, definition);
     if (needs.luminance) done = out.include("shaders/lib/color.glsl");
     if (done) done = out.include("shaders/material/surface_fragment_api.glsl");
     if (done) done = out.block(definition.fragment);
-    if (done && isLit) done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/lib/ibl.glsl", "shaders/lib/light.glsl" });
+    if (done && isLit)
+        done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/lib/ibl.glsl", "shaders/lib/light.glsl" });
     if (done && isLit && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
     if (done && isLit && needs.hasAmbientOcclusion) done = out.include("shaders/lib/ao.glsl");
     if (done) done = out.include("shaders/material/surface_output.glsl");
-    if (done) done = out.include(isLit ? "shaders/material/surface_lit_main.glsl" : "shaders/material/surface_unlit_main.glsl");
+    if (done)
+        done = out.include(isLit ? "shaders/material/surface_lit_main.glsl"
+                                 : "shaders/material/surface_unlit_main.glsl");
     if (!done) return done.error();
     return std::move(out).take();
 }
@@ -138,9 +145,11 @@ Result<std::string> postVertex(IncludeResolver const& includes) {
 Result<std::string> postFragment(MaterialDefinition const& definition, IncludeResolver const& includes) {
     StageText out(includes);
     beginStage(out, "in");
-    const auto inputs = std::ranges::count(definition.package.parameters, ParameterType::SubpassInput, &Parameter::type);
+    const auto inputs =
+            std::ranges::count(definition.package.parameters, ParameterType::SubpassInput, &Parameter::type);
     out.define("POST_OUTPUT_LOCATION", fmt::format("{}", inputs));
-    Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
+    Result<void> done = includeAll(
+            out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
     if (!done) return done.error();
     declareInterface(out, definition);
     done = out.include("shaders/post/post_fragment_api.glsl");
@@ -159,7 +168,8 @@ Result<std::string> expanded(std::optional<GlslBlock> const& block, IncludeResol
     return std::move(text).take();
 }
 
-Result<void> expectFunction(CodeScan const& code, std::string_view function, GlslBlock const& block, std::string_view signature) {
+Result<void> expectFunction(CodeScan const& code, std::string_view function, GlslBlock const& block,
+                            std::string_view signature) {
     if (code.mentions(function)) return {};
     return errorAt(block.at, fmt::format("this block must define {}", signature));
 }
@@ -170,14 +180,18 @@ bool mentionsAny(CodeScan const& code, std::initializer_list<std::string_view> w
 
 Result<void> checkBlocks(MaterialDefinition const& definition, CodeScan const& fragment, CodeScan const& vertex) {
     if (definition.package.domain == MaterialDomain::PostProcess) {
-        return expectFunction(fragment, "postProcess", definition.fragment, "void postProcess(inout PostProcessInputs inputs)");
+        return expectFunction(fragment, "postProcess", definition.fragment,
+                              "void postProcess(inout PostProcessInputs inputs)");
     }
-    Result<void> done = expectFunction(fragment, "material", definition.fragment, "void material(inout MaterialInputs material)");
+    Result<void> done =
+            expectFunction(fragment, "material", definition.fragment, "void material(inout MaterialInputs material)");
     if (done && definition.package.shading == ShadingModel::Lit) {
-        done = expectFunction(fragment, "prepareMaterial", definition.fragment, "material(), which must call prepareMaterial(material)");
+        done = expectFunction(fragment, "prepareMaterial", definition.fragment,
+                              "material(), which must call prepareMaterial(material)");
     }
     if (done && definition.vertex) {
-        done = expectFunction(vertex, "materialVertex", *definition.vertex, "void materialVertex(inout MaterialVertexInputs material)");
+        done = expectFunction(vertex, "materialVertex", *definition.vertex,
+                              "void materialVertex(inout MaterialVertexInputs material)");
     }
     return done;
 }
@@ -198,23 +212,28 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     needs.hasEmissive = fragment.touches("emissive");
     needs.hasAmbientOcclusion = isLit && fragment.touches("ambientOcclusion");
     needs.hasPostLightingColor = fragment.touches("postLightingColor");
-    needs.worldPosition = isLit || mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
-            "getWorldReflectedVector", "getNdotV" });
+    needs.worldPosition =
+            isLit || mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
+                                             "getWorldReflectedVector", "getNdotV" });
     needs.normal = isLit || needsAttribute(definition, kAttributeTangents);
     needs.tangent = needs.hasNormalMap || (needs.normal && fragment.mentions("getWorldTangentFrame"));
-    needs.clipSpaceTransform = definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");
+    needs.clipSpaceTransform =
+            definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");
     needs.luminance = fragment.mentions("luminance");
     return needs;
 }
 
-Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, IncludeResolver const& includes) {
-    return definition.package.domain == MaterialDomain::PostProcess ? postVertex(includes) : surfaceVertex(definition, needs, includes);
+Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                   IncludeResolver const& includes) {
+    return definition.package.domain == MaterialDomain::PostProcess ? postVertex(includes)
+                                                                    : surfaceVertex(definition, needs, includes);
 }
 
-Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint8_t variantKey,
-        IncludeResolver const& includes) {
-    return definition.package.domain == MaterialDomain::PostProcess ? postFragment(definition, includes)
-                                                                     : surfaceFragment(definition, needs, variantKey, includes);
+Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                     uint8_t variantKey, IncludeResolver const& includes) {
+    return definition.package.domain == MaterialDomain::PostProcess
+                   ? postFragment(definition, includes)
+                   : surfaceFragment(definition, needs, variantKey, includes);
 }
 
 backend::ProgramLayout materialLayout(MaterialDefinition const& definition) {
@@ -223,7 +242,8 @@ backend::ProgramLayout materialLayout(MaterialDefinition const& definition) {
     backend::ProgramLayout layout{};
     layout[kGroupView] = viewGroupLayout(definition.package.domain);
     backend::BindGroupLayout& group = layout[kGroupMaterial];
-    if (definition.package.uniformBytes > 0) group.bindings[group.count++] = { .binding = 0, .type = BindingType::UniformBuffer };
+    if (definition.package.uniformBytes > 0)
+        group.bindings[group.count++] = { .binding = 0, .type = BindingType::UniformBuffer };
     uint8_t attachment = 0;
     for (Parameter const& parameter : definition.package.parameters) {
         if (!isTexture(parameter.type)) continue;

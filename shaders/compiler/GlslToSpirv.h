@@ -14,12 +14,14 @@
 
 namespace filament::shader {
 
-/// GLSL 450 with Vulkan semantics -> SPIR-V 1.3 with names. `#line n "file"` is understood and `name` is the file until then.
+/// GLSL 450 with Vulkan semantics -> SPIR-V 1.3 with names. `#line n "file"` is understood and `name` is the file until
+/// then.
 ///   Fails   InvalidArgument, "file:line: reason" of the first error and how many more there are.
 Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name);
 
 /// SPIRV-Tools' passes for `goal`, which is not None. Fails: Internal if the module is not valid.
-Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Optimization goal = Optimization::Performance);
+Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv,
+                                            Optimization goal = Optimization::Performance);
 
 /// Drops the names, which no driver needs.
 Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv);

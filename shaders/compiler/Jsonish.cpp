@@ -57,7 +57,8 @@ public:
                 if (!object) return object.error();
                 out.material = std::move(*object);
             } else if (token.text == "vertex" || token.text == "fragment") {
-                if (Result<void> done = rawBlock(token, token.text == "vertex" ? out.vertex : out.fragment); !done) return done.error();
+                if (Result<void> done = rawBlock(token, token.text == "vertex" ? out.vertex : out.fragment); !done)
+                    return done.error();
             } else {
                 return unexpected(token, "'material', 'vertex' or 'fragment'");
             }
@@ -95,7 +96,8 @@ private:
     Result<JsonValue> objectBody(SourcePosition const& at, int depth) {
         JsonValue object{ .kind = JsonValue::Kind::Object, .at = at };
         for (Token key = mLexer.next(); key.kind != TokenKind::CloseBrace; key = mLexer.next()) {
-            if (key.kind != TokenKind::Word && key.kind != TokenKind::Quoted) return unexpected(key, "a property name or '}'");
+            if (key.kind != TokenKind::Word && key.kind != TokenKind::Quoted)
+                return unexpected(key, "a property name or '}'");
             const Token colon = mLexer.next();
             if (colon.kind != TokenKind::Colon) return unexpected(colon, "':'");
             Result<JsonValue> member = value(mLexer.next(), depth);
@@ -142,8 +144,10 @@ const char* toString(JsonValue::Kind kind) {
     return "a value";
 }
 
-Result<MaterialText> parseMaterialText(std::string_view text, std::string_view fileName, IncludeResolver const& includes) {
-    if (text.size() > 1 << 20) return fail(ErrorCode::InvalidArgument, "{}: the material is larger than 1 MiB", fileName);
+Result<MaterialText> parseMaterialText(std::string_view text, std::string_view fileName,
+                                       IncludeResolver const& includes) {
+    if (text.size() > 1 << 20)
+        return fail(ErrorCode::InvalidArgument, "{}: the material is larger than 1 MiB", fileName);
     return Parser(text, fileName, includes).file();
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The text of a .mat file as values and blocks (materials guide, 4.1): JSON with optional quotes, comments and trailing
-/// commas, and blocks of raw GLSL.
+/// The text of a .mat file as values and blocks (materials guide, 4.1): JSON with optional quotes, comments and
+/// trailing commas, and blocks of raw GLSL.
 ///   In      any text. `#include "path"` inside the material block continues with the text of that file.
 ///   Out     one tree for the material block; the texts of the vertex and fragment blocks with their first line.
 ///   Thread  any. Memory: a few times the text.
@@ -57,6 +57,7 @@ struct MaterialText {
     std::optional<GlslBlock> vertex, fragment;
 };
 
-Result<MaterialText> parseMaterialText(std::string_view text, std::string_view fileName, IncludeResolver const& includes);
+Result<MaterialText> parseMaterialText(std::string_view text, std::string_view fileName,
+                                       IncludeResolver const& includes);
 
 } // namespace filament::shader

@@ -66,7 +66,8 @@ std::string JsonishLexer::include() {
     while (peek() != '"' && peek() != '\n' && !atEnd()) advance();
     const Token path = peek() == '"' ? quoted() : error("");
     if (path.kind != TokenKind::Quoted) return "#include needs a path in quotes";
-    if (mInputs.size() >= kMaxIncludeDepth) return fmt::format("\"{}\" is included too deeply; does it include itself?", path.text);
+    if (mInputs.size() >= kMaxIncludeDepth)
+        return fmt::format("\"{}\" is included too deeply; does it include itself?", path.text);
     std::optional<std::string> text = mIncludes ? mIncludes(path.text) : std::nullopt;
     if (!text) return fmt::format("cannot find the file \"{}\" of this #include", path.text);
     mTotalBytes += text->size();
@@ -113,8 +114,9 @@ Token JsonishLexer::next() {
         while (skipBlank()) {}
     }
     if (atEnd()) return token(TokenKind::End);
-    constexpr std::pair<char, TokenKind> kMarks[] = { { '{', TokenKind::OpenBrace }, { '}', TokenKind::CloseBrace },
-        { '[', TokenKind::OpenBracket }, { ']', TokenKind::CloseBracket }, { ':', TokenKind::Colon }, { ',', TokenKind::Comma } };
+    constexpr std::pair<char, TokenKind> kMarks[] = { { '{', TokenKind::OpenBrace },   { '}', TokenKind::CloseBrace },
+                                                      { '[', TokenKind::OpenBracket }, { ']', TokenKind::CloseBracket },
+                                                      { ':', TokenKind::Colon },       { ',', TokenKind::Comma } };
     for (auto const& [mark, kind] : kMarks) {
         if (peek() != mark) continue;
         Token result = token(kind, std::string(1, mark));

@@ -12,7 +12,18 @@
 
 namespace filament::shader {
 
-enum class TokenKind : uint8_t { Word, Quoted, OpenBrace, CloseBrace, OpenBracket, CloseBracket, Colon, Comma, End, Error };
+enum class TokenKind : uint8_t {
+    Word,
+    Quoted,
+    OpenBrace,
+    CloseBrace,
+    OpenBracket,
+    CloseBracket,
+    Colon,
+    Comma,
+    End,
+    Error
+};
 
 struct Token {
     TokenKind kind = TokenKind::End;
@@ -44,7 +55,9 @@ private:
         return at < input().text.size() ? input().text[at] : '\0';
     }
     void advance();
-    bool startsWith(std::string_view text) { return std::string_view(input().text).substr(input().at).starts_with(text); }
+    bool startsWith(std::string_view text) {
+        return std::string_view(input().text).substr(input().at).starts_with(text);
+    }
     bool skipComment();
     bool skipBlank();
     Token token(TokenKind kind, std::string text = {});

@@ -69,9 +69,13 @@ Result<CompiledVariant> compileVariant(Prepared const& prepared, uint8_t key, Co
     Result<StagePair> stages = generate(prepared, key);
     if (!stages) return stages.error();
     Result<ProgramShaders> shaders = compileProgram(stages->vertex, stages->fragment,
-            { .exact = options.exact, .optimization = options.optimization, .spirv = options.spirv, .essl = options.essl,
-                    .layout = prepared.layout, .vertexName = prepared.definition.fileName,
-                    .fragmentName = prepared.definition.fileName });
+                                                    { .exact = options.exact,
+                                                      .optimization = options.optimization,
+                                                      .spirv = options.spirv,
+                                                      .essl = options.essl,
+                                                      .layout = prepared.layout,
+                                                      .vertexName = prepared.definition.fileName,
+                                                      .fragmentName = prepared.definition.fileName });
     if (!shaders) return shaders.error();
     CompiledVariant compiled{ .vertexInputs = shaders->vertexInputs };
     compiled.variant = { .key = key, .vertexSpirv = std::move(shaders->vertexSpirv),
@@ -94,14 +98,16 @@ Compiled compileVariants(Prepared const& prepared, CompileOptions const& options
 
 } // namespace
 
-Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view fileName, CompileOptions const& options) {
+Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view fileName,
+                                        CompileOptions const& options) {
     Result<Prepared> prepared = prepare(text, fileName, options);
     if (!prepared) return prepared.error();
     Compiled variants = compileVariants(*prepared, options);
 
     MaterialPackage package = std::move(prepared->definition.package);
     package.layout = prepared->layout;
-    for (std::optional<Result<CompiledVariant>>& compiled : variants) { // the error of the lowest key, whoever was first
+    for (std::optional<Result<CompiledVariant>>& compiled :
+         variants) { // the error of the lowest key, whoever was first
         Result<CompiledVariant>& result = *compiled;
         if (!result) return result.error();
         package.requiredAttributes |= result->vertexInputs;
@@ -111,14 +117,16 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     return package;
 }
 
-Result<std::string> preprocessMaterial(std::string_view text, std::string_view fileName, CompileOptions const& options) {
+Result<std::string> preprocessMaterial(std::string_view text, std::string_view fileName,
+                                       CompileOptions const& options) {
     Result<Prepared> prepared = prepare(text, fileName, options);
     if (!prepared) return prepared.error();
     std::string out;
     for (const uint8_t key : prepared->keys) {
         Result<StagePair> stages = generate(*prepared, key);
         if (!stages) return stages.error();
-        out += fmt::format("// ==== variant {} vertex\n{}\n// ==== variant {} fragment\n{}\n", key, stages->vertex, key, stages->fragment);
+        out += fmt::format("// ==== variant {} vertex\n{}\n// ==== variant {} fragment\n{}\n", key, stages->vertex, key,
+                           stages->fragment);
     }
     return out;
 }

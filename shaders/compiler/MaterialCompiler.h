@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// compileMaterial: the text of a .mat file -> a package with every variant in both languages.
-///   Steps   parse (Jsonish) -> check (MaterialDefinition) -> which properties does the code set (CodeScan)? -> generate GLSL
-///           per variant (GlslGenerator) -> compile (CompileProgram) -> package.
+///   Steps   parse (Jsonish) -> check (MaterialDefinition) -> which properties does the code set (CodeScan)?
+///           -> generate GLSL per variant (GlslGenerator) -> compile (CompileProgram) -> package.
 ///   Thread  any; with `jobs` the variants are compiled in parallel. The bytes do not depend on it.
 ///   Memory  what the package holds, and some megabytes a thread while compiling.
 ///   Fails   InvalidArgument or Unsupported, "file:line: reason" in the author's file, also for errors of the GLSL.
@@ -33,9 +33,11 @@ struct CompileOptions {
     jobs::JobSystem* jobs = nullptr; ///< null: on the calling thread alone
 };
 
-Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view fileName, CompileOptions const& options = {});
+Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view fileName,
+                                        CompileOptions const& options = {});
 
 /// What the compiler hands to glslang, for reading: both stages of every variant.
-Result<std::string> preprocessMaterial(std::string_view text, std::string_view fileName, CompileOptions const& options = {});
+Result<std::string> preprocessMaterial(std::string_view text, std::string_view fileName,
+                                       CompileOptions const& options = {});
 
 } // namespace filament::shader

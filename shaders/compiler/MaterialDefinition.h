@@ -54,8 +54,8 @@ inline constexpr std::string_view kMaskThresholdParameter = "_maskThreshold";
 
 Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fileName);
 
-/// "directionalLighting" and the like -> the variant bits that they stand for; 0 for filters of features that this version
-/// does not have; nothing for an unknown name.
+/// "directionalLighting" and the like -> the variant bits that they stand for; 0 for filters of features that this
+/// version does not have; nothing for an unknown name.
 std::optional<uint8_t> variantBitsOfFilter(std::string_view name);
 std::vector<std::string_view> variantFilterNames();
 

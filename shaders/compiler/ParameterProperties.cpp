@@ -35,28 +35,35 @@ Result<void> readType(JsonValue const& value, Parameter& out) {
         const auto size = std::from_chars(value.text.data() + bracket + 1, last, out.arraySize);
         const bool isSize = size.ec == std::errc{} && std::string_view(size.ptr, last) == "]";
         if (!isSize || out.arraySize == 0 || out.arraySize > kMaxBlockBytes / 16) {
-            return errorAt(value.at, fmt::format("\"{}\": an array size is a number from 1 to {}", value.text, kMaxBlockBytes / 16));
+            return errorAt(value.at, fmt::format("\"{}\": an array size is a number from 1 to {}", value.text,
+                                                 kMaxBlockBytes / 16));
         }
         base.text = value.text.substr(0, bracket);
     }
     if (equalIgnoringCase(base.text, "samplerExternal") || equalIgnoringCase(base.text, "sampler3d")) {
-        return errorAt(value.at, fmt::format("the type {} is known but not supported by this version", base.text), ErrorCode::Unsupported);
+        return errorAt(value.at, fmt::format("the type {} is known but not supported by this version", base.text),
+                       ErrorCode::Unsupported);
     }
     if (Result<void> known = readEnum(base, "type", kTypes, out.type); !known) return known;
-    if (out.arraySize > 0 && isTexture(out.type)) return errorAt(value.at, "samplers cannot be arrays; use sampler2dArray");
+    if (out.arraySize > 0 && isTexture(out.type))
+        return errorAt(value.at, "samplers cannot be arrays; use sampler2dArray");
     return {};
 }
 
 /// `format` of samplers: only float textures exist here.
 Result<void> checkFormat(JsonValue const& value) {
-    static constexpr std::pair<std::string_view, bool> kFormats[] = { { "float", true }, { "int", false } };
+    static constexpr std::pair<std::string_view, bool> kFormats[] = {
+        { "float", true }, { "int", false },
+    };
     bool isFloat = true;
     if (Result<void> known = readEnum(value, "format", kFormats, isFloat); !known) return known;
     if (isFloat) return {};
-    return errorAt(value.at, "samplers of format int are known but not supported by this version", ErrorCode::Unsupported);
+    return errorAt(value.at, "samplers of format int are known but not supported by this version",
+                   ErrorCode::Unsupported);
 }
 
-Result<void> requireMember(JsonValue const& object, std::string_view key, std::string_view what, JsonValue const*& out) {
+Result<void> requireMember(JsonValue const& object, std::string_view key, std::string_view what,
+                           JsonValue const*& out) {
     out = findMember(object, key);
     if (out) return {};
     return errorAt(object.at, fmt::format("a {} needs the field '{}'", what, key));
@@ -90,7 +97,8 @@ Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
     Parameter parameter{ .name = entry->name };
     ParameterSource source{ .at = item.at };
     Result<void> done = readType(*entry->type, parameter);
-    if (JsonValue const* precision = findMember(item, "precision"); done && precision) done = readPrecision(*precision, source.precision);
+    if (JsonValue const* precision = findMember(item, "precision"); done && precision)
+        done = readPrecision(*precision, source.precision);
     if (JsonValue const* format = findMember(item, "format"); done && format) done = checkFormat(*format);
     if (!done) return done;
     out.package.parameters.push_back(std::move(parameter));
@@ -114,15 +122,17 @@ Result<void> readDefault(JsonValue const& value, Constant& out) {
         return {};
     }
     const auto integer = static_cast<int64_t>(std::clamp(value.number, -2147483648.0, 2147483647.0));
-    if (static_cast<double>(integer) != value.number) return errorAt(value.at, "the default of an int is a 32-bit integer");
+    if (static_cast<double>(integer) != value.number)
+        return errorAt(value.at, "the default of an int is a 32-bit integer");
     out.defaultBits = static_cast<uint32_t>(static_cast<int32_t>(integer));
     return {};
 }
 
 Result<void> readConstant(JsonValue const& item, MaterialDefinition& out) {
     static constexpr std::string_view kFields[] = { "name", "type", "default" };
-    static constexpr std::pair<std::string_view, ConstantType> kConstantTypes[] = { { "bool", ConstantType::Bool },
-        { "int", ConstantType::Int }, { "float", ConstantType::Float } };
+    static constexpr std::pair<std::string_view, ConstantType> kConstantTypes[] = {
+        { "bool", ConstantType::Bool }, { "int", ConstantType::Int }, { "float", ConstantType::Float },
+    };
     Result<NamedEntry> entry = readEntry(item, kFields, "constant");
     if (!entry) return entry.error();
     if (out.package.findConstant(entry->name)) {
@@ -146,12 +156,14 @@ Result<void> readVariable(JsonValue const& item, MaterialDefinition& out) {
         done = expectOnly(item, kFields, "variable");
         if (done) done = requireMember(item, "name", "variable", name);
         if (done) done = readIdentifier(*name, "variable", variable.name);
-        if (JsonValue const* precision = findMember(item, "precision"); done && precision) done = readPrecision(*precision, variable.precision);
+        if (JsonValue const* precision = findMember(item, "precision"); done && precision)
+            done = readPrecision(*precision, variable.precision);
     } else {
         done = readIdentifier(item, "variable", variable.name);
     }
     if (!done) return done;
-    if (out.variables.size() == kMaxVariables) return errorAt(item.at, fmt::format("a material has at most {} variables", kMaxVariables));
+    if (out.variables.size() == kMaxVariables)
+        return errorAt(item.at, fmt::format("a material has at most {} variables", kMaxVariables));
     if (std::ranges::count(out.variables, variable.name, &Variable::name) > 0) {
         return errorAt(item.at, fmt::format("there are two variables '{}'", variable.name));
     }
@@ -161,7 +173,8 @@ Result<void> readVariable(JsonValue const& item, MaterialDefinition& out) {
 
 using ReadItem = Result<void> (*)(JsonValue const&, MaterialDefinition&);
 
-Result<void> readEach(JsonValue const& value, std::string_view what, size_t limit, ReadItem read, MaterialDefinition& out) {
+Result<void> readEach(JsonValue const& value, std::string_view what, size_t limit, ReadItem read,
+                      MaterialDefinition& out) {
     if (Result<void> isArray = expectKind(value, JsonValue::Kind::Array, what); !isArray) return isArray;
     if (value.items.size() > limit) return errorAt(value.at, fmt::format("'{}' has more than {} entries", what, limit));
     for (JsonValue const& item : value.items) {
@@ -171,10 +184,12 @@ Result<void> readEach(JsonValue const& value, std::string_view what, size_t limi
 }
 
 Result<void> readRequirement(JsonValue const& item, MaterialDefinition& out) {
-    static constexpr std::pair<std::string_view, uint32_t> kAttributes[] = { { "position", kAttributePosition },
-        { "tangents", kAttributeTangents }, { "color", kAttributeColor }, { "uv0", kAttributeUv0 }, { "uv1", kAttributeUv1 },
-        { "custom0", 7 }, { "custom1", 8 }, { "custom2", 9 }, { "custom3", 10 }, { "custom4", 11 }, { "custom5", 12 },
-        { "custom6", 13 }, { "custom7", 14 } };
+    static constexpr std::pair<std::string_view, uint32_t> kAttributes[] = {
+        { "position", kAttributePosition }, { "tangents", kAttributeTangents }, { "color", kAttributeColor },
+        { "uv0", kAttributeUv0 }, { "uv1", kAttributeUv1 }, { "custom0", 7 }, { "custom1", 8 },
+        { "custom2", 9 }, { "custom3", 10 }, { "custom4", 11 }, { "custom5", 12 }, { "custom6", 13 },
+        { "custom7", 14 },
+    };
     uint32_t location = 0;
     if (Result<void> done = readEnum(item, "requires", kAttributes, location); !done) return done;
     out.requiredAttributes |= 1u << location;
@@ -245,7 +260,8 @@ Result<void> layOutParameters(MaterialDefinition& definition) {
     for (Parameter const& parameter : definition.package.parameters) bytes += parameterBytes(parameter);
     definition.package.uniformBytes = assignOffsets(definition.package.parameters);
     if (bytes > kMaxBlockBytes || definition.package.uniformBytes > kMaxBlockBytes) {
-        return fail(ErrorCode::InvalidArgument, "{}: the parameters take more than {} bytes", definition.fileName, kMaxBlockBytes);
+        return fail(ErrorCode::InvalidArgument, "{}: the parameters take more than {} bytes", definition.fileName,
+                    kMaxBlockBytes);
     }
     return {};
 }

@@ -12,7 +12,8 @@ bool isIdentifierCharacter(char c) { return std::isalnum(static_cast<unsigned ch
 } // namespace
 
 bool equalIgnoringCase(std::string_view a, std::string_view b) {
-    return std::ranges::equal(a, b, [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+    return std::ranges::equal(a, b,
+                              [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
 Result<void> expectKind(JsonValue const& value, JsonValue::Kind kind, std::string_view what) {
@@ -41,7 +42,8 @@ Result<void> readIdentifier(JsonValue const& value, std::string_view what, std::
     std::string const& name = value.text;
     const bool isIdentifier = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0]))
             && std::ranges::all_of(name, isIdentifierCharacter);
-    const bool isReserved = name.starts_with("gl_") || name.find("__") != std::string::npos || name == kMaskThresholdParameter;
+    const bool isReserved =
+            name.starts_with("gl_") || name.find("__") != std::string::npos || name == kMaskThresholdParameter;
     if (!isIdentifier || isReserved || name.size() > 128) {
         return errorAt(value.at, fmt::format("{} \"{}\" is not a usable GLSL identifier", what, name.substr(0, 128)));
     }

@@ -30,7 +30,8 @@ Result<void> expectOnly(JsonValue const& object, std::span<const std::string_vie
 Error unknownName(JsonValue const& value, std::string_view what, std::span<const std::string_view> known);
 
 template <class E, size_t N>
-Result<void> readEnum(JsonValue const& value, std::string_view what, std::pair<std::string_view, E> const (&names)[N], E& out) {
+Result<void> readEnum(JsonValue const& value, std::string_view what, std::pair<std::string_view, E> const (&names)[N],
+                      E& out) {
     if (Result<void> isString = expectKind(value, JsonValue::Kind::String, what); !isString) return isString;
     std::vector<std::string_view> known;
     for (auto const& [name, enumerator] : names) {

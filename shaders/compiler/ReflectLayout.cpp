@@ -42,7 +42,8 @@ public:
 
     Result<void> read(std::optional<std::vector<SetBinding>> const& dynamicBuffers) {
         // Declared but never read: not there, as for the drivers.
-        const spirv_cross::ShaderResources all = mCompiler.get_shader_resources(mCompiler.get_active_interface_variables());
+        const spirv_cross::ShaderResources all =
+                mCompiler.get_shader_resources(mCompiler.get_active_interface_variables());
         if (const char* unsupported = unsupportedKind(all)) {
             return fail(ErrorCode::InvalidArgument, "{} are not supported in shaders; use uniform blocks and combined "
                     "image samplers", unsupported);

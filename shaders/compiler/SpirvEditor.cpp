@@ -73,7 +73,8 @@ void SpirvEditor::scan() {
 void SpirvEditor::scanGlobal(Instruction const& at) {
     switch (at.op) {
         case spv::OpExtInstImport:
-            if (std::strcmp(reinterpret_cast<const char*>(at.operands.data()), "GLSL.std.450") == 0) mExtended = at.result;
+            if (std::strcmp(reinterpret_cast<const char*>(at.operands.data()), "GLSL.std.450") == 0)
+                mExtended = at.result;
             break;
         case spv::OpDecorate:
             if (at.operands[1] == spv::DecorationRelaxedPrecision || at.operands[1] == spv::DecorationNoContraction) {

@@ -32,7 +32,8 @@ public:
 
     explicit SpirvEditor(std::span<const uint32_t> module);
 
-    /// Returns the id that holds the value of the instruction, after emitting what computes it; 0: keep the instruction.
+    /// Returns the id that holds the value of the instruction, after emitting what computes it; 0: keep the
+    /// instruction.
     using Replace = std::function<Id(Instruction const&)>;
     /// Offers every instruction inside functions to `replace`, in order.
     std::vector<uint32_t> rewrite(Replace const& replace);

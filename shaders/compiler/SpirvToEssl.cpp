@@ -13,12 +13,13 @@ namespace {
 
 using spirv_cross::CompilerGLSL;
 
-/// SPIRV-Cross knows `precise` only from ESSL 3.20 on; here an extension brings it to 3.10, and a device without it, which
-/// cannot promise equal bits anyway, reads nothing in its place.
+/// SPIRV-Cross knows `precise` only from ESSL 3.20 on; here an extension brings it to 3.10, and a device without it,
+/// which cannot promise equal bits anyway, reads nothing in its place.
 class EsslCompiler final : public CompilerGLSL {
 public:
     explicit EsslCompiler(std::vector<uint32_t> spirv) : CompilerGLSL(std::move(spirv)) {
-        for (const char* line : { "#extension GL_EXT_gpu_shader5 : enable", "#ifndef GL_EXT_gpu_shader5", "#define precise", "#endif" }) {
+        for (const char* line :
+             { "#extension GL_EXT_gpu_shader5 : enable", "#ifndef GL_EXT_gpu_shader5", "#define precise", "#endif" }) {
             add_header_line(line);
         }
     }
@@ -40,7 +41,8 @@ void setOptions(CompilerGLSL& compiler) {
     compiler.set_common_options(options);
 }
 
-/// Without the optimiser a module declares more than it reads; outputs stay, also the unwritten ones of withFetchOutputs().
+/// Without the optimiser a module declares more than it reads; outputs stay, also the unwritten ones of
+/// withFetchOutputs().
 void dropUnread(CompilerGLSL& compiler) {
     auto active = compiler.get_active_interface_variables();
     for (auto const& output : compiler.get_shader_resources().stage_outputs) active.insert(output.id);
@@ -57,7 +59,8 @@ void renumber(CompilerGLSL& compiler, spirv_cross::Resource const& resource, bac
 }
 
 void renumberAll(CompilerGLSL& compiler, backend::ProgramLayout const& layout) {
-    const spirv_cross::ShaderResources resources = compiler.get_shader_resources(compiler.get_active_interface_variables());
+    const spirv_cross::ShaderResources resources =
+            compiler.get_shader_resources(compiler.get_active_interface_variables());
     for (auto const& buffer : resources.uniform_buffers) renumber(compiler, buffer, layout);
     for (auto const& image : resources.sampled_images) renumber(compiler, image, layout);
     for (auto const& input : resources.subpass_inputs) {

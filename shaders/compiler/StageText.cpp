@@ -16,7 +16,8 @@ std::optional<std::string_view> includedPath(std::string_view line) {
     const size_t begin = line.find_first_not_of(" \t");
     if (begin == std::string_view::npos || !line.substr(begin).starts_with("#include")) return std::nullopt;
     const size_t open = line.find('"'), close = line.rfind('"');
-    return open < close && close != std::string_view::npos ? line.substr(open + 1, close - open - 1) : std::string_view{};
+    return open < close && close != std::string_view::npos ? line.substr(open + 1, close - open - 1)
+                                                           : std::string_view{};
 }
 
 } // namespace
@@ -41,7 +42,8 @@ void StageText::lineDirective(uint32_t line, std::string_view file) {
 }
 
 Result<void> StageText::lines(std::string_view text, std::string_view file, uint32_t firstLine) {
-    if (mText.size() + text.size() > kMaxBytes) return fail(ErrorCode::InvalidArgument, "{}: the shader is larger than 4 MiB", file);
+    if (mText.size() + text.size() > kMaxBytes)
+        return fail(ErrorCode::InvalidArgument, "{}: the shader is larger than 4 MiB", file);
     lineDirective(firstLine, file);
     for (uint32_t number = firstLine; !text.empty(); ++number) {
         const size_t end = std::min(text.find('\n'), text.size());
@@ -61,7 +63,9 @@ Result<void> StageText::include(std::string_view path, std::string_view fromFile
     if (mIncluded.contains(path)) return {};
     mIncluded.emplace(path);
     const std::optional<std::string> text = mIncludes ? mIncludes(path) : std::nullopt;
-    if (!text) return fail(ErrorCode::InvalidArgument, "{}:{}: cannot find the file \"{}\" of this #include", fromFile, fromLine, path);
+    if (!text)
+        return fail(ErrorCode::InvalidArgument, "{}:{}: cannot find the file \"{}\" of this #include", fromFile,
+                    fromLine, path);
     return lines(*text, path, 1);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// StageText: the GLSL of one stage being put together from the engine's files, generated lines and the author's blocks.
+/// StageText: the GLSL of one stage being put together from the engine's files, generated lines and the author's
+/// blocks.
 ///   Every piece is preceded by a #line directive, so that errors name the author's file and line.
 ///   Includes are followed recursively, each file at most once a stage.
 ///   Thread  one at a time. Limits: 4 MiB of text.

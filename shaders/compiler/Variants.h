@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which variants of a material exist: one for every combination of what the scene may ask of it and no filter excludes.
+/// Which variants of a material exist: one for every combination of what the scene may ask of it and no filter
+/// excludes.
 ///   Thread  any. Fails: never.
 #pragma once
 

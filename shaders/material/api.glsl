@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every material may call in both stages: type names, mathematics, frame constants (materials guide, 4.5.1 - 4.5.4).
+// What every material may call in both stages: type names, mathematics, frame constants (materials guide, 4.5.1 to
+// 4.5.4).
 // "World" is the camera-relative world of DESIGN: its axes are the user's, its origin is the camera.
 
 #define bool2 bvec2

@@ -10,7 +10,8 @@ vec4 gltfBaseColor() {
     vec4 color = materialParams.baseColorFactor;
     if (materialConstants_hasVertexColor) color *= getColor();
     if (materialConstants_hasBaseColorMap) {
-        vec2 uv = mapUv(materialConstants_baseColorUv, materialConstants_baseColorTransform, materialParams.baseColorUvMatrix);
+        vec2 uv = mapUv(materialConstants_baseColorUv, materialConstants_baseColorTransform,
+                materialParams.baseColorUvMatrix);
         color *= texture(materialParams_baseColorMap, uv);
     }
 #if defined(BLEND_MODE_TRANSPARENT)

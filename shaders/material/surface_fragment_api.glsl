@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of surface materials, what goes before the material's own code: MaterialInputs, prepareMaterial() and the
-// functions of the guide, 4.5.7.
+// Fragment stage of surface materials, what goes before the material's own code: MaterialInputs, prepareMaterial() and
+// the functions of the guide, 4.5.7.
 
 layout(location = 0) out vec4 fragment_color;
 

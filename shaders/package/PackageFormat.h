@@ -8,9 +8,10 @@
 namespace filament::shader::format {
 
 constexpr uint32_t tag(const char (&text)[5]) {
-    return static_cast<uint32_t>(static_cast<uint8_t>(text[0])) | static_cast<uint32_t>(static_cast<uint8_t>(text[1])) << 8
-            | static_cast<uint32_t>(static_cast<uint8_t>(text[2])) << 16
-            | static_cast<uint32_t>(static_cast<uint8_t>(text[3])) << 24;
+    return static_cast<uint32_t>(static_cast<uint8_t>(text[0])) |
+           static_cast<uint32_t>(static_cast<uint8_t>(text[1])) << 8 |
+           static_cast<uint32_t>(static_cast<uint8_t>(text[2])) << 16 |
+           static_cast<uint32_t>(static_cast<uint8_t>(text[3])) << 24;
 }
 
 inline constexpr uint32_t kMagic = tag("FMAT");

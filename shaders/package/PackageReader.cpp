@@ -43,8 +43,10 @@ Result<std::span<const std::byte>> checkHeader(std::span<const std::byte> bytes)
     const uint64_t checksum = in.u64();
     if (in.failed()) return corrupt("the file ends within its header");
     if (version != kVersion) {
-        return fail(ErrorCode::Unsupported, "material package: version {} is not version {} of this engine; compile the "
-                "material again with the matc of this engine", version, kVersion);
+        return fail(ErrorCode::Unsupported,
+                    "material package: version {} is not version {} of this engine; compile the "
+                    "material again with the matc of this engine",
+                    version, kVersion);
     }
     const auto content = bytes.subspan(kHeaderBytes);
     if (hashBytes(content) != checksum) return corrupt("the checksum does not match, the file is damaged or cut short");
@@ -158,7 +160,8 @@ bool readVariants(ByteReader in, std::vector<Variant>& out) {
 template <class T>
 bool namesAreUnique(std::vector<T> const& things) {
     std::set<std::string_view> names;
-    return std::ranges::all_of(things, [&](T const& thing) { return !thing.name.empty() && names.insert(thing.name).second; });
+    return std::ranges::all_of(things,
+                               [&](T const& thing) { return !thing.name.empty() && names.insert(thing.name).second; });
 }
 
 bool fits(Parameter const& parameter, uint32_t uniformBytes) {
@@ -187,7 +190,8 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
 
     MaterialPackage package;
     if (!readGeneral(section(kSectionGeneral), package)) return corrupt("the general section is malformed");
-    if (!readParameters(section(kSectionParameters), package.parameters)) return corrupt("the parameters are malformed");
+    if (!readParameters(section(kSectionParameters), package.parameters))
+        return corrupt("the parameters are malformed");
     if (!readConstants(section(kSectionConstants), package.constants)) return corrupt("the constants are malformed");
     if (!readLayout(section(kSectionLayout), package.layout)) return corrupt("the binding layout is malformed");
     if (!readVariants(section(kSectionVariants), package.variants)) return corrupt("the variants are malformed");

@@ -90,15 +90,18 @@ int main(int argc, char** argv) {
     CLI::App app{ "Compiles a material definition (.mat) into a material package (.fmat)." };
     app.add_option("input", arguments.input, "the material definition")->required();
     auto* const output = app.add_option("-o,--output", arguments.output, "the package to write");
-    app.add_option("-a,--api", arguments.api, "languages in the package")->check(CLI::IsMember({ "opengl", "vulkan", "all" }));
+    app.add_option("-a,--api", arguments.api, "languages in the package")
+            ->check(CLI::IsMember({ "opengl", "vulkan", "all" }));
     app.add_option("-p,--platform", arguments.platform, "accepted for compatibility; one package serves all")
             ->check(CLI::IsMember({ "desktop", "mobile", "all" }));
-    app.add_option("-v,--variant-filter", arguments.filters, "variants to leave out, separated by commas")->delimiter(',');
+    app.add_option("-v,--variant-filter", arguments.filters, "variants to leave out, separated by commas")
+            ->delimiter(',');
     app.add_option("-j,--jobs", arguments.threads, "threads; the bytes do not depend on it (default: all cores)")
             ->check(CLI::Range(1, 256));
     app.add_flag("-S,--optimize-size", arguments.optimizeSize, "small shaders rather than fast ones");
     app.add_flag("-g,--no-optimization", arguments.noOptimization, "shaders as written, for debugging");
-    app.add_flag("--inexact", arguments.inexact, "leave dot, normalize, mix, ... to the drivers: the APIs may differ in bits");
+    app.add_flag("--inexact", arguments.inexact,
+                 "leave dot, normalize, mix, ... to the drivers: the APIs may differ in bits");
     auto* const preprocess = app.add_flag("--preprocess", arguments.preprocess, "print the generated GLSL and stop");
     CLI11_PARSE(app, argc, argv);
     if (output->empty() && preprocess->empty()) {

@@ -58,7 +58,9 @@ TEST(CompileProgram, ReflectsBindingsOfBothStagesInAscendingOrder) {
     ASSERT_TRUE(program) << program.error().message;
     backend::ProgramLayout expected{};
     expected[0].count = 2;
-    expected[0].bindings[0] = { .binding = 0, .type = BindingType::DynamicUniformBuffer, .stages = ShaderStage::Vertex };
+    expected[0].bindings[0] = { .binding = 0,
+                                .type = BindingType::DynamicUniformBuffer,
+                                .stages = ShaderStage::Vertex };
     expected[0].bindings[1] = { .binding = 5, .type = BindingType::SampledTexture, .stages = ShaderStage::Fragment };
     expected[1].count = 2;
     expected[1].bindings[0] = { .binding = 0, .type = BindingType::UniformBuffer, .stages = ShaderStage::Both };
@@ -163,8 +165,9 @@ TEST(CompileProgram, GivesTheSameBytesFromEveryThread) {
     for (bool& same : equal) {
         threads.emplace_back([&] {
             const Result<ProgramShaders> again = compileProgram(kVertex, kFragment);
-            same = again && again->fragmentSpirv == expected->fragmentSpirv && again->vertexSpirv == expected->vertexSpirv
-                    && again->fragmentEssl == expected->fragmentEssl && again->vertexEssl == expected->vertexEssl;
+            same = again && again->fragmentSpirv == expected->fragmentSpirv &&
+                   again->vertexSpirv == expected->vertexSpirv && again->fragmentEssl == expected->fragmentEssl &&
+                   again->vertexEssl == expected->vertexEssl;
         });
     }
     for (std::thread& thread : threads) thread.join();

@@ -11,7 +11,8 @@
 namespace filament::shader {
 namespace {
 
-/// A fragment shader that stores `expression` (a vec4) made from the uniforms a, b, c (vec4), x, y, s (float), m, n (mat4).
+/// A fragment shader that stores `expression` (a vec4) made from the uniforms a, b, c (vec4), x, y, s (float), m, n
+/// (mat4).
 std::string shaderOf(std::string const& expression) {
     return R"(#version 450
 layout(set = 0, binding = 0, std140) uniform U { mat4 m, n; mat3 m3; vec4 a, b, c; vec4 s; } u;
@@ -48,33 +49,30 @@ TEST_P(ExactLoweringOf, LeavesNoneAndKeepsTheModuleValid) {
     EXPECT_EQ(test::disassembly(after).find(pattern), std::string::npos) << test::disassembly(after);
 }
 
-INSTANTIATE_TEST_SUITE_P(EveryOperation, ExactLoweringOf, ::testing::Values(
-        Operation{ "OpDot", "vec4(dot(u.a.xyz, u.b.xyz))" },
-        Operation{ "OpMatrixTimesVector", "u.m * u.a" },
-        Operation{ "OpVectorTimesMatrix", "u.a * u.m" },
-        Operation{ "OpMatrixTimesMatrix", "(u.m * u.n)[2]" },
-        Operation{ "OpOuterProduct", "outerProduct(u.a, u.b)[1]" },
-        Operation{ "OpFMod", "mod(u.a, u.b)" },
-        Operation{ "OpSMod", "vec4(int(u.a.x) % int(u.a.y))" },
-        Operation{ "OpFDiv", "u.a / 3.0" },
-        Operation{ "OpFDiv", "u.a / vec4(3.0, 5.0, 7.0, 9.0)" },
-        Operation{ "Length", "vec4(length(u.a), length(u.a.x), 0, 0)" },
-        Operation{ "Distance", "vec4(distance(u.a, u.b))" },
-        Operation{ "Normalize", "vec4(normalize(u.a.xyz), 1)" },
-        Operation{ "Reflect", "reflect(u.a, u.b)" },
-        Operation{ "Refract", "refract(u.a, u.b, u.s.x)" },
-        Operation{ "FaceForward", "faceforward(u.a, u.b, u.c)" },
-        Operation{ "FMix", "mix(u.a, u.b, u.c)" },
-        Operation{ "SmoothStep", "smoothstep(u.a, u.b, u.c)" },
-        Operation{ "SmoothStep", "smoothstep(0.2, 0.7, u.c)" },
-        Operation{ "Fma", "fma(u.a, u.b, u.c)" },
-        Operation{ "Determinant", "vec4(determinant(u.m), determinant(u.m3), determinant(mat2(u.a)), 0)" },
-        Operation{ "MatrixInverse", "inverse(u.m)[0] + vec4(inverse(u.m3)[1], inverse(mat2(u.a))[1].x)" },
-        Operation{ "Radians", "radians(u.a)" }, Operation{ "Degrees", "degrees(u.a)" },
-        Operation{ "Cross", "vec4(cross(u.a.xyz, u.b.xyz), 1)" }, Operation{ "Tan", "tan(u.a)" }, Operation{ "Acos", "acos(u.a)" },
-        Operation{ "Atan", "atan(u.a)" }, Operation{ "Atan2", "atan(u.a, u.b)" }, Operation{ "Asin", "asin(u.a)" }, Operation{ "Sinh", "sinh(u.a)" }, Operation{ "Cosh", "cosh(u.a)" },
-        Operation{ "Tanh", "tanh(u.a)" }, Operation{ "Asinh", "asinh(u.a)" }, Operation{ "Acosh", "acosh(u.a)" },
-        Operation{ "Atanh", "atanh(u.a)" }),
+INSTANTIATE_TEST_SUITE_P(
+        EveryOperation, ExactLoweringOf,
+        ::testing::Values(
+                Operation{ "OpDot", "vec4(dot(u.a.xyz, u.b.xyz))" }, Operation{ "OpMatrixTimesVector", "u.m * u.a" },
+                Operation{ "OpVectorTimesMatrix", "u.a * u.m" }, Operation{ "OpMatrixTimesMatrix", "(u.m * u.n)[2]" },
+                Operation{ "OpOuterProduct", "outerProduct(u.a, u.b)[1]" }, Operation{ "OpFMod", "mod(u.a, u.b)" },
+                Operation{ "OpSMod", "vec4(int(u.a.x) % int(u.a.y))" }, Operation{ "OpFDiv", "u.a / 3.0" },
+                Operation{ "OpFDiv", "u.a / vec4(3.0, 5.0, 7.0, 9.0)" },
+                Operation{ "Length", "vec4(length(u.a), length(u.a.x), 0, 0)" },
+                Operation{ "Distance", "vec4(distance(u.a, u.b))" },
+                Operation{ "Normalize", "vec4(normalize(u.a.xyz), 1)" }, Operation{ "Reflect", "reflect(u.a, u.b)" },
+                Operation{ "Refract", "refract(u.a, u.b, u.s.x)" },
+                Operation{ "FaceForward", "faceforward(u.a, u.b, u.c)" }, Operation{ "FMix", "mix(u.a, u.b, u.c)" },
+                Operation{ "SmoothStep", "smoothstep(u.a, u.b, u.c)" },
+                Operation{ "SmoothStep", "smoothstep(0.2, 0.7, u.c)" }, Operation{ "Fma", "fma(u.a, u.b, u.c)" },
+                Operation{ "Determinant", "vec4(determinant(u.m), determinant(u.m3), determinant(mat2(u.a)), 0)" },
+                Operation{ "MatrixInverse", "inverse(u.m)[0] + vec4(inverse(u.m3)[1], inverse(mat2(u.a))[1].x)" },
+                Operation{ "Radians", "radians(u.a)" }, Operation{ "Degrees", "degrees(u.a)" },
+                Operation{ "Cross", "vec4(cross(u.a.xyz, u.b.xyz), 1)" }, Operation{ "Tan", "tan(u.a)" },
+                Operation{ "Acos", "acos(u.a)" }, Operation{ "Atan", "atan(u.a)" },
+                Operation{ "Atan2", "atan(u.a, u.b)" }, Operation{ "Asin", "asin(u.a)" },
+                Operation{ "Sinh", "sinh(u.a)" }, Operation{ "Cosh", "cosh(u.a)" }, Operation{ "Tanh", "tanh(u.a)" },
+                Operation{ "Asinh", "asinh(u.a)" }, Operation{ "Acosh", "acosh(u.a)" },
+                Operation{ "Atanh", "atanh(u.a)" }),
         [](auto const& each) { return std::to_string(each.index) + "_" + each.param.opcode; });
 
 TEST(ExactLowering, DividesByASpecialisationConstantThroughItsReciprocal) {
@@ -83,7 +81,8 @@ TEST(ExactLowering, DividesByASpecialisationConstantThroughItsReciprocal) {
 }
 
 TEST(ExactLowering, TreatsWhatFollowsFromSpecialisationConstantsAsConstant) {
-    const std::string text = test::disassembly(lowerExactly(optimized("vec4(u.s.x / (kSpec > 2.0 ? 7.0 : kSpec * 5.0))")));
+    const std::string text =
+            test::disassembly(lowerExactly(optimized("vec4(u.s.x / (kSpec > 2.0 ? 7.0 : kSpec * 5.0))")));
     EXPECT_EQ(test::validationErrors(lowerExactly(optimized("vec4(u.s.x / (kSpec > 2.0 ? 7.0 : kSpec * 5.0))"))), "");
     EXPECT_NE(text.find("OpFDiv %float %float_1 "), std::string::npos) << text;
 }

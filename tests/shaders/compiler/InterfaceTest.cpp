@@ -69,10 +69,12 @@ protected:
 TEST_F(Interface, FrameUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kBindingFrame).base_type_id);
     expectMembers(type, { MEMBER(FrameUniforms, clipFromWorld), MEMBER(FrameUniforms, worldFromClip),
-            MEMBER(FrameUniforms, viewFromWorld), MEMBER(FrameUniforms, clipFromView), MEMBER(FrameUniforms, cameraPosition),
-            MEMBER(FrameUniforms, viewport), MEMBER(FrameUniforms, exposure), MEMBER(FrameUniforms, sunDirection),
-            MEMBER(FrameUniforms, sunIlluminance), MEMBER(FrameUniforms, ambient), MEMBER(FrameUniforms, skyFactor),
-            MEMBER(FrameUniforms, irradianceSh), MEMBER(FrameUniforms, worldFromEnvironment) });
+                          MEMBER(FrameUniforms, viewFromWorld), MEMBER(FrameUniforms, clipFromView),
+                          MEMBER(FrameUniforms, cameraPosition), MEMBER(FrameUniforms, viewport),
+                          MEMBER(FrameUniforms, exposure), MEMBER(FrameUniforms, sunDirection),
+                          MEMBER(FrameUniforms, sunIlluminance), MEMBER(FrameUniforms, ambient),
+                          MEMBER(FrameUniforms, skyFactor), MEMBER(FrameUniforms, irradianceSh),
+                          MEMBER(FrameUniforms, worldFromEnvironment) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));
 }
 
@@ -80,7 +82,8 @@ TEST_F(Interface, ObjectUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kBindingObjects).base_type_id);
     expectMembers(type, { MEMBER(ObjectUniforms, objects) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(ObjectUniforms));
-    expectMembers(record(type), { MEMBER(ObjectData, row0), MEMBER(ObjectData, row1), MEMBER(ObjectData, row2), MEMBER(ObjectData, flags) });
+    expectMembers(record(type), { MEMBER(ObjectData, row0), MEMBER(ObjectData, row1), MEMBER(ObjectData, row2),
+                                  MEMBER(ObjectData, flags) });
     EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(ObjectData));
 }
 
@@ -119,15 +122,18 @@ TEST(InterfaceLocations, AttributeLocationsAgree) {
         layout(location = kAttributeCustom0) in vec4 custom0;
         layout(location = kAttributeInstance) in uint instance;
         void main() { gl_Position = vec4(position + tangents.xyz, 1.0) + color + vec4(uv0, uv1) + vec4(joints) + weights + custom0 + vec4(instance); }
-        )", backend::ShaderStage::Vertex, "attributes");
+        )",
+                                                              backend::ShaderStage::Vertex, "attributes");
     ASSERT_TRUE(spirv) << spirv.error().message;
     spirv_cross::Compiler compiler(*spirv);
-    const std::vector<std::pair<std::string, uint32_t>> expected{ { "position", kAttributePosition },
-        { "tangents", kAttributeTangents }, { "color", kAttributeColor }, { "uv0", kAttributeUv0 }, { "uv1", kAttributeUv1 },
-        { "joints", kAttributeJoints }, { "weights", kAttributeWeights }, { "custom0", kAttributeCustom0 },
-        { "instance", kAttributeInstance } };
+    const std::vector<std::pair<std::string, uint32_t>> expected{
+        { "position", kAttributePosition }, { "tangents", kAttributeTangents }, { "color", kAttributeColor },
+        { "uv0", kAttributeUv0 },           { "uv1", kAttributeUv1 },           { "joints", kAttributeJoints },
+        { "weights", kAttributeWeights },   { "custom0", kAttributeCustom0 },   { "instance", kAttributeInstance }
+    };
     for (auto const& input : compiler.get_shader_resources().stage_inputs) {
-        const std::pair<std::string, uint32_t> found{ input.name, compiler.get_decoration(input.id, spv::DecorationLocation) };
+        const std::pair<std::string, uint32_t> found{ input.name,
+                                                      compiler.get_decoration(input.id, spv::DecorationLocation) };
         EXPECT_EQ(std::ranges::count(expected, found), 1) << found.first << " at " << found.second;
     }
 }

@@ -33,10 +33,12 @@ TEST(Jsonish, TakesKeysAndStringsWithAndWithoutQuotes) {
 }
 
 TEST(Jsonish, TellsBooleansNumbersAndStringsApart) {
-    const Result<MaterialText> parsed = parse("material { a : true, b : FALSE, c : -0.5, d : 1e3, e : \"true\", f : 2d, g : float[9] }");
+    const Result<MaterialText> parsed =
+            parse("material { a : true, b : FALSE, c : -0.5, d : 1e3, e : \"true\", f : 2d, g : float[9] }");
     ASSERT_TRUE(parsed) << parsed.error().message;
     auto const& members = parsed->material.members;
-    const std::vector<Kind> expected{ Kind::Bool, Kind::Bool, Kind::Number, Kind::Number, Kind::String, Kind::String, Kind::String };
+    const std::vector<Kind> expected{ Kind::Bool,   Kind::Bool,   Kind::Number, Kind::Number,
+                                      Kind::String, Kind::String, Kind::String };
     ASSERT_EQ(members.size(), expected.size());
     for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(members[i].second.kind, expected[i]) << members[i].first;
     EXPECT_TRUE(members[0].second.boolean);
@@ -47,7 +49,8 @@ TEST(Jsonish, TellsBooleansNumbersAndStringsApart) {
 }
 
 TEST(Jsonish, AllowsCommentsAndTrailingCommas) {
-    const Result<MaterialText> parsed = parse("// a { brace\nmaterial { /* } */ list : [ 1, [2], ], // ]\n object : { x : 1, }, }");
+    const Result<MaterialText> parsed =
+            parse("// a { brace\nmaterial { /* } */ list : [ 1, [2], ], // ]\n object : { x : 1, }, }");
     ASSERT_TRUE(parsed) << parsed.error().message;
     auto const& members = parsed->material.members;
     ASSERT_EQ(members.size(), 2u);
@@ -57,7 +60,8 @@ TEST(Jsonish, AllowsCommentsAndTrailingCommas) {
 }
 
 TEST(Jsonish, KeepsGlslAsItIsAndKnowsItsLine) {
-    const Result<MaterialText> parsed = parse("material {}\n\nfragment {\n  void f() { if (a) { } /* } */ } // }\n}\nvertex{int x;}");
+    const Result<MaterialText> parsed =
+            parse("material {}\n\nfragment {\n  void f() { if (a) { } /* } */ } // }\n}\nvertex{int x;}");
     ASSERT_TRUE(parsed) << parsed.error().message;
     ASSERT_TRUE(parsed->fragment && parsed->vertex);
     EXPECT_EQ(parsed->fragment->text, "\n  void f() { if (a) { } /* } */ } // }\n");
@@ -76,15 +80,18 @@ TEST(Jsonish, ContinuesInIncludedFilesAndReportsTheirLines) {
     ASSERT_TRUE(parsed) << parsed.error().message;
     EXPECT_EQ(parsed->material.members.size(), 2u);
     EXPECT_THAT(parse("material {\n#include \"self.inc\"\n}", files).error().message, HasSubstr("include itself"));
-    EXPECT_THAT(parse("material {\n\n#include \"gone.inc\"\n}", files).error().message, HasSubstr("wood.mat:3: cannot find"));
-    EXPECT_THAT(parse("material {\n#include \"broken.inc\"\n}", files).error().message, HasSubstr("broken.inc:2: expected ':'"));
+    EXPECT_THAT(parse("material {\n\n#include \"gone.inc\"\n}", files).error().message,
+                HasSubstr("wood.mat:3: cannot find"));
+    EXPECT_THAT(parse("material {\n#include \"broken.inc\"\n}", files).error().message,
+                HasSubstr("broken.inc:2: expected ':'"));
 }
 
 TEST(Jsonish, NamesFileLineAndWhatItExpected) {
     EXPECT_EQ(errorOf("material {\n  name stone\n}"), "wood.mat:2: expected ':', found 'stone'");
     EXPECT_EQ(errorOf("material {\n  list : [ 1 2 ]\n}"), "wood.mat:2: expected ',' or ']', found '2'");
     EXPECT_EQ(errorOf("material {\n  name : \"stone\n}"), "wood.mat:2: this string has no closing quote");
-    EXPECT_EQ(errorOf("material {\n  a : 1,\n"), "wood.mat:3: expected a property name or '}', found the end of the file");
+    EXPECT_EQ(errorOf("material {\n  a : 1,\n"),
+              "wood.mat:3: expected a property name or '}', found the end of the file");
     EXPECT_EQ(errorOf("material {}\nfragment {\n  {"), "wood.mat:2: this block has no closing brace");
     EXPECT_EQ(errorOf("fragment {}"), "wood.mat:1: there is no material block");
     EXPECT_EQ(errorOf("material {}\nmaterial {}"), "wood.mat:2: there are two material blocks");
@@ -96,7 +103,8 @@ TEST(Jsonish, RefusesEndlessNestingInsteadOfOverflowing) {
 }
 
 TEST(Jsonish, SurvivesEveryTruncationAndRandomBytes) {
-    const std::string original = "material { name : \"a\\\"b\", list : [ { type : float[2], x : 1 } ], // c\n } vertex { a { } } fragment { /* } */ }";
+    const std::string original = "material { name : \"a\\\"b\", list : [ { type : float[2], x : 1 } ], // c\n } vertex "
+                                 "{ a { } } fragment { /* } */ }";
     ASSERT_TRUE(parse(original)) << parse(original).error().message;
     for (size_t size = 0; size < original.size(); ++size) {
         const Result<MaterialText> parsed = parse(std::string_view(original).substr(0, size));

@@ -17,7 +17,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::Not;
 
-constexpr std::string_view kEmptyFragment = "\nfragment {\n void material(inout MaterialInputs material) { prepareMaterial(material); }\n}\n";
+constexpr std::string_view kEmptyFragment =
+        "\nfragment {\n void material(inout MaterialInputs material) { prepareMaterial(material); }\n}\n";
 
 std::string withProperties(std::string_view properties) {
     return "material {\n" + std::string(properties) + "\n}" + std::string(kEmptyFragment);
@@ -35,7 +36,8 @@ Error errorOf(std::string_view text) {
 }
 
 std::string fragmentOf(std::string_view fragmentBlock, std::string_view properties = "shadingModel : lit") {
-    const std::string text = "material {\n" + std::string(properties) + "\n}\nfragment {" + std::string(fragmentBlock) + "}\n";
+    const std::string text =
+            "material {\n" + std::string(properties) + "\n}\nfragment {" + std::string(fragmentBlock) + "}\n";
     const Result<std::string> glsl = preprocessMaterial(text, "wood.mat");
     return glsl ? *glsl : glsl.error().message;
 }
@@ -59,7 +61,8 @@ TEST(MaterialCompiler, FillsInTheDefaultsOfTheGuide) {
 }
 
 TEST(MaterialCompiler, ReadsEnumValuesInAnyCase) {
-    const Result<MaterialPackage> package = compile(withProperties("shadingModel : UNLIT, blending : \"Transparent\", culling : FrontAndBack"));
+    const Result<MaterialPackage> package =
+            compile(withProperties("shadingModel : UNLIT, blending : \"Transparent\", culling : FrontAndBack"));
     ASSERT_TRUE(package) << package.error().message;
     EXPECT_EQ(package->shading, ShadingModel::Unlit);
     EXPECT_EQ(package->blending, Blending::Transparent);
@@ -67,12 +70,13 @@ TEST(MaterialCompiler, ReadsEnumValuesInAnyCase) {
 }
 
 TEST(MaterialCompiler, LetsDefaultsFollowFromOtherProperties) {
-    const Result<MaterialPackage> blended = compile(withProperties("shadingModel : unlit, blending : fade, doubleSided : true"));
+    const Result<MaterialPackage> blended =
+            compile(withProperties("shadingModel : unlit, blending : fade, doubleSided : true"));
     ASSERT_TRUE(blended) << blended.error().message;
     EXPECT_FALSE(blended->depthWrite) << "blended materials do not write depth";
     EXPECT_EQ(blended->culling, Culling::None) << "double-sided materials are not culled";
-    const Result<MaterialPackage> explicitOnes =
-            compile(withProperties("shadingModel : unlit, blending : fade, doubleSided : true, depthWrite : true, culling : front"));
+    const Result<MaterialPackage> explicitOnes = compile(withProperties(
+            "shadingModel : unlit, blending : fade, doubleSided : true, depthWrite : true, culling : front"));
     ASSERT_TRUE(explicitOnes) << explicitOnes.error().message;
     EXPECT_TRUE(explicitOnes->depthWrite);
     EXPECT_EQ(explicitOnes->culling, Culling::Front);
@@ -80,11 +84,14 @@ TEST(MaterialCompiler, LetsDefaultsFollowFromOtherProperties) {
 
 TEST(MaterialCompiler, LaysOutParametersOfEveryType) {
     std::string list;
-    for (const char* type : { "bool", "bool2", "bool3", "bool4", "float", "float2", "float3", "float4", "int", "int2", "int3", "int4",
-                 "uint", "uint2", "uint3", "uint4", "float3x3", "float4x4", "float[3]", "mat3", "sampler2d", "sampler2dArray", "samplerCubemap" }) {
+    for (const char* type :
+         { "bool",     "bool2",    "bool3",    "bool4", "float",     "float2",         "float3",        "float4",
+           "int",      "int2",     "int3",     "int4",  "uint",      "uint2",          "uint3",         "uint4",
+           "float3x3", "float4x4", "float[3]", "mat3",  "sampler2d", "sampler2dArray", "samplerCubemap" }) {
         list += "{ name : p" + std::to_string(list.size()) + ", type : " + type + ", precision : high },\n";
     }
-    const Result<MaterialPackage> package = compile(withProperties("shadingModel : unlit, parameters : [" + list + "]"));
+    const Result<MaterialPackage> package =
+            compile(withProperties("shadingModel : unlit, parameters : [" + list + "]"));
     ASSERT_TRUE(package) << package.error().message;
     ASSERT_EQ(package->parameters.size(), 23u);
     EXPECT_EQ(package->parameters[18].arraySize, 3u);
@@ -108,7 +115,8 @@ TEST(MaterialCompiler, KeepsConstantsWithTheirDefaults) {
 }
 
 TEST(MaterialCompiler, GivesMaskedMaterialsASettableThreshold) {
-    const Result<MaterialPackage> package = compile(withProperties("blending : masked, maskThreshold : 0.7, shadingModel : unlit"));
+    const Result<MaterialPackage> package =
+            compile(withProperties("blending : masked, maskThreshold : 0.7, shadingModel : unlit"));
     ASSERT_TRUE(package) << package.error().message;
     EXPECT_EQ(package->maskThreshold, 0.7f);
     ASSERT_NE(package->findParameter("_maskThreshold"), nullptr);
@@ -123,14 +131,18 @@ TEST(MaterialCompiler, SuggestsTheNameThatWasProbablyMeant) {
             "wood.mat:2: there is no property 'shadingModle'; did you mean 'shadingModel'?");
     EXPECT_THAT(errorOf(withProperties("blending : transparant")).message, HasSubstr("did you mean 'transparent'?"));
     EXPECT_THAT(errorOf(withProperties("requires : [ uvO ]")).message, HasSubstr("did you mean 'uv0'?"));
-    EXPECT_THAT(errorOf(withProperties("parameters : [ { name : a, type : flaot } ]")).message, HasSubstr("did you mean 'float'?"));
-    EXPECT_THAT(errorOf(withProperties("parameters : [ { nmae : a, type : float } ]")).message, HasSubstr("did you mean 'name'?"));
-    EXPECT_THAT(errorOf(withProperties("variantFilter : [ dynamicLightning ]")).message, HasSubstr("did you mean 'dynamicLighting'?"));
+    EXPECT_THAT(errorOf(withProperties("parameters : [ { name : a, type : flaot } ]")).message,
+                HasSubstr("did you mean 'float'?"));
+    EXPECT_THAT(errorOf(withProperties("parameters : [ { nmae : a, type : float } ]")).message,
+                HasSubstr("did you mean 'name'?"));
+    EXPECT_THAT(errorOf(withProperties("variantFilter : [ dynamicLightning ]")).message,
+                HasSubstr("did you mean 'dynamicLighting'?"));
 }
 
 TEST(MaterialCompiler, SaysWhichKnownFeaturesItLacks) {
-    for (const char* properties : { "refractionMode : cubemap", "shadingModel : cloth", "blending : custom", "customSurfaceShading : true",
-                 "parameters : [ { name : a, type : samplerExternal } ]" }) {
+    for (const char* properties :
+         { "refractionMode : cubemap", "shadingModel : cloth", "blending : custom", "customSurfaceShading : true",
+           "parameters : [ { name : a, type : samplerExternal } ]" }) {
         const Error error = errorOf(withProperties(properties));
         EXPECT_EQ(error.code, ErrorCode::Unsupported) << properties;
         EXPECT_THAT(error.message, HasSubstr("wood.mat:2: "));
@@ -139,15 +151,28 @@ TEST(MaterialCompiler, SaysWhichKnownFeaturesItLacks) {
 }
 
 TEST(MaterialCompiler, RefusesValuesOutsideOfTheirRangeOrType) {
-    for (const char* properties : { "maskThreshold : 1.5", "maskThreshold : high", "doubleSided : 1", "requires : uv0", "parameters : {}",
-                 "parameters : [ { name : 9lives, type : float } ]", "parameters : [ { name : gl_x, type : float } ]",
-                 "parameters : [ { name : a, type : float }, { name : a, type : int } ]", "parameters : [ { name : a } ]",
-                 "parameters : [ { name : a, type : float[0] } ]", "parameters : [ { name : a, type : float[99999999999] } ]",
-                 "parameters : [ { name : a, type : float[2000] } ]", "parameters : [ { name : a, type : sampler2d[4] } ]",
-                 "constants : [ { name : a, type : bool, default : 3 } ]", "constants : [ { name : a, type : int, default : 0.5 } ]",
-                 "constants : [ { name : a, type : float3 } ]", "variables : [ a, b, c, d, e ]", "variables : [ a, a ]",
-                 "name : a, name : b", "domain : postprocess, shadingModel : lit", "fullScreenTriangle : true",
-                 "parameters : [ { name : a, type : subpassInput } ]" }) {
+    for (const char* properties : { "maskThreshold : 1.5",
+                                    "maskThreshold : high",
+                                    "doubleSided : 1",
+                                    "requires : uv0",
+                                    "parameters : {}",
+                                    "parameters : [ { name : 9lives, type : float } ]",
+                                    "parameters : [ { name : gl_x, type : float } ]",
+                                    "parameters : [ { name : a, type : float }, { name : a, type : int } ]",
+                                    "parameters : [ { name : a } ]",
+                                    "parameters : [ { name : a, type : float[0] } ]",
+                                    "parameters : [ { name : a, type : float[99999999999] } ]",
+                                    "parameters : [ { name : a, type : float[2000] } ]",
+                                    "parameters : [ { name : a, type : sampler2d[4] } ]",
+                                    "constants : [ { name : a, type : bool, default : 3 } ]",
+                                    "constants : [ { name : a, type : int, default : 0.5 } ]",
+                                    "constants : [ { name : a, type : float3 } ]",
+                                    "variables : [ a, b, c, d, e ]",
+                                    "variables : [ a, a ]",
+                                    "name : a, name : b",
+                                    "domain : postprocess, shadingModel : lit",
+                                    "fullScreenTriangle : true",
+                                    "parameters : [ { name : a, type : subpassInput } ]" }) {
         const Error error = errorOf(withProperties(properties));
         EXPECT_EQ(error.code, ErrorCode::InvalidArgument) << properties << ": " << error.message;
         EXPECT_TRUE(error.message.starts_with("wood.mat:")) << error.message;
@@ -155,19 +180,26 @@ TEST(MaterialCompiler, RefusesValuesOutsideOfTheirRangeOrType) {
 }
 
 TEST(MaterialCompiler, ReportsGlslErrorsAtTheLineOfTheAuthorsFile) {
-    EXPECT_THAT(errorOf("material {\n shadingModel : lit\n}\n\nfragment {\n    void material(inout MaterialInputs material) {\n"
-                        "        prepareMaterial(material);\n        material.metalic = 1.0;\n    }\n}\n").message,
-            HasSubstr("wood.mat:8: 'metalic'"));
-    EXPECT_THAT(errorOf("material { shadingModel : unlit }\nvertex {\n\n void materialVertex(inout MaterialVertexInputs m) { oops; }\n}" + std::string(kEmptyFragment)).message,
-            HasSubstr("wood.mat:4: 'oops'"));
+    EXPECT_THAT(errorOf("material {\n shadingModel : lit\n}\n\nfragment {\n    void material(inout MaterialInputs "
+                        "material) {\n"
+                        "        prepareMaterial(material);\n        material.metalic = 1.0;\n    }\n}\n")
+                        .message,
+                HasSubstr("wood.mat:8: 'metalic'"));
+    EXPECT_THAT(errorOf("material { shadingModel : unlit }\nvertex {\n\n void materialVertex(inout "
+                        "MaterialVertexInputs m) { oops; }\n}" +
+                        std::string(kEmptyFragment))
+                        .message,
+                HasSubstr("wood.mat:4: 'oops'"));
 }
 
 TEST(MaterialCompiler, ReportsGlslErrorsOfIncludedFilesThere) {
     CompileOptions options;
     options.includes = [](std::string_view path) -> std::optional<std::string> {
-        return path == "noise.glsl" ? std::optional<std::string>("float a;\nfloat noise() { return b; }\n") : std::nullopt;
+        return path == "noise.glsl" ? std::optional<std::string>("float a;\nfloat noise() { return b; }\n")
+                                    : std::nullopt;
     };
-    const std::string text = "material { shadingModel : unlit }\nfragment {\n#include \"noise.glsl\"\nvoid material(inout MaterialInputs m) { prepareMaterial(m); }\n}";
+    const std::string text = "material { shadingModel : unlit }\nfragment {\n#include \"noise.glsl\"\nvoid "
+                             "material(inout MaterialInputs m) { prepareMaterial(m); }\n}";
     const Result<MaterialPackage> package = compile(text, options);
     ASSERT_FALSE(package);
     EXPECT_THAT(package.error().message, HasSubstr("noise.glsl:2: 'b'"));
@@ -175,8 +207,10 @@ TEST(MaterialCompiler, ReportsGlslErrorsOfIncludedFilesThere) {
 }
 
 TEST(MaterialCompiler, SaysWhichFunctionABlockMustDefine) {
-    EXPECT_THAT(errorOf("material {}\nfragment { void main2() {} }").message, HasSubstr("void material(inout MaterialInputs material)"));
-    EXPECT_THAT(errorOf("material { shadingModel : lit }\nfragment { void material(inout MaterialInputs m) {} }").message,
+    EXPECT_THAT(errorOf("material {}\nfragment { void main2() {} }").message,
+                HasSubstr("void material(inout MaterialInputs material)"));
+    EXPECT_THAT(
+            errorOf("material { shadingModel : lit }\nfragment { void material(inout MaterialInputs m) {} }").message,
             HasSubstr("must call prepareMaterial(material)"));
     EXPECT_THAT(errorOf("material {}\nvertex { }" + std::string(kEmptyFragment)).message, HasSubstr("materialVertex"));
     EXPECT_THAT(errorOf("material {}").message, HasSubstr("there is no fragment block"));
@@ -194,8 +228,10 @@ TEST(MaterialCompiler, CompilesEveryVariantThatAStateCanSelectAndNoOther) {
     };
     EXPECT_EQ(keys("shadingModel : lit"), (std::vector<int>{ 0, 1, 2, 3 }));
     EXPECT_EQ(keys("shadingModel : unlit"), (std::vector<int>{ 0 }));
-    EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ dynamicLighting, skinning ]"), (std::vector<int>{ 0, kVariantSun }));
-    EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ directionalLighting ]", kVariantPunctual), (std::vector<int>{ 0 }));
+    EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ dynamicLighting, skinning ]"),
+              (std::vector<int>{ 0, kVariantSun }));
+    EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ directionalLighting ]", kVariantPunctual),
+              (std::vector<int>{ 0 }));
 }
 
 TEST(MaterialCompiler, GivesAllSurfaceMaterialsTheSameViewGroup) {
@@ -244,37 +280,46 @@ TEST(MaterialCompiler, LeavesOutTheLanguageThatNobodyAskedFor) {
 // ---------------------------------------------------------------------------------------------- what costs nothing
 
 TEST(MaterialCompiler, PaysOnlyForPropertiesThatTheCodeSets) {
-    const std::string plain = fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); m.roughness = 0.5; }");
-    for (const char* define : { "#define HAS_NORMAL", "#define HAS_EMISSIVE", "#define HAS_AMBIENT_OCCLUSION", "#define NEEDS_TANGENT",
-                 "#define HAS_POST_LIGHTING_COLOR", "#define HAS_UV0" }) {
+    const std::string plain =
+            fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); m.roughness = 0.5; }");
+    for (const char* define : { "#define HAS_NORMAL", "#define HAS_EMISSIVE", "#define HAS_AMBIENT_OCCLUSION",
+                                "#define NEEDS_TANGENT", "#define HAS_POST_LIGHTING_COLOR", "#define HAS_UV0" }) {
         EXPECT_THAT(plain, Not(HasSubstr(define)));
     }
-    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { m.normal.xy = vec2(0.1); prepareMaterial(m); }"), HasSubstr("#define NEEDS_TANGENT"));
-    EXPECT_THAT(fragmentOf("void glow(inout MaterialInputs x) { x . emissive = vec4(1); } void material(inout MaterialInputs m) { prepareMaterial(m); glow(m); }"),
-            HasSubstr("#define HAS_EMISSIVE"));
+    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { m.normal.xy = vec2(0.1); prepareMaterial(m); }"),
+                HasSubstr("#define NEEDS_TANGENT"));
+    EXPECT_THAT(fragmentOf("void glow(inout MaterialInputs x) { x . emissive = vec4(1); } void material(inout "
+                           "MaterialInputs m) { prepareMaterial(m); glow(m); }"),
+                HasSubstr("#define HAS_EMISSIVE"));
 }
 
 TEST(MaterialCompiler, IsNotFooledByCommentsOrParametersOfTheSameName) {
-    const std::string text = fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); /* m.normal */ // m.emissive\n"
-                                        " m.roughness = materialParams.emissive; }", "parameters : [ { name : emissive, type : float } ]");
+    const std::string text =
+            fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); /* m.normal */ // m.emissive\n"
+                       " m.roughness = materialParams.emissive; }",
+                       "parameters : [ { name : emissive, type : float } ]");
     EXPECT_THAT(text, Not(HasSubstr("#define HAS_NORMAL")));
     EXPECT_THAT(text, Not(HasSubstr("#define HAS_EMISSIVE")));
 }
 
 TEST(MaterialCompiler, AssumesTheWorstOfMacros) {
-    EXPECT_THAT(fragmentOf("\n#define SET(x) m.x\nvoid material(inout MaterialInputs m) { SET(normal) = vec3(0, 0, 1); prepareMaterial(m); }"),
-            HasSubstr("#define HAS_NORMAL"));
+    EXPECT_THAT(fragmentOf("\n#define SET(x) m.x\nvoid material(inout MaterialInputs m) { SET(normal) = vec3(0, 0, 1); "
+                           "prepareMaterial(m); }"),
+                HasSubstr("#define HAS_NORMAL"));
 }
 
 TEST(MaterialCompiler, FlipsUvUnlessTold) {
-    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); }"), HasSubstr("#define FLIP_UV"));
-    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); }", "flipUV : false"), Not(HasSubstr("#define FLIP_UV")));
+    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); }"),
+                HasSubstr("#define FLIP_UV"));
+    EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); }", "flipUV : false"),
+                Not(HasSubstr("#define FLIP_UV")));
 }
 
 // ---------------------------------------------------------------------------------------------- the public shader API
 
 TEST(MaterialCompiler, OffersTheFunctionsOfTheGuide) {
-    const Result<MaterialPackage> package = compile(R"(material { shadingModel : lit, requires : [ uv0, uv1, color, custom0, custom7 ],
+    const Result<MaterialPackage> package =
+            compile(R"(material { shadingModel : lit, requires : [ uv0, uv1, color, custom0, custom7 ],
         variables : [ eyeDirection, { name : tint, precision : medium } ], blending : masked, specularAntiAliasing : true }
     vertex {
         void materialVertex(inout MaterialVertexInputs material) {
@@ -310,9 +355,12 @@ TEST(MaterialCompiler, OffersTheFunctionsOfTheGuide) {
 TEST(MaterialCompiler, CompilesEveryVertexDomainAndBlending) {
     for (const char* domain : { "object", "world", "view", "device" }) {
         for (const char* blending : { "opaque", "masked", "transparent", "fade", "add", "multiply", "screen" }) {
-            const Result<MaterialPackage> package = compile("material { vertexDomain : " + std::string(domain) + ", blending : " + blending
-                    + ", doubleSided : true, variantFilter : [ dynamicLighting ] }\nfragment { void material(inout MaterialInputs m) {"
-                      " m.normal = vec3(0, 0, 1); prepareMaterial(m); m.emissive = vec4(1.0); m.ambientOcclusion = 0.5; } }");
+            const Result<MaterialPackage> package =
+                    compile("material { vertexDomain : " + std::string(domain) + ", blending : " + blending +
+                            ", doubleSided : true, variantFilter : [ dynamicLighting ] }\nfragment { void "
+                            "material(inout MaterialInputs m) {"
+                            " m.normal = vec3(0, 0, 1); prepareMaterial(m); m.emissive = vec4(1.0); m.ambientOcclusion "
+                            "= 0.5; } }");
             ASSERT_TRUE(package) << domain << " " << blending << ": " << package.error().message;
             for (Variant const& variant : package->variants) {
                 EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << domain;

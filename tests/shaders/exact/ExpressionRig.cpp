@@ -52,8 +52,12 @@ std::unique_ptr<ExpressionRig> ExpressionRig::make(BackendType type) {
 
 TextureHandle ExpressionRig::randomTexture(CommandBuffer& commands, uint32_t seed, float low, float high) {
     const TextureHandle handle = mStream->allocateTexture();
-    commands.record(CmdCreateTexture{ handle, { .format = Format::RGBA32F, .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
-            .width = kSide, .height = kSide, .debugName = "input" } });
+    commands.record(CmdCreateTexture{ handle,
+                                      { .format = Format::RGBA32F,
+                                        .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
+                                        .width = kSide,
+                                        .height = kSide,
+                                        .debugName = "input" } });
     const std::vector<float> texels = randomFloats(kSide * kSide * 4, seed, low, high);
     commands.record(CmdUploadTexture{ .texture = handle, .rect = { 0, 0, kSide, kSide }, .bytes = bytesOf(texels) });
     return handle;
@@ -63,16 +67,25 @@ TextureHandle ExpressionRig::mippedTexture(CommandBuffer& commands, TextureType 
     const TextureHandle handle = mStream->allocateTexture();
     const auto layers = static_cast<uint16_t>(type == TextureType::Cube ? 6 : 1);
     constexpr uint8_t kLevels = 4;
-    commands.record(CmdCreateTexture{ handle, { .type = type, .format = Format::RGBA8,
-            .usage = TextureUsage::Sampled | TextureUsage::TransferTarget, .levels = kLevels, .layers = layers, .width = 32, .height = 32,
-            .debugName = "mipped" } });
+    commands.record(CmdCreateTexture{ handle,
+                                      { .type = type,
+                                        .format = Format::RGBA8,
+                                        .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
+                                        .levels = kLevels,
+                                        .layers = layers,
+                                        .width = 32,
+                                        .height = 32,
+                                        .debugName = "mipped" } });
     std::mt19937 random(seed);
     for (uint8_t level = 0; level < kLevels; ++level) { // uploaded, not generated: only the sampling is under test
         const uint32_t side = 32u >> level;
         std::vector<std::byte> texels(static_cast<size_t>(side) * side * 4 * layers);
         for (std::byte& texel : texels) texel = static_cast<std::byte>(random());
-        commands.record(CmdUploadTexture{ .texture = handle, .level = level, .layerCount = layers, .rect = { 0, 0, side, side },
-                .bytes = texels });
+        commands.record(CmdUploadTexture{ .texture = handle,
+                                          .level = level,
+                                          .layerCount = layers,
+                                          .rect = { 0, 0, side, side },
+                                          .bytes = texels });
     }
     return handle;
 }
@@ -95,8 +108,12 @@ void ExpressionRig::createInputs() {
         { .binding = 5, .texture = mippedTexture(commands, TextureType::Texture2D, 5), .sampler = trilinear },
         { .binding = 6, .texture = mippedTexture(commands, TextureType::Cube, 6), .sampler = trilinear } };
     mTarget = mStream->allocateTexture();
-    commands.record(CmdCreateTexture{ mTarget, { .format = Format::RGBA32F,
-            .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource, .width = kSide, .height = kSide, .debugName = "target" } });
+    commands.record(CmdCreateTexture{ mTarget,
+                                      { .format = Format::RGBA32F,
+                                        .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource,
+                                        .width = kSide,
+                                        .height = kSide,
+                                        .debugName = "target" } });
     mStream->submit(commands);
 }
 
@@ -104,14 +121,18 @@ void ExpressionRig::draw(CommandBuffer& commands, ProgramShaders const& shaders,
     const ProgramHandle program = mStream->allocateProgram();
     const PipelineHandle pipeline = mStream->allocatePipeline();
     const bool spirv = mStream->info().shaderLanguage == ShaderLanguage::SpirV;
-    commands.record(CmdCreateProgram{ program, {
-            .vertex = spirv ? std::as_bytes(std::span(shaders.vertexSpirv)) : std::as_bytes(std::span(shaders.vertexEssl)),
-            .fragment = spirv ? std::as_bytes(std::span(shaders.fragmentSpirv)) : std::as_bytes(std::span(shaders.fragmentEssl)),
-            .layout = shaders.layout, .debugName = "expression" } });
+    commands.record(CmdCreateProgram{ program,
+                                      { .vertex = spirv ? std::as_bytes(std::span(shaders.vertexSpirv))
+                                                        : std::as_bytes(std::span(shaders.vertexEssl)),
+                                        .fragment = spirv ? std::as_bytes(std::span(shaders.fragmentSpirv))
+                                                          : std::as_bytes(std::span(shaders.fragmentEssl)),
+                                        .layout = shaders.layout,
+                                        .debugName = "expression" } });
     PassLayout layout{ .colorCount = 1 };
     layout.colorFormats[0] = Format::RGBA32F;
-    commands.record(CmdCreatePipeline{ pipeline, { .program = program, .pass = layout, .raster = { .cull = CullMode::None },
-            .debugName = "expression" } });
+    commands.record(CmdCreatePipeline{
+            pipeline,
+            { .program = program, .pass = layout, .raster = { .cull = CullMode::None }, .debugName = "expression" } });
     PassDesc pass{ .layout = layout, .area = { 0, 0, kSide, kSide }, .debugName = "expression" };
     pass.colors[0] = { .texture = mTarget };
     commands.record(CmdBeginPass{ pass });
@@ -127,7 +148,8 @@ void ExpressionRig::draw(CommandBuffer& commands, ProgramShaders const& shaders,
 
 Result<std::vector<uint32_t>> ExpressionRig::values(std::string const& expression, bool exact) {
     // Every input is mentioned, so that all expressions share one layout.
-    const std::string keep = "    if (a.x > 1e30) color = m[0] + n[0] + texture(smooth_, a.xy) + texture(cube, a.xyz);\n";
+    const std::string keep =
+            "    if (a.x > 1e30) color = m[0] + n[0] + texture(smooth_, a.xy) + texture(cube, a.xyz);\n";
     const std::string fragment = std::string(kPrelude) + "    color = " + expression + ";\n" + keep + "}\n";
     const Result<ProgramShaders> shaders = compileProgram(kVertex, fragment,
             { .exact = exact, .dynamicUniformBuffers = std::vector<SetBinding>{}, .fragmentName = expression });
@@ -135,7 +157,8 @@ Result<std::vector<uint32_t>> ExpressionRig::values(std::string const& expressio
 
     CommandBuffer& commands = mStream->acquire();
     const BindGroupHandle group = mStream->allocateBindGroup();
-    commands.record(CmdCreateBindGroup{ group, { .layout = shaders->layout[0], .entries = mEntries, .debugName = "inputs" } });
+    commands.record(
+            CmdCreateBindGroup{ group, { .layout = shaders->layout[0], .entries = mEntries, .debugName = "inputs" } });
     draw(commands, *shaders, group);
     const Ticket ticket = mStream->nextTicket();
     commands.record(CmdReadTexture{ .texture = mTarget, .rect = { 0, 0, kSide, kSide }, .ticket = ticket });

@@ -37,7 +37,8 @@ protected:
         EXPECT_TRUE(gles) << (gles ? "" : gles.error().message);
         if (!vulkan || !gles) return {};
         size_t different = 0;
-        for (size_t i = 0; i < vulkan->size(); ++i) different += std::memcmp(&(*vulkan)[i], &(*gles)[i], sizeof(float)) != 0;
+        for (size_t i = 0; i < vulkan->size(); ++i)
+            different += std::memcmp(&(*vulkan)[i], &(*gles)[i], sizeof(float)) != 0;
         EXPECT_EQ(different, 0u) << scene.material << " variant " << int{ scene.variant };
         EXPECT_TRUE(std::ranges::all_of(*vulkan, [](float value) { return std::isfinite(value); }));
         return *vulkan;
@@ -45,7 +46,9 @@ protected:
 
     static MaterialScene whiteFurnace(float metallic, float roughness) {
         MaterialScene scene;
-        scene.parameters = { { "baseColorFactor", { 1, 1, 1, 1 } }, { "metallicFactor", { metallic } }, { "roughnessFactor", { roughness } } };
+        scene.parameters = { { "baseColorFactor", { 1, 1, 1, 1 } },
+                             { "metallicFactor", { metallic } },
+                             { "roughnessFactor", { roughness } } };
         scene.frame.ambient = { 1.0f, 0.0f, 3.0f, 0.0f };
         scene.frame.irradianceSh[0] = { 1, 1, 1, 0 };
         scene.frame.exposure.x = 1.0f;
@@ -66,7 +69,8 @@ protected:
             scene.parameters[std::string(map) + "UvMatrix"] = uvMatrix;
             scene.constants[std::string(map) + "Transform"] = 1;
         }
-        for (const char* map : { "BaseColor", "MetallicRoughness", "Normal", "Occlusion", "Emissive" }) scene.constants["has" + std::string(map) + "Map"] = 1;
+        for (const char* map : { "BaseColor", "MetallicRoughness", "Normal", "Occlusion", "Emissive" })
+            scene.constants["has" + std::string(map) + "Map"] = 1;
         scene.constants["hasVertexColor"] = scene.constants["emissiveUv"] = 1;
         scene.parameters["normalScale"] = { 0.8f };
         scene.parameters["occlusionStrength"] = { 0.9f };
@@ -84,7 +88,8 @@ TEST_F(MaterialBits, LitMaterialsReturnTheWholeEnergyOfAWhiteFurnace) {
             for (size_t i = 0; i < picture.size(); i += 4) {
                 if (picture[i + 3] == 0.0f) continue; // background
                 ++covered;
-                ASSERT_NEAR(picture[i], 1.0f, 0.02f) << "metallic " << metallic << " roughness " << roughness << " pixel " << i / 4;
+                ASSERT_NEAR(picture[i], 1.0f, 0.02f)
+                        << "metallic " << metallic << " roughness " << roughness << " pixel " << i / 4;
             }
             EXPECT_GT(covered, 3000u);
         }
@@ -123,7 +128,8 @@ TEST_F(MaterialBits, UnlitMaterialsShowTheirColorAndHaveTheSameBits) {
     scene.material = "gltf_unlit_blended";
     const std::vector<float> blended = render(scene);
     ASSERT_FALSE(blended.empty());
-    EXPECT_EQ(blended[(test::kPictureSide / 2 * test::kPictureSide + test::kPictureSide / 2) * 4], 0.125f) << "pre-multiplied";
+    EXPECT_EQ(blended[(test::kPictureSide / 2 * test::kPictureSide + test::kPictureSide / 2) * 4], 0.125f)
+            << "pre-multiplied";
 }
 
 TEST_F(MaterialBits, SunAndPunctualLightsAddUp) {

@@ -38,9 +38,12 @@ std::vector<Vertex> bumpyGrid() {
         for (uint32_t x = 0; x <= kGrid; ++x) {
             const float q[3] = { lean(random), lean(random), lean(random) };
             const float w = std::sqrt(1.0f - q[0] * q[0] - q[1] * q[1] - q[2] * q[2]);
-            vertices.push_back({ { static_cast<float>(x) * 0.15f - 1.2f, static_cast<float>(y) * 0.15f - 1.2f, -2.0f + 0.1f * unit(random) },
-                    { q[0], q[1], q[2], w }, { unit(random), unit(random) }, { unit(random), unit(random) },
-                    { unit(random), unit(random), unit(random), 1.0f } });
+            vertices.push_back({ { static_cast<float>(x) * 0.15f - 1.2f, static_cast<float>(y) * 0.15f - 1.2f,
+                                   -2.0f + 0.1f * unit(random) },
+                                 { q[0], q[1], q[2], w },
+                                 { unit(random), unit(random) },
+                                 { unit(random), unit(random) },
+                                 { unit(random), unit(random), unit(random), 1.0f } });
         }
     }
     return vertices;
@@ -106,12 +109,20 @@ BufferHandle MaterialRig::buffer(CommandBuffer& commands, BufferUsage usage, std
     return handle;
 }
 
-TextureHandle MaterialRig::texture(CommandBuffer& commands, TextureType type, Format format, uint32_t side, std::span<const std::byte> texels) {
+TextureHandle MaterialRig::texture(CommandBuffer& commands, TextureType type, Format format, uint32_t side,
+                                   std::span<const std::byte> texels) {
     const TextureHandle handle = mStream->allocateTexture();
     const auto layers = static_cast<uint16_t>(type == TextureType::Cube ? 6 : 1);
-    commands.record(CmdCreateTexture{ handle, { .type = type, .format = format, .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
-            .layers = layers, .width = side, .height = side, .debugName = "test" } });
-    commands.record(CmdUploadTexture{ .texture = handle, .layerCount = layers, .rect = { 0, 0, side, side }, .bytes = texels });
+    commands.record(CmdCreateTexture{ handle,
+                                      { .type = type,
+                                        .format = format,
+                                        .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
+                                        .layers = layers,
+                                        .width = side,
+                                        .height = side,
+                                        .debugName = "test" } });
+    commands.record(
+            CmdUploadTexture{ .texture = handle, .layerCount = layers, .rect = { 0, 0, side, side }, .bytes = texels });
     return handle;
 }
 
@@ -129,7 +140,8 @@ void MaterialRig::createShared() {
 
     mWhiteCube = texture(commands, TextureType::Cube, Format::RGBA32F, 1, bytesOf(std::vector<float>(6 * 4, 1.0f)));
     jobs::JobSystem jobs({ .workers = 1 });
-    mDfg = texture(commands, TextureType::Texture2D, Format::RG16F, kDfgSide, assets::bakeDfgTable(jobs, kDfgSide, 512).data);
+    mDfg = texture(commands, TextureType::Texture2D, Format::RG16F, kDfgSide,
+                   assets::bakeDfgTable(jobs, kDfgSide, 512).data);
     std::vector<uint8_t> pattern(kPatternSide * kPatternSide * 4);
     std::mt19937 random(12);
     for (uint8_t& byte : pattern) byte = static_cast<uint8_t>(128 + random() % 128); // normals of a map look outwards
@@ -138,8 +150,12 @@ void MaterialRig::createShared() {
     commands.record(CmdCreateSampler{ mSampler, { .magFilter = Filter::Linear, .minFilter = Filter::Linear } });
 
     mColor = mStream->allocateTexture(), mDepth = mStream->allocateTexture();
-    commands.record(CmdCreateTexture{ mColor, { .format = Format::RGBA32F, .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource,
-            .width = kPictureSide, .height = kPictureSide, .debugName = "color" } });
+    commands.record(CmdCreateTexture{ mColor,
+                                      { .format = Format::RGBA32F,
+                                        .usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource,
+                                        .width = kPictureSide,
+                                        .height = kPictureSide,
+                                        .debugName = "color" } });
     commands.record(CmdCreateTexture{ mDepth, { .format = Format::D32F, .usage = TextureUsage::DepthAttachment,
             .width = kPictureSide, .height = kPictureSide, .debugName = "depth" } });
     mStream->submit(commands);
@@ -156,17 +172,21 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
     std::copy(scene.lights.begin(), scene.lights.end(), lights.lights.begin());
     const BufferHandle frameBuffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&frame, 1)));
     const BufferHandle lightBuffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&lights, 1)));
-    const std::vector<BindGroupEntry> entries{ { .binding = kBindingFrame, .buffer = frameBuffer, .size = sizeof(FrameUniforms) },
+    const std::vector<BindGroupEntry> entries{
+        { .binding = kBindingFrame, .buffer = frameBuffer, .size = sizeof(FrameUniforms) },
         { .binding = kBindingObjects, .buffer = mObjects, .size = sizeof(ObjectUniforms) },
         { .binding = kBindingLights, .buffer = lightBuffer, .size = sizeof(LightUniforms) },
         { .binding = kBindingSpecular, .texture = mWhiteCube, .sampler = mSampler },
-        { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler }, { .binding = kBindingSky, .texture = mWhiteCube, .sampler = mSampler } };
+        { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler },
+        { .binding = kBindingSky, .texture = mWhiteCube, .sampler = mSampler }
+    };
     const BindGroupHandle group = mStream->allocateBindGroup();
     commands.record(CmdCreateBindGroup{ group, { viewGroupLayout(), entries, "view" } });
     return group;
 }
 
-BindGroupHandle MaterialRig::materialGroup(CommandBuffer& commands, MaterialPackage const& package, MaterialScene const& scene) {
+BindGroupHandle MaterialRig::materialGroup(CommandBuffer& commands, MaterialPackage const& package,
+                                           MaterialScene const& scene) {
     std::vector<BindGroupEntry> entries;
     std::vector<float> block(package.uniformBytes / sizeof(float));
     if (!block.empty()) {
@@ -174,17 +194,20 @@ BindGroupHandle MaterialRig::materialGroup(CommandBuffer& commands, MaterialPack
             Parameter const* parameter = package.findParameter(name);
             if (parameter) std::copy(values.begin(), values.end(), block.begin() + parameter->offset / 4);
         }
-        entries.push_back({ .buffer = buffer(commands, BufferUsage::Uniform, bytesOf(block)), .size = package.uniformBytes });
+        entries.push_back(
+                { .buffer = buffer(commands, BufferUsage::Uniform, bytesOf(block)), .size = package.uniformBytes });
     }
     for (Parameter const& parameter : package.parameters) {
-        if (isTexture(parameter.type)) entries.push_back({ .binding = parameter.binding, .texture = mPattern, .sampler = mSampler });
+        if (isTexture(parameter.type))
+            entries.push_back({ .binding = parameter.binding, .texture = mPattern, .sampler = mSampler });
     }
     const BindGroupHandle group = mStream->allocateBindGroup();
     commands.record(CmdCreateBindGroup{ group, { package.layout[kGroupMaterial], entries, "material" } });
     return group;
 }
 
-PipelineHandle MaterialRig::pipeline(CommandBuffer& commands, MaterialPackage const& package, MaterialScene const& scene, PassLayout const& pass) {
+PipelineHandle MaterialRig::pipeline(CommandBuffer& commands, MaterialPackage const& package,
+                                     MaterialScene const& scene, PassLayout const& pass) {
     Variant const* variant = package.findVariant(scene.variant);
     const bool spirv = mStream->info().shaderLanguage == ShaderLanguage::SpirV;
     std::vector<ConstantValue> constants;
@@ -193,14 +216,23 @@ PipelineHandle MaterialRig::pipeline(CommandBuffer& commands, MaterialPackage co
         constants.push_back({ constant->id, bits, constant->type });
     }
     const ProgramHandle program = mStream->allocateProgram();
-    commands.record(CmdCreateProgram{ program, {
-            .vertex = spirv ? std::as_bytes(std::span(variant->vertexSpirv)) : std::as_bytes(std::span(variant->vertexEssl)),
-            .fragment = spirv ? std::as_bytes(std::span(variant->fragmentSpirv)) : std::as_bytes(std::span(variant->fragmentEssl)),
-            .constants = constants, .layout = package.layout, .debugName = package.name } });
+    commands.record(CmdCreateProgram{ program,
+                                      { .vertex = spirv ? std::as_bytes(std::span(variant->vertexSpirv))
+                                                        : std::as_bytes(std::span(variant->vertexEssl)),
+                                        .fragment = spirv ? std::as_bytes(std::span(variant->fragmentSpirv))
+                                                          : std::as_bytes(std::span(variant->fragmentEssl)),
+                                        .constants = constants,
+                                        .layout = package.layout,
+                                        .debugName = package.name } });
     const PipelineHandle handle = mStream->allocatePipeline();
-    commands.record(CmdCreatePipeline{ handle, { .program = program, .pass = pass, .vertices = vertexLayout(),
-            .raster = { .cull = CullMode::None }, .depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = true },
-            .debugName = package.name } });
+    commands.record(
+            CmdCreatePipeline{ handle,
+                               { .program = program,
+                                 .pass = pass,
+                                 .vertices = vertexLayout(),
+                                 .raster = { .cull = CullMode::None },
+                                 .depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = true },
+                                 .debugName = package.name } });
     return handle;
 }
 
@@ -226,7 +258,8 @@ Result<std::vector<float>> MaterialRig::render(MaterialScene const& scene) {
     CommandBuffer& commands = mStream->acquire();
     draw(commands, *package, scene);
     const Ticket ticket = mStream->nextTicket();
-    commands.record(CmdReadTexture{ .texture = mColor, .rect = { 0, 0, kPictureSide, kPictureSide }, .ticket = ticket });
+    commands.record(
+            CmdReadTexture{ .texture = mColor, .rect = { 0, 0, kPictureSide, kPictureSide }, .ticket = ticket });
     mStream->submit(commands);
     const Result<std::vector<std::byte>> bytes = mStream->waitReadback(ticket);
     for (DriverError const& error : mStream->takeErrors()) return fail(ErrorCode::Internal, "{}", error.message);

@@ -37,13 +37,15 @@ private:
     explicit MaterialRig(std::unique_ptr<backend::CommandStream> stream) : mStream(std::move(stream)) {}
 
     void createShared();
-    backend::BufferHandle buffer(backend::CommandBuffer& commands, backend::BufferUsage usage, std::span<const std::byte> bytes);
-    backend::TextureHandle texture(backend::CommandBuffer& commands, backend::TextureType type, backend::Format format, uint32_t side,
-            std::span<const std::byte> texels);
+    backend::BufferHandle buffer(backend::CommandBuffer& commands, backend::BufferUsage usage,
+                                 std::span<const std::byte> bytes);
+    backend::TextureHandle texture(backend::CommandBuffer& commands, backend::TextureType type, backend::Format format,
+                                   uint32_t side, std::span<const std::byte> texels);
     backend::BindGroupHandle viewGroup(backend::CommandBuffer& commands, MaterialScene const& scene);
-    backend::BindGroupHandle materialGroup(backend::CommandBuffer& commands, MaterialPackage const& package, MaterialScene const& scene);
-    backend::PipelineHandle pipeline(backend::CommandBuffer& commands, MaterialPackage const& package, MaterialScene const& scene,
-            backend::PassLayout const& pass);
+    backend::BindGroupHandle materialGroup(backend::CommandBuffer& commands, MaterialPackage const& package,
+                                           MaterialScene const& scene);
+    backend::PipelineHandle pipeline(backend::CommandBuffer& commands, MaterialPackage const& package,
+                                     MaterialScene const& scene, backend::PassLayout const& pass);
     void draw(backend::CommandBuffer& commands, MaterialPackage const& package, MaterialScene const& scene);
 
     std::unique_ptr<backend::CommandStream> mStream;

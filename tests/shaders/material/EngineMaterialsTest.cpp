@@ -53,7 +53,8 @@ TEST(EngineMaterials, OfferTheLoaderTheSameInterfaceInAllLitGltfMaterials) {
 }
 
 TEST(EngineMaterials, SkyAndPostProcessNeedNoGeometry) {
-    for (const char* name : { "skybox", "tonemap", "tonemap_sampled" }) EXPECT_EQ(read(name).requiredAttributes, 0u) << name;
+    for (const char* name : { "skybox", "tonemap", "tonemap_sampled" })
+        EXPECT_EQ(read(name).requiredAttributes, 0u) << name;
     EXPECT_EQ(read("tonemap").layout[kGroupMaterial].bindings[0].type, backend::BindingType::InputAttachment);
     EXPECT_EQ(read("tonemap_sampled").layout[kGroupMaterial].bindings[0].type, backend::BindingType::SampledTexture);
 }

@@ -19,7 +19,8 @@ inline std::vector<std::byte> withValidChecksum(std::span<const std::byte> bytes
     std::vector<std::byte> fixed(bytes.begin(), bytes.end());
     if (fixed.size() < kPackageContentAt) return fixed;
     const uint64_t checksum = hashBytes(std::span<const std::byte>(fixed).subspan(kPackageContentAt));
-    std::memcpy(fixed.data() + kPackageChecksumAt, &checksum, sizeof checksum); // little-endian hosts only, like the tests
+    std::memcpy(fixed.data() + kPackageChecksumAt, &checksum,
+                sizeof checksum); // little-endian hosts only, like the tests
     return fixed;
 }
 

@@ -38,8 +38,10 @@ MaterialPackage fullPackage() {
     package.layout[1].count = 2;
     package.layout[1].bindings[0] = { .binding = 0, .type = backend::BindingType::UniformBuffer };
     package.layout[1].bindings[1] = { .binding = 1, .type = backend::BindingType::SampledTexture };
-    package.variants = { { .key = 0, .vertexSpirv = { 1, 2 }, .fragmentSpirv = { 3 }, .vertexEssl = "v", .fragmentEssl = "f" },
-        { .key = kVariantSun, .fragmentSpirv = { 4, 5, 6 }, .fragmentEssl = "sun" } };
+    package.variants = {
+        { .key = 0, .vertexSpirv = { 1, 2 }, .fragmentSpirv = { 3 }, .vertexEssl = "v", .fragmentEssl = "f" },
+        { .key = kVariantSun, .fragmentSpirv = { 4, 5, 6 }, .fragmentEssl = "sun" }
+    };
     return package;
 }
 
@@ -101,7 +103,9 @@ TEST(Package, SurvivesRandomMutationsWithAValidChecksum) {
                 case 0: bytes[at] = static_cast<std::byte>(random()); break;
                 case 1: bytes[at] = std::byte{ 0xFF }; break;
                 case 2: bytes.erase(bytes.begin() + static_cast<ptrdiff_t>(at)); break;
-                default: bytes.insert(bytes.begin() + static_cast<ptrdiff_t>(at), static_cast<std::byte>(random())); break;
+                default:
+                    bytes.insert(bytes.begin() + static_cast<ptrdiff_t>(at), static_cast<std::byte>(random()));
+                    break;
             }
         }
         accepted += fuzzPackage(bytes);
@@ -153,10 +157,12 @@ struct Std140Rule {
 };
 
 TEST(ParameterLayout, FollowsTheRulesOfStd140) {
-    constexpr std::array kRules{ Std140Rule{ ParameterType::Bool, 4, 4, 16 }, Std140Rule{ ParameterType::Float, 4, 4, 16 },
-        Std140Rule{ ParameterType::Float2, 8, 8, 16 }, Std140Rule{ ParameterType::Int3, 12, 16, 16 },
-        Std140Rule{ ParameterType::Uint4, 16, 16, 16 }, Std140Rule{ ParameterType::Float3x3, 48, 16, 48 },
-        Std140Rule{ ParameterType::Float4x4, 64, 16, 64 }, Std140Rule{ ParameterType::SamplerCube, 0, 0, 0 } };
+    constexpr std::array kRules{
+        Std140Rule{ ParameterType::Bool, 4, 4, 16 },       Std140Rule{ ParameterType::Float, 4, 4, 16 },
+        Std140Rule{ ParameterType::Float2, 8, 8, 16 },     Std140Rule{ ParameterType::Int3, 12, 16, 16 },
+        Std140Rule{ ParameterType::Uint4, 16, 16, 16 },    Std140Rule{ ParameterType::Float3x3, 48, 16, 48 },
+        Std140Rule{ ParameterType::Float4x4, 64, 16, 64 }, Std140Rule{ ParameterType::SamplerCube, 0, 0, 0 }
+    };
     for (Std140Rule const& rule : kRules) {
         EXPECT_EQ(valueBytes(rule.type), rule.bytes);
         EXPECT_EQ(valueAlignment(rule.type), rule.alignment);
@@ -165,8 +171,10 @@ TEST(ParameterLayout, FollowsTheRulesOfStd140) {
 }
 
 TEST(ParameterLayout, PlacesAFloatIntoTheGapBehindAFloat3) {
-    std::vector<Parameter> parameters{ { .name = "a", .type = ParameterType::Float3 }, { .name = "b", .type = ParameterType::Float },
-        { .name = "c", .type = ParameterType::Float, .arraySize = 2 }, { .name = "d", .type = ParameterType::Float2 } };
+    std::vector<Parameter> parameters{ { .name = "a", .type = ParameterType::Float3 },
+                                       { .name = "b", .type = ParameterType::Float },
+                                       { .name = "c", .type = ParameterType::Float, .arraySize = 2 },
+                                       { .name = "d", .type = ParameterType::Float2 } };
     EXPECT_EQ(assignOffsets(parameters), 64u);
     EXPECT_EQ(parameters[1].offset, 12u);
     EXPECT_EQ(parameters[2].offset, 16u);

@@ -1,0 +1,111 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <unistd.h>
+
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+struct Outcome {
+    int status = 0;
+    std::string output; ///< both streams
+};
+
+Outcome matc(std::string const& arguments) {
+    const std::string command = std::string(FILAMENT_BINARY_DIR) + "/bin/matc " + arguments + " 2>&1";
+    Outcome outcome;
+    FILE* const pipe = popen(command.c_str(), "r");
+    EXPECT_NE(pipe, nullptr);
+    char buffer[4096];
+    while (const size_t count = std::fread(buffer, 1, sizeof buffer, pipe)) outcome.output.append(buffer, count);
+    outcome.status = WEXITSTATUS(pclose(pipe));
+    return outcome;
+}
+
+std::string contents(fs::path const& path) {
+    std::ifstream file(path, std::ios::binary);
+    return { std::istreambuf_iterator<char>(file), {} };
+}
+
+/// A folder of its own that is gone afterwards.
+class Matc : public ::testing::Test {
+protected:
+    void SetUp() override { fs::create_directories(mFolder); }
+    void TearDown() override { fs::remove_all(mFolder); }
+
+    std::string file(std::string const& name, std::string const& text) const {
+        std::ofstream(mFolder / name) << text;
+        return (mFolder / name).string();
+    }
+    std::string path(std::string const& name) const { return (mFolder / name).string(); }
+
+    fs::path mFolder = fs::temp_directory_path() / ("matc_test_" + std::to_string(getpid()));
+};
+
+constexpr const char* kLit = R"(material { name : stone, shadingModel : lit }
+fragment { void material(inout MaterialInputs m) { prepareMaterial(m); m.roughness = 0.5; } }
+)";
+
+TEST_F(Matc, WritesTheSameBytesWithAnyNumberOfThreads) {
+    const std::string input = file("stone.mat", kLit);
+    for (const char* threads : { "1", "2", "7" }) {
+        const Outcome outcome = matc(std::string("-j ") + threads + " -o " + path(threads) + " " + input);
+        EXPECT_EQ(outcome.status, 0) << outcome.output;
+    }
+    EXPECT_GT(contents(path("1")).size(), 1000u);
+    EXPECT_EQ(contents(path("1")), contents(path("2")));
+    EXPECT_EQ(contents(path("1")), contents(path("7")));
+}
+
+TEST_F(Matc, ReportsErrorsWithFileAndLineAndWritesNothing) {
+    const std::string input = file("stone.mat", "material {\n  shadingModle : lit\n}\nfragment {}\n");
+    const Outcome outcome = matc("-o " + path("out.fmat") + " " + input);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.output, HasSubstr("stone.mat:2: there is no property 'shadingModle'; did you mean 'shadingModel'?"));
+    EXPECT_FALSE(fs::exists(path("out.fmat")));
+}
+
+TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
+    const std::string input = file("stone.mat", kLit);
+    ASSERT_EQ(matc("-o " + path("all") + " " + input).status, 0);
+    ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -o " + path("one") + " " + input).status, 0);
+    ASSERT_EQ(matc("-a vulkan -o " + path("vulkan") + " " + input).status, 0);
+    EXPECT_LT(contents(path("one")).size() * 3, contents(path("all")).size());
+    EXPECT_THAT(contents(path("all")), HasSubstr("#version 310 es"));
+    EXPECT_EQ(contents(path("vulkan")).find("#version 310 es"), std::string::npos);
+    const Outcome misspelt = matc("-v dynamicLightning -o " + path("none") + " " + input);
+    EXPECT_EQ(misspelt.status, 1);
+    EXPECT_THAT(misspelt.output, HasSubstr("did you mean 'dynamicLighting'?"));
+}
+
+TEST_F(Matc, IncludesFilesBesideTheMaterial) {
+    file("half.glsl", "const float kHalf = 0.5;\n");
+    const std::string input = file("stone.mat", "material { shadingModel : unlit }\nfragment {\n#include \"half.glsl\"\n"
+            "void material(inout MaterialInputs m) { prepareMaterial(m); m.baseColor *= kHalf; } }\n");
+    const Outcome outcome = matc("-o " + path("out") + " " + input);
+    EXPECT_EQ(outcome.status, 0) << outcome.output;
+}
+
+TEST_F(Matc, PrintsTheGeneratedGlslOnRequest) {
+    const Outcome outcome = matc("--preprocess " + file("stone.mat", kLit));
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.output, HasSubstr("#version 450"));
+    EXPECT_THAT(outcome.output, HasSubstr("// ==== variant 3 fragment"));
+}
+
+TEST_F(Matc, SaysWhatIsMissing) {
+    EXPECT_THAT(matc("-o " + path("out") + " " + path("gone.mat")).output, HasSubstr("cannot read"));
+    EXPECT_THAT(matc(file("stone.mat", kLit)).output, HasSubstr("give the package to write with -o"));
+    EXPECT_THAT(matc("-o " + path("no/such/folder/x") + " " + file("stone.mat", kLit)).output, HasSubstr("cannot write"));
+}
+
+} // namespace
