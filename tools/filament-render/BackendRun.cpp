@@ -136,6 +136,7 @@ void Stage::drawFirst(BackendRun& run) {
 void Stage::drawOthers(BackendRun& run) {
     run.samples.resize(mOptions.frames - 1);
     size_t frame = 1;
+    const StopWatch whole;
     StopWatch watch;
     uint64_t allocations = heapAllocations();
     for (FrameSample& sample : run.samples) {
@@ -146,6 +147,8 @@ void Stage::drawOthers(BackendRun& run) {
             showProgress(fmt::format("{}: frame {}/{}", fileStem(run.backend), frame, mOptions.frames));
     }
     mEngine.waitIdle();
+    if (!run.samples.empty())
+        run.pipelinedMilliseconds = whole.milliseconds() / static_cast<double>(run.samples.size());
     run.atEnd = mEngine.statistics();
 }
 

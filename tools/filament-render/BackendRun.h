@@ -40,6 +40,7 @@ struct BackendRun {
     std::vector<std::string> errors;   ///< of the device, one line each
     StartTimes start{};
     std::vector<FrameSample> samples;  ///< without the first frame
+    double pipelinedMilliseconds = 0;  ///< a frame of those on average, until the device is idle
     std::vector<FrameTimings> timings; ///< one a frame, oldest first
     FrameStatistics statistics{};      ///< of the last frame
     EngineStatistics afterFirstFrame{}, atEnd{};

@@ -161,12 +161,16 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--size", words.size, "WIDTHxHEIGHT in pixels (1280x720)");
     app.add_option("--frames", words.frames, "frames to draw; the last one is saved (1)");
     app.add_flag("--fit,!--no-fit", options.fit, "centre of the bounding box at the origin, largest dimension 1 (on)");
-    app.add_option("--eye", words.eye, "X Y Z of the camera (0.9 0.6 1.5)")->expected(3);
-    app.add_option("--at", words.at, "X Y Z that it looks at (0 0 0)")->expected(3);
+    app.add_option("--eye", words.eye, "X Y Z of the camera (0.9 0.6 1.5)")->expected(3)->allow_extra_args(false);
+    app.add_option("--at", words.at, "X Y Z that it looks at (0 0 0)")->expected(3)->allow_extra_args(false);
     app.add_option("--fov", words.fov, "vertical field of view in degrees (40)");
-    app.add_option("--exposure", words.exposure, "APERTURE SHUTTER_SECONDS ISO (16 0.008 100)")->expected(3);
+    app.add_option("--exposure", words.exposure, "APERTURE SHUTTER_SECONDS ISO (16 0.008 100)")
+            ->expected(3)
+            ->allow_extra_args(false);
     app.add_option("--ibl-intensity", words.iblIntensity, "lux of radiance 1 of the environment (30000)");
-    app.add_option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels")->expected(4);
+    app.add_option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels")
+            ->expected(4)
+            ->allow_extra_args(false);
     app.add_option("--skybox", words.skybox, "on or off: the environment as background (on)");
     app.add_option("--tone-mapper", words.toneMapper, "linear, aces, filmic or mobile (aces)");
     app.add_option("--dither", words.dither, "on or off (off)");

@@ -127,7 +127,8 @@ Json steadyJson(BackendRun const& run) {
     return { { "frames", samples.size() },
              { "heapAllocations", allocations },
              { "pipelinesCreated", run.atEnd.pipelinesCreated - run.afterFirstFrame.pipelinesCreated },
-             { "frameMs", toJson(spreadOf(column(samples, [](FrameSample const& s) { return s.milliseconds; }))) },
+             { "pipelinedFrameMs", run.pipelinedMilliseconds },
+             { "appFrameMs", toJson(spreadOf(column(samples, [](FrameSample const& s) { return s.milliseconds; }))) },
              { "prepareMs", spread(&FrameTimings::prepareMilliseconds) },
              { "recordMs", spread(&FrameTimings::recordMilliseconds) },
              { "replayMs", spread(&FrameTimings::replayMilliseconds) },
@@ -172,10 +173,9 @@ std::string timingText(BackendRun const& run) {
                                    fileStem(run.backend), start.engine, start.model, start.environment,
                                    start.firstFrame, start.startToFirstFrame);
     auto out = std::back_inserter(text);
-    if (!steadySamples(run).empty()) {
-        const Spread frame = spreadOf(column(steadySamples(run), [](FrameSample const& s) { return s.milliseconds; }));
-        fmt::format_to(out, "{}: {} steady frames of {:.2f} / {:.2f} / {:.2f} ms (min / median / max)\n",
-                       fileStem(run.backend), steadySamples(run).size(), frame.min, frame.median, frame.max);
+    if (!run.samples.empty()) {
+        fmt::format_to(out, "{}: {} further frames, {:.2f} ms each while they overlap\n", fileStem(run.backend),
+                       run.samples.size(), run.pipelinedMilliseconds);
     }
     for (PassTime const& pass : passTimes(run)) {
         fmt::format_to(out, "{}:   {:<24} {:8.3f} ms on the device\n", fileStem(run.backend), pass.name,

@@ -6,6 +6,8 @@
 #include "filament_core/assets/ImageWriter.h"
 #include "tools/showcase/SceneBuilder.h"
 
+#include <glm/common.hpp>
+
 #include <algorithm>
 #include <array>
 #include <utility>
@@ -17,7 +19,7 @@ using assets::AlphaMode;
 using assets::MaterialData;
 
 constexpr float3 kTowardsSun{ -0.55f, 0.62f, 0.56f }; // from the left, over the camera's shoulder
-constexpr float kSkyUnit = 30;                        // klx: radiance 1 of the sky's file
+constexpr float kSkyUnit = 22;                        // klx: radiance 1 of the sky's file
 constexpr uint32_t kTextureSize = 256;                // an exhibit covers about 90 pixels of a 720p frame
 
 /// The pictures of all exhibits, in the order of `kTextureSets`.
@@ -78,16 +80,16 @@ MaterialData glass(std::string name, float3 color, float alpha) {
     return material;
 }
 
-MaterialData glowing(std::string name, float3 color, float nits) {
+MaterialData glowing(std::string name, float3 color, float strength) {
     MaterialData material = plain(std::move(name), float3(0), 0, 1);
     material.emissiveFactor = color;
-    material.emissiveStrength = nits;
+    material.emissiveStrength = strength;
     return material;
 }
 
 // The stage: a slab of 10 x 9.6 m whose top is y = 0, with stairs for the chart at its back.
 constexpr uint32_t kRows = 5, kColumns = 7;
-constexpr float kStairDepth = 1.14f, kStairRise = 0.52f, kFirstStairZ = 0.35f;
+constexpr float kStairDepth = 1.14f, kStairRise = 0.8f, kFirstStairZ = 0.35f;
 
 float3 chartPosition(uint32_t row, uint32_t column) {
     return { (static_cast<float>(column) - 3) * 1.36f, kStairRise * (static_cast<float>(row) + 0.5f),
@@ -147,7 +149,7 @@ void addLamp(SceneBuilder& scene, Images const& images, float3 center) {
     lattice.alphaMode = AlphaMode::Mask;
     lattice.doubleSided = true;
     scene.place("lamp shade", sphere(0.85f, 64, { 3, 1.5f }), scene.add(lattice), center);
-    scene.place("lamp", sphere(0.4f, 40), scene.add(glowing("lamp", { 1.0f, 0.62f, 0.28f }, 45'000)), center);
+    scene.place("lamp", sphere(0.4f, 40), scene.add(glowing("lamp", { 1.0f, 0.62f, 0.28f }, 1.5f)), center);
 }
 
 void addPanes(SceneBuilder& scene, Images const& images) {
@@ -156,13 +158,13 @@ void addPanes(SceneBuilder& scene, Images const& images) {
     const Shape window = roundedBox({ 0.75f, 0.95f, 0.03f }, 0.03f, 2, 0.6f);
     scene.place("window", window, scene.add(stained), { -1.75f, 0.95f, 2.2f }, 0.2f);
 
-    const Shape pane = roundedBox({ 0.45f, 0.6f, 0.025f }, 0.025f, 2);
+    const Shape pane = roundedBox({ 0.5f, 0.8f, 0.025f }, 0.025f, 2);
     constexpr float3 kColors[] = { { 0.02f, 0.42f, 0.55f }, { 0.55f, 0.03f, 0.32f }, { 0.62f, 0.45f, 0.02f } };
     constexpr const char* kNames[] = { "cyan glass", "magenta glass", "yellow glass" };
     for (int i = 0; i < 3; ++i) {
         const float step = static_cast<float>(i);
-        scene.place(kNames[i], pane, scene.add(glass(kNames[i], kColors[i], 0.4f)),
-                    { 3.35f + 0.45f * step, 0.6f, 3.55f + 0.3f * step }, 0.45f);
+        scene.place(kNames[i], pane, scene.add(glass(kNames[i], kColors[i], 0.5f)),
+                    { 3.1f + 0.5f * step, 0.8f, 3.4f + 0.35f * step }, 0.3f);
     }
 }
 
@@ -181,7 +183,7 @@ void addTexturedExhibits(SceneBuilder& scene, Images const& images) {
 
     MaterialData lava = pictured("lava", images[Lava]);
     lava.emissiveFactor = float3(1);
-    lava.emissiveStrength = 60'000;
+    lava.emissiveStrength = 2.0f;
     scene.place("lava ball", sphere(0.62f, 56, { 2, 1 }), scene.add(lava), { 0.15f, 0.62f, 3.85f });
 
     MaterialData steel = plain("brushed steel", { 0.62f, 0.60f, 0.57f }, 1, 1);
@@ -189,19 +191,41 @@ void addTexturedExhibits(SceneBuilder& scene, Images const& images) {
     scene.place("steel ring", torus(0.52f, 0.2f, 72, 28), scene.add(steel), { 1.85f, 0.2f, 3.85f });
 }
 
-/// Four beads, each three times as bright as the one before: the exposure's shoulder.
+/// Four beads, each three times as bright as the one before: the shoulder of the tone mapper. glTF's emission does not
+/// depend on the exposure; 1 is as bright as a white wall in the right one.
 void addBeads(SceneBuilder& scene) {
     const Shape bead = sphere(0.13f, 28);
-    float nits = 5'000;
-    for (int i = 0; i < 4; ++i, nits *= 3) {
-        const std::string name = fmt::format("bead of {:.0f} nits", nits);
-        const uint32_t material = scene.add(glowing(name, { 0.25f, 0.65f, 1.0f }, nits));
+    float strength = 0.2f;
+    for (int i = 0; i < 4; ++i, strength *= 3) {
+        const std::string name = fmt::format("bead of strength {:.1f}", strength);
+        const uint32_t material = scene.add(glowing(name, { 0.25f, 0.65f, 1.0f }, strength));
         scene.place(name, bead, material, { 0.9f + 0.42f * static_cast<float>(i), 0.13f, 4.68f });
     }
 }
 
-assets::AnalyticSkyOptions skyOptions() {
-    return { .sunDirection = kTowardsSun, .turbidity = 3.0f, .sunDisc = false }; // the model brings its sun as a light
+assets::AnalyticSkyOptions skyOptions(bool sunDisc) {
+    return {
+        .sunDirection = kTowardsSun, .turbidity = 3.0f, .groundAlbedo = { 0.30f, 0.29f, 0.27f }, .sunDisc = sunDisc
+    };
+}
+
+/// The model brings its sun as a light, so the sky has no disc. Near the horizon still water mirrors it, a backdrop
+/// without a horizon line; further down is sunlit ground.
+Result<assets::HdrImage> makeSky(jobs::JobSystem& jobs) {
+    Result<assets::HdrImage> sky = assets::makeAnalyticSky(skyOptions(false), jobs);
+    if (!sky) return sky;
+    const Result<assets::HdrImage> sunlit = assets::makeAnalyticSky(skyOptions(true), jobs);
+    if (!sunlit) return sunlit;
+    const uint32_t horizon = sky->height / 2;
+    for (uint32_t y = horizon; y < sky->height; ++y) {
+        const float below = kPi * (static_cast<float>(y - horizon) + 0.5f) / static_cast<float>(sky->height);
+        const float ground = glm::smoothstep(0.5f, 1.3f, below);
+        for (uint32_t x = 0; x < sky->width; ++x) {
+            sky->at(x, y) = glm::mix(sky->at(x, sky->height - 1 - y), sunlit->at(x, y), ground);
+        }
+    }
+    for (float3& pixel : sky->pixels) pixel /= kSkyUnit;
+    return sky;
 }
 
 } // namespace
@@ -217,7 +241,7 @@ Result<assets::GlbScene> makeScene(jobs::JobSystem& jobs) {
     addTexturedExhibits(scene, *images);
     addBeads(scene);
     addPanes(scene, *images);
-    const float3 sun = assets::analyticSunIlluminance(skyOptions()) * 1000.0f;
+    const float3 sun = assets::analyticSunIlluminance(skyOptions(true)) * 1000.0f;
     const float lux = std::max({ sun.x, sun.y, sun.z });
     scene.addSun(kTowardsSun, sun / lux, lux);
     return scene.take();
@@ -231,9 +255,8 @@ Result<Files> writeFiles(std::filesystem::path const& folder, jobs::JobSystem& j
     if (!bytes) return bytes.error();
     if (Result<void> written = assets::replaceFile(files.model, *bytes); !written) return written.error();
 
-    Result<assets::HdrImage> sky = assets::makeAnalyticSky(skyOptions(), jobs);
+    const Result<assets::HdrImage> sky = makeSky(jobs);
     if (!sky) return sky.error();
-    for (float3& pixel : sky->pixels) pixel /= kSkyUnit;
     if (Result<void> written = assets::writeHdr(files.environment, *sky); !written) return written.error();
     return files;
 }

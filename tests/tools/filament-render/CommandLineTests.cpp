@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// The program itself, as a user starts it: every bad input ends with one line and a status, never with a crash.
+#include "filament_core/assets/EnvironmentFile.h"
+#include "tools/showcase/Showcase.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cstdlib>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+#include <string>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace filament::tools {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+std::string textOf(std::filesystem::path const& path) {
+    std::ifstream stream(path, std::ios::binary);
+    std::ostringstream text;
+    text << stream.rdbuf();
+    return text.str();
+}
+
+void writeText(std::filesystem::path const& path, std::string const& text) {
+    ASSERT_TRUE(assets::replaceFile(path, std::as_bytes(std::span(text))).ok());
+}
+
+/// One triangle, whole: positions as a data URI.
+std::string triangleGltf() {
+    return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
+           R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,)"
+           R"("count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]}],"bufferViews":[{"buffer":0,"byteLength":36}],)"
+           R"("buffers":[{"byteLength":36,"uri":"data:application/octet-stream;base64,)"
+           R"(AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA"}]})";
+}
+
+class CommandLine : public ::testing::Test {
+protected:
+    struct Outcome {
+        int status = -1; ///< 128 and more: ended by a signal; 124: took too long
+        std::string output, errors;
+    };
+
+    static void SetUpTestSuite() {
+        sFolder = std::filesystem::temp_directory_path() / ("filament_render_tests_" + std::to_string(::getpid()));
+        jobs::JobSystem jobs;
+        const auto files = showcase::writeFiles(sFolder, jobs);
+        ASSERT_TRUE(files.ok()) << files.error().message;
+        writeText(sFolder / "triangle.gltf", triangleGltf());
+    }
+    static void TearDownTestSuite() { std::filesystem::remove_all(sFolder); }
+
+    /// `environment`: "NAME=value" words for the process.
+    static Outcome run(std::string const& arguments, std::string const& environment = "") {
+        const std::string command = "cd '" + sFolder.string() + "' && env " + environment + " timeout 120 " +
+                                    FILAMENT_BINARY_DIR "/bin/filament-render " + arguments +
+                                    " >output 2>errors </dev/null";
+        const int status = std::system(command.c_str());
+        return { WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), textOf(sFolder / "output"),
+                 textOf(sFolder / "errors") };
+    }
+
+    /// Ends with status 1 and exactly one line on standard error, which contains `words`.
+    static void expectRefused(std::string const& arguments, std::initializer_list<const char*> words,
+                              std::string const& environment = "") {
+        const Outcome outcome = run(arguments, environment);
+        EXPECT_EQ(outcome.status, 1) << arguments << "\n" << outcome.errors;
+        EXPECT_THAT(outcome.errors, StartsWith("filament-render: error: ")) << arguments;
+        EXPECT_EQ(std::count(outcome.errors.begin(), outcome.errors.end(), '\n'), 1) << outcome.errors;
+        for (const char* word : words) EXPECT_THAT(outcome.errors, HasSubstr(word)) << arguments;
+    }
+
+    static void truncate(const char* from, const char* to, double part) {
+        const std::string whole = textOf(sFolder / from);
+        writeText(sFolder / to, whole.substr(0, static_cast<size_t>(static_cast<double>(whole.size()) * part)));
+    }
+
+    static inline std::filesystem::path sFolder;
+};
+
+TEST_F(CommandLine, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
+    const Outcome outcome =
+            run("triangle.gltf --size 160x90 --sun 100000 0 -1 -1 --frames 8 --out ok --timing --explain");
+    ASSERT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_EQ(outcome.errors, "");
+    EXPECT_THAT(outcome.output, HasSubstr("identical: 100.0000 % of pixels, max difference 0/255"));
+    for (const char* file : { "vulkan.png", "gles.png", "diff.png" }) {
+        EXPECT_TRUE(std::filesystem::exists(sFolder / "ok" / file)) << file;
+    }
+    const auto report = nlohmann::json::parse(textOf(sFolder / "ok" / "report.json"));
+    EXPECT_EQ(report["size"], nlohmann::json({ 160, 90 }));
+    for (const char* backend : { "vulkan", "gles" }) {
+        auto const& run = report["backends"][backend];
+        EXPECT_EQ(run["frames"].size(), 8u) << backend;
+        EXPECT_EQ(run["counts"]["renderables"], 1) << backend;
+        EXPECT_EQ(run["counts"]["pipelinesCreatedDuringDraws"], 0) << backend;
+        EXPECT_EQ(run["steady"]["pipelinesCreated"], 0) << backend;
+        EXPECT_GE(run["passes"].size(), 1u) << backend;
+        EXPECT_GT(run["start"]["firstFrameMs"], 0.0) << backend;
+    }
+}
+
+TEST_F(CommandLine, AModelThatIsNotThereIsNamed) { expectRefused("missing.glb --size 32x32", { "missing.glb" }); }
+
+TEST_F(CommandLine, AFolderIsNotAModel) {
+    std::filesystem::create_directories(sFolder / "folder.glb");
+    expectRefused("folder.glb --size 32x32", { "folder.glb" });
+}
+
+TEST_F(CommandLine, ATruncatedModelIsNamed) {
+    for (const double part : { 0.0, 0.000002, 0.001, 0.3, 0.99 }) {
+        truncate("showcase.glb", "cut.glb", part);
+        expectRefused("cut.glb --backend gles --size 32x32", { "cut.glb" });
+    }
+}
+
+TEST_F(CommandLine, AnEnvironmentThatIsNotThereIsNamed) {
+    expectRefused("triangle.gltf --size 32x32 --environment missing.hdr", { "missing.hdr" });
+    expectRefused("triangle.gltf --size 32x32 --environment .", { "." });
+}
+
+TEST_F(CommandLine, ATruncatedEnvironmentIsNamed) {
+    for (const double part : { 0.0, 0.0001, 0.5 }) {
+        truncate("showcase.hdr", "cut.hdr", part);
+        expectRefused("triangle.gltf --backend gles --size 32x32 --environment cut.hdr", { "cut.hdr" });
+    }
+}
+
+TEST_F(CommandLine, NotANumberInsideAModelIsNoCrash) {
+    std::string text = triangleGltf();
+    const std::string positions = "AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA";
+    text.replace(text.find(positions), 8, "AADAfwAA"); // the first float is a NaN
+    writeText(sFolder / "nan.gltf", text);
+    const Outcome outcome = run("nan.gltf --backend gles --size 32x32 --out nan");
+    EXPECT_LE(outcome.status, 1) << outcome.errors;
+    EXPECT_NE(outcome.errors, "");
+}
+
+TEST_F(CommandLine, AZeroSizeIsRefused) { expectRefused("triangle.gltf --size 0x0", { "--size", "0x0" }); }
+
+TEST_F(CommandLine, AnUnknownBackendIsRefused) {
+    expectRefused("triangle.gltf --backend metal", { "--backend", "metal", "vulkan, gles or both" });
+}
+
+TEST_F(CommandLine, AnUnknownDeviceIsRefusedOnce) {
+    expectRefused("triangle.gltf --size 32x32 --require-device 'no such card'", { "no such card" });
+    expectRefused("triangle.gltf --size 32x32 --backend gles --require-device 'no such card'", { "no such card" });
+}
+
+TEST_F(CommandLine, NotANumberOnTheCommandLineIsRefused) {
+    expectRefused("triangle.gltf --eye nan 0 0", { "--eye", "nan" });
+    expectRefused("triangle.gltf --exposure 16 nan 100", { "--exposure", "nan" });
+}
+
+TEST_F(CommandLine, AFolderThatCannotBeWrittenIsNamed) {
+    writeText(sFolder / "file", "");
+    expectRefused("triangle.gltf --backend gles --size 32x32 --out file", { "--out", "file" });
+    expectRefused("triangle.gltf --backend gles --size 32x32 --out /proc/here", { "--out", "/proc/here" });
+}
+
+TEST_F(CommandLine, WithoutAVulkanDriverVulkanIsRefusedAndOpenGlEsStillDrawn) {
+    const std::string none = "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent";
+    expectRefused("triangle.gltf --size 32x32 --backend vulkan --out vk", { "Vulkan" }, none);
+    expectRefused("triangle.gltf --size 32x32 --out only_gles", { "Vulkan" }, none);
+    EXPECT_TRUE(std::filesystem::exists(sFolder / "only_gles" / "gles.png"));
+    EXPECT_FALSE(std::filesystem::exists(sFolder / "only_gles" / "vulkan.png"));
+    const auto report = nlohmann::json::parse(textOf(sFolder / "only_gles" / "report.json"));
+    EXPECT_TRUE(report["backends"].contains("gles"));
+    EXPECT_THAT(report["errors"].dump(), HasSubstr("Vulkan"));
+    const Outcome devices = run("--list-devices", none);
+    EXPECT_EQ(devices.status, 0) << devices.errors;
+    EXPECT_THAT(devices.output, StartsWith("gles"));
+}
+
+TEST_F(CommandLine, WithoutAnEglVendorOpenGlEsIsRefusedAndVulkanStillDrawn) {
+    const std::string none = "__EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent";
+    expectRefused("triangle.gltf --size 32x32 --out only_vulkan", { "EGL" }, none);
+    EXPECT_TRUE(std::filesystem::exists(sFolder / "only_vulkan" / "vulkan.png"));
+    EXPECT_FALSE(std::filesystem::exists(sFolder / "only_vulkan" / "gles.png"));
+}
+
+TEST_F(CommandLine, WithoutAnyDriverTheOneLineNamesBoth) {
+    const std::string none =
+            "VK_ICD_FILENAMES=/nonexistent VK_DRIVER_FILES=/nonexistent __EGL_VENDOR_LIBRARY_FILENAMES=/nonexistent";
+    expectRefused("triangle.gltf --size 32x32", { "Vulkan", "EGL" }, none);
+    expectRefused("--list-devices", { "no device" }, none);
+}
+
+TEST_F(CommandLine, LinearPicturesAreHalfFloatsWithTheSameBitsAsWell) {
+    const Outcome outcome = run("triangle.gltf --size 64x64 --sun 100000 0 -1 -1 --format exr --out exr");
+    EXPECT_EQ(outcome.status, 0) << outcome.errors;
+    EXPECT_THAT(outcome.output, HasSubstr("identical: 100.0000 %"));
+    EXPECT_TRUE(std::filesystem::exists(sFolder / "exr" / "vulkan.exr"));
+    EXPECT_TRUE(std::filesystem::exists(sFolder / "exr" / "gles.exr"));
+}
+
+TEST_F(CommandLine, HelpListsTheOptionsAndSucceeds) {
+    const Outcome outcome = run("--help");
+    EXPECT_EQ(outcome.status, 0);
+    for (const char* option : { "--environment", "--backend", "--size",        "--frames",       "--no-fit",
+                                "--eye",         "--at",      "--fov",         "--exposure",     "--ibl-intensity",
+                                "--sun",         "--skybox",  "--tone-mapper", "--dither",       "--out",
+                                "--format",      "--timing",  "--explain",     "--list-devices", "--require-device",
+                                "--tolerance" }) {
+        EXPECT_THAT(outcome.output, HasSubstr(option));
+    }
+}
+
+} // namespace
+} // namespace filament::tools

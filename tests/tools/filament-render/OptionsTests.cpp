@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/filament-render/Options.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace filament::tools {
+namespace {
+
+using ::testing::HasSubstr;
+
+Result<std::optional<Options>> parse(std::initializer_list<const char*> arguments) {
+    std::vector<const char*> words{ "filament-render" };
+    words.insert(words.end(), arguments);
+    return parseOptions(static_cast<int>(words.size()), words.data());
+}
+
+Options parsed(std::initializer_list<const char*> arguments) {
+    const auto result = parse(arguments);
+    EXPECT_TRUE(result.ok()) << result.error().message;
+    return result.ok() && *result ? **result : Options{};
+}
+
+std::string refused(std::initializer_list<const char*> arguments) {
+    const auto result = parse(arguments);
+    EXPECT_FALSE(result.ok());
+    return result.ok() ? "" : result.error().message;
+}
+
+TEST(Options, WithoutArgumentsAreThoseOfTheManual) {
+    const Options options = parsed({});
+    EXPECT_TRUE(options.model.empty() && options.environment.empty());
+    EXPECT_EQ(options.backends, (std::vector{ Backend::Vulkan, Backend::Gles }));
+    EXPECT_EQ(options.size, uint2(1280, 720));
+    EXPECT_EQ(options.frames, 1u);
+    EXPECT_TRUE(options.fit);
+    EXPECT_EQ(options.eye, double3(0.9, 0.6, 1.5));
+    EXPECT_EQ(options.at, double3(0));
+    EXPECT_EQ(options.fovDegrees, 40.0f);
+    EXPECT_NEAR(options.exposure.ev100(), 14.966f, 0.001f); // log2(16^2 / 0.008)
+    EXPECT_EQ(options.iblIntensity.value, 30'000.0f);
+    EXPECT_FALSE(options.sun);
+    EXPECT_TRUE(options.skybox);
+    EXPECT_EQ(options.colorGrading.toneMapper, ToneMapper::Aces);
+    EXPECT_FALSE(options.colorGrading.dither);
+    EXPECT_EQ(options.tolerance, 0u);
+    EXPECT_EQ(options.out, "out");
+}
+
+TEST(Options, AllReachTheirFields) {
+    const Options options = parsed({ "a b.glb",
+                                     "--environment",
+                                     "sky.hdr",
+                                     "--backend",
+                                     "gles",
+                                     "--size",
+                                     "64x48",
+                                     "--frames",
+                                     "7",
+                                     "--no-fit",
+                                     "--eye",
+                                     "-1",
+                                     "-.5",
+                                     "2e1",
+                                     "--at",
+                                     "1",
+                                     "2",
+                                     "3",
+                                     "--fov",
+                                     "60",
+                                     "--exposure",
+                                     "4",
+                                     "0.01",
+                                     "400",
+                                     "--ibl-intensity",
+                                     "5",
+                                     "--sun",
+                                     "1000",
+                                     "0",
+                                     "-1",
+                                     "0.5",
+                                     "--skybox",
+                                     "off",
+                                     "--tone-mapper",
+                                     "filmic",
+                                     "--dither",
+                                     "on",
+                                     "--tolerance",
+                                     "2",
+                                     "--out",
+                                     "x/y",
+                                     "--format",
+                                     "exr",
+                                     "--timing",
+                                     "--explain",
+                                     "--trace",
+                                     "--require-device",
+                                     "llvm" });
+    EXPECT_EQ(options.model, "a b.glb");
+    EXPECT_EQ(options.environment, "sky.hdr");
+    EXPECT_EQ(options.backends, std::vector{ Backend::Gles });
+    EXPECT_EQ(options.size, uint2(64, 48));
+    EXPECT_EQ(options.frames, 7u);
+    EXPECT_FALSE(options.fit);
+    EXPECT_EQ(options.eye, double3(-1, -0.5, 20));
+    EXPECT_EQ(options.at, double3(1, 2, 3));
+    EXPECT_EQ(options.fovDegrees, 60.0f);
+    EXPECT_EQ(options.exposure.iso, 400.0f);
+    EXPECT_EQ(options.iblIntensity.value, 5.0f);
+    ASSERT_TRUE(options.sun);
+    EXPECT_EQ(options.sun->illuminance.value, 1000.0f);
+    EXPECT_EQ(options.sun->directionWorld, float3(0, -1, 0.5f));
+    EXPECT_FALSE(options.skybox);
+    EXPECT_EQ(options.colorGrading.toneMapper, ToneMapper::Filmic);
+    EXPECT_TRUE(options.colorGrading.dither);
+    EXPECT_EQ(options.tolerance, 2u);
+    EXPECT_EQ(options.out, "x/y");
+    EXPECT_EQ(options.format, PictureFormat::Exr);
+    EXPECT_TRUE(options.timing && options.explain && options.trace);
+    EXPECT_EQ(options.requireDevice, "llvm");
+}
+
+TEST(Options, AModelMayFollowAnOptionWithSeveralValues) {
+    const Options options = parsed({ "--eye", "1", "2", "3", "model.glb" });
+    EXPECT_EQ(options.model, "model.glb");
+    EXPECT_EQ(options.eye, double3(1, 2, 3));
+}
+
+TEST(Options, EveryRefusalNamesTheOptionTheValueAndTheCure) {
+    struct Case {
+        std::initializer_list<const char*> arguments;
+        const char *option, *value, *cure;
+    };
+    const Case cases[] = {
+        { { "--backend", "metal" }, "--backend", "metal", "vulkan, gles or both" },
+        { { "--size", "0x720" }, "--size", "0x720", "16384" },
+        { { "--size", "1280" }, "--size", "1280", "WIDTHxHEIGHT" },
+        { { "--size", "-5x5" }, "--size", "-5x5", "WIDTHxHEIGHT" },
+        { { "--size", "99999x99999" }, "--size", "99999", "16384" },
+        { { "--size", "4294967297x1" }, "--size", "4294967297", "16384" },
+        { { "--frames", "0" }, "--frames", "0", "from 1" },
+        { { "--frames", "1.5" }, "--frames", "1.5", "whole number" },
+        { { "--eye", "nan", "0", "0" }, "--eye", "nan 0 0", "finite" },
+        { { "--eye", "0", "inf", "0" }, "--eye", "inf", "finite" },
+        { { "--at", "0", "1e999", "0" }, "--at", "1e999", "finite" },
+        { { "--at", "0", "zero", "0" }, "--at", "zero", "three" },
+        { { "--fov", "180" }, "--fov", "180", "179" },
+        { { "--fov", "NaN" }, "--fov", "NaN", "degrees" },
+        { { "--exposure", "0", "1", "100" }, "--exposure", "0 1 100", "aperture" },
+        { { "--exposure", "16", "nan", "100" }, "--exposure", "nan", "aperture" },
+        { { "--ibl-intensity", "-1" }, "--ibl-intensity", "-1", "lux" },
+        { { "--sun", "1000", "0", "0", "0" }, "--sun", "1000 0 0 0", "not zero" },
+        { { "--sun", "nan", "0", "-1", "0" }, "--sun", "nan", "lux" },
+        { { "--skybox", "maybe" }, "--skybox", "maybe", "on or off" },
+        { { "--dither", "2" }, "--dither", "2", "on or off" },
+        { { "--tone-mapper", "agx" }, "--tone-mapper", "agx", "aces" },
+        { { "--format", "jpg" }, "--format", "jpg", "png or exr" },
+        { { "--tolerance", "256" }, "--tolerance", "256", "255" },
+        { { "--out", "" }, "--out", "''", "folder" },
+    };
+    for (Case const& bad : cases) {
+        const std::string message = refused(bad.arguments);
+        EXPECT_THAT(message, HasSubstr(bad.option));
+        EXPECT_THAT(message, HasSubstr(bad.value));
+        EXPECT_THAT(message, HasSubstr(bad.cure));
+    }
+}
+
+TEST(Options, WhatIsNotAnOptionIsRefusedOnOneLineThatPointsToTheHelp) {
+    for (auto arguments : { std::initializer_list<const char*>{ "--enviroment", "sky.hdr" },
+                            { "--eye", "1", "2" },
+                            { "--size" },
+                            { "one.glb", "two.glb" },
+                            { "-nan" } }) {
+        const std::string message = refused(arguments);
+        EXPECT_THAT(message, HasSubstr("--help"));
+        EXPECT_EQ(message.find('\n'), std::string::npos);
+    }
+}
+
+TEST(Options, EyeAndTargetAtOnePointAreRefused) {
+    EXPECT_THAT(refused({ "--eye", "1", "2", "3", "--at", "1", "2", "3" }), HasSubstr("same point"));
+}
+
+} // namespace
+} // namespace filament::tools
