@@ -23,9 +23,10 @@ EGLContext createContext(Egl const& egl, EGLDisplay display, ContextWish wish, b
 } // namespace
 
 Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug) {
-    Result<DisplayReference> display = DisplayReference::acquire(egl, egl.display(source));
-    if (!display) return display.error();
-    const char* extensions = egl.QueryString(display->get(), EGL_EXTENSIONS);
+    Result<EGLDisplay> opened = egl.openDisplay(source);
+    if (!opened) return opened.error();
+    const EGLDisplay display = *opened;
+    const char* extensions = egl.QueryString(display, EGL_EXTENSIONS);
     if (!hasExtension(extensions, "EGL_KHR_surfaceless_context") || !egl.BindAPI(EGL_OPENGL_ES_API)) {
         return fail(ErrorCode::Unsupported, "this EGL display has no OpenGL ES without a surface");
     }
@@ -33,15 +34,15 @@ Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug
     EGLContext context = EGL_NO_CONTEXT;
     for (ContextWish wish : { ContextWish{ 2, true }, { 2, false }, { 1, true }, { 1, false } }) {
         if (context == EGL_NO_CONTEXT && (reset || !wish.resetNotice)) {
-            context = createContext(egl, display->get(), wish, debug);
+            context = createContext(egl, display, wish, debug);
         }
     }
     if (context == EGL_NO_CONTEXT) {
         return fail(ErrorCode::Unsupported, "this EGL display offers no OpenGL ES 3.1 context (EGL error {:#x})",
                 egl.GetError());
     }
-    Context made(egl, std::move(*display), context);
-    if (!egl.MakeCurrent(made.mDisplay.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
+    Context made(egl, display, context);
+    if (!egl.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         return fail(ErrorCode::DeviceUnavailable, "the OpenGL ES context cannot be made current (EGL error {:#x})",
                 egl.GetError());
     }
@@ -50,15 +51,15 @@ Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug
 
 Context::~Context() {
     if (mContext == EGL_NO_CONTEXT) return;
-    mEgl->MakeCurrent(mDisplay.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
-    mEgl->DestroyContext(mDisplay.get(), mContext);
+    mEgl->MakeCurrent(mDisplay, EGL_NO_SURFACE, EGL_NO_SURFACE, EGL_NO_CONTEXT);
+    mEgl->DestroyContext(mDisplay, mContext);
     mEgl->ReleaseThread();
 }
 
 void Context::makeCurrent() const {
     if (mEgl->GetCurrentContext() == mContext) return;
     mEgl->BindAPI(EGL_OPENGL_ES_API);
-    mEgl->MakeCurrent(mDisplay.get(), EGL_NO_SURFACE, EGL_NO_SURFACE, mContext);
+    mEgl->MakeCurrent(mDisplay, EGL_NO_SURFACE, EGL_NO_SURFACE, mContext);
 }
 
 } // namespace filament::backend::gles

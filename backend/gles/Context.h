@@ -7,6 +7,8 @@
 
 #include "backend/gles/Egl.h"
 
+#include <utility>
+
 namespace filament::backend::gles {
 
 class Context {
@@ -15,8 +17,7 @@ public:
     static Result<Context> create(Egl const& egl, DisplaySource source, bool debug);
     ~Context();
     Context(Context&& other) noexcept
-            : mEgl(other.mEgl), mDisplay(std::move(other.mDisplay)),
-              mContext(std::exchange(other.mContext, EGL_NO_CONTEXT)) {}
+            : mEgl(other.mEgl), mDisplay(other.mDisplay), mContext(std::exchange(other.mContext, EGL_NO_CONTEXT)) {}
     Context& operator=(Context&&) = delete;
 
     /// Free when it already is current on this thread.
@@ -24,10 +25,10 @@ public:
     Egl const& egl() const { return *mEgl; }
 
 private:
-    Context(Egl const& egl, DisplayReference display, EGLContext context)
-            : mEgl(&egl), mDisplay(std::move(display)), mContext(context) {}
+    Context(Egl const& egl, EGLDisplay display, EGLContext context)
+            : mEgl(&egl), mDisplay(display), mContext(context) {}
     Egl const* mEgl;
-    DisplayReference mDisplay;
+    EGLDisplay mDisplay;
     EGLContext mContext;
 };
 

@@ -4,23 +4,11 @@
 #include <dlfcn.h>
 
 #include <array>
-#include <map>
-#include <mutex>
 
 namespace filament::backend::gles {
 namespace {
 
 constexpr const char* kInstall = "install libegl1, libegl-mesa0 and libgl1-mesa-dri";
-
-struct Displays {
-    std::mutex mutex;
-    std::map<EGLDisplay, uint32_t> references;
-};
-
-Displays& displays() {
-    static Displays instance;
-    return instance;
-}
 
 } // namespace
 
@@ -73,32 +61,16 @@ std::vector<DisplaySource> Egl::displaySources() const {
     return sources;
 }
 
-EGLDisplay Egl::display(DisplaySource source) const {
-    return mGetPlatformDisplay(source.platform, source.native, nullptr);
-}
-
-Result<DisplayReference> DisplayReference::acquire(Egl const& egl, EGLDisplay display) {
+Result<EGLDisplay> Egl::openDisplay(DisplaySource source) const {
+    const EGLDisplay display = mGetPlatformDisplay(source.platform, source.native, nullptr);
     if (display == EGL_NO_DISPLAY) {
         return fail(ErrorCode::DeviceUnavailable, "EGL offers no such display; {}", kInstall);
     }
-    const std::lock_guard lock(displays().mutex);
-    uint32_t& references = displays().references[display];
-    if (references == 0 && !egl.Initialize(display, nullptr, nullptr)) {
-        displays().references.erase(display);
+    if (!Initialize(display, nullptr, nullptr)) { // no effect on one that is initialised
         return fail(ErrorCode::DeviceUnavailable, "EGL found no driver for its display (EGL error {:#x}); {}",
-                egl.GetError(), kInstall);
+                GetError(), kInstall);
     }
-    ++references;
-    return DisplayReference(egl, display);
-}
-
-DisplayReference::~DisplayReference() {
-    if (mDisplay == EGL_NO_DISPLAY) return;
-    const std::lock_guard lock(displays().mutex);
-    auto const entry = displays().references.find(mDisplay);
-    if (--entry->second > 0) return;
-    displays().references.erase(entry);
-    mEgl->Terminate(mDisplay);
+    return display;
 }
 
 ThreadBindingGuard::ThreadBindingGuard(Egl const& egl)

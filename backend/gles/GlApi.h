@@ -25,7 +25,8 @@ namespace filament::backend::gles {
     X(EnableVertexAttribArray) X(FenceSync) X(Finish) X(Flush) X(FramebufferTexture2D) X(FramebufferTextureLayer) \
     X(FrontFace) X(GenBuffers) X(GenFramebuffers) X(GenQueries) X(GenSamplers) X(GenTextures) X(GenVertexArrays) \
     X(GetActiveAttrib) X(GetAttribLocation) X(GetError) X(GetFloatv) X(GetIntegerv) X(GetProgramInfoLog)        \
-    X(GetProgramiv) X(GetQueryObjectuiv) X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetStringi)          \
+    X(GetProgramInterfaceiv) X(GetProgramResourceiv) X(GetProgramiv) X(GetQueryObjectuiv) X(GetShaderInfoLog)   \
+    X(GetShaderiv) X(GetString) X(GetStringi)                                                                   \
     X(InvalidateFramebuffer) X(InvalidateSubFramebuffer) X(LinkProgram) X(MapBufferRange) X(PixelStorei)        \
     X(PolygonOffset) X(ReadBuffer) X(ReadPixels) X(SamplerParameterf) X(SamplerParameteri) X(Scissor)           \
     X(ShaderSource) X(StencilFuncSeparate) X(StencilMask) X(StencilMaskSeparate) X(StencilOpSeparate)           \

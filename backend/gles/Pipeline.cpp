@@ -37,6 +37,7 @@ Pipeline makePipeline(PipelineDesc const& desc, std::shared_ptr<Program const> p
     SubpassDesc const& subpass = desc.pass.subpasses[desc.subpass];
     pipeline.vertices = &vertices.get(desc.vertices);
     if (program) pipeline.constantInputs = inputsWithoutArray(*program, desc.vertices);
+    const uint32_t written = subpass.colorMask & (program ? program->outputMask() : 0);
     pipeline.program = std::move(program);
     pipeline.raster = desc.raster;
     pipeline.topology = glTopology(desc.raster.topology);
@@ -44,7 +45,7 @@ Pipeline makePipeline(PipelineDesc const& desc, std::shared_ptr<Program const> p
     pipeline.colorCount = desc.pass.colorCount;
     for (uint32_t i = 0; i < desc.pass.colorCount; ++i) {
         pipeline.blend[i] = desc.blend[i];
-        if (!((subpass.colorMask >> i) & 1)) pipeline.blend[i].writeMask = 0;
+        if (!((written >> i) & 1)) pipeline.blend[i].writeMask = 0;
     }
     return pipeline;
 }

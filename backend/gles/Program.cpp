@@ -91,6 +91,7 @@ Program::Program(Device& device, ProgramDesc const& desc) : mDevice(device), mBi
     if (!mName) return;
     device.label(GL_PROGRAM, mName, desc.debugName);
     readInputs();
+    readOutputs();
 }
 
 Program::~Program() {
@@ -115,6 +116,24 @@ void Program::readInputs() {
         const auto locations = static_cast<GLint>(shape.locations) * elements;
         for (GLint at = first; at < first + locations && at < static_cast<GLint>(kMaxVertexAttributes); ++at) {
             mInputs.push_back({ static_cast<uint8_t>(at), shape.scalarType });
+        }
+    }
+}
+
+// The values of outputs that a program lacks are undefined in ES: the pipeline masks them.
+void Program::readOutputs() {
+    GlApi const& gl = mDevice.gl;
+    GLint count = 0;
+    gl.GetProgramInterfaceiv(mName, GL_PROGRAM_OUTPUT, GL_ACTIVE_RESOURCES, &count);
+    for (GLint i = 0; i < count; ++i) {
+        constexpr std::array<GLenum, 2> kProperties{ GL_LOCATION, GL_ARRAY_SIZE };
+        std::array<GLint, 2> values{ -1, 1 };
+        gl.GetProgramResourceiv(mName, GL_PROGRAM_OUTPUT, static_cast<GLuint>(i), kProperties.size(), kProperties.data(),
+                values.size(), nullptr, values.data());
+        const auto [first, elements] = values;
+        if (first < 0) continue; // gl_FragDepth and the like
+        for (GLint at = first; at < first + elements && at < static_cast<GLint>(kMaxColorAttachments); ++at) {
+            mOutputMask |= 1u << at;
         }
     }
 }

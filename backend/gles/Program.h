@@ -38,14 +38,17 @@ public:
     GLuint name() const { return mName; }
     FlatBindings const& bindings() const { return mBindings; }
     std::span<const ProgramInput> inputs() const { return mInputs; }
+    uint32_t outputMask() const { return mOutputMask; } ///< bit i: the fragment stage has an output at location i
 
 private:
     void readInputs();
+    void readOutputs();
 
     Device& mDevice;
     GLuint mName = 0;
     FlatBindings mBindings{};
     std::vector<ProgramInput> mInputs;
+    uint32_t mOutputMask = 0;
 };
 
 } // namespace filament::backend::gles

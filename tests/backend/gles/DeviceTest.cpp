@@ -93,7 +93,7 @@ TEST(GlesDeviceTest, TwoDriversOnOneThreadDoNotDisturbEachOther) {
     EXPECT_TRUE(clearsCorrectly(**a, sinkA, 10, 1));
     EXPECT_TRUE(clearsCorrectly(**b, sinkB, 20, 1));
     b = Result<std::unique_ptr<Driver>>(std::unique_ptr<Driver>());
-    EXPECT_TRUE(clearsCorrectly(**a, sinkA, 30, 1)) << "the display must survive the driver that went";
+    EXPECT_TRUE(clearsCorrectly(**a, sinkA, 30, 1)) << "the display outlives the driver that went";
 }
 
 TEST(GlesDeviceTest, DriversOnSeveralThreadsWorkAtTheSameTime) {
