@@ -33,10 +33,11 @@ void checkWrittenBefore(FrameGraph const& graph, uint32_t pass, std::span<const 
         if (!isPureRead(access.kind) || written[access.texture.index()]) continue;
         const std::string_view name = graph.passes()[pass].name, texture = graph.texture(access.texture).desc.name;
         const std::string_view later = laterWriter(graph, pass, access.texture);
-        require(!later.empty(), "pass '{}' reads texture '{}', which no pass writes: write it, or import it with its contents",
-                name, texture);
-        require(false, "pass '{}' reads texture '{}' before pass '{}' writes it: declare the writer first", name, texture,
-                later);
+        require(!later.empty(),
+                "pass '{}' reads texture '{}', which no pass writes: write it, or import it with its contents", name,
+                texture);
+        require(false, "pass '{}' reads texture '{}' before pass '{}' writes it: declare the writer first", name,
+                texture, later);
     }
 }
 
@@ -53,17 +54,19 @@ void checkAttachment(FrameGraph const& graph, Pass const& pass, Access const& ac
     require(access.level < desc.levels && access.layer < desc.layers,
             "pass '{}': texture '{}' has {} levels and {} layers; level {}, layer {} is attached", pass.name, desc.name,
             desc.levels, desc.layers, access.level, access.layer);
-    require(backend::hasDepth(desc.format) == isDepth(access.kind), "pass '{}': texture '{}' has format {}: wrong for a {} attachment",
-            pass.name, desc.name, backend::formatInfo(desc.format).name, isDepth(access.kind) ? "depth" : "colour");
+    require(backend::hasDepth(desc.format) == isDepth(access.kind),
+            "pass '{}': texture '{}' has format {}: wrong for a {} attachment", pass.name, desc.name,
+            backend::formatInfo(desc.format).name, isDepth(access.kind) ? "depth" : "colour");
 }
 
 void checkResolve(FrameGraph const& graph, Pass const& pass, Access const& access) {
     TextureDesc const& from = graph.texture(access.texture).desc;
-    require(access.resolve.index() < graph.textures().size(), "pass '{}': resolves '{}' to a texture of another graph or frame",
-            pass.name, from.name);
+    require(access.resolve.index() < graph.textures().size(),
+            "pass '{}': resolves '{}' to a texture of another graph or frame", pass.name, from.name);
     TextureDesc const& to = graph.texture(access.resolve).desc;
-    require(from.samples > 1 && to.samples == 1, "pass '{}': resolves '{}' ({} samples) to '{}' ({} samples): needs many to one",
-            pass.name, from.name, from.samples, to.name, to.samples);
+    require(from.samples > 1 && to.samples == 1,
+            "pass '{}': resolves '{}' ({} samples) to '{}' ({} samples): needs many to one", pass.name, from.name,
+            from.samples, to.name, to.samples);
     require(from.format == to.format && sizeOfLevel(from, access.level) == sizeOfLevel(to, 0),
             "pass '{}': resolves '{}' to '{}', which has another format or size", pass.name, from.name, to.name);
 }
@@ -88,10 +91,10 @@ void checkAttachmentsAgree(FrameGraph const& graph, Pass const& pass) {
         if (!reference) reference = &access;
         TextureDesc const& first = graph.texture(reference->texture).desc;
         const Size expected = sizeOfLevel(first, reference->level), size = sizeOfLevel(desc, access.level);
-        require(size == expected, "pass '{}': attachment '{}' is {} x {}, attachment '{}' is {} x {}", pass.name, desc.name,
-                size.width, size.height, first.name, expected.width, expected.height);
-        require(desc.samples == first.samples, "pass '{}': attachment '{}' has {} samples, attachment '{}' has {}", pass.name,
-                desc.name, desc.samples, first.name, first.samples);
+        require(size == expected, "pass '{}': attachment '{}' is {} x {}, attachment '{}' is {} x {}", pass.name,
+                desc.name, size.width, size.height, first.name, expected.width, expected.height);
+        require(desc.samples == first.samples, "pass '{}': attachment '{}' has {} samples, attachment '{}' has {}",
+                pass.name, desc.name, desc.samples, first.name, first.samples);
     }
     require((slots & (slots + 1)) == 0, "pass '{}': colour slots have gaps; number them 0, 1, ...", pass.name);
 }
@@ -112,8 +115,8 @@ void checkRoles(FrameGraph const& graph, Pass const& pass) {
             Access const& b = accesses[j];
             require(!isAttachment(a.kind) || b.texture != a.texture || isAttachment(b.kind),
                     "pass '{}': texture '{}' is attached and read at the same time", pass.name, name);
-            require(i == j || !isAttachment(a.kind) || !isAttachment(b.kind) || a.texture != b.texture || a.level != b.level ||
-                            a.layer != b.layer,
+            require(i == j || !isAttachment(a.kind) || !isAttachment(b.kind) || a.texture != b.texture ||
+                            a.level != b.level || a.layer != b.layer,
                     "pass '{}': texture '{}' is attached twice", pass.name, name);
             require(!a.resolve || (b.texture != a.resolve && (i == j || b.resolve != a.resolve)),
                     "pass '{}': texture '{}' is a resolve target and something else", pass.name,
@@ -121,7 +124,8 @@ void checkRoles(FrameGraph const& graph, Pass const& pass) {
         }
     }
     require(attaches || !reads, "pass '{}': reads the current pixel of an input, but has no attachments", pass.name);
-    require(!attaches || !transfers, "pass '{}': has attachments and transfers; make the transfers a pass of their own", pass.name);
+    require(!attaches || !transfers, "pass '{}': has attachments and transfers; make the transfers a pass of their own",
+            pass.name);
 }
 
 } // namespace

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The steps of compile(), each a function of what the steps before it found; see Compile.cpp for the table of contents.
+/// The steps of compile(), each a function of what the steps before it found; Compile.cpp is their table of contents.
 ///   Memory  results live in the graph's arena.
 ///   Fails   checkDeclarations() asserts; the others rely on it.
 #pragma once
@@ -34,11 +34,11 @@ void deriveLoadAndStore(FrameGraph const& graph, PassOrder const& order, std::sp
 
 /// How each texture is used by the passes that run; those that never leave one group become transient (Lifetimes.cpp).
 std::span<backend::TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& order,
-        std::span<const Lifetime> lifetimes);
+                                             std::span<const Lifetime> lifetimes);
 
 /// Handles: the imported ones, and textures of the pool for the rest; disjoint lifetimes share (Lifetimes.cpp).
 std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const Lifetime> lifetimes,
-        std::span<const backend::TextureUsage> usage, TransientPool& pool);
+                                        std::span<const backend::TextureUsage> usage, TransientPool& pool);
 
 /// Names and pass layouts of the groups (Compile.cpp).
 void describePasses(FrameGraph const& graph, PassOrder const& order, std::span<PassGroup> groups);

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compile(): from declarations to a plan. record(): from a plan to commands. In between, CompiledGraph is plain data that
-/// tells what was decided and why; Explain.h prints it.
+/// compile(): from declarations to a plan. record(): from a plan to commands. In between, CompiledGraph is plain data
+/// that tells what was decided and why; Explain.h prints it.
 ///   Thread  one at a time, for each pool.
 ///   Memory  the plan lives in the graph's arena and refers to graph and pool; valid until one of them is reset.
 ///   Fails   compile() asserts on a graph that breaks a rule, naming pass and texture (see Check.cpp). record(): never.
-///   Cost    declare 0.06, compile 1.1, record 0.06 us a pass (20 passes); compiling grows with the square of the passes.
+///   Cost    declare 0.06, compile 1.1, record 0.06 us a pass, for 20 passes; compile() is quadratic in them.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -27,22 +27,22 @@ enum class Reason : uint8_t { Unread, SideEffect, WritesOutput, ReadLater };
 
 /// Why a pass that reads an input at the current pixel is part of the pass before it, or is not.
 enum class Merge : uint8_t {
-    NotAsked,          ///< the pass reads no input
+    NotAsked, ///< the pass reads no input
     Merged,
-    DeviceCannot,      ///< DeviceFeatures::mergedPasses is false
-    NotBefore,         ///< the pass before it, among those that run, did not write all of the inputs
+    DeviceCannot, ///< DeviceFeatures::mergedPasses is false
+    NotBefore,    ///< the pass before it, among those that run, did not write all of the inputs
     DifferentSize,
     Multisampled,
-    ReadsElsewhere,    ///< samples or copies a texture of the merged pass as well
-    ClearsAgain,       ///< clears an attachment that the merged pass already has
-    DifferentDepth,    ///< needs another depth attachment
+    ReadsElsewhere, ///< samples or copies a texture of the merged pass as well
+    ClearsAgain,    ///< clears an attachment that the merged pass already has
+    DifferentDepth, ///< needs another depth attachment
     TooManyAttachments,
     TooManySubpasses,
 };
 
 struct PassDecision {
     Reason reason = Reason::Unread;
-    TextureId because{};    ///< WritesOutput, ReadLater: the texture
+    TextureId because{};     ///< WritesOutput, ReadLater: the texture
     uint32_t reader = kNone; ///< ReadLater: the pass that reads it
     Merge merge = Merge::NotAsked;
     uint32_t group = kNone; ///< kNone: culled
@@ -70,7 +70,7 @@ struct PassGroup {
     uint8_t samples = 1;
     uint8_t colorCount = 0;
     std::array<GroupAttachment, backend::kMaxColorAttachments> colors{};
-    GroupAttachment depth{};       ///< texture: none if there is no depth attachment
+    GroupAttachment depth{}; ///< texture: none if there is no depth attachment
     std::array<backend::SubpassDesc, backend::kMaxSubpasses> subpasses{};
     std::string_view name;
     backend::PassLayout layout{};
@@ -106,7 +106,7 @@ struct CompiledGraph {
     backend::TextureHandle texture(TextureId texture) const { return textures[texture.index()].handle; }
 };
 
-/// Nothing is created yet: the textures that the pool lacks are created by record(). Compile, record, then compile the next.
+/// Creates nothing: record() creates the textures that the pool lacks. Compile, record, then compile the next graph.
 CompiledGraph compile(FrameGraph const& graph, TransientPool& pool);
 
 struct PassTimer {
@@ -114,7 +114,7 @@ struct PassTimer {
     backend::Ticket ticket;
 };
 
-/// Appends the whole frame. If `timers` is given, it gets one ticket for each group, in order; ask the stream for the answers.
+/// Appends the whole frame. `timers`, if given, gets one ticket for each group, in order; the stream has the answers.
 void record(backend::CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers = nullptr);
 
 } // namespace filament::framegraph

@@ -18,8 +18,8 @@ PassDecision decide(FrameGraph const& graph, Pass const& pass, std::span<const D
         Demand const& demand = demands[texture.index()];
         if (!demand.isWanted) return {};
         return { .reason = demand.reader == kNone ? Reason::WritesOutput : Reason::ReadLater,
-            .because = texture,
-            .reader = demand.reader };
+                 .because = texture,
+                 .reader = demand.reader };
     };
     for (Access const& access : graph.accesses(pass)) {
         if (isPureRead(access.kind)) continue;

@@ -17,29 +17,43 @@ std::string_view nameOf(CompiledGraph const& plan, TextureId texture) { return p
 
 std::string reasonOf(CompiledGraph const& plan, PassDecision const& decision) {
     switch (decision.reason) {
-        case Reason::Unread: return "culled: nobody reads what it writes";
-        case Reason::SideEffect: return "runs: it has a side effect";
-        case Reason::WritesOutput: return fmt::format("runs: it writes output '{}'", nameOf(plan, decision.because));
-        case Reason::ReadLater:
-            return fmt::format("runs: '{}' is read by '{}'", nameOf(plan, decision.because),
-                    plan.graph->passes()[decision.reader].name);
+    case Reason::Unread:
+        return "culled: nobody reads what it writes";
+    case Reason::SideEffect:
+        return "runs: it has a side effect";
+    case Reason::WritesOutput:
+        return fmt::format("runs: it writes output '{}'", nameOf(plan, decision.because));
+    case Reason::ReadLater:
+        return fmt::format("runs: '{}' is read by '{}'", nameOf(plan, decision.because),
+                           plan.graph->passes()[decision.reader].name);
     }
     return {};
 }
 
 const char* mergeOf(Merge merge) {
     switch (merge) {
-        case Merge::NotAsked: return "";
-        case Merge::Merged: return "; merged with the pass before it";
-        case Merge::DeviceCannot: return "; not merged: the device has no merged passes";
-        case Merge::NotBefore: return "; not merged: the pass before it did not write all of its inputs";
-        case Merge::DifferentSize: return "; not merged: the sizes differ";
-        case Merge::Multisampled: return "; not merged: multisampled";
-        case Merge::ReadsElsewhere: return "; not merged: an attachment is also sampled";
-        case Merge::ClearsAgain: return "; not merged: it clears an attachment that is in use";
-        case Merge::DifferentDepth: return "; not merged: it needs another depth attachment";
-        case Merge::TooManyAttachments: return "; not merged: too many colour attachments";
-        case Merge::TooManySubpasses: return "; not merged: too many subpasses";
+    case Merge::NotAsked:
+        return "";
+    case Merge::Merged:
+        return "; merged with the pass before it";
+    case Merge::DeviceCannot:
+        return "; not merged: the device has no merged passes";
+    case Merge::NotBefore:
+        return "; not merged: the pass before it did not write all of its inputs";
+    case Merge::DifferentSize:
+        return "; not merged: the sizes differ";
+    case Merge::Multisampled:
+        return "; not merged: multisampled";
+    case Merge::ReadsElsewhere:
+        return "; not merged: an attachment is also sampled";
+    case Merge::ClearsAgain:
+        return "; not merged: it clears an attachment that is in use";
+    case Merge::DifferentDepth:
+        return "; not merged: it needs another depth attachment";
+    case Merge::TooManyAttachments:
+        return "; not merged: too many colour attachments";
+    case Merge::TooManySubpasses:
+        return "; not merged: too many subpasses";
     }
     return "";
 }
@@ -57,10 +71,12 @@ void putAttachment(Text text, CompiledGraph const& plan, std::string_view role, 
 }
 
 void putPasses(Text text, CompiledGraph const& plan) {
-    fmt::format_to(text, "passes: {} declared, {} run in {} groups\n", plan.passes.size(), plan.order.size(), plan.groups.size());
+    fmt::format_to(text, "passes: {} declared, {} run in {} groups\n", plan.passes.size(), plan.order.size(),
+                   plan.groups.size());
     for (size_t i = 0; i < plan.passes.size(); ++i) {
         PassDecision const& decision = plan.passes[i];
-        fmt::format_to(text, "  {} '{}' {}{}\n", i, plan.graph->passes()[i].name, reasonOf(plan, decision), mergeOf(decision.merge));
+        fmt::format_to(text, "  {} '{}' {}{}\n", i, plan.graph->passes()[i].name, reasonOf(plan, decision),
+                       mergeOf(decision.merge));
     }
 }
 
@@ -72,9 +88,10 @@ void putGroups(Text text, CompiledGraph const& plan) {
             fmt::format_to(text, "  {} '{}' outside of passes\n", i, group.name);
             continue;
         }
-        fmt::format_to(text, "  {} '{}' {} x {}, {} sample(s), {} subpass(es)\n", i, group.name, group.width, group.height,
-                group.samples, group.count);
-        for (uint32_t c = 0; c < group.colorCount; ++c) putAttachment(text, plan, fmt::format("colour {}", c), group.colors[c]);
+        fmt::format_to(text, "  {} '{}' {} x {}, {} sample(s), {} subpass(es)\n", i, group.name, group.width,
+                       group.height, group.samples, group.count);
+        for (uint32_t c = 0; c < group.colorCount; ++c)
+            putAttachment(text, plan, fmt::format("colour {}", c), group.colors[c]);
         if (group.depth.texture) putAttachment(text, plan, "depth", group.depth);
     }
 }
@@ -95,7 +112,7 @@ void putTextures(Text text, CompiledGraph const& plan) {
         Texture const& texture = plan.graph->textures()[i];
         TexturePlan const& of = plan.textures[i];
         fmt::format_to(text, "  '{}' {} x {} {}", texture.desc.name, texture.desc.width, texture.desc.height,
-                backend::formatInfo(texture.desc.format).name);
+                       backend::formatInfo(texture.desc.format).name);
         if (texture.desc.samples > 1) fmt::format_to(text, " {} samples", texture.desc.samples);
         fmt::format_to(text, "{}", texture.isImported ? ", imported" : texture.isOutput ? ", output" : "");
         if (!of.lifetime.isUsed()) {
@@ -122,7 +139,7 @@ std::string escaped(std::string_view name) {
 
 void putPassNode(Text text, CompiledGraph const& plan, uint32_t pass, const char* indent) {
     fmt::format_to(text, "{}p{} [shape=box, label=\"{}\"{}];\n", indent, pass, escaped(plan.graph->passes()[pass].name),
-            plan.passes[pass].runs() ? "" : ", style=dashed");
+                   plan.passes[pass].runs() ? "" : ", style=dashed");
 }
 
 void putPassNodes(Text text, CompiledGraph const& plan) {
@@ -145,11 +162,12 @@ void putEdges(Text text, CompiledGraph const& plan) {
         for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
             if (isPureRead(access.kind)) {
                 fmt::format_to(text, "  t{} -> p{}{};\n", access.texture.index(), pass,
-                        access.kind == AccessKind::Input ? " [label=\"pixel\"]" : "");
+                               access.kind == AccessKind::Input ? " [label=\"pixel\"]" : "");
             } else {
                 fmt::format_to(text, "  p{} -> t{};\n", pass, access.texture.index());
             }
-            if (access.resolve) fmt::format_to(text, "  p{} -> t{} [label=\"resolve\"];\n", pass, access.resolve.index());
+            if (access.resolve)
+                fmt::format_to(text, "  p{} -> t{} [label=\"resolve\"];\n", pass, access.resolve.index());
         }
     }
 }
@@ -173,8 +191,8 @@ std::string toGraphviz(CompiledGraph const& plan) {
     for (size_t i = 0; i < plan.textures.size(); ++i) {
         Texture const& texture = plan.graph->textures()[i];
         fmt::format_to(text, "  t{} [shape=ellipse, label=\"{}\\n{} x {} {}\"{}];\n", i, escaped(texture.desc.name),
-                texture.desc.width, texture.desc.height, backend::formatInfo(texture.desc.format).name,
-                texture.isOutput ? ", peripheries=2" : "");
+                       texture.desc.width, texture.desc.height, backend::formatInfo(texture.desc.format).name,
+                       texture.isOutput ? ", peripheries=2" : "");
     }
     putEdges(text, plan);
     fmt::format_to(text, "}}\n");

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// toText(), toGraphviz(): what compile() decided and why, for people.
-///   Out     toText: one line a pass (runs or culled, and why; load and store of each attachment; merged or not, and why),
+///   Out     toText: one line a pass (runs or culled, merged or not, and why), one line an attachment (load and store),
 ///           one line a texture (size, lifetime, which others share its memory).
-///           toGraphviz: `dot -Tsvg`; passes are boxes, textures ellipses, merged passes share a frame, culled ones are dashed.
+///           toGraphviz: for `dot -Tsvg`; passes are boxes, textures ellipses; merged passes share a frame, culled
+///           ones are dashed.
 ///   Thread  one, while graph and plan live.  Memory: the returned string.
 #pragma once
 

@@ -63,22 +63,22 @@ void FrameGraph::declare(uint32_t pass, Access const& access) {
 
 void PassBuilder::writeColor(uint8_t slot, TextureId texture, ColorTarget const& target) {
     mGraph.declare(mPass, { .texture = texture,
-                                  .kind = AccessKind::Color,
-                                  .previous = previousOf(target.clear.has_value(), target.overwrites),
-                                  .slot = slot,
-                                  .level = target.level,
-                                  .layer = target.layer,
-                                  .clear = target.clear.value_or(std::array<float, 4>{}),
-                                  .resolve = target.resolve });
+                            .kind = AccessKind::Color,
+                            .previous = previousOf(target.clear.has_value(), target.overwrites),
+                            .slot = slot,
+                            .level = target.level,
+                            .layer = target.layer,
+                            .clear = target.clear.value_or(std::array<float, 4>{}),
+                            .resolve = target.resolve });
 }
 
 void PassBuilder::writeDepth(TextureId texture, DepthTarget const& target) {
     mGraph.declare(mPass, { .texture = texture,
-                                  .kind = AccessKind::Depth,
-                                  .previous = previousOf(target.clear.has_value(), target.overwrites),
-                                  .level = target.level,
-                                  .layer = target.layer,
-                                  .clear = { target.clear.value_or(0.0f), static_cast<float>(target.clearStencil), 0, 0 } });
+                            .kind = AccessKind::Depth,
+                            .previous = previousOf(target.clear.has_value(), target.overwrites),
+                            .level = target.level,
+                            .layer = target.layer,
+                            .clear = { target.clear.value_or(0.0f), static_cast<float>(target.clearStencil), 0, 0 } });
 }
 
 void PassBuilder::testDepth(TextureId texture, uint8_t level, uint16_t layer) {

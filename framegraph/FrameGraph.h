@@ -4,14 +4,14 @@
 ///   In      textures (created or imported) and passes in the order in which they should run.
 ///   Thread  one at a time.
 ///   Memory  pass code lives in the arena; lists keep their capacity over reset(). A steady frame allocates nothing.
-///           Captures of pass code are trivially destructible. Names are literals or live as long as the arena's contents.
+///           Captures of pass code are trivially destructible. Names are literals or live as long as the arena.
 ///   Limits  65 535 textures and passes.
 ///   Fails   asserts on a declaration that contradicts itself, naming pass and texture: here and in compile().
 ///
 ///   TextureId hdr = graph.createTexture({ .width = w, .height = h, .format = Format::RGBA16F, .name = "hdr" });
 ///   graph.addPass("sky", [&](PassBuilder& b) { b.writeColor(0, hdr, { .overwrites = true }); },
-///           [=](PassContext& c) { return makePipeline(c.commands(), c.passLayout(), c.subpass()); }, // outside of passes
-///           [=](PassContext& c, PipelineHandle sky) { drawFullScreen(c.commands(), sky); });         // inside the pass
+///           [=](PassContext& c) { return makePipeline(c.commands(), c.passLayout(), c.subpass()); }, // before it
+///           [=](PassContext& c, PipelineHandle sky) { drawFullScreen(c.commands(), sky); });         // inside of it
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -54,7 +54,7 @@ struct ColorTarget {
     bool overwrites = false; ///< the pass writes every pixel
     uint8_t level = 0;
     uint16_t layer = 0;
-    TextureId resolve{};     ///< single-sampled texture that receives the average of the samples
+    TextureId resolve{}; ///< single-sampled texture that receives the average of the samples
 };
 
 struct DepthTarget {
@@ -116,8 +116,8 @@ public:
     void testDepth(TextureId texture, uint8_t level = 0, uint16_t layer = 0);
     /// Through a sampler, anywhere. Not together with an attachment of the same texture.
     void readSampled(TextureId texture);
-    /// At the current pixel only. If the pass could be merged with the one that wrote the texture, it is a subpass input
-    /// (PassContext::isMerged() is true), otherwise the pass must sample it at the pixel's centre.
+    /// At the current pixel only. If the pass could be merged with the one that wrote the texture, it is a subpass
+    /// input (PassContext::isMerged() is true), otherwise the pass must sample it at the pixel's centre.
     void readInput(TextureId texture);
     /// Blits from it, reads it back, generates mips.
     void readTransfer(TextureId texture);
@@ -151,23 +151,28 @@ public:
     /// attachments records the inside of a backend pass; one without records commands for outside of passes.
     template <class Setup, class Execute>
     PassId addPass(std::string_view name, Setup&& setup, Execute&& execute) {
-        return addPass(name, std::forward<Setup>(setup), [](PassContext&) { return Nothing{}; },
-                [execute = std::forward<Execute>(execute)](PassContext& context, Nothing) mutable { execute(context); });
+        return addPass(
+                name, std::forward<Setup>(setup), [](PassContext&) { return Nothing{}; },
+                [execute = std::forward<Execute>(execute)](PassContext& context, Nothing) mutable {
+                    execute(context);
+                });
     }
 
     /// Also has `prepare(PassContext&)`: called before the pass (or the merged pass that it is part of) begins, where
     /// objects may be created and contents be uploaded; what it returns is given to `execute(PassContext&, value)`.
     template <class Setup, class Prepare, class Execute>
     PassId addPass(std::string_view name, Setup&& setup, Prepare&& prepare, Execute&& execute) {
-        PassBuilder builder = beginPass(name,
-                makePassCode(mArena, std::forward<Prepare>(prepare), std::forward<Execute>(execute)));
+        PassBuilder builder =
+                beginPass(name, makePassCode(mArena, std::forward<Prepare>(prepare), std::forward<Execute>(execute)));
         std::forward<Setup>(setup)(builder);
         return { static_cast<uint32_t>(mPasses.size()) };
     }
 
     std::span<const Pass> passes() const { return mPasses; }
     std::span<const Texture> textures() const { return mTextures; }
-    std::span<const Access> accesses(Pass const& pass) const { return std::span(mAccesses).subspan(pass.firstAccess, pass.accessCount); }
+    std::span<const Access> accesses(Pass const& pass) const {
+        return std::span(mAccesses).subspan(pass.firstAccess, pass.accessCount);
+    }
     Texture const& texture(TextureId id) const { return mTextures[id.index()]; }
     Arena& arena() const { return mArena; }
 

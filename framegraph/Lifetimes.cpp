@@ -10,13 +10,19 @@ using backend::TextureUsage;
 
 TextureUsage usageOf(AccessKind kind, bool isMerged) {
     switch (kind) {
-        case AccessKind::Color: return TextureUsage::ColorAttachment;
-        case AccessKind::Depth:
-        case AccessKind::DepthTest: return TextureUsage::DepthAttachment;
-        case AccessKind::Sampled: return TextureUsage::Sampled;
-        case AccessKind::Input: return isMerged ? TextureUsage::InputAttachment : TextureUsage::Sampled;
-        case AccessKind::TransferRead: return TextureUsage::TransferSource;
-        case AccessKind::TransferWrite: return TextureUsage::TransferTarget;
+    case AccessKind::Color:
+        return TextureUsage::ColorAttachment;
+    case AccessKind::Depth:
+    case AccessKind::DepthTest:
+        return TextureUsage::DepthAttachment;
+    case AccessKind::Sampled:
+        return TextureUsage::Sampled;
+    case AccessKind::Input:
+        return isMerged ? TextureUsage::InputAttachment : TextureUsage::Sampled;
+    case AccessKind::TransferRead:
+        return TextureUsage::TransferSource;
+    case AccessKind::TransferWrite:
+        return TextureUsage::TransferTarget;
     }
     return {};
 }
@@ -25,17 +31,25 @@ TextureUsage usageOf(AccessKind kind, bool isMerged) {
 bool isTransient(Texture const& texture, Lifetime const& lifetime, TextureUsage usage) {
     constexpr auto kElsewhere = TextureUsage::Sampled | TextureUsage::TransferSource | TextureUsage::TransferTarget;
     return !texture.isOutput && lifetime.isUsed() && lifetime.first == lifetime.last && !has(usage, kElsewhere) &&
-            texture.desc.levels == 1 && texture.desc.layers == 1;
+           texture.desc.levels == 1 && texture.desc.layers == 1;
 }
 
 backend::TextureDesc descOf(TextureDesc const& desc, TextureUsage usage) {
-    return { .type = desc.type, .format = desc.format, .usage = usage, .samples = desc.samples, .levels = desc.levels,
-        .layers = desc.layers, .width = desc.width, .height = desc.height, .debugName = desc.name };
+    return { .type = desc.type,
+             .format = desc.format,
+             .usage = usage,
+             .samples = desc.samples,
+             .levels = desc.levels,
+             .layers = desc.layers,
+             .width = desc.width,
+             .height = desc.height,
+             .debugName = desc.name };
 }
 
 } // namespace
 
-std::span<Lifetime> firstAndLastUse(FrameGraph const& graph, PassOrder const& order, std::span<const PassGroup> groups) {
+std::span<Lifetime> firstAndLastUse(FrameGraph const& graph, PassOrder const& order,
+                                    std::span<const PassGroup> groups) {
     const std::span<Lifetime> lifetimes = graph.arena().array<Lifetime>(graph.textures().size());
     const auto touch = [&](TextureId texture, uint32_t group) {
         if (!texture) return;
@@ -54,7 +68,8 @@ std::span<Lifetime> firstAndLastUse(FrameGraph const& graph, PassOrder const& or
     return lifetimes;
 }
 
-std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& order, std::span<const Lifetime> lifetimes) {
+std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& order,
+                                    std::span<const Lifetime> lifetimes) {
     const std::span<TextureUsage> usage = graph.arena().array<TextureUsage>(graph.textures().size());
     const std::span<bool> isResolved = graph.arena().array<bool>(usage.size());
     for (const uint32_t pass : order.order) {
@@ -68,13 +83,14 @@ std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& or
         }
     }
     for (size_t i = 0; i < usage.size(); ++i) {
-        if (isTransient(graph.textures()[i], lifetimes[i], usage[i]) && !isResolved[i]) usage[i] = usage[i] | TextureUsage::Transient;
+        if (isTransient(graph.textures()[i], lifetimes[i], usage[i]) && !isResolved[i])
+            usage[i] = usage[i] | TextureUsage::Transient;
     }
     return usage;
 }
 
 std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const Lifetime> lifetimes,
-        std::span<const TextureUsage> usage, TransientPool& pool) {
+                                        std::span<const TextureUsage> usage, TransientPool& pool) {
     const std::span<TexturePlan> plans = graph.arena().array<TexturePlan>(lifetimes.size());
     const std::span<uint32_t> byFirstUse = graph.arena().array<uint32_t>(lifetimes.size());
     for (uint32_t i = 0; i < byFirstUse.size(); ++i) byFirstUse[i] = i;

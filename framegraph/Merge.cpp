@@ -14,7 +14,8 @@ bool isSame(GroupAttachment const& attachment, Access const& access) {
 
 uint32_t findColor(PassGroup const& group, Access const& access) {
     const auto end = group.colors.begin() + group.colorCount;
-    const auto found = std::find_if(group.colors.begin(), end, [&](auto const& color) { return isSame(color, access); });
+    const auto found =
+            std::find_if(group.colors.begin(), end, [&](auto const& color) { return isSame(color, access); });
     return found == end ? kNone : static_cast<uint32_t>(found - group.colors.begin());
 }
 
@@ -25,8 +26,12 @@ bool attaches(PassGroup const& group, TextureId texture) {
 }
 
 GroupAttachment attachmentOf(Access const& access) {
-    return { .texture = access.texture, .level = access.level, .layer = access.layer, .previous = access.previous,
-        .clear = access.clear, .resolve = access.resolve };
+    return { .texture = access.texture,
+             .level = access.level,
+             .layer = access.layer,
+             .previous = access.previous,
+             .clear = access.clear,
+             .resolve = access.resolve };
 }
 
 void takeSize(PassGroup& group, TextureDesc const& desc, uint8_t level) {
@@ -74,9 +79,12 @@ Merge addAccess(PassGroup& group, Access const& access, uint32_t maxColors) {
         }
         subpass.colorMask = withBit(subpass.colorMask, color);
     } else if (isDepth(access.kind)) {
-        if (!group.depth.texture) group.depth = attachmentOf(access);
-        else if (!isSame(group.depth, access)) return Merge::DifferentDepth;
-        else if (access.previous == Previous::Clear) return Merge::ClearsAgain;
+        if (!group.depth.texture)
+            group.depth = attachmentOf(access);
+        else if (!isSame(group.depth, access))
+            return Merge::DifferentDepth;
+        else if (access.previous == Previous::Clear)
+            return Merge::ClearsAgain;
         subpass.usesDepth = true;
     }
     return Merge::Merged;
@@ -91,7 +99,8 @@ bool readsInput(FrameGraph const& graph, uint32_t pass) {
 bool readsAttachmentsElsewhere(FrameGraph const& graph, PassGroup const& group, std::span<const uint32_t> passes) {
     for (const uint32_t pass : passes) {
         for (Access const& access : graph.accesses(graph.passes()[pass])) {
-            if (!isAttachment(access.kind) && access.kind != AccessKind::Input && attaches(group, access.texture)) return true;
+            if (!isAttachment(access.kind) && access.kind != AccessKind::Input && attaches(group, access.texture))
+                return true;
         }
     }
     return false;
@@ -119,7 +128,8 @@ Merge tryJoin(FrameGraph const& graph, PassOrder const& order, MergeLimits const
         if (!isAttachment(access.kind)) continue;
         if (const Merge result = addAccess(joined, access, maxColors); result != Merge::Merged) return result;
     }
-    if (readsAttachmentsElsewhere(graph, joined, order.order.subspan(group.first, group.count + 1))) return Merge::ReadsElsewhere;
+    if (readsAttachmentsElsewhere(graph, joined, order.order.subspan(group.first, group.count + 1)))
+        return Merge::ReadsElsewhere;
     ++joined.count;
     group = joined;
     return Merge::Merged;
@@ -133,8 +143,10 @@ std::span<PassGroup> mergePasses(FrameGraph const& graph, PassOrder const& order
     for (uint32_t at = 0; at < order.order.size(); ++at) {
         const uint32_t pass = order.order[at];
         PassDecision& decision = order.decisions[pass];
-        if (count > 0) decision.merge = tryJoin(graph, order, limits, groups[count - 1]);
-        else if (readsInput(graph, pass)) decision.merge = limits.mergedPasses ? Merge::NotBefore : Merge::DeviceCannot;
+        if (count > 0)
+            decision.merge = tryJoin(graph, order, limits, groups[count - 1]);
+        else if (readsInput(graph, pass))
+            decision.merge = limits.mergedPasses ? Merge::NotBefore : Merge::DeviceCannot;
         if (decision.merge != Merge::Merged) groups[count++] = groupOf(graph, pass, at);
         decision.group = count - 1;
         decision.subpass = static_cast<uint8_t>(groups[count - 1].count - 1);

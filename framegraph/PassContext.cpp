@@ -11,10 +11,13 @@ namespace filament::framegraph {
 void PassContext::requireDeclared(TextureId id) const {
     Pass const& pass = mPlan.graph->passes()[mPass];
     const auto accesses = mPlan.graph->accesses(pass);
-    require(id && id.index() < mPlan.textures.size(), "pass '{}': asks for a texture of another graph or frame", pass.name);
-    const bool declared = std::any_of(accesses.begin(), accesses.end(),
-            [&](Access const& access) { return access.texture == id || access.resolve == id; });
-    require(declared, "pass '{}': uses texture '{}' without having declared it", pass.name, mPlan.graph->texture(id).desc.name);
+    require(id && id.index() < mPlan.textures.size(), "pass '{}': asks for a texture of another graph or frame",
+            pass.name);
+    const bool declared = std::any_of(accesses.begin(), accesses.end(), [&](Access const& access) {
+        return access.texture == id || access.resolve == id;
+    });
+    require(declared, "pass '{}': uses texture '{}' without having declared it", pass.name,
+            mPlan.graph->texture(id).desc.name);
 }
 
 backend::CommandStream& PassContext::stream() { return mPlan.pool->stream(); }
@@ -41,8 +44,9 @@ backend::Rect PassContext::area() const {
 bool PassContext::isMerged(TextureId id) const {
     requireDeclared(id);
     const auto accesses = mPlan.graph->accesses(mPlan.graph->passes()[mPass]);
-    const bool isInput = std::any_of(accesses.begin(), accesses.end(),
-            [&](Access const& access) { return access.texture == id && access.kind == AccessKind::Input; });
+    const bool isInput = std::any_of(accesses.begin(), accesses.end(), [&](Access const& access) {
+        return access.texture == id && access.kind == AccessKind::Input;
+    });
     return isInput && mPlan.passes[mPass].merge == Merge::Merged;
 }
 
@@ -61,7 +65,8 @@ uint8_t PassContext::colorIndex(TextureId id) const {
 }
 
 backend::BindGroupHandle PassContext::bindGroup(backend::BindGroupLayout const& layout,
-        std::span<const backend::BindGroupEntry> entries, std::string_view name) {
+                                                std::span<const backend::BindGroupEntry> entries,
+                                                std::string_view name) {
     require(!mInsidePass, "pass '{}': bind group '{}' is made inside of a pass; make it in prepare",
             mPlan.graph->passes()[mPass].name, name);
     return mPlan.pool->bindGroup(mCommands, { .layout = layout, .entries = entries, .debugName = name });

@@ -59,14 +59,14 @@ public:
     backend::Rect area() const;
     /// True: the texture is a subpass input (BindingType::InputAttachment). False: the pass has to sample it.
     bool isMerged(TextureId id) const;
-    /// Index of a colour attachment of this pass, or of its subpass input, in the backend pass: the output location that
-    /// the fragment shader writes, and BindingDesc::inputAttachment. The declared slot, unless the pass is merged.
+    /// Index of a colour attachment of this pass, or of its subpass input, in the backend pass: the output location
+    /// that the fragment shader writes, and BindingDesc::inputAttachment. The declared slot, unless the pass is merged.
     uint8_t colorIndex(TextureId id) const;
 
     /// A bind group that lives for this frame; equal ones are made once and kept while frames go on asking for them.
     /// In `prepare` and in passes without attachments only.
     backend::BindGroupHandle bindGroup(backend::BindGroupLayout const& layout,
-            std::span<const backend::BindGroupEntry> entries, std::string_view name);
+                                       std::span<const backend::BindGroupEntry> entries, std::string_view name);
 
     // For record():
     void enter(uint32_t pass, bool insidePass) { mPass = pass, mInsidePass = insidePass; }
@@ -96,7 +96,7 @@ PassCode makePassCode(Arena& arena, Prepare&& prepare, Execute&& execute) {
         std::optional<Value> value;
     };
     static_assert(std::is_trivially_destructible_v<Code>,
-            "pass code is never destructed: capture handles, ids, spans and plain values, by value");
+                  "pass code is never destructed: capture handles, ids, spans and plain values, by value");
     return {
         arena.make<Code>(std::forward<Prepare>(prepare), std::forward<Execute>(execute), std::nullopt),
         [](void* object, PassContext& context) {

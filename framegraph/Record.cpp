@@ -10,12 +10,12 @@ using namespace backend;
 
 Attachment attachmentOf(CompiledGraph const& plan, GroupAttachment const& attachment) {
     return { .texture = plan.texture(attachment.texture),
-        .level = attachment.level,
-        .layer = attachment.layer,
-        .load = attachment.load,
-        .store = attachment.store,
-        .clear = attachment.clear,
-        .resolve = attachment.resolve ? plan.texture(attachment.resolve) : TextureHandle{} };
+             .level = attachment.level,
+             .layer = attachment.layer,
+             .load = attachment.load,
+             .store = attachment.store,
+             .clear = attachment.clear,
+             .resolve = attachment.resolve ? plan.texture(attachment.resolve) : TextureHandle{} };
 }
 
 PassDesc passDescOf(CompiledGraph const& plan, PassGroup const& group) {
@@ -28,7 +28,8 @@ PassDesc passDescOf(CompiledGraph const& plan, PassGroup const& group) {
     return desc;
 }
 
-void executePass(CommandBuffer& commands, CompiledGraph const& plan, PassContext& context, uint32_t pass, bool insidePass) {
+void executePass(CommandBuffer& commands, CompiledGraph const& plan, PassContext& context, uint32_t pass,
+                 bool insidePass) {
     Pass const& of = plan.graph->passes()[pass];
     commands.record(CmdPushGroup{ of.name });
     context.enter(pass, insidePass);

@@ -24,7 +24,8 @@ struct Rule {
 
 template <class... Args>
 void require(bool condition, Rule rule, Args const&... args) {
-    if (condition) [[likely]] return;
+    if (condition) [[likely]]
+        return;
     const std::string message = fmt::vformat(rule.format, fmt::make_format_args(args...));
     assertionFailed(rule.where.file_name(), static_cast<int>(rule.where.line()), "frame graph", message.c_str());
 }

@@ -12,13 +12,13 @@ namespace {
 using backend::BindGroupEntry;
 
 bool isSameButForTheName(backend::TextureDesc const& a, backend::TextureDesc const& b) {
-    return a.type == b.type && a.format == b.format && a.usage == b.usage && a.samples == b.samples && a.levels == b.levels &&
-            a.layers == b.layers && a.width == b.width && a.height == b.height;
+    return a.type == b.type && a.format == b.format && a.usage == b.usage && a.samples == b.samples &&
+           a.levels == b.levels && a.layers == b.layers && a.width == b.width && a.height == b.height;
 }
 
 bool isSameEntry(BindGroupEntry const& a, BindGroupEntry const& b) {
     return a.binding == b.binding && a.buffer == b.buffer && a.offset == b.offset && a.size == b.size &&
-            a.texture == b.texture && a.sampler == b.sampler;
+           a.texture == b.texture && a.sampler == b.sampler;
 }
 
 } // namespace
@@ -27,7 +27,8 @@ TransientPool::TransientPool(backend::CommandStream& stream, uint32_t keepFrames
         : mStream(stream), mKeepFrames(keepFrames) {}
 
 TransientPool::~TransientPool() {
-    FILAMENT_ASSERT(mTextures.empty() && mBindGroups.empty(), "TransientPool::destroyAll() comes before the destructor");
+    FILAMENT_ASSERT(mTextures.empty() && mBindGroups.empty(),
+                    "TransientPool::destroyAll() comes before the destructor");
 }
 
 void TransientPool::beginGraph() { ++mGraph; }
@@ -46,12 +47,13 @@ backend::TextureHandle TransientPool::acquire(backend::TextureDesc const& desc, 
     return found->handle;
 }
 
-backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& commands, backend::BindGroupDesc const& desc) {
+backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& commands,
+                                                  backend::BindGroupDesc const& desc) {
     FILAMENT_ASSERT(desc.entries.size() <= backend::kMaxBindings, "a bind group has at most 16 entries");
     const auto isSame = [&](PooledBindGroup const& pooled) {
         return pooled.layout == desc.layout &&
-                std::equal(desc.entries.begin(), desc.entries.end(), pooled.entries.begin(),
-                        pooled.entries.begin() + pooled.count, isSameEntry);
+               std::equal(desc.entries.begin(), desc.entries.end(), pooled.entries.begin(),
+                          pooled.entries.begin() + pooled.count, isSameEntry);
     };
     const auto found = std::find_if(mBindGroups.begin(), mBindGroups.end(), isSame);
     if (found != mBindGroups.end()) {
@@ -59,9 +61,9 @@ backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& comman
         return found->handle;
     }
     PooledBindGroup made{ .layout = desc.layout,
-        .count = static_cast<uint8_t>(desc.entries.size()),
-        .handle = mStream.allocateBindGroup(),
-        .lastGraph = mGraph };
+                          .count = static_cast<uint8_t>(desc.entries.size()),
+                          .handle = mStream.allocateBindGroup(),
+                          .lastGraph = mGraph };
     std::copy(desc.entries.begin(), desc.entries.end(), made.entries.begin());
     mBindGroups.push_back(made);
     commands.record(backend::CmdCreateBindGroup{ made.handle, desc });

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// TransientPool: the textures (and bind groups) behind the transients of frame graphs, reused over passes and frames.
-///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes get the same texture.
+///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes share a texture.
 ///   Thread  one at a time.
-///   Memory  device memory of everything that one of the last `keepFrames` graphs used; small lists on the heap that stop
-///           growing after warm-up.
+///   Memory  device memory of everything that one of the last `keepFrames` graphs used; small lists on the heap that
+///           stop growing after warm-up.
 ///   Fails   never. destroyAll() is called before the end, or the destructor asserts.
 ///   Cost    a linear search over a few dozen entries for each transient.
 #pragma once

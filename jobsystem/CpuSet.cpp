@@ -43,7 +43,8 @@ bool pinThisThread(int core) {
         CPU_SET_S(core, bytes, mask.get());
         error = pthread_setaffinity_np(pthread_self(), bytes, mask.get());
     }
-    if (error != 0) log(Severity::Warning, "cannot pin a thread to core {}: {}; it stays unpinned", core, std::strerror(error));
+    if (error != 0)
+        log(Severity::Warning, "cannot pin a thread to core {}: {}; it stays unpinned", core, std::strerror(error));
     return error == 0;
 }
 

@@ -49,7 +49,8 @@ struct alignas(kCacheLineBytes) Job {
     template <class F>
     void set(F&& function, Completion& done) {
         using Callable = std::decay_t<F>;
-        static_assert(sizeof(Callable) <= kJobCaptureBytes, "a job captures at most 48 bytes: capture one reference to a struct");
+        static_assert(sizeof(Callable) <= kJobCaptureBytes,
+                      "a job captures at most 48 bytes: capture one reference to a struct");
         static_assert(alignof(Callable) <= 16, "captures of a job are aligned to 16 bytes");
         static_assert(std::is_invocable_v<Callable&>, "a job is called without arguments");
         new (captures) Callable(std::forward<F>(function));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// JobStorage: a fixed pool of jobs. Every thread keeps a few free ones at hand; the rest lie in batches on a shared stack.
+/// JobStorage: a fixed pool of jobs. Every thread keeps a few free ones at hand, the rest lie in batches on one stack.
 ///   Thread  a Cache belongs to one thread at a time; without a Cache any thread may allocate and release.
 ///   Memory  72 bytes a job, all of it allocated by the constructor.
 ///   Limits  a Cache holds back up to 64 free jobs.
@@ -31,9 +31,9 @@ public:
     void release(Cache* cache, Job& job);
 
 private:
-    // The stack of batches (Treiber 1986) is named by indices; the upper half of the head counts changes, so that a head
-    // that came back (ABA) is not taken for the same. Links live beside the jobs and are atomic, because a thread that
-    // is about to lose the race still reads them.
+    // The stack of batches (Treiber 1986) is named by indices; the upper half of the head counts changes, so that a
+    // head that came back (ABA) is not taken for the same. Links live beside the jobs and are atomic, because a thread
+    // that is about to lose the race still reads them.
     void pushBatch(uint32_t first);
     uint32_t popBatch(); // kNone if the stack is empty
     void refill(Cache& cache);
@@ -43,7 +43,7 @@ private:
 
     std::unique_ptr<Job[]> mJobs;
     std::unique_ptr<std::atomic<uint32_t>[]> mNextInBatch;
-    std::unique_ptr<std::atomic<uint32_t>[]> mNextBatch; // of the first job of a batch
+    std::unique_ptr<std::atomic<uint32_t>[]> mNextBatch;           // of the first job of a batch
     alignas(kCacheLineBytes) std::atomic<uint64_t> mHead{ kNone }; // changes << 32 | first job of the top batch
 };
 

@@ -6,12 +6,12 @@ namespace filament::jobs {
 
 // The five doors of the scheduler that the templates need; everything else about it stays in Scheduler.h.
 namespace detail {
-Job* tryAllocate(Scheduler& scheduler);                     // null: run the job yourself
+Job* tryAllocate(Scheduler& scheduler); // null: run the job yourself
 void submit(Scheduler& scheduler, Job& job);
 std::unique_ptr<Job> allocateBackground(Scheduler& scheduler); // null: run the job yourself
 void submitBackground(Scheduler& scheduler, std::unique_ptr<Job> job);
-Completion& backgroundCompletion(Scheduler& scheduler);     // of background jobs without a group
-bool isHungry(Scheduler& scheduler);                        // the calling thread has nothing left for thieves
+Completion& backgroundCompletion(Scheduler& scheduler); // of background jobs without a group
+bool isHungry(Scheduler& scheduler);                    // the calling thread has nothing left for thieves
 
 template <class F>
 void runBackground(Scheduler& scheduler, Completion& completion, F&& function) {

@@ -23,7 +23,7 @@ void pause() {
 
 uint32_t workersFromOption(int workers) {
     FILAMENT_ASSERT(workers >= -1 && workers <= static_cast<int>(Scheduler::kMaxWorkers),
-            "JobSystemOptions::workers is -1 (one less than the cores) or 0 to 255");
+                    "JobSystemOptions::workers is -1 (one less than the cores) or 0 to 255");
     if (workers >= 0) return static_cast<uint32_t>(workers);
     return std::min(static_cast<uint32_t>(coresOfProcess().size()) - 1, Scheduler::kMaxWorkers);
 }
@@ -138,7 +138,8 @@ Job* Scheduler::SharedQueue::pop() {
 Scheduler::Seat* Scheduler::takeGuestSeat() {
     for (uint32_t i = mWorkerCount; i < mSeatCount; ++i) {
         std::atomic<bool>& taken = mSeats[i].taken;
-        if (!taken.load(std::memory_order_relaxed) && !taken.exchange(true, std::memory_order_acquire)) return &mSeats[i];
+        if (!taken.load(std::memory_order_relaxed) && !taken.exchange(true, std::memory_order_acquire))
+            return &mSeats[i];
     }
     return nullptr;
 }

@@ -3,13 +3,13 @@
 ///   Seats   a deque and a cache of free jobs. Every worker owns one for life; a foreign thread sits down on one of
 ///           kGuestSeats for the duration of a call, so that an app thread forks as cheaply as a worker does. When all
 ///           guest seats are taken, its jobs go through the injection queue.
-///   Search  own deque (newest first), injection queue, then the deques of all others (oldest first) from a random one on.
+///   Search  own deque (newest first), injection queue, then all other deques (oldest first) from a random one on.
 ///   Sleep   workers sleep in mIdle, threads inside wait() in mWaiting, both after a short spin. New work wakes one
-///           thread, a worker before a waiter; a thread that wakes up and finds work wakes the next one before it starts.
-///           The last job of a group wakes the waiters, if one said that it sleeps.
+///           thread, a worker before a waiter; a thread that wakes up and finds work wakes the next one before it
+///           starts. The last job of a group wakes the waiters, if one said that it sleeps.
 ///   Thread  all functions: any.
 ///   Memory  8.5 KiB a seat, 64 jobs of 72 bytes a seat and 4096 more; the queues grow only for threads without a seat.
-///   Source  seats and spin-then-park: Blumofe and Leiserson 1999, "Scheduling multithreaded computations by work stealing".
+///   Source  Blumofe and Leiserson 1999, "Scheduling multithreaded computations by work stealing".
 #pragma once
 
 #include "jobsystem/Job.h"
@@ -18,7 +18,8 @@
 #include "jobsystem/ParkingLot.h"
 #include "jobsystem/WorkStealingDeque.h"
 
-#if defined(__SANITIZE_THREAD__) // the queue has fences that gcc's thread sanitizer ignores, and orders its data without
+// The queue has fences that gcc's thread sanitizer ignores; its data is ordered without them.
+#if defined(__SANITIZE_THREAD__)
 #pragma GCC diagnostic ignored "-Wtsan"
 #endif
 #include <concurrentqueue.h>

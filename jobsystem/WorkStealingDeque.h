@@ -2,12 +2,12 @@
 /// WorkStealingDeque: one thread pushes and takes at the bottom, every other thread steals from the top.
 ///   Source  Chase and Lev 2005, "Dynamic circular work-stealing deque"; the orderings follow Le, Pop, Cohen and Zappa
 ///           Nardelli 2013, "Correct and efficient work-stealing for weak memory models", with sequentially consistent
-///           accesses in place of their fences: thread sanitizers understand those, and push() needs one anyway (below).
+///           accesses in place of their fences: thread sanitizers understand those, and push() needs one anyway.
 ///   Thread  push(), take(): the owner. steal(), isEmpty(): any.
 ///   Memory  8 bytes a slot, never grows: a full deque refuses, and its owner runs the job itself. So no buffer is
 ///           ever replaced under a thief's hands, and a recursion that forks without end stays in bounded memory.
 ///   Order   push() is one point in the single total order of seq_cst operations. A thread that pushes and then asks
-///           "does anybody sleep?" and a thread that announces its sleep and then looks into the deque cannot both miss.
+///           "does anybody sleep?" and a thread that announces its sleep and then looks in here cannot both miss.
 #pragma once
 
 #include "jobsystem/Job.h"
@@ -58,9 +58,7 @@ public:
         return nullptr;
     }
 
-    bool isEmpty() const {
-        return mTop.load(std::memory_order_seq_cst) >= mBottom.load(std::memory_order_seq_cst);
-    }
+    bool isEmpty() const { return mTop.load(std::memory_order_seq_cst) >= mBottom.load(std::memory_order_seq_cst); }
 
 private:
     std::atomic<T*>& slot(int64_t at) { return mSlots[static_cast<uint64_t>(at) & (kSlots - 1)]; }

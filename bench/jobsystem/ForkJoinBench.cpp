@@ -87,7 +87,8 @@ void parallelForOverMath(benchmark::State& state) {
     };
     const auto grain = static_cast<size_t>(state.range(1));
     compareInTurns(
-            state, "vs_serial", [&] { parallelFor(jobs, values.size(), grain, body); }, [&] { body(0, values.size()); });
+            state, "vs_serial", [&] { parallelFor(jobs, values.size(), grain, body); },
+            [&] { body(0, values.size()); });
 }
 BENCHMARK(parallelForOverMath)
         ->ArgNames({ "workers", "grain" })

@@ -12,7 +12,10 @@ class Cull : public GraphTest {};
 TEST_F(Cull, APassThatNobodyReadsDoesNotRunNorDoesWhatItAloneReads) {
     const TextureId a = color("a"), b = color("b"), out = backbuffer();
     const uint32_t first = pass("first", [&](PassBuilder& p) { p.writeColor(0, a); });
-    const uint32_t second = pass("second", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, b); });
+    const uint32_t second = pass("second", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, b);
+    });
     const uint32_t third = pass("third", [&](PassBuilder& p) { p.writeColor(0, out); });
     const PassOrder order = cullUnreadPasses(graph);
     EXPECT_FALSE(order.decisions[first].runs());
@@ -26,7 +29,10 @@ TEST_F(Cull, APassThatNobodyReadsDoesNotRunNorDoesWhatItAloneReads) {
 TEST_F(Cull, PassesThatReachAnOutputRunInTheOrderOfDeclaration) {
     const TextureId a = color("a"), out = backbuffer();
     const uint32_t writer = pass("writer", [&](PassBuilder& p) { p.writeColor(0, a); });
-    const uint32_t reader = pass("reader", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, out); });
+    const uint32_t reader = pass("reader", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out);
+    });
     const PassOrder order = cullUnreadPasses(graph);
     EXPECT_EQ(std::vector<uint32_t>(order.order.begin(), order.order.end()), (std::vector<uint32_t>{ writer, reader }));
     EXPECT_EQ(order.decisions[writer].reason, Reason::ReadLater);
@@ -37,7 +43,10 @@ TEST_F(Cull, PassesThatReachAnOutputRunInTheOrderOfDeclaration) {
 TEST_F(Cull, ASideEffectKeepsThePassAndWhatItReads) {
     const TextureId a = color("a");
     pass("writer", [&](PassBuilder& p) { p.writeColor(0, a); });
-    const uint32_t readback = pass("read-back", [&](PassBuilder& p) { p.readTransfer(a); p.sideEffect(); });
+    const uint32_t readback = pass("read-back", [&](PassBuilder& p) {
+        p.readTransfer(a);
+        p.sideEffect();
+    });
     const PassOrder order = cullUnreadPasses(graph);
     EXPECT_EQ(order.order.size(), 2u);
     EXPECT_EQ(order.decisions[readback].reason, Reason::SideEffect);
@@ -46,7 +55,9 @@ TEST_F(Cull, ASideEffectKeepsThePassAndWhatItReads) {
 TEST_F(Cull, WhatIsClearedOrCoveredAfterwardsIsNotWanted) {
     const TextureId out = backbuffer();
     const uint32_t lost = pass("lost", [&](PassBuilder& p) { p.writeColor(0, out); });
-    const uint32_t covered = pass("covered", [&](PassBuilder& p) { p.writeColor(0, out, { .clear = { { 1, 0, 0, 1 } } }); });
+    const uint32_t covered = pass("covered", [&](PassBuilder& p) {
+        p.writeColor(0, out, { .clear = { { 1, 0, 0, 1 } } });
+    });
     const uint32_t covers = pass("covers", [&](PassBuilder& p) { p.writeColor(0, out, { .overwrites = true }); });
     const PassOrder order = cullUnreadPasses(graph);
     EXPECT_FALSE(order.decisions[lost].runs());
@@ -62,13 +73,20 @@ TEST_F(Cull, DrawingOverAPictureKeepsThePassThatMadeIt) {
 }
 
 TEST_F(Cull, ClearingOneLayerKeepsThePassesOfTheOthers) {
-    const TextureId cascades = graph.createTexture({ .width = 64, .height = 32, .format = Format::D32F, .layers = 2,
-            .type = backend::TextureType::Texture2DArray, .name = "cascades" });
+    const TextureId cascades = graph.createTexture({ .width = 64,
+                                                     .height = 32,
+                                                     .format = Format::D32F,
+                                                     .layers = 2,
+                                                     .type = backend::TextureType::Texture2DArray,
+                                                     .name = "cascades" });
     const TextureId out = backbuffer();
     for (uint16_t layer = 0; layer < 2; ++layer) {
         pass("cascade", [&](PassBuilder& p) { p.writeDepth(cascades, { .clear = 0.0f, .layer = layer }); });
     }
-    pass("color", [&](PassBuilder& p) { p.readSampled(cascades); p.writeColor(0, out); });
+    pass("color", [&](PassBuilder& p) {
+        p.readSampled(cascades);
+        p.writeColor(0, out);
+    });
     const Steps result = steps();
     EXPECT_EQ(result.order.order.size(), 3u);
     EXPECT_EQ(result.groups[0].depth.store, StoreOp::Store);
@@ -86,8 +104,12 @@ TEST_F(Cull, AMarkedOutputKeepsItsPass) {
 TEST_F(Cull, AResolveTargetKeepsTheMultisampledPassAndReplacesOlderContents) {
     const TextureId ms = color("ms", 64, 4), resolved = color("resolved"), out = backbuffer();
     const uint32_t old = pass("old", [&](PassBuilder& p) { p.writeColor(0, resolved); });
-    const uint32_t draw = pass("draw", [&](PassBuilder& p) { p.writeColor(0, ms, { .clear = { {} }, .resolve = resolved }); });
-    pass("show", [&](PassBuilder& p) { p.readSampled(resolved); p.writeColor(0, out); });
+    const uint32_t draw =
+            pass("draw", [&](PassBuilder& p) { p.writeColor(0, ms, { .clear = { {} }, .resolve = resolved }); });
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(resolved);
+        p.writeColor(0, out);
+    });
     const PassOrder order = cullUnreadPasses(graph);
     EXPECT_FALSE(order.decisions[old].runs());
     EXPECT_EQ(order.decisions[draw].because, resolved);
@@ -99,9 +121,18 @@ class LoadStore : public GraphTest {};
 
 TEST_F(LoadStore, TheFirstWriteDiscardsAndTheLastReaderEndsTheStore) {
     const TextureId a = color("a"), z = depth("z"), out = backbuffer();
-    pass("draw", [&](PassBuilder& p) { p.writeColor(0, a); p.writeDepth(z, { .clear = 0.0f }); });
-    pass("more", [&](PassBuilder& p) { p.writeColor(0, a); p.testDepth(z); });
-    pass("show", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, out, { .overwrites = true }); });
+    pass("draw", [&](PassBuilder& p) {
+        p.writeColor(0, a);
+        p.writeDepth(z, { .clear = 0.0f });
+    });
+    pass("more", [&](PassBuilder& p) {
+        p.writeColor(0, a);
+        p.testDepth(z);
+    });
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out, { .overwrites = true });
+    });
     const Steps s = steps();
     EXPECT_EQ(s.groups[0].colors[0].load, LoadOp::Discard);
     EXPECT_EQ(s.groups[0].colors[0].store, StoreOp::Store);
@@ -126,9 +157,13 @@ TEST_F(LoadStore, AnImportedTextureLoadsItsContentsOnlyIfTheyAreKept) {
 
 TEST_F(LoadStore, AnImportedDepthBufferThatIsOnlyTestedSurvives) {
     const TextureId z = graph.importTexture(backend::TextureHandle::make(5, 1),
-            { .width = 64, .height = 32, .format = Format::D32F, .name = "z" }, InitialContents::Keep);
+                                            { .width = 64, .height = 32, .format = Format::D32F, .name = "z" },
+                                            InitialContents::Keep);
     const TextureId out = backbuffer();
-    pass("draw", [&](PassBuilder& p) { p.testDepth(z); p.writeColor(0, out); });
+    pass("draw", [&](PassBuilder& p) {
+        p.testDepth(z);
+        p.writeColor(0, out);
+    });
     const Steps s = steps();
     EXPECT_EQ(s.groups[0].depth.load, LoadOp::Load);
     EXPECT_EQ(s.groups[0].depth.store, StoreOp::Store);
@@ -136,21 +171,34 @@ TEST_F(LoadStore, AnImportedDepthBufferThatIsOnlyTestedSurvives) {
 
 TEST_F(LoadStore, ContentsThatAreReplacedBeforeAnybodyReadsThemAreNotStored) {
     const TextureId a = color("a"), first = color("first"), out = backbuffer();
-    pass("one", [&](PassBuilder& p) { p.writeColor(0, first); p.writeColor(1, a); });
-    pass("two", [&](PassBuilder& p) { p.readSampled(first); p.writeColor(0, a, { .overwrites = true }); });
-    pass("show", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, out); });
+    pass("one", [&](PassBuilder& p) {
+        p.writeColor(0, first);
+        p.writeColor(1, a);
+    });
+    pass("two", [&](PassBuilder& p) {
+        p.readSampled(first);
+        p.writeColor(0, a, { .overwrites = true });
+    });
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out);
+    });
     const Steps s = steps();
     EXPECT_EQ(s.groups[0].colors[0].store, StoreOp::Store);
     EXPECT_EQ(s.groups[0].colors[1].store, StoreOp::Discard);
 }
 
 TEST_F(LoadStore, LevelsOfATextureAreFollowedOneByOne) {
-    const TextureId chain = graph.createTexture({ .width = 64, .height = 32, .format = Format::RGBA16F, .levels = 2, .name = "chain" });
+    const TextureId chain =
+            graph.createTexture({ .width = 64, .height = 32, .format = Format::RGBA16F, .levels = 2, .name = "chain" });
     const TextureId out = backbuffer();
     pass("level 0", [&](PassBuilder& p) { p.writeColor(0, chain); });
     pass("level 1", [&](PassBuilder& p) { p.writeColor(0, chain, { .level = 1 }); });
     pass("level 1 again", [&](PassBuilder& p) { p.writeColor(0, chain, { .level = 1 }); });
-    pass("show", [&](PassBuilder& p) { p.readSampled(chain); p.writeColor(0, out); });
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(chain);
+        p.writeColor(0, out);
+    });
     const Steps s = steps();
     EXPECT_EQ(s.groups[1].colors[0].load, LoadOp::Discard);
     EXPECT_EQ(s.groups[1].width, 32u);
@@ -163,7 +211,10 @@ TEST_F(LoadStore, AnUploadCountsAsAWrite) {
     const TextureId a = color("a"), out = backbuffer();
     pass("upload", [&](PassBuilder& p) { p.writeTransfer(a); });
     pass("draw over", [&](PassBuilder& p) { p.writeColor(0, a); });
-    pass("show", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, out); });
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out);
+    });
     const Steps s = steps();
     ASSERT_EQ(s.groups.size(), 3u);
     EXPECT_FALSE(s.groups[0].hasAttachments());
@@ -177,9 +228,18 @@ class Usage : public GraphTest {};
 TEST_F(Usage, LifetimesSpanFirstToLastUseOfThePassesThatRun) {
     const TextureId a = color("a"), b = color("b"), unread = color("unread"), out = backbuffer();
     pass("0", [&](PassBuilder& p) { p.writeColor(0, a); });
-    pass("culled", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, unread); });
-    pass("1", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, b); });
-    pass("2", [&](PassBuilder& p) { p.readSampled(b); p.writeColor(0, out); });
+    pass("culled", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, unread);
+    });
+    pass("1", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, b);
+    });
+    pass("2", [&](PassBuilder& p) {
+        p.readSampled(b);
+        p.writeColor(0, out);
+    });
     const Steps s = steps();
     EXPECT_EQ(s.lifetimes[a.index()].first, 0u);
     EXPECT_EQ(s.lifetimes[a.index()].last, 1u);
@@ -191,9 +251,18 @@ TEST_F(Usage, LifetimesSpanFirstToLastUseOfThePassesThatRun) {
 TEST_F(Usage, FollowsFromWhatRunningPassesDo) {
     const TextureId a = color("a"), ms = color("ms", 64, 4), z = depth("z"), out = backbuffer();
     pass("draw", [&](PassBuilder& p) { p.writeColor(0, ms, { .resolve = a }); });
-    pass("depth", [&](PassBuilder& p) { p.writeDepth(z); p.writeColor(0, a); });
-    pass("show", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, out); });
-    pass("read", [&](PassBuilder& p) { p.readTransfer(a); p.sideEffect(); });
+    pass("depth", [&](PassBuilder& p) {
+        p.writeDepth(z);
+        p.writeColor(0, a);
+    });
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out);
+    });
+    pass("read", [&](PassBuilder& p) {
+        p.readTransfer(a);
+        p.sideEffect();
+    });
     const Steps s = steps();
     EXPECT_EQ(s.usage[a.index()], TextureUsage::ColorAttachment | TextureUsage::Sampled | TextureUsage::TransferSource);
     EXPECT_EQ(s.usage[ms.index()], TextureUsage::ColorAttachment | TextureUsage::Transient);
@@ -203,7 +272,10 @@ TEST_F(Usage, FollowsFromWhatRunningPassesDo) {
 
 TEST_F(Usage, ATransientAttachmentIsNeitherLoadedNorStored) {
     const TextureId z = depth("z"), out = backbuffer();
-    pass("draw", [&](PassBuilder& p) { p.writeDepth(z); p.writeColor(0, out); });
+    pass("draw", [&](PassBuilder& p) {
+        p.writeDepth(z);
+        p.writeColor(0, out);
+    });
     const Steps s = steps();
     ASSERT_TRUE(has(s.usage[z.index()], TextureUsage::Transient));
     EXPECT_NE(s.groups[0].depth.load, LoadOp::Load);

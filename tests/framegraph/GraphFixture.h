@@ -36,7 +36,8 @@ protected:
     }
     TextureId backbuffer(InitialContents contents = InitialContents::Undefined) {
         return graph.importTexture(backend::TextureHandle::make(77, 1),
-                { .width = 64, .height = 32, .format = Format::RGBA16F, .name = "backbuffer" }, contents);
+                                   { .width = 64, .height = 32, .format = Format::RGBA16F, .name = "backbuffer" },
+                                   contents);
     }
     /// A pass that only declares.
     uint32_t pass(std::string_view name, std::function<void(PassBuilder&)> const& setup) {
@@ -91,13 +92,17 @@ protected:
             mTarget = stream->allocateTexture();
             ++expectedHandles;
             backend::CommandBuffer& commands = stream->acquire();
-            commands.record(backend::CmdCreateTexture{ mTarget,
-                    { .format = Format::RGBA16F, .usage = TextureUsage::Sampled | TextureUsage::ColorAttachment | TextureUsage::TransferSource,
-                            .width = 64, .height = 32, .debugName = "target" } });
+            commands.record(backend::CmdCreateTexture{
+                    mTarget,
+                    { .format = Format::RGBA16F,
+                      .usage = TextureUsage::Sampled | TextureUsage::ColorAttachment | TextureUsage::TransferSource,
+                      .width = 64,
+                      .height = 32,
+                      .debugName = "target" } });
             stream->submit(commands);
         }
         return graph.importTexture(mTarget, { .width = 64, .height = 32, .format = Format::RGBA16F, .name = "target" },
-                InitialContents::Undefined);
+                                   InitialContents::Undefined);
     }
 
     std::unique_ptr<backend::CommandStream> stream;

@@ -10,14 +10,20 @@ protected:
     Merge outcome(MergeLimits const& limits = {}) { return steps(limits).order.decisions[toneMap].merge; }
 
     void declareToneMap(TextureId hdr, TextureId out) {
-        toneMap = pass("tone map", [&](PassBuilder& p) { p.readInput(hdr); p.writeColor(0, out, { .overwrites = true }); });
+        toneMap = pass("tone map", [&](PassBuilder& p) {
+            p.readInput(hdr);
+            p.writeColor(0, out, { .overwrites = true });
+        });
     }
     uint32_t toneMap = 0;
 };
 
 TEST_F(MergePasses, APassThatReadsTheCurrentPixelBecomesASubpass) {
     const TextureId hdr = color("hdr"), z = depth("z"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr, { .clear = { {} } }); p.writeDepth(z, { .clear = 0.0f }); });
+    pass("color", [&](PassBuilder& p) {
+        p.writeColor(0, hdr, { .clear = { {} } });
+        p.writeDepth(z, { .clear = 0.0f });
+    });
     declareToneMap(hdr, out);
     const Steps s = steps();
     ASSERT_EQ(s.groups.size(), 1u);
@@ -33,19 +39,24 @@ TEST_F(MergePasses, APassThatReadsTheCurrentPixelBecomesASubpass) {
     // Nothing reads hdr or z afterwards: both stay in the tile, the output does not.
     EXPECT_EQ(group.colors[0].store, StoreOp::Discard);
     EXPECT_EQ(group.colors[1].store, StoreOp::Store);
-    EXPECT_EQ(s.usage[hdr.index()], TextureUsage::ColorAttachment | TextureUsage::InputAttachment | TextureUsage::Transient);
+    EXPECT_EQ(s.usage[hdr.index()],
+              TextureUsage::ColorAttachment | TextureUsage::InputAttachment | TextureUsage::Transient);
 }
 
 TEST_F(MergePasses, AnInputThatIsAlsoReadLaterIsStored) {
     const TextureId hdr = color("hdr"), ldr = color("ldr"), out = backbuffer();
     pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr); });
     declareToneMap(hdr, ldr);
-    pass("compare", [&](PassBuilder& p) { p.readSampled(hdr); p.readSampled(ldr); p.writeColor(0, out); });
+    pass("compare", [&](PassBuilder& p) {
+        p.readSampled(hdr);
+        p.readSampled(ldr);
+        p.writeColor(0, out);
+    });
     const Steps s = steps();
     ASSERT_EQ(s.groups.size(), 2u);
     EXPECT_EQ(s.groups[0].colors[0].store, StoreOp::Store);
     EXPECT_EQ(s.usage[hdr.index()],
-            TextureUsage::ColorAttachment | TextureUsage::InputAttachment | TextureUsage::Sampled);
+              TextureUsage::ColorAttachment | TextureUsage::InputAttachment | TextureUsage::Sampled);
 }
 
 TEST_F(MergePasses, ChainsUpToFourSubpasses) {
@@ -53,7 +64,10 @@ TEST_F(MergePasses, ChainsUpToFourSubpasses) {
     for (const char* name : { "a", "b", "c", "d", "e" }) steps5.push_back(color(name));
     pass("0", [&](PassBuilder& p) { p.writeColor(0, steps5[0]); });
     for (int i = 1; i < 5; ++i) {
-        pass("next", [&](PassBuilder& p) { p.readInput(steps5[i - 1]); p.writeColor(0, steps5[i]); });
+        pass("next", [&](PassBuilder& p) {
+            p.readInput(steps5[i - 1]);
+            p.writeColor(0, steps5[i]);
+        });
     }
     graph.markOutput(steps5[4]);
     const Steps s = steps();
@@ -80,20 +94,26 @@ TEST_F(MergePasses, NotOnADeviceWithoutMergedPasses) {
     ASSERT_EQ(s.groups.size(), 2u);
     EXPECT_EQ(s.groups[0].colors[0].store, StoreOp::Store);
     EXPECT_EQ(s.usage[hdr.index()], TextureUsage::ColorAttachment | TextureUsage::Sampled);
-    EXPECT_EQ(s.groups[1].layout.subpasses[0], (backend::SubpassDesc{ .colorMask = 1, .inputMask = 0, .usesDepth = false }));
+    EXPECT_EQ(s.groups[1].layout.subpasses[0],
+              (backend::SubpassDesc{ .colorMask = 1, .inputMask = 0, .usesDepth = false }));
 }
 
 TEST_F(MergePasses, NotWithAnotherPassInBetween) {
     const TextureId hdr = color("hdr"), other = color("other"), out = backbuffer();
     pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr); });
     pass("other", [&](PassBuilder& p) { p.writeColor(0, other); });
-    toneMap = pass("tone map", [&](PassBuilder& p) { p.readInput(hdr); p.readSampled(other); p.writeColor(0, out); });
+    toneMap = pass("tone map", [&](PassBuilder& p) {
+        p.readInput(hdr);
+        p.readSampled(other);
+        p.writeColor(0, out);
+    });
     EXPECT_EQ(outcome(), Merge::NotBefore);
 }
 
 TEST_F(MergePasses, NotWithTheFirstPassThatReadsAnImportedPicture) {
     const TextureId kept = graph.importTexture(backend::TextureHandle::make(9, 1),
-            { .width = 64, .height = 32, .format = Format::RGBA16F, .name = "kept" }, InitialContents::Keep);
+                                               { .width = 64, .height = 32, .format = Format::RGBA16F, .name = "kept" },
+                                               InitialContents::Keep);
     declareToneMap(kept, backbuffer());
     EXPECT_EQ(outcome(), Merge::NotBefore);
 }
@@ -114,15 +134,25 @@ TEST_F(MergePasses, NotWithMultisampledPasses) {
 
 TEST_F(MergePasses, NotIfTheLaterPassAlsoSamplesWhatTheEarlierOneWrote) {
     const TextureId hdr = color("hdr"), z = depth("z"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr); p.writeDepth(z); });
-    toneMap = pass("tone map", [&](PassBuilder& p) { p.readInput(hdr); p.readSampled(z); p.writeColor(0, out); });
+    pass("color", [&](PassBuilder& p) {
+        p.writeColor(0, hdr);
+        p.writeDepth(z);
+    });
+    toneMap = pass("tone map", [&](PassBuilder& p) {
+        p.readInput(hdr);
+        p.readSampled(z);
+        p.writeColor(0, out);
+    });
     EXPECT_EQ(outcome(), Merge::ReadsElsewhere);
 }
 
 TEST_F(MergePasses, NotIfTheLaterPassWritesWhatTheEarlierOneSamples) {
     const TextureId hdr = color("hdr"), history = color("history");
     pass("before", [&](PassBuilder& p) { p.writeColor(0, history); });
-    pass("color", [&](PassBuilder& p) { p.readSampled(history); p.writeColor(0, hdr); });
+    pass("color", [&](PassBuilder& p) {
+        p.readSampled(history);
+        p.writeColor(0, hdr);
+    });
     declareToneMap(hdr, history);
     graph.markOutput(history);
     EXPECT_EQ(outcome(), Merge::ReadsElsewhere);
@@ -130,7 +160,10 @@ TEST_F(MergePasses, NotIfTheLaterPassWritesWhatTheEarlierOneSamples) {
 
 TEST_F(MergePasses, NotIfItClearsAnAttachmentInUse) {
     const TextureId hdr = color("hdr"), z = depth("z"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr); p.writeDepth(z); });
+    pass("color", [&](PassBuilder& p) {
+        p.writeColor(0, hdr);
+        p.writeDepth(z);
+    });
     toneMap = pass("tone map", [&](PassBuilder& p) {
         p.readInput(hdr);
         p.writeDepth(z, { .clear = 0.0f });
@@ -141,8 +174,15 @@ TEST_F(MergePasses, NotIfItClearsAnAttachmentInUse) {
 
 TEST_F(MergePasses, NotWithAnotherDepthAttachment) {
     const TextureId hdr = color("hdr"), z = depth("z"), other = depth("other"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr); p.writeDepth(z); });
-    toneMap = pass("tone map", [&](PassBuilder& p) { p.readInput(hdr); p.writeDepth(other); p.writeColor(0, out); });
+    pass("color", [&](PassBuilder& p) {
+        p.writeColor(0, hdr);
+        p.writeDepth(z);
+    });
+    toneMap = pass("tone map", [&](PassBuilder& p) {
+        p.readInput(hdr);
+        p.writeDepth(other);
+        p.writeColor(0, out);
+    });
     EXPECT_EQ(outcome(), Merge::DifferentDepth);
 }
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// compile() and record() against a validated null driver: what the commands say, what the pool keeps, what is explained.
+// compile() and record() against a validated null driver: what the commands say, what the pool keeps, what is
+// explained.
 #include "tests/framegraph/AllocationCount.h"
 #include "tests/framegraph/GraphFixture.h"
 
@@ -59,12 +60,19 @@ protected:
     /// color -> tone map, which samples or reads the pixel.
     void declareTwoPasses(bool atPixel) {
         const TextureId hdr = color("hdr"), out = target();
-        graph.addPass("color", [&](PassBuilder& b) { b.writeColor(0, hdr, { .clear = { { 0, 0, 0, 1 } } }); },
-                [](PassContext&) {});
-        graph.addPass("tone map",
+        graph.addPass(
+                "color",
                 [&](PassBuilder& b) {
-                    if (atPixel) b.readInput(hdr);
-                    else b.readSampled(hdr);
+                    b.writeColor(0, hdr, { .clear = { { 0, 0, 0, 1 } } });
+                },
+                [](PassContext&) {});
+        graph.addPass(
+                "tone map",
+                [&](PassBuilder& b) {
+                    if (atPixel)
+                        b.readInput(hdr);
+                    else
+                        b.readSampled(hdr);
                     b.writeColor(0, out, { .overwrites = true });
                 },
                 [=, this](PassContext& c) {
@@ -86,10 +94,9 @@ protected:
 
 TEST_F(Record, EveryGroupIsOnePassWithItsNameInGroups) {
     declareTwoPasses(false);
-    EXPECT_EQ(frame(),
-            "create hdr\n"
-            "begin color\npush color\npop\nend\n"
-            "begin tone map\npush tone map\npop\nend\n");
+    EXPECT_EQ(frame(), "create hdr\n"
+                       "begin color\npush color\npop\nend\n"
+                       "begin tone map\npush tone map\npop\nend\n");
     ASSERT_EQ(descs.size(), 2u);
     EXPECT_EQ(descs[0].colors[0].load, LoadOp::Clear);
     EXPECT_EQ(descs[0].colors[0].store, StoreOp::Store);
@@ -102,9 +109,8 @@ TEST_F(Record, EveryGroupIsOnePassWithItsNameInGroups) {
 
 TEST_F(Record, MergedPassesAreSubpassesOfOne) {
     declareTwoPasses(true);
-    EXPECT_EQ(frame(),
-            "create hdr\n"
-            "begin color + tone map\npush color\npop\nnext\npush tone map\npop\nend\n");
+    EXPECT_EQ(frame(), "create hdr\n"
+                       "begin color + tone map\npush color\npop\nnext\npush tone map\npop\nend\n");
     ASSERT_EQ(descs.size(), 1u);
     EXPECT_EQ(descs[0].layout, layout);
     EXPECT_EQ(descs[0].colors[0].store, StoreOp::Discard);
@@ -115,7 +121,9 @@ TEST_F(Record, MergedPassesAreSubpassesOfOne) {
 
 TEST_F(Record, MultisampledAttachmentsResolve) {
     const TextureId ms = color("ms", 64, 4), out = target();
-    graph.addPass("color", [&](PassBuilder& b) { b.writeColor(0, ms, { .clear = { {} }, .resolve = out }); }, [](PassContext&) {});
+    graph.addPass(
+            "color", [&](PassBuilder& b) { b.writeColor(0, ms, { .clear = { {} }, .resolve = out }); },
+            [](PassContext&) {});
     frame();
     ASSERT_EQ(descs.size(), 1u);
     EXPECT_EQ(descs[0].layout.samples, 4);
@@ -126,11 +134,18 @@ TEST_F(Record, MultisampledAttachmentsResolve) {
 
 TEST_F(Record, APassWithoutAttachmentsRecordsOutsideOfPasses) {
     const TextureId a = color("a");
-    graph.addPass("draw", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = { {} } }); }, [](PassContext&) {});
+    graph.addPass(
+            "draw", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = { {} } }); }, [](PassContext&) {});
     Ticket ticket = stream->nextTicket();
-    graph.addPass("read-back", [&](PassBuilder& b) { b.readTransfer(a); b.sideEffect(); },
+    graph.addPass(
+            "read-back",
+            [&](PassBuilder& b) {
+                b.readTransfer(a);
+                b.sideEffect();
+            },
             [=](PassContext& c) {
-                c.commands().record(CmdReadTexture{ .texture = c.texture(a), .rect = { 0, 0, 4, 4 }, .ticket = ticket });
+                c.commands().record(
+                        CmdReadTexture{ .texture = c.texture(a), .rect = { 0, 0, 4, 4 }, .ticket = ticket });
             });
     EXPECT_EQ(frame(), "create a\nbegin draw\npush draw\npop\nend\npush read-back\nother\npop\n");
     stream->waitIdle();
@@ -139,21 +154,28 @@ TEST_F(Record, APassWithoutAttachmentsRecordsOutsideOfPasses) {
 
 TEST_F(Record, PrepareRunsBeforeTheMergedPassBegins) {
     const TextureId hdr = color("hdr"), out = target();
-    graph.addPass("color", [&](PassBuilder& b) { b.writeColor(0, hdr, { .clear = { {} } }); }, [](PassContext&) {});
-    graph.addPass("tone map", [&](PassBuilder& b) { b.readInput(hdr); b.writeColor(0, out, { .overwrites = true }); },
+    graph.addPass(
+            "color", [&](PassBuilder& b) { b.writeColor(0, hdr, { .clear = { {} } }); }, [](PassContext&) {});
+    graph.addPass(
+            "tone map",
+            [&](PassBuilder& b) {
+                b.readInput(hdr);
+                b.writeColor(0, out, { .overwrites = true });
+            },
             [=](PassContext& c) {
                 BindGroupLayout inputs;
-                inputs.bindings[0] = { .binding = 0, .type = BindingType::InputAttachment, .stages = ShaderStage::Fragment,
-                    .inputAttachment = c.colorIndex(hdr) };
+                inputs.bindings[0] = { .binding = 0,
+                                       .type = BindingType::InputAttachment,
+                                       .stages = ShaderStage::Fragment,
+                                       .inputAttachment = c.colorIndex(hdr) };
                 inputs.count = 1;
                 BindGroupEntry entry;
                 entry.texture = c.texture(hdr);
                 return c.bindGroup(inputs, { &entry, 1 }, "inputs");
             },
             [](PassContext&, BindGroupHandle group) { EXPECT_TRUE(group); });
-    EXPECT_EQ(frame(),
-            "create hdr\nbind group inputs\n"
-            "begin color + tone map\npush color\npop\nnext\npush tone map\npop\nend\n");
+    EXPECT_EQ(frame(), "create hdr\nbind group inputs\n"
+                       "begin color + tone map\npush color\npop\nnext\npush tone map\npop\nend\n");
 }
 
 TEST_F(Record, TimersMeasureGroups) {
@@ -174,10 +196,16 @@ protected:
     /// A chain of `count` passes, each sampling the one before it.
     void declareChain(int count, const char* const* names) {
         TextureId previous = color(names[0]);
-        graph.addPass(names[0], [&](PassBuilder& b) { b.writeColor(0, previous, { .clear = { {} } }); }, [](PassContext&) {});
+        graph.addPass(
+                names[0], [&](PassBuilder& b) { b.writeColor(0, previous, { .clear = { {} } }); }, [](PassContext&) {});
         for (int i = 1; i < count; ++i) {
             const TextureId next = i + 1 == count ? target() : color(names[i]);
-            graph.addPass(names[i], [&](PassBuilder& b) { b.readSampled(previous); b.writeColor(0, next, { .overwrites = true }); },
+            graph.addPass(
+                    names[i],
+                    [&](PassBuilder& b) {
+                        b.readSampled(previous);
+                        b.writeColor(0, next, { .overwrites = true });
+                    },
                     [](PassContext&) {});
             previous = next;
         }
@@ -189,15 +217,24 @@ TEST_F(Pool, DisjointLifetimesOfEqualDescriptionsShareOneTexture) {
     declareChain(5, kNames);
     frame();
     EXPECT_EQ(pool->textureCount(), 2u); // ping and pong, for four transients
-    EXPECT_NE(explained.find("'a' 64 x 32 RGBA16F, groups 0 to 1, shares memory with 'c'"), std::string::npos) << explained;
+    EXPECT_NE(explained.find("'a' 64 x 32 RGBA16F, groups 0 to 1, shares memory with 'c'"), std::string::npos)
+            << explained;
 }
 
 TEST_F(Pool, OverlappingLifetimesDoNotShare) {
     const TextureId a = color("a"), b = color("b"), c = color("c"), out = target();
     for (const TextureId texture : { a, b, c }) {
-        graph.addPass("write", [&](PassBuilder& p) { p.writeColor(0, texture); }, [](PassContext&) {});
+        graph.addPass(
+                "write", [&](PassBuilder& p) { p.writeColor(0, texture); }, [](PassContext&) {});
     }
-    graph.addPass("show", [&](PassBuilder& p) { p.readSampled(a); p.readSampled(b); p.readSampled(c); p.writeColor(0, out); },
+    graph.addPass(
+            "show",
+            [&](PassBuilder& p) {
+                p.readSampled(a);
+                p.readSampled(b);
+                p.readSampled(c);
+                p.writeColor(0, out);
+            },
             [](PassContext&) {});
     frame();
     EXPECT_EQ(pool->textureCount(), 3u);
@@ -236,8 +273,14 @@ TEST_F(Pool, EqualBindGroupsAreMadeOnce) {
     std::vector<BindGroupHandle> handles;
     for (int i = 0; i < 2; ++i) {
         const TextureId a = color("a"), out = target();
-        graph.addPass("draw", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = { {} } }); }, [](PassContext&) {});
-        graph.addPass("show", [&](PassBuilder& b) { b.readSampled(a); b.writeColor(0, out); },
+        graph.addPass(
+                "draw", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = { {} } }); }, [](PassContext&) {});
+        graph.addPass(
+                "show",
+                [&](PassBuilder& b) {
+                    b.readSampled(a);
+                    b.writeColor(0, out);
+                },
                 [=](PassContext& c) { return c.bindGroup({}, {}, "empty"); },
                 [&handles](PassContext&, BindGroupHandle group) { handles.push_back(group); });
         frame();
@@ -276,7 +319,8 @@ TEST_F(Pool, ASteadyFrameDoesNotAllocate) {
 
 TEST_F(Record, TheTextTellsWhatRanWhatDidNotAndWhy) {
     const TextureId unread = color("unread");
-    graph.addPass("debug view", [&](PassBuilder& b) { b.writeColor(0, unread); }, [](PassContext&) {});
+    graph.addPass(
+            "debug view", [&](PassBuilder& b) { b.writeColor(0, unread); }, [](PassContext&) {});
     declareTwoPasses(true);
     frame();
     for (const char* line : {
@@ -297,7 +341,8 @@ TEST_F(Record, TheTextTellsWhatRanWhatDidNotAndWhy) {
 
 TEST_F(Record, TheDrawingFramesMergedPassesAndDashesCulledOnes) {
     const TextureId unread = color("un\"read");
-    graph.addPass("debug view", [&](PassBuilder& b) { b.writeColor(0, unread); }, [](PassContext&) {});
+    graph.addPass(
+            "debug view", [&](PassBuilder& b) { b.writeColor(0, unread); }, [](PassContext&) {});
     declareTwoPasses(true);
     frame();
     for (const char* line : {
@@ -315,22 +360,32 @@ class PassContextDeathTest : public Record {};
 
 TEST_F(PassContextDeathTest, UsingATextureThatThePassDidNotDeclare) {
     const TextureId a = color("a"), out = target();
-    graph.addPass("draw", [&](PassBuilder& b) { b.writeColor(0, out); }, [=](PassContext& c) { c.texture(a); });
+    graph.addPass(
+            "draw", [&](PassBuilder& b) { b.writeColor(0, out); }, [=](PassContext& c) { c.texture(a); });
     EXPECT_DEATH(frame(), "pass 'draw': uses texture 'a' without having declared it");
     graph.reset();
 }
 
 TEST_F(PassContextDeathTest, MakingABindGroupInsideOfAPass) {
     const TextureId out = target();
-    graph.addPass("draw", [&](PassBuilder& b) { b.writeColor(0, out); }, [=](PassContext& c) { c.bindGroup({}, {}, "late"); });
+    graph.addPass(
+            "draw", [&](PassBuilder& b) { b.writeColor(0, out); },
+            [=](PassContext& c) { c.bindGroup({}, {}, "late"); });
     EXPECT_DEATH(frame(), "pass 'draw': bind group 'late' is made inside of a pass; make it in prepare");
     graph.reset();
 }
 
 TEST_F(PassContextDeathTest, AskingForTheIndexOfATextureThatIsNoAttachment) {
     const TextureId a = color("a"), out = target();
-    graph.addPass("draw", [&](PassBuilder& b) { b.writeColor(0, a); }, [](PassContext&) {});
-    graph.addPass("show", [&](PassBuilder& b) { b.readSampled(a); b.writeColor(0, out); }, [=](PassContext& c) { c.colorIndex(a); });
+    graph.addPass(
+            "draw", [&](PassBuilder& b) { b.writeColor(0, a); }, [](PassContext&) {});
+    graph.addPass(
+            "show",
+            [&](PassBuilder& b) {
+                b.readSampled(a);
+                b.writeColor(0, out);
+            },
+            [=](PassContext& c) { c.colorIndex(a); });
     EXPECT_DEATH(frame(), "pass 'show': texture 'a' is no colour attachment of it");
     graph.reset();
 }

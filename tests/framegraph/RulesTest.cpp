@@ -9,48 +9,72 @@ class GraphRulesDeathTest : public GraphTest {};
 
 TEST_F(GraphRulesDeathTest, ReadingWhatNobodyWrites) {
     const TextureId a = color("a"), out = backbuffer();
-    pass("reader", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, out); });
+    pass("reader", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'reader' reads texture 'a', which no pass writes");
 }
 
 TEST_F(GraphRulesDeathTest, ReadingBeforeItIsWritten) {
     const TextureId a = color("a"), out = backbuffer();
-    pass("reader", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, out); });
+    pass("reader", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out);
+    });
     pass("writer", [&](PassBuilder& p) { p.writeColor(0, a); });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'reader' reads texture 'a' before pass 'writer' writes it");
 }
 
 TEST_F(GraphRulesDeathTest, ReadingAnImportedTextureWithUndefinedContents) {
     const TextureId out = backbuffer(InitialContents::Undefined);
-    pass("reader", [&](PassBuilder& p) { p.readTransfer(out); p.sideEffect(); });
+    pass("reader", [&](PassBuilder& p) {
+        p.readTransfer(out);
+        p.sideEffect();
+    });
     EXPECT_DEATH(checkDeclarations(graph), "'reader' reads texture 'backbuffer', which no pass writes");
 }
 
 TEST_F(GraphRulesDeathTest, AttachmentsOfDifferentSizes) {
     const TextureId a = color("a", 64), b = color("b", 65);
-    pass("draw", [&](PassBuilder& p) { p.writeColor(0, a); p.writeColor(1, b); });
+    pass("draw", [&](PassBuilder& p) {
+        p.writeColor(0, a);
+        p.writeColor(1, b);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'draw': attachment 'b' is 65 x 32, attachment 'a' is 64 x 32");
 }
 
 TEST_F(GraphRulesDeathTest, AttachmentsOfDifferentSampleCounts) {
     const TextureId a = color("a", 64, 4), b = color("b");
-    pass("draw", [&](PassBuilder& p) { p.writeColor(0, a); p.writeColor(1, b); });
+    pass("draw", [&](PassBuilder& p) {
+        p.writeColor(0, a);
+        p.writeColor(1, b);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "attachment 'b' has 1 samples, attachment 'a' has 4");
 }
 
 TEST_F(GraphRulesDeathTest, GapsAndDoublesInColourSlots) {
     const TextureId a = color("a"), b = color("b");
-    pass("gap", [&](PassBuilder& p) { p.writeColor(0, a); p.writeColor(2, b); });
+    pass("gap", [&](PassBuilder& p) {
+        p.writeColor(0, a);
+        p.writeColor(2, b);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'gap': colour slots have gaps");
     graph.reset();
     const TextureId c = color("c"), d = color("d");
-    pass("double", [&](PassBuilder& p) { p.writeColor(0, c); p.writeColor(0, d); });
+    pass("double", [&](PassBuilder& p) {
+        p.writeColor(0, c);
+        p.writeColor(0, d);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'double': colour slot 0 of 'd' is taken");
 }
 
 TEST_F(GraphRulesDeathTest, TwoDepthAttachments) {
     const TextureId a = depth("a"), b = depth("b");
-    pass("draw", [&](PassBuilder& p) { p.writeDepth(a); p.writeDepth(b); });
+    pass("draw", [&](PassBuilder& p) {
+        p.writeDepth(a);
+        p.writeDepth(b);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'draw': 'b' is a second depth attachment");
 }
 
@@ -69,13 +93,19 @@ TEST_F(GraphRulesDeathTest, AttachingALevelThatDoesNotExist) {
 TEST_F(GraphRulesDeathTest, SamplingAnAttachment) {
     const TextureId a = color("a");
     pass("write", [&](PassBuilder& p) { p.writeColor(0, a); });
-    pass("feedback", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, a); });
+    pass("feedback", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, a);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'feedback': texture 'a' is attached and read at the same time");
 }
 
 TEST_F(GraphRulesDeathTest, AttachingTwice) {
     const TextureId a = color("a");
-    pass("draw", [&](PassBuilder& p) { p.writeColor(0, a); p.writeColor(1, a); });
+    pass("draw", [&](PassBuilder& p) {
+        p.writeColor(0, a);
+        p.writeColor(1, a);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'draw': texture 'a' is attached twice");
 }
 
@@ -87,35 +117,50 @@ TEST_F(GraphRulesDeathTest, ResolvingASingleSample) {
 
 TEST_F(GraphRulesDeathTest, ResolvingTwoAttachmentsToOneTexture) {
     const TextureId a = color("a", 64, 4), b = color("b", 64, 4), c = color("c");
-    pass("draw", [&](PassBuilder& p) { p.writeColor(0, a, { .resolve = c }); p.writeColor(1, b, { .resolve = c }); });
+    pass("draw", [&](PassBuilder& p) {
+        p.writeColor(0, a, { .resolve = c });
+        p.writeColor(1, b, { .resolve = c });
+    });
     EXPECT_DEATH(checkDeclarations(graph), "texture 'c' is a resolve target and something else");
 }
 
 TEST_F(GraphRulesDeathTest, ReadingAMultisampledTexture) {
     const TextureId a = color("a", 64, 4), out = backbuffer();
     pass("draw", [&](PassBuilder& p) { p.writeColor(0, a); });
-    pass("read", [&](PassBuilder& p) { p.readSampled(a); p.writeColor(0, out); });
+    pass("read", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'read': reads multisampled texture 'a'; resolve it");
 }
 
 TEST_F(GraphRulesDeathTest, TransfersInsideOfAPass) {
     const TextureId a = color("a"), out = backbuffer();
-    pass("mixed", [&](PassBuilder& p) { p.writeTransfer(a); p.writeColor(0, out); });
+    pass("mixed", [&](PassBuilder& p) {
+        p.writeTransfer(a);
+        p.writeColor(0, out);
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'mixed': has attachments and transfers");
 }
 
 TEST_F(GraphRulesDeathTest, ReadingInputsWithoutAttachments) {
     const TextureId a = color("a");
     pass("draw", [&](PassBuilder& p) { p.writeColor(0, a); });
-    pass("read", [&](PassBuilder& p) { p.readInput(a); p.sideEffect(); });
+    pass("read", [&](PassBuilder& p) {
+        p.readInput(a);
+        p.sideEffect();
+    });
     EXPECT_DEATH(checkDeclarations(graph), "pass 'read': reads the current pixel of an input, but has no attachments");
 }
 
 TEST_F(GraphRulesDeathTest, ForgottenNamesSizesAndHandles) {
     EXPECT_DEATH(graph.createTexture({ .width = 1, .height = 1 }), "has a name");
-    EXPECT_DEATH(graph.createTexture({ .width = 0, .height = 1, .name = "thin" }), "texture 'thin': needs a format and a size");
-    EXPECT_DEATH(graph.importTexture({}, { .name = "lost" }, InitialContents::Keep), "'lost': imported without a handle");
-    EXPECT_DEATH(pass("stray", [&](PassBuilder& p) { p.readSampled(TextureId{ 9 }); }), "pass 'stray': declares a texture of another graph");
+    EXPECT_DEATH(graph.createTexture({ .width = 0, .height = 1, .name = "thin" }),
+                 "texture 'thin': needs a format and a size");
+    EXPECT_DEATH(graph.importTexture({}, { .name = "lost" }, InitialContents::Keep),
+                 "'lost': imported without a handle");
+    EXPECT_DEATH(pass("stray", [&](PassBuilder& p) { p.readSampled(TextureId{ 9 }); }),
+                 "pass 'stray': declares a texture of another graph");
 }
 
 } // namespace

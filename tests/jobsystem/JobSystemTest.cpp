@@ -24,7 +24,7 @@ protected:
 };
 
 INSTANTIATE_TEST_SUITE_P(Workers, JobSystemTest, testing::Values(0, 1, 2, 7),
-        [](auto const& parameter) { return std::to_string(parameter.param); });
+                         [](auto const& parameter) { return std::to_string(parameter.param); });
 
 int64_t fibonacci(JobSystem& jobs, int n) {
     if (n < 2) return n;
@@ -145,7 +145,8 @@ TEST_P(JobSystemTest, ParallelForVisitsEveryIndexExactlyOnce) {
             parallelFor(jobs, count, grain, [&](size_t begin, size_t end) {
                 for (size_t i = begin; i < end; ++i) visits[i].fetch_add(1, std::memory_order_relaxed);
             });
-            for (size_t i = 0; i < count; ++i) ASSERT_EQ(visits[i].load(), 1) << i << " of " << count << " by " << grain;
+            for (size_t i = 0; i < count; ++i)
+                ASSERT_EQ(visits[i].load(), 1) << i << " of " << count << " by " << grain;
         }
     }
 }
@@ -189,7 +190,8 @@ TEST_P(JobSystemTest, ParallelForSpreadsSlowRangesOverTheWorkers) {
     std::atomic<int> inside = 0, most = 0;
     parallelFor(jobs, 8, 1, [&](size_t, size_t) {
         int now = inside.fetch_add(1) + 1, seen = most.load();
-        while (seen < now && !most.compare_exchange_weak(seen, now)) {}
+        while (seen < now && !most.compare_exchange_weak(seen, now)) {
+        }
         std::this_thread::sleep_for(std::chrono::milliseconds(20));
         inside.fetch_sub(1);
     });
@@ -248,7 +250,8 @@ TEST_P(JobSystemTest, HalfOfTheWorkersStayFreeOfBackgroundJobs) {
     for (int i = 0; i < 20; ++i) {
         loads.runBackground([&] {
             int now = inside.fetch_add(1) + 1, seen = most.load();
-            while (seen < now && !most.compare_exchange_weak(seen, now)) {}
+            while (seen < now && !most.compare_exchange_weak(seen, now)) {
+            }
             std::this_thread::sleep_for(std::chrono::milliseconds(2));
             inside.fetch_sub(1);
         });
@@ -309,7 +312,8 @@ TEST_P(JobSystemTest, AWaiterThatFellAsleepWakesUpWhenTheLastJobEnds) {
 }
 
 TEST_P(JobSystemTest, PinnedWorkersGiveTheSameResults) {
-    JobSystem pinned({ .workers = GetParam(), .affinity = Affinity::Pin, .threadName = "a name beyond fifteen letters" });
+    JobSystem pinned(
+            { .workers = GetParam(), .affinity = Affinity::Pin, .threadName = "a name beyond fifteen letters" });
     EXPECT_EQ(fibonacci(pinned, 15), 610);
 }
 
