@@ -31,6 +31,12 @@ std::array<Map, 5> mapsOf(MaterialData const& material) {
     } };
 }
 
+// Occlusion in red, roughness and metallic of the same texture: the usual packing. One fetch serves both.
+bool sharesTexel(TextureRef const& a, TextureRef const& b) {
+    return a.image != kNone && a.image == b.image && a.sampler == b.sampler && a.uvSet == b.uvSet &&
+            a.uvTransform == b.uvTransform;
+}
+
 // An unlit material has a base colour only.
 size_t mapCount(MaterialData const& material) { return material.unlit ? 1 : 5; }
 
@@ -53,6 +59,9 @@ std::vector<MaterialConstant> constantsOf(MaterialData const& material, bool has
         constants.push_back({ map.has, true });
         if (map.ref.uvSet != 0) constants.push_back({ std::string(map.stem) + "Uv", static_cast<int32_t>(map.ref.uvSet) });
         if (map.ref.hasTransform) constants.push_back({ std::string(map.stem) + "Transform", true });
+    }
+    if (!material.unlit && sharesTexel(material.occlusion, material.metallicRoughness)) {
+        constants.push_back({ "occlusionInMetallicRoughness", true });
     }
     return constants;
 }
