@@ -2,6 +2,8 @@
 // Devices, contexts, threads, frames.
 #include "tests/backend/gles/GlesFixture.h"
 
+#include <cstdio>
+#include <cstdlib>
 #include <thread>
 
 namespace filament::backend::gles {
@@ -34,6 +36,20 @@ TEST(GlesDeviceTest, AnUnknownDeviceIsAnErrorThatListsTheKnownOnes) {
     EXPECT_EQ(driver.error().code, ErrorCode::DeviceUnavailable);
     EXPECT_NE(driver.error().message.find("Voodoo 2"), std::string::npos);
     EXPECT_NE(driver.error().message.find(listGlesDevices().at(0).deviceName), std::string::npos);
+}
+
+// A process of its own, in which libEGL finds no vendor library behind it (libglvnd reads this variable).
+TEST(GlesDeviceDeathTest, AMachineWithoutADriverIsToldWhatToInstall) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    const auto tryWithoutDriver = [] {
+        setenv("__EGL_VENDOR_LIBRARY_DIRS", "/nowhere", 1);
+        CollectingSink sink;
+        const Result<std::unique_ptr<Driver>> driver = createGlesDriver({}, sink);
+        const bool right = !driver && driver.error().code == ErrorCode::DeviceUnavailable && listGlesDevices().empty();
+        std::fputs(driver ? "a driver" : driver.error().message.c_str(), stderr);
+        std::exit(right ? 0 : 1);
+    };
+    EXPECT_EXIT(tryWithoutDriver(), testing::ExitedWithCode(0), "install .*libegl-mesa0");
 }
 
 TEST(GlesDeviceTest, ListingDevicesLeavesTheCurrentContextCurrent) {
