@@ -8,7 +8,7 @@ find_package(glslang REQUIRED)
 find_package(SPIRV-Tools-opt REQUIRED)
 find_package(spirv_cross_core REQUIRED HINTS /usr/share/spirv_cross_core/cmake)
 find_package(spirv_cross_glsl REQUIRED HINTS /usr/share/spirv_cross_glsl/cmake)
-find_package(TinyGLTF REQUIRED)
+find_package(nlohmann_json REQUIRED)
 find_package(meshoptimizer REQUIRED)
 find_package(tinyexr REQUIRED)
 find_package(draco REQUIRED)
@@ -44,10 +44,9 @@ target_link_libraries(shader_tools INTERFACE
 
 add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
-    TinyGLTF::TinyGLTF meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG)
+    nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG)
 
 find_package(CLI11 REQUIRED)
-find_package(nlohmann_json REQUIRED)
 if(FILAMENT_BUILD_TESTS)
     find_package(GTest REQUIRED)
 endif()

@@ -33,12 +33,18 @@ float asFloat(Component value, bool normalized) {
 template <class Visit>
 void withComponentType(ComponentType component, Visit&& visit) {
     switch (component) {
-        case ComponentType::Byte: return visit(int8_t{});
-        case ComponentType::UByte: return visit(uint8_t{});
-        case ComponentType::Short: return visit(int16_t{});
-        case ComponentType::UShort: return visit(uint16_t{});
-        case ComponentType::UInt: return visit(uint32_t{});
-        case ComponentType::Float: return visit(float{});
+    case ComponentType::Byte:
+        return visit(int8_t{});
+    case ComponentType::UByte:
+        return visit(uint8_t{});
+    case ComponentType::Short:
+        return visit(int16_t{});
+    case ComponentType::UShort:
+        return visit(uint16_t{});
+    case ComponentType::UInt:
+        return visit(uint32_t{});
+    case ComponentType::Float:
+        return visit(float{});
     }
 }
 
@@ -53,29 +59,30 @@ uint64_t strideOf(GltfDocument const& document, GltfAccessor const& accessor) {
 
 /// Whether `count` elements fit into the view. Counts are below 2^28, strides below 2^13, offsets below 2^54.
 bool fits(GltfDocument const& document, uint32_t view, uint64_t offset, uint64_t stride, uint64_t bytes, uint64_t count,
-        std::string const& path, GltfDiagnostics& diagnostics) {
+          std::string const& path, GltfDiagnostics& diagnostics) {
     if (count == 0) return true;
     const uint64_t end = offset + stride * (count - 1) + bytes;
     const uint64_t size = document.viewBytes[view].size();
     if (end <= size) return true;
-    diagnostics.refuse(
-            ErrorCode::Corrupt, "{}: {} elements end at byte {}, bufferViews[{}] has {}", path, count, end, view, size);
+    diagnostics.refuse(ErrorCode::Corrupt, "{}: {} elements end at byte {}, bufferViews[{}] has {}", path, count, end,
+                       view, size);
     return false;
 }
 
 bool checkSparse(GltfDocument const& document, GltfAccessor const& accessor, std::string const& path,
-        GltfDiagnostics& diagnostics) {
+                 GltfDiagnostics& diagnostics) {
     GltfSparse const& sparse = *accessor.sparse;
     if (sparse.count > accessor.count) {
-        diagnostics.refuse(ErrorCode::Corrupt, "{}.sparse.count: {} is beyond the {} elements", path, sparse.count, accessor.count);
+        diagnostics.refuse(ErrorCode::Corrupt, "{}.sparse.count: {} is beyond the {} elements", path, sparse.count,
+                           accessor.count);
         return false;
     }
     const uint32_t indexBytes = componentBytes(sparse.indicesType);
     const uint64_t bytes = elementBytes(accessor);
     if (!fits(document, sparse.indicesView, sparse.indicesOffset, indexBytes, indexBytes, sparse.count,
-                path + ".sparse.indices", diagnostics)
-            || !fits(document, sparse.valuesView, sparse.valuesOffset, bytes, bytes, sparse.count, path + ".sparse.values",
-                    diagnostics)) {
+              path + ".sparse.indices", diagnostics) ||
+        !fits(document, sparse.valuesView, sparse.valuesOffset, bytes, bytes, sparse.count, path + ".sparse.values",
+              diagnostics)) {
         return false;
     }
     if (sparse.count == 0) return true;
@@ -84,14 +91,16 @@ bool checkSparse(GltfDocument const& document, GltfAccessor const& accessor, std
         std::byte const* indices = document.viewBytes[sparse.indicesView].data() + sparse.indicesOffset;
         for (uint64_t i = 0; i < sparse.count; ++i) {
             const Index index = loadComponent<Index>(indices + i * sizeof(Index));
-            isInside = isInside && index >= Index{ 0 } && static_cast<double>(index) < static_cast<double>(accessor.count);
+            isInside =
+                    isInside && index >= Index{ 0 } && static_cast<double>(index) < static_cast<double>(accessor.count);
         }
     });
     if (!isInside) diagnostics.refuse(ErrorCode::Corrupt, "{}.sparse.indices: an index is out of range", path);
     return isInside;
 }
 
-/// Calls store(first number of the element in the output, bytes of the element) for the base, then for the sparse elements.
+/// Calls store(first number of the element in the output, bytes of the element) for the base, then for the sparse
+/// elements.
 template <class Store>
 void forEachElement(GltfDocument const& document, GltfAccessor const& accessor, Store&& store) {
     if (accessor.view != kNone && accessor.count > 0) {
@@ -114,7 +123,7 @@ void forEachElement(GltfDocument const& document, GltfAccessor const& accessor, 
 } // namespace
 
 bool checkAccessor(GltfDocument const& document, uint32_t accessor, std::span<const uint8_t> componentCounts,
-        std::string_view use, GltfDiagnostics& diagnostics) {
+                   std::string_view use, GltfDiagnostics& diagnostics) {
     GltfAccessor const& checked = document.accessors[accessor];
     const std::string path = fmt::format("accessors[{}]", accessor);
     if (std::find(componentCounts.begin(), componentCounts.end(), checked.components) == componentCounts.end()) {
@@ -125,9 +134,8 @@ bool checkAccessor(GltfDocument const& document, uint32_t accessor, std::span<co
         diagnostics.refuse(ErrorCode::Unsupported, "{}: {} elements without a bufferView", path, checked.count);
         return false;
     }
-    if (checked.view != kNone
-            && !fits(document, checked.view, checked.byteOffset, strideOf(document, checked), elementBytes(checked),
-                    checked.count, path, diagnostics)) {
+    if (checked.view != kNone && !fits(document, checked.view, checked.byteOffset, strideOf(document, checked),
+                                       elementBytes(checked), checked.count, path, diagnostics)) {
         return false;
     }
     return !checked.sparse || checkSparse(document, checked, path, diagnostics);
@@ -162,7 +170,7 @@ void readIntegers(GltfDocument const& document, uint32_t accessor, std::span<uin
 }
 
 std::vector<uint32_t> readIntegerList(GltfDocument const& document, uint32_t accessor, uint8_t components,
-        std::string_view use, GltfDiagnostics& diagnostics) {
+                                      std::string_view use, GltfDiagnostics& diagnostics) {
     std::vector<uint32_t> values;
     if (accessor == kNone || !checkAccessor(document, accessor, { &components, 1 }, use, diagnostics)) return values;
     values.resize(document.accessors[accessor].count * components);

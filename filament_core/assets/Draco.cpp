@@ -20,7 +20,7 @@ struct DracoMesh::State {
 };
 
 DracoMesh::DracoMesh(std::span<const std::byte> stream, std::string_view path, GltfDiagnostics& diagnostics)
-    : mState(std::make_unique<State>()) {
+        : mState(std::make_unique<State>()) {
     std::string reason;
     try {
         draco::DecoderBuffer buffer;
@@ -45,7 +45,8 @@ std::vector<uint32_t> DracoMesh::indices() const {
     if (!mState->mesh) return indices;
     indices.reserve(size_t{ mState->mesh->num_faces() } * 3);
     for (uint32_t i = 0; i < mState->mesh->num_faces(); ++i) {
-        for (draco::PointIndex const& corner : mState->mesh->face(draco::FaceIndex(i))) indices.push_back(corner.value());
+        for (draco::PointIndex const& corner : mState->mesh->face(draco::FaceIndex(i)))
+            indices.push_back(corner.value());
     }
     return indices;
 }
@@ -60,8 +61,8 @@ void DracoMesh::read(uint32_t id, uint8_t components, std::span<float> out) cons
     for (uint32_t i = 0; i < vertexCount(); ++i) {
         const draco::AttributeValueIndex value = attribute->mapped_index(draco::PointIndex(i));
         float* target = &out[size_t{ i } * components];
-        const bool isRead = value.value() < attribute->size()
-                && attribute->ConvertValue<float>(value, static_cast<int8_t>(components), target);
+        const bool isRead = value.value() < attribute->size() &&
+                            attribute->ConvertValue<float>(value, static_cast<int8_t>(components), target);
         if (!isRead) std::fill_n(target, components, 0.0f);
     }
 }

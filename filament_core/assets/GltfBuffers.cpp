@@ -11,7 +11,7 @@ using Bytes = std::span<const std::byte>;
 
 /// Where the bytes of one buffer are; empty for a fallback.
 Bytes bufferBytes(GltfDocument& document, size_t index, GltfContainer const& container,
-        std::filesystem::path const& baseDirectory, GltfDiagnostics& diagnostics) {
+                  std::filesystem::path const& baseDirectory, GltfDiagnostics& diagnostics) {
     GltfBuffer const& buffer = document.buffers[index];
     Bytes bytes;
     if (!buffer.uri.empty()) {
@@ -28,22 +28,24 @@ Bytes bufferBytes(GltfDocument& document, size_t index, GltfContainer const& con
         return {}; // views will complain, except those that read another buffer through meshopt
     }
     if (bytes.size() < buffer.byteLength) {
-        diagnostics.refuse(
-                ErrorCode::Corrupt, "buffers[{}]: {} bytes are there of {}", index, bytes.size(), buffer.byteLength);
+        diagnostics.refuse(ErrorCode::Corrupt, "buffers[{}]: {} bytes are there of {}", index, bytes.size(),
+                           buffer.byteLength);
         return {};
     }
     return bytes.first(buffer.byteLength);
 }
 
 /// [offset, offset + length) of a buffer; all numbers are below 2^53, so sums do not wrap.
-Bytes rangeOf(std::vector<Bytes> const& buffers, uint32_t buffer, uint64_t offset, uint64_t length, std::string const& path,
-        GltfDiagnostics& diagnostics) {
+Bytes rangeOf(std::vector<Bytes> const& buffers, uint32_t buffer, uint64_t offset, uint64_t length,
+              std::string const& path, GltfDiagnostics& diagnostics) {
     const uint64_t size = buffers[buffer].size();
     if (offset + length <= size) return buffers[buffer].subspan(offset, length);
     if (size == 0) {
-        diagnostics.refuse(ErrorCode::Corrupt, "{}: buffers[{}] has no data, neither a uri nor the binary chunk", path, buffer);
+        diagnostics.refuse(ErrorCode::Corrupt, "{}: buffers[{}] has no data, neither a uri nor the binary chunk", path,
+                           buffer);
     } else {
-        diagnostics.refuse(ErrorCode::Corrupt, "{}: ends at byte {}, buffers[{}] has {}", path, offset + length, buffer, size);
+        diagnostics.refuse(ErrorCode::Corrupt, "{}: ends at byte {}, buffers[{}] has {}", path, offset + length, buffer,
+                           size);
     }
     return {};
 }
@@ -56,12 +58,12 @@ struct CompressedView {
 };
 
 void decompressViews(GltfDocument& document, std::vector<CompressedView>& compressed, jobs::JobSystem& jobs,
-        GltfDiagnostics& diagnostics) {
+                     GltfDiagnostics& diagnostics) {
     jobs::parallelFor(jobs, compressed.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             CompressedView& item = compressed[i];
             item.bytes = decodeMeshopt(*document.views[item.view].meshopt, item.source,
-                    fmt::format("bufferViews[{}]", item.view), item.diagnostics);
+                                       fmt::format("bufferViews[{}]", item.view), item.diagnostics);
         }
     });
     for (CompressedView& item : compressed) {
@@ -74,7 +76,7 @@ void decompressViews(GltfDocument& document, std::vector<CompressedView>& compre
 } // namespace
 
 void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, std::filesystem::path const& baseDirectory,
-        jobs::JobSystem& jobs, GltfDiagnostics& diagnostics) {
+                     jobs::JobSystem& jobs, GltfDiagnostics& diagnostics) {
     std::vector<Bytes> buffers(document.buffers.size());
     for (size_t i = 0; i < buffers.size() && diagnostics.ok(); ++i) {
         buffers[i] = bufferBytes(document, i, container, baseDirectory, diagnostics);
@@ -86,8 +88,11 @@ void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, std
         const std::string path = fmt::format("bufferViews[{}]", i);
         if (view.meshopt) {
             MeshoptSource const& source = *view.meshopt;
-            compressed.push_back({ i,
-                    rangeOf(buffers, source.buffer, source.byteOffset, source.byteLength, path, diagnostics), {}, {} });
+            compressed.push_back(
+                    { i,
+                      rangeOf(buffers, source.buffer, source.byteOffset, source.byteLength, path, diagnostics),
+                      {},
+                      {} });
         } else {
             document.viewBytes[i] = rangeOf(buffers, view.buffer, view.byteOffset, view.byteLength, path, diagnostics);
         }

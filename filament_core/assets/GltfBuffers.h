@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfBuffers: fills GltfDocument::viewBytes: every buffer view as a checked span of bytes.
 ///   In      the parsed document, the GLB's binary chunk, the model's folder.
-///   Out     spans into the binary chunk or into document.ownedBytes (files, data URIs, decompressed views). A view whose
-///           bytes are missing, because its buffer is a fallback without data, is refused unless it is compressed.
+///   Out     spans into the binary chunk or into document.ownedBytes (files, data URIs, decompressed views). A view
+///           whose bytes are missing, because its buffer is a fallback without data, is refused unless it is
+///           compressed.
 ///   Thread  one; decompression is spread over `jobs`.
 ///   Fails   naming the buffer or the view: "bufferViews[3]: ends at byte 900, buffers[0] has 840".
 #pragma once
@@ -17,6 +18,6 @@
 namespace filament::assets {
 
 void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, std::filesystem::path const& baseDirectory,
-        jobs::JobSystem& jobs, GltfDiagnostics& diagnostics);
+                     jobs::JobSystem& jobs, GltfDiagnostics& diagnostics);
 
 } // namespace filament::assets

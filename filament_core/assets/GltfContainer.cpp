@@ -37,7 +37,8 @@ Result<GltfContainer> openGltfContainer(std::span<const std::byte> file) {
         const uint32_t type = wordAt(file, at + 4);
         at += kChunkHeaderBytes;
         if (bytes > length - at) {
-            return fail(ErrorCode::Corrupt, "GLB chunk {} has {} bytes, only {} are left in the file", chunk, bytes, length - at);
+            return fail(ErrorCode::Corrupt, "GLB chunk {} has {} bytes, only {} are left in the file", chunk, bytes,
+                        length - at);
         }
         if (chunk == 0 && type != kJsonChunk) return fail(ErrorCode::Corrupt, "the first GLB chunk is not JSON");
         if (chunk == 0) container.json = file.subspan(at, bytes);

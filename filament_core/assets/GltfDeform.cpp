@@ -11,13 +11,13 @@ namespace {
 /// values[i] += weight * deltas[i]
 template <class T>
 void addDeltas(GltfDocument const& document, uint32_t accessor, float weight, const char* name, std::vector<T>& values,
-        GltfDiagnostics& diagnostics) {
+               GltfDiagnostics& diagnostics) {
     if (accessor == kNone || values.empty()) return;
     const std::vector<float3> deltas = readVectors<float3>(document, accessor, name, diagnostics);
     if (!diagnostics.ok()) return;
     if (deltas.size() != values.size()) {
-        diagnostics.refuse(ErrorCode::Corrupt, "accessors[{}]: a morph target has {} elements for {} vertices", accessor,
-                deltas.size(), values.size());
+        diagnostics.refuse(ErrorCode::Corrupt, "accessors[{}]: a morph target has {} elements for {} vertices",
+                           accessor, deltas.size(), values.size());
         return;
     }
     for (size_t i = 0; i < values.size(); ++i) values[i] = T(float3(values[i]) + weight * deltas[i]);
@@ -25,7 +25,7 @@ void addDeltas(GltfDocument const& document, uint32_t accessor, float weight, co
 
 template <>
 void addDeltas(GltfDocument const& document, uint32_t accessor, float weight, const char* name,
-        std::vector<float4>& tangents, GltfDiagnostics& diagnostics) {
+               std::vector<float4>& tangents, GltfDiagnostics& diagnostics) {
     std::vector<float3> directions; // the handedness does not morph
     for (float4 const& tangent : tangents) directions.emplace_back(tangent);
     addDeltas(document, accessor, weight, name, directions, diagnostics);
@@ -33,7 +33,8 @@ void addDeltas(GltfDocument const& document, uint32_t accessor, float weight, co
 }
 
 /// The transform of one vertex: the joints' mean, weighted; weights that do not sum to 1 are scaled (3.7.3.3).
-float4x4 blendJoints(std::span<const float4x4> worldFromBind, GltfGeometry const& geometry, size_t vertex, bool& isInRange) {
+float4x4 blendJoints(std::span<const float4x4> worldFromBind, GltfGeometry const& geometry, size_t vertex,
+                     bool& isInRange) {
     float4x4 blended(0.0f);
     float sum = 0;
     for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
@@ -58,13 +59,14 @@ float4x4 blendJoints(std::span<const float4x4> worldFromBind, GltfGeometry const
 float3x3 normalMatrix(float3 x, float3 y, float3 z) { return { glm::cross(y, z), glm::cross(z, x), glm::cross(x, y) }; }
 
 void reverseTriangles(GltfGeometry& geometry) {
-    for (size_t i = 0; i + 2 < geometry.indices.size(); i += 3) std::swap(geometry.indices[i + 1], geometry.indices[i + 2]);
+    for (size_t i = 0; i + 2 < geometry.indices.size(); i += 3)
+        std::swap(geometry.indices[i + 1], geometry.indices[i + 2]);
 }
 
 } // namespace
 
 void applyMorphTargets(GltfDocument const& document, GltfPrimitive const& primitive, std::span<const float> weights,
-        GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
+                       GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
     const size_t count = std::min(weights.size(), primitive.targets.size());
     for (size_t i = 0; i < count && diagnostics.ok(); ++i) {
         if (weights[i] == 0) continue;
@@ -77,7 +79,7 @@ void applyMorphTargets(GltfDocument const& document, GltfPrimitive const& primit
 }
 
 void applySkin(std::span<const float4x4> worldFromBind, std::string const& path, GltfGeometry& geometry,
-        GltfDiagnostics& diagnostics) {
+               GltfDiagnostics& diagnostics) {
     if (worldFromBind.empty() || geometry.joints[0].empty() || geometry.weights[0].empty()) {
         diagnostics.warn("{}: is skinned but has no joints or weights, and is drawn as it is", path);
         return;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfDocument: the JSON of a glTF 2.0 file as plain structs, before any geometry or image is touched.
-///   Every index between elements was range-checked by the parser: it is valid or kNone. Byte ranges were not: a view is
-///   checked when its buffer is loaded (GltfBuffers.h), an accessor when it is read (Accessor.h).
+///   Every index between elements was range-checked by the parser: it is valid or kNone. Byte ranges were not: a view
+///   is checked when its buffer is loaded (GltfBuffers.h), an accessor when it is read (Accessor.h).
 ///   Section numbers in comments are those of the glTF 2.0.1 specification.
 #pragma once
 

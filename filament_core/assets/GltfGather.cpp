@@ -15,11 +15,16 @@ using backend::VertexFormat;
 VertexFormat positionFormat(GltfAccessor const& accessor) {
     if (!accessor.normalized) return VertexFormat::Float3;
     switch (accessor.component) {
-        case ComponentType::Byte: return VertexFormat::Byte4N;
-        case ComponentType::UByte: return VertexFormat::UByte4N;
-        case ComponentType::Short: return VertexFormat::Short4N;
-        case ComponentType::UShort: return VertexFormat::UShort4N;
-        default: return VertexFormat::Float3;
+    case ComponentType::Byte:
+        return VertexFormat::Byte4N;
+    case ComponentType::UByte:
+        return VertexFormat::UByte4N;
+    case ComponentType::Short:
+        return VertexFormat::Short4N;
+    case ComponentType::UShort:
+        return VertexFormat::UShort4N;
+    default:
+        return VertexFormat::Float3;
     }
 }
 
@@ -32,11 +37,16 @@ VertexFormat colorFormat(GltfAccessor const& accessor) {
 VertexFormat uvFormat(GltfAccessor const& accessor) {
     if (!accessor.normalized) return VertexFormat::Float2;
     switch (accessor.component) {
-        case ComponentType::Byte: return VertexFormat::Byte4N;
-        case ComponentType::UByte: return VertexFormat::UByte4N;
-        case ComponentType::Short: return VertexFormat::Short2N;
-        case ComponentType::UShort: return VertexFormat::UShort2N;
-        default: return VertexFormat::Float2;
+    case ComponentType::Byte:
+        return VertexFormat::Byte4N;
+    case ComponentType::UByte:
+        return VertexFormat::UByte4N;
+    case ComponentType::Short:
+        return VertexFormat::Short2N;
+    case ComponentType::UShort:
+        return VertexFormat::UShort2N;
+    default:
+        return VertexFormat::Float2;
     }
 }
 
@@ -44,15 +54,16 @@ VertexFormat uvFormat(GltfAccessor const& accessor) {
 class AttributeSource {
 public:
     AttributeSource(GltfDocument const& document, GltfPrimitive const& primitive, std::string const& path,
-            GltfDiagnostics& diagnostics)
-        : mDocument(document), mPath(path), mDiagnostics(diagnostics) {
+                    GltfDiagnostics& diagnostics)
+            : mDocument(document), mPath(path), mDiagnostics(diagnostics) {
         if (!primitive.draco) return;
         mDraco.emplace(document.viewBytes[primitive.draco->view], path, diagnostics);
     }
 
     DracoMesh const* draco() const { return mDraco ? &*mDraco : nullptr; }
 
-    /// Vectors of `T`, one per vertex; empty if the primitive lacks the attribute. The first call fixes the vertex count.
+    /// Vectors of `T`, one per vertex; empty if the primitive lacks the attribute. The first call fixes the vertex
+    /// count.
     template <class T>
     std::vector<T> read(uint32_t accessor, uint32_t dracoId, const char* name) {
         std::vector<T> values;
@@ -72,8 +83,8 @@ public:
         }
         if (!mVertexCount) mVertexCount = values.size();
         if (values.size() != *mVertexCount) {
-            mDiagnostics.refuse(ErrorCode::Corrupt, "{}: {} has {} elements, POSITION has {}", mPath, name, values.size(),
-                    *mVertexCount);
+            mDiagnostics.refuse(ErrorCode::Corrupt, "{}: {} has {} elements, POSITION has {}", mPath, name,
+                                values.size(), *mVertexCount);
         }
         return values;
     }
@@ -81,8 +92,8 @@ public:
     /// Colours have three components or four.
     std::vector<float4> readColors(uint32_t accessor, uint32_t dracoId) {
         if (accessor == kNone) return {};
-        const uint8_t components = mDraco && dracoId != kNone ? mDraco->componentCount(dracoId)
-                                                              : mDocument.accessors[accessor].components;
+        const uint8_t components =
+                mDraco && dracoId != kNone ? mDraco->componentCount(dracoId) : mDocument.accessors[accessor].components;
         if (components != 3) return read<float4>(accessor, dracoId, "COLOR_0");
         std::vector<float4> colors;
         for (float3 const& color : read<float3>(accessor, dracoId, "COLOR_0")) colors.emplace_back(color, 1.0f);
@@ -107,19 +118,20 @@ private:
 };
 
 void gatherAttributes(AttributeSource& source, GltfAttributes const& attributes, GltfAttributes const& ids,
-        GltfGeometry& geometry) {
+                      GltfGeometry& geometry) {
     geometry.positions = source.read<float3>(attributes.position, ids.position, "POSITION");
     geometry.normals = source.read<float3>(attributes.normal, ids.normal, "NORMAL");
     geometry.tangents = source.read<float4>(attributes.tangent, ids.tangent, "TANGENT");
     geometry.colors = source.readColors(attributes.color, ids.color);
     for (size_t set = 0; set < GltfAttributes::kUvSets; ++set) {
-        geometry.uvs[set] = source.read<float2>(attributes.uv[set], ids.uv[set], set == 0 ? "TEXCOORD_0" : "TEXCOORD_1");
+        geometry.uvs[set] =
+                source.read<float2>(attributes.uv[set], ids.uv[set], set == 0 ? "TEXCOORD_0" : "TEXCOORD_1");
     }
     for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
-        geometry.joints[set]
-                = source.readJoints(attributes.joints[set], ids.joints[set], set == 0 ? "JOINTS_0" : "JOINTS_1");
-        geometry.weights[set]
-                = source.read<float4>(attributes.weights[set], ids.weights[set], set == 0 ? "WEIGHTS_0" : "WEIGHTS_1");
+        geometry.joints[set] =
+                source.readJoints(attributes.joints[set], ids.joints[set], set == 0 ? "JOINTS_0" : "JOINTS_1");
+        geometry.weights[set] =
+                source.read<float4>(attributes.weights[set], ids.weights[set], set == 0 ? "WEIGHTS_0" : "WEIGHTS_1");
     }
 }
 
@@ -133,7 +145,7 @@ void chooseFormats(GltfDocument const& document, GltfAttributes const& attribute
 }
 
 void gatherIndices(GltfDocument const& document, GltfPrimitive const& primitive, AttributeSource const& source,
-        GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
+                   GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
     geometry.wasIndexed = source.draco() || primitive.indices != kNone;
     if (source.draco()) {
         geometry.indices = source.draco()->indices();
@@ -148,7 +160,7 @@ void gatherIndices(GltfDocument const& document, GltfPrimitive const& primitive,
 } // namespace
 
 GltfGeometry gatherGeometry(GltfDocument const& document, GltfPrimitive const& primitive, std::string const& path,
-        GltfDiagnostics& diagnostics) {
+                            GltfDiagnostics& diagnostics) {
     GltfGeometry geometry;
     if (primitive.attributes.position == kNone) {
         diagnostics.warn("{}: has no POSITION and is not drawn", path);

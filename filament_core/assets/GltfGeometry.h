@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfGeometry: one primitive on its way from the file to the GPU, one array per attribute, everything as floats.
-///   The steps, in order: gather, make a list, morph, drop unused vertices, skin, flat normals, tangents, pack. Each is a function below; each
-///   takes the primitive as the step before left it. Quantised attributes keep the format of the file: 8- and 16-bit
-///   integers survive the trip through floats exactly, and pack() writes them back.
+///   The steps, in order: gather, make a list, morph, drop unused vertices, skin, flat normals, tangents, pack. Each is
+///   a function below; each takes the primitive as the step before left it. Quantised attributes keep the format of the
+///   file: 8- and 16-bit integers survive the trip through floats exactly, and pack() writes them back.
 ///   Thread  one primitive on one thread; the document is only read.
 ///   Fails   through the diagnostics; later steps must not run then.
 #pragma once
@@ -35,23 +35,23 @@ struct GltfGeometry {
     backend::VertexFormat positionFormat = backend::VertexFormat::Float3;
     backend::VertexFormat colorFormat = backend::VertexFormat::Float4;
     std::array<backend::VertexFormat, GltfAttributes::kUvSets> uvFormats{ backend::VertexFormat::Float2,
-        backend::VertexFormat::Float2 };
+                                                                          backend::VertexFormat::Float2 };
 
     uint32_t vertexCount() const { return static_cast<uint32_t>(positions.size()); }
 };
 
 /// Attributes and indices out of accessors or a Draco stream. `path`: "meshes[0].primitives[1]". A primitive without
 /// positions or without vertices comes back empty, with a warning: there is nothing to draw.
-GltfGeometry gatherGeometry(
-        GltfDocument const& document, GltfPrimitive const& primitive, std::string const& path, GltfDiagnostics& diagnostics);
+GltfGeometry gatherGeometry(GltfDocument const& document, GltfPrimitive const& primitive, std::string const& path,
+                            GltfDiagnostics& diagnostics);
 
 /// Adds the morph targets with non-zero weight to positions, normals and tangents (section 3.7.2.2).
 void applyMorphTargets(GltfDocument const& document, GltfPrimitive const& primitive, std::span<const float> weights,
-        GltfGeometry& geometry, GltfDiagnostics& diagnostics);
+                       GltfGeometry& geometry, GltfDiagnostics& diagnostics);
 
 /// Moves the vertices to where the joints hold them (section 3.7.3.3). A skin that mirrors turns the triangles around.
 void applySkin(std::span<const float4x4> worldFromBind, std::string const& path, GltfGeometry& geometry,
-        GltfDiagnostics& diagnostics);
+               GltfDiagnostics& diagnostics);
 
 /// Checks the indices and turns strips, fans and loops into lists (section 3.7.2.1).
 void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics);

@@ -98,7 +98,8 @@ uint32_t JsonNode::index(size_t count, std::string_view what) const {
     if (!mValue) return kNone;
     const uint64_t value = integer(count);
     if (value < count) return static_cast<uint32_t>(value);
-    mDiagnostics->refuse(ErrorCode::Corrupt, "{}: index {} is out of range, the file has {} {}", mPath, value, count, what);
+    mDiagnostics->refuse(ErrorCode::Corrupt, "{}: index {} is out of range, the file has {} {}", mPath, value, count,
+                         what);
     return kNone;
 }
 
@@ -109,8 +110,9 @@ uint32_t JsonNode::requiredIndex(size_t count, std::string_view what) const {
 
 bool JsonNode::numbers(std::span<double> values) const {
     if (!mValue) return false;
-    const bool isList = mValue->is_array() && mValue->size() == values.size()
-            && std::all_of(mValue->begin(), mValue->end(), [](json const& element) { return element.is_number(); });
+    const bool isList =
+            mValue->is_array() && mValue->size() == values.size() &&
+            std::all_of(mValue->begin(), mValue->end(), [](json const& element) { return element.is_number(); });
     if (!isList) {
         refuse(fmt::format("an array of {} numbers", values.size()));
         return false;
@@ -127,7 +129,8 @@ std::vector<float> JsonNode::numberList() const {
 
 void JsonNode::refuse(std::string_view expected) const {
     const char* found = mValue ? mValue->type_name() : "nothing";
-    mDiagnostics->refuse(ErrorCode::Corrupt, "{}: must be {}, found {}", mPath.empty() ? "the file" : mPath, expected, found);
+    mDiagnostics->refuse(ErrorCode::Corrupt, "{}: must be {}, found {}", mPath.empty() ? "the file" : mPath, expected,
+                         found);
 }
 
 JsonTree::JsonTree(std::span<const std::byte> text, GltfDiagnostics& diagnostics) : mValue(std::make_unique<json>()) {

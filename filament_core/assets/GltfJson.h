@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfJson: reading fields of a JSON tree that nobody vouches for.
 ///   A JsonNode is a value and its path ("meshes[2].primitives[0].mode"), or nothing: asking a missing node for a field
-///   gives another missing node, asking it for a value gives the fallback. A value of the wrong kind is refused with its path.
+///   gives another missing node, asking it for a value gives the fallback. A value of the wrong kind is refused with
+///   its path.
 ///   Thread  read-only after parse; the diagnostics belong to one thread.
 ///   Limits  integers up to 2^53 (what a JSON double holds exactly).
 ///   Only GltfJson.cpp sees the JSON library.
@@ -26,7 +27,7 @@ namespace filament::assets {
 class JsonNode {
 public:
     JsonNode(nlohmann::json const* value, std::string path, GltfDiagnostics& diagnostics)
-        : mValue(value), mPath(std::move(path)), mDiagnostics(&diagnostics) {}
+            : mValue(value), mPath(std::move(path)), mDiagnostics(&diagnostics) {}
 
     bool exists() const { return mValue != nullptr; }
     std::string const& path() const { return mPath; }

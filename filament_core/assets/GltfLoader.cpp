@@ -17,7 +17,8 @@ namespace {
 /// Counts steps and tells whoever listens.
 class Progress {
 public:
-    Progress(GltfOptions const& options, GltfStage stage, size_t total) : mOptions(options), mStage(stage), mTotal(total) {
+    Progress(GltfOptions const& options, GltfStage stage, size_t total)
+            : mOptions(options), mStage(stage), mTotal(total) {
         report();
     }
 
@@ -50,8 +51,8 @@ std::vector<bool> usedMaterials(GltfDocument const& document, GltfScene const& s
 
 /// Images and primitives are independent: all of them are jobs of one group.
 void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextures& textures,
-        std::vector<GltfPrimitiveJob>& primitives, std::filesystem::path const& baseDirectory, jobs::JobSystem& jobs,
-        GltfOptions const& options) {
+                 std::vector<GltfPrimitiveJob>& primitives, std::filesystem::path const& baseDirectory,
+                 jobs::JobSystem& jobs, GltfOptions const& options) {
     Progress progress(options, GltfStage::Content, textures.jobs.size() + primitives.size());
     jobs::JobGroup group(jobs);
     for (GltfImageJob& job : textures.jobs) {
@@ -80,7 +81,7 @@ void mergeDiagnostics(GltfTextures& textures, std::vector<GltfPrimitiveJob>& pri
 }
 
 GltfDocument loadDocument(std::span<const std::byte> file, std::filesystem::path const& baseDirectory,
-        jobs::JobSystem& jobs, GltfDiagnostics& diagnostics) {
+                          jobs::JobSystem& jobs, GltfDiagnostics& diagnostics) {
     const Result<GltfContainer> container = openGltfContainer(file);
     if (!container) {
         diagnostics.refuse(container.error());
@@ -92,7 +93,7 @@ GltfDocument loadDocument(std::span<const std::byte> file, std::filesystem::path
 }
 
 ModelData load(std::span<const std::byte> file, std::filesystem::path const& baseDirectory, jobs::JobSystem& jobs,
-        GltfOptions const& options, GltfDiagnostics& diagnostics) {
+               GltfOptions const& options, GltfDiagnostics& diagnostics) {
     Progress structure(options, GltfStage::Structure, 1);
     GltfDocument document = loadDocument(file, baseDirectory, jobs, diagnostics);
     if (!diagnostics.ok()) return {};
@@ -138,11 +139,12 @@ Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& j
 }
 
 Result<ModelData> loadGltfFromMemory(std::span<const std::byte> file, std::filesystem::path const& baseDirectory,
-        jobs::JobSystem& jobs, GltfOptions const& options) {
+                                     jobs::JobSystem& jobs, GltfOptions const& options) {
     try {
         GltfDiagnostics diagnostics;
         ModelData model = load(file, baseDirectory, jobs, options, diagnostics);
-        if (!diagnostics.ok()) return fail(diagnostics.error().code, "{}: {}", options.name, diagnostics.error().message);
+        if (!diagnostics.ok())
+            return fail(diagnostics.error().code, "{}: {}", options.name, diagnostics.error().message);
         return model;
     } catch (std::exception const& exception) {
         return fail(ErrorCode::OutOfMemory, "{}: {}", options.name, exception.what());

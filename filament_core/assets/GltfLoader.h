@@ -3,15 +3,16 @@
 ///   In      any file; nothing about it is trusted. External buffers and images lie beside or below it (see GltfUri.h).
 ///   Out     the default scene at rest: default morph weights and the skins' rest pose are applied. Only what the scene
 ///           shows is loaded: meshes, materials and images that nothing drawn uses are left out.
-///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization, KHR_texture_transform,
-///           KHR_materials_unlit, KHR_materials_emissive_strength, KHR_lights_punctual, EXT_mesh_gpu_instancing. Other
-///           extensions are named in ModelData::warnings, once each, and the material without them is drawn.
+///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization,
+///           KHR_texture_transform, KHR_materials_unlit, KHR_materials_emissive_strength, KHR_lights_punctual,
+///           EXT_mesh_gpu_instancing. Other extensions are named in ModelData::warnings, once each, and the material
+///           without them is drawn.
 ///   Does not  play animations, read KTX2 or WebP, or use material variants.
-///   Thread  any; images and primitives are decoded as jobs, this thread joins in. The result does not depend on the number
-///           of workers.
+///   Thread  any; images and primitives are decoded as jobs, this thread joins in. The result does not depend on the
+///           number of workers.
 ///   Memory  the file, then about twice the result while it runs.
 ///   Fails   one line naming file, element and reason: "helmet.gltf: accessors[3]: 24 elements end at byte 300, ...".
-///   Cost    bench/filament_core/assets/GltfLoaderBench.cpp
+///   Cost    bench/filament_core/assets/GltfBench.cpp
 #pragma once
 
 #include "filament_core/assets/ModelData.h"
@@ -41,6 +42,6 @@ Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& j
 
 /// `baseDirectory` is where relative URIs start.
 Result<ModelData> loadGltfFromMemory(std::span<const std::byte> file, std::filesystem::path const& baseDirectory,
-        jobs::JobSystem& jobs, GltfOptions const& options = {});
+                                     jobs::JobSystem& jobs, GltfOptions const& options = {});
 
 } // namespace filament::assets

@@ -18,11 +18,12 @@ uint32_t normalMapUvSet(GltfDocument const& document, uint32_t material) {
 void replaceOverflow(std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
     const std::span<float> numbers(&geometry.positions[0].x, geometry.positions.size() * 3);
     const size_t broken = replaceNonFinite(numbers);
-    if (broken > 0) diagnostics.warn("{}: {} coordinates overflow after morphing and skinning, and became 0", path, broken);
+    if (broken > 0)
+        diagnostics.warn("{}: {} coordinates overflow after morphing and skinning, and became 0", path, broken);
 }
 
 PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
-        std::string const& path, GltfDiagnostics& diagnostics) {
+                    std::string const& path, GltfDiagnostics& diagnostics) {
     GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
     if (!diagnostics.ok() || geometry.positions.empty()) return {};
     makeList(primitive.draco ? GltfMode::Triangles : primitive.mode, path, geometry, diagnostics);
@@ -33,14 +34,15 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     if (!diagnostics.ok()) return {};
     replaceOverflow(path, geometry, diagnostics);
     addFlatNormals(geometry);
-    if (const uint32_t uvSet = normalMapUvSet(document, primitive.material); uvSet != kNone) addTangents(geometry, uvSet);
+    if (const uint32_t uvSet = normalMapUvSet(document, primitive.material); uvSet != kNone)
+        addTangents(geometry, uvSet);
     return packGeometry(std::move(geometry));
 }
 
 } // namespace
 
-std::vector<GltfPrimitiveJob> listPrimitives(
-        GltfDocument const& document, GltfScene const& scene, GltfDiagnostics& diagnostics) {
+std::vector<GltfPrimitiveJob> listPrimitives(GltfDocument const& document, GltfScene const& scene,
+                                             GltfDiagnostics& diagnostics) {
     constexpr uint64_t kMaxVertices = uint64_t{ 1 } << 27, kMaxIndices = uint64_t{ 1 } << 29;
     std::vector<GltfPrimitiveJob> jobs;
     uint64_t vertices = 0, indices = 0;
@@ -54,8 +56,8 @@ std::vector<GltfPrimitiveJob> listPrimitives(
         }
     }
     if (vertices > kMaxVertices || indices > kMaxIndices) {
-        diagnostics.refuse(ErrorCode::Unsupported, "the scene has {} vertices and {} indices, beyond {} and {}", vertices,
-                indices, kMaxVertices, kMaxIndices);
+        diagnostics.refuse(ErrorCode::Unsupported, "the scene has {} vertices and {} indices, beyond {} and {}",
+                           vertices, indices, kMaxVertices, kMaxIndices);
     }
     return jobs;
 }
@@ -71,8 +73,8 @@ void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GltfPr
     }
 }
 
-std::vector<MeshData> collectMeshes(
-        GltfDocument const& document, GltfScene const& scene, std::vector<GltfPrimitiveJob>& jobs) {
+std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene const& scene,
+                                    std::vector<GltfPrimitiveJob>& jobs) {
     std::vector<MeshData> meshes;
     for (GltfMeshRequest const& request : scene.meshes) meshes.push_back({ document.meshes[request.mesh].name, {} });
     for (GltfPrimitiveJob& job : jobs) {

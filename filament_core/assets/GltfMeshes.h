@@ -18,13 +18,13 @@ struct GltfPrimitiveJob {
     GltfDiagnostics diagnostics;
 };
 
-std::vector<GltfPrimitiveJob> listPrimitives(
-        GltfDocument const& document, GltfScene const& scene, GltfDiagnostics& diagnostics);
+std::vector<GltfPrimitiveJob> listPrimitives(GltfDocument const& document, GltfScene const& scene,
+                                             GltfDiagnostics& diagnostics);
 
 void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GltfPrimitiveJob& job);
 
 /// Moves the built primitives into one mesh per request.
-std::vector<MeshData> collectMeshes(
-        GltfDocument const& document, GltfScene const& scene, std::vector<GltfPrimitiveJob>& jobs);
+std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene const& scene,
+                                    std::vector<GltfPrimitiveJob>& jobs);
 
 } // namespace filament::assets

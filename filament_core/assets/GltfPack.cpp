@@ -39,16 +39,26 @@ void writeFloats(std::byte* target, float const* values) {
 
 Writer writerOf(VertexFormat format) {
     switch (format) {
-        case VertexFormat::Float2: return writeFloats<2>;
-        case VertexFormat::Float3: return writeFloats<3>;
-        case VertexFormat::Float4: return writeFloats<4>;
-        case VertexFormat::Byte4N: return writeIntegers<int8_t, 4>;
-        case VertexFormat::UByte4N: return writeIntegers<uint8_t, 4>;
-        case VertexFormat::Short2N: return writeIntegers<int16_t, 2>;
-        case VertexFormat::UShort2N: return writeIntegers<uint16_t, 2>;
-        case VertexFormat::Short4N: return writeIntegers<int16_t, 4>;
-        case VertexFormat::UShort4N: return writeIntegers<uint16_t, 4>;
-        default: FILAMENT_ASSERT(false, "vertices are packed in formats that the shader reads as floats");
+    case VertexFormat::Float2:
+        return writeFloats<2>;
+    case VertexFormat::Float3:
+        return writeFloats<3>;
+    case VertexFormat::Float4:
+        return writeFloats<4>;
+    case VertexFormat::Byte4N:
+        return writeIntegers<int8_t, 4>;
+    case VertexFormat::UByte4N:
+        return writeIntegers<uint8_t, 4>;
+    case VertexFormat::Short2N:
+        return writeIntegers<int16_t, 2>;
+    case VertexFormat::UShort2N:
+        return writeIntegers<uint16_t, 2>;
+    case VertexFormat::Short4N:
+        return writeIntegers<int16_t, 4>;
+    case VertexFormat::UShort4N:
+        return writeIntegers<uint16_t, 4>;
+    default:
+        FILAMENT_ASSERT(false, "vertices are packed in formats that the shader reads as floats");
     }
     return nullptr;
 }
@@ -112,8 +122,8 @@ void packIndices(std::span<const uint32_t> indices, PrimitiveData& primitive) {
 void weldEqualVertices(std::vector<uint32_t>& indices, PrimitiveData& primitive) {
     const size_t stride = primitive.layout.buffers[0].stride;
     std::vector<uint32_t> remap(primitive.vertexCount);
-    const size_t unique = meshopt_generateVertexRemap(
-            remap.data(), nullptr, primitive.vertexCount, primitive.vertices.data(), primitive.vertexCount, stride);
+    const size_t unique = meshopt_generateVertexRemap(remap.data(), nullptr, primitive.vertexCount,
+                                                      primitive.vertices.data(), primitive.vertexCount, stride);
     std::vector<std::byte> vertices(unique * stride);
     meshopt_remapVertexBuffer(vertices.data(), primitive.vertices.data(), primitive.vertexCount, stride, remap.data());
     for (uint32_t& index : indices) index = remap[index];

@@ -16,12 +16,12 @@ constexpr uint64_t kMaxStride = 4096;
 /// The arrays of the file by name, so that an index can be checked before its array was read.
 struct Counts {
     explicit Counts(JsonNode const& root)
-        : buffers(root["buffers"].elementCount()), views(root["bufferViews"].elementCount()),
-          accessors(root["accessors"].elementCount()), meshes(root["meshes"].elementCount()),
-          nodes(root["nodes"].elementCount()), skins(root["skins"].elementCount()),
-          materials(root["materials"].elementCount()), textures(root["textures"].elementCount()),
-          samplers(root["samplers"].elementCount()), images(root["images"].elementCount()),
-          lights(root.extension("KHR_lights_punctual")["lights"].elementCount()) {}
+            : buffers(root["buffers"].elementCount()), views(root["bufferViews"].elementCount()),
+              accessors(root["accessors"].elementCount()), meshes(root["meshes"].elementCount()),
+              nodes(root["nodes"].elementCount()), skins(root["skins"].elementCount()),
+              materials(root["materials"].elementCount()), textures(root["textures"].elementCount()),
+              samplers(root["samplers"].elementCount()), images(root["images"].elementCount()),
+              lights(root.extension("KHR_lights_punctual")["lights"].elementCount()) {}
 
     size_t buffers, views, accessors, meshes, nodes, skins, materials, textures, samplers, images, lights;
 };
@@ -39,32 +39,40 @@ Enum enumFromText(JsonNode const& node, std::array<const char*, N> const& names,
 
 ComponentType componentTypeFromGl(JsonNode const& node) {
     switch (node.requiredInteger()) {
-        case 5120: return ComponentType::Byte;
-        case 5121: return ComponentType::UByte;
-        case 5122: return ComponentType::Short;
-        case 5123: return ComponentType::UShort;
-        case 5125: return ComponentType::UInt;
-        case 5126: return ComponentType::Float;
-        default:
-            node.diagnostics().refuse(ErrorCode::Corrupt, "{}: must be one of 5120..5123, 5125, 5126", node.path());
-            return ComponentType::Float;
+    case 5120:
+        return ComponentType::Byte;
+    case 5121:
+        return ComponentType::UByte;
+    case 5122:
+        return ComponentType::Short;
+    case 5123:
+        return ComponentType::UShort;
+    case 5125:
+        return ComponentType::UInt;
+    case 5126:
+        return ComponentType::Float;
+    default:
+        node.diagnostics().refuse(ErrorCode::Corrupt, "{}: must be one of 5120..5123, 5125, 5126", node.path());
+        return ComponentType::Float;
     }
 }
 
 uint8_t componentCount(JsonNode const& node) {
-    constexpr std::array<std::pair<const char*, uint8_t>, 7> kTypes{ { { "SCALAR", 1 }, { "VEC2", 2 }, { "VEC3", 3 },
-            { "VEC4", 4 }, { "MAT2", 4 }, { "MAT3", 9 }, { "MAT4", 16 } } };
+    constexpr std::array<std::pair<const char*, uint8_t>, 7> kTypes{
+        { { "SCALAR", 1 }, { "VEC2", 2 }, { "VEC3", 3 }, { "VEC4", 4 }, { "MAT2", 4 }, { "MAT3", 9 }, { "MAT4", 16 } }
+    };
     const std::string text = node.text();
     for (auto const& [name, count] : kTypes) {
         if (text == name) return count;
     }
-    node.diagnostics().refuse(ErrorCode::Corrupt, "{}: '{}' must be SCALAR, VEC2..VEC4 or MAT2..MAT4", node.path(), text);
+    node.diagnostics().refuse(ErrorCode::Corrupt, "{}: '{}' must be SCALAR, VEC2..VEC4 or MAT2..MAT4", node.path(),
+                              text);
     return 1;
 }
 
 GltfBuffer parseBuffer(JsonNode const& node) {
-    const bool isFallback = node.extension("EXT_meshopt_compression")["fallback"].boolean(false)
-            || node.extension("KHR_meshopt_compression")["fallback"].boolean(false);
+    const bool isFallback = node.extension("EXT_meshopt_compression")["fallback"].boolean(false) ||
+                            node.extension("KHR_meshopt_compression")["fallback"].boolean(false);
     return { .uri = node["uri"].text(), .byteLength = node["byteLength"].requiredInteger(), .isFallback = isFallback };
 }
 
@@ -79,45 +87,46 @@ std::optional<MeshoptSource> parseMeshopt(JsonNode const& view, Counts const& co
         .byteStride = node["byteStride"].requiredInteger(),
         .count = node["count"].requiredInteger(),
         .mode = enumFromText(node["mode"], std::array{ "ATTRIBUTES", "TRIANGLES", "INDICES" }, MeshoptMode::Attributes),
-        .filter = enumFromText(
-                node["filter"], std::array{ "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL" }, MeshoptFilter::None),
+        .filter = enumFromText(node["filter"], std::array{ "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL" },
+                               MeshoptFilter::None),
     };
 }
 
 GltfBufferView parseView(JsonNode const& node, Counts const& counts) {
     const uint64_t stride = node["byteStride"].integer(0);
     if (stride > kMaxStride) {
-        node.diagnostics().refuse(ErrorCode::Corrupt, "{}.byteStride: {} is beyond {}", node.path(), stride, kMaxStride);
+        node.diagnostics().refuse(ErrorCode::Corrupt, "{}.byteStride: {} is beyond {}", node.path(), stride,
+                                  kMaxStride);
     }
     return { .buffer = node["buffer"].requiredIndex(counts.buffers, "buffers"),
-        .byteOffset = node["byteOffset"].integer(0),
-        .byteLength = node["byteLength"].requiredInteger(),
-        .byteStride = static_cast<uint32_t>(stride),
-        .meshopt = parseMeshopt(node, counts) };
+             .byteOffset = node["byteOffset"].integer(0),
+             .byteLength = node["byteLength"].requiredInteger(),
+             .byteStride = static_cast<uint32_t>(stride),
+             .meshopt = parseMeshopt(node, counts) };
 }
 
 std::optional<GltfSparse> parseSparse(JsonNode const& node, Counts const& counts) {
     if (!node.exists()) return std::nullopt;
     const JsonNode indices = node["indices"], values = node["values"];
     return GltfSparse{ .count = node["count"].requiredInteger(),
-        .indicesView = indices["bufferView"].requiredIndex(counts.views, "bufferViews"),
-        .valuesView = values["bufferView"].requiredIndex(counts.views, "bufferViews"),
-        .indicesOffset = indices["byteOffset"].integer(0),
-        .valuesOffset = values["byteOffset"].integer(0),
-        .indicesType = componentTypeFromGl(indices["componentType"]) };
+                       .indicesView = indices["bufferView"].requiredIndex(counts.views, "bufferViews"),
+                       .valuesView = values["bufferView"].requiredIndex(counts.views, "bufferViews"),
+                       .indicesOffset = indices["byteOffset"].integer(0),
+                       .valuesOffset = values["byteOffset"].integer(0),
+                       .indicesType = componentTypeFromGl(indices["componentType"]) };
 }
 
 GltfAccessor parseAccessor(JsonNode const& node, Counts const& counts) {
     const GltfAccessor accessor{ .view = node["bufferView"].index(counts.views, "bufferViews"),
-        .byteOffset = node["byteOffset"].integer(0),
-        .count = node["count"].requiredInteger(),
-        .component = componentTypeFromGl(node["componentType"]),
-        .components = componentCount(node["type"]),
-        .normalized = node["normalized"].boolean(false),
-        .sparse = parseSparse(node["sparse"], counts) };
+                                 .byteOffset = node["byteOffset"].integer(0),
+                                 .count = node["count"].requiredInteger(),
+                                 .component = componentTypeFromGl(node["componentType"]),
+                                 .components = componentCount(node["type"]),
+                                 .normalized = node["normalized"].boolean(false),
+                                 .sparse = parseSparse(node["sparse"], counts) };
     if (accessor.count > kMaxElements) {
-        node.diagnostics().refuse(ErrorCode::Unsupported, "{}.count: {} elements are beyond the limit of {}", node.path(),
-                accessor.count, kMaxElements);
+        node.diagnostics().refuse(ErrorCode::Unsupported, "{}.count: {} elements are beyond the limit of {}",
+                                  node.path(), accessor.count, kMaxElements);
     }
     return accessor;
 }
@@ -150,7 +159,7 @@ GltfPrimitive parsePrimitive(JsonNode const& node, Counts const& counts) {
     if (const JsonNode draco = node.extension("KHR_draco_mesh_compression"); draco.exists()) {
         // ids are any unsigned number; whether the stream has them is known once it is decoded
         primitive.draco = GltfDraco{ draco["bufferView"].requiredIndex(counts.views, "bufferViews"),
-            parseAttributes(draco["attributes"], kNone, "ids") };
+                                     parseAttributes(draco["attributes"], kNone, "ids") };
     }
     return primitive;
 }
@@ -192,21 +201,21 @@ double4x4 parseTransform(JsonNode const& node) {
 
 GltfNode parseNode(JsonNode const& node, Counts const& counts) {
     GltfNode parsed{ .name = node["name"].text(),
-        .parentFromNode = parseTransform(node),
-        .children = {},
-        .mesh = node["mesh"].index(counts.meshes, "meshes"),
-        .skin = node["skin"].index(counts.skins, "skins"),
-        .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
-        .weights = node["weights"].numberList(),
-        .instancing = {} };
+                     .parentFromNode = parseTransform(node),
+                     .children = {},
+                     .mesh = node["mesh"].index(counts.meshes, "meshes"),
+                     .skin = node["skin"].index(counts.skins, "skins"),
+                     .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
+                     .weights = node["weights"].numberList(),
+                     .instancing = {} };
     for (JsonNode const& child : node["children"].elements()) {
         parsed.children.push_back(child.requiredIndex(counts.nodes, "nodes"));
     }
     if (const JsonNode instancing = node.extension("EXT_mesh_gpu_instancing"); instancing.exists()) {
         const JsonNode attributes = instancing["attributes"];
         parsed.instancing = GltfInstancing{ attributes["TRANSLATION"].index(counts.accessors, "accessors"),
-            attributes["ROTATION"].index(counts.accessors, "accessors"),
-            attributes["SCALE"].index(counts.accessors, "accessors") };
+                                            attributes["ROTATION"].index(counts.accessors, "accessors"),
+                                            attributes["SCALE"].index(counts.accessors, "accessors") };
     }
     return parsed;
 }
@@ -234,7 +243,8 @@ void checkForest(std::vector<GltfNode> const& nodes, GltfDiagnostics& diagnostic
         for (const uint32_t child : nodes[i].children) {
             if (child == kNone) continue; // refused already
             if (parents[child] != kNone || child == i) {
-                return diagnostics.refuse(ErrorCode::Corrupt, "nodes[{}].children: nodes[{}] has another parent already", i, child);
+                return diagnostics.refuse(ErrorCode::Corrupt,
+                                          "nodes[{}].children: nodes[{}] has another parent already", i, child);
             }
             parents[child] = i;
         }
@@ -301,7 +311,9 @@ std::vector<T> parseAll(JsonNode const& array, Parse const& parse) {
 
 void parseElements(JsonNode const& root, GltfDocument& document) {
     const Counts counts(root);
-    const auto with = [&](auto parse) { return [&counts, parse](JsonNode const& node) { return parse(node, counts); }; };
+    const auto with = [&](auto parse) {
+        return [&counts, parse](JsonNode const& node) { return parse(node, counts); };
+    };
     document.buffers = parseAll<GltfBuffer>(root["buffers"], parseBuffer);
     document.views = parseAll<GltfBufferView>(root["bufferViews"], with(parseView));
     document.accessors = parseAll<GltfAccessor>(root["accessors"], with(parseAccessor));
@@ -313,7 +325,8 @@ void parseElements(JsonNode const& root, GltfDocument& document) {
     document.materials = parseAll<GltfMaterial>(
             root["materials"], [&](JsonNode const& node) { return parseGltfMaterial(node, counts.textures); });
     document.textures = parseAll<GltfTexture>(root["textures"], [&](JsonNode const& node) {
-        return GltfTexture{ node["sampler"].index(counts.samplers, "samplers"), node["source"].index(counts.images, "images") };
+        return GltfTexture{ node["sampler"].index(counts.samplers, "samplers"),
+                            node["source"].index(counts.images, "images") };
     });
     document.lights = parseAll<LightData>(root.extension("KHR_lights_punctual")["lights"], parseGltfLight);
     document.hasAnimations = root["animations"].elementCount() > 0;

@@ -12,16 +12,19 @@ namespace {
 constexpr float kMaxFloat = std::numeric_limits<float>::max();
 
 // What the loader understands completely.
-constexpr std::array<std::string_view, 9> kSupportedExtensions{ "KHR_draco_mesh_compression", "EXT_meshopt_compression",
-    "KHR_meshopt_compression", "KHR_mesh_quantization", "KHR_texture_transform", "KHR_materials_unlit",
-    "KHR_materials_emissive_strength", "KHR_lights_punctual", "EXT_mesh_gpu_instancing" };
+constexpr std::array<std::string_view, 9> kSupportedExtensions{
+    "KHR_draco_mesh_compression",      "EXT_meshopt_compression", "KHR_meshopt_compression",
+    "KHR_mesh_quantization",           "KHR_texture_transform",   "KHR_materials_unlit",
+    "KHR_materials_emissive_strength", "KHR_lights_punctual",     "EXT_mesh_gpu_instancing"
+};
 
 /// KHR_texture_transform: uv' = T * R * S * uv. The extension's GLSL turns the other way than its text and its test
 /// model (TextureTransformTest, the green markers); like every viewer we follow those: a positive angle turns the
 /// image counter-clockwise about (0, 0), so a coordinate turns clockwise in the (u, v) plane.
 float3x3 textureTransform(std::array<double, 2> offset, double rotation, std::array<double, 2> scale) {
     const double c = std::cos(rotation), s = std::sin(rotation);
-    return { float3(c * scale[0], -s * scale[0], 0), float3(s * scale[1], c * scale[1], 0), float3(offset[0], offset[1], 1) };
+    return { float3(c * scale[0], -s * scale[0], 0), float3(s * scale[1], c * scale[1], 0),
+             float3(offset[0], offset[1], 1) };
 }
 
 GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
@@ -73,10 +76,15 @@ AlphaMode parseAlphaMode(JsonNode const& node) {
 
 backend::WrapMode parseWrap(JsonNode const& node) {
     switch (node.integer(10497)) {
-        case 33071: return backend::WrapMode::ClampToEdge;
-        case 33648: return backend::WrapMode::MirroredRepeat;
-        case 10497: return backend::WrapMode::Repeat;
-        default: node.diagnostics().warn("{}: unknown, repeats", node.path()); return backend::WrapMode::Repeat;
+    case 33071:
+        return backend::WrapMode::ClampToEdge;
+    case 33648:
+        return backend::WrapMode::MirroredRepeat;
+    case 10497:
+        return backend::WrapMode::Repeat;
+    default:
+        node.diagnostics().warn("{}: unknown, repeats", node.path());
+        return backend::WrapMode::Repeat;
     }
 }
 
@@ -93,8 +101,8 @@ GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount) {
     values.roughnessFactor = core["roughnessFactor"].numberInRange(1, 0, 1);
     const auto emissive = parseFactors<3>(node["emissiveFactor"], 0, 0, 1);
     values.emissiveFactor = { emissive[0], emissive[1], emissive[2] };
-    values.emissiveStrength
-            = node.extension("KHR_materials_emissive_strength")["emissiveStrength"].numberInRange(1, 0, kMaxFloat);
+    values.emissiveStrength =
+            node.extension("KHR_materials_emissive_strength")["emissiveStrength"].numberInRange(1, 0, kMaxFloat);
     values.normalScale = node["normalTexture"]["scale"].numberInRange(1, -kMaxFloat, kMaxFloat);
     values.occlusionStrength = node["occlusionTexture"]["strength"].numberInRange(1, 0, 1);
     values.alphaMode = parseAlphaMode(node["alphaMode"]);
@@ -116,15 +124,30 @@ backend::SamplerDesc parseGltfSampler(JsonNode const& node) {
     sampler.magFilter = node["magFilter"].integer(9729) == 9728 ? Filter::Nearest : Filter::Linear;
     const uint64_t minFilter = node["minFilter"].integer(9987);
     switch (minFilter) {
-        case 9728: sampler.minFilter = Filter::Nearest; sampler.mipFilter = MipFilter::None; break;
-        case 9729: sampler.minFilter = Filter::Linear; sampler.mipFilter = MipFilter::None; break;
-        case 9984: sampler.minFilter = Filter::Nearest; sampler.mipFilter = MipFilter::Nearest; break;
-        case 9985: sampler.minFilter = Filter::Linear; sampler.mipFilter = MipFilter::Nearest; break;
-        case 9986: sampler.minFilter = Filter::Nearest; sampler.mipFilter = MipFilter::Linear; break;
-        default:
-            if (minFilter != 9987) node.diagnostics().warn("{}.minFilter: unknown, trilinear is used", node.path());
-            sampler.minFilter = Filter::Linear;
-            sampler.mipFilter = MipFilter::Linear;
+    case 9728:
+        sampler.minFilter = Filter::Nearest;
+        sampler.mipFilter = MipFilter::None;
+        break;
+    case 9729:
+        sampler.minFilter = Filter::Linear;
+        sampler.mipFilter = MipFilter::None;
+        break;
+    case 9984:
+        sampler.minFilter = Filter::Nearest;
+        sampler.mipFilter = MipFilter::Nearest;
+        break;
+    case 9985:
+        sampler.minFilter = Filter::Linear;
+        sampler.mipFilter = MipFilter::Nearest;
+        break;
+    case 9986:
+        sampler.minFilter = Filter::Nearest;
+        sampler.mipFilter = MipFilter::Linear;
+        break;
+    default:
+        if (minFilter != 9987) node.diagnostics().warn("{}.minFilter: unknown, trilinear is used", node.path());
+        sampler.minFilter = Filter::Linear;
+        sampler.mipFilter = MipFilter::Linear;
     }
     sampler.wrapU = parseWrap(node["wrapS"]);
     sampler.wrapV = parseWrap(node["wrapT"]);
@@ -140,7 +163,8 @@ LightData parseGltfLight(JsonNode const& node) {
     } else if (type == "spot") {
         light.type = LightType::Spot;
     } else if (type != "point") {
-        node.diagnostics().refuse(ErrorCode::Corrupt, "{}.type: '{}' must be directional, point or spot", node.path(), type);
+        node.diagnostics().refuse(ErrorCode::Corrupt, "{}.type: '{}' must be directional, point or spot", node.path(),
+                                  type);
     }
     const auto color = parseFactors<3>(node["color"], 1, 0, kMaxFloat);
     light.color = { color[0], color[1], color[2] };
@@ -164,7 +188,8 @@ void warnAboutExtensions(JsonNode const& root, GltfDiagnostics& diagnostics) {
     for (JsonNode const& node : root["extensionsRequired"].elements()) {
         required.push_back(node.text());
         if (isSupported(required.back())) continue;
-        diagnostics.warn("extension {} is required by the file but not supported: what it adds is missing", required.back());
+        diagnostics.warn("extension {} is required by the file but not supported: what it adds is missing",
+                         required.back());
     }
     for (JsonNode const& node : root["extensionsUsed"].elements()) {
         const std::string name = node.text();

@@ -47,13 +47,13 @@ std::vector<double4x4> worldTransforms(GltfDocument const& document, GltfDiagnos
 
 /// Section 3.7.3.3: the node of the mesh does not matter, only its joints do.
 std::vector<float4x4> jointTransforms(GltfDocument const& document, uint32_t skinIndex,
-        std::vector<double4x4> const& worldFromNode, GltfDiagnostics& diagnostics) {
+                                      std::vector<double4x4> const& worldFromNode, GltfDiagnostics& diagnostics) {
     GltfSkin const& skin = document.skins[skinIndex];
-    const std::vector<float4x4> inverseBind
-            = readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics);
+    const std::vector<float4x4> inverseBind =
+            readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics);
     if (skin.joints.empty() || (!inverseBind.empty() && inverseBind.size() < skin.joints.size())) {
         diagnostics.refuse(ErrorCode::Corrupt, "skins[{}]: {} joints and {} inverse bind matrices do not go together",
-                skinIndex, skin.joints.size(), inverseBind.size());
+                           skinIndex, skin.joints.size(), inverseBind.size());
         return {};
     }
     std::vector<float4x4> transforms;
@@ -68,8 +68,8 @@ std::vector<float4x4> jointTransforms(GltfDocument const& document, uint32_t ski
 class RequestList {
 public:
     RequestList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfScene& scene,
-            GltfDiagnostics& diagnostics)
-        : mDocument(document), mWorldFromNode(worldFromNode), mScene(scene), mDiagnostics(diagnostics) {}
+                GltfDiagnostics& diagnostics)
+            : mDocument(document), mWorldFromNode(worldFromNode), mScene(scene), mDiagnostics(diagnostics) {}
 
     uint32_t requestFor(GltfNode const& node) {
         std::vector<float> const& weights = node.weights.empty() ? mDocument.meshes[node.mesh].weights : node.weights;
@@ -93,8 +93,8 @@ private:
 };
 
 double4x4 transformOf(float3 translation, float4 rotation, float3 scale) {
-    const glm::dquat q(static_cast<double>(rotation.w), static_cast<double>(rotation.x), static_cast<double>(rotation.y),
-            static_cast<double>(rotation.z));
+    const glm::dquat q(static_cast<double>(rotation.w), static_cast<double>(rotation.x),
+                       static_cast<double>(rotation.y), static_cast<double>(rotation.z));
     const double length = std::sqrt(glm::dot(q, q));
     double4x4 matrix = length > 1e-6 ? double4x4(glm::mat3_cast(q * (1.0 / length))) : double4x4(1.0);
     for (int axis = 0; axis < 3; ++axis) matrix[axis] *= static_cast<double>(scale[axis]);
@@ -113,20 +113,22 @@ std::vector<double4x4> instanceTransforms(GltfDocument const& document, uint32_t
     const size_t count = std::max({ translations.size(), rotations.size(), scales.size() });
     const auto fits = [&](size_t size) { return size == 0 || size == count; };
     if (!fits(translations.size()) || !fits(rotations.size()) || !fits(scales.size()) || count > kMaxInstances) {
-        diagnostics.refuse(ErrorCode::Corrupt, "nodes[{}]: the instance attributes differ in length, or are more than {}",
-                index, kMaxInstances);
+        diagnostics.refuse(ErrorCode::Corrupt,
+                           "nodes[{}]: the instance attributes differ in length, or are more than {}", index,
+                           kMaxInstances);
         return {};
     }
     std::vector<double4x4> transforms;
     for (size_t i = 0; i < count; ++i) {
         transforms.push_back(transformOf(translations.empty() ? float3(0.0f) : translations[i],
-                rotations.empty() ? float4(0, 0, 0, 1) : rotations[i], scales.empty() ? float3(1.0f) : scales[i]));
+                                         rotations.empty() ? float4(0, 0, 0, 1) : rotations[i],
+                                         scales.empty() ? float3(1.0f) : scales[i]));
     }
     return transforms;
 }
 
 void addNode(GltfDocument const& document, uint32_t index, double4x4 const& worldFromNode, RequestList& requests,
-        GltfScene& scene, GltfDiagnostics& diagnostics) {
+             GltfScene& scene, GltfDiagnostics& diagnostics) {
     GltfNode const& node = document.nodes[index];
     NodeData data{ .name = node.name, .worldFromNode = worldFromNode, .light = node.light, .morphWeights = {} };
     // a light beside a mesh stands alone: it shines once, from its node, however the mesh is placed

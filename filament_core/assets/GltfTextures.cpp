@@ -12,15 +12,16 @@ namespace {
 
 /// Section 3.8.4: without a sampler, repeat; the filters are ours to choose.
 constexpr backend::SamplerDesc kDefaultSampler{ .magFilter = backend::Filter::Linear,
-    .minFilter = backend::Filter::Linear,
-    .mipFilter = backend::MipFilter::Linear,
-    .wrapU = backend::WrapMode::Repeat,
-    .wrapV = backend::WrapMode::Repeat };
+                                                .minFilter = backend::Filter::Linear,
+                                                .mipFilter = backend::MipFilter::Linear,
+                                                .wrapU = backend::WrapMode::Repeat,
+                                                .wrapV = backend::WrapMode::Repeat };
 
 class TexturePlanner {
 public:
     TexturePlanner(GltfDocument const& document, GltfTextures& textures, GltfDiagnostics& diagnostics)
-        : mDocument(document), mTextures(textures), mDiagnostics(diagnostics), mJobOfImage(document.images.size(), kNone) {}
+            : mDocument(document), mTextures(textures), mDiagnostics(diagnostics),
+              mJobOfImage(document.images.size(), kNone) {}
 
     MaterialData resolve(GltfMaterial const& material) {
         MaterialData data = material.values;
@@ -67,7 +68,8 @@ private:
     std::vector<uint32_t> mJobOfImage;
 };
 
-Result<Image> decode(GltfDocument const& document, std::filesystem::path const& baseDirectory, GltfImageJob const& job) {
+Result<Image> decode(GltfDocument const& document, std::filesystem::path const& baseDirectory,
+                     GltfImageJob const& job) {
     GltfImage const& image = document.images[job.image];
     const std::string name = fmt::format("images[{}]", job.image);
     if (image.view != kNone) return decodeImage(document.viewBytes[image.view], name);
@@ -80,7 +82,7 @@ Result<Image> decode(GltfDocument const& document, std::filesystem::path const& 
 } // namespace
 
 GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const& used, std::vector<uint32_t>& remap,
-        GltfDiagnostics& diagnostics) {
+                          GltfDiagnostics& diagnostics) {
     GltfTextures textures;
     TexturePlanner planner(document, textures, diagnostics);
     remap.assign(document.materials.size(), kNone);
@@ -93,13 +95,14 @@ GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const&
 }
 
 void decodeImageJob(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t maxSize,
-        GltfImageJob& job) {
+                    GltfImageJob& job) {
     try {
         Result<Image> image = decode(document, baseDirectory, job);
         if (!image) return job.diagnostics.refuse(image.error());
         const bool isBoth = job.colorTexture != kNone && job.dataTexture != kNone;
         if (isBoth) job.data = withMipMaps(*image, false, maxSize);
-        (job.colorTexture != kNone ? job.color : job.data) = withMipMaps(std::move(*image), job.colorTexture != kNone, maxSize);
+        (job.colorTexture != kNone ? job.color : job.data) =
+                withMipMaps(std::move(*image), job.colorTexture != kNone, maxSize);
     } catch (std::exception const& exception) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", job.image, exception.what());
     }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfTextures: the materials that a scene uses, and the images that those need.
-///   In      a document and the meshes of the scene (their material indices are rewritten to count in the result).
-///   Out     materials in file order; image jobs, one per image and use: an image that serves as colour and as data becomes
-///           two textures (sRGB and linear) from one decoding. TextureRef::image counts in the jobs' textures, in order.
+///   In      a document, and which of its materials something drawn uses.
+///   Out     materials in file order; image jobs, one per image and use: an image that serves as colour and as data
+///           becomes two textures (sRGB and linear) from one decoding. TextureRef::image counts in the jobs' textures,
+///           in order.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
 ///   Fails   a missing or broken image is an error that names it. A texture in a format that this loader does not read
 ///           (KTX2, WebP without fallback) is left out with a warning.
@@ -17,9 +18,9 @@
 namespace filament::assets {
 
 struct GltfImageJob {
-    uint32_t image = 0; ///< of the document
+    uint32_t image = 0;                                 ///< of the document
     uint32_t colorTexture = kNone, dataTexture = kNone; ///< slots in ModelData::images
-    Image color, data;  ///< filled as far as asked for
+    Image color, data;                                  ///< filled as far as asked for
     GltfDiagnostics diagnostics;
 };
 
@@ -32,10 +33,10 @@ struct GltfTextures {
 /// `used`: per material of the document whether something drawn uses it. Unused materials are left out of the result;
 /// `remap` gives the new index of the others.
 GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const& used, std::vector<uint32_t>& remap,
-        GltfDiagnostics& diagnostics);
+                          GltfDiagnostics& diagnostics);
 
 void decodeImageJob(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t maxSize,
-        GltfImageJob& job);
+                    GltfImageJob& job);
 
 /// Moves the decoded images into their slots.
 std::vector<Image> collectImages(GltfTextures& textures);

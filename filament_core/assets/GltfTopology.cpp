@@ -54,15 +54,24 @@ void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, Gl
     const uint32_t largest = *std::max_element(indices.begin(), indices.end());
     if (largest >= geometry.positions.size()) {
         diagnostics.refuse(ErrorCode::Corrupt, "{}.indices: {} is out of range, there are {} vertices", path, largest,
-                geometry.positions.size());
+                           geometry.positions.size());
         return;
     }
     switch (mode) {
-        case GltfMode::LineLoop: indices = linesFromStrip(indices, true); break;
-        case GltfMode::LineStrip: indices = linesFromStrip(indices, false); break;
-        case GltfMode::TriangleStrip: indices = listFromStrip(indices); break;
-        case GltfMode::TriangleFan: indices = listFromFan(indices); break;
-        default: break;
+    case GltfMode::LineLoop:
+        indices = linesFromStrip(indices, true);
+        break;
+    case GltfMode::LineStrip:
+        indices = linesFromStrip(indices, false);
+        break;
+    case GltfMode::TriangleStrip:
+        indices = listFromStrip(indices);
+        break;
+    case GltfMode::TriangleFan:
+        indices = listFromFan(indices);
+        break;
+    default:
+        break;
     }
     geometry.topology = topologyOf(mode);
     const size_t corners = geometry.topology == Topology::Triangles ? 3 : geometry.topology == Topology::Lines ? 2 : 1;
@@ -103,12 +112,12 @@ void addFlatNormals(GltfGeometry& geometry) {
 }
 
 void addTangents(GltfGeometry& geometry, uint32_t uvSet) {
-    const bool isPossible = geometry.topology == Topology::Triangles && !geometry.normals.empty()
-            && !geometry.uvs[uvSet].empty() && geometry.tangents.empty();
+    const bool isPossible = geometry.topology == Topology::Triangles && !geometry.normals.empty() &&
+                            !geometry.uvs[uvSet].empty() && geometry.tangents.empty();
     if (!isPossible) return;
     for (float3& normal : geometry.normals) normal = normalizedOr(normal, float3(0, 0, 1));
-    TangentOutput output
-            = generateTangents({ geometry.positions, geometry.normals, geometry.uvs[uvSet], geometry.indices });
+    TangentOutput output =
+            generateTangents({ geometry.positions, geometry.normals, geometry.uvs[uvSet], geometry.indices });
     reorderVertices(geometry, output.sources);
     geometry.tangents = std::move(output.tangents);
     geometry.indices = std::move(output.indices);

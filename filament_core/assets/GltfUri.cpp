@@ -23,7 +23,8 @@ std::string percentDecoded(std::string_view text) {
     std::string decoded;
     decoded.reserve(text.size());
     for (size_t i = 0; i < text.size(); ++i) {
-        const bool isEscape = text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
+        const bool isEscape =
+                text[i] == '%' && i + 2 < text.size() && hexDigit(text[i + 1]) >= 0 && hexDigit(text[i + 2]) >= 0;
         decoded.push_back(isEscape ? static_cast<char>(hexDigit(text[i + 1]) * 16 + hexDigit(text[i + 2])) : text[i]);
         if (isEscape) i += 2;
     }
@@ -79,9 +80,11 @@ Result<std::vector<std::byte>> readGltfFile(std::filesystem::path const& path) {
     std::error_code code;
     const std::string shown = path.string();
     if (!std::filesystem::exists(path, code)) return fail(ErrorCode::NotFound, "no file '{}'", shown);
-    if (!std::filesystem::is_regular_file(path, code)) return fail(ErrorCode::Unreadable, "'{}' is not a regular file", shown);
+    if (!std::filesystem::is_regular_file(path, code))
+        return fail(ErrorCode::Unreadable, "'{}' is not a regular file", shown);
     const uint64_t size = std::filesystem::file_size(path, code);
-    if (code || size > kMaxFileBytes) return fail(ErrorCode::Unreadable, "'{}' is larger than 2 GiB or has no size", shown);
+    if (code || size > kMaxFileBytes)
+        return fail(ErrorCode::Unreadable, "'{}' is larger than 2 GiB or has no size", shown);
     const std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "rb"), std::fclose);
     std::vector<std::byte> bytes(size);
     if (!file || std::fread(bytes.data(), 1, bytes.size(), file.get()) != bytes.size()) {
@@ -99,7 +102,8 @@ Result<std::vector<std::byte>> readGltfUri(std::string_view uri, std::filesystem
     const std::filesystem::path relative = std::filesystem::path(decoded).lexically_normal();
     const bool leaves = relative.is_absolute() || (!relative.empty() && *relative.begin() == "..");
     if (relative.empty() || leaves || decoded.find('\0') != std::string::npos) {
-        return fail(ErrorCode::InvalidArgument, "'{}' lies outside the model's folder; store it inside", decoded.substr(0, 80));
+        return fail(ErrorCode::InvalidArgument, "'{}' lies outside the model's folder; store it inside",
+                    decoded.substr(0, 80));
     }
     return readGltfFile(baseDirectory / relative);
 }

@@ -29,7 +29,8 @@ public:
     size_t addVectors(std::vector<T> const& values, const char* type) {
         constexpr int kArrayBuffer = 34962, kFloat = 5126;
         const size_t view = addView(std::as_bytes(std::span(values)), kArrayBuffer);
-        mAccessors.push_back({ { "bufferView", view }, { "componentType", kFloat }, { "count", values.size() }, { "type", type } });
+        mAccessors.push_back(
+                { { "bufferView", view }, { "componentType", kFloat }, { "count", values.size() }, { "type", type } });
         return mAccessors.size() - 1;
     }
 
@@ -49,8 +50,10 @@ public:
         const std::vector<uint16_t> narrow(indices.begin(), isShort ? indices.end() : indices.begin());
         const auto bytes = isShort ? std::as_bytes(std::span(narrow)) : std::as_bytes(std::span(indices));
         const size_t view = addView(bytes, kElementBuffer);
-        mAccessors.push_back({ { "bufferView", view }, { "componentType", isShort ? kShort : kInt },
-                { "count", indices.size() }, { "type", "SCALAR" } });
+        mAccessors.push_back({ { "bufferView", view },
+                               { "componentType", isShort ? kShort : kInt },
+                               { "count", indices.size() },
+                               { "type", "SCALAR" } });
         return mAccessors.size() - 1;
     }
 
@@ -73,11 +76,12 @@ Result<void> checkPrimitive(GlbScene const& scene, GlbPrimitive const& primitive
     const size_t count = primitive.positions.size();
     const auto fits = [&](size_t size) { return size == 0 || size == count; };
     if (count == 0) return fail(ErrorCode::InvalidArgument, "{}: has no positions", path);
-    if (!fits(primitive.normals.size()) || !fits(primitive.tangents.size()) || !fits(primitive.colors.size())
-            || !fits(primitive.uvs.size())) {
+    if (!fits(primitive.normals.size()) || !fits(primitive.tangents.size()) || !fits(primitive.colors.size()) ||
+        !fits(primitive.uvs.size())) {
         return fail(ErrorCode::InvalidArgument, "{}: its attributes differ in length", path);
     }
-    const bool isInRange = std::all_of(primitive.indices.begin(), primitive.indices.end(), [&](uint32_t i) { return i < count; });
+    const bool isInRange =
+            std::all_of(primitive.indices.begin(), primitive.indices.end(), [&](uint32_t i) { return i < count; });
     if (!isInRange) return fail(ErrorCode::InvalidArgument, "{}: an index is out of range", path);
     if (primitive.material != kNone && primitive.material >= scene.materials.size()) {
         return fail(ErrorCode::InvalidArgument, "{}: its material is out of range", path);
@@ -88,7 +92,7 @@ Result<void> checkPrimitive(GlbScene const& scene, GlbPrimitive const& primitive
 Result<void> checkMaterial(GlbScene const& scene, size_t index) {
     MaterialData const& material = scene.materials[index];
     for (TextureRef const* texture : { &material.baseColor, &material.metallicRoughness, &material.normal,
-                 &material.occlusion, &material.emissive }) {
+                                       &material.occlusion, &material.emissive }) {
         if (texture->image != kNone && texture->image >= scene.images.size()) {
             return fail(ErrorCode::InvalidArgument, "materials[{}]: an image is out of range", index);
         }
@@ -100,12 +104,13 @@ Result<void> checkNodes(GlbScene const& scene) {
     std::vector<bool> hasParent(scene.nodes.size(), false);
     for (size_t i = 0; i < scene.nodes.size(); ++i) {
         GlbNode const& node = scene.nodes[i];
-        const bool isValid = (node.mesh == kNone || node.mesh < scene.meshes.size())
-                && (node.light == kNone || node.light < scene.lights.size());
+        const bool isValid = (node.mesh == kNone || node.mesh < scene.meshes.size()) &&
+                             (node.light == kNone || node.light < scene.lights.size());
         if (!isValid) return fail(ErrorCode::InvalidArgument, "nodes[{}]: its mesh or light is out of range", i);
         for (const uint32_t child : node.children) {
             if (child >= scene.nodes.size() || child == i || hasParent[child]) {
-                return fail(ErrorCode::InvalidArgument, "nodes[{}]: child {} is out of range or has a parent", i, child);
+                return fail(ErrorCode::InvalidArgument, "nodes[{}]: child {} is out of range or has a parent", i,
+                            child);
             }
             hasParent[child] = true;
         }
@@ -155,8 +160,9 @@ Json imagesJson(GlbScene const& scene, BufferWriter& buffer) {
     Json images = Json::array();
     for (GlbImage const& image : scene.images) {
         const bool isPng = !image.file.empty() && image.file[0] == std::byte{ 0x89 };
-        images.push_back({ { "name", image.name }, { "bufferView", buffer.addView(image.file, 0) },
-                { "mimeType", isPng ? "image/png" : "image/jpeg" } });
+        images.push_back({ { "name", image.name },
+                           { "bufferView", buffer.addView(image.file, 0) },
+                           { "mimeType", isPng ? "image/png" : "image/jpeg" } });
     }
     return images;
 }
@@ -174,7 +180,8 @@ Result<std::vector<std::byte>> assembleGlb(std::string text, std::vector<std::by
     if (total > kNone) return fail(ErrorCode::OutOfMemory, "a .glb of {} bytes is beyond 4 GiB", total);
     std::vector<std::byte> file;
     file.reserve(total);
-    for (const uint32_t word : { 0x46546C67u, 2u, static_cast<uint32_t>(total), static_cast<uint32_t>(text.size()), 0x4E4F534Au }) {
+    for (const uint32_t word :
+         { 0x46546C67u, 2u, static_cast<uint32_t>(total), static_cast<uint32_t>(text.size()), 0x4E4F534Au }) {
         append(file, word);
     }
     const auto json = std::as_bytes(std::span(text.data(), text.size()));
@@ -203,9 +210,11 @@ Result<std::vector<std::byte>> writeGlb(GlbScene const& scene) {
     return assembleGlb(root.dump(-1, ' ', false, Json::error_handler_t::replace), buffer.bytes());
 }
 
-Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height, std::span<const std::byte> rgba8) {
+Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height,
+                                    std::span<const std::byte> rgba8) {
     if (width == 0 || height == 0 || rgba8.size() != size_t{ width } * height * 4) {
-        return fail(ErrorCode::InvalidArgument, "image '{}': {} bytes are not {} x {} RGBA pixels", name, rgba8.size(), width, height);
+        return fail(ErrorCode::InvalidArgument, "image '{}': {} bytes are not {} x {} RGBA pixels", name, rgba8.size(),
+                    width, height);
     }
     bool isOpaque = true;
     for (size_t i = 3; i < rgba8.size(); i += 4) isOpaque = isOpaque && rgba8[i] == std::byte{ 255 };

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfWriter: a scene made by code as a binary glTF 2.0 file, readable by every glTF viewer.
 ///   In      triangles with float attributes, MaterialData, LightData, PNG images, a forest of nodes.
-///   Out     the bytes of a .glb: one buffer, attributes 4-byte aligned, 16-bit indices where they suffice. Materials write
-///           what differs from glTF's defaults, and KHR_materials_unlit, KHR_materials_emissive_strength,
+///   Out     the bytes of a .glb: one buffer, attributes 4-byte aligned, 16-bit indices where they suffice. Materials
+///           write what differs from glTF's defaults, and KHR_materials_unlit, KHR_materials_emissive_strength,
 ///           KHR_texture_transform and KHR_lights_punctual where they are used. The same scene gives the same bytes.
 ///   Thread  any.
 ///   Memory  the file twice.
-///   Fails   InvalidArgument, naming the element: an index out of range, attributes of different length, a node with two
-///           parents; OutOfMemory beyond 4 GiB, which the container cannot hold.
+///   Fails   InvalidArgument, naming the element: an index out of range, attributes of different length, a node with
+///           two parents; OutOfMemory beyond 4 GiB, which the container cannot hold.
 #pragma once
 
 #include "filament_core/assets/ModelData.h"
@@ -25,7 +25,8 @@ struct GlbImage {
 };
 
 /// Encodes 8-bit RGBA pixels, row 0 at the top; without the alpha channel if all of it is 255.
-Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height, std::span<const std::byte> rgba8);
+Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height,
+                                    std::span<const std::byte> rgba8);
 
 /// Triangles, counter-clockwise from outside. Empty attributes are left out.
 struct GlbPrimitive {

@@ -22,9 +22,12 @@ void addUnlessDefault(Json& object, const char* key, T value, T fallback) {
 
 int wrapNumber(backend::WrapMode wrap) {
     switch (wrap) {
-        case backend::WrapMode::ClampToEdge: return 33071;
-        case backend::WrapMode::MirroredRepeat: return 33648;
-        case backend::WrapMode::Repeat: break;
+    case backend::WrapMode::ClampToEdge:
+        return 33071;
+    case backend::WrapMode::MirroredRepeat:
+        return 33648;
+    case backend::WrapMode::Repeat:
+        break;
     }
     return 10497;
 }
@@ -34,8 +37,10 @@ Json samplerJson(backend::SamplerDesc const& sampler) {
     int minFilter = isNearest ? 9728 : 9729;
     if (sampler.mipFilter == backend::MipFilter::Nearest) minFilter = isNearest ? 9984 : 9985;
     if (sampler.mipFilter == backend::MipFilter::Linear) minFilter = isNearest ? 9986 : 9987;
-    return { { "magFilter", sampler.magFilter == backend::Filter::Nearest ? 9728 : 9729 }, { "minFilter", minFilter },
-        { "wrapS", wrapNumber(sampler.wrapU) }, { "wrapT", wrapNumber(sampler.wrapV) } };
+    return { { "magFilter", sampler.magFilter == backend::Filter::Nearest ? 9728 : 9729 },
+             { "minFilter", minFilter },
+             { "wrapS", wrapNumber(sampler.wrapU) },
+             { "wrapT", wrapNumber(sampler.wrapV) } };
 }
 
 /// The inverse of the loader's textureTransform(): columns (c sx, -s sx), (s sy, c sy), (ox, oy).
@@ -130,14 +135,19 @@ Json materialJson(MaterialData const& material, TextureWriter& textures, Json& r
 }
 
 Json lightJson(LightData const& light) {
-    Json json{ { "name", light.name }, { "color", { light.color.x, light.color.y, light.color.z } },
-        { "intensity", light.intensity } };
+    Json json{ { "name", light.name },
+               { "color", { light.color.x, light.color.y, light.color.z } },
+               { "intensity", light.intensity } };
     switch (light.type) {
-        case LightType::Directional: json["type"] = "directional"; break;
-        case LightType::Point: json["type"] = "point"; break;
-        case LightType::Spot:
-            json["type"] = "spot";
-            json["spot"] = { { "innerConeAngle", light.innerConeRadians }, { "outerConeAngle", light.outerConeRadians } };
+    case LightType::Directional:
+        json["type"] = "directional";
+        break;
+    case LightType::Point:
+        json["type"] = "point";
+        break;
+    case LightType::Spot:
+        json["type"] = "spot";
+        json["spot"] = { { "innerConeAngle", light.innerConeRadians }, { "outerConeAngle", light.outerConeRadians } };
     }
     if (light.rangeMeters > 0) json["range"] = light.rangeMeters;
     return json;

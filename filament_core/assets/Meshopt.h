@@ -3,9 +3,9 @@
 ///   In      the description and the compressed bytes; untrusted.
 ///   Out     count * byteStride bytes. `path` names the view in messages; on failure the result is empty.
 ///   Thread  any.
-///   Limits  what the extension allows: strides 4..256 (attributes), 2 or 4 (indices), 8 or 4..16 by filter; and not more than
-///           2048 decoded bytes for one compressed byte, which no valid stream reaches, so that nothing large is allocated
-///           for a small file.
+///   Limits  what the extension allows: strides 4..256 (attributes), 2 or 4 (indices), 4 or 8 (octahedral), 8
+///           (quaternion); and not more than 2048 decoded bytes for one compressed byte, which no valid stream reaches,
+///           so that nothing large is allocated for a small file.
 ///   Fails   Corrupt.
 #pragma once
 
@@ -17,7 +17,7 @@
 
 namespace filament::assets {
 
-std::vector<std::byte> decodeMeshopt(
-        MeshoptSource const& source, std::span<const std::byte> bytes, std::string_view path, GltfDiagnostics& diagnostics);
+std::vector<std::byte> decodeMeshopt(MeshoptSource const& source, std::span<const std::byte> bytes,
+                                     std::string_view path, GltfDiagnostics& diagnostics);
 
 } // namespace filament::assets

@@ -34,7 +34,8 @@ std::unique_ptr<Transfer> makeTransfer(double (*linearFromUnit)(double)) {
     size_t code = 0;
     for (size_t linear = 0; linear < 65536; ++linear) {
         // twice the middle between two codes, so that it is an integer
-        while (code < 255 && 2 * linear > size_t{ transfer->linearFromCode[code] } + transfer->linearFromCode[code + 1]) ++code;
+        while (code < 255 && 2 * linear > size_t{ transfer->linearFromCode[code] } + transfer->linearFromCode[code + 1])
+            ++code;
         transfer->codeFromLinear[linear] = static_cast<uint8_t>(code);
     }
     return transfer;
@@ -71,7 +72,8 @@ void decodeRow(std::byte const* codes, uint32_t width, Encoding const& encoding,
 
 void encodeLevel(Level const& level, Encoding const& encoding, std::byte* codes) {
     for (size_t i = 0; i < level.texels.size(); i += kChannels) {
-        for (size_t c = 0; c < kAlpha; ++c) codes[i + c] = std::byte{ encoding.color.codeFromLinear[level.texels[i + c]] };
+        for (size_t c = 0; c < kAlpha; ++c)
+            codes[i + c] = std::byte{ encoding.color.codeFromLinear[level.texels[i + c]] };
         codes[i + kAlpha] = std::byte{ encoding.alpha.codeFromLinear[level.texels[i + kAlpha]] };
     }
 }
@@ -99,13 +101,16 @@ Taps tapsOf(uint32_t i, uint32_t sourceSize) {
     if (sourceSize % 2 == 0) return { 2 * i, 2, { 0.5f, 0.5f, 0 } };
     const uint32_t size = sourceSize / 2;
     const auto total = static_cast<float>(sourceSize);
-    return { 2 * i, 3,
-        { static_cast<float>(size - i) / total, static_cast<float>(size) / total, static_cast<float>(i + 1) / total } };
+    return { 2 * i,
+             3,
+             { static_cast<float>(size - i) / total, static_cast<float>(size) / total,
+               static_cast<float>(i + 1) / total } };
 }
 
 /// Any sizes: weighted means over up to 3 x 3 texels. `row(y)` gives row y of the source.
 template <class Row>
-void resampleRow(Row const& row, uint32_t y, uint32_t sourceWidth, uint32_t sourceHeight, uint32_t width, uint16_t* out) {
+void resampleRow(Row const& row, uint32_t y, uint32_t sourceWidth, uint32_t sourceHeight, uint32_t width,
+                 uint16_t* out) {
     const Taps vertical = tapsOf(y, sourceHeight);
     std::array<uint16_t const*, 3> rows{};
     for (uint32_t i = 0; i < vertical.count; ++i) rows[i] = row(vertical.first + i);
@@ -154,7 +159,7 @@ Level halveCodes(Image const& base, Encoding const& encoding) {
 
 Level halveLevel(Level const& level) {
     return halve(level.width, level.height,
-            [&](uint32_t y) { return &level.texels[size_t{ y } * level.width * kChannels]; });
+                 [&](uint32_t y) { return &level.texels[size_t{ y } * level.width * kChannels]; });
 }
 
 /// Drops the levels that are larger than `maxSize`.
@@ -172,7 +177,7 @@ void dropLargeLevels(Image& image, uint32_t maxSize) {
 
 Image withMipMaps(Image base, bool isColor, uint32_t maxSize) {
     FILAMENT_ASSERT(base.format == backend::Format::RGBA8 && base.levels == 1 && base.layers == 1,
-            "withMipMaps takes one RGBA8 image of one level");
+                    "withMipMaps takes one RGBA8 image of one level");
     FILAMENT_ASSERT(base.data.size() == base.levelBytes(0) && !base.data.empty(), "the image must hold its pixels");
     const Encoding encoding{ isColor ? colorTransfer() : dataTransfer(), dataTransfer() };
     Image image = std::move(base);

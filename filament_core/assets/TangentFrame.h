@@ -2,8 +2,8 @@
 /// TangentFrame: normal, tangent and handedness as one unit quaternion in four signed 16-bit integers.
 ///   Decoded   by tangentFrame() of shaders/lib/tangent.glsl.
 ///   Encoding  q rotates +x to the tangent, +z to the normal; +y goes to cross(normal, tangent). q and -q are the same
-///             rotation, so the sign of w is free to say whether the bitangent is +cross or -cross; w is kept away from 0,
-///             where an integer has no sign, by one step of 1/32767 (an error of 0.002 degrees).
+///             rotation, so the sign of w is free to say whether the bitangent is +cross or -cross; w is kept away from
+///             0, where an integer has no sign, by one step of 1/32767 (it turns the frame by 0.0035 degrees).
 ///   In        any vectors: what is not unit, not perpendicular, zero or not finite is repaired (Gram-Schmidt).
 ///   Thread    any. Cost: a square root and a division.
 #pragma once
@@ -16,7 +16,7 @@
 namespace filament::assets {
 
 /// A unit vector perpendicular to the unit vector `normal`.
-///   Duff et al. 2017, "Building an Orthonormal Basis, Revisited": continuous but for one half-plane.
+///   Duff et al. 2017, "Building an Orthonormal Basis, Revisited": continuous on either side of z = 0.
 float3 anyTangent(float3 normal);
 
 /// `vector` made unit, or `fallback` if it has no usable length.

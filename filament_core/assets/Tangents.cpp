@@ -72,13 +72,14 @@ Triangle describeTriangle(TangentInput const& input, uint32_t const* corners) {
     const float3 du = t31.y * d1 - t21.y * d2, dv = t21.x * d2 - t31.x * d1;
     const float lengthU = std::sqrt(glm::dot(du, du)), lengthV = std::sqrt(glm::dot(dv, dv));
     const float magnitudeU = lengthU / std::abs(area), magnitudeV = lengthV / std::abs(area);
-    triangle.hasGradient = isNotZero(magnitudeU) && isNotZero(magnitudeV) && std::isfinite(lengthU) && std::isfinite(lengthV);
+    triangle.hasGradient =
+            isNotZero(magnitudeU) && isNotZero(magnitudeV) && std::isfinite(lengthU) && std::isfinite(lengthV);
     if (triangle.hasGradient) triangle.dPdu = du * ((area > 0 ? 1.0f : -1.0f) / lengthU);
     return triangle;
 }
 
-/// For every corner c the corner of the neighbouring triangle that starts the shared edge (c, next of c) there, or kNone.
-/// An edge shared in opposite directions pairs two triangles, first come, first served; a third one stays alone.
+/// For every corner c the corner of the neighbouring triangle that starts the shared edge (c, next of c) there, or
+/// kNone. An edge shared in opposite directions pairs two triangles, first come, first served; a third one stays alone.
 std::vector<uint32_t> findNeighbors(std::vector<uint32_t> const& vertices, std::vector<Triangle> const& triangles) {
     struct Edge {
         uint32_t low, high, corner;
@@ -112,14 +113,14 @@ std::vector<uint32_t> findNeighbors(std::vector<uint32_t> const& vertices, std::
 }
 
 struct Groups {
-    std::vector<uint32_t> ofCorner;                ///< kNone: only corners of degenerate triangles
-    std::vector<uint32_t> corners, firstCorner;    ///< corners of group g: [firstCorner[g], firstCorner[g + 1])
+    std::vector<uint32_t> ofCorner;             ///< kNone: only corners of degenerate triangles
+    std::vector<uint32_t> corners, firstCorner; ///< corners of group g: [firstCorner[g], firstCorner[g + 1])
     std::vector<bool> keepsOrientation;
 };
 
 /// Adds all corners that can be walked to from `seed`, around its vertex, without leaving its orientation.
 void growGroup(uint32_t seed, uint32_t group, std::vector<uint32_t> const& neighbors, std::vector<Triangle>& triangles,
-        std::vector<bool>& isAdopted, Groups& groups, std::vector<uint32_t>& open) {
+               std::vector<bool>& isAdopted, Groups& groups, std::vector<uint32_t>& open) {
     const bool orientation = triangles[seed / kCorners].keepsOrientation;
     open.assign(1, seed);
     while (!open.empty()) {
@@ -149,7 +150,8 @@ Groups buildGroups(std::vector<uint32_t> const& neighbors, std::vector<Triangle>
     for (const bool withGradient : { true, false }) {
         for (uint32_t corner = 0; corner < neighbors.size(); ++corner) {
             Triangle const& triangle = triangles[corner / kCorners];
-            if (triangle.isDegenerate || triangle.hasGradient != withGradient || groups.ofCorner[corner] != kNone) continue;
+            if (triangle.isDegenerate || triangle.hasGradient != withGradient || groups.ofCorner[corner] != kNone)
+                continue;
             groups.firstCorner.push_back(static_cast<uint32_t>(groups.corners.size()));
             groups.keepsOrientation.push_back(triangle.keepsOrientation);
             const auto group = static_cast<uint32_t>(groups.firstCorner.size() - 1);
@@ -165,10 +167,10 @@ float3 inPlane(float3 vector, float3 normal) {
 }
 
 /// The mean of the triangles' gradients in the plane of the normal, weighted by the angle of the corner in that plane.
-float4 groupTangent(uint32_t group, TangentInput const& input, Groups const& groups, std::vector<uint32_t> const& vertices,
-        std::vector<Triangle> const& triangles) {
+float4 groupTangent(uint32_t group, TangentInput const& input, Groups const& groups,
+                    std::vector<uint32_t> const& vertices, std::vector<Triangle> const& triangles) {
     const std::span<const uint32_t> corners(groups.corners.data() + groups.firstCorner[group],
-            groups.firstCorner[group + 1] - groups.firstCorner[group]);
+                                            groups.firstCorner[group + 1] - groups.firstCorner[group]);
     const uint32_t vertex = vertices[corners.front()];
     const float3 normal = input.normals[vertex], position = input.positions[vertex];
     float3 sum(0.0f);
@@ -185,7 +187,8 @@ float4 groupTangent(uint32_t group, TangentInput const& input, Groups const& gro
 
 /// A corner of a degenerate triangle joins a group of the same welded vertex, if there is one.
 void adoptDegenerateCorners(std::vector<uint32_t> const& vertices, Groups& groups) {
-    std::vector<uint32_t> groupOfVertex(vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + 1, kNone);
+    std::vector<uint32_t> groupOfVertex(vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + 1,
+                                        kNone);
     for (size_t c = vertices.size(); c-- > 0;) {
         if (groups.ofCorner[c] != kNone) groupOfVertex[vertices[c]] = groups.ofCorner[c];
     }

@@ -20,8 +20,9 @@ using testing::HasSubstr;
 
 fs::path modelFolder() { return fs::path(FILAMENT_ASSET_DIR) / "models"; }
 
-#define REQUIRE_ASSETS() \
-    if (std::string_view(FILAMENT_ASSET_DIR).empty()) GTEST_SKIP() << "needs FILAMENT_ASSET_DIR, the folder of sample models"
+#define REQUIRE_ASSETS()                                                                                               \
+    if (std::string_view(FILAMENT_ASSET_DIR).empty())                                                                  \
+    GTEST_SKIP() << "needs FILAMENT_ASSET_DIR, the folder of sample models"
 
 std::vector<fs::path> allModels() {
     std::vector<fs::path> paths;
@@ -57,8 +58,8 @@ Bounds worldBounds(ModelData const& model) {
         for (PrimitiveData const& primitive : model.meshes[node.mesh].primitives) {
             for (int corner = 0; corner < 8; ++corner) {
                 const float3 p(corner & 1 ? primitive.boundsMax.x : primitive.boundsMin.x,
-                        corner & 2 ? primitive.boundsMax.y : primitive.boundsMin.y,
-                        corner & 4 ? primitive.boundsMax.z : primitive.boundsMin.z);
+                               corner & 2 ? primitive.boundsMax.y : primitive.boundsMin.y,
+                               corner & 4 ? primitive.boundsMax.z : primitive.boundsMin.z);
                 const double3 world(node.worldFromNode * double4(double3(p), 1.0));
                 bounds.low = glm::min(bounds.low, world);
                 bounds.high = glm::max(bounds.high, world);
@@ -89,7 +90,8 @@ TEST(GltfAssets, EveryModelLoadsAndKeepsThePromisesOfModelData) {
 /// The three ways of storing the unit box: the numbers are the same.
 TEST(GltfAssets, InterleavedDracoAndMeshoptBoxesAreTheSameBox) {
     REQUIRE_ASSETS();
-    for (const char* name : { "BoxInterleaved/BoxInterleaved.gltf", "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb" }) {
+    for (const char* name :
+         { "BoxInterleaved/BoxInterleaved.gltf", "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb" }) {
         SCOPED_TRACE(name);
         const ModelData model = loadModel(name);
         ASSERT_EQ(model.meshes.size(), 1u);
@@ -105,7 +107,8 @@ TEST(GltfAssets, InterleavedDracoAndMeshoptBoxesAreTheSameBox) {
         for (size_t i = 0; i < corners.size(); i += 3) { // every triangle faces outwards, along its vertices' normal
             const float3 outside = glm::cross(corners[i + 1] - corners[i], corners[i + 2] - corners[i]);
             float3 n, t, b;
-            shader::lib::tangentFrame(vertexValue(primitive, shader::kAttributeTangents, indicesOf(primitive)[i]), n, t, b);
+            shader::lib::tangentFrame(vertexValue(primitive, shader::kAttributeTangents, indicesOf(primitive)[i]), n, t,
+                                      b);
             EXPECT_GT(glm::dot(glm::normalize(outside), n), 0.99f);
         }
     }
@@ -116,7 +119,8 @@ TEST(GltfAssets, FlightHelmetHasItsFifteenTexturesOnceEach) {
     const ModelData model = loadModel("FlightHelmet/FlightHelmet.gltf");
     EXPECT_EQ(model.images.size(), 15u);
     EXPECT_EQ(std::count_if(model.images.begin(), model.images.end(),
-                      [](Image const& image) { return image.format == backend::Format::RGBA8Srgb; }), 5);
+                            [](Image const& image) { return image.format == backend::Format::RGBA8Srgb; }),
+              5);
     EXPECT_EQ(model.meshes.size(), 6u);
     EXPECT_THAT(model.warnings, ElementsAre());
 }
@@ -124,7 +128,7 @@ TEST(GltfAssets, FlightHelmetHasItsFifteenTexturesOnceEach) {
 TEST(GltfAssets, UnsupportedExtensionsAreNamedOnce) {
     REQUIRE_ASSETS();
     EXPECT_THAT(loadModel("SheenChair/SheenChair.gltf").warnings,
-            ElementsAre(HasSubstr("KHR_materials_sheen"), HasSubstr("KHR_materials_variants")));
+                ElementsAre(HasSubstr("KHR_materials_sheen"), HasSubstr("KHR_materials_variants")));
 }
 
 TEST(GltfAssets, LampAndSpotLightsArrive) {
@@ -140,8 +144,8 @@ TEST(GltfAssets, InstancesArePlaced) {
     EXPECT_EQ(loadModel("SimpleInstancing/SimpleInstancing.glb").nodes.size(), 125u);
 }
 
-// The bind pose of RiggedFigure is its rest pose up to rounding, so that skinning must not move it out of the bounds that
-// the file states for the bind pose.
+// The bind pose of RiggedFigure is its rest pose up to rounding, so that skinning must not move it out of the bounds
+// that the file states for the bind pose.
 TEST(GltfAssets, SkinnedModelsStandWhereTheirBindPoseStands) {
     REQUIRE_ASSETS();
     const Bounds figure = worldBounds(loadModel("RiggedFigure/RiggedFigure.glb"));
@@ -205,12 +209,14 @@ Agreement compareTangents(PrimitiveData const& primitive) {
     return agreement;
 }
 
-// The bounds are what was measured, rounded up. 0.003 degrees is what the 16 bits of the frames leave of equal tangents, so
-// the tools behind the first two files follow MikkTSpace to the digit; the one behind the helmet averages differently.
+// The bounds are what was measured, rounded up. 0.003 degrees is what the 16 bits of the frames leave of equal
+// tangents, so the tools behind the first two files follow MikkTSpace to the digit; the one behind the helmet averages
+// differently.
 TEST(GltfAssets, GeneratedTangentsAgreeWithThoseOfTheFiles) {
     REQUIRE_ASSETS();
     for (const auto& [name, degrees] : { std::pair{ "AlphaBlendModeTest/AlphaBlendModeTest.glb", 0.005 },
-                 { "AnisotropyRotationTest/AnisotropyRotationTest.glb", 0.1 }, { "FlightHelmet/FlightHelmet.gltf", 1.5 } }) {
+                                         { "AnisotropyRotationTest/AnisotropyRotationTest.glb", 0.1 },
+                                         { "FlightHelmet/FlightHelmet.gltf", 1.5 } }) {
         const ModelData model = loadModel(name);
         for (MeshData const& mesh : model.meshes) {
             for (PrimitiveData const& primitive : mesh.primitives) {

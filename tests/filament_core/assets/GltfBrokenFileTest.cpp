@@ -88,9 +88,11 @@ TEST(GltfBrokenFile, VertexIndicesOutOfRangeAreRefused) {
 TEST(GltfBrokenFile, SparseIndicesOutOfRangeAreRefused) {
     TestFile file = TestFile::triangle();
     const std::array<uint32_t, 1> index{ 3 };
-    file.root["accessors"][0]["sparse"] = { { "count", 1 },
+    file.root["accessors"][0]["sparse"] = {
+        { "count", 1 },
         { "indices", { { "bufferView", file.addView(std::as_bytes(std::span(index))) }, { "componentType", 5125 } } },
-        { "values", { { "bufferView", 0 } } } };
+        { "values", { { "bufferView", 0 } } }
+    };
     EXPECT_THAT(refusal(file), HasSubstr("accessors[0].sparse.indices: an index is out of range"));
     file.root["accessors"][0]["sparse"]["count"] = 4;
     EXPECT_THAT(refusal(file), HasSubstr("accessors[0].sparse.count: 4"));
@@ -155,7 +157,8 @@ TEST(GltfBrokenFile, TruncatedContainersNameTheChunk) {
     const auto length = static_cast<uint32_t>(cut.size());
     std::memcpy(&cut[8], &length, 4); // a header that agrees with the cut
     EXPECT_THAT(loadGltfFromMemory(cut, ".", jobs).error().message, HasSubstr("GLB chunk 1 has 36 bytes, only 28"));
-    EXPECT_THAT(loadGltfFromMemory(std::span(whole).first(6), ".", jobs).error().message, HasSubstr("header is cut off"));
+    EXPECT_THAT(loadGltfFromMemory(std::span(whole).first(6), ".", jobs).error().message,
+                HasSubstr("header is cut off"));
 }
 
 TEST(GltfBrokenFile, BuffersWithoutDataAreRefusedWhenTheyAreRead) {
@@ -206,10 +209,13 @@ TEST(GltfBrokenFile, BrokenImagesAreNamed) {
 
 TEST(GltfBrokenFile, CompressedStreamsThatAreBrokenAreNamed) {
     TestFile file = TestFile::triangle();
-    file.primitive()["extensions"]["KHR_draco_mesh_compression"] = { { "bufferView", 0 }, { "attributes", { { "POSITION", 0 } } } };
+    file.primitive()["extensions"]["KHR_draco_mesh_compression"] = { { "bufferView", 0 },
+                                                                     { "attributes", { { "POSITION", 0 } } } };
     EXPECT_THAT(refusal(file), HasSubstr("meshes[0].primitives[0]: the Draco stream is broken"));
     file = TestFile::triangle();
-    Json meshopt{ { "buffer", 0 }, { "byteLength", 36 }, { "byteStride", 12 }, { "count", 3 }, { "mode", "ATTRIBUTES" } };
+    Json meshopt{
+        { "buffer", 0 }, { "byteLength", 36 }, { "byteStride", 12 }, { "count", 3 }, { "mode", "ATTRIBUTES" }
+    };
     file.root["bufferViews"][0]["extensions"]["EXT_meshopt_compression"] = meshopt;
     EXPECT_THAT(refusal(file), HasSubstr("bufferViews[0]: the meshopt stream is broken"));
     meshopt["count"] = 1'000'000'000;
@@ -233,7 +239,8 @@ TEST(GltfBrokenFile, JointsThatTheSkinLacksAreRefused) {
 
 TEST(GltfBrokenFile, TransformsThatOverflowAreRefused) {
     TestFile file = TestFile::triangle();
-    file.root["nodes"] = Json::parse(R"([ { "scale": [ 1e200, 1, 1 ], "children": [ 1 ] }, { "scale": [ 1e200, 1, 1 ], "mesh": 0 } ])");
+    file.root["nodes"] = Json::parse(
+            R"([ { "scale": [ 1e200, 1, 1 ], "children": [ 1 ] }, { "scale": [ 1e200, 1, 1 ], "mesh": 0 } ])");
     EXPECT_THAT(refusal(file), HasSubstr("nodes[1]: its transform is not finite"));
 }
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfFuzzBody: loads arbitrary bytes as glTF; one body for the fuzzer (tests/fuzz/GltfFuzz.cpp) and the mutation test.
-///   A file may be refused, with one line of text, or give a model that keeps every promise of ModelData.h.
+/// GltfFuzzBody: loads arbitrary bytes as glTF; one body for the fuzzer (tests/fuzz/GltfFuzz.cpp) and the mutation
+///   test. A file may be refused, with one line of text, or give a model that keeps every promise of ModelData.h.
 #pragma once
 
 #include "filament_core/assets/GltfLoader.h"
@@ -15,7 +15,8 @@
 namespace filament::assets::test {
 
 inline const char* brokenPromise(ModelData const& model, Image const& image) {
-    if (image.width == 0 || image.height == 0 || image.data.size() != image.levelOffset(image.levels)) return "image size";
+    if (image.width == 0 || image.height == 0 || image.data.size() != image.levelOffset(image.levels))
+        return "image size";
     if (image.levels != backend::fullMipCount(image.width, image.height)) return "mip chain";
     return model.images.empty() ? "image list" : nullptr;
 }
@@ -25,7 +26,8 @@ inline const char* brokenPromise(ModelData const& model, MaterialData const& m) 
         if (texture->image != kNone && texture->image >= model.images.size()) return "image index";
         if (texture->uvSet > 1) return "uv set";
     }
-    if (!(m.metallicFactor >= 0 && m.metallicFactor <= 1 && m.roughnessFactor >= 0 && m.roughnessFactor <= 1)) return "factor";
+    if (!(m.metallicFactor >= 0 && m.metallicFactor <= 1 && m.roughnessFactor >= 0 && m.roughnessFactor <= 1))
+        return "factor";
     return std::isfinite(m.emissiveStrength) && m.emissiveStrength >= 0 ? nullptr : "emissive strength";
 }
 
@@ -83,7 +85,8 @@ inline bool fuzzGltf(std::span<const std::byte> file, std::filesystem::path cons
     const Result<ModelData> model = loadGltfFromMemory(file, baseDirectory, jobs);
     const char* broken = nullptr;
     if (model) broken = brokenPromise(*model);
-    if (!model && (model.error().message.empty() || model.error().message.find('\n') != std::string::npos)) broken = "message";
+    if (!model && (model.error().message.empty() || model.error().message.find('\n') != std::string::npos))
+        broken = "message";
     if (broken) {
         std::fprintf(stderr, "a loaded file broke the promise about: %s\n", broken);
         std::abort();

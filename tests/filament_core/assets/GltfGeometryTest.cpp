@@ -88,8 +88,9 @@ TEST(GltfGeometry, IndicesOfAnyWidthAreRead) {
         TestFile file = fourPoints(4);
         const std::vector<uint32_t> values{ 3, 1, 0 };
         file.primitive()["indices"] = width == kUByte ? file.add(std::vector<uint8_t>{ 3, 1, 0 }, kUByte, "SCALAR", 1)
-                : width == kUShort                    ? file.add(std::vector<uint16_t>{ 3, 1, 0 }, kUShort, "SCALAR", 1)
-                                                      : file.add(values, kUInt, "SCALAR", 1);
+                                      : width == kUShort
+                                              ? file.add(std::vector<uint16_t>{ 3, 1, 0 }, kUShort, "SCALAR", 1)
+                                              : file.add(values, kUInt, "SCALAR", 1);
         EXPECT_THAT(cornersOf(onlyPrimitive(file)), ElementsAre(kD, kB, kA)) << width;
     }
 }
@@ -111,10 +112,13 @@ TEST(GltfGeometry, InterleavedBuffersAreReadWithTheirStride) {
     TestFile file;
     const std::vector<float> mixed{ 0, 0, 0, 9, 9, 1, 0, 0, 9, 9, 0, 1, 0, 9, 9 };
     const size_t view = file.addView(std::as_bytes(std::span(mixed)), 20);
-    file.primitive()["attributes"]["POSITION"]
-            = file.addAccessor({ { "bufferView", view }, { "componentType", 5126 }, { "count", 3 }, { "type", "VEC3" } });
-    file.primitive()["attributes"]["TEXCOORD_0"] = file.addAccessor({ { "bufferView", view }, { "byteOffset", 12 },
-            { "componentType", 5126 }, { "count", 3 }, { "type", "VEC2" } });
+    file.primitive()["attributes"]["POSITION"] =
+            file.addAccessor({ { "bufferView", view }, { "componentType", 5126 }, { "count", 3 }, { "type", "VEC3" } });
+    file.primitive()["attributes"]["TEXCOORD_0"] = file.addAccessor({ { "bufferView", view },
+                                                                      { "byteOffset", 12 },
+                                                                      { "componentType", 5126 },
+                                                                      { "count", 3 },
+                                                                      { "type", "VEC2" } });
     const PrimitiveData primitive = onlyPrimitive(file);
     EXPECT_THAT(cornersOf(primitive), ElementsAre(kA, kB, kC));
     EXPECT_EQ(vertexValue(primitive, shader::kAttributeUv0, 2), float4(9, 9, 0, 1));
@@ -126,8 +130,9 @@ TEST(GltfGeometry, SparseAccessorsReplaceTheirElements) {
     const std::array<float, 3> replacement{ 7, 8, 9 };
     const size_t indices = file.addView(std::as_bytes(std::span(replaced)));
     const size_t values = file.addView(std::as_bytes(std::span(replacement)));
-    file.root["accessors"][0]["sparse"] = { { "count", 1 }, { "indices", { { "bufferView", indices }, { "componentType", 5123 } } },
-        { "values", { { "bufferView", values } } } };
+    file.root["accessors"][0]["sparse"] = { { "count", 1 },
+                                            { "indices", { { "bufferView", indices }, { "componentType", 5123 } } },
+                                            { "values", { { "bufferView", values } } } };
     EXPECT_THAT(cornersOf(onlyPrimitive(file)), ElementsAre(kA, float3(7, 8, 9), kC));
     file.root["accessors"][0].erase("bufferView"); // then the rest is zero
     EXPECT_THAT(cornersOf(onlyPrimitive(file)), ElementsAre(kA, float3(7, 8, 9), kA));
@@ -198,7 +203,8 @@ TEST(GltfGeometry, SkinsFollowTheirJointsAndNotTheirNode) {
     const ModelData model = loaded(skinnedTriangle());
     ASSERT_EQ(model.meshes.size(), 1u);
     // first joint (0, 0, 10), second (0, 5, 10); the third vertex hangs between them, its weights sum to 2
-    EXPECT_THAT(cornersOf(model.meshes[0].primitives[0]), ElementsAre(float3(0, 0, 10), float3(1, 5, 10), float3(0, 3.5f, 10)));
+    EXPECT_THAT(cornersOf(model.meshes[0].primitives[0]),
+                ElementsAre(float3(0, 0, 10), float3(1, 5, 10), float3(0, 3.5f, 10)));
     EXPECT_EQ(model.nodes[0].worldFromNode, double4x4(1.0));
 }
 

@@ -108,11 +108,16 @@ TEST(GltfMaterial, SamplersTranslateEveryModeOfOpenGl) {
         Filter filter;
         MipFilter mips;
     };
-    for (const Case c : { Case{ 9728, Filter::Nearest, MipFilter::None }, { 9729, Filter::Linear, MipFilter::None },
-                 { 9984, Filter::Nearest, MipFilter::Nearest }, { 9985, Filter::Linear, MipFilter::Nearest },
-                 { 9986, Filter::Nearest, MipFilter::Linear }, { 9987, Filter::Linear, MipFilter::Linear } }) {
+    for (const Case c : { Case{ 9728, Filter::Nearest, MipFilter::None },
+                          { 9729, Filter::Linear, MipFilter::None },
+                          { 9984, Filter::Nearest, MipFilter::Nearest },
+                          { 9985, Filter::Linear, MipFilter::Nearest },
+                          { 9986, Filter::Nearest, MipFilter::Linear },
+                          { 9987, Filter::Linear, MipFilter::Linear } }) {
         TestFile file = texturedTriangle(Json::parse(R"({ "emissiveTexture": { "index": 0 } })"));
-        file.root["samplers"] = { { { "minFilter", c.minFilter }, { "magFilter", 9728 }, { "wrapS", 33071 }, { "wrapT", 33648 } } };
+        file.root["samplers"] = {
+            { { "minFilter", c.minFilter }, { "magFilter", 9728 }, { "wrapS", 33071 }, { "wrapT", 33648 } }
+        };
         file.root["textures"][0]["sampler"] = 0;
         const backend::SamplerDesc sampler = loaded(file).materials.at(0).emissive.sampler;
         EXPECT_EQ(sampler.minFilter, c.filter) << c.minFilter;
@@ -137,22 +142,25 @@ float2 transformed(TextureRef const& texture, float2 uv) { return float2(texture
 // must appear on the quad. Their places are in the file, in the quad's coordinates.
 TEST(GltfMaterial, TextureTransformsPutTheArrowsOfTheTestModelOntoTheirMarkers) {
     const TextureRef turned = onlyMaterial(Json::parse(R"({ "emissiveTexture": { "index": 0, "extensions": {
-        "KHR_texture_transform": { "rotation": 0.39269908169872414 } } } })")).emissive;
+        "KHR_texture_transform": { "rotation": 0.39269908169872414 } } } })"))
+                                      .emissive;
     const float2 marker(0.5f - 0.07904822f, 0.5f + 0.51626748f);
     EXPECT_NEAR(transformed(turned, marker).x, 7 / 9.0f, 1e-4f);
     EXPECT_NEAR(transformed(turned, marker).y, 7 / 9.0f, 1e-4f);
 
     const TextureRef scaled = onlyMaterial(Json::parse(R"({ "emissiveTexture": { "index": 0, "extensions": {
-        "KHR_texture_transform": { "scale": [ 1.5, 1.5 ] } } } })")).emissive;
+        "KHR_texture_transform": { "scale": [ 1.5, 1.5 ] } } } })"))
+                                      .emissive;
     EXPECT_NEAR(transformed(scaled, float2(0.5f + 0.018544973f)).x, 7 / 9.0f, 1e-4f);
     EXPECT_TRUE(scaled.hasTransform);
 }
 
 TEST(GltfMaterial, TextureTransformsScaleThenTurnThenMove) {
-    const TextureRef texture = onlyMaterial(Json::parse(R"({ "emissiveTexture": { "index": 0, "texCoord": 0, "extensions": {
+    const TextureRef texture =
+            onlyMaterial(Json::parse(R"({ "emissiveTexture": { "index": 0, "texCoord": 0, "extensions": {
         "KHR_texture_transform": { "offset": [ 10, 20 ], "rotation": 1.5707963267948966, "scale": [ 2, 3 ], "texCoord": 1 } } } })"))
-                                       .emissive;
-    EXPECT_EQ(texture.uvSet, 1u); // the extension's set wins
+                    .emissive;
+    EXPECT_EQ(texture.uvSet, 1u);                         // the extension's set wins
     const float2 uv = transformed(texture, float2(1, 1)); // (2, 3), turned to (3, -2), moved
     EXPECT_NEAR(uv.x, 13, 1e-5f);
     EXPECT_NEAR(uv.y, 18, 1e-5f);
@@ -165,8 +173,8 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreClampedWithAWarning) {
     EXPECT_EQ(model.materials[0].baseColorFactor.y, 0.0f);
     EXPECT_EQ(model.materials[0].alphaMode, AlphaMode::Opaque);
     EXPECT_THAT(model.warnings,
-            ElementsAre(AllOf(HasSubstr("materials[0].pbrMetallicRoughness.baseColorFactor"), HasSubstr("-2")),
-                    HasSubstr("materials[0].pbrMetallicRoughness.metallicFactor: 7"), HasSubstr("'FOG'")));
+                ElementsAre(AllOf(HasSubstr("materials[0].pbrMetallicRoughness.baseColorFactor"), HasSubstr("-2")),
+                            HasSubstr("materials[0].pbrMetallicRoughness.metallicFactor: 7"), HasSubstr("'FOG'")));
 }
 
 TEST(GltfMaterial, UnknownExtensionsAreNamedOnceAndTheBaseMaterialIsLoaded) {

@@ -37,9 +37,11 @@ Specimen writtenSpecimen() {
     file.root["meshes"][0]["weights"] = { 0.5 };
     const std::array<uint16_t, 2> where{ 0, 2 };
     const std::array<float, 6> what{ 1, 2, 3, 4, 5, 6 };
-    file.root["accessors"][0]["sparse"] = { { "count", 2 },
+    file.root["accessors"][0]["sparse"] = {
+        { "count", 2 },
         { "indices", { { "bufferView", file.addView(std::as_bytes(std::span(where))) }, { "componentType", 5123 } } },
-        { "values", { { "bufferView", file.addView(std::as_bytes(std::span(what))) } } } };
+        { "values", { { "bufferView", file.addView(std::as_bytes(std::span(what))) } } }
+    };
     const std::vector<std::byte> pixels(5 * 3 * 4, std::byte{ 77 });
     file.root["images"] = { { { "bufferView", file.addView(glbImageFromPixels("i", 5, 3, pixels)->file) } } };
     file.root["samplers"] = { { { "minFilter", 9984 } } };
@@ -74,10 +76,11 @@ Specimen assetSpecimen(std::filesystem::path const& path) {
 std::vector<Specimen> allSpecimens() {
     std::vector<Specimen> specimens{ writtenSpecimen() };
     if (std::string_view(FILAMENT_ASSET_DIR).empty()) return specimens;
-    for (const char* name : { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",
-                 "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf", "SimpleInstancing/SimpleInstancing.glb",
-                 "UnlitTest/UnlitTest.glb", "BoxAnimated/BoxAnimated.glb", "RiggedFigure/RiggedFigure.glb",
-                 "TextureCoordinateTest/TextureCoordinateTest.glb", "VertexColorTest/VertexColorTest.glb" }) {
+    for (const char* name :
+         { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",
+           "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf", "SimpleInstancing/SimpleInstancing.glb",
+           "UnlitTest/UnlitTest.glb", "BoxAnimated/BoxAnimated.glb", "RiggedFigure/RiggedFigure.glb",
+           "TextureCoordinateTest/TextureCoordinateTest.glb", "VertexColorTest/VertexColorTest.glb" }) {
         specimens.push_back(assetSpecimen(std::filesystem::path(FILAMENT_ASSET_DIR) / "models" / name));
     }
     return specimens;
@@ -90,10 +93,18 @@ public:
     void scratch(Specimen& specimen) {
         for (size_t i = below(4) + 1; i > 0; --i) {
             switch (below(4)) {
-                case 0: replaceNumber(specimen.json); break;
-                case 1: replaceCharacter(specimen.json); break;
-                case 2: moveText(specimen.json); break;
-                default: flipBits(specimen.binary); break;
+            case 0:
+                replaceNumber(specimen.json);
+                break;
+            case 1:
+                replaceCharacter(specimen.json);
+                break;
+            case 2:
+                moveText(specimen.json);
+                break;
+            default:
+                flipBits(specimen.binary);
+                break;
             }
         }
     }
@@ -103,8 +114,27 @@ private:
 
     /// One number of the file becomes another, often a nasty one.
     void replaceNumber(std::string& text) {
-        static constexpr std::array kNumbers{ "-1", "0", "1", "2", "3", "7", "255", "65535", "65536", "4294967295",
-            "4294967296", "9007199254740992", "18446744073709551615", "1e308", "-1e308", "0.5", "1e-320", "5121", "5126", "null", "\"x\"" };
+        static constexpr std::array kNumbers{ "-1",
+                                              "0",
+                                              "1",
+                                              "2",
+                                              "3",
+                                              "7",
+                                              "255",
+                                              "65535",
+                                              "65536",
+                                              "4294967295",
+                                              "4294967296",
+                                              "9007199254740992",
+                                              "18446744073709551615",
+                                              "1e308",
+                                              "-1e308",
+                                              "0.5",
+                                              "1e-320",
+                                              "5121",
+                                              "5126",
+                                              "null",
+                                              "\"x\"" };
         const size_t start = text.find_first_of("0123456789", below(text.size()));
         if (start == std::string::npos) return;
         const size_t end = std::min(text.find_first_not_of("0123456789.eE+-", start), text.size());

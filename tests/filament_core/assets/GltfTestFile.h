@@ -56,17 +56,21 @@ struct TestFile {
     }
 
     template <class T>
-    size_t add(std::vector<T> const& values, Component component, const char* type, size_t perElement, bool normalized = false) {
+    size_t add(std::vector<T> const& values, Component component, const char* type, size_t perElement,
+               bool normalized = false) {
         const size_t view = addView(std::as_bytes(std::span(values)));
-        return addAccessor({ { "bufferView", view }, { "componentType", int(component) },
-                { "count", values.size() / perElement }, { "type", type }, { "normalized", normalized } });
+        return addAccessor({ { "bufferView", view },
+                             { "componentType", int(component) },
+                             { "count", values.size() / perElement },
+                             { "type", type },
+                             { "normalized", normalized } });
     }
 
     Json& primitive() { return root["meshes"][0]["primitives"][0]; }
 
     template <class T>
     void attribute(const char* name, std::vector<T> const& values, Component component, const char* type,
-            size_t perElement, bool normalized = false) {
+                   size_t perElement, bool normalized = false) {
         primitive()["attributes"][name] = add(values, component, type, perElement, normalized);
     }
     void positions(std::vector<float> const& values) { attribute("POSITION", values, kFloat, "VEC3", 3); }
@@ -82,7 +86,8 @@ struct TestFile {
 
     Bytes glb() const {
         Json finished = root;
-        if (!binary.empty() && !finished.contains("buffers")) finished["buffers"] = { { { "byteLength", binary.size() } } };
+        if (!binary.empty() && !finished.contains("buffers"))
+            finished["buffers"] = { { { "byteLength", binary.size() } } };
         return glbFrom(finished.dump(), binary);
     }
 
@@ -125,7 +130,8 @@ inline float4 vertexValue(PrimitiveData const& primitive, uint8_t location, uint
     for (uint32_t i = 0; i < primitive.layout.attributeCount; ++i) {
         backend::VertexAttribute const& attribute = primitive.layout.attributes[i];
         if (attribute.location != location) continue;
-        std::byte const* bytes = &primitive.vertices[size_t{ vertex } * primitive.layout.buffers[0].stride + attribute.offset];
+        std::byte const* bytes =
+                &primitive.vertices[size_t{ vertex } * primitive.layout.buffers[0].stride + attribute.offset];
         const auto read = [&]<class T>(T, float one, int count) {
             for (int c = 0; c < count; ++c) {
                 T component;
@@ -134,16 +140,36 @@ inline float4 vertexValue(PrimitiveData const& primitive, uint8_t location, uint
             }
         };
         switch (attribute.format) {
-            case VertexFormat::Float2: read(float{}, 1, 2); break;
-            case VertexFormat::Float3: read(float{}, 1, 3); break;
-            case VertexFormat::Float4: read(float{}, 1, 4); break;
-            case VertexFormat::Byte4N: read(int8_t{}, 127, 4); break;
-            case VertexFormat::UByte4N: read(uint8_t{}, 255, 4); break;
-            case VertexFormat::Short2N: read(int16_t{}, 32767, 2); break;
-            case VertexFormat::UShort2N: read(uint16_t{}, 65535, 2); break;
-            case VertexFormat::Short4N: read(int16_t{}, 32767, 4); break;
-            case VertexFormat::UShort4N: read(uint16_t{}, 65535, 4); break;
-            default: ADD_FAILURE() << "a format that the shader does not read as floats"; break;
+        case VertexFormat::Float2:
+            read(float{}, 1, 2);
+            break;
+        case VertexFormat::Float3:
+            read(float{}, 1, 3);
+            break;
+        case VertexFormat::Float4:
+            read(float{}, 1, 4);
+            break;
+        case VertexFormat::Byte4N:
+            read(int8_t{}, 127, 4);
+            break;
+        case VertexFormat::UByte4N:
+            read(uint8_t{}, 255, 4);
+            break;
+        case VertexFormat::Short2N:
+            read(int16_t{}, 32767, 2);
+            break;
+        case VertexFormat::UShort2N:
+            read(uint16_t{}, 65535, 2);
+            break;
+        case VertexFormat::Short4N:
+            read(int16_t{}, 32767, 4);
+            break;
+        case VertexFormat::UShort4N:
+            read(uint16_t{}, 65535, 4);
+            break;
+        default:
+            ADD_FAILURE() << "a format that the shader does not read as floats";
+            break;
         }
     }
     return value;

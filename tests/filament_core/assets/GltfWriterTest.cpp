@@ -10,10 +10,10 @@ namespace {
 using testing::HasSubstr;
 
 constexpr backend::SamplerDesc kClamped{ .magFilter = backend::Filter::Nearest,
-    .minFilter = backend::Filter::Linear,
-    .mipFilter = backend::MipFilter::Nearest,
-    .wrapU = backend::WrapMode::ClampToEdge,
-    .wrapV = backend::WrapMode::MirroredRepeat };
+                                         .minFilter = backend::Filter::Linear,
+                                         .mipFilter = backend::MipFilter::Nearest,
+                                         .wrapU = backend::WrapMode::ClampToEdge,
+                                         .wrapV = backend::WrapMode::MirroredRepeat };
 
 GlbImage checkerboard(uint8_t alpha) {
     const std::array<uint8_t, 16> pixels{ 255, 0, 0, 255, 0, 255, 0, 255, 0, 0, 255, 255, 9, 9, 9, alpha };
@@ -47,22 +47,30 @@ GlbScene exampleScene() {
     unlit.alphaMode = AlphaMode::Blend;
     scene.materials = { plain, rich, unlit };
     GlbPrimitive primitive{ .positions = { float3(0, 0, 0), float3(1, 0, 0), float3(0, 2, 0) },
-        .normals = std::vector<float3>(3, float3(0, 0, 1)),
-        .tangents = std::vector<float4>(3, float4(1, 0, 0, -1)),
-        .colors = std::vector<float4>(3, float4(0.5f, 1, 2, 1)),
-        .uvs = { float2(0, 0), float2(1, 0), float2(0, 1) },
-        .indices = { 0, 1, 2 },
-        .material = 1 };
+                            .normals = std::vector<float3>(3, float3(0, 0, 1)),
+                            .tangents = std::vector<float4>(3, float4(1, 0, 0, -1)),
+                            .colors = std::vector<float4>(3, float4(0.5f, 1, 2, 1)),
+                            .uvs = { float2(0, 0), float2(1, 0), float2(0, 1) },
+                            .indices = { 0, 1, 2 },
+                            .material = 1 };
     GlbPrimitive bare{ .positions = primitive.positions, .material = 2 };
-    scene.meshes = { { "both", { primitive, bare } }, { "plain", { { .positions = primitive.positions, .material = 0 } } } };
-    scene.lights = { { .name = "spot", .type = LightType::Spot, .color = { 1, 0.5f, 0 }, .intensity = 100, .rangeMeters = 7,
-                             .innerConeRadians = 0.25f, .outerConeRadians = 0.5f },
-        { .name = "sun", .type = LightType::Directional, .intensity = 1000 } };
+    scene.meshes = { { "both", { primitive, bare } },
+                     { "plain", { { .positions = primitive.positions, .material = 0 } } } };
+    scene.lights = { { .name = "spot",
+                       .type = LightType::Spot,
+                       .color = { 1, 0.5f, 0 },
+                       .intensity = 100,
+                       .rangeMeters = 7,
+                       .innerConeRadians = 0.25f,
+                       .outerConeRadians = 0.5f },
+                     { .name = "sun", .type = LightType::Directional, .intensity = 1000 } };
     double4x4 moved(1.0);
     moved[3] = double4(1, 2, 3, 1);
     scene.nodes = { { .name = "root", .parentFromNode = moved, .children = { 1, 2 } },
-        { .name = "a", .parentFromNode = moved, .mesh = 0 }, { .name = "b", .light = 0 }, { .name = "c", .mesh = 1 },
-        { .name = "d", .light = 1 } };
+                    { .name = "a", .parentFromNode = moved, .mesh = 0 },
+                    { .name = "b", .light = 0 },
+                    { .name = "c", .mesh = 1 },
+                    { .name = "d", .light = 1 } };
     return scene;
 }
 

@@ -33,9 +33,10 @@ uint8_t texel(Image const& image, uint32_t level, size_t component) {
 double linearFromSrgb(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
 double srgbFromLinear(double v) { return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
-/// The mean over the part of `image` level 0 that texel (x, y) of `level` covers, integrated exactly in double. Only for
-/// levels whose chain never rounds a size down unevenly: level 1 of any size, all levels of powers of two.
-double expectedCode(Image const& base, bool isColor, uint32_t width, uint32_t height, uint32_t x, uint32_t y, uint32_t c) {
+/// The mean over the part of `image` level 0 that texel (x, y) of `level` covers, integrated exactly in double. Only
+/// for levels whose chain never rounds a size down unevenly: level 1 of any size, all levels of powers of two.
+double expectedCode(Image const& base, bool isColor, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
+                    uint32_t c) {
     const bool isSrgb = isColor && c < 3;
     const double sx = double(base.width) / width, sy = double(base.height) / height;
     double sum = 0;
@@ -68,7 +69,8 @@ void expectLevel(Image const& base, Image const& mips, uint32_t level, bool isCo
 }
 
 TEST(MipMaps, LevelOneIsTheExactAreaMeanForEvenAndOddSizes) {
-    for (const auto& [width, height] : { std::pair{ 8u, 4u }, { 7u, 5u }, { 6u, 9u }, { 1u, 7u }, { 13u, 1u }, { 2u, 2u }, { 3u, 3u } }) {
+    for (const auto& [width, height] :
+         { std::pair{ 8u, 4u }, { 7u, 5u }, { 6u, 9u }, { 1u, 7u }, { 13u, 1u }, { 2u, 2u }, { 3u, 3u } }) {
         for (const bool isColor : { true, false }) {
             const Image base = noise(width, height);
             expectLevel(base, withMipMaps(base, isColor), 1, isColor);
@@ -98,7 +100,8 @@ TEST(MipMaps, LevelZeroIsUntouchedAndTheFormatTellsTheUse) {
 TEST(MipMaps, UniformImagesStayUniformForEveryCode) {
     for (uint32_t code = 0; code < 256; ++code) {
         for (const bool isColor : { true, false }) {
-            const Image mips = withMipMaps(imageOf(7, 6, std::vector<uint8_t>(7 * 6 * 4, static_cast<uint8_t>(code))), isColor);
+            const Image mips =
+                    withMipMaps(imageOf(7, 6, std::vector<uint8_t>(7 * 6 * 4, static_cast<uint8_t>(code))), isColor);
             for (const std::byte value : mips.data) ASSERT_EQ(static_cast<uint32_t>(value), code);
         }
     }

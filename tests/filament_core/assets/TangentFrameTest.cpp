@@ -52,8 +52,10 @@ TEST(TangentFrame, TheShaderGetsBackWhatWasEncoded) {
 
 TEST(TangentFrame, HalfTurnsKeepTheirHandedness) {
     // rotations by 180 degrees have w = 0, where the sign would be lost
-    for (const float3 normal : { float3(0, 0, -1), float3(1, 0, 0), float3(-1, 0, 0), float3(0, 1, 0), float3(0, -1, 0) }) {
-        for (const float3 axis : { float3(1, 0, 0), float3(-1, 0, 0), float3(0, 1, 0), float3(0, -1, 0), float3(0, 0, 1) }) {
+    for (const float3 normal :
+         { float3(0, 0, -1), float3(1, 0, 0), float3(-1, 0, 0), float3(0, 1, 0), float3(0, -1, 0) }) {
+        for (const float3 axis :
+             { float3(1, 0, 0), float3(-1, 0, 0), float3(0, 1, 0), float3(0, -1, 0), float3(0, 0, 1) }) {
             if (std::abs(glm::dot(axis, normal)) > 0.5f) continue;
             for (const float handedness : { 1.0f, -1.0f }) {
                 const auto encoded = encodeTangentFrame(normal, axis, handedness);
@@ -70,15 +72,18 @@ TEST(TangentFrame, HalfTurnsKeepTheirHandedness) {
 TEST(TangentFrame, UnusableVectorsAreRepairedAndTheNormalStays) {
     const float inf = std::numeric_limits<float>::infinity(), nan = std::nanf("");
     const float3 normal(0, 0.6f, 0.8f);
-    for (const float3 tangent : { float3(0.0f), normal, -normal, float3(nan, 0, 0), float3(inf, 1, 0), float3(1e-38f), normal * 1e30f }) {
+    for (const float3 tangent :
+         { float3(0.0f), normal, -normal, float3(nan, 0, 0), float3(inf, 1, 0), float3(1e-38f), normal * 1e30f }) {
         const Frame frame = decoded(encodeTangentFrame(normal, tangent, 1));
         expectNear(frame.normal, normal, kTolerance);
         EXPECT_NEAR(glm::dot(frame.normal, frame.tangent), 0, kTolerance);
         EXPECT_NEAR(glm::length(frame.tangent), 1, kTolerance);
     }
     expectNear(decoded(encodeTangentFrame(float3(nan), float3(1, 0, 0), 1)).normal, float3(0, 0, 1), kTolerance);
-    expectNear(decoded(encodeTangentFrame(float3(0, 1e-25f, 0), float3(1, 0, 0), 1)).normal, float3(0, 1, 0), kTolerance);
-    expectNear(decoded(encodeTangentFrame(float3(0, 1e25f, 0), float3(1, 0, 0), 1)).normal, float3(0, 1, 0), kTolerance);
+    expectNear(decoded(encodeTangentFrame(float3(0, 1e-25f, 0), float3(1, 0, 0), 1)).normal, float3(0, 1, 0),
+               kTolerance);
+    expectNear(decoded(encodeTangentFrame(float3(0, 1e25f, 0), float3(1, 0, 0), 1)).normal, float3(0, 1, 0),
+               kTolerance);
 }
 
 TEST(TangentFrame, AnyTangentIsPerpendicularAndUnit) {

@@ -39,13 +39,17 @@ void expectNear(float4 actual, float4 expected, float tolerance = 1e-5f) {
 
 TEST(Tangents, PointAlongGrowingU) {
     // v grows downwards in glTF: with u to the right and v down, nothing is mirrored
-    for (float4 const& tangent : square(float2(1, 0), float2(0, -1)).tangents().tangents) expectNear(tangent, float4(1, 0, 0, 1));
-    for (float4 const& tangent : square(float2(0, 5), float2(5, 0)).tangents().tangents) expectNear(tangent, float4(0, 1, 0, 1));
+    for (float4 const& tangent : square(float2(1, 0), float2(0, -1)).tangents().tangents)
+        expectNear(tangent, float4(1, 0, 0, 1));
+    for (float4 const& tangent : square(float2(0, 5), float2(5, 0)).tangents().tangents)
+        expectNear(tangent, float4(0, 1, 0, 1));
 }
 
 TEST(Tangents, MirroredTexturesAreLeftHanded) {
-    for (float4 const& tangent : square(float2(1, 0), float2(0, 1)).tangents().tangents) expectNear(tangent, float4(1, 0, 0, -1));
-    for (float4 const& tangent : square(float2(-1, 0), float2(0, -1)).tangents().tangents) expectNear(tangent, float4(-1, 0, 0, -1));
+    for (float4 const& tangent : square(float2(1, 0), float2(0, 1)).tangents().tangents)
+        expectNear(tangent, float4(1, 0, 0, -1));
+    for (float4 const& tangent : square(float2(-1, 0), float2(0, -1)).tangents().tangents)
+        expectNear(tangent, float4(-1, 0, 0, -1));
 }
 
 TEST(Tangents, BitangentsPointToWhereVFalls) {
@@ -83,8 +87,8 @@ TEST(Tangents, VerticesOnAMirrorSeamAreSplit) {
 }
 
 TEST(Tangents, TheMeanIsWeightedByTheAngleOfTheCorner) {
-    // Around the origin: two triangles of 45 degrees with dP/du = (1, 0), one of 90 degrees with dP/du = (2, 2). Neither
-    // their number nor their sizes count: 90 degrees of the one against 90 of the other.
+    // Around the origin: two triangles of 45 degrees with dP/du = (1, 0), one of 90 degrees with dP/du = (2, 2).
+    // Neither their number nor their sizes count: 90 degrees of the one against 90 of the other.
     Mesh mesh;
     const float3 n(0, 0, 1);
     mesh.add(float3(0, 0, 0), n, float2(0, 0));
@@ -101,7 +105,8 @@ TEST(Tangents, TheMeanIsWeightedByTheAngleOfTheCorner) {
 TEST(Tangents, EqualVerticesWithoutSharedIndicesAreOne) {
     Mesh mesh;
     const Mesh shared = mirroredStrip();
-    for (const uint32_t index : shared.indices) mesh.add(shared.positions[index], shared.normals[index], shared.uvs[index]);
+    for (const uint32_t index : shared.indices)
+        mesh.add(shared.positions[index], shared.normals[index], shared.uvs[index]);
     mesh.indices.resize(shared.indices.size());
     std::iota(mesh.indices.begin(), mesh.indices.end(), 0u);
     const TangentOutput indexed = shared.tangents(), unindexed = mesh.tangents();
