@@ -4,7 +4,9 @@
 #include "shaders/compiler/JsonishLexer.h"
 
 #include <algorithm>
+#include <cctype>
 #include <charconv>
+#include <utility>
 
 namespace filament::shader {
 namespace {
@@ -102,7 +104,7 @@ private:
             if (colon.kind != TokenKind::Colon) return unexpected(colon, "':'");
             Result<JsonValue> member = value(mLexer.next(), depth);
             if (!member) return member;
-            object.members.emplace_back(key.text, std::move(*member));
+            object.members.push_back({ key.text, std::move(*member) });
             const Token separator = mLexer.next();
             if (separator.kind == TokenKind::CloseBrace) break;
             if (separator.kind != TokenKind::Comma) return unexpected(separator, "',' or '}'");

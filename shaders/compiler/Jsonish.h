@@ -16,7 +16,6 @@
 #include <optional>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 namespace filament::shader {
@@ -33,6 +32,8 @@ struct SourcePosition {
 /// "file:line: message" as an Error.
 Error errorAt(SourcePosition const& at, std::string const& message, ErrorCode code = ErrorCode::InvalidArgument);
 
+struct JsonMember;
+
 struct JsonValue {
     enum class Kind : uint8_t { Bool, Number, String, Array, Object };
     Kind kind = Kind::String;
@@ -40,8 +41,13 @@ struct JsonValue {
     std::string text;   ///< as written, without quotes; of scalars
     double number = 0;  ///< of Number
     bool boolean = false;
-    std::vector<JsonValue> items;                           ///< of Array
-    std::vector<std::pair<std::string, JsonValue>> members; ///< of Object, in the order of the file
+    std::vector<JsonValue> items;    ///< of Array
+    std::vector<JsonMember> members; ///< of Object, in the order of the file
+};
+
+struct JsonMember {
+    std::string name;
+    JsonValue value;
 };
 
 /// What the kind is called in error messages: "a string", "an array", ...

@@ -26,10 +26,10 @@ TEST(Jsonish, TakesKeysAndStringsWithAndWithoutQuotes) {
     ASSERT_TRUE(parsed) << parsed.error().message;
     auto const& members = parsed->material.members;
     ASSERT_EQ(members.size(), 2u);
-    EXPECT_EQ(members[0].first, "name");
-    EXPECT_EQ(members[0].second.text, "Wet pavement");
-    EXPECT_EQ(members[1].first, "shadingModel");
-    EXPECT_EQ(members[1].second.text, "lit");
+    EXPECT_EQ(members[0].name, "name");
+    EXPECT_EQ(members[0].value.text, "Wet pavement");
+    EXPECT_EQ(members[1].name, "shadingModel");
+    EXPECT_EQ(members[1].value.text, "lit");
 }
 
 TEST(Jsonish, TellsBooleansNumbersAndStringsApart) {
@@ -40,12 +40,12 @@ TEST(Jsonish, TellsBooleansNumbersAndStringsApart) {
     const std::vector<Kind> expected{ Kind::Bool,   Kind::Bool,   Kind::Number, Kind::Number,
                                       Kind::String, Kind::String, Kind::String };
     ASSERT_EQ(members.size(), expected.size());
-    for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(members[i].second.kind, expected[i]) << members[i].first;
-    EXPECT_TRUE(members[0].second.boolean);
-    EXPECT_FALSE(members[1].second.boolean);
-    EXPECT_EQ(members[2].second.number, -0.5);
-    EXPECT_EQ(members[3].second.number, 1000.0);
-    EXPECT_EQ(members[6].second.text, "float[9]");
+    for (size_t i = 0; i < expected.size(); ++i) EXPECT_EQ(members[i].value.kind, expected[i]) << members[i].name;
+    EXPECT_TRUE(members[0].value.boolean);
+    EXPECT_FALSE(members[1].value.boolean);
+    EXPECT_EQ(members[2].value.number, -0.5);
+    EXPECT_EQ(members[3].value.number, 1000.0);
+    EXPECT_EQ(members[6].value.text, "float[9]");
 }
 
 TEST(Jsonish, AllowsCommentsAndTrailingCommas) {
@@ -54,9 +54,9 @@ TEST(Jsonish, AllowsCommentsAndTrailingCommas) {
     ASSERT_TRUE(parsed) << parsed.error().message;
     auto const& members = parsed->material.members;
     ASSERT_EQ(members.size(), 2u);
-    ASSERT_EQ(members[0].second.items.size(), 2u);
-    EXPECT_EQ(members[0].second.items[1].kind, Kind::Array);
-    EXPECT_EQ(members[1].second.members.size(), 1u);
+    ASSERT_EQ(members[0].value.items.size(), 2u);
+    EXPECT_EQ(members[0].value.items[1].kind, Kind::Array);
+    EXPECT_EQ(members[1].value.members.size(), 1u);
 }
 
 TEST(Jsonish, KeepsGlslAsItIsAndKnowsItsLine) {
