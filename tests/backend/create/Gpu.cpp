@@ -45,6 +45,21 @@ struct StreamOrReason {
     std::string reason; ///< why there is none
 };
 
+// What a driver makes for itself at its first frame and its first upload is not memory that the first test kept.
+void warmUp(CommandStream& stream) {
+    const TextureHandle texture = stream.allocateTexture();
+    const std::array<std::byte, 4> texel{};
+    CommandBuffer& commands = stream.acquire();
+    commands.record(CmdBeginFrame{ 0 });
+    commands.record(CmdCreateTexture{ texture, { .usage = TextureUsage::TransferTarget, .debugName = "warm-up" } });
+    commands.record(CmdUploadTexture{ .texture = texture, .rect = { 0, 0, 1, 1 }, .bytes = texel });
+    commands.record(CmdDestroyTexture{ texture });
+    commands.record(CmdEndFrame{ 0 });
+    stream.submit(commands);
+    stream.free(texture);
+    stream.waitIdle();
+}
+
 StreamOrReason startStream(BackendType type) {
     auto stream = CommandStream::start([type](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
         Result<std::unique_ptr<Driver>> driver = createDriver(type, { .requireDevice = {}, .validation = true }, sink);
@@ -52,12 +67,7 @@ StreamOrReason startStream(BackendType type) {
         return validate(std::move(*driver), sink);
     });
     if (!stream) return { nullptr, stream.error().message };
-    // What a driver makes for itself at its first frame is not kept memory of the first test.
-    CommandBuffer& first = (*stream)->acquire();
-    first.record(CmdBeginFrame{ 0 });
-    first.record(CmdEndFrame{ 0 });
-    (*stream)->submit(first);
-    (*stream)->waitIdle();
+    warmUp(**stream);
     return { std::move(*stream), {} };
 }
 
@@ -218,9 +228,7 @@ TextureHandle Gpu::paint(Program const& program, Paint const& paint) {
     const PipelineHandle painter = pipeline(pipelineFor(program, pass.layout));
     record(CmdBeginPass{ pass });
     record(CmdBindPipeline{ painter });
-    for (uint8_t i = 0; i < kMaxBindGroups; ++i) {
-        if (paint.groups[i]) record(CmdBindGroup{ .group = paint.groups[i], .index = i });
-    }
+    if (paint.group) record(CmdBindGroup{ .group = paint.group, .index = 1 });
     record(CmdDraw{ .vertexCount = 3 });
     record(CmdEndPass{});
     return texture;

@@ -48,7 +48,7 @@ struct Program {
 struct Paint {
     uint32_t width = 4, height = 4;
     Format format = Format::RGBA32F;
-    std::array<BindGroupHandle, kMaxBindGroups> groups{};
+    BindGroupHandle group{}; ///< at index 1
 };
 
 class Gpu {
