@@ -268,6 +268,7 @@ struct BlendState {
     friend bool operator==(BlendState const&, BlendState const&) = default;
 };
 
+/// A colour attachment that the program has no output for keeps its contents.
 struct PipelineDesc {
     ProgramHandle program;
     PassLayout pass{};
