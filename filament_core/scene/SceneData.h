@@ -9,7 +9,9 @@
 #include "filament_core/math/Box.h"
 #include "filament_core/scene/Materials.h"
 
-#include <filament/Scene.h>
+#include <filament/Box.h>
+#include <filament/Objects.h>
+#include <filament/Units.h>
 
 #include <string>
 #include <vector>

@@ -28,6 +28,8 @@ using IndirectLight = Handle<struct IndirectLightObject>;
 using Skybox = Handle<struct SkyboxObject>;
 using RenderTarget = Handle<struct RenderTargetObject>;
 using SwapChain = Handle<struct SwapChainObject>;
+using Renderable = Handle<struct RenderableObject>; ///< of one Scene
+using Light = Handle<struct LightObject>;           ///< of one Scene
 
 enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube };
 

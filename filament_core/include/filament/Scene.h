@@ -5,6 +5,7 @@
 ///   Life    the scene does not own buffers, materials or models: they must outlive it or be removed first.
 #pragma once
 
+#include <filament/Box.h>
 #include <filament/Engine.h>
 #include <filament/Light.h>
 
@@ -13,17 +14,8 @@
 
 namespace filament {
 
-using Renderable = Handle<struct RenderableObject>;
-using Light = Handle<struct LightObject>;
-
 class Model;
 class Environment;
-
-/// Axis-aligned box; empty when min > max.
-struct Box {
-    double3 min{ 1e300 }, max{ -1e300 };
-    bool empty() const { return min.x > max.x; }
-};
 
 struct RenderableDesc {
     VertexBuffer vertices{};
