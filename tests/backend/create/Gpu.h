@@ -54,10 +54,14 @@ struct Paint {
 class Gpu {
 public:
     explicit Gpu(CommandStream& stream);
+    Gpu(Gpu const&) = delete;
+    Gpu& operator=(Gpu const&) = delete;
 
     DeviceInfo const& info() const { return mStream.info(); }
     DriverStatistics statistics() const { return mStream.statistics(); }
     BackendType backend() const { return info().backend; }
+    /// A second one on the same stream; this one must have nothing open.
+    Gpu another() { return Gpu(mStream); }
 
     // ---- objects
     BufferHandle buffer(BufferUsage usage, uint64_t size);
@@ -96,6 +100,8 @@ public:
     void submit();
     Ticket nextTicket() { return mStream.nextTicket(); }
     uint64_t timerOf(Ticket ticket); ///< waits for it
+    void destroyAll();               ///< records it; more may follow in the same submission
+    void destroyEarly(ProgramHandle program);
 
     // ---- answers
     /// Waits. What is read is also what the two APIs are compared by.
@@ -109,6 +115,7 @@ public:
         values.resize(size_t{ rect.width } * rect.height);
         return values;
     }
+    Bytes wait(Ticket ticket); ///< of a CmdReadTexture that the test recorded
     /// Errors so far; a test that provokes errors takes them.
     std::vector<DriverError> takeErrors();
 
@@ -117,11 +124,13 @@ public:
 
 private:
     CommandStream& mStream;
+    uint32_t mHandlesBefore = 0;
     CommandBuffer* mOpen = nullptr;
     uint64_t mFrame = 0;
     uint64_t mBytesBefore = 0;
     std::vector<std::function<void()>> mDestroy;
     std::vector<Bytes> mReadbacks;
+    ProgramHandle mDestroyedEarly;
 };
 
 /// Formats of a pass over these textures, all cleared to 0 and stored.
