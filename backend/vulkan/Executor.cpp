@@ -83,7 +83,8 @@ DriverStatistics Executor::statistics() const {
 }
 
 void Executor::publishStatistics() {
-    mStatistics.deviceBytes = mDevice->memory().statistics().usedBytes;
+    // The staging ring belongs to the driver, not to any object of the stream.
+    mStatistics.deviceBytes = mDevice->memory().statistics().usedBytes - mUpload->ringBytes();
     const std::lock_guard lock(mPublishedMutex);
     mPublished = mStatistics;
 }

@@ -32,6 +32,8 @@ public:
     /// Copies `bytes` to where the GPU can read them.
     std::optional<StagedBytes> stage(std::span<const std::byte> bytes);
 
+    uint64_t ringBytes() const { return mRing ? mRing->bytes() : 0; }
+
 private:
     std::optional<StagedBytes> reserve(uint64_t bytes);
     std::optional<StagedBytes> reserveInRing(uint64_t bytes);
