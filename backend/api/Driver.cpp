@@ -5,9 +5,12 @@ namespace filament::backend {
 
 const char* toString(BackendType type) {
     switch (type) {
-        case BackendType::Null: return "null";
-        case BackendType::Vulkan: return "Vulkan";
-        case BackendType::Gles: return "OpenGL ES";
+    case BackendType::Null:
+        return "null";
+    case BackendType::Vulkan:
+        return "Vulkan";
+    case BackendType::Gles:
+        return "OpenGL ES";
     }
     return "unknown";
 }

@@ -29,8 +29,9 @@ inline constexpr std::array kEnumNames<BufferUsage>{ "Vertex"sv, "Index"sv, "Uni
 template <>
 inline constexpr bool kIsFlags<TextureUsage> = true;
 template <>
-inline constexpr std::array kEnumNames<TextureUsage>{ "Sampled"sv, "ColorAttachment"sv, "DepthAttachment"sv,
-    "InputAttachment"sv, "TransferSource"sv, "TransferTarget"sv, "Transient"sv };
+inline constexpr std::array kEnumNames<TextureUsage>{ "Sampled"sv,         "ColorAttachment"sv, "DepthAttachment"sv,
+                                                      "InputAttachment"sv, "TransferSource"sv,  "TransferTarget"sv,
+                                                      "Transient"sv };
 template <>
 inline constexpr bool kIsFlags<ShaderStage> = true;
 template <>
@@ -47,11 +48,12 @@ inline constexpr std::array kEnumNames<MipFilter>{ "None"sv, "Nearest"sv, "Linea
 template <>
 inline constexpr std::array kEnumNames<WrapMode>{ "Repeat"sv, "MirroredRepeat"sv, "ClampToEdge"sv };
 template <>
-inline constexpr std::array kEnumNames<CompareOp>{ "None"sv, "Never"sv, "Less"sv, "Equal"sv, "LessEqual"sv, "Greater"sv,
-    "NotEqual"sv, "GreaterEqual"sv, "Always"sv };
+inline constexpr std::array kEnumNames<CompareOp>{ "None"sv,     "Never"sv,        "Less"sv,
+                                                   "Equal"sv,    "LessEqual"sv,    "Greater"sv,
+                                                   "NotEqual"sv, "GreaterEqual"sv, "Always"sv };
 template <>
 inline constexpr std::array kEnumNames<BindingType>{ "UniformBuffer"sv, "DynamicUniformBuffer"sv, "SampledTexture"sv,
-    "InputAttachment"sv };
+                                                     "InputAttachment"sv };
 template <>
 inline constexpr std::array kEnumNames<ConstantValue::Type>{ "Bool"sv, "Int"sv, "Float"sv };
 template <>
@@ -59,33 +61,49 @@ inline constexpr std::array kEnumNames<LoadOp>{ "Load"sv, "Clear"sv, "Discard"sv
 template <>
 inline constexpr std::array kEnumNames<StoreOp>{ "Store"sv, "Discard"sv };
 template <>
-inline constexpr std::array kEnumNames<Topology>{ "Triangles"sv, "TriangleStrip"sv, "Lines"sv, "LineStrip"sv, "Points"sv };
+inline constexpr std::array kEnumNames<Topology>{ "Triangles"sv, "TriangleStrip"sv, "Lines"sv, "LineStrip"sv,
+                                                  "Points"sv };
 template <>
 inline constexpr std::array kEnumNames<CullMode>{ "None"sv, "Front"sv, "Back"sv };
 template <>
 inline constexpr std::array kEnumNames<FrontFace>{ "CounterClockwise"sv, "Clockwise"sv };
 template <>
-inline constexpr std::array kEnumNames<StencilOp>{ "Keep"sv, "Zero"sv, "Replace"sv, "IncrementClamp"sv, "DecrementClamp"sv,
-    "Invert"sv, "IncrementWrap"sv, "DecrementWrap"sv };
+inline constexpr std::array kEnumNames<StencilOp>{ "Keep"sv,           "Zero"sv,           "Replace"sv,
+                                                   "IncrementClamp"sv, "DecrementClamp"sv, "Invert"sv,
+                                                   "IncrementWrap"sv,  "DecrementWrap"sv };
 template <>
-inline constexpr std::array kEnumNames<BlendFactor>{ "Zero"sv, "One"sv, "SrcColor"sv, "OneMinusSrcColor"sv, "DstColor"sv,
-    "OneMinusDstColor"sv, "SrcAlpha"sv, "OneMinusSrcAlpha"sv, "DstAlpha"sv, "OneMinusDstAlpha"sv, "SrcAlphaSaturate"sv };
+inline constexpr std::array kEnumNames<BlendFactor>{ "Zero"sv,
+                                                     "One"sv,
+                                                     "SrcColor"sv,
+                                                     "OneMinusSrcColor"sv,
+                                                     "DstColor"sv,
+                                                     "OneMinusDstColor"sv,
+                                                     "SrcAlpha"sv,
+                                                     "OneMinusSrcAlpha"sv,
+                                                     "DstAlpha"sv,
+                                                     "OneMinusDstAlpha"sv,
+                                                     "SrcAlphaSaturate"sv };
 template <>
 inline constexpr std::array kEnumNames<BlendOp>{ "Add"sv, "Subtract"sv, "ReverseSubtract"sv, "Min"sv, "Max"sv };
 
 /// How many enumerators (or bits) there are.
 template <class E>
 constexpr size_t enumCount() {
-    if constexpr (std::is_same_v<E, Format> || std::is_same_v<E, VertexFormat>) return static_cast<size_t>(E::Count);
-    else return kEnumNames<E>.size();
+    if constexpr (std::is_same_v<E, Format> || std::is_same_v<E, VertexFormat>)
+        return static_cast<size_t>(E::Count);
+    else
+        return kEnumNames<E>.size();
 }
 
 /// The name of enumerator (or bit) number `index`.
 template <class E>
 std::string_view nameAt(size_t index) {
-    if constexpr (std::is_same_v<E, Format>) return formatInfo(static_cast<Format>(index)).name;
-    else if constexpr (std::is_same_v<E, VertexFormat>) return vertexFormatInfo(static_cast<VertexFormat>(index)).name;
-    else return kEnumNames<E>[index];
+    if constexpr (std::is_same_v<E, Format>)
+        return formatInfo(static_cast<Format>(index)).name;
+    else if constexpr (std::is_same_v<E, VertexFormat>)
+        return vertexFormatInfo(static_cast<VertexFormat>(index)).name;
+    else
+        return kEnumNames<E>[index];
 }
 
 template <class E>

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Trace: command streams as readable text, and back.
-///   Text     line 1 "filament-trace 1"; then "Stream" begins a submission and every other line is one command with named
-///            fields: Draw vertexCount=3 instanceCount=2. Fields with their default value are left out. '#' begins a comment.
+///   Text     line 1 "filament-trace 1"; then "Stream" begins a submission and every other line is one command with
+///            named fields: Draw vertexCount=3 instanceCount=2. Fields with their default value are left out.
+///            '#' begins a comment.
 ///   Values   numbers; names of enumerators, flags joined by '|'; handles index.generation; "text" with \xNN escapes;
-///            {structs}; [arrays], trailing defaults left out; bytes as hex, or @offset+size into the side file if > 64.
+///            {structs}; [arrays], trailing defaults left out; bytes as hex, above 64 as @offset+size in the side file.
 ///   Blob     the side file (FILE.bin): large payloads one after the other, in the order of the text.
 ///   Exact    write(read(write(x))) == write(x), byte for byte; floats are shortest round-trip decimals.
-///   Fails    readTrace() with Corrupt and a line number for any bytes whatsoever; never crashes, never allocates more than
-///            a small multiple of its input.
+///   Fails    readTrace() with Corrupt and a line number for any bytes whatsoever; never crashes, never allocates more
+///            than a small multiple of its input.
 #pragma once
 
 #include "backend/stream/CommandBuffer.h"

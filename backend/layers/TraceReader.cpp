@@ -155,7 +155,8 @@ private:
         if (plus == std::string_view::npos) return wrong("'@{}' is no payload; @offset+size", text);
         if (!number(text.substr(0, plus), offset) || !number(text.substr(plus + 1), size)) return false;
         if (offset != mBlobUsed) return wrong("payload @{}: the next one begins at byte {}", text, mBlobUsed);
-        if (size > mBlob.size() - offset) return wrong("payload @{}: the side file has only {} bytes", text, mBlob.size());
+        if (size > mBlob.size() - offset)
+            return wrong("payload @{}: the side file has only {} bytes", text, mBlob.size());
         mBlobUsed += size;
         return adopt(mBlob.subspan(offset, size), value);
     }

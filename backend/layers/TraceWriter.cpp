@@ -28,7 +28,9 @@ bool isSame(T const& value, T const& standard) {
         }
         return true;
     } else if constexpr (HasFields<T>) {
-        const auto all = [&](auto const&... field) { return (isSame(value.*field.member, standard.*field.member) && ...); };
+        const auto all = [&](auto const&... field) {
+            return (isSame(value.*field.member, standard.*field.member) && ...);
+        };
         return std::apply(all, kFields<T>.fields);
     } else {
         return value == standard;
@@ -56,7 +58,9 @@ private:
     template <class S>
     void fields(S const& value) {
         const S standard{};
-        const auto each = [&](auto const&... field) { (one(field.name, value.*field.member, standard.*field.member), ...); };
+        const auto each = [&](auto const&... field) {
+            (one(field.name, value.*field.member, standard.*field.member), ...);
+        };
         std::apply(each, kFields<S>.fields);
     }
 
@@ -70,16 +74,20 @@ private:
     void write(bool value) { mOut.text += value ? "true" : "false"; }
 
     void write(float value) {
-        if (std::isfinite(value)) print("{}", value);
-        else print("0x{:08x}", std::bit_cast<uint32_t>(value));
+        if (std::isfinite(value))
+            print("{}", value);
+        else
+            print("0x{:08x}", std::bit_cast<uint32_t>(value));
     }
 
     void write(std::string_view value) {
         mOut.text += '"';
         for (const char c : value) {
             const auto code = static_cast<unsigned char>(c);
-            if (code < 0x20 || code >= 0x7F || c == '"' || c == '\\') print("\\x{:02x}", code);
-            else mOut.text += c;
+            if (code < 0x20 || code >= 0x7F || c == '"' || c == '\\')
+                print("\\x{:02x}", code);
+            else
+                mOut.text += c;
         }
         mOut.text += '"';
     }
@@ -94,7 +102,9 @@ private:
     }
 
     template <class Tag>
-    void write(Handle<Tag> value) { print("{}.{}", value.index(), value.generation()); }
+    void write(Handle<Tag> value) {
+        print("{}.{}", value.index(), value.generation());
+    }
 
     void write(Ticket value) { print("{}", value.value); }
 

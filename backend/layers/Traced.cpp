@@ -40,7 +40,8 @@ private:
         mPending.blob.clear();
         writeTrace(commands, mPending, mBlobBytes);
         mBlobBytes += mPending.blob.size();
-        mBlob.write(reinterpret_cast<const char*>(mPending.blob.data()), static_cast<std::streamsize>(mPending.blob.size()));
+        mBlob.write(reinterpret_cast<const char*>(mPending.blob.data()),
+                    static_cast<std::streamsize>(mPending.blob.size()));
         mBlob.flush();
         mText << mPending.text;
         mText.flush();
@@ -70,7 +71,8 @@ struct TicketCollector {
     std::vector<Ticket>& tickets;
     template <class C>
     void execute(C const& command) {
-        if constexpr (std::same_as<C, CmdReadTexture> || std::same_as<C, CmdEndTimer>) tickets.push_back(command.ticket);
+        if constexpr (std::same_as<C, CmdReadTexture> || std::same_as<C, CmdEndTimer>)
+            tickets.push_back(command.ticket);
     }
 };
 
@@ -78,7 +80,8 @@ struct TicketCollector {
 
 Result<std::unique_ptr<Driver>> trace(std::unique_ptr<Driver> inner, std::filesystem::path const& path) {
     auto traced = std::make_unique<Traced>(std::move(inner), path);
-    if (!traced->writes()) return fail(ErrorCode::Unreadable, "cannot write trace '{}'; does its folder exist?", path.string());
+    if (!traced->writes())
+        return fail(ErrorCode::Unreadable, "cannot write trace '{}'; does its folder exist?", path.string());
     return std::unique_ptr<Driver>(std::move(traced));
 }
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Traced: a driver around a driver that writes every stream to a file before it is executed, so that a crash leaves it.
-///   Out     PATH (text, see Trace.h) and PATH.bin (large payloads).
-///   Fails   trace(): Unreadable if the files cannot be made. Later a full disk ends the trace with one warning in the log;
-///           the driver goes on.
-///   Thread  as the driver inside.  Cost: about 1 us a command and the bytes of its payloads; flushed after each stream.
+/// Traced: a driver around a driver that writes every stream to a file before executing it: a crash leaves the trace.
+///   Out     PATH (text, see Trace.h) and PATH.bin (large payloads), flushed after each stream.
+///   Fails   trace(): Unreadable if the files cannot be made. Later a full disk ends the trace with one warning in the
+///           log; the driver goes on.
+///   Thread  as the driver inside.  Cost: about 1 us a command and the bytes of its payloads.
 /// replayTrace: sends a trace into a fresh stream. The same commands with the same handles give the same bits.
 #pragma once
 

@@ -22,7 +22,8 @@ bool Validator::check(CommandView commands) {
     mCommand = "end of the stream";
     mObject = {};
     require(!mPass, Harm::Crash, "pass '{}' is still open; record CmdEndPass", mPass ? mPass->name : "");
-    require(mOpenTimers.empty(), Harm::Crash, "{} timers are still open; record CmdEndTimer in the same stream", mOpenTimers.size());
+    require(mOpenTimers.empty(), Harm::Crash, "{} timers are still open; record CmdEndTimer in the same stream",
+            mOpenTimers.size());
     require(mOpenGroups.empty(), Harm::WrongResult, "group '{}' is still open; record CmdPopGroup",
             mOpenGroups.empty() ? "" : mOpenGroups.back());
     mPass.reset();
@@ -36,7 +37,8 @@ bool Validator::check(CommandView commands) {
     forEachTable([](auto& table) { table.rollback(); });
     mFrameOpen = frameWasOpen;
     mSink.onError(DriverErrorKind::Validation,
-            fmt::format("a stream of {} commands was dropped: a driver could crash on the errors above", mCommandIndex));
+                  fmt::format("a stream of {} commands was dropped: a driver could crash on the errors above",
+                              mCommandIndex));
     return false;
 }
 

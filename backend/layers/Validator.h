@@ -71,12 +71,32 @@ private:
     enum class Place : uint8_t { OutsidePasses, InsidePass, Anywhere };
 
     /// What objects were made with. Names are owned: the stream that carried them is gone.
-    struct BufferModel { std::string name; BufferDesc desc; };
-    struct TextureModel { std::string name; TextureDesc desc; };
-    struct SamplerModel { std::string name; SamplerDesc desc; };
-    struct ProgramModel { std::string name; ProgramLayout layout; };
-    struct PipelineModel { std::string name; PipelineDesc desc; ProgramLayout layout; };
-    struct BindGroupModel { std::string name; BindGroupLayout layout; std::vector<BindGroupEntry> entries; };
+    struct BufferModel {
+        std::string name;
+        BufferDesc desc;
+    };
+    struct TextureModel {
+        std::string name;
+        TextureDesc desc;
+    };
+    struct SamplerModel {
+        std::string name;
+        SamplerDesc desc;
+    };
+    struct ProgramModel {
+        std::string name;
+        ProgramLayout layout;
+    };
+    struct PipelineModel {
+        std::string name;
+        PipelineDesc desc;
+        ProgramLayout layout;
+    };
+    struct BindGroupModel {
+        std::string name;
+        BindGroupLayout layout;
+        std::vector<BindGroupEntry> entries;
+    };
 
     /// What a pass has bound; all of it is forgotten at every subpass.
     struct Bound {
@@ -127,7 +147,7 @@ private:
     void checkUniformEntry(BindGroupEntry const& entry);
     void checkTextureEntry(BindingDesc const& binding, BindGroupEntry const& entry);
     bool checkRegion(TextureModel const& texture, std::string_view role, uint32_t level, uint32_t layer,
-            uint32_t layerCount, Rect const& rect);
+                     uint32_t layerCount, Rect const& rect);
     bool checkBlitSide(TextureModel const& texture, std::string_view role, TextureUsage usage);
     void checkTicket(Ticket ticket);
     void checkPassLayout(PassLayout const& layout);

@@ -10,19 +10,19 @@ uint32_t levelSize(uint32_t size, uint32_t level) { return std::max(1u, size >> 
 
 bool inside(Rect const& rect, uint32_t width, uint32_t height) {
     return rect.x >= 0 && rect.y >= 0 && rect.width > 0 && rect.height > 0 &&
-            static_cast<uint64_t>(rect.x) + rect.width <= width && static_cast<uint64_t>(rect.y) + rect.height <= height;
+           static_cast<uint64_t>(rect.x) + rect.width <= width && static_cast<uint64_t>(rect.y) + rect.height <= height;
 }
 
 bool overlap(Rect const& a, Rect const& b) {
     return a.x < b.x + static_cast<int64_t>(b.width) && b.x < a.x + static_cast<int64_t>(a.width) &&
-            a.y < b.y + static_cast<int64_t>(b.height) && b.y < a.y + static_cast<int64_t>(a.height);
+           a.y < b.y + static_cast<int64_t>(b.height) && b.y < a.y + static_cast<int64_t>(a.height);
 }
 
 // Compressed images are addressed in whole blocks; a block at the edge may be cut.
 bool onBlocks(Rect const& rect, uint32_t width, uint32_t height, uint32_t block) {
     const auto x = static_cast<uint32_t>(rect.x), y = static_cast<uint32_t>(rect.y);
     return x % block == 0 && y % block == 0 && (rect.width % block == 0 || x + rect.width == width) &&
-            (rect.height % block == 0 || y + rect.height == height);
+           (rect.height % block == 0 || y + rect.height == height);
 }
 
 } // namespace
@@ -38,17 +38,18 @@ void Validator::execute(CmdUpdateBuffer const& command) {
 }
 
 bool Validator::checkRegion(TextureModel const& texture, std::string_view role, uint32_t level, uint32_t layer,
-        uint32_t layerCount, Rect const& rect) {
+                            uint32_t layerCount, Rect const& rect) {
     TextureDesc const& desc = texture.desc;
-    const bool exists = require(level < desc.levels, Harm::Crash, "{} '{}': level {} of {}", role, texture.name, level,
-                                desc.levels) &&
-            require(layerCount > 0 && layer + layerCount <= desc.layers, Harm::Crash, "{} '{}': layers {}..{} of {}", role,
-                    texture.name, layer, layer + layerCount, desc.layers);
+    const bool exists =
+            require(level < desc.levels, Harm::Crash, "{} '{}': level {} of {}", role, texture.name, level,
+                    desc.levels) &&
+            require(layerCount > 0 && layer + layerCount <= desc.layers, Harm::Crash, "{} '{}': layers {}..{} of {}",
+                    role, texture.name, layer, layer + layerCount, desc.layers);
     if (!exists) return false;
     const uint32_t width = levelSize(desc.width, level), height = levelSize(desc.height, level);
     return require(inside(rect, width, height), Harm::Crash,
-            "{} '{}': rectangle {},{} {} x {} is empty or leaves level {} of {} x {}", role, texture.name, rect.x, rect.y,
-            rect.width, rect.height, level, width, height);
+                   "{} '{}': rectangle {},{} {} x {} is empty or leaves level {} of {} x {}", role, texture.name,
+                   rect.x, rect.y, rect.width, rect.height, level, width, height);
 }
 
 void Validator::execute(CmdUploadTexture const& command) {
@@ -57,14 +58,15 @@ void Validator::execute(CmdUploadTexture const& command) {
     if (!texture) return;
     mObject = texture->name;
     TextureDesc const& desc = texture->desc;
-    require(has(desc.usage, TextureUsage::TransferTarget), Harm::Crash, "the texture lacks TextureUsage::TransferTarget");
+    require(has(desc.usage, TextureUsage::TransferTarget), Harm::Crash,
+            "the texture lacks TextureUsage::TransferTarget");
     require(!hasStencil(desc.format), Harm::Crash, "depth and stencil together cannot be uploaded; draw them");
     if (!checkRegion(*texture, "texture", command.level, command.layer, command.layerCount, command.rect)) return;
     const uint32_t width = levelSize(desc.width, command.level), height = levelSize(desc.height, command.level);
     FormatInfo const& format = formatInfo(desc.format);
     require(onBlocks(command.rect, width, height, format.blockSize), Harm::Crash,
-            "rectangle {},{} {} x {} cuts through {}x{} blocks of {}", command.rect.x, command.rect.y, command.rect.width,
-            command.rect.height, format.blockSize, format.blockSize, format.name);
+            "rectangle {},{} {} x {} cuts through {}x{} blocks of {}", command.rect.x, command.rect.y,
+            command.rect.width, command.rect.height, format.blockSize, format.blockSize, format.name);
     const uint64_t expected = imageBytes(desc.format, command.rect.width, command.rect.height) * command.layerCount;
     require(command.bytes.size() == expected, Harm::Crash, "{} bytes for {} x {} x {} texels of {}; that is {}",
             command.bytes.size(), command.rect.width, command.rect.height, command.layerCount, format.name, expected);
@@ -76,7 +78,8 @@ void Validator::execute(CmdGenerateMips const& command) {
     if (!texture) return;
     mObject = texture->name;
     FormatInfo const& format = formatInfo(texture->desc.format);
-    require(has(texture->desc.usage, TextureUsage::TransferSource) && has(texture->desc.usage, TextureUsage::TransferTarget),
+    require(has(texture->desc.usage, TextureUsage::TransferSource) &&
+                    has(texture->desc.usage, TextureUsage::TransferTarget),
             Harm::Crash, "generating mips needs TransferSource and TransferTarget");
     require(format.kind == FormatKind::Color && format.isRenderable, Harm::Crash,
             "mips of {} cannot be generated; upload them", format.name);
@@ -84,12 +87,13 @@ void Validator::execute(CmdGenerateMips const& command) {
 
 bool Validator::checkBlitSide(TextureModel const& texture, std::string_view role, TextureUsage usage) {
     FormatInfo const& format = formatInfo(texture.desc.format);
-    return require(has(texture.desc.usage, usage), Harm::Crash, "{} '{}' lacks TextureUsage::Transfer{}", role, texture.name,
-                   usage == TextureUsage::TransferSource ? "Source" : "Target") &
-            require(texture.desc.samples == 1, Harm::Crash, "{} '{}' has {} samples; resolve it in a pass", role, texture.name,
-                    texture.desc.samples) &
-            require(format.kind <= FormatKind::UnsignedInteger && format.isRenderable, Harm::Crash,
-                    "{} '{}': {} cannot be blitted; only renderable colour formats can", role, texture.name, format.name);
+    return require(has(texture.desc.usage, usage), Harm::Crash, "{} '{}' lacks TextureUsage::Transfer{}", role,
+                   texture.name, usage == TextureUsage::TransferSource ? "Source" : "Target") &
+           require(texture.desc.samples == 1, Harm::Crash, "{} '{}' has {} samples; resolve it in a pass", role,
+                   texture.name, texture.desc.samples) &
+           require(format.kind <= FormatKind::UnsignedInteger && format.isRenderable, Harm::Crash,
+                   "{} '{}': {} cannot be blitted; only renderable colour formats can", role, texture.name,
+                   format.name);
 }
 
 void Validator::execute(CmdBlit const& command) {
@@ -107,7 +111,7 @@ void Validator::execute(CmdBlit const& command) {
     require(from != FormatKind::UnsignedInteger || command.filter == Filter::Nearest, Harm::Crash,
             "integer textures cannot be filtered; use Nearest");
     const bool sameImage = command.source == command.target && command.sourceLevel == command.targetLevel &&
-            command.sourceLayer == command.targetLayer;
+                           command.sourceLayer == command.targetLayer;
     require(!sameImage || !overlap(command.sourceRect, command.targetRect), Harm::WrongResult,
             "source and target overlap; blit over a third texture");
 }
@@ -119,17 +123,20 @@ void Validator::execute(CmdReadTexture const& command) {
     if (!texture) return;
     mObject = texture->name;
     FormatInfo const& format = formatInfo(texture->desc.format);
-    require(has(texture->desc.usage, TextureUsage::TransferSource), Harm::Crash, "the texture lacks TextureUsage::TransferSource");
+    require(has(texture->desc.usage, TextureUsage::TransferSource), Harm::Crash,
+            "the texture lacks TextureUsage::TransferSource");
     require(texture->desc.samples == 1, Harm::Crash, "{} samples; resolve before reading back", texture->desc.samples);
     require(format.isRenderable, Harm::Crash, "{} cannot be read back; draw it into a renderable format", format.name);
     checkRegion(*texture, "texture", command.level, command.layer, 1, command.rect);
 }
 
 void Validator::checkTicket(Ticket ticket) {
-    if (!require(static_cast<bool>(ticket), Harm::WrongResult, "the ticket is none; take one from CommandStream::nextTicket()")) {
+    if (!require(static_cast<bool>(ticket), Harm::WrongResult,
+                 "the ticket is none; take one from CommandStream::nextTicket()")) {
         return;
     }
-    require(mUsedTickets.insert(ticket).second, Harm::WrongResult, "ticket {} was used before; each names one answer", ticket.value);
+    require(mUsedTickets.insert(ticket).second, Harm::WrongResult, "ticket {} was used before; each names one answer",
+            ticket.value);
 }
 
 } // namespace filament::backend

@@ -12,8 +12,8 @@ void Validator::execute(CmdSetViewport const& command) {
     enter<CmdSetViewport>(Place::InsidePass);
     Viewport const& v = command.viewport;
     const bool finite = std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.width) && std::isfinite(v.height);
-    require(finite && v.width > 0 && v.height > 0, Harm::Crash, "viewport {},{} {} x {}; finite and not empty", v.x, v.y, v.width,
-            v.height);
+    require(finite && v.width > 0 && v.height > 0, Harm::Crash, "viewport {},{} {} x {}; finite and not empty", v.x,
+            v.y, v.width, v.height);
 }
 
 void Validator::execute(CmdSetScissor const& command) {
@@ -34,8 +34,8 @@ void Validator::execute(CmdBindPipeline const& command) {
     mObject = pipeline->name;
     require(pipeline->desc.pass == mPass->desc.layout, Harm::Crash,
             "the pipeline was made for another PassLayout; create it with the layout of this pass");
-    require(pipeline->desc.subpass == mPass->subpass, Harm::Crash, "the pipeline was made for subpass {}, the current one is {}",
-            pipeline->desc.subpass, mPass->subpass);
+    require(pipeline->desc.subpass == mPass->subpass, Harm::Crash,
+            "the pipeline was made for subpass {}, the current one is {}", pipeline->desc.subpass, mPass->subpass);
     if (PipelineModel const* before = mPipelines.find(mBound.pipeline)) {
         // Bindings survive only up to the first group in which the two programs disagree.
         const auto differs = std::ranges::mismatch(before->layout, pipeline->layout).in1 - before->layout.begin();
@@ -49,10 +49,12 @@ void Validator::execute(CmdBindGroup const& command) {
     BindGroupModel const* group = need(mBindGroups, command.group, "bind group");
     if (!group) return;
     mObject = group->name;
-    if (!require(command.index < kMaxBindGroups, Harm::Crash, "group index {}; 0..{}", command.index, kMaxBindGroups - 1)) return;
+    if (!require(command.index < kMaxBindGroups, Harm::Crash, "group index {}; 0..{}", command.index,
+                 kMaxBindGroups - 1))
+        return;
     const uint32_t expected = group->layout.dynamicCount();
-    if (!require(command.dynamicCount == expected, Harm::Crash, "{} dynamic offsets; the layout has {}", command.dynamicCount,
-                expected)) {
+    if (!require(command.dynamicCount == expected, Harm::Crash, "{} dynamic offsets; the layout has {}",
+                 command.dynamicCount, expected)) {
         return;
     }
     uint32_t next = 0;
@@ -67,21 +69,23 @@ void Validator::execute(CmdBindGroup const& command) {
         BufferModel const* buffer = need(mBuffers, entry.buffer, "uniform buffer");
         if (!buffer) continue;
         require(entry.offset + offset + entry.size <= buffer->desc.size, Harm::Crash,
-                "dynamic offset {} + offset {} + size {} leave buffer '{}' of {} bytes", offset, entry.offset, entry.size,
-                buffer->name, buffer->desc.size);
+                "dynamic offset {} + offset {} + size {} leave buffer '{}' of {} bytes", offset, entry.offset,
+                entry.size, buffer->name, buffer->desc.size);
     }
     mBound.groups[command.index] = command.group;
 }
 
 void Validator::execute(CmdBindVertexBuffers const& command) {
     enter<CmdBindVertexBuffers>(Place::InsidePass);
-    if (!require(command.count <= kMaxVertexBuffers, Harm::Crash, "{} vertex buffers; at most {}", command.count, kMaxVertexBuffers)) {
+    if (!require(command.count <= kMaxVertexBuffers, Harm::Crash, "{} vertex buffers; at most {}", command.count,
+                 kMaxVertexBuffers)) {
         return;
     }
     for (uint32_t i = 0; i < command.count; ++i) {
         BufferModel const* buffer = need(mBuffers, command.buffers[i], fmt::format("vertex buffer {}", i));
         if (!buffer) continue;
-        require(has(buffer->desc.usage, BufferUsage::Vertex), Harm::Crash, "buffer '{}' lacks BufferUsage::Vertex", buffer->name);
+        require(has(buffer->desc.usage, BufferUsage::Vertex), Harm::Crash, "buffer '{}' lacks BufferUsage::Vertex",
+                buffer->name);
         require(command.offsets[i] < buffer->desc.size, Harm::Crash, "offset {} leaves buffer '{}' of {} bytes",
                 command.offsets[i], buffer->name, buffer->desc.size);
     }
@@ -107,7 +111,7 @@ void Validator::execute(CmdDraw const& command) {
     PipelineModel const* pipeline = checkDrawState();
     if (!pipeline || command.vertexCount == 0 || command.instanceCount == 0) return;
     checkVertexRange(*pipeline, uint64_t{ command.firstVertex } + command.vertexCount - 1,
-            uint64_t{ command.firstInstance } + command.instanceCount - 1);
+                     uint64_t{ command.firstInstance } + command.instanceCount - 1);
 }
 
 void Validator::execute(CmdDrawIndexed const& command) {
@@ -119,15 +123,16 @@ void Validator::execute(CmdDrawIndexed const& command) {
     if (!indices || command.indexCount == 0 || command.instanceCount == 0) return;
     const uint64_t unit = mBound.indices.type == IndexType::UInt16 ? 2 : 4;
     const uint64_t end = mBound.indices.offset + (uint64_t{ command.firstIndex } + command.indexCount) * unit;
-    require(end <= indices->desc.size, Harm::Crash, "indices {}..{} leave index buffer '{}' of {} bytes", command.firstIndex,
-            uint64_t{ command.firstIndex } + command.indexCount, indices->name, indices->desc.size);
+    require(end <= indices->desc.size, Harm::Crash, "indices {}..{} leave index buffer '{}' of {} bytes",
+            command.firstIndex, uint64_t{ command.firstIndex } + command.indexCount, indices->name, indices->desc.size);
     // Which vertices the indices name is not known here; the instances are.
     checkVertexRange(*pipeline, 0, uint64_t{ command.firstInstance } + command.instanceCount - 1);
 }
 
 Validator::PipelineModel const* Validator::checkDrawState() {
     if (!mPass) return nullptr;
-    if (!require(static_cast<bool>(mBound.pipeline), Harm::Crash, "no pipeline is bound; record CmdBindPipeline")) return nullptr;
+    if (!require(static_cast<bool>(mBound.pipeline), Harm::Crash, "no pipeline is bound; record CmdBindPipeline"))
+        return nullptr;
     PipelineModel const* pipeline = mPipelines.find(mBound.pipeline);
     mObject = pipeline->name; // pipelines die outside of passes only
     for (uint32_t i = 0; i < kMaxBindGroups; ++i) {
@@ -138,12 +143,12 @@ Validator::PipelineModel const* Validator::checkDrawState() {
 
 void Validator::checkGroup(PipelineModel const& pipeline, uint32_t index) {
     BindGroupModel const* group = mBindGroups.find(mBound.groups[index]);
-    if (!require(group != nullptr, Harm::Crash, "group {} is not bound, or was lost by a pipeline of another layout; record CmdBindGroup",
-                index)) {
+    if (!require(group != nullptr, Harm::Crash,
+                 "group {} is not bound, or was lost by a pipeline of another layout; record CmdBindGroup", index)) {
         return;
     }
-    if (!require(group->layout == pipeline.layout[index], Harm::Crash, "group {} '{}' has another layout than the program", index,
-                group->name)) {
+    if (!require(group->layout == pipeline.layout[index], Harm::Crash,
+                 "group {} '{}' has another layout than the program", index, group->name)) {
         return;
     }
     checkGroupTextures(*group, index);
@@ -154,19 +159,22 @@ void Validator::checkGroupTextures(BindGroupModel const& group, uint32_t index) 
         BindingDesc const& binding = group.layout.bindings[i];
         BindGroupEntry const& entry = *std::ranges::find(group.entries, binding.binding, &BindGroupEntry::binding);
         if (entry.buffer) {
-            need(mBuffers, entry.buffer, fmt::format("uniform buffer at binding {} of group {} '{}'", entry.binding, index, group.name));
+            need(mBuffers, entry.buffer,
+                 fmt::format("uniform buffer at binding {} of group {} '{}'", entry.binding, index, group.name));
             continue;
         }
         TextureModel const* texture =
-                need(mTextures, entry.texture, fmt::format("texture at binding {} of group {} '{}'", entry.binding, index, group.name));
+                need(mTextures, entry.texture,
+                     fmt::format("texture at binding {} of group {} '{}'", entry.binding, index, group.name));
         if (!texture) continue;
         if (binding.type == BindingType::InputAttachment) {
-            require(mPass->desc.colors[binding.inputAttachment % kMaxColorAttachments].texture == entry.texture, Harm::Crash,
-                    "binding {} of group {} '{}': input attachment '{}' is not colour {} of this pass", entry.binding, index,
-                    group.name, texture->name, binding.inputAttachment);
+            require(mPass->desc.colors[binding.inputAttachment % kMaxColorAttachments].texture == entry.texture,
+                    Harm::Crash, "binding {} of group {} '{}': input attachment '{}' is not colour {} of this pass",
+                    entry.binding, index, group.name, texture->name, binding.inputAttachment);
         } else {
             require(!isAttached(entry.texture), Harm::WrongResult,
-                    "binding {} of group {} '{}' samples '{}', an attachment of this pass; copy it or use a subpass input",
+                    "binding {} of group {} '{}' samples '{}', an attachment of this pass; copy it or use a subpass "
+                    "input",
                     entry.binding, index, group.name, texture->name);
         }
     }
@@ -177,18 +185,19 @@ void Validator::checkVertexRange(PipelineModel const& pipeline, uint64_t lastVer
     for (uint32_t i = 0; i < layout.attributeCount; ++i) {
         VertexAttribute const& attribute = layout.attributes[i];
         const uint32_t slot = attribute.buffer;
-        if (!require(slot < mBound.vertices.count, Harm::Crash, "attribute {} reads vertex buffer {}, which is not bound",
-                    attribute.location, slot)) {
+        if (!require(slot < mBound.vertices.count, Harm::Crash,
+                     "attribute {} reads vertex buffer {}, which is not bound", attribute.location, slot)) {
             continue;
         }
-        BufferModel const* buffer = need(mBuffers, mBound.vertices.buffers[slot], fmt::format("vertex buffer {}", slot));
+        BufferModel const* buffer =
+                need(mBuffers, mBound.vertices.buffers[slot], fmt::format("vertex buffer {}", slot));
         if (!buffer) continue;
         const uint64_t last = layout.buffers[slot].perInstance ? lastInstance : lastVertex;
         const uint64_t end = mBound.vertices.offsets[slot] + last * layout.buffers[slot].stride + attribute.offset +
-                vertexFormatInfo(attribute.format).bytes;
-        require(end <= buffer->desc.size, Harm::Crash, "attribute {} of {} {} ends at byte {} of vertex buffer '{}' of {}",
-                attribute.location, layout.buffers[slot].perInstance ? "instance" : "vertex", last, end, buffer->name,
-                buffer->desc.size);
+                             vertexFormatInfo(attribute.format).bytes;
+        require(end <= buffer->desc.size, Harm::Crash,
+                "attribute {} of {} {} ends at byte {} of vertex buffer '{}' of {}", attribute.location,
+                layout.buffers[slot].perInstance ? "instance" : "vertex", last, end, buffer->name, buffer->desc.size);
     }
 }
 

@@ -32,8 +32,8 @@ template <class C, class Tag, class Object>
 bool Validator::mayCreate(ObjectTable<Tag, Object> const& table, C const& command, std::string_view name) {
     enter<C>(Place::OutsidePasses, name);
     return require(static_cast<bool>(command.handle), Harm::Crash, "the handle is none; allocate one") &&
-            require(!table.occupied(command.handle), Harm::Crash,
-                    "handle {:#x} is in use; destroy the object that has it, or allocate another", command.handle.bits);
+           require(!table.occupied(command.handle), Harm::Crash,
+                   "handle {:#x} is in use; destroy the object that has it, or allocate another", command.handle.bits);
 }
 
 template <class C, class Tag, class Object>
@@ -74,18 +74,21 @@ void Validator::execute(CmdCreateTexture const& command) {
 
 void Validator::checkTextureShape(TextureDesc const& desc) {
     const uint32_t maxSize = mInfo.limits.maxTextureSize;
-    require(desc.width > 0 && desc.height > 0, Harm::Crash, "{} x {} texels; both must be > 0", desc.width, desc.height);
+    require(desc.width > 0 && desc.height > 0, Harm::Crash, "{} x {} texels; both must be > 0", desc.width,
+            desc.height);
     require(desc.width <= maxSize && desc.height <= maxSize, Harm::Crash,
-            "{} x {} texels; this device has at most {} (DeviceLimits::maxTextureSize)", desc.width, desc.height, maxSize);
+            "{} x {} texels; this device has at most {} (DeviceLimits::maxTextureSize)", desc.width, desc.height,
+            maxSize);
     const uint32_t full = fullMipCount(desc.width, desc.height);
-    require(desc.levels >= 1 && desc.levels <= full, Harm::Crash, "{} levels; {} x {} has 1..{}", desc.levels, desc.width,
-            desc.height, full);
+    require(desc.levels >= 1 && desc.levels <= full, Harm::Crash, "{} levels; {} x {} has 1..{}", desc.levels,
+            desc.width, desc.height, full);
     const bool is2D = desc.type == TextureType::Texture2D;
     require(desc.layers >= 1, Harm::Crash, "0 layers; at least 1");
-    require(!is2D || desc.layers == 1, Harm::Crash, "a 2D texture has 1 layer, not {}; use Texture2DArray", desc.layers);
+    require(!is2D || desc.layers == 1, Harm::Crash, "a 2D texture has 1 layer, not {}; use Texture2DArray",
+            desc.layers);
     if (desc.type == TextureType::Cube) {
-        require(desc.layers == 6 && desc.width == desc.height, Harm::Crash, "a cube has 6 square layers, not {} of {} x {}",
-                desc.layers, desc.width, desc.height);
+        require(desc.layers == 6 && desc.width == desc.height, Harm::Crash,
+                "a cube has 6 square layers, not {} of {} x {}", desc.layers, desc.width, desc.height);
     }
     require(desc.samples == 1 || (desc.samples == 4 && mInfo.limits.maxSamples >= 4), Harm::Crash,
             "{} samples; this device does 1 or 4", desc.samples);
@@ -104,16 +107,16 @@ void Validator::checkTextureUsage(TextureDesc const& desc) {
             "depth format {} cannot be a colour attachment", format.name);
     require(!has(desc.usage, TextureUsage::DepthAttachment) || hasDepth(desc.format), Harm::Crash,
             "colour format {} cannot be a depth attachment", format.name);
-    require(!has(desc.usage, TextureUsage::InputAttachment) || has(desc.usage, TextureUsage::ColorAttachment), Harm::Crash,
-            "an input attachment is a colour attachment of the same pass; add ColorAttachment");
+    require(!has(desc.usage, TextureUsage::InputAttachment) || has(desc.usage, TextureUsage::ColorAttachment),
+            Harm::Crash, "an input attachment is a colour attachment of the same pass; add ColorAttachment");
     require(!has(desc.usage, TextureUsage::Transient) || !has(desc.usage, kOutlivingUsage), Harm::Crash,
             "a transient texture never outlives its pass; drop Transient, or Sampled and Transfer");
 }
 
 void Validator::execute(CmdCreateSampler const& command) {
     if (!mayCreate(mSamplers, command, {})) return;
-    require(command.desc.anisotropy >= 1 && command.desc.anisotropy <= 16, Harm::WrongResult, "anisotropy {}; it is 1..16",
-            command.desc.anisotropy);
+    require(command.desc.anisotropy >= 1 && command.desc.anisotropy <= 16, Harm::WrongResult,
+            "anisotropy {}; it is 1..16", command.desc.anisotropy);
     if (mCommandCrashes) return;
     mSamplers.create(command.handle, { {}, command.desc });
 }
@@ -121,7 +124,8 @@ void Validator::execute(CmdCreateSampler const& command) {
 // ---------------------------------------------------------------------------------------------- programs, pipelines
 
 bool Validator::checkBindGroupLayout(BindGroupLayout const& layout, std::string_view where) {
-    if (!require(layout.count <= kMaxBindings, Harm::Crash, "{}: {} bindings; at most {}", where, layout.count, kMaxBindings)) {
+    if (!require(layout.count <= kMaxBindings, Harm::Crash, "{}: {} bindings; at most {}", where, layout.count,
+                 kMaxBindings)) {
         return false;
     }
     for (uint32_t i = 1; i < layout.count; ++i) {
@@ -133,8 +137,8 @@ bool Validator::checkBindGroupLayout(BindGroupLayout const& layout, std::string_
         require(binding.inputAttachment == 0 || binding.type == BindingType::InputAttachment, Harm::WrongResult,
                 "{}: binding {} names an input attachment and is none", where, binding.binding);
     }
-    return require(layout.dynamicCount() <= kMaxDynamicOffsets, Harm::Crash, "{}: {} dynamic buffers; at most {} of one group",
-            where, layout.dynamicCount(), kMaxDynamicOffsets);
+    return require(layout.dynamicCount() <= kMaxDynamicOffsets, Harm::Crash,
+                   "{}: {} dynamic buffers; at most {} of one group", where, layout.dynamicCount(), kMaxDynamicOffsets);
 }
 
 void Validator::execute(CmdCreateProgram const& command) {
@@ -152,8 +156,8 @@ void Validator::execute(CmdCreateProgram const& command) {
             textures += desc.layout[group].bindings[i].type == BindingType::SampledTexture;
         }
     }
-    require(textures <= mInfo.limits.maxTextureUnits, Harm::Crash, "{} sampled textures; this device has {} units", textures,
-            mInfo.limits.maxTextureUnits);
+    require(textures <= mInfo.limits.maxTextureUnits, Harm::Crash, "{} sampled textures; this device has {} units",
+            textures, mInfo.limits.maxTextureUnits);
     for (size_t i = 0; i < desc.constants.size(); ++i) {
         const auto rest = desc.constants.subspan(i + 1);
         require(std::ranges::find(rest, desc.constants[i].id, &ConstantValue::id) == rest.end(), Harm::WrongResult,
@@ -169,28 +173,30 @@ void Validator::execute(CmdCreatePipeline const& command) {
     ProgramModel const* program = need(mPrograms, desc.program, "program");
     checkPassLayout(desc.pass);
     checkVertexLayout(desc.vertices);
-    const bool subpassExists = require(desc.subpass < std::min<uint32_t>(desc.pass.subpassCount, kMaxSubpasses), Harm::Crash,
-            "subpass {} of {}; count from 0", desc.subpass, desc.pass.subpassCount);
+    const bool subpassExists =
+            require(desc.subpass < std::min<uint32_t>(desc.pass.subpassCount, kMaxSubpasses), Harm::Crash,
+                    "subpass {} of {}; count from 0", desc.subpass, desc.pass.subpassCount);
     if (program && subpassExists) checkPipelineState(desc, program->layout);
     desc.debugName = {};
     if (mCommandCrashes) return;
     mPipelines.create(command.handle,
-            { std::string(command.desc.debugName), desc, program ? program->layout : ProgramLayout{} });
+                      { std::string(command.desc.debugName), desc, program ? program->layout : ProgramLayout{} });
 }
 
 void Validator::checkVertexLayout(VertexLayout const& layout) {
-    const bool counts = require(layout.attributeCount <= std::min(kMaxVertexAttributes, mInfo.limits.maxVertexAttributes) &&
-                    layout.bufferCount <= kMaxVertexBuffers,
-            Harm::Crash, "{} attributes in {} buffers; at most {} in {}", layout.attributeCount, layout.bufferCount,
-            kMaxVertexAttributes, kMaxVertexBuffers);
+    const bool counts =
+            require(layout.attributeCount <= std::min(kMaxVertexAttributes, mInfo.limits.maxVertexAttributes) &&
+                            layout.bufferCount <= kMaxVertexBuffers,
+                    Harm::Crash, "{} attributes in {} buffers; at most {} in {}", layout.attributeCount,
+                    layout.bufferCount, kMaxVertexAttributes, kMaxVertexBuffers);
     if (!counts) return;
     uint32_t seen = 0;
     for (uint32_t i = 0; i < layout.attributeCount; ++i) {
         VertexAttribute const& at = layout.attributes[i];
         if (!require(at.location < kMaxVertexAttributes && at.buffer < layout.bufferCount, Harm::Crash,
-                    "attribute {} reads buffer {} of {}", at.location, at.buffer, layout.bufferCount) ||
-                !require(at.format > VertexFormat::None && at.format < VertexFormat::Count, Harm::Crash,
-                        "attribute {} has no format", at.location)) {
+                     "attribute {} reads buffer {} of {}", at.location, at.buffer, layout.bufferCount) ||
+            !require(at.format > VertexFormat::None && at.format < VertexFormat::Count, Harm::Crash,
+                     "attribute {} has no format", at.location)) {
             continue;
         }
         require((seen >> at.location & 1) == 0, Harm::Crash, "attribute {} is given twice", at.location);
@@ -198,11 +204,11 @@ void Validator::checkVertexLayout(VertexLayout const& layout) {
         VertexFormatInfo const& format = vertexFormatInfo(at.format);
         const uint32_t stride = layout.buffers[at.buffer].stride;
         const uint32_t unit = std::max(1u, format.bytes / std::max<uint32_t>(1, format.components));
-        require(at.offset + format.bytes <= stride, Harm::Crash, "attribute {}: bytes {}..{} of a stride of {}", at.location,
-                at.offset, at.offset + format.bytes, stride);
+        require(at.offset + format.bytes <= stride, Harm::Crash, "attribute {}: bytes {}..{} of a stride of {}",
+                at.location, at.offset, at.offset + format.bytes, stride);
         require(at.offset % unit == 0 && stride % unit == 0, Harm::Crash,
-                "attribute {}: offset {} and stride {} must be multiples of {} for {}", at.location, at.offset, stride, unit,
-                format.name);
+                "attribute {}: offset {} and stride {} must be multiples of {} for {}", at.location, at.offset, stride,
+                unit, format.name);
     }
 }
 
@@ -217,16 +223,16 @@ void Validator::checkPipelineState(PipelineDesc const& desc, ProgramLayout const
     require(!desc.raster.depthClamp || mInfo.features.depthClamp, Harm::Crash, "this device has no depth clamp");
     const uint32_t colors = std::min<uint32_t>(desc.pass.colorCount, kMaxColorAttachments);
     for (uint32_t i = 0; i < colors; ++i) {
-        require(!desc.blend[i].enabled || formatInfo(desc.pass.colorFormats[i]).kind != FormatKind::UnsignedInteger, Harm::Crash,
-                "colour {} is an integer format and cannot blend", i);
+        require(!desc.blend[i].enabled || formatInfo(desc.pass.colorFormats[i]).kind != FormatKind::UnsignedInteger,
+                Harm::Crash, "colour {} is an integer format and cannot blend", i);
     }
     for (BindGroupLayout const& group : program) {
         for (uint32_t i = 0; i < group.count; ++i) {
             BindingDesc const& binding = group.bindings[i];
             if (binding.type != BindingType::InputAttachment) continue;
             require(binding.inputAttachment < colors && (subpass.inputMask >> binding.inputAttachment & 1), Harm::Crash,
-                    "the program reads colour {} of the pass; set that bit in inputMask of subpass {}", binding.inputAttachment,
-                    desc.subpass);
+                    "the program reads colour {} of the pass; set that bit in inputMask of subpass {}",
+                    binding.inputAttachment, desc.subpass);
         }
     }
 }
@@ -242,33 +248,37 @@ void Validator::execute(CmdCreateBindGroup const& command) {
     for (uint32_t i = 0; i < desc.layout.count; ++i) {
         BindingDesc const& binding = desc.layout.bindings[i];
         const auto count = std::ranges::count(desc.entries, binding.binding, &BindGroupEntry::binding);
-        if (!require(count == 1, Harm::Crash, "binding {} has {} entries; each has exactly one", binding.binding, count)) continue;
+        if (!require(count == 1, Harm::Crash, "binding {} has {} entries; each has exactly one", binding.binding,
+                     count))
+            continue;
         checkEntry(binding, *std::ranges::find(desc.entries, binding.binding, &BindGroupEntry::binding));
     }
     if (mCommandCrashes) return;
     mBindGroups.create(command.handle,
-            { std::string(desc.debugName), desc.layout, { desc.entries.begin(), desc.entries.end() } });
+                       { std::string(desc.debugName), desc.layout, { desc.entries.begin(), desc.entries.end() } });
 }
 
 void Validator::checkEntry(BindingDesc const& binding, BindGroupEntry const& entry) {
-    if (isUniform(binding.type)) checkUniformEntry(entry);
-    else checkTextureEntry(binding, entry);
+    if (isUniform(binding.type))
+        checkUniformEntry(entry);
+    else
+        checkTextureEntry(binding, entry);
 }
 
 void Validator::checkUniformEntry(BindGroupEntry const& entry) {
     BufferModel const* buffer = need(mBuffers, entry.buffer, "uniform buffer");
     if (!buffer) return;
-    require(has(buffer->desc.usage, BufferUsage::Uniform), Harm::Crash, "binding {}: buffer '{}' lacks BufferUsage::Uniform",
-            entry.binding, buffer->name);
+    require(has(buffer->desc.usage, BufferUsage::Uniform), Harm::Crash,
+            "binding {}: buffer '{}' lacks BufferUsage::Uniform", entry.binding, buffer->name);
     require(entry.offset % mInfo.limits.uniformOffsetAlignment == 0, Harm::Crash,
-            "binding {}: offset {} is no multiple of {} (DeviceLimits::uniformOffsetAlignment)", entry.binding, entry.offset,
-            mInfo.limits.uniformOffsetAlignment);
+            "binding {}: offset {} is no multiple of {} (DeviceLimits::uniformOffsetAlignment)", entry.binding,
+            entry.offset, mInfo.limits.uniformOffsetAlignment);
     require(entry.size > 0 && entry.size <= mInfo.limits.maxUniformBlockBytes, Harm::Crash,
             "binding {}: {} bytes visible; 1..{} (DeviceLimits::maxUniformBlockBytes)", entry.binding, entry.size,
             mInfo.limits.maxUniformBlockBytes);
     require(entry.offset <= buffer->desc.size && entry.size <= buffer->desc.size - entry.offset, Harm::Crash,
-            "binding {}: bytes {}..{} of buffer '{}', which has {}", entry.binding, entry.offset, entry.offset + entry.size,
-            buffer->name, buffer->desc.size);
+            "binding {}: bytes {}..{} of buffer '{}', which has {}", entry.binding, entry.offset,
+            entry.offset + entry.size, buffer->name, buffer->desc.size);
 }
 
 void Validator::checkTextureEntry(BindingDesc const& binding, BindGroupEntry const& entry) {
@@ -280,8 +290,8 @@ void Validator::checkTextureEntry(BindingDesc const& binding, BindGroupEntry con
         require(!entry.sampler, Harm::WrongResult, "binding {}: an input attachment has no sampler", entry.binding);
         return;
     }
-    require(has(texture->desc.usage, TextureUsage::Sampled), Harm::Crash, "binding {}: texture '{}' lacks TextureUsage::Sampled",
-            entry.binding, texture->name);
+    require(has(texture->desc.usage, TextureUsage::Sampled), Harm::Crash,
+            "binding {}: texture '{}' lacks TextureUsage::Sampled", entry.binding, texture->name);
     SamplerModel const* sampler = need(mSamplers, entry.sampler, "sampler");
     if (!sampler) return;
     const FormatKind kind = formatInfo(texture->desc.format).kind;
@@ -289,7 +299,7 @@ void Validator::checkTextureEntry(BindingDesc const& binding, BindGroupEntry con
             "binding {}: a comparing sampler needs a depth format, '{}' has {}", entry.binding, texture->name,
             formatInfo(texture->desc.format).name);
     const bool filters = sampler->desc.magFilter == Filter::Linear || sampler->desc.minFilter == Filter::Linear ||
-            sampler->desc.mipFilter == MipFilter::Linear;
+                         sampler->desc.mipFilter == MipFilter::Linear;
     require(!filters || kind != FormatKind::UnsignedInteger, Harm::WrongResult,
             "binding {}: integer texture '{}' cannot be filtered; use Nearest", entry.binding, texture->name);
 }

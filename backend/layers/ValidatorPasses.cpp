@@ -8,7 +8,7 @@ namespace {
 
 bool covers(TextureDesc const& desc, uint32_t level, Rect const& area) {
     return static_cast<uint64_t>(area.x) + area.width <= std::max(1u, desc.width >> level) &&
-            static_cast<uint64_t>(area.y) + area.height <= std::max(1u, desc.height >> level);
+           static_cast<uint64_t>(area.y) + area.height <= std::max(1u, desc.height >> level);
 }
 
 uint32_t colorCount(PassLayout const& layout) { return std::min<uint32_t>(layout.colorCount, kMaxColorAttachments); }
@@ -24,22 +24,25 @@ void Validator::checkPassLayout(PassLayout const& layout) {
             "a pass without attachments; give it a colour or a depth attachment");
     for (uint32_t i = 0; i < colorCount(layout); ++i) {
         FormatInfo const& format = formatInfo(layout.colorFormats[i]);
-        require(layout.colorFormats[i] != Format::None && format.isRenderable && !hasDepth(layout.colorFormats[i]), Harm::Crash,
-                "colour {} has format {}, which is no renderable colour format", i, format.name);
+        require(layout.colorFormats[i] != Format::None && format.isRenderable && !hasDepth(layout.colorFormats[i]),
+                Harm::Crash, "colour {} has format {}, which is no renderable colour format", i, format.name);
     }
-    require(layout.depthFormat == Format::None || hasDepth(layout.depthFormat), Harm::Crash, "depth has colour format {}",
-            formatInfo(layout.depthFormat).name);
+    require(layout.depthFormat == Format::None || hasDepth(layout.depthFormat), Harm::Crash,
+            "depth has colour format {}", formatInfo(layout.depthFormat).name);
     require(layout.samples == 1 || layout.samples == 4, Harm::Crash, "{} samples; 1 or 4", layout.samples);
-    require(layout.samples > 1 || layout.resolveMask == 0, Harm::Crash, "a resolve needs samples > 1; clear resolveMask");
-    require((layout.resolveMask >> colorCount(layout)) == 0, Harm::Crash, "resolveMask names attachments beyond colorCount");
+    require(layout.samples > 1 || layout.resolveMask == 0, Harm::Crash,
+            "a resolve needs samples > 1; clear resolveMask");
+    require((layout.resolveMask >> colorCount(layout)) == 0, Harm::Crash,
+            "resolveMask names attachments beyond colorCount");
     checkSubpasses(layout);
 }
 
 void Validator::checkSubpasses(PassLayout const& layout) {
     const bool counted = require(layout.subpassCount >= 1 && layout.subpassCount <= kMaxSubpasses, Harm::Crash,
-            "{} subpasses; 1..{}", layout.subpassCount, kMaxSubpasses);
+                                 "{} subpasses; 1..{}", layout.subpassCount, kMaxSubpasses);
     if (!counted) return;
-    require(layout.subpassCount == 1 || layout.samples == 1, Harm::Crash, "samples > 1 excludes subpasses; use two passes");
+    require(layout.subpassCount == 1 || layout.samples == 1, Harm::Crash,
+            "samples > 1 excludes subpasses; use two passes");
     require(layout.subpassCount == 1 || mInfo.features.mergedPasses, Harm::Crash,
             "this device lacks DeviceFeatures::mergedPasses; use two passes");
     uint32_t written = 0;
@@ -57,12 +60,15 @@ void Validator::execute(CmdBeginPass const& command) {
     PassDesc const& desc = command.desc;
     enter<CmdBeginPass>(Place::OutsidePasses, desc.debugName);
     checkPassLayout(desc.layout);
-    const bool area = require(desc.area.x >= 0 && desc.area.y >= 0 && desc.area.width > 0 && desc.area.height > 0, Harm::Crash,
-            "area {},{} {} x {} is empty or begins outside", desc.area.x, desc.area.y, desc.area.width, desc.area.height);
+    const bool area = require(desc.area.x >= 0 && desc.area.y >= 0 && desc.area.width > 0 && desc.area.height > 0,
+                              Harm::Crash, "area {},{} {} x {} is empty or begins outside", desc.area.x, desc.area.y,
+                              desc.area.width, desc.area.height);
     if (area) {
         for (uint32_t i = 0; i < colorCount(desc.layout); ++i) checkColorAttachment(desc, i);
-        if (desc.layout.depthFormat != Format::None) checkDepthAttachment(desc);
-        else require(!desc.depth.texture, Harm::WrongResult, "a depth texture, but layout.depthFormat is None");
+        if (desc.layout.depthFormat != Format::None)
+            checkDepthAttachment(desc);
+        else
+            require(!desc.depth.texture, Harm::WrongResult, "a depth texture, but layout.depthFormat is None");
         checkAttachedOnce(desc);
     }
     mPass = OpenPass{ std::string(desc.debugName), desc, 0 };
@@ -70,13 +76,14 @@ void Validator::execute(CmdBeginPass const& command) {
     mBound = {};
 }
 
-Validator::TextureModel const* Validator::checkAttachment(Attachment const& attachment, std::string_view role, Rect const& area) {
+Validator::TextureModel const* Validator::checkAttachment(Attachment const& attachment, std::string_view role,
+                                                          Rect const& area) {
     TextureModel const* texture = need(mTextures, attachment.texture, role);
     if (!texture) return nullptr;
     TextureDesc const& desc = texture->desc;
     const bool exists = require(attachment.level < desc.levels && attachment.layer < desc.layers, Harm::Crash,
-            "{} '{}': level {} of {}, layer {} of {}", role, texture->name, attachment.level, desc.levels, attachment.layer,
-            desc.layers);
+                                "{} '{}': level {} of {}, layer {} of {}", role, texture->name, attachment.level,
+                                desc.levels, attachment.layer, desc.layers);
     if (!exists) return nullptr;
     require(covers(desc, attachment.level, area), Harm::Crash, "{} '{}' is smaller than the area {},{} {} x {}", role,
             texture->name, area.x, area.y, area.width, area.height);
@@ -91,12 +98,12 @@ void Validator::checkColorAttachment(PassDesc const& desc, uint32_t index) {
     TextureModel const* texture = checkAttachment(desc.colors[index], role, desc.area);
     if (!texture) return;
     const Format expected = desc.layout.colorFormats[index];
-    require(texture->desc.format == expected, Harm::Crash, "{} '{}' has format {}, the layout says {}", role, texture->name,
-            formatInfo(texture->desc.format).name, formatInfo(expected).name);
-    require(texture->desc.samples == desc.layout.samples, Harm::Crash, "{} '{}' has {} samples, the layout says {}", role,
-            texture->name, texture->desc.samples, desc.layout.samples);
-    require(has(texture->desc.usage, TextureUsage::ColorAttachment), Harm::Crash, "{} '{}' lacks TextureUsage::ColorAttachment",
-            role, texture->name);
+    require(texture->desc.format == expected, Harm::Crash, "{} '{}' has format {}, the layout says {}", role,
+            texture->name, formatInfo(texture->desc.format).name, formatInfo(expected).name);
+    require(texture->desc.samples == desc.layout.samples, Harm::Crash, "{} '{}' has {} samples, the layout says {}",
+            role, texture->name, texture->desc.samples, desc.layout.samples);
+    require(has(texture->desc.usage, TextureUsage::ColorAttachment), Harm::Crash,
+            "{} '{}' lacks TextureUsage::ColorAttachment", role, texture->name);
     uint32_t inputs = 0;
     for (uint32_t i = 0; i < std::min<uint32_t>(desc.layout.subpassCount, kMaxSubpasses); ++i) {
         inputs |= desc.layout.subpasses[i].inputMask;
@@ -114,23 +121,27 @@ void Validator::checkResolve(PassDesc const& desc, uint32_t index) {
     }
     TextureModel const* texture = need(mTextures, resolve, fmt::format("resolve target of colour {}", index));
     if (!texture) return;
-    require(texture->desc.samples == 1, Harm::Crash, "resolve target '{}' has {} samples", texture->name, texture->desc.samples);
-    require(texture->desc.format == desc.layout.colorFormats[index], Harm::Crash, "resolve target '{}' has format {}, colour {} has {}",
-            texture->name, formatInfo(texture->desc.format).name, index, formatInfo(desc.layout.colorFormats[index]).name);
+    require(texture->desc.samples == 1, Harm::Crash, "resolve target '{}' has {} samples", texture->name,
+            texture->desc.samples);
+    require(texture->desc.format == desc.layout.colorFormats[index], Harm::Crash,
+            "resolve target '{}' has format {}, colour {} has {}", texture->name, formatInfo(texture->desc.format).name,
+            index, formatInfo(desc.layout.colorFormats[index]).name);
     require(has(texture->desc.usage, TextureUsage::ColorAttachment), Harm::Crash,
             "resolve target '{}' lacks TextureUsage::ColorAttachment", texture->name);
-    require(covers(texture->desc, 0, desc.area), Harm::Crash, "resolve target '{}' is smaller than the area", texture->name);
+    require(covers(texture->desc, 0, desc.area), Harm::Crash, "resolve target '{}' is smaller than the area",
+            texture->name);
 }
 
 void Validator::checkDepthAttachment(PassDesc const& desc) {
     TextureModel const* texture = checkAttachment(desc.depth, "depth", desc.area);
     if (!texture) return;
-    require(texture->desc.format == desc.layout.depthFormat, Harm::Crash, "depth '{}' has format {}, the layout says {}",
-            texture->name, formatInfo(texture->desc.format).name, formatInfo(desc.layout.depthFormat).name);
+    require(texture->desc.format == desc.layout.depthFormat, Harm::Crash,
+            "depth '{}' has format {}, the layout says {}", texture->name, formatInfo(texture->desc.format).name,
+            formatInfo(desc.layout.depthFormat).name);
     require(texture->desc.samples == desc.layout.samples, Harm::Crash, "depth '{}' has {} samples, the layout says {}",
             texture->name, texture->desc.samples, desc.layout.samples);
-    require(has(texture->desc.usage, TextureUsage::DepthAttachment), Harm::Crash, "depth '{}' lacks TextureUsage::DepthAttachment",
-            texture->name);
+    require(has(texture->desc.usage, TextureUsage::DepthAttachment), Harm::Crash,
+            "depth '{}' lacks TextureUsage::DepthAttachment", texture->name);
     require(!desc.depth.resolve, Harm::WrongResult, "depth attachments do not resolve");
 }
 
@@ -158,8 +169,8 @@ void Validator::execute(CmdNextSubpass const&) {
 void Validator::execute(CmdEndPass const&) {
     enter<CmdEndPass>(Place::InsidePass);
     if (!mPass) return;
-    require(mPass->subpass + 1 == mPass->desc.layout.subpassCount, Harm::Crash, "subpass {} of {} is the current one; go through all",
-            mPass->subpass, mPass->desc.layout.subpassCount);
+    require(mPass->subpass + 1 == mPass->desc.layout.subpassCount, Harm::Crash,
+            "subpass {} of {} is the current one; go through all", mPass->subpass, mPass->desc.layout.subpassCount);
     mPass.reset();
     mBound = {};
 }
@@ -195,7 +206,9 @@ void Validator::execute(CmdBeginTimer const& command) {
 void Validator::execute(CmdEndTimer const& command) {
     enter<CmdEndTimer>(Place::OutsidePasses);
     const auto it = std::ranges::find(mOpenTimers, command.ticket);
-    if (!require(it != mOpenTimers.end(), Harm::Crash, "timer {} is not open; record CmdBeginTimer first", command.ticket.value)) return;
+    if (!require(it != mOpenTimers.end(), Harm::Crash, "timer {} is not open; record CmdBeginTimer first",
+                 command.ticket.value))
+        return;
     require(it + 1 == mOpenTimers.end(), Harm::Crash, "timer {} began inside of timer {}; end the inner one first",
             mOpenTimers.back().value, command.ticket.value);
     mOpenTimers.erase(it);
@@ -208,7 +221,8 @@ void Validator::execute(CmdPushGroup const& command) {
 
 void Validator::execute(CmdPopGroup const&) {
     enter<CmdPopGroup>(Place::Anywhere);
-    if (require(!mOpenGroups.empty(), Harm::WrongResult, "no group is open; record CmdPushGroup first")) mOpenGroups.pop_back();
+    if (require(!mOpenGroups.empty(), Harm::WrongResult, "no group is open; record CmdPushGroup first"))
+        mOpenGroups.pop_back();
 }
 
 } // namespace filament::backend

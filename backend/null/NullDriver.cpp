@@ -66,7 +66,9 @@ public:
 
     /// Everything that leaves no trace here: state, contents, names.
     template <class C>
-    void execute(C const&) { ++mCount.commands; }
+    void execute(C const&) {
+        ++mCount.commands;
+    }
 
     void execute(CmdCreateBuffer const& command) {
         ++mCount.commands;

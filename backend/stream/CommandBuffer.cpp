@@ -50,7 +50,7 @@ void CommandBuffer::startChunk(size_t bytes) {
 
 std::span<std::byte> CommandBuffer::allocate(size_t bytes, size_t alignment) {
     FILAMENT_ASSERT(alignment > 0 && alignment <= kBlockAlignment && (alignment & (alignment - 1)) == 0,
-            "payload alignment is a power of two up to 64");
+                    "payload alignment is a power of two up to 64");
     mPayloadBytes += bytes;
     const size_t padding = (0 - reinterpret_cast<uintptr_t>(mPayload.at)) & (alignment - 1);
     if (bytes <= mPayload.left() && padding <= mPayload.left() - bytes) {

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// CommandBuffer: a recorded stream. Commands are plain structs in linear chunks; payloads live beside them.
 ///   Thread  one recorder at a time. Several buffers may be recorded in parallel and joined in order with append().
-///   Memory  chunks of 64 KiB, larger for larger payloads; grows without limit, never aborts, never overruns. reset() keeps
-///           the chunks, so a steady frame allocates nothing; an oversized chunk that one whole frame did not need is freed.
+///   Memory  chunks of 64 KiB, larger for larger payloads; grows without limit, never aborts, never overruns.
+///           reset() keeps the chunks, so a steady frame allocates nothing; an oversized chunk that one whole frame
+///           did not need is freed.
 ///   Names   every span and string_view given to record() inside a command is copied into the buffer.
 #pragma once
 
@@ -36,13 +37,15 @@ public:
 
     /// record() for commands whose spans already point into this buffer.
     template <class C>
-    void recordAdopted(C const& command) { append(command); }
+    void recordAdopted(C const& command) {
+        append(command);
+    }
 
     /// Moves all commands of `tail` behind the ones here; `tail` is left empty.
     void append(CommandBuffer&& tail);
 
     void reset();
-    CommandView view() const;   ///< valid until the next record() or reset()
+    CommandView view() const; ///< valid until the next record() or reset()
     size_t commandCount() const;
     size_t bytesUsed() const;
     size_t bytesReserved() const;
@@ -72,7 +75,8 @@ private:
     void append(C const& command) {
         static_assert(alignof(C) <= kCommandAlignment && std::is_trivially_copyable_v<C>, "a command is plain data");
         constexpr size_t kBytes = (2 * kCommandAlignment - 1 + sizeof(C)) & ~(kCommandAlignment - 1);
-        if (kBytes > mCommands.left()) [[unlikely]] startChunk(kBytes);
+        if (kBytes > mCommands.left()) [[unlikely]]
+            startChunk(kBytes);
         std::byte* const at = mCommands.at;
         new (at) CommandHeader{ kCommandId<C>, static_cast<uint32_t>(kBytes) };
         new (at + kCommandAlignment) C(command); // in place: no detour over the stack
@@ -84,10 +88,10 @@ private:
     Block& takeBlock(size_t bytes);
     void startChunk(size_t bytes);
 
-    Range mCommands, mPayload;          // what is left of the newest block of each kind
-    std::vector<CommandChunk> mChunks;  // command blocks in order
-    std::vector<Block> mUsed;           // owns the memory of commands and payloads
-    std::vector<Block> mSpare;          // kept for the next frame
+    Range mCommands, mPayload;         // what is left of the newest block of each kind
+    std::vector<CommandChunk> mChunks; // command blocks in order
+    std::vector<Block> mUsed;          // owns the memory of commands and payloads
+    std::vector<Block> mSpare;         // kept for the next frame
     size_t mCommandCount = 0;
     size_t mPayloadBytes = 0;
 };

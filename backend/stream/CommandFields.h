@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CommandFields: the one list of what is inside a command, by name. Copying payloads, the text dump, its reader and the
-/// validation messages all walk it, so that a new field is written down once.
+/// CommandFields: the one list of what is inside a command, by name. Copying payloads, the text dump, its reader and
+/// the validation messages all walk it, so that a new field is written down once.
 ///   Use     visitFields(value, [](const char* name, auto& field) { ... }) in the order of declaration;
 ///           kFields<T>.name is the name in dumps ("Draw"), HasFields<T> tells a struct from a leaf.
 ///   Checked a struct that gains a field which is not listed here does not compile.
@@ -45,8 +45,10 @@ constexpr bool hasMembers(std::index_sequence<I...>) {
 /// Members of an aggregate: the largest count of initialisers it accepts.
 template <class S, size_t N = 16>
 constexpr size_t memberCount() {
-    if constexpr (hasMembers<S>(std::make_index_sequence<N>{})) return N;
-    else return memberCount<S, N - 1>();
+    if constexpr (hasMembers<S>(std::make_index_sequence<N>{}))
+        return N;
+    else
+        return memberCount<S, N - 1>();
 }
 
 template <class S, class... T>
@@ -73,87 +75,90 @@ concept HasFields = !std::same_as<std::remove_cv_t<decltype(kFields<std::remove_
 template <HasFields S, class Visitor>
 constexpr void visitFields(S& value, Visitor&& visitor) {
     std::apply([&](auto const&... field) { (visitor(field.name, value.*field.member), ...); },
-            kFields<std::remove_cv_t<S>>.fields);
+               kFields<std::remove_cv_t<S>>.fields);
 }
 
 // One line a field: the name in dumps is the name in the code.
-#define FILAMENT_FIELD(S, member) Field<S, decltype(S::member)>{ #member, &S::member }
+#define FILAMENT_FIELD(S, member)                                                                                      \
+    Field<S, decltype(S::member)> { #member, &S::member }
 
-#define FILAMENT_FIELDS(S, name, ...) \
-    template <>                       \
+#define FILAMENT_FIELDS(S, name, ...)                                                                                  \
+    template <>                                                                                                        \
     inline constexpr auto kFields<S> = detail::list<S>(name, __VA_ARGS__)
-#define FILAMENT_NO_FIELDS(S, name) \
-    template <>                     \
+#define FILAMENT_NO_FIELDS(S, name)                                                                                    \
+    template <>                                                                                                        \
     inline constexpr auto kFields<S> = detail::empty<S>(name)
 
 // ---------------------------------------------------------------------------------------------- descriptions
 
 FILAMENT_FIELDS(Rect, "Rect", FILAMENT_FIELD(Rect, x), FILAMENT_FIELD(Rect, y), FILAMENT_FIELD(Rect, width),
-        FILAMENT_FIELD(Rect, height));
+                FILAMENT_FIELD(Rect, height));
 FILAMENT_FIELDS(Viewport, "Viewport", FILAMENT_FIELD(Viewport, x), FILAMENT_FIELD(Viewport, y),
-        FILAMENT_FIELD(Viewport, width), FILAMENT_FIELD(Viewport, height));
+                FILAMENT_FIELD(Viewport, width), FILAMENT_FIELD(Viewport, height));
 FILAMENT_FIELDS(BufferDesc, "BufferDesc", FILAMENT_FIELD(BufferDesc, size), FILAMENT_FIELD(BufferDesc, usage),
-        FILAMENT_FIELD(BufferDesc, debugName));
+                FILAMENT_FIELD(BufferDesc, debugName));
 FILAMENT_FIELDS(TextureDesc, "TextureDesc", FILAMENT_FIELD(TextureDesc, type), FILAMENT_FIELD(TextureDesc, format),
-        FILAMENT_FIELD(TextureDesc, usage), FILAMENT_FIELD(TextureDesc, samples), FILAMENT_FIELD(TextureDesc, levels),
-        FILAMENT_FIELD(TextureDesc, layers), FILAMENT_FIELD(TextureDesc, width), FILAMENT_FIELD(TextureDesc, height),
-        FILAMENT_FIELD(TextureDesc, debugName));
+                FILAMENT_FIELD(TextureDesc, usage), FILAMENT_FIELD(TextureDesc, samples),
+                FILAMENT_FIELD(TextureDesc, levels), FILAMENT_FIELD(TextureDesc, layers),
+                FILAMENT_FIELD(TextureDesc, width), FILAMENT_FIELD(TextureDesc, height),
+                FILAMENT_FIELD(TextureDesc, debugName));
 FILAMENT_FIELDS(SamplerDesc, "SamplerDesc", FILAMENT_FIELD(SamplerDesc, magFilter),
-        FILAMENT_FIELD(SamplerDesc, minFilter), FILAMENT_FIELD(SamplerDesc, mipFilter),
-        FILAMENT_FIELD(SamplerDesc, wrapU), FILAMENT_FIELD(SamplerDesc, wrapV), FILAMENT_FIELD(SamplerDesc, wrapW),
-        FILAMENT_FIELD(SamplerDesc, compare), FILAMENT_FIELD(SamplerDesc, anisotropy));
+                FILAMENT_FIELD(SamplerDesc, minFilter), FILAMENT_FIELD(SamplerDesc, mipFilter),
+                FILAMENT_FIELD(SamplerDesc, wrapU), FILAMENT_FIELD(SamplerDesc, wrapV),
+                FILAMENT_FIELD(SamplerDesc, wrapW), FILAMENT_FIELD(SamplerDesc, compare),
+                FILAMENT_FIELD(SamplerDesc, anisotropy));
 FILAMENT_FIELDS(BindingDesc, "BindingDesc", FILAMENT_FIELD(BindingDesc, binding), FILAMENT_FIELD(BindingDesc, type),
-        FILAMENT_FIELD(BindingDesc, stages), FILAMENT_FIELD(BindingDesc, inputAttachment));
+                FILAMENT_FIELD(BindingDesc, stages), FILAMENT_FIELD(BindingDesc, inputAttachment));
 FILAMENT_FIELDS(BindGroupLayout, "BindGroupLayout", FILAMENT_FIELD(BindGroupLayout, bindings),
-        FILAMENT_FIELD(BindGroupLayout, count));
+                FILAMENT_FIELD(BindGroupLayout, count));
 FILAMENT_FIELDS(ConstantValue, "ConstantValue", FILAMENT_FIELD(ConstantValue, id), FILAMENT_FIELD(ConstantValue, bits),
-        FILAMENT_FIELD(ConstantValue, type));
+                FILAMENT_FIELD(ConstantValue, type));
 FILAMENT_FIELDS(ProgramDesc, "ProgramDesc", FILAMENT_FIELD(ProgramDesc, vertex), FILAMENT_FIELD(ProgramDesc, fragment),
-        FILAMENT_FIELD(ProgramDesc, constants), FILAMENT_FIELD(ProgramDesc, layout),
-        FILAMENT_FIELD(ProgramDesc, debugName));
+                FILAMENT_FIELD(ProgramDesc, constants), FILAMENT_FIELD(ProgramDesc, layout),
+                FILAMENT_FIELD(ProgramDesc, debugName));
 FILAMENT_FIELDS(SubpassDesc, "SubpassDesc", FILAMENT_FIELD(SubpassDesc, colorMask),
-        FILAMENT_FIELD(SubpassDesc, inputMask), FILAMENT_FIELD(SubpassDesc, usesDepth));
+                FILAMENT_FIELD(SubpassDesc, inputMask), FILAMENT_FIELD(SubpassDesc, usesDepth));
 FILAMENT_FIELDS(PassLayout, "PassLayout", FILAMENT_FIELD(PassLayout, colorFormats),
-        FILAMENT_FIELD(PassLayout, depthFormat), FILAMENT_FIELD(PassLayout, colorCount),
-        FILAMENT_FIELD(PassLayout, samples), FILAMENT_FIELD(PassLayout, resolveMask),
-        FILAMENT_FIELD(PassLayout, subpassCount), FILAMENT_FIELD(PassLayout, subpasses));
+                FILAMENT_FIELD(PassLayout, depthFormat), FILAMENT_FIELD(PassLayout, colorCount),
+                FILAMENT_FIELD(PassLayout, samples), FILAMENT_FIELD(PassLayout, resolveMask),
+                FILAMENT_FIELD(PassLayout, subpassCount), FILAMENT_FIELD(PassLayout, subpasses));
 FILAMENT_FIELDS(Attachment, "Attachment", FILAMENT_FIELD(Attachment, texture), FILAMENT_FIELD(Attachment, level),
-        FILAMENT_FIELD(Attachment, layer), FILAMENT_FIELD(Attachment, load), FILAMENT_FIELD(Attachment, store),
-        FILAMENT_FIELD(Attachment, clear), FILAMENT_FIELD(Attachment, resolve));
+                FILAMENT_FIELD(Attachment, layer), FILAMENT_FIELD(Attachment, load), FILAMENT_FIELD(Attachment, store),
+                FILAMENT_FIELD(Attachment, clear), FILAMENT_FIELD(Attachment, resolve));
 FILAMENT_FIELDS(PassDesc, "PassDesc", FILAMENT_FIELD(PassDesc, layout), FILAMENT_FIELD(PassDesc, colors),
-        FILAMENT_FIELD(PassDesc, depth), FILAMENT_FIELD(PassDesc, area), FILAMENT_FIELD(PassDesc, debugName));
+                FILAMENT_FIELD(PassDesc, depth), FILAMENT_FIELD(PassDesc, area), FILAMENT_FIELD(PassDesc, debugName));
 FILAMENT_FIELDS(VertexAttribute, "VertexAttribute", FILAMENT_FIELD(VertexAttribute, location),
-        FILAMENT_FIELD(VertexAttribute, buffer), FILAMENT_FIELD(VertexAttribute, format),
-        FILAMENT_FIELD(VertexAttribute, offset));
+                FILAMENT_FIELD(VertexAttribute, buffer), FILAMENT_FIELD(VertexAttribute, format),
+                FILAMENT_FIELD(VertexAttribute, offset));
 FILAMENT_FIELDS(VertexBufferLayout, "VertexBufferLayout", FILAMENT_FIELD(VertexBufferLayout, stride),
-        FILAMENT_FIELD(VertexBufferLayout, perInstance));
+                FILAMENT_FIELD(VertexBufferLayout, perInstance));
 FILAMENT_FIELDS(VertexLayout, "VertexLayout", FILAMENT_FIELD(VertexLayout, attributes),
-        FILAMENT_FIELD(VertexLayout, buffers), FILAMENT_FIELD(VertexLayout, attributeCount),
-        FILAMENT_FIELD(VertexLayout, bufferCount));
+                FILAMENT_FIELD(VertexLayout, buffers), FILAMENT_FIELD(VertexLayout, attributeCount),
+                FILAMENT_FIELD(VertexLayout, bufferCount));
 FILAMENT_FIELDS(RasterState, "RasterState", FILAMENT_FIELD(RasterState, topology), FILAMENT_FIELD(RasterState, cull),
-        FILAMENT_FIELD(RasterState, frontFace), FILAMENT_FIELD(RasterState, depthClamp),
-        FILAMENT_FIELD(RasterState, depthBiasConstant), FILAMENT_FIELD(RasterState, depthBiasSlope),
-        FILAMENT_FIELD(RasterState, alphaToCoverage));
+                FILAMENT_FIELD(RasterState, frontFace), FILAMENT_FIELD(RasterState, depthClamp),
+                FILAMENT_FIELD(RasterState, depthBiasConstant), FILAMENT_FIELD(RasterState, depthBiasSlope),
+                FILAMENT_FIELD(RasterState, alphaToCoverage));
 FILAMENT_FIELDS(StencilFace, "StencilFace", FILAMENT_FIELD(StencilFace, compare), FILAMENT_FIELD(StencilFace, fail),
-        FILAMENT_FIELD(StencilFace, depthFail), FILAMENT_FIELD(StencilFace, pass),
-        FILAMENT_FIELD(StencilFace, readMask), FILAMENT_FIELD(StencilFace, writeMask));
+                FILAMENT_FIELD(StencilFace, depthFail), FILAMENT_FIELD(StencilFace, pass),
+                FILAMENT_FIELD(StencilFace, readMask), FILAMENT_FIELD(StencilFace, writeMask));
 FILAMENT_FIELDS(DepthStencilState, "DepthStencilState", FILAMENT_FIELD(DepthStencilState, depthCompare),
-        FILAMENT_FIELD(DepthStencilState, depthWrite), FILAMENT_FIELD(DepthStencilState, stencilTest),
-        FILAMENT_FIELD(DepthStencilState, front), FILAMENT_FIELD(DepthStencilState, back));
+                FILAMENT_FIELD(DepthStencilState, depthWrite), FILAMENT_FIELD(DepthStencilState, stencilTest),
+                FILAMENT_FIELD(DepthStencilState, front), FILAMENT_FIELD(DepthStencilState, back));
 FILAMENT_FIELDS(BlendState, "BlendState", FILAMENT_FIELD(BlendState, enabled), FILAMENT_FIELD(BlendState, srcColor),
-        FILAMENT_FIELD(BlendState, dstColor), FILAMENT_FIELD(BlendState, srcAlpha),
-        FILAMENT_FIELD(BlendState, dstAlpha), FILAMENT_FIELD(BlendState, colorOp), FILAMENT_FIELD(BlendState, alphaOp),
-        FILAMENT_FIELD(BlendState, writeMask));
+                FILAMENT_FIELD(BlendState, dstColor), FILAMENT_FIELD(BlendState, srcAlpha),
+                FILAMENT_FIELD(BlendState, dstAlpha), FILAMENT_FIELD(BlendState, colorOp),
+                FILAMENT_FIELD(BlendState, alphaOp), FILAMENT_FIELD(BlendState, writeMask));
 FILAMENT_FIELDS(PipelineDesc, "PipelineDesc", FILAMENT_FIELD(PipelineDesc, program), FILAMENT_FIELD(PipelineDesc, pass),
-        FILAMENT_FIELD(PipelineDesc, subpass), FILAMENT_FIELD(PipelineDesc, vertices),
-        FILAMENT_FIELD(PipelineDesc, raster), FILAMENT_FIELD(PipelineDesc, depthStencil),
-        FILAMENT_FIELD(PipelineDesc, blend), FILAMENT_FIELD(PipelineDesc, debugName));
+                FILAMENT_FIELD(PipelineDesc, subpass), FILAMENT_FIELD(PipelineDesc, vertices),
+                FILAMENT_FIELD(PipelineDesc, raster), FILAMENT_FIELD(PipelineDesc, depthStencil),
+                FILAMENT_FIELD(PipelineDesc, blend), FILAMENT_FIELD(PipelineDesc, debugName));
 FILAMENT_FIELDS(BindGroupEntry, "BindGroupEntry", FILAMENT_FIELD(BindGroupEntry, binding),
-        FILAMENT_FIELD(BindGroupEntry, buffer), FILAMENT_FIELD(BindGroupEntry, offset),
-        FILAMENT_FIELD(BindGroupEntry, size), FILAMENT_FIELD(BindGroupEntry, texture),
-        FILAMENT_FIELD(BindGroupEntry, sampler));
+                FILAMENT_FIELD(BindGroupEntry, buffer), FILAMENT_FIELD(BindGroupEntry, offset),
+                FILAMENT_FIELD(BindGroupEntry, size), FILAMENT_FIELD(BindGroupEntry, texture),
+                FILAMENT_FIELD(BindGroupEntry, sampler));
 FILAMENT_FIELDS(BindGroupDesc, "BindGroupDesc", FILAMENT_FIELD(BindGroupDesc, layout),
-        FILAMENT_FIELD(BindGroupDesc, entries), FILAMENT_FIELD(BindGroupDesc, debugName));
+                FILAMENT_FIELD(BindGroupDesc, entries), FILAMENT_FIELD(BindGroupDesc, debugName));
 
 // ---------------------------------------------------------------------------------------------- commands
 
@@ -172,38 +177,39 @@ FILAMENT_DESTROY_FIELDS(CmdDestroyProgram, "DestroyProgram");
 FILAMENT_DESTROY_FIELDS(CmdDestroyPipeline, "DestroyPipeline");
 FILAMENT_DESTROY_FIELDS(CmdDestroyBindGroup, "DestroyBindGroup");
 FILAMENT_FIELDS(CmdUpdateBuffer, "UpdateBuffer", FILAMENT_FIELD(CmdUpdateBuffer, buffer),
-        FILAMENT_FIELD(CmdUpdateBuffer, offset), FILAMENT_FIELD(CmdUpdateBuffer, bytes));
+                FILAMENT_FIELD(CmdUpdateBuffer, offset), FILAMENT_FIELD(CmdUpdateBuffer, bytes));
 FILAMENT_FIELDS(CmdUploadTexture, "UploadTexture", FILAMENT_FIELD(CmdUploadTexture, texture),
-        FILAMENT_FIELD(CmdUploadTexture, level), FILAMENT_FIELD(CmdUploadTexture, layer),
-        FILAMENT_FIELD(CmdUploadTexture, layerCount), FILAMENT_FIELD(CmdUploadTexture, rect),
-        FILAMENT_FIELD(CmdUploadTexture, bytes));
+                FILAMENT_FIELD(CmdUploadTexture, level), FILAMENT_FIELD(CmdUploadTexture, layer),
+                FILAMENT_FIELD(CmdUploadTexture, layerCount), FILAMENT_FIELD(CmdUploadTexture, rect),
+                FILAMENT_FIELD(CmdUploadTexture, bytes));
 FILAMENT_FIELDS(CmdGenerateMips, "GenerateMips", FILAMENT_FIELD(CmdGenerateMips, texture));
 FILAMENT_FIELDS(CmdBlit, "Blit", FILAMENT_FIELD(CmdBlit, source), FILAMENT_FIELD(CmdBlit, target),
-        FILAMENT_FIELD(CmdBlit, sourceLevel), FILAMENT_FIELD(CmdBlit, targetLevel),
-        FILAMENT_FIELD(CmdBlit, sourceLayer), FILAMENT_FIELD(CmdBlit, targetLayer), FILAMENT_FIELD(CmdBlit, sourceRect),
-        FILAMENT_FIELD(CmdBlit, targetRect), FILAMENT_FIELD(CmdBlit, filter));
+                FILAMENT_FIELD(CmdBlit, sourceLevel), FILAMENT_FIELD(CmdBlit, targetLevel),
+                FILAMENT_FIELD(CmdBlit, sourceLayer), FILAMENT_FIELD(CmdBlit, targetLayer),
+                FILAMENT_FIELD(CmdBlit, sourceRect), FILAMENT_FIELD(CmdBlit, targetRect),
+                FILAMENT_FIELD(CmdBlit, filter));
 FILAMENT_FIELDS(CmdReadTexture, "ReadTexture", FILAMENT_FIELD(CmdReadTexture, texture),
-        FILAMENT_FIELD(CmdReadTexture, level), FILAMENT_FIELD(CmdReadTexture, layer),
-        FILAMENT_FIELD(CmdReadTexture, rect), FILAMENT_FIELD(CmdReadTexture, ticket));
+                FILAMENT_FIELD(CmdReadTexture, level), FILAMENT_FIELD(CmdReadTexture, layer),
+                FILAMENT_FIELD(CmdReadTexture, rect), FILAMENT_FIELD(CmdReadTexture, ticket));
 FILAMENT_FIELDS(CmdBeginPass, "BeginPass", FILAMENT_FIELD(CmdBeginPass, desc));
 FILAMENT_NO_FIELDS(CmdNextSubpass, "NextSubpass");
 FILAMENT_NO_FIELDS(CmdEndPass, "EndPass");
 FILAMENT_FIELDS(CmdSetViewport, "SetViewport", FILAMENT_FIELD(CmdSetViewport, viewport));
 FILAMENT_FIELDS(CmdSetScissor, "SetScissor", FILAMENT_FIELD(CmdSetScissor, rect));
 FILAMENT_FIELDS(CmdSetStencilReference, "SetStencilReference", FILAMENT_FIELD(CmdSetStencilReference, front),
-        FILAMENT_FIELD(CmdSetStencilReference, back));
+                FILAMENT_FIELD(CmdSetStencilReference, back));
 FILAMENT_FIELDS(CmdBindPipeline, "BindPipeline", FILAMENT_FIELD(CmdBindPipeline, pipeline));
 FILAMENT_FIELDS(CmdBindGroup, "BindGroup", FILAMENT_FIELD(CmdBindGroup, group), FILAMENT_FIELD(CmdBindGroup, index),
-        FILAMENT_FIELD(CmdBindGroup, dynamicCount), FILAMENT_FIELD(CmdBindGroup, dynamicOffsets));
+                FILAMENT_FIELD(CmdBindGroup, dynamicCount), FILAMENT_FIELD(CmdBindGroup, dynamicOffsets));
 FILAMENT_FIELDS(CmdBindVertexBuffers, "BindVertexBuffers", FILAMENT_FIELD(CmdBindVertexBuffers, buffers),
-        FILAMENT_FIELD(CmdBindVertexBuffers, offsets), FILAMENT_FIELD(CmdBindVertexBuffers, count));
+                FILAMENT_FIELD(CmdBindVertexBuffers, offsets), FILAMENT_FIELD(CmdBindVertexBuffers, count));
 FILAMENT_FIELDS(CmdBindIndexBuffer, "BindIndexBuffer", FILAMENT_FIELD(CmdBindIndexBuffer, buffer),
-        FILAMENT_FIELD(CmdBindIndexBuffer, offset), FILAMENT_FIELD(CmdBindIndexBuffer, type));
+                FILAMENT_FIELD(CmdBindIndexBuffer, offset), FILAMENT_FIELD(CmdBindIndexBuffer, type));
 FILAMENT_FIELDS(CmdDraw, "Draw", FILAMENT_FIELD(CmdDraw, vertexCount), FILAMENT_FIELD(CmdDraw, instanceCount),
-        FILAMENT_FIELD(CmdDraw, firstVertex), FILAMENT_FIELD(CmdDraw, firstInstance));
+                FILAMENT_FIELD(CmdDraw, firstVertex), FILAMENT_FIELD(CmdDraw, firstInstance));
 FILAMENT_FIELDS(CmdDrawIndexed, "DrawIndexed", FILAMENT_FIELD(CmdDrawIndexed, indexCount),
-        FILAMENT_FIELD(CmdDrawIndexed, instanceCount), FILAMENT_FIELD(CmdDrawIndexed, firstIndex),
-        FILAMENT_FIELD(CmdDrawIndexed, vertexOffset), FILAMENT_FIELD(CmdDrawIndexed, firstInstance));
+                FILAMENT_FIELD(CmdDrawIndexed, instanceCount), FILAMENT_FIELD(CmdDrawIndexed, firstIndex),
+                FILAMENT_FIELD(CmdDrawIndexed, vertexOffset), FILAMENT_FIELD(CmdDrawIndexed, firstInstance));
 FILAMENT_FIELDS(CmdBeginFrame, "BeginFrame", FILAMENT_FIELD(CmdBeginFrame, frame));
 FILAMENT_FIELDS(CmdEndFrame, "EndFrame", FILAMENT_FIELD(CmdEndFrame, frame));
 FILAMENT_FIELDS(CmdBeginTimer, "BeginTimer", FILAMENT_FIELD(CmdBeginTimer, ticket));

@@ -24,10 +24,14 @@ constexpr bool anyPayload(FieldList<S, T...> const&) {
 
 template <class T>
 constexpr bool hasPayload() {
-    if constexpr (std::same_as<T, std::string_view> || kIsSpan<T>) return true;
-    else if constexpr (HasFields<T>) return anyPayload(kFields<T>);
-    else if constexpr (kIsArray<T>) return hasPayload<typename T::value_type>();
-    else return false;
+    if constexpr (std::same_as<T, std::string_view> || kIsSpan<T>)
+        return true;
+    else if constexpr (HasFields<T>)
+        return anyPayload(kFields<T>);
+    else if constexpr (kIsArray<T>)
+        return hasPayload<typename T::value_type>();
+    else
+        return false;
 }
 
 } // namespace detail

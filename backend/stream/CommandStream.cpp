@@ -55,7 +55,7 @@ void CommandStream::free(BindGroupHandle handle) { mState->bindGroups.free(handl
 
 uint32_t CommandStream::liveHandles() const {
     return mState->buffers.liveCount() + mState->textures.liveCount() + mState->samplers.liveCount() +
-            mState->programs.liveCount() + mState->pipelines.liveCount() + mState->bindGroups.liveCount();
+           mState->programs.liveCount() + mState->pipelines.liveCount() + mState->bindGroups.liveCount();
 }
 
 Ticket CommandStream::nextTicket() { return { gLastTicket.fetch_add(1, std::memory_order_relaxed) + 1 }; }
@@ -78,17 +78,20 @@ Result<std::vector<std::byte>> CommandStream::waitReadback(Ticket ticket, std::c
     if (outcome == ResultMailbox::Wait::Answered) {
         // Two threads may wait for one ticket; the other one may have been faster.
         if (std::optional<std::vector<std::byte>> bytes = takeReadback(ticket)) return std::move(*bytes);
-        return fail(ErrorCode::NotFound, "read-back {} was taken by somebody else: each is given out once", ticket.value);
+        return fail(ErrorCode::NotFound, "read-back {} was taken by somebody else: each is given out once",
+                    ticket.value);
     }
     if (outcome == ResultMailbox::Wait::DeviceLost) {
         return fail(ErrorCode::DeviceLost, "read-back {}: the device was lost; make a new engine", ticket.value);
     }
     if (outcome == ResultMailbox::Wait::TimedOut) {
-        return fail(ErrorCode::Timeout, "read-back {}: no answer within {} ms; the device is busy or hangs", ticket.value,
-                timeout.count());
+        return fail(ErrorCode::Timeout, "read-back {}: no answer within {} ms; the device is busy or hangs",
+                    ticket.value, timeout.count());
     }
-    return fail(ErrorCode::NotFound, "read-back {}: the device finished all submitted work without answering it; was it "
-                "submitted, and does takeErrors() say why it failed?", ticket.value);
+    return fail(ErrorCode::NotFound,
+                "read-back {}: the device finished all submitted work without answering it; was it "
+                "submitted, and does takeErrors() say why it failed?",
+                ticket.value);
 }
 
 std::optional<uint64_t> CommandStream::takeTimer(Ticket ticket) { return mState->mailbox.takeTimer(ticket); }

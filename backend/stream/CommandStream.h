@@ -35,9 +35,9 @@ struct FrameTiming {
 };
 
 struct CommandStreamOptions {
-    uint32_t maxFramesAhead = 2;   ///< submitted but not yet replayed
-    int driverCore = -1;           ///< pin the driver thread to this core; -1: do not
-    bool ownThread = true;         ///< false: replay inside submit(), on the caller (single-threaded platforms, tests)
+    uint32_t maxFramesAhead = 2; ///< submitted but not yet replayed
+    int driverCore = -1;         ///< pin the driver thread to this core; -1: do not
+    bool ownThread = true;       ///< false: replay inside submit(), on the caller (single-threaded platforms, tests)
 };
 
 class CommandStream {
@@ -86,7 +86,8 @@ public:
     std::optional<std::vector<std::byte>> takeReadback(Ticket ticket);
     /// The blocking form, for read-backs that were submitted. Timeout if it takes longer, DeviceLost if the device is
     /// gone, NotFound if the device finished all work without an answer (the read-back failed: see takeErrors()).
-    Result<std::vector<std::byte>> waitReadback(Ticket ticket, std::chrono::milliseconds timeout = std::chrono::seconds(60));
+    Result<std::vector<std::byte>> waitReadback(Ticket ticket,
+                                                std::chrono::milliseconds timeout = std::chrono::seconds(60));
     std::optional<uint64_t> takeTimer(Ticket ticket); ///< GPU nanoseconds
     /// Errors since the last call, oldest first.
     std::vector<DriverError> takeErrors();

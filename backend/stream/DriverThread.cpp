@@ -70,7 +70,8 @@ DriverThread::~DriverThread() {
 Result<void> DriverThread::start(DriverFactory factory) {
     if (!mOptions.ownThread) return makeDriver(factory);
     Result<void> outcome;
-    mThread = std::thread([this, &outcome, factory = std::move(factory)]() mutable { run(std::move(factory), outcome); });
+    mThread =
+            std::thread([this, &outcome, factory = std::move(factory)]() mutable { run(std::move(factory), outcome); });
     std::unique_lock lock(mMutex);
     mProgress.wait(lock, [&] { return mStarted; });
     return outcome;
@@ -179,8 +180,10 @@ uint64_t DriverThread::requestIdle() {
         submission = mSubmitted;
         mIdleWanted = std::max(mIdleWanted, submission);
     }
-    if (mOptions.ownThread) mWork.notify_one();
-    else settle(submission);
+    if (mOptions.ownThread)
+        mWork.notify_one();
+    else
+        settle(submission);
     return submission;
 }
 

@@ -32,8 +32,10 @@ void ResultMailbox::onError(DriverErrorKind kind, std::string_view message) {
     {
         const std::lock_guard lock(mMutex);
         mDeviceLost |= kind == DriverErrorKind::DeviceLost;
-        if (mErrors.size() < kMaxErrors) mErrors.push_back({ kind, std::string(message) });
-        else ++mDroppedErrors;
+        if (mErrors.size() < kMaxErrors)
+            mErrors.push_back({ kind, std::string(message) });
+        else
+            ++mDroppedErrors;
     }
     if (kind == DriverErrorKind::DeviceLost) mAnswered.notify_all();
 }
@@ -62,7 +64,7 @@ std::optional<std::vector<std::byte>> ResultMailbox::takeReadback(Ticket ticket)
 }
 
 ResultMailbox::Wait ResultMailbox::waitFor(Ticket ticket, uint64_t submission,
-        std::chrono::steady_clock::time_point deadline) {
+                                           std::chrono::steady_clock::time_point deadline) {
     std::unique_lock lock(mMutex);
     const auto settled = [&] { return mReadbacks.contains(ticket) || mDeviceLost || mIdleSubmission >= submission; };
     if (!mAnswered.wait_until(lock, deadline, settled)) return Wait::TimedOut;
@@ -82,7 +84,8 @@ std::optional<uint64_t> ResultMailbox::takeTimer(Ticket ticket) {
 std::vector<DriverError> ResultMailbox::takeErrors() {
     const std::lock_guard lock(mMutex);
     if (const size_t dropped = std::exchange(mDroppedErrors, 0)) {
-        mErrors.push_back({ DriverErrorKind::Other, fmt::format("{} more errors were dropped: take them every frame", dropped) });
+        mErrors.push_back(
+                { DriverErrorKind::Other, fmt::format("{} more errors were dropped: take them every frame", dropped) });
     }
     return std::exchange(mErrors, {});
 }

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ResultMailbox: where the driver leaves answers and anyone picks them up.
 ///   Thread  any; one short lock a call. The on...() half is called on the driver thread.
-///   Memory  read-backs wait until they are taken. Timers, frame timings and errors are bounded: of what nobody takes, the
-///           oldest timers and timings and the newest errors are dropped (the number of dropped errors is told).
+///   Memory  read-backs wait until they are taken. Timers, frame timings and errors are bounded: of what nobody takes,
+///           the oldest timers and timings and the newest errors are dropped (how many errors is told).
 ///   Cost    a read-back is one vector and one copy; the rest allocates nothing after the first frames.
 #pragma once
 

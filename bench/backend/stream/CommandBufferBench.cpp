@@ -15,7 +15,8 @@ constexpr uint32_t kDraws = 10'000;
 
 /// The floor: writing as many bytes as a recorded draw takes.
 void copyBytesOfDraws(benchmark::State& state) {
-    constexpr size_t kBytes = kCommandAlignment + (sizeof(CmdDraw) + kCommandAlignment - 1) / kCommandAlignment * kCommandAlignment;
+    constexpr size_t kBytes =
+            kCommandAlignment + (sizeof(CmdDraw) + kCommandAlignment - 1) / kCommandAlignment * kCommandAlignment;
     std::vector<std::byte> memory(kBytes * kDraws);
     const std::vector<std::byte> source(kBytes);
     for (auto _ : state) {
@@ -56,7 +57,8 @@ void recordUpdateOf256Bytes(benchmark::State& state) {
     const std::vector<std::byte> bytes(256);
     for (auto _ : state) {
         commands.reset();
-        for (uint32_t i = 0; i < kDraws; ++i) commands.record(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = bytes });
+        for (uint32_t i = 0; i < kDraws; ++i)
+            commands.record(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = bytes });
     }
     state.SetItemsProcessed(state.iterations() * kDraws);
 }

@@ -21,28 +21,44 @@ constexpr Rgba kTarget{ 0.25f, 0.5f, 0.125f, 0.5f };
 
 float factor(BlendFactor which, Rgba const& s, Rgba const& d, size_t c) {
     switch (which) {
-        case BlendFactor::Zero: return 0;
-        case BlendFactor::One: return 1;
-        case BlendFactor::SrcColor: return s[c];
-        case BlendFactor::OneMinusSrcColor: return 1 - s[c];
-        case BlendFactor::DstColor: return d[c];
-        case BlendFactor::OneMinusDstColor: return 1 - d[c];
-        case BlendFactor::SrcAlpha: return s[3];
-        case BlendFactor::OneMinusSrcAlpha: return 1 - s[3];
-        case BlendFactor::DstAlpha: return d[3];
-        case BlendFactor::OneMinusDstAlpha: return 1 - d[3];
-        case BlendFactor::SrcAlphaSaturate: return c == 3 ? 1 : std::min(s[3], 1 - d[3]);
+    case BlendFactor::Zero:
+        return 0;
+    case BlendFactor::One:
+        return 1;
+    case BlendFactor::SrcColor:
+        return s[c];
+    case BlendFactor::OneMinusSrcColor:
+        return 1 - s[c];
+    case BlendFactor::DstColor:
+        return d[c];
+    case BlendFactor::OneMinusDstColor:
+        return 1 - d[c];
+    case BlendFactor::SrcAlpha:
+        return s[3];
+    case BlendFactor::OneMinusSrcAlpha:
+        return 1 - s[3];
+    case BlendFactor::DstAlpha:
+        return d[3];
+    case BlendFactor::OneMinusDstAlpha:
+        return 1 - d[3];
+    case BlendFactor::SrcAlphaSaturate:
+        return c == 3 ? 1 : std::min(s[3], 1 - d[3]);
     }
     return 0;
 }
 
 float combine(BlendOp op, float s, float d, float source, float target) {
     switch (op) {
-        case BlendOp::Add: return s + d;
-        case BlendOp::Subtract: return s - d;
-        case BlendOp::ReverseSubtract: return d - s;
-        case BlendOp::Min: return std::min(source, target); // without factors
-        case BlendOp::Max: return std::max(source, target);
+    case BlendOp::Add:
+        return s + d;
+    case BlendOp::Subtract:
+        return s - d;
+    case BlendOp::ReverseSubtract:
+        return d - s;
+    case BlendOp::Min:
+        return std::min(source, target); // without factors
+    case BlendOp::Max:
+        return std::max(source, target);
     }
     return 0;
 }
@@ -50,9 +66,11 @@ float combine(BlendOp op, float s, float d, float source, float target) {
 Rgba blended(BlendState const& state, Rgba const& s, Rgba const& d) {
     Rgba result = s;
     for (size_t c = 0; c < 4; ++c) {
-        const BlendFactor source = c < 3 ? state.srcColor : state.srcAlpha, target = c < 3 ? state.dstColor : state.dstAlpha;
+        const BlendFactor source = c < 3 ? state.srcColor : state.srcAlpha,
+                          target = c < 3 ? state.dstColor : state.dstAlpha;
         if (state.enabled) {
-            result[c] = combine(c < 3 ? state.colorOp : state.alphaOp, s[c] * factor(source, s, d, c), d[c] * factor(target, s, d, c), s[c], d[c]);
+            result[c] = combine(c < 3 ? state.colorOp : state.alphaOp, s[c] * factor(source, s, d, c),
+                                d[c] * factor(target, s, d, c), s[c], d[c]);
         }
         if ((state.writeMask >> c & 1) == 0) result[c] = d[c];
     }
@@ -64,7 +82,8 @@ std::string outputsOf(uint32_t count, Rgba const& value) {
     std::string body;
     for (uint32_t i = 0; i < count; ++i) {
         text += fmt::format("layout(location = {}) out vec4 result{};\n", i, i);
-        body += fmt::format("    result{} = vec4({:f}, {:f}, {:f}, {:f});\n", i, value[0], value[1], value[2], value[3]);
+        body += fmt::format("    result{} = vec4({:f}, {:f}, {:f}, {:f});\n", i, value[0], value[1], value[2],
+                            value[3]);
     }
     return text + "void main() {\n" + body + "}\n";
 }
@@ -90,9 +109,9 @@ void checkStates(Gpu& gpu, std::vector<BlendState> const& states, Format format,
         const Bytes bytes = gpu.read(pass.colors[i].texture, { 0, 0, 2, 2 });
         const Rgba seen = decodeTexel(format, bytes.data());
         for (size_t c = 0; c < 4; ++c) {
-            EXPECT_NEAR(seen[c], expected[c], tolerance) << "attachment " << i << " component " << c << ", source factor "
-                                                         << static_cast<int>(states[i].srcColor) << ", target factor "
-                                                         << static_cast<int>(states[i].dstColor);
+            EXPECT_NEAR(seen[c], expected[c], tolerance) << "attachment " << i << " component " << c
+                                                         << ", source factor " << static_cast<int>(states[i].srcColor)
+                                                         << ", target factor " << static_cast<int>(states[i].dstColor);
         }
     }
     if (count < states.size()) checkStates(gpu, { states.begin() + count, states.end() }, format, tolerance);
@@ -104,30 +123,50 @@ std::vector<BlendState> allFactors() {
     std::vector<BlendState> states;
     for (int i = 0; i < kFactors; ++i) {
         const auto which = static_cast<BlendFactor>(i);
-        states.push_back({ .enabled = true, .srcColor = which, .dstColor = BlendFactor::Zero, .srcAlpha = which, .dstAlpha = BlendFactor::Zero });
+        states.push_back({ .enabled = true,
+                           .srcColor = which,
+                           .dstColor = BlendFactor::Zero,
+                           .srcAlpha = which,
+                           .dstAlpha = BlendFactor::Zero });
         if (which == BlendFactor::SrcAlphaSaturate) continue; // a source factor
-        states.push_back({ .enabled = true, .srcColor = BlendFactor::Zero, .dstColor = which, .srcAlpha = BlendFactor::Zero, .dstAlpha = which });
+        states.push_back({ .enabled = true,
+                           .srcColor = BlendFactor::Zero,
+                           .dstColor = which,
+                           .srcAlpha = BlendFactor::Zero,
+                           .dstAlpha = which });
     }
     return states;
 }
 
 DRIVER_TEST(Blend, EveryFactorMultipliesWhatItsNameSays) { checkStates(gpu, allFactors(), Format::RGBA16F, 0); }
 
-DRIVER_TEST(Blend, EveryFactorWorksOnNormalizedTargetsWithinAStep) { checkStates(gpu, allFactors(), Format::RGBA8, 1.0 / 255); }
+DRIVER_TEST(Blend, EveryFactorWorksOnNormalizedTargetsWithinAStep) {
+    checkStates(gpu, allFactors(), Format::RGBA8, 1.0 / 255);
+}
 
 DRIVER_TEST(Blend, EveryOperationCombinesSourceAndTarget) {
     std::vector<BlendState> states;
     for (const BlendOp op : { BlendOp::Add, BlendOp::Subtract, BlendOp::ReverseSubtract, BlendOp::Min, BlendOp::Max }) {
-        states.push_back({ .enabled = true, .dstColor = BlendFactor::One, .dstAlpha = BlendFactor::One, .colorOp = op, .alphaOp = op });
+        states.push_back({ .enabled = true,
+                           .dstColor = BlendFactor::One,
+                           .dstAlpha = BlendFactor::One,
+                           .colorOp = op,
+                           .alphaOp = op });
     }
-    states.push_back({ .enabled = true, .dstColor = BlendFactor::One, .dstAlpha = BlendFactor::One, .colorOp = BlendOp::Subtract,
-            .alphaOp = BlendOp::Max });
+    states.push_back({ .enabled = true,
+                       .dstColor = BlendFactor::One,
+                       .dstAlpha = BlendFactor::One,
+                       .colorOp = BlendOp::Subtract,
+                       .alphaOp = BlendOp::Max });
     checkStates(gpu, states, Format::RGBA16F, 0);
 }
 
 DRIVER_TEST(Blend, PremultipliedColorsCoverAsAlphaSays) {
-    checkStates(gpu, { { .enabled = true, .dstColor = BlendFactor::OneMinusSrcAlpha, .dstAlpha = BlendFactor::OneMinusSrcAlpha } },
-            Format::RGBA16F, 0);
+    checkStates(gpu,
+                { { .enabled = true,
+                    .dstColor = BlendFactor::OneMinusSrcAlpha,
+                    .dstAlpha = BlendFactor::OneMinusSrcAlpha } },
+                Format::RGBA16F, 0);
 }
 
 DRIVER_TEST(Blend, EveryWriteMaskKeepsTheOtherComponents) {
@@ -171,7 +210,8 @@ DRIVER_TEST(Blend, SrgbTargetsBlendInLinearLight) {
 DRIVER_TEST(Blend, SeveralTargetsOfDifferentKindsGetTheirOwnOutputs) {
     const TextureHandle a = gpu.target(Format::RGBA8, 3, 3), b = gpu.target(Format::RG32UI, 3, 3),
                         c = gpu.target(Format::R16F, 3, 3), d = gpu.target(Format::RGB10A2, 3, 3);
-    PassDesc pass = passOver({ { a, Format::RGBA8 }, { b, Format::RG32UI }, { c, Format::R16F }, { d, Format::RGB10A2 } }, 3, 3);
+    PassDesc pass = passOver(
+            { { a, Format::RGBA8 }, { b, Format::RG32UI }, { c, Format::R16F }, { d, Format::RGB10A2 } }, 3, 3);
     constexpr std::string_view kOutputs = R"(#version 450
 layout(location = 0) out vec4 a;
 layout(location = 1) out uvec2 b;
@@ -202,7 +242,8 @@ DRIVER_TEST(Blend, AnOutputThatTheProgramLacksLeavesItsAttachmentAlone) {
     const TextureHandle a = gpu.target(Format::RGBA8, 2, 2), b = gpu.target(Format::RGBA8, 2, 2);
     PassDesc pass = passOver({ { a, Format::RGBA8 }, { b, Format::RGBA8 } }, 2, 2);
     pass.colors[1].clear = { 0, 0, 1, 1 };
-    const PipelineHandle pipeline = gpu.pipeline(pipelineFor(gpu.program(kFullScreenVertex, outputsOf(1, { 1, 1, 1, 1 })), pass.layout));
+    const PipelineHandle pipeline =
+            gpu.pipeline(pipelineFor(gpu.program(kFullScreenVertex, outputsOf(1, { 1, 1, 1, 1 })), pass.layout));
     gpu.record(CmdBeginPass{ pass });
     gpu.record(CmdBindPipeline{ pipeline });
     gpu.record(CmdDraw{ .vertexCount = 3 });
@@ -212,17 +253,22 @@ DRIVER_TEST(Blend, AnOutputThatTheProgramLacksLeavesItsAttachmentAlone) {
 }
 
 DRIVER_TEST(Blend, StoredColorsClampAndRoundToTheirFormat) {
-    struct Case { Format format; Rgba written; };
+    struct Case {
+        Format format;
+        Rgba written;
+    };
     // Floats are exact ones: which way a conversion to half rounds is the device's choice (Mesa's llvmpipe truncates).
-    for (Case const& one : { Case{ Format::RGBA8, { -1, 2, 0.25f, 0.625f } }, Case{ Format::RGBA8Srgb, { 0.002f, 0.25f, 0.625f, 0.25f } },
-                 Case{ Format::RGB10A2, { 0.25f, 0.625f, 7, 0.3f } }, Case{ Format::RGBA16F, { 0.125f, 1000.5f, -7, 60000 } },
-                 Case{ Format::R11G11B10F, { 0.5f, 96, 3.5f, 1 } } }) {
+    for (Case const& one :
+         { Case{ Format::RGBA8, { -1, 2, 0.25f, 0.625f } }, Case{ Format::RGBA8Srgb, { 0.002f, 0.25f, 0.625f, 0.25f } },
+           Case{ Format::RGB10A2, { 0.25f, 0.625f, 7, 0.3f } }, Case{ Format::RGBA16F, { 0.125f, 1000.5f, -7, 60000 } },
+           Case{ Format::R11G11B10F, { 0.5f, 96, 3.5f, 1 } } }) {
         SCOPED_TRACE(formatInfo(one.format).name);
         const Program program = gpu.program(kFullScreenVertex, outputsOf(1, one.written));
         Rgba clamped = one.written;
-        if (!formatInfo(one.format).isFloat) std::ranges::for_each(clamped, [](float& v) { v = std::clamp(v, 0.0f, 1.0f); });
+        if (!formatInfo(one.format).isFloat)
+            std::ranges::for_each(clamped, [](float& v) { v = std::clamp(v, 0.0f, 1.0f); });
         EXPECT_EQ(gpu.read(gpu.paint(program, { .width = 1, .height = 1, .format = one.format }), { 0, 0, 1, 1 }),
-                encodeTexel(one.format, clamped));
+                  encodeTexel(one.format, clamped));
     }
 }
 
@@ -233,8 +279,10 @@ DRIVER_TEST(Blend, AlphaToCoverageTurnsAlphaIntoSamples) {
     pass.layout.resolveMask = 1;
     pass.colors[0].resolve = resolved;
     pass.colors[0].store = StoreOp::Discard;
-    PipelineDesc desc = pipelineFor(gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(1.0, 1.0, 1.0, floor(gl_FragCoord.x) * 0.5);")),
-            pass.layout);
+    PipelineDesc desc =
+            pipelineFor(gpu.program(kFullScreenVertex,
+                                    fragmentOf("", "result = vec4(1.0, 1.0, 1.0, floor(gl_FragCoord.x) * 0.5);")),
+                        pass.layout);
     desc.raster.alphaToCoverage = true;
     const PipelineHandle pipeline = gpu.pipeline(desc);
     gpu.record(CmdBeginPass{ pass });

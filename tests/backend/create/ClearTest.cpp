@@ -51,7 +51,8 @@ DRIVER_TEST(Clear, DepthReadsBackAsFloatsOfItsOwnPrecision) {
 }
 
 DRIVER_TEST(Clear, TargetsOfOneTexelOneRowAndTheWidestRowAreClearedToTheLastTexel) {
-    for (const auto& [width, height] : { std::pair(1u, 1u), std::pair(3u, 1u), std::pair(1u, 3u), std::pair(8192u, 1u) }) {
+    for (const auto& [width, height] :
+         { std::pair(1u, 1u), std::pair(3u, 1u), std::pair(1u, 3u), std::pair(8192u, 1u) }) {
         SCOPED_TRACE(width);
         const TextureHandle target = gpu.target(Format::RGBA8, width, height);
         PassDesc pass = passOver({ { target, Format::RGBA8 } }, width, height);
@@ -86,8 +87,13 @@ DRIVER_TEST(Clear, AnAreaLoadedLeavesTexelsOutsideAlone) {
 
 DRIVER_TEST(Clear, OneLevelAndLayerOfATextureIsClearedAndNoOther) {
     using enum TextureUsage;
-    const TextureHandle target = gpu.texture({ .type = TextureType::Texture2DArray, .format = Format::RGBA8,
-            .usage = ColorAttachment | TransferSource, .levels = 3, .layers = 2, .width = 8, .height = 4 });
+    const TextureHandle target = gpu.texture({ .type = TextureType::Texture2DArray,
+                                               .format = Format::RGBA8,
+                                               .usage = ColorAttachment | TransferSource,
+                                               .levels = 3,
+                                               .layers = 2,
+                                               .width = 8,
+                                               .height = 4 });
     const auto clear = [&](uint8_t level, uint16_t layer, float value) {
         PassDesc pass = passOver({ { target, Format::RGBA8 } }, 8u >> level, 4u >> level);
         pass.colors[0] = { .texture = target, .level = level, .layer = layer, .clear = { value, value, value, value } };
@@ -101,7 +107,8 @@ DRIVER_TEST(Clear, OneLevelAndLayerOfATextureIsClearedAndNoOther) {
         for (uint16_t layer = 0; layer < 2; ++layer) {
             const uint8_t expected = level == 1 && layer == 1 ? 255 : 0;
             EXPECT_THAT(gpu.readAs<uint32_t>(target, { 0, 0, 8u >> level, 4u >> level }, level, layer),
-                    Each(0x01010101u * expected)) << int{ level } << ", " << layer;
+                        Each(0x01010101u * expected))
+                    << int{ level } << ", " << layer;
         }
     }
 }

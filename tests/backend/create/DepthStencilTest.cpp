@@ -38,10 +38,12 @@ PipelineHandle pipelineWith(Gpu& gpu, Scene const& scene, std::function<void(Pip
     return gpu.pipeline(desc);
 }
 
-/// A triangle over the whole target in the plane z = a + b * x, x running from 0 at the left edge to 1 at the right one.
+/// A triangle over the whole target in the plane z = a + b * x, x running from 0 at the left edge to 1 at the right
+/// one.
 BufferHandle plane(Gpu& gpu, float a, float b, Rgba const& color = kWhite) {
-    return gpu.buffer(BufferUsage::Vertex,
-            std::vector<ColorVertex>{ { { -1, -1, a, 1 }, color }, { { 3, -1, a + 2 * b, 1 }, color }, { { -1, 3, a, 1 }, color } });
+    return gpu.buffer(BufferUsage::Vertex, std::vector<ColorVertex>{ { { -1, -1, a, 1 }, color },
+                                                                     { { 3, -1, a + 2 * b, 1 }, color },
+                                                                     { { -1, 3, a, 1 }, color } });
 }
 
 void drawWith(Gpu& gpu, PipelineHandle pipeline, BufferHandle vertices) {
@@ -52,14 +54,22 @@ void drawWith(Gpu& gpu, PipelineHandle pipeline, BufferHandle vertices) {
 
 bool compares(CompareOp op, float incoming, float stored) {
     switch (op) {
-        case CompareOp::Never: return false;
-        case CompareOp::Less: return incoming < stored;
-        case CompareOp::Equal: return incoming == stored;
-        case CompareOp::LessEqual: return incoming <= stored;
-        case CompareOp::Greater: return incoming > stored;
-        case CompareOp::NotEqual: return incoming != stored;
-        case CompareOp::GreaterEqual: return incoming >= stored;
-        default: return true; // None, Always
+    case CompareOp::Never:
+        return false;
+    case CompareOp::Less:
+        return incoming < stored;
+    case CompareOp::Equal:
+        return incoming == stored;
+    case CompareOp::LessEqual:
+        return incoming <= stored;
+    case CompareOp::Greater:
+        return incoming > stored;
+    case CompareOp::NotEqual:
+        return incoming != stored;
+    case CompareOp::GreaterEqual:
+        return incoming >= stored;
+    default:
+        return true; // None, Always
     }
 }
 
@@ -68,14 +78,16 @@ DRIVER_TEST(DepthStencil, EveryComparisonDecidesBetweenIncomingAndStoredDepth) {
         const auto op = static_cast<CompareOp>(i);
         for (const float z : { 0.25f, 0.5f, 0.75f }) {
             const Scene scene = makeScene(gpu, 2, 2, Format::D32F, { 0.5f, 0, 0, 0 });
-            const PipelineHandle pipeline = pipelineWith(gpu, scene,
-                    [&](PipelineDesc& desc) { desc.depthStencil = { .depthCompare = op, .depthWrite = true }; });
+            const PipelineHandle pipeline = pipelineWith(gpu, scene, [&](PipelineDesc& desc) {
+                desc.depthStencil = { .depthCompare = op, .depthWrite = true };
+            });
             const BufferHandle vertices = plane(gpu, z, 0);
             gpu.record(CmdBeginPass{ scene.pass });
             drawWith(gpu, pipeline, vertices);
             gpu.record(CmdEndPass{});
             const bool passes = compares(op, z, 0.5f);
-            EXPECT_THAT(gpu.readAs<Rgba>(scene.color, { 0, 0, 2, 2 }), Each(passes ? kWhite : Rgba{})) << i << " at " << z;
+            EXPECT_THAT(gpu.readAs<Rgba>(scene.color, { 0, 0, 2, 2 }), Each(passes ? kWhite : Rgba{}))
+                    << i << " at " << z;
             // None: neither test nor write.
             const float stored = passes && op != CompareOp::None ? z : 0.5f;
             EXPECT_THAT(gpu.readAs<float>(scene.depth, { 0, 0, 2, 2 }), Each(stored)) << i << " at " << z;
@@ -85,8 +97,9 @@ DRIVER_TEST(DepthStencil, EveryComparisonDecidesBetweenIncomingAndStoredDepth) {
 
 DRIVER_TEST(DepthStencil, ReversedDepthKeepsTheNearestOfThreePlanesInAnyOrder) {
     const Scene scene = makeScene(gpu, 4, 1, Format::D32F, { 0, 0, 0, 0 });
-    const PipelineHandle pipeline = pipelineWith(gpu, scene,
-            [](PipelineDesc& desc) { desc.depthStencil = { .depthCompare = CompareOp::Greater, .depthWrite = true }; });
+    const PipelineHandle pipeline = pipelineWith(gpu, scene, [](PipelineDesc& desc) {
+        desc.depthStencil = { .depthCompare = CompareOp::Greater, .depthWrite = true };
+    });
     const BufferHandle far = plane(gpu, 0.1f, 0, { 1, 0, 0, 1 }), near = plane(gpu, 0.4f, 0, { 0, 1, 0, 1 }),
                        sloped = plane(gpu, 0.0f, 1.0f, { 0, 0, 1, 1 });
     gpu.record(CmdBeginPass{ scene.pass });
@@ -103,8 +116,9 @@ DRIVER_TEST(DepthStencil, ReversedDepthKeepsTheNearestOfThreePlanesInAnyOrder) {
 
 DRIVER_TEST(DepthStencil, ATestWithoutWriteLeavesDepthAlone) {
     const Scene scene = makeScene(gpu, 2, 2, Format::D32F, { 0.5f, 0, 0, 0 });
-    const PipelineHandle pipeline = pipelineWith(gpu, scene,
-            [](PipelineDesc& desc) { desc.depthStencil = { .depthCompare = CompareOp::Greater, .depthWrite = false }; });
+    const PipelineHandle pipeline = pipelineWith(gpu, scene, [](PipelineDesc& desc) {
+        desc.depthStencil = { .depthCompare = CompareOp::Greater, .depthWrite = false };
+    });
     const BufferHandle vertices = plane(gpu, 0.75f, 0);
     gpu.record(CmdBeginPass{ scene.pass });
     drawWith(gpu, pipeline, vertices);
@@ -158,7 +172,9 @@ DRIVER_TEST(DepthStencil, DepthClampKeepsWhatClippingWouldCut) {
         drawWith(gpu, pipeline, vertices);
         gpu.record(CmdEndPass{});
         const std::vector<float> expected = clamp ? std::vector<float>{ 0, 0.5f, 1, 1 } : std::vector<float>(4, 0.5f);
-        EXPECT_THAT(gpu.readAs<float>(scene.depth, { 0, 0, 4, 1 }), testing::Pointwise(testing::FloatNear(1e-6f), expected)) << clamp;
+        EXPECT_THAT(gpu.readAs<float>(scene.depth, { 0, 0, 4, 1 }),
+                    testing::Pointwise(testing::FloatNear(1e-6f), expected))
+                << clamp;
         const std::vector<Rgba> color = gpu.readAs<Rgba>(scene.color, { 0, 0, 4, 1 });
         for (uint32_t x = 0; x < 4; ++x) EXPECT_EQ(color[x], clamp || x == 1 ? kWhite : Rgba{}) << x;
     }
@@ -166,10 +182,11 @@ DRIVER_TEST(DepthStencil, DepthClampKeepsWhatClippingWouldCut) {
 
 DRIVER_TEST(DepthStencil, FragmentShadersMayReplaceDepth) {
     Scene scene = makeScene(gpu, 4, 1, Format::D32F, { 0, 0, 0, 0 });
-    scene.program = gpu.program(kColorVertex,
-            fragmentOf("layout(location = 0) in vec4 c;", "result = c;\ngl_FragDepth = floor(gl_FragCoord.x) * 0.25;"));
-    const PipelineHandle pipeline = pipelineWith(gpu, scene,
-            [](PipelineDesc& desc) { desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = true }; });
+    scene.program = gpu.program(kColorVertex, fragmentOf("layout(location = 0) in vec4 c;",
+                                                         "result = c;\ngl_FragDepth = floor(gl_FragCoord.x) * 0.25;"));
+    const PipelineHandle pipeline = pipelineWith(gpu, scene, [](PipelineDesc& desc) {
+        desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = true };
+    });
     const BufferHandle vertices = plane(gpu, 0.5f, 0);
     gpu.record(CmdBeginPass{ scene.pass });
     drawWith(gpu, pipeline, vertices);
@@ -181,14 +198,22 @@ DRIVER_TEST(DepthStencil, FragmentShadersMayReplaceDepth) {
 
 uint8_t applied(StencilOp op, uint8_t value, uint8_t reference) {
     switch (op) {
-        case StencilOp::Keep: return value;
-        case StencilOp::Zero: return 0;
-        case StencilOp::Replace: return reference;
-        case StencilOp::IncrementClamp: return value == 255 ? value : static_cast<uint8_t>(value + 1);
-        case StencilOp::DecrementClamp: return value == 0 ? value : static_cast<uint8_t>(value - 1);
-        case StencilOp::Invert: return static_cast<uint8_t>(~value);
-        case StencilOp::IncrementWrap: return static_cast<uint8_t>(value + 1);
-        case StencilOp::DecrementWrap: return static_cast<uint8_t>(value - 1);
+    case StencilOp::Keep:
+        return value;
+    case StencilOp::Zero:
+        return 0;
+    case StencilOp::Replace:
+        return reference;
+    case StencilOp::IncrementClamp:
+        return value == 255 ? value : static_cast<uint8_t>(value + 1);
+    case StencilOp::DecrementClamp:
+        return value == 0 ? value : static_cast<uint8_t>(value - 1);
+    case StencilOp::Invert:
+        return static_cast<uint8_t>(~value);
+    case StencilOp::IncrementWrap:
+        return static_cast<uint8_t>(value + 1);
+    case StencilOp::DecrementWrap:
+        return static_cast<uint8_t>(value - 1);
     }
     return value;
 }
@@ -206,7 +231,8 @@ void expectStencil(Gpu& gpu, Scene& scene, uint8_t expected, std::string const& 
     gpu.record(CmdSetStencilReference{ expected, expected });
     drawWith(gpu, probe, vertices);
     gpu.record(CmdEndPass{});
-    EXPECT_THAT(gpu.readAs<Rgba>(scene.color, { 0, 0, 2, 2 }), Each(kWhite)) << what << ": stencil is not " << int{ expected };
+    EXPECT_THAT(gpu.readAs<Rgba>(scene.color, { 0, 0, 2, 2 }), Each(kWhite))
+            << what << ": stencil is not " << int{ expected };
 }
 
 Rgba depthAndStencil(float depth, uint8_t stencil) { return { depth, static_cast<float>(stencil), 0, 0 }; }
@@ -236,11 +262,14 @@ DRIVER_TEST(DepthStencil, FailDepthFailAndPassEachHaveTheirOperation) {
         uint8_t expected;
     };
     // reference 5 against stencil 5; z 0.5 against depth 0.25
-    for (Case const& one : { Case{ CompareOp::NotEqual, CompareOp::Greater, 0 }, Case{ CompareOp::Equal, CompareOp::Less, 4 },
-                 Case{ CompareOp::Equal, CompareOp::Greater, 6 } }) {
+    for (Case const& one :
+         { Case{ CompareOp::NotEqual, CompareOp::Greater, 0 }, Case{ CompareOp::Equal, CompareOp::Less, 4 },
+           Case{ CompareOp::Equal, CompareOp::Greater, 6 } }) {
         Scene scene = makeScene(gpu, 2, 2, Format::D32FS8, depthAndStencil(0.25f, 5));
-        const StencilFace face{ .compare = one.stencil, .fail = StencilOp::Zero, .depthFail = StencilOp::DecrementWrap,
-            .pass = StencilOp::IncrementWrap };
+        const StencilFace face{ .compare = one.stencil,
+                                .fail = StencilOp::Zero,
+                                .depthFail = StencilOp::DecrementWrap,
+                                .pass = StencilOp::IncrementWrap };
         const PipelineHandle pipeline = pipelineWith(gpu, scene, [&](PipelineDesc& desc) {
             desc.depthStencil = { .depthCompare = one.depth, .stencilTest = true, .front = face, .back = face };
         });
@@ -256,9 +285,12 @@ DRIVER_TEST(DepthStencil, FailDepthFailAndPassEachHaveTheirOperation) {
 DRIVER_TEST(DepthStencil, StencilMasksLimitWhatIsComparedAndWritten) {
     Scene scene = makeScene(gpu, 2, 2, Format::D32FS8, depthAndStencil(0.5f, 0xA5));
     // 0x05 == 0xA5 under 0x0F; Replace writes only the high nibble.
-    const StencilFace face{ .compare = CompareOp::Equal, .pass = StencilOp::Replace, .readMask = 0x0F, .writeMask = 0xF0 };
-    const PipelineHandle pipeline = pipelineWith(gpu, scene,
-            [&](PipelineDesc& desc) { desc.depthStencil = { .stencilTest = true, .front = face, .back = face }; });
+    const StencilFace face{
+        .compare = CompareOp::Equal, .pass = StencilOp::Replace, .readMask = 0x0F, .writeMask = 0xF0
+    };
+    const PipelineHandle pipeline = pipelineWith(gpu, scene, [&](PipelineDesc& desc) {
+        desc.depthStencil = { .stencilTest = true, .front = face, .back = face };
+    });
     const BufferHandle vertices = plane(gpu, 0.5f, 0);
     gpu.record(CmdBeginPass{ scene.pass });
     gpu.record(CmdSetStencilReference{ 0x35, 0x35 });
@@ -270,7 +302,9 @@ DRIVER_TEST(DepthStencil, StencilMasksLimitWhatIsComparedAndWritten) {
 DRIVER_TEST(DepthStencil, FrontAndBackFacesHaveTheirOwnReferencesAndOperations) {
     Scene scene = makeScene(gpu, 2, 2, Format::D32FS8, depthAndStencil(0.5f, 1));
     const PipelineHandle pipeline = pipelineWith(gpu, scene, [&](PipelineDesc& desc) {
-        desc.depthStencil = { .stencilTest = true, .front = { .pass = StencilOp::Replace }, .back = { .pass = StencilOp::Zero } };
+        desc.depthStencil = { .stencilTest = true,
+                              .front = { .pass = StencilOp::Replace },
+                              .back = { .pass = StencilOp::Zero } };
         desc.raster.frontFace = FrontFace::Clockwise; // plane() is clockwise in the picture
     });
     const BufferHandle front = plane(gpu, 0.5f, 0);

@@ -24,7 +24,8 @@ DRIVER_TEST(Device, TellsItsNameLimitsAndLanguage) {
     DeviceInfo const& info = gpu.info();
     EXPECT_FALSE(info.deviceName.empty());
     EXPECT_FALSE(info.driverName.empty());
-    EXPECT_EQ(info.shaderLanguage, info.backend == BackendType::Vulkan ? ShaderLanguage::SpirV : ShaderLanguage::Essl310);
+    EXPECT_EQ(info.shaderLanguage,
+              info.backend == BackendType::Vulkan ? ShaderLanguage::SpirV : ShaderLanguage::Essl310);
     EXPECT_GE(info.limits.maxTextureSize, 4096u);
     EXPECT_GE(info.limits.maxUniformBlockBytes, 16384u);
     EXPECT_TRUE(std::has_single_bit(info.limits.uniformOffsetAlignment));
@@ -53,13 +54,16 @@ layout(constant_id = 7) const float scale = 0.5;)";
     for (int i = 0; i < count; ++i) sum += scale;
     result = vec4(enabled ? 1.0 : 0.0, float(count), scale, sum);)");
     const auto seen = [&](std::vector<ConstantValue> const& constants) {
-        return gpu.readAs<Rgba>(gpu.paint(gpu.program(kFullScreenVertex, text, constants), { .width = 1, .height = 1 }), { 0, 0, 1, 1 })[0];
+        return gpu.readAs<Rgba>(gpu.paint(gpu.program(kFullScreenVertex, text, constants), { .width = 1, .height = 1 }),
+                                { 0, 0, 1, 1 })[0];
     };
     using enum ConstantValue::Type;
     EXPECT_EQ(seen({}), (Rgba{ 0, 2, 0.5f, 1 }));
     EXPECT_EQ(seen({ { 3, 5, Int } }), (Rgba{ 0, 5, 0.5f, 2.5f }));
-    EXPECT_EQ(seen({ { 0, 1, Bool }, { 3, static_cast<uint32_t>(-7), Int }, { 7, std::bit_cast<uint32_t>(0.1f), Float } }),
-            (Rgba{ 1, -7, 0.1f, 0 }));
+    EXPECT_EQ(seen({ { 0, 1, Bool },
+                     { 3, static_cast<uint32_t>(-7), Int },
+                     { 7, std::bit_cast<uint32_t>(0.1f), Float } }),
+              (Rgba{ 1, -7, 0.1f, 0 }));
 }
 
 // ---------------------------------------------------------------------------------------------- refusals
@@ -79,20 +83,28 @@ DRIVER_TEST(Device, AProgramThatDoesNotCompileIsReportedByNameAndItsDrawsAreSkip
     EXPECT_THAT(errors.front().message, HasSubstr("broken program"));
 
     const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
-    EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }), Each(Rgba{ 1, 1, 1, 1 })) << "life goes on";
+    EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }),
+                Each(Rgba{ 1, 1, 1, 1 }))
+            << "life goes on";
 }
 
 DRIVER_TEST(Device, ATextureThatDoesNotFitIsReportedByNameAndLifeGoesOn) {
     const uint32_t size = gpu.info().limits.maxTextureSize;
-    const TextureHandle huge = gpu.texture({ .type = TextureType::Texture2DArray, .format = Format::RGBA32F,
-            .usage = TextureUsage::TransferTarget, .layers = 2048, .width = size, .height = size, .debugName = "far too large" });
+    const TextureHandle huge = gpu.texture({ .type = TextureType::Texture2DArray,
+                                             .format = Format::RGBA32F,
+                                             .usage = TextureUsage::TransferTarget,
+                                             .layers = 2048,
+                                             .width = size,
+                                             .height = size,
+                                             .debugName = "far too large" });
     gpu.upload(huge, { 0, 0, 1, 1 }, Bytes(16)); // on an object that was refused: ignored
     const std::vector<DriverError> errors = gpu.takeErrors();
     ASSERT_FALSE(errors.empty());
     EXPECT_EQ(errors.front().kind, DriverErrorKind::OutOfMemory);
     EXPECT_THAT(errors.front().message, HasSubstr("far too large"));
     const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
-    EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }), Each(Rgba{ 1, 1, 1, 1 }));
+    EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }),
+                Each(Rgba{ 1, 1, 1, 1 }));
 }
 
 DRIVER_TEST(Device, ABrokenStreamIsDroppedByTheValidatedLayerBeforeTheDriverSeesIt) {
@@ -102,7 +114,8 @@ DRIVER_TEST(Device, ABrokenStreamIsDroppedByTheValidatedLayerBeforeTheDriverSees
     EXPECT_THAT(errors[0].message, HasSubstr("only inside a pass"));
     EXPECT_THAT(errors[1].message, HasSubstr("was dropped"));
     const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
-    EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }), Each(Rgba{ 1, 1, 1, 1 }));
+    EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }),
+                Each(Rgba{ 1, 1, 1, 1 }));
 }
 
 // ---------------------------------------------------------------------------------------------- time and lifetimes
@@ -125,14 +138,17 @@ DRIVER_TEST(Device, NestedTimersAreAnsweredOnceAndTheOuterOneTakesNoLess) {
 }
 
 DRIVER_TEST(Device, ObjectsDestroyedRightAfterTheirUseAreKeptUntilTheDeviceIsDone) {
-    // The kit destroys what it made at the end; here everything dies in the stream that uses it, and its memory is reused.
+    // The kit destroys what it made at the end; here everything dies in the stream that uses it, and its memory is
+    // reused.
     for (int round = 0; round < 3; ++round) {
         Gpu inner = gpu.another();
-        const Program program = inner.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",
-                "result = texelFetch(image, ivec2(0), 0);"));
+        const Program program =
+                inner.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",
+                                                            "result = texelFetch(image, ivec2(0), 0);"));
         const float value = static_cast<float>(round) + 0.5f;
         const TextureHandle image = inner.image(Format::R32F, 1, 1, bytesOf(std::vector<float>{ value }));
-        const TextureHandle target = inner.paint(program, { .width = 2, .height = 2, .group = inner.imageGroup(program, image, inner.sampler()) });
+        const TextureHandle target = inner.paint(
+                program, { .width = 2, .height = 2, .group = inner.imageGroup(program, image, inner.sampler()) });
         const Ticket ticket = inner.nextTicket();
         inner.record(CmdReadTexture{ .texture = target, .rect = { 0, 0, 2, 2 }, .ticket = ticket });
         inner.destroyAll();
@@ -176,13 +192,16 @@ DRIVER_TEST(Device, AReplayedTraceGivesTheSameBitsOnAFreshDevice) {
         });
         ASSERT_TRUE(stream.ok()) << stream.error().message;
         Gpu traced(**stream);
-        const Program program = traced.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",
-                "result = texture(image, gl_FragCoord.yx * 0.07) * sin(gl_FragCoord.x);"));
+        const Program program =
+                traced.program(kFullScreenVertex,
+                               fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",
+                                          "result = texture(image, gl_FragCoord.yx * 0.07) * sin(gl_FragCoord.x);"));
         std::vector<float> texels(64);
         for (size_t i = 0; i < 64; ++i) texels[i] = static_cast<float>(i) * 0.37f;
         const TextureHandle image = traced.image(Format::R32F, 8, 8, bytesOf(texels));
         const SamplerHandle sampler = traced.sampler({ .magFilter = Filter::Linear, .wrapU = WrapMode::Repeat });
-        const TextureHandle target = traced.paint(program, { .width = 32, .height = 32, .group = traced.imageGroup(program, image, sampler) });
+        const TextureHandle target = traced.paint(
+                program, { .width = 32, .height = 32, .group = traced.imageGroup(program, image, sampler) });
         original = traced.read(target, { 0, 0, 32, 32 });
         traced.finish();
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels a draw touches, and with which vertices. Targets are RGBA32F so that values come back as they were written.
+// Which pixels a draw touches, and with which vertices. Targets are RGBA32F so that values come back as they were
+// written.
 #include "tests/backend/create/Gpu.h"
 
 #include <gmock/gmock.h>
@@ -79,7 +80,8 @@ DRIVER_TEST(Draw, ColorsInterpolateLinearlyOverTheScreen) {
     const Setup setup = setUp(gpu, kSize, kSize);
     // color = (x, y, 0, 1) in units of the target; a triangle of twice its size covers it.
     const std::vector<ColorVertex> vertices{ { at(0, 0, kSize, kSize), { 0, 0, 0, 1 } },
-        { at(2 * kSize, 0, kSize, kSize), { 2, 0, 0, 1 } }, { at(0, 2 * kSize, kSize, kSize), { 0, 2, 0, 1 } } };
+                                             { at(2 * kSize, 0, kSize, kSize), { 2, 0, 0, 1 } },
+                                             { at(0, 2 * kSize, kSize, kSize), { 0, 2, 0, 1 } } };
     const BufferHandle buffer = gpu.buffer(BufferUsage::Vertex, vertices);
     beginWith(gpu, setup, buffer);
     gpu.record(CmdDraw{ .vertexCount = 3 });
@@ -93,7 +95,8 @@ DRIVER_TEST(Draw, ColorsInterpolateLinearlyOverTheScreen) {
 // One pixel per point: what is drawn tells which vertex it was.
 std::vector<ColorVertex> pointRow(uint32_t count) {
     std::vector<ColorVertex> vertices;
-    for (uint32_t i = 0; i < count; ++i) vertices.push_back({ at(i + 0.5, 0.5, count, 1), { static_cast<float>(i + 1), 0, 0, 1 } });
+    for (uint32_t i = 0; i < count; ++i)
+        vertices.push_back({ at(i + 0.5, 0.5, count, 1), { static_cast<float>(i + 1), 0, 0, 1 } });
     return vertices;
 }
 
@@ -145,7 +148,7 @@ DRIVER_TEST(Draw, IndicesOfBothWidthsSelectVerticesFromFirstIndexAndVertexOffset
     const BufferHandle wide = gpu.buffer(BufferUsage::Index, std::vector<uint32_t>{ 9, 5, 7 });
     beginWith(gpu, setup, vertices);
     gpu.record(CmdBindIndexBuffer{ .buffer = narrow, .offset = 2, .type = IndexType::UInt16 });
-    gpu.record(CmdDrawIndexed{ .indexCount = 3, .firstIndex = 1 });                  // vertices 0, 3, 1
+    gpu.record(CmdDrawIndexed{ .indexCount = 3, .firstIndex = 1 }); // vertices 0, 3, 1
     gpu.record(CmdBindIndexBuffer{ .buffer = wide, .offset = 4, .type = IndexType::UInt32 });
     gpu.record(CmdDrawIndexed{ .indexCount = 2, .firstIndex = 0, .vertexOffset = -1 }); // vertices 4, 6
     EXPECT_THAT(reds(endAndRead(gpu, setup)), ElementsAre(1, 2, 0, 4, 5, 0, 7, 0));
@@ -184,7 +187,8 @@ Setup setUpInstances(Gpu& gpu, uint32_t width) {
 std::vector<Instance> instanceRow(uint32_t count) {
     std::vector<Instance> instances;
     for (uint32_t i = 0; i < count; ++i) {
-        instances.push_back({ 2.0f * static_cast<float>(i) / static_cast<float>(count), { static_cast<float>(i + 1), 0, 0, 1 } });
+        instances.push_back(
+                { 2.0f * static_cast<float>(i) / static_cast<float>(count), { static_cast<float>(i + 1), 0, 0, 1 } });
     }
     return instances;
 }
@@ -198,9 +202,9 @@ DRIVER_TEST(Draw, FirstInstanceOffsetsPerInstanceAttributesAndNothingElse) {
     gpu.record(CmdBindPipeline{ setup.pipeline });
     gpu.record(CmdBindVertexBuffers{ .buffers = { vertices, instances }, .count = 2 });
     gpu.record(CmdBindIndexBuffer{ .buffer = indices });
-    gpu.record(CmdDraw{ .vertexCount = 1, .instanceCount = 2 });                               // instances 0, 1
-    gpu.record(CmdDraw{ .vertexCount = 1, .instanceCount = 1, .firstInstance = 3 });           // instance 3
-    gpu.record(CmdDrawIndexed{ .indexCount = 1, .instanceCount = 2, .firstInstance = 5 });     // instances 5, 6
+    gpu.record(CmdDraw{ .vertexCount = 1, .instanceCount = 2 });                           // instances 0, 1
+    gpu.record(CmdDraw{ .vertexCount = 1, .instanceCount = 1, .firstInstance = 3 });       // instance 3
+    gpu.record(CmdDrawIndexed{ .indexCount = 1, .instanceCount = 2, .firstInstance = 5 }); // instances 5, 6
     EXPECT_THAT(reds(endAndRead(gpu, setup)), ElementsAre(1, 2, 0, 4, 0, 6, 7, 0));
 }
 
@@ -211,7 +215,9 @@ DRIVER_TEST(Draw, TopologiesConnectVerticesAsTheirNamesSay) {
         uint32_t expected; ///< pixels covered
     };
     const std::vector<Case> cases{
-        { Topology::Triangles, { { 0, 0 }, { 4, 0 }, { 0, 4 }, { 4, 4 } }, 6 }, // an incomplete second triangle; no centre ties
+        { Topology::Triangles,
+          { { 0, 0 }, { 4, 0 }, { 0, 4 }, { 4, 4 } },
+          6 }, // an incomplete second triangle; no centre ties
         { Topology::TriangleStrip, { { 0, 0 }, { 4, 0 }, { 0, 4 }, { 4, 4 } }, 16 },
         { Topology::Lines, { { 0.5, 1.5 }, { 3.5, 1.5 }, { 0.5, 3.5 }, { 3.5, 3.5 } }, 6 },
         { Topology::LineStrip, { { 0.5, 0.5 }, { 3.5, 0.5 }, { 3.5, 3.5 } }, 6 },
@@ -237,31 +243,40 @@ DRIVER_TEST(Draw, TopologiesConnectVerticesAsTheirNamesSay) {
 
 DRIVER_TEST(Draw, CullingFollowsTheWindingAsSeenInThePicture) {
     // In the picture (row 0 on top): right along the top edge, then down to the left, is clockwise.
-    const std::vector<ColorVertex> clockwise{ { at(0, 0, 4, 4), kRed }, { at(8, 0, 4, 4), kRed }, { at(0, 8, 4, 4), kRed } };
+    const std::vector<ColorVertex> clockwise{ { at(0, 0, 4, 4), kRed },
+                                              { at(8, 0, 4, 4), kRed },
+                                              { at(0, 8, 4, 4), kRed } };
     std::vector<ColorVertex> counterClockwise{ clockwise[0], clockwise[2], clockwise[1] };
-    const BufferHandle buffers[] = { gpu.buffer(BufferUsage::Vertex, clockwise), gpu.buffer(BufferUsage::Vertex, counterClockwise) };
+    const BufferHandle buffers[] = { gpu.buffer(BufferUsage::Vertex, clockwise),
+                                     gpu.buffer(BufferUsage::Vertex, counterClockwise) };
     for (const CullMode cull : { CullMode::None, CullMode::Front, CullMode::Back }) {
         for (const FrontFace front : { FrontFace::CounterClockwise, FrontFace::Clockwise }) {
-            const Setup setup = setUp(gpu, 4, 4, [&](PipelineDesc& desc) { desc.raster.cull = cull, desc.raster.frontFace = front; });
+            const Setup setup = setUp(
+                    gpu, 4, 4, [&](PipelineDesc& desc) { desc.raster.cull = cull, desc.raster.frontFace = front; });
             for (int winding = 0; winding < 2; ++winding) {
                 const bool isFront = (front == FrontFace::Clockwise) == (winding == 0);
                 const bool drawn = cull == CullMode::None || (cull == CullMode::Back) == isFront;
                 beginWith(gpu, setup, buffers[winding]);
                 gpu.record(CmdDraw{ .vertexCount = 3 });
                 EXPECT_THAT(endAndRead(gpu, setup), Each(drawn ? kRed : kNone))
-                        << "cull " << static_cast<int>(cull) << " front " << static_cast<int>(front) << " winding " << winding;
+                        << "cull " << static_cast<int>(cull) << " front " << static_cast<int>(front) << " winding "
+                        << winding;
             }
         }
     }
 }
 
 DRIVER_TEST(Draw, FrontFacingAgreesWithTheFrontFaceOfThePipeline) {
-    const Program program = gpu.program(kColorVertex,
-            fragmentOf("layout(location = 0) in vec4 c;", "result = gl_FrontFacing ? vec4(0, 1, 0, 1) : vec4(1, 0, 0, 1);"));
-    const std::vector<ColorVertex> clockwise{ { at(0, 0, 4, 4), kRed }, { at(8, 0, 4, 4), kRed }, { at(0, 8, 4, 4), kRed } };
+    const Program program =
+            gpu.program(kColorVertex, fragmentOf("layout(location = 0) in vec4 c;",
+                                                 "result = gl_FrontFacing ? vec4(0, 1, 0, 1) : vec4(1, 0, 0, 1);"));
+    const std::vector<ColorVertex> clockwise{ { at(0, 0, 4, 4), kRed },
+                                              { at(8, 0, 4, 4), kRed },
+                                              { at(0, 8, 4, 4), kRed } };
     const BufferHandle buffer = gpu.buffer(BufferUsage::Vertex, clockwise);
     for (const FrontFace front : { FrontFace::CounterClockwise, FrontFace::Clockwise }) {
-        const Setup setup = setUp(gpu, 4, 4, [&](PipelineDesc& desc) { desc.program = program.handle, desc.raster.frontFace = front; });
+        const Setup setup = setUp(
+                gpu, 4, 4, [&](PipelineDesc& desc) { desc.program = program.handle, desc.raster.frontFace = front; });
         beginWith(gpu, setup, buffer);
         gpu.record(CmdDraw{ .vertexCount = 3 });
         EXPECT_THAT(endAndRead(gpu, setup), Each(front == FrontFace::Clockwise ? kGreen : kRed));
@@ -286,7 +301,8 @@ DRIVER_TEST(Draw, TheScissorCutsWithRowZeroOnTopAndIsResetByThePass) {
         gpu.record(CmdDraw{ .vertexCount = 3 });
         gpu.record(CmdEndPass{});
         const std::vector<Rgba> texels = gpu.readAs<Rgba>(target, { 0, 0, 8, 6 });
-        for (uint32_t i = 0; i < texels.size(); ++i) ASSERT_EQ(texels[i], !cut || insideRect(i, 8, scissor) ? kRed : kNone) << i;
+        for (uint32_t i = 0; i < texels.size(); ++i)
+            ASSERT_EQ(texels[i], !cut || insideRect(i, 8, scissor) ? kRed : kNone) << i;
     }
 }
 
@@ -305,7 +321,8 @@ void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) *
     gpu.record(CmdDraw{ .vertexCount = 4 });
     gpu.record(CmdEndPass{});
     const std::vector<Rgba> texels = gpu.readAs<Rgba>(target, { 0, 0, 8, 6 });
-    for (uint32_t i = 0; i < texels.size(); ++i) ASSERT_EQ(texels[i], insideRect(i, 8, { 3, 1, 4, 2 }) ? kRed : kNone) << i;
+    for (uint32_t i = 0; i < texels.size(); ++i)
+        ASSERT_EQ(texels[i], insideRect(i, 8, { 3, 1, 4, 2 }) ? kRed : kNone) << i;
 }
 
 DRIVER_TEST(Draw, FragCoordCountsPixelCentresFromTheTopLeft) {
@@ -319,7 +336,9 @@ DRIVER_TEST(Draw, FragCoordCountsPixelCentresFromTheTopLeft) {
 DRIVER_TEST(Draw, PrimitivesCrossingTheNearPlaneAreClippedAtItsExactPlace) {
     const Setup setup = setUp(gpu, 8, 8);
     // z runs from -1 at the left edge to +1 at the right one: the left half has z < 0 and is cut away.
-    const std::vector<ColorVertex> vertices{ { { -1, -1, -1, 1 }, kRed }, { { 3, -1, 3, 1 }, kRed }, { { -1, 3, -1, 1 }, kRed } };
+    const std::vector<ColorVertex> vertices{ { { -1, -1, -1, 1 }, kRed },
+                                             { { 3, -1, 3, 1 }, kRed },
+                                             { { -1, 3, -1, 1 }, kRed } };
     const BufferHandle buffer = gpu.buffer(BufferUsage::Vertex, vertices);
     beginWith(gpu, setup, buffer);
     gpu.record(CmdDraw{ .vertexCount = 3 });

@@ -33,7 +33,7 @@ void main() { result = vertexColor; })";
 
 std::string fragmentOf(std::string_view declarations, std::string_view body) {
     return "#version 450\nlayout(location = 0) out vec4 result;\n" + std::string(declarations) + "\nvoid main() {\n" +
-            std::string(body) + "\n}\n";
+           std::string(body) + "\n}\n";
 }
 
 namespace {
@@ -76,7 +76,7 @@ const auto* gCloseStreams = testing::AddGlobalTestEnvironment(new CloseStreams);
 using SourcePair = std::pair<std::string, std::string>;
 
 shader::ProgramShaders const* compiled(std::string_view vertex, std::string_view fragment,
-        std::vector<shader::SetBinding> const& dynamic) {
+                                       std::vector<shader::SetBinding> const& dynamic) {
     static std::map<SourcePair, Result<shader::ProgramShaders>> cache;
     SourcePair key{ vertex, fragment };
     for (const shader::SetBinding at : dynamic) key.first += fmt::format("//{}.{}", at.set, at.binding);
@@ -125,12 +125,18 @@ TextureHandle Gpu::target(Format format, uint32_t width, uint32_t height, uint8_
     using enum TextureUsage;
     TextureUsage usage = hasDepth(format) ? DepthAttachment : ColorAttachment;
     if (samples == 1) usage = usage | Sampled | TransferSource;
-    return texture({ .format = format, .usage = usage, .samples = samples, .width = width, .height = height, .debugName = "target" });
+    return texture({ .format = format,
+                     .usage = usage,
+                     .samples = samples,
+                     .width = width,
+                     .height = height,
+                     .debugName = "target" });
 }
 
 TextureHandle Gpu::image(Format format, uint32_t width, uint32_t height, Bytes const& texels) {
     using enum TextureUsage;
-    const TextureHandle handle = texture({ .format = format, .usage = Sampled | TransferTarget, .width = width, .height = height });
+    const TextureHandle handle =
+            texture({ .format = format, .usage = Sampled | TransferTarget, .width = width, .height = height });
     upload(handle, { 0, 0, width, height }, texels);
     return handle;
 }
@@ -143,7 +149,7 @@ SamplerHandle Gpu::sampler(SamplerDesc desc) {
 }
 
 Program Gpu::program(std::string_view vertex, std::string_view fragment, std::vector<ConstantValue> const& constants,
-        std::vector<shader::SetBinding> dynamic) {
+                     std::vector<shader::SetBinding> dynamic) {
     shader::ProgramShaders const* shaders = compiled(vertex, fragment, dynamic);
     const Program program{ mStream.allocateProgram(), shaders ? shaders->layout : ProgramLayout{} };
     mDestroy.push_back([this, handle = program.handle] { mStream.free(handle); });
@@ -183,7 +189,8 @@ PipelineHandle Gpu::pipeline(PipelineDesc desc) {
 
 BindGroupHandle Gpu::group(Program const& program, uint32_t index, std::vector<BindGroupEntry> const& entries) {
     const BindGroupHandle handle = mStream.allocateBindGroup();
-    record(CmdCreateBindGroup{ handle, { .layout = program.layout[index], .entries = entries, .debugName = "test group" } });
+    record(CmdCreateBindGroup{ handle,
+                               { .layout = program.layout[index], .entries = entries, .debugName = "test group" } });
     mDestroy.push_back([this, handle] { record(CmdDestroyBindGroup{ handle }), mStream.free(handle); });
     return handle;
 }
@@ -209,8 +216,10 @@ void Gpu::submit() {
     mStream.submit(*std::exchange(mOpen, nullptr));
 }
 
-void Gpu::upload(TextureHandle texture, Rect rect, Bytes const& texels, uint8_t level, uint16_t layer, uint16_t layers) {
-    record(CmdUploadTexture{ .texture = texture, .level = level, .layer = layer, .layerCount = layers, .rect = rect, .bytes = texels });
+void Gpu::upload(TextureHandle texture, Rect rect, Bytes const& texels, uint8_t level, uint16_t layer,
+                 uint16_t layers) {
+    record(CmdUploadTexture{
+            .texture = texture, .level = level, .layer = layer, .layerCount = layers, .rect = rect, .bytes = texels });
 }
 
 TextureHandle Gpu::paint(Program const& program, Paint const& paint) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Gpu: short ways to say what a test of the driver contract draws. One per test and API; what it made it destroys.
-///   Stream  everything goes through CommandStream, the Validated layer and the API's own validation. One stream per API and
-///           process, so that start-up is paid once.
+///   Stream  everything goes through CommandStream, the Validated layer and the API's own validation. One stream for
+///           each API and process, so that start-up is paid once.
 ///   Checks  finish() fails the test if the driver reported anything that the test did not take, or kept device memory.
 #pragma once
 
@@ -78,23 +78,27 @@ public:
     TextureHandle image(Format format, uint32_t width, uint32_t height, Bytes const& texels);
     SamplerHandle sampler(SamplerDesc desc = {});
     /// Compiles GLSL 450 for this API (once a process and text). No uniform buffer is dynamic unless it is listed.
-    Program program(std::string_view vertex, std::string_view fragment, std::vector<ConstantValue> const& constants = {},
-            std::vector<shader::SetBinding> dynamic = {});
+    Program program(std::string_view vertex, std::string_view fragment,
+                    std::vector<ConstantValue> const& constants = {}, std::vector<shader::SetBinding> dynamic = {});
     /// Code as it is, for programs that must fail.
     ProgramHandle rawProgram(std::string_view vertex, std::string_view fragment);
     PipelineHandle pipeline(PipelineDesc desc);
     BindGroupHandle group(Program const& program, uint32_t index, std::vector<BindGroupEntry> const& entries);
-    BindGroupHandle imageGroup(Program const& program, TextureHandle texture, SamplerHandle sampler, uint32_t index = 1);
+    BindGroupHandle imageGroup(Program const& program, TextureHandle texture, SamplerHandle sampler,
+                               uint32_t index = 1);
 
     // ---- commands
     CommandBuffer& commands(); ///< of the open submission
     template <class C>
-    void record(C const& command) { commands().record(command); }
+    void record(C const& command) {
+        commands().record(command);
+    }
     template <class T>
     void update(BufferHandle handle, std::vector<T> const& contents, uint64_t offset = 0) {
         record(CmdUpdateBuffer{ handle, offset, std::as_bytes(std::span(contents)) });
     }
-    void upload(TextureHandle texture, Rect rect, Bytes const& texels, uint8_t level = 0, uint16_t layer = 0, uint16_t layers = 1);
+    void upload(TextureHandle texture, Rect rect, Bytes const& texels, uint8_t level = 0, uint16_t layer = 0,
+                uint16_t layers = 1);
     /// A full-screen draw into a fresh target of paint.format; returns the target.
     TextureHandle paint(Program const& program, Paint const& paint = {});
     void submit();
@@ -160,13 +164,13 @@ private:
 
 } // namespace filament::backend
 
-/// DRIVER_SUITE once per file, then DRIVER_TEST(Suite, Name) { ... gpu ... }: on Vulkan, on OpenGL ES, and both compared.
-#define DRIVER_SUITE(Suite)                                                                     \
-    class Suite : public DriverContract {};                                                     \
-    INSTANTIATE_TEST_SUITE_P(Driver, Suite, testing::Values(Run::Vulkan, Run::Gles, Run::SameBits), \
-            [](auto const& run) { return nameOf(run.param); })
+/// DRIVER_SUITE once a file, then DRIVER_TEST(Suite, Name) { ... gpu ... }: runs on each API, then compares both.
+#define DRIVER_SUITE(Suite)                                                                                            \
+    class Suite : public DriverContract {};                                                                            \
+    INSTANTIATE_TEST_SUITE_P(Driver, Suite, testing::Values(Run::Vulkan, Run::Gles, Run::SameBits),                    \
+                             [](auto const& run) { return nameOf(run.param); })
 
-#define DRIVER_TEST(Suite, Name)                   \
-    static void Suite##Name(Gpu& gpu);             \
-    TEST_P(Suite, Name) { runOn(&Suite##Name); }   \
+#define DRIVER_TEST(Suite, Name)                                                                                       \
+    static void Suite##Name(Gpu& gpu);                                                                                 \
+    TEST_P(Suite, Name) { runOn(&Suite##Name); }                                                                       \
     static void Suite##Name([[maybe_unused]] Gpu& gpu)

@@ -27,7 +27,8 @@ DRIVER_TEST(Pass, LoadContinuesWhatStoreKept) {
     const TextureHandle target = gpu.target(Format::RGBA16F, 4, 4);
     PassDesc pass = passOver({ { target, Format::RGBA16F } }, 4, 4);
     pass.colors[0].clear = { 0.25f, 0.5f, 0, 1 };
-    PipelineDesc desc = pipelineFor(gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(0.5, 0.125, 1.0, 0.0);")), pass.layout);
+    PipelineDesc desc = pipelineFor(
+            gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(0.5, 0.125, 1.0, 0.0);")), pass.layout);
     desc.blend[0] = { .enabled = true, .dstColor = BlendFactor::One, .dstAlpha = BlendFactor::One };
     const PipelineHandle add = gpu.pipeline(desc);
     drawFullScreen(gpu, pass, add);
@@ -41,8 +42,8 @@ DRIVER_TEST(Pass, LoadContinuesWhatStoreKept) {
 DRIVER_TEST(Pass, DiscardedContentsMayBeDrawnOverCompletely) {
     const TextureHandle target = gpu.target(Format::RGBA8, 4, 4);
     PassDesc pass = passOver({ { target, Format::RGBA8 } }, 4, 4);
-    const PipelineHandle pipeline = gpu.pipeline(
-            pipelineFor(gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(1.0, 0.0, 1.0, 1.0);")), pass.layout));
+    const PipelineHandle pipeline = gpu.pipeline(pipelineFor(
+            gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(1.0, 0.0, 1.0, 1.0);")), pass.layout));
     pass.colors[0].store = StoreOp::Discard;
     drawFullScreen(gpu, pass, pipeline);
     pass.colors[0] = { .texture = target, .load = LoadOp::Discard };
@@ -68,7 +69,8 @@ DRIVER_TEST(Pass, DepthAloneIsAPassAndCarriesOverToTheNext) {
     PassDesc second = passOver({ { color, Format::RGBA32F } }, 4, 4);
     second.layout.depthFormat = Format::D32F;
     second.depth = { .texture = depth, .load = LoadOp::Load };
-    desc = pipelineFor(gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(1.0, 0.0, 0.0, 1.0);")), second.layout);
+    desc = pipelineFor(gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(1.0, 0.0, 0.0, 1.0);")),
+                       second.layout);
     desc.depthStencil = { .depthCompare = CompareOp::Equal }; // the same vertex stage gives the same depth: z pre-pass
     drawFullScreen(gpu, second, gpu.pipeline(desc));
     const std::vector<Rgba> texels = gpu.readAs<Rgba>(color, { 0, 0, 4, 4 });
@@ -77,7 +79,8 @@ DRIVER_TEST(Pass, DepthAloneIsAPassAndCarriesOverToTheNext) {
 
 // ---------------------------------------------------------------------------------------------- multisampling
 
-PassDesc multisamplePass(Format format, TextureHandle samples, TextureHandle resolved, uint32_t width, uint32_t height) {
+PassDesc multisamplePass(Format format, TextureHandle samples, TextureHandle resolved, uint32_t width,
+                         uint32_t height) {
     PassDesc pass = passOver({ { samples, format } }, width, height);
     pass.layout.samples = 4;
     pass.layout.resolveMask = 1;
@@ -99,16 +102,20 @@ DRIVER_TEST(Pass, ResolveAveragesTheCoveredSamplesOfTheStandardPattern) {
             const PipelineHandle pipeline = gpu.pipeline(desc);
             const auto right = static_cast<float>((1 + edge) / 4 * 2 - 1); // inside of pixel 1
             const Rgba white{ 1, 1, 1, 1 };
-            const BufferHandle vertices = gpu.buffer(BufferUsage::Vertex,
-                    std::vector<ColorVertex>{ { { -1, -1, 0, 1 }, white }, { { right, -1, 0, 1 }, white }, { { -1, 1, 0, 1 }, white },
-                            { { right, 1, 0, 1 }, white } });
+            const BufferHandle vertices =
+                    gpu.buffer(BufferUsage::Vertex, std::vector<ColorVertex>{ { { -1, -1, 0, 1 }, white },
+                                                                              { { right, -1, 0, 1 }, white },
+                                                                              { { -1, 1, 0, 1 }, white },
+                                                                              { { right, 1, 0, 1 }, white } });
             gpu.record(CmdBeginPass{ pass });
             gpu.record(CmdBindPipeline{ pipeline });
             gpu.record(CmdBindVertexBuffers{ .buffers = { vertices }, .count = 1 });
             gpu.record(CmdDraw{ .vertexCount = 4 });
             gpu.record(CmdEndPass{});
             const Bytes bytes = gpu.read(resolved, { 0, 0, 4, 1 });
-            const auto red = [&](size_t i) { return decodeTexel(format, bytes.data() + i * formatInfo(format).bytesPerBlock)[0]; };
+            const auto red = [&](size_t i) {
+                return decodeTexel(format, bytes.data() + i * formatInfo(format).bytesPerBlock)[0];
+            };
             EXPECT_EQ(red(0), 1);
             EXPECT_NEAR(red(1), edge, 0.5 / 255 + 1e-6) << "edge at " << edge;
             EXPECT_EQ(red(2), 0);
@@ -129,8 +136,10 @@ DRIVER_TEST(Pass, MultisampledDepthIsTestedPerSample) {
     // z crosses 0.5 in the middle of pixel column 1: two of its four samples pass.
     const auto z = [](double x) { return static_cast<float>(0.5 + (x - 1.5) * 0.1); };
     const Rgba white{ 1, 1, 1, 1 };
-    const BufferHandle vertices = gpu.buffer(BufferUsage::Vertex,
-            std::vector<ColorVertex>{ { { -1, -1, z(0), 1 }, white }, { { 3, -1, z(8), 1 }, white }, { { -1, 3, z(0), 1 }, white } });
+    const BufferHandle vertices =
+            gpu.buffer(BufferUsage::Vertex, std::vector<ColorVertex>{ { { -1, -1, z(0), 1 }, white },
+                                                                      { { 3, -1, z(8), 1 }, white },
+                                                                      { { -1, 3, z(0), 1 }, white } });
     gpu.record(CmdBeginPass{ pass });
     gpu.record(CmdBindPipeline{ pipeline });
     gpu.record(CmdBindVertexBuffers{ .buffers = { vertices }, .count = 1 });
@@ -177,14 +186,18 @@ Merged makeMerged(Gpu& gpu, Format format, bool transient) {
     using enum TextureUsage;
     Merged merged;
     const TextureUsage inner = ColorAttachment | InputAttachment;
-    merged.first = gpu.texture({ .format = format, .usage = transient ? inner | Transient : inner | TransferSource, .width = 6, .height = 4 });
+    merged.first = gpu.texture({ .format = format,
+                                 .usage = transient ? inner | Transient : inner | TransferSource,
+                                 .width = 6,
+                                 .height = 4 });
     merged.second = gpu.target(Format::RGBA32F, 6, 4);
     merged.pass = passOver({ { merged.first, format }, { merged.second, Format::RGBA32F } }, 6, 4);
     merged.pass.layout.subpassCount = 2;
     merged.pass.layout.subpasses[0] = { .colorMask = 1 };
     merged.pass.layout.subpasses[1] = { .colorMask = 2, .inputMask = 1, .usesDepth = false };
     if (transient) merged.pass.colors[0].store = StoreOp::Discard;
-    const Program writer = gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(floor(gl_FragCoord.xy) * 0.25, 1.0, 0.5);"));
+    const Program writer =
+            gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(floor(gl_FragCoord.xy) * 0.25, 1.0, 0.5);"));
     const Program reader = gpu.program(kFullScreenVertex, kReadFirst);
     PipelineDesc desc = pipelineFor(writer, merged.pass.layout);
     merged.draw = gpu.pipeline(desc);
@@ -227,7 +240,8 @@ DRIVER_TEST(Pass, AMergedPassKeepsWhatItStoresOfTheFirstSubpass) {
     recordMerged(gpu, merged);
     const std::vector<Rgba> texels = gpu.readAs<Rgba>(merged.first, { 0, 0, 6, 4 });
     for (uint32_t i = 0; i < texels.size(); ++i) {
-        ASSERT_EQ(texels[i], (Rgba{ static_cast<float>(i % 6) * 0.25f, static_cast<float>(i / 6) * 0.25f, 1, 0.5f })) << i;
+        ASSERT_EQ(texels[i], (Rgba{ static_cast<float>(i % 6) * 0.25f, static_cast<float>(i / 6) * 0.25f, 1, 0.5f }))
+                << i;
     }
 }
 
@@ -236,11 +250,15 @@ DRIVER_TEST(Pass, AMergedPassGivesTheSameBitsAsTwoPassesWithATexture) {
     const Merged merged = makeMerged(gpu, Format::RGBA16F, true);
     recordMerged(gpu, merged);
     const Bytes together = gpu.read(merged.second, { 0, 0, 6, 4 });
-    const Program writer = gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(floor(gl_FragCoord.xy) * 0.25, 1.0, 0.5);"));
+    const Program writer =
+            gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(floor(gl_FragCoord.xy) * 0.25, 1.0, 0.5);"));
     const TextureHandle first = gpu.paint(writer, { .width = 6, .height = 4, .format = Format::RGBA16F });
-    const Program reader = gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform sampler2D hdr;",
-            "result = texelFetch(hdr, ivec2(gl_FragCoord.xy), 0) * 2.0 + vec4(0.0, 0.0, 0.0, 1.0);"));
-    const TextureHandle second = gpu.paint(reader, { .width = 6, .height = 4, .group = gpu.imageGroup(reader, first, gpu.sampler()) });
+    const Program reader = gpu.program(
+            kFullScreenVertex,
+            fragmentOf("layout(set = 1, binding = 0) uniform sampler2D hdr;",
+                       "result = texelFetch(hdr, ivec2(gl_FragCoord.xy), 0) * 2.0 + vec4(0.0, 0.0, 0.0, 1.0);"));
+    const TextureHandle second =
+            gpu.paint(reader, { .width = 6, .height = 4, .group = gpu.imageGroup(reader, first, gpu.sampler()) });
     EXPECT_EQ(gpu.read(second, { 0, 0, 6, 4 }), together);
 }
 
@@ -249,10 +267,12 @@ DRIVER_TEST(Pass, AMergedPassGivesTheSameBitsAsTwoPassesWithATexture) {
 DRIVER_TEST(Pass, APassSamplesWhatTheOneBeforeItDrew) {
     Program program = gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(gl_FragCoord.x);"));
     TextureHandle texture = gpu.paint(program, { .width = 4, .height = 4 });
-    program = gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",
-            "result = texelFetch(image, ivec2(gl_FragCoord.xy), 0) * 2.0;"));
+    program =
+            gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",
+                                                      "result = texelFetch(image, ivec2(gl_FragCoord.xy), 0) * 2.0;"));
     const SamplerHandle sampler = gpu.sampler();
-    for (int i = 0; i < 5; ++i) texture = gpu.paint(program, { .width = 4, .height = 4, .group = gpu.imageGroup(program, texture, sampler) });
+    for (int i = 0; i < 5; ++i)
+        texture = gpu.paint(program, { .width = 4, .height = 4, .group = gpu.imageGroup(program, texture, sampler) });
     const std::vector<Rgba> texels = gpu.readAs<Rgba>(texture, { 0, 0, 4, 4 });
     for (uint32_t i = 0; i < 16; ++i) ASSERT_EQ(texels[i][0], (static_cast<float>(i % 4) + 0.5f) * 32) << i;
 }
@@ -260,8 +280,10 @@ DRIVER_TEST(Pass, APassSamplesWhatTheOneBeforeItDrew) {
 DRIVER_TEST(Pass, AChainOfHalvedTexturesEndsInTheAverageOfTheFirst) {
     using enum TextureUsage;
     // A chain of separate textures, as down-sampling passes use them: each samples the one before with a linear filter.
-    const Program half = gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",
-            "result = texture(image, gl_FragCoord.xy / vec2(textureSize(image, 0) / 2));"));
+    const Program half =
+            gpu.program(kFullScreenVertex,
+                        fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",
+                                   "result = texture(image, gl_FragCoord.xy / vec2(textureSize(image, 0) / 2));"));
     std::vector<float> texels(64);
     for (size_t i = 0; i < 64; ++i) texels[i] = static_cast<float>(i % 8 + i / 8 * 16);
     const SamplerHandle linear = gpu.sampler({ .magFilter = Filter::Linear, .minFilter = Filter::Linear });

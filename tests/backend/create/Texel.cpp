@@ -45,30 +45,43 @@ Bytes encodeTexel(Format format, Rgba const& color) {
     Bytes bytes;
     FormatInfo const& info = formatInfo(format);
     switch (format) {
-        case Format::R8: case Format::RG8: case Format::RGBA8: case Format::RGBA8Srgb:
-            for (uint32_t i = 0; i < info.components; ++i) {
-                const double value = info.isSrgb && i < 3 ? srgbFromLinear(color[i]) : double{ color[i] };
-                put(bytes, static_cast<uint8_t>(unorm(value, 255)));
-            }
-            break;
-        case Format::R8UI: case Format::RGBA8UI:
-            for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<uint8_t>(color[i]));
-            break;
-        case Format::R32UI: case Format::RG32UI:
-            for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<uint32_t>(color[i]));
-            break;
-        case Format::RGB10A2:
-            put(bytes, static_cast<uint32_t>(unorm(color[0], 1023)) | static_cast<uint32_t>(unorm(color[1], 1023)) << 10 |
-                            static_cast<uint32_t>(unorm(color[2], 1023)) << 20 | static_cast<uint32_t>(unorm(color[3], 3)) << 30);
-            break;
-        case Format::R16F: case Format::RG16F: case Format::RGBA16F:
-            for (uint32_t i = 0; i < info.components; ++i) put(bytes, halfFromFloat(color[i]));
-            break;
-        case Format::R32F: case Format::RG32F: case Format::RGBA32F:
-            for (uint32_t i = 0; i < info.components; ++i) put(bytes, color[i]);
-            break;
-        case Format::R11G11B10F: put(bytes, packR11G11B10F({ color[0], color[1], color[2] })); break;
-        default: ADD_FAILURE() << "no encoder for " << info.name;
+    case Format::R8:
+    case Format::RG8:
+    case Format::RGBA8:
+    case Format::RGBA8Srgb:
+        for (uint32_t i = 0; i < info.components; ++i) {
+            const double value = info.isSrgb && i < 3 ? srgbFromLinear(color[i]) : double{ color[i] };
+            put(bytes, static_cast<uint8_t>(unorm(value, 255)));
+        }
+        break;
+    case Format::R8UI:
+    case Format::RGBA8UI:
+        for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<uint8_t>(color[i]));
+        break;
+    case Format::R32UI:
+    case Format::RG32UI:
+        for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<uint32_t>(color[i]));
+        break;
+    case Format::RGB10A2:
+        put(bytes, static_cast<uint32_t>(unorm(color[0], 1023)) | static_cast<uint32_t>(unorm(color[1], 1023)) << 10 |
+                           static_cast<uint32_t>(unorm(color[2], 1023)) << 20 |
+                           static_cast<uint32_t>(unorm(color[3], 3)) << 30);
+        break;
+    case Format::R16F:
+    case Format::RG16F:
+    case Format::RGBA16F:
+        for (uint32_t i = 0; i < info.components; ++i) put(bytes, halfFromFloat(color[i]));
+        break;
+    case Format::R32F:
+    case Format::RG32F:
+    case Format::RGBA32F:
+        for (uint32_t i = 0; i < info.components; ++i) put(bytes, color[i]);
+        break;
+    case Format::R11G11B10F:
+        put(bytes, packR11G11B10F({ color[0], color[1], color[2] }));
+        break;
+    default:
+        ADD_FAILURE() << "no encoder for " << info.name;
     }
     return bytes;
 }
@@ -77,35 +90,47 @@ Rgba decodeTexel(Format format, const std::byte* bytes) {
     Rgba color{ 0, 0, 0, 1 };
     FormatInfo const& info = formatInfo(format);
     switch (format) {
-        case Format::R8: case Format::RG8: case Format::RGBA8: case Format::RGBA8Srgb:
-            for (uint32_t i = 0; i < info.components; ++i) {
-                const double value = get<uint8_t>(bytes, i) / 255.0;
-                color[i] = static_cast<float>(info.isSrgb && i < 3 ? linearFromSrgb(value) : value);
-            }
-            return color;
-        case Format::R8UI: case Format::RGBA8UI:
-            for (uint32_t i = 0; i < info.components; ++i) color[i] = get<uint8_t>(bytes, i);
-            return color;
-        case Format::R32UI: case Format::RG32UI:
-            for (uint32_t i = 0; i < info.components; ++i) color[i] = static_cast<float>(get<uint32_t>(bytes, i));
-            return color;
-        case Format::RGB10A2: {
-            const auto bits = get<uint32_t>(bytes, 0);
-            return { static_cast<float>((bits & 1023) / 1023.0), static_cast<float>((bits >> 10 & 1023) / 1023.0),
-                     static_cast<float>((bits >> 20 & 1023) / 1023.0), static_cast<float>((bits >> 30) / 3.0) };
+    case Format::R8:
+    case Format::RG8:
+    case Format::RGBA8:
+    case Format::RGBA8Srgb:
+        for (uint32_t i = 0; i < info.components; ++i) {
+            const double value = get<uint8_t>(bytes, i) / 255.0;
+            color[i] = static_cast<float>(info.isSrgb && i < 3 ? linearFromSrgb(value) : value);
         }
-        case Format::R16F: case Format::RG16F: case Format::RGBA16F:
-            for (uint32_t i = 0; i < info.components; ++i) color[i] = floatFromHalf(get<uint16_t>(bytes, i));
-            return color;
-        case Format::R32F: case Format::RG32F: case Format::RGBA32F:
-            for (uint32_t i = 0; i < info.components; ++i) color[i] = get<float>(bytes, i);
-            return color;
-        case Format::R11G11B10F: {
-            const float3 rgb = unpackR11G11B10F(get<uint32_t>(bytes, 0));
-            return { rgb.x, rgb.y, rgb.z, 1 };
-        }
-        case Format::RGB9E5: return decodeRgb9e5(get<uint32_t>(bytes, 0));
-        default: ADD_FAILURE() << "no decoder for " << info.name; return color;
+        return color;
+    case Format::R8UI:
+    case Format::RGBA8UI:
+        for (uint32_t i = 0; i < info.components; ++i) color[i] = get<uint8_t>(bytes, i);
+        return color;
+    case Format::R32UI:
+    case Format::RG32UI:
+        for (uint32_t i = 0; i < info.components; ++i) color[i] = static_cast<float>(get<uint32_t>(bytes, i));
+        return color;
+    case Format::RGB10A2: {
+        const auto bits = get<uint32_t>(bytes, 0);
+        return { static_cast<float>((bits & 1023) / 1023.0), static_cast<float>((bits >> 10 & 1023) / 1023.0),
+                 static_cast<float>((bits >> 20 & 1023) / 1023.0), static_cast<float>((bits >> 30) / 3.0) };
+    }
+    case Format::R16F:
+    case Format::RG16F:
+    case Format::RGBA16F:
+        for (uint32_t i = 0; i < info.components; ++i) color[i] = floatFromHalf(get<uint16_t>(bytes, i));
+        return color;
+    case Format::R32F:
+    case Format::RG32F:
+    case Format::RGBA32F:
+        for (uint32_t i = 0; i < info.components; ++i) color[i] = get<float>(bytes, i);
+        return color;
+    case Format::R11G11B10F: {
+        const float3 rgb = unpackR11G11B10F(get<uint32_t>(bytes, 0));
+        return { rgb.x, rgb.y, rgb.z, 1 };
+    }
+    case Format::RGB9E5:
+        return decodeRgb9e5(get<uint32_t>(bytes, 0));
+    default:
+        ADD_FAILURE() << "no decoder for " << info.name;
+        return color;
     }
 }
 

@@ -17,8 +17,8 @@ DRIVER_SUITE(Texture);
 constexpr std::string_view kSampler2D = "layout(set = 1, binding = 0) uniform sampler2D image;";
 
 /// One row of results: `body` sees `float i`, the column, and writes `result`.
-std::vector<Rgba> paintRow(Gpu& gpu, uint32_t width, std::string_view declarations, std::string const& body, TextureHandle texture,
-        SamplerHandle sampler) {
+std::vector<Rgba> paintRow(Gpu& gpu, uint32_t width, std::string_view declarations, std::string const& body,
+                           TextureHandle texture, SamplerHandle sampler) {
     const Program program =
             gpu.program(kFullScreenVertex, fragmentOf(declarations, "float i = floor(gl_FragCoord.x);\n" + body));
     const TextureHandle target =
@@ -43,11 +43,13 @@ Bytes randomTexels(Format format, uint32_t count, std::mt19937& random) {
             const Bytes texel = encodeTexel(format, { value(random), value(random), value(random), value(random) });
             bytes.insert(bytes.end(), texel.begin(), texel.end());
         } else {
-            for (uint32_t byte = 0; byte < info.bytesPerBlock; ++byte) bytes.push_back(static_cast<std::byte>(random()));
+            for (uint32_t byte = 0; byte < info.bytesPerBlock; ++byte)
+                bytes.push_back(static_cast<std::byte>(random()));
         }
     }
     if (format == Format::R32UI || format == Format::RG32UI) {
-        for (size_t i = 3; i < bytes.size(); i += 4) bytes[i] = std::byte{ 0 }; // exact in the floats that the test reads
+        for (size_t i = 3; i < bytes.size(); i += 4)
+            bytes[i] = std::byte{ 0 }; // exact in the floats that the test reads
     }
     return bytes;
 }
@@ -62,15 +64,16 @@ DRIVER_TEST(Texture, EveryUncompressedFormatIsSampledAsItsDefinitionSays) {
         SCOPED_TRACE(info.name);
         const Bytes texels = randomTexels(format, 8, random);
         const bool integer = info.kind == FormatKind::UnsignedInteger;
-        const std::vector<Rgba> seen = paintRow(gpu, 8,
-                integer ? "layout(set = 1, binding = 0) uniform highp usampler2D image;" : kSampler2D,
+        const std::vector<Rgba> seen = paintRow(
+                gpu, 8, integer ? "layout(set = 1, binding = 0) uniform highp usampler2D image;" : kSampler2D,
                 "result = vec4(texture(image, vec2((i + 0.5) / 8.0, 0.5)));", gpu.image(format, 8, 1, texels), nearest);
         for (uint32_t t = 0; t < 8; ++t) {
             const Rgba expected = decodeTexel(format, texels.data() + size_t{ t } * info.bytesPerBlock);
             // sRGB decoding may use a table or a polynomial: half a step of 8 bits where its slope is 1.
             const double tolerance = info.isSrgb ? 2e-3 : 1e-6;
             for (uint32_t c = 0; c < 4; ++c) {
-                ASSERT_NEAR(seen[t][c], expected[c], tolerance * std::max(1.0f, std::abs(expected[c]))) << t << ", " << c;
+                ASSERT_NEAR(seen[t][c], expected[c], tolerance * std::max(1.0f, std::abs(expected[c])))
+                        << t << ", " << c;
             }
         }
     }
@@ -127,8 +130,11 @@ struct BlockCase {
 std::vector<BlockCase> blockCases() {
     // BC1: red, blue, and the two thirds between them; row 0 has indices 0 1 2 3.
     const Bytes redBlue = blockOf({ 0x00, 0xF8, 0x1F, 0x00, 0xE4, 0xE4, 0xE4, 0xE4 });
-    const std::array<Rgba, 4> redBlueRow{ { { 1, 0, 0, 1 }, { 0, 0, 1, 1 }, { 2 / 3.f, 0, 1 / 3.f, 1 }, { 1 / 3.f, 0, 2 / 3.f, 1 } } };
-    // BC4: 255 and 0, six values between; 3-bit indices 0 1 2 7 in every row: bits 000 001 010 111 = 0xE88, rows packed by 12.
+    const std::array<Rgba, 4> redBlueRow{
+        { { 1, 0, 0, 1 }, { 0, 0, 1, 1 }, { 2 / 3.f, 0, 1 / 3.f, 1 }, { 1 / 3.f, 0, 2 / 3.f, 1 } }
+    };
+    // BC4: 255 and 0, six values between; 3-bit indices 0 1 2 7 in every row: bits 000 001 010 111 = 0xE88, rows packed
+    // by 12.
     const Bytes ramp = blockOf({ 255, 0, 0x88, 0x8E, 0xE8, 0x88, 0x8E, 0xE8 });
     const std::array<float, 4> rampRow{ 1, 0, 6 / 7.f, 1 / 7.f };
     const auto joined = [](Bytes a, Bytes const& b) { return a.insert(a.end(), b.begin(), b.end()), a; };
@@ -165,13 +171,15 @@ DRIVER_TEST(Texture, EveryBlockCompressedFormatDecodesHandMadeBlocks) {
     for (BlockCase const& one : blockCases()) {
         FormatInfo const& info = formatInfo(one.format);
         SCOPED_TRACE(info.name);
-        const std::vector<Rgba> seen = paintRow(gpu, 4, kSampler2D, "result = texture(image, vec2((i + 0.5) / 4.0, 0.125));",
-                gpu.image(one.format, 4, 4, one.block), nearest);
+        const std::vector<Rgba> seen =
+                paintRow(gpu, 4, kSampler2D, "result = texture(image, vec2((i + 0.5) / 4.0, 0.125));",
+                         gpu.image(one.format, 4, 4, one.block), nearest);
         for (size_t t = 0; t < 4; ++t) {
             for (size_t c = 0; c < 4; ++c) {
                 const double expected = info.isSrgb && c < 3 ? linearFromSrgb(one.row[t][c]) : double{ one.row[t][c] };
                 // Interpolated colours are rounded to 8 bits by decoders, and sRGB follows after that.
-                ASSERT_NEAR(seen[t][c], expected, 0.009 * std::max(1.0, expected)) << "texel " << t << " component " << c;
+                ASSERT_NEAR(seen[t][c], expected, 0.009 * std::max(1.0, expected))
+                        << "texel " << t << " component " << c;
             }
         }
     }
@@ -182,7 +190,8 @@ DRIVER_TEST(Texture, EveryBlockCompressedFormatDecodesHandMadeBlocks) {
 DRIVER_TEST(Texture, UploadsOfRectanglesReplaceNothingElse) {
     using enum TextureUsage;
     std::vector<uint32_t> expected(6 * 5, 0x11111111);
-    const TextureHandle texture = gpu.texture({ .format = Format::R32UI, .usage = TransferTarget | TransferSource, .width = 6, .height = 5 });
+    const TextureHandle texture =
+            gpu.texture({ .format = Format::R32UI, .usage = TransferTarget | TransferSource, .width = 6, .height = 5 });
     gpu.upload(texture, { 0, 0, 6, 5 }, bytesOf(expected));
     const std::vector<uint32_t> patch{ 1, 2, 3, 4, 5, 6 };
     gpu.upload(texture, { 2, 1, 3, 2 }, bytesOf(patch));
@@ -197,7 +206,8 @@ DRIVER_TEST(Texture, OddRowsOfNarrowFormatsAreTightlyPacked) {
         SCOPED_TRACE(formatInfo(format).name);
         Bytes bytes(size_t{ 3 } * 5 * formatInfo(format).bytesPerBlock);
         for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = static_cast<std::byte>(i + 1);
-        const TextureHandle texture = gpu.texture({ .format = format, .usage = TransferTarget | TransferSource, .width = 3, .height = 5 });
+        const TextureHandle texture =
+                gpu.texture({ .format = format, .usage = TransferTarget | TransferSource, .width = 3, .height = 5 });
         gpu.upload(texture, { 0, 0, 3, 5 }, bytes);
         EXPECT_EQ(gpu.read(texture, { 0, 0, 3, 5 }), bytes);
     }
@@ -205,13 +215,18 @@ DRIVER_TEST(Texture, OddRowsOfNarrowFormatsAreTightlyPacked) {
 
 DRIVER_TEST(Texture, ArrayLayersAreUploadedTogetherAndSampledApart) {
     using enum TextureUsage;
-    const TextureHandle texture = gpu.texture({ .type = TextureType::Texture2DArray, .format = Format::R32F,
-            .usage = Sampled | TransferTarget, .layers = 5, .width = 2, .height = 2 });
+    const TextureHandle texture = gpu.texture({ .type = TextureType::Texture2DArray,
+                                                .format = Format::R32F,
+                                                .usage = Sampled | TransferTarget,
+                                                .layers = 5,
+                                                .width = 2,
+                                                .height = 2 });
     std::vector<float> texels;
     for (int i = 0; i < 20; ++i) texels.push_back(static_cast<float>(i));
     gpu.upload(texture, { 0, 0, 2, 2 }, bytesOf(std::vector<float>(texels.begin(), texels.begin() + 8)), 0, 0, 2);
     gpu.upload(texture, { 0, 0, 2, 2 }, bytesOf(std::vector<float>(texels.begin() + 8, texels.end())), 0, 2, 3);
-    const std::vector<Rgba> seen = paintRow(gpu, 20, "layout(set = 1, binding = 0) uniform highp sampler2DArray image;",
+    const std::vector<Rgba> seen = paintRow(
+            gpu, 20, "layout(set = 1, binding = 0) uniform highp sampler2DArray image;",
             "float t = mod(i, 4.0);\n"
             "result = texture(image, vec3((mod(t, 2.0) + 0.5) * 0.5, (floor(t * 0.5) + 0.5) * 0.5, floor(i * 0.25)));",
             texture, gpu.sampler());
@@ -220,14 +235,18 @@ DRIVER_TEST(Texture, ArrayLayersAreUploadedTogetherAndSampledApart) {
 
 DRIVER_TEST(Texture, CubeFacesAndTheirAxesFollowTheOrderOfBothApis) {
     using enum TextureUsage;
-    const TextureHandle texture = gpu.texture({ .type = TextureType::Cube, .format = Format::R32F,
-            .usage = Sampled | TransferTarget, .layers = 6, .width = 2, .height = 2 });
+    const TextureHandle texture = gpu.texture({ .type = TextureType::Cube,
+                                                .format = Format::R32F,
+                                                .usage = Sampled | TransferTarget,
+                                                .layers = 6,
+                                                .width = 2,
+                                                .height = 2 });
     std::vector<float> texels; // face * 10 + row * 2 + column
     for (int i = 0; i < 24; ++i) texels.push_back(static_cast<float>(i / 4 * 10 + i % 4));
     gpu.upload(texture, { 0, 0, 2, 2 }, bytesOf(texels), 0, 0, 6);
     // Face selection: OpenGL ES 3.2 table 8.19. s runs along -z for +x, t along -y.
     const std::vector<Rgba> seen = paintRow(gpu, 8, "layout(set = 1, binding = 0) uniform highp samplerCube image;",
-            R"(vec3 d = vec3(1.0, 0.5, 0.5);
+                                            R"(vec3 d = vec3(1.0, 0.5, 0.5);
                if (i == 1.0) d = vec3(-1.0, 0.5, 0.5);
                if (i == 2.0) d = vec3(0.5, 1.0, 0.5);
                if (i == 3.0) d = vec3(0.5, -1.0, 0.5);
@@ -236,8 +255,9 @@ DRIVER_TEST(Texture, CubeFacesAndTheirAxesFollowTheOrderOfBothApis) {
                if (i == 6.0) d = vec3(1.0, -0.5, -0.5);
                if (i == 7.0) d = vec3(0.5, -0.5, 1.0);
                result = texture(image, d);)",
-            texture, gpu.sampler());
-    // +x: sc = -z < 0, tc = -y < 0 -> texel 0; -x: sc = +z; +y: sc = +x, tc = +z; -y: tc = -z; +z: sc = +x, tc = -y; -z: sc = -x.
+                                            texture, gpu.sampler());
+    // +x: sc = -z < 0, tc = -y < 0 -> texel 0; -x: sc = +z; +y: sc = +x, tc = +z; -y: tc = -z; +z: sc = +x, tc = -y;
+    // -z: sc = -x.
     EXPECT_EQ(firsts(seen), (std::vector<float>{ 0, 11, 23, 31, 41, 50, 3, 43 }));
 }
 
@@ -246,12 +266,14 @@ DRIVER_TEST(Texture, CubeFacesAndTheirAxesFollowTheOrderOfBothApis) {
 int wrapped(int texel, int size, WrapMode mode) {
     const auto modulo = [](int a, int b) { return (a % b + b) % b; };
     switch (mode) {
-        case WrapMode::Repeat: return modulo(texel, size);
-        case WrapMode::MirroredRepeat: {
-            const int m = modulo(texel, 2 * size);
-            return m < size ? m : 2 * size - 1 - m;
-        }
-        case WrapMode::ClampToEdge: return std::clamp(texel, 0, size - 1);
+    case WrapMode::Repeat:
+        return modulo(texel, size);
+    case WrapMode::MirroredRepeat: {
+        const int m = modulo(texel, 2 * size);
+        return m < size ? m : 2 * size - 1 - m;
+    }
+    case WrapMode::ClampToEdge:
+        return std::clamp(texel, 0, size - 1);
     }
     return 0;
 }
@@ -259,8 +281,9 @@ int wrapped(int texel, int size, WrapMode mode) {
 DRIVER_TEST(Texture, WrapModesContinueTheTextureAsTheirNamesSay) {
     const TextureHandle texture = gpu.image(Format::R32F, 4, 1, bytesOf(std::vector<float>{ 10, 20, 30, 40 }));
     for (const WrapMode mode : { WrapMode::Repeat, WrapMode::MirroredRepeat, WrapMode::ClampToEdge }) {
-        const std::vector<Rgba> seen = paintRow(gpu, 24, kSampler2D, "result = texture(image, vec2((i - 10.0 + 0.5) * 0.25, 0.5));",
-                texture, gpu.sampler({ .wrapU = mode }));
+        const std::vector<Rgba> seen =
+                paintRow(gpu, 24, kSampler2D, "result = texture(image, vec2((i - 10.0 + 0.5) * 0.25, 0.5));", texture,
+                         gpu.sampler({ .wrapU = mode }));
         for (int i = 0; i < 24; ++i) {
             ASSERT_EQ(seen[static_cast<size_t>(i)][0], 10.0f * static_cast<float>(wrapped(i - 10, 4, mode) + 1)) << i;
         }
@@ -269,20 +292,25 @@ DRIVER_TEST(Texture, WrapModesContinueTheTextureAsTheirNamesSay) {
 
 DRIVER_TEST(Texture, LinearFilteringWeighsFourNeighbours) {
     const TextureHandle texture = gpu.image(Format::R32F, 2, 2, bytesOf(std::vector<float>{ 0, 1, 2, 5 }));
-    const std::vector<Rgba> seen = paintRow(gpu, 16, kSampler2D,
-            "result = texture(image, vec2(0.25 + mod(i, 4.0) / 6.0, 0.25 + floor(i * 0.25) / 6.0));", texture,
-            gpu.sampler({ .magFilter = Filter::Linear, .minFilter = Filter::Linear }));
+    const std::vector<Rgba> seen =
+            paintRow(gpu, 16, kSampler2D,
+                     "result = texture(image, vec2(0.25 + mod(i, 4.0) / 6.0, 0.25 + floor(i * 0.25) / 6.0));", texture,
+                     gpu.sampler({ .magFilter = Filter::Linear, .minFilter = Filter::Linear }));
     for (int i = 0; i < 16; ++i) {
         const double x = i % 4 / 3.0, y = i / 4 / 3.0; // 0 at the first centre, 1 at the second
         const double expected = (1 - y) * x + y * (2 * (1 - x) + 5 * x);
-        ASSERT_NEAR(seen[static_cast<size_t>(i)][0], expected, 5.0 / 256) << i; // 8 bits of weight are what devices promise
+        ASSERT_NEAR(seen[static_cast<size_t>(i)][0], expected, 5.0 / 256)
+                << i; // 8 bits of weight are what devices promise
     }
 }
 
 TextureHandle levelsOfTheirNumber(Gpu& gpu, uint32_t size, uint8_t levels) {
     using enum TextureUsage;
-    const TextureHandle texture = gpu.texture(
-            { .format = Format::R32F, .usage = Sampled | TransferTarget, .levels = levels, .width = size, .height = size });
+    const TextureHandle texture = gpu.texture({ .format = Format::R32F,
+                                                .usage = Sampled | TransferTarget,
+                                                .levels = levels,
+                                                .width = size,
+                                                .height = size });
     for (uint8_t level = 0; level < levels; ++level) {
         const uint32_t side = size >> level;
         gpu.upload(texture, { 0, 0, side, side }, bytesOf(std::vector<float>(size_t{ side } * side, level)), level);
@@ -296,7 +324,8 @@ DRIVER_TEST(Texture, ExplicitLevelsOfDetailRoundOrBlendByTheMipFilter) {
     const auto seen = [&](MipFilter filter) {
         return firsts(paintRow(gpu, 24, kSampler2D, lod, texture, gpu.sampler({ .mipFilter = filter })));
     };
-    const std::vector<float> none = seen(MipFilter::None), nearest = seen(MipFilter::Nearest), linear = seen(MipFilter::Linear);
+    const std::vector<float> none = seen(MipFilter::None), nearest = seen(MipFilter::Nearest),
+                             linear = seen(MipFilter::Linear);
     for (int i = 0; i < 24; ++i) {
         const double lambda = std::clamp(i * 0.25 - 1.0, 0.0, 4.0);
         EXPECT_EQ(none[static_cast<size_t>(i)], 0) << i;
@@ -308,11 +337,13 @@ DRIVER_TEST(Texture, ExplicitLevelsOfDetailRoundOrBlendByTheMipFilter) {
 
 DRIVER_TEST(Texture, ImplicitLevelsFollowTheFootprintOfAPixel) {
     const TextureHandle texture = levelsOfTheirNumber(gpu, 64, 7);
-    const SamplerHandle sampler = gpu.sampler({ .mipFilter = MipFilter::Linear, .wrapU = WrapMode::Repeat, .wrapV = WrapMode::Repeat });
+    const SamplerHandle sampler =
+            gpu.sampler({ .mipFilter = MipFilter::Linear, .wrapU = WrapMode::Repeat, .wrapV = WrapMode::Repeat });
     for (int level = 0; level < 6; ++level) {
         const int texels = 1 << level; // a pixel
-        const Program program = gpu.program(kFullScreenVertex,
-                fragmentOf(kSampler2D, "result = texture(image, gl_FragCoord.xy * " + std::to_string(texels) + ".0 * (1.0 / 64.0));"));
+        const Program program = gpu.program(
+                kFullScreenVertex, fragmentOf(kSampler2D, "result = texture(image, gl_FragCoord.xy * " +
+                                                                  std::to_string(texels) + ".0 * (1.0 / 64.0));"));
         const TextureHandle target =
                 gpu.paint(program, { .width = 4, .height = 4, .group = gpu.imageGroup(program, texture, sampler) });
         for (Rgba const& texel : gpu.readAs<Rgba>(target, { 0, 0, 4, 4 })) ASSERT_NEAR(texel[0], level, 0.01) << texels;
@@ -323,9 +354,14 @@ DRIVER_TEST(Texture, AnisotropyKeepsTheShortAxisOfAStretchedFootprint) {
     if (gpu.info().limits.maxAnisotropy < 8) GTEST_SKIP() << "this device has no anisotropic filtering";
     const TextureHandle texture = levelsOfTheirNumber(gpu, 64, 7);
     const auto levelSeen = [&](uint8_t anisotropy) {
-        const SamplerHandle sampler = gpu.sampler({ .magFilter = Filter::Linear, .minFilter = Filter::Linear,
-                .mipFilter = MipFilter::Linear, .wrapU = WrapMode::Repeat, .wrapV = WrapMode::Repeat, .anisotropy = anisotropy });
-        const Program program = gpu.program(kFullScreenVertex,
+        const SamplerHandle sampler = gpu.sampler({ .magFilter = Filter::Linear,
+                                                    .minFilter = Filter::Linear,
+                                                    .mipFilter = MipFilter::Linear,
+                                                    .wrapU = WrapMode::Repeat,
+                                                    .wrapV = WrapMode::Repeat,
+                                                    .anisotropy = anisotropy });
+        const Program program = gpu.program(
+                kFullScreenVertex,
                 fragmentOf(kSampler2D, "result = texture(image, gl_FragCoord.xy * vec2(8.0, 1.0) * (1.0 / 64.0));"));
         const TextureHandle target =
                 gpu.paint(program, { .width = 4, .height = 4, .group = gpu.imageGroup(program, texture, sampler) });
@@ -363,14 +399,22 @@ void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, float(gl_VertexIndex >
 
 bool compares(CompareOp op, double reference, double texel) {
     switch (op) {
-        case CompareOp::Never: return false;
-        case CompareOp::Less: return reference < texel;
-        case CompareOp::Equal: return reference == texel;
-        case CompareOp::LessEqual: return reference <= texel;
-        case CompareOp::Greater: return reference > texel;
-        case CompareOp::NotEqual: return reference != texel;
-        case CompareOp::GreaterEqual: return reference >= texel;
-        default: return true;
+    case CompareOp::Never:
+        return false;
+    case CompareOp::Less:
+        return reference < texel;
+    case CompareOp::Equal:
+        return reference == texel;
+    case CompareOp::LessEqual:
+        return reference <= texel;
+    case CompareOp::Greater:
+        return reference > texel;
+    case CompareOp::NotEqual:
+        return reference != texel;
+    case CompareOp::GreaterEqual:
+        return reference >= texel;
+    default:
+        return true;
     }
 }
 
@@ -380,20 +424,23 @@ DRIVER_TEST(Texture, ShadowSamplersCompareTheReferenceWithTheTexel) {
     const TextureHandle depth = twoDepths(gpu);
     for (int i = 1; i <= static_cast<int>(CompareOp::Always); ++i) {
         const auto op = static_cast<CompareOp>(i);
-        const std::vector<Rgba> seen = paintRow(gpu, 6, kShadow,
-                "float shadow = texture(image, vec3(i < 3.0 ? 0.25 : 0.75, 0.5, 0.25 + mod(i, 3.0) * 0.25));\n"
-                "result = vec4(shadow);",
-                depth, gpu.sampler({ .compare = op }));
+        const std::vector<Rgba> seen =
+                paintRow(gpu, 6, kShadow,
+                         "float shadow = texture(image, vec3(i < 3.0 ? 0.25 : 0.75, 0.5, 0.25 + mod(i, 3.0) * 0.25));\n"
+                         "result = vec4(shadow);",
+                         depth, gpu.sampler({ .compare = op }));
         for (int column = 0; column < 6; ++column) {
             const double reference = 0.25 + column % 3 * 0.25, texel = column < 3 ? 0.25 : 0.75;
-            EXPECT_EQ(seen[static_cast<size_t>(column)][0], compares(op, reference, texel) ? 1.0f : 0.0f) << "op " << i << ", " << column;
+            EXPECT_EQ(seen[static_cast<size_t>(column)][0], compares(op, reference, texel) ? 1.0f : 0.0f)
+                    << "op " << i << ", " << column;
         }
     }
 }
 
 DRIVER_TEST(Texture, LinearShadowSamplersFilterTheComparisons) {
     const TextureHandle depth = twoDepths(gpu);
-    const std::vector<Rgba> seen = paintRow(gpu, 9, kShadow,
+    const std::vector<Rgba> seen = paintRow(
+            gpu, 9, kShadow,
             "float shadow = texture(image, vec3(0.375 + i * (0.25 / 8.0), 0.5, 0.5));\nresult = vec4(shadow);", depth,
             gpu.sampler({ .magFilter = Filter::Linear, .minFilter = Filter::Linear, .compare = CompareOp::Less }));
     for (int i = 0; i < 9; ++i) EXPECT_NEAR(seen[static_cast<size_t>(i)][0], i / 8.0, 1.0 / 256) << i;

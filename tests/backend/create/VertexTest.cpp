@@ -15,9 +15,9 @@ DRIVER_SUITE(Vertex);
 
 // One pixel shows the attribute of one vertex.
 std::string vertexReading(std::string_view type, std::string_view toVec4) {
-    return "#version 450\nlayout(location = 3) in " + std::string(type) + " value;\nlayout(location = 0) flat out vec4 seen;\n" +
-            "void main() {\n    seen = " + std::string(toVec4) +
-            ";\n    gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.5, 1.0);\n}\n";
+    return "#version 450\nlayout(location = 3) in " + std::string(type) +
+           " value;\nlayout(location = 0) flat out vec4 seen;\n" + "void main() {\n    seen = " + std::string(toVec4) +
+           ";\n    gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) * 4.0 - 1.0, 0.5, 1.0);\n}\n";
 }
 
 constexpr std::string_view kShowSeen = R"(#version 450
@@ -27,9 +27,12 @@ void main() { result = seen; })";
 
 Rgba readAttribute(Gpu& gpu, VertexFormat format, Bytes const& vertex) {
     VertexFormatInfo const& info = vertexFormatInfo(format);
-    const bool isSigned = format == VertexFormat::Byte4 || format == VertexFormat::Short2 || format == VertexFormat::Short4;
+    const bool isSigned =
+            format == VertexFormat::Byte4 || format == VertexFormat::Short2 || format == VertexFormat::Short4;
     const std::string type = !info.integer ? "vec4" : info.components == 1 ? "uint" : isSigned ? "ivec4" : "uvec4";
-    const std::string value = !info.integer ? "value" : info.components == 1 ? "vec4(float(value), 0.0, 0.0, 1.0)" : "vec4(value)";
+    const std::string value = !info.integer          ? "value"
+                              : info.components == 1 ? "vec4(float(value), 0.0, 0.0, 1.0)"
+                                                     : "vec4(value)";
     const TextureHandle target = gpu.target(Format::RGBA32F, 1, 1);
     const PassDesc pass = passOver({ { target, Format::RGBA32F } }, 1, 1);
     PipelineDesc desc = pipelineFor(gpu.program(vertexReading(type, value), kShowSeen), pass.layout);
@@ -39,7 +42,8 @@ Rgba readAttribute(Gpu& gpu, VertexFormat format, Bytes const& vertex) {
     desc.vertices.buffers[0].stride = stride;
     desc.vertices.bufferCount = 1;
     std::vector<std::byte> contents(3u * stride, std::byte{ 0xEE });
-    for (size_t i = 0; i < 3; ++i) std::ranges::copy(vertex, contents.begin() + static_cast<std::ptrdiff_t>(i * stride + 4));
+    for (size_t i = 0; i < 3; ++i)
+        std::ranges::copy(vertex, contents.begin() + static_cast<std::ptrdiff_t>(i * stride + 4));
     const BufferHandle buffer = gpu.buffer(BufferUsage::Vertex, contents);
     const PipelineHandle pipeline = gpu.pipeline(desc);
     gpu.record(CmdBeginPass{ pass });
@@ -54,7 +58,8 @@ template <class T>
 void expectReads(Gpu& gpu, VertexFormat format, std::vector<T> const& components, Rgba const& expected) {
     SCOPED_TRACE(vertexFormatInfo(format).name);
     const Rgba seen = readAttribute(gpu, format, bytesOf(components));
-    for (int i = 0; i < 4; ++i) EXPECT_NEAR(seen[i], expected[i], 1e-6 * std::max(1.0f, std::abs(expected[i]))) << "component " << i;
+    for (int i = 0; i < 4; ++i)
+        EXPECT_NEAR(seen[i], expected[i], 1e-6 * std::max(1.0f, std::abs(expected[i]))) << "component " << i;
 }
 
 DRIVER_TEST(Vertex, FloatFormatsFillMissingComponentsWithZeroZeroOne) {
@@ -67,16 +72,18 @@ DRIVER_TEST(Vertex, FloatFormatsFillMissingComponentsWithZeroZeroOne) {
 DRIVER_TEST(Vertex, HalfFormatsAreExact) {
     const auto half = [](float value) { return halfFromFloat(value); };
     expectReads<uint16_t>(gpu, VertexFormat::Half2, { half(0.333f), half(-65504) },
-            { floatFromHalf(half(0.333f)), -65504, 0, 1 });
+                          { floatFromHalf(half(0.333f)), -65504, 0, 1 });
     expectReads<uint16_t>(gpu, VertexFormat::Half4, { half(1), half(2), half(0.5f), half(6e-8f) },
-            { 1, 2, 0.5f, floatFromHalf(half(6e-8f)) });
+                          { 1, 2, 0.5f, floatFromHalf(half(6e-8f)) });
 }
 
 DRIVER_TEST(Vertex, NormalizedFormatsSpanZeroToOneOrMinusOneToOne) {
     expectReads<uint8_t>(gpu, VertexFormat::UByte4N, { 0, 51, 128, 255 }, { 0, 0.2f, 128 / 255.0f, 1 });
-    expectReads<int8_t>(gpu, VertexFormat::Byte4N, { 127, -127, -128, 64 }, { 1, -1, -1, 64 / 127.0f }); // both ends clamp to -1
+    expectReads<int8_t>(gpu, VertexFormat::Byte4N, { 127, -127, -128, 64 },
+                        { 1, -1, -1, 64 / 127.0f }); // both ends clamp to -1
     expectReads<uint16_t>(gpu, VertexFormat::UShort2N, { 65535, 13107 }, { 1, 0.2f, 0, 1 });
-    expectReads<uint16_t>(gpu, VertexFormat::UShort4N, { 0, 1, 32768, 65535 }, { 0, 1 / 65535.0f, 32768 / 65535.0f, 1 });
+    expectReads<uint16_t>(gpu, VertexFormat::UShort4N, { 0, 1, 32768, 65535 },
+                          { 0, 1 / 65535.0f, 32768 / 65535.0f, 1 });
     expectReads<int16_t>(gpu, VertexFormat::Short2N, { -32768, 16384 }, { -1, 16384 / 32767.0f, 0, 1 });
     expectReads<int16_t>(gpu, VertexFormat::Short4N, { 32767, -32767, 0, 1 }, { 1, -1, 0, 1 / 32767.0f });
 }

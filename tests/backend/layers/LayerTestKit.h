@@ -82,7 +82,9 @@ inline std::vector<std::byte> bytes(size_t count) { return std::vector<std::byte
 
 inline CmdCreateProgram createProgram() {
     static const std::vector<std::byte> code = bytes(20);
-    static const std::vector<ConstantValue> constants{ { .id = 4, .bits = 0x3F800000, .type = ConstantValue::Type::Float } };
+    static const std::vector<ConstantValue> constants{
+        { .id = 4, .bits = 0x3F800000, .type = ConstantValue::Type::Float }
+    };
     CmdCreateProgram command{ kProgram, {} };
     command.desc.vertex = code;
     command.desc.fragment = code;
@@ -95,19 +97,38 @@ inline CmdCreateProgram createProgram() {
 inline void recordBuffers(CommandBuffer& to) {
     to.record(CmdCreateBuffer{ kVertices, { .size = 240, .usage = BufferUsage::Vertex, .debugName = "vertices" } });
     to.record(CmdCreateBuffer{ kIndices, { .size = 60, .usage = BufferUsage::Index, .debugName = "indices" } });
-    to.record(CmdCreateBuffer{ kUniforms, { .size = 2 * kAlign, .usage = BufferUsage::Uniform, .debugName = "uniforms" } });
+    to.record(CmdCreateBuffer{ kUniforms,
+                               { .size = 2 * kAlign, .usage = BufferUsage::Uniform, .debugName = "uniforms" } });
 }
 
 inline void recordTextures(CommandBuffer& to) {
     using enum TextureUsage;
-    to.record(CmdCreateTexture{ kColor, { .format = Format::RGBA8, .usage = ColorAttachment | TransferSource | TransferTarget,
-                                          .width = 16, .height = 16, .debugName = "color" } });
-    to.record(CmdCreateTexture{ kDepth, { .format = Format::D32F, .usage = DepthAttachment | Sampled, .width = 16,
-                                          .height = 16, .debugName = "depth" } });
-    to.record(CmdCreateTexture{ kImage, { .format = Format::RGBA8, .usage = Sampled | TransferSource | TransferTarget,
-                                          .levels = 4, .width = 8, .height = 8, .debugName = "image" } });
-    to.record(CmdCreateTexture{ kSamples4, { .format = Format::RGBA8, .usage = ColorAttachment, .samples = 4, .width = 16,
-                                             .height = 16, .debugName = "samples4" } });
+    to.record(CmdCreateTexture{ kColor,
+                                { .format = Format::RGBA8,
+                                  .usage = ColorAttachment | TransferSource | TransferTarget,
+                                  .width = 16,
+                                  .height = 16,
+                                  .debugName = "color" } });
+    to.record(CmdCreateTexture{ kDepth,
+                                { .format = Format::D32F,
+                                  .usage = DepthAttachment | Sampled,
+                                  .width = 16,
+                                  .height = 16,
+                                  .debugName = "depth" } });
+    to.record(CmdCreateTexture{ kImage,
+                                { .format = Format::RGBA8,
+                                  .usage = Sampled | TransferSource | TransferTarget,
+                                  .levels = 4,
+                                  .width = 8,
+                                  .height = 8,
+                                  .debugName = "image" } });
+    to.record(CmdCreateTexture{ kSamples4,
+                                { .format = Format::RGBA8,
+                                  .usage = ColorAttachment,
+                                  .samples = 4,
+                                  .width = 16,
+                                  .height = 16,
+                                  .debugName = "samples4" } });
     to.record(CmdCreateSampler{ kSampler, { .magFilter = Filter::Linear } });
     to.record(CmdCreateSampler{ kCompare, { .compare = CompareOp::Less } });
 }
@@ -154,7 +175,10 @@ inline void recordFrame(CommandBuffer& to, uint64_t frame = 1, uint64_t firstTic
     to.record(CmdDrawIndexed{ .indexCount = 30, .instanceCount = 15 });
     to.record(CmdEndPass{});
     to.record(CmdEndTimer{ { firstTicket } });
-    to.record(CmdBlit{ .source = kImage, .target = kColor, .sourceRect = { 0, 0, 8, 8 }, .targetRect = { 0, 0, 16, 16 },
+    to.record(CmdBlit{ .source = kImage,
+                       .target = kColor,
+                       .sourceRect = { 0, 0, 8, 8 },
+                       .targetRect = { 0, 0, 16, 16 },
                        .filter = Filter::Linear });
     to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 16, 16 }, .ticket = { firstTicket + 1 } });
     to.record(CmdPopGroup{});

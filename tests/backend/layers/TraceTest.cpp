@@ -27,7 +27,9 @@ TraceText textOf(std::function<void(CommandBuffer&)> const& record) {
     return writeAll(streams);
 }
 
-std::string bodyOf(TraceText const& trace) { return trace.text.substr(traceHeader().size() + std::string_view("Stream\n").size()); }
+std::string bodyOf(TraceText const& trace) {
+    return trace.text.substr(traceHeader().size() + std::string_view("Stream\n").size());
+}
 
 void recordEverything(CommandBuffer& to) {
     recordObjects(to);
@@ -42,25 +44,31 @@ void recordEverything(CommandBuffer& to) {
 
 TEST(Trace, WritesOneReadableLineACommandAndLeavesDefaultsOut) {
     const TraceText trace = textOf([](CommandBuffer& to) {
-        to.record(CmdCreateTexture{ TextureHandle::make(3, 2), { .type = TextureType::Cube, .format = Format::RGBA16F,
-                .usage = TextureUsage::Sampled | TextureUsage::TransferTarget, .layers = 6, .width = 64, .height = 64,
-                .debugName = "sky \"blue\"" } });
+        to.record(CmdCreateTexture{ TextureHandle::make(3, 2),
+                                    { .type = TextureType::Cube,
+                                      .format = Format::RGBA16F,
+                                      .usage = TextureUsage::Sampled | TextureUsage::TransferTarget,
+                                      .layers = 6,
+                                      .width = 64,
+                                      .height = 64,
+                                      .debugName = "sky \"blue\"" } });
         to.record(CmdUpdateBuffer{ BufferHandle::make(5, 1), 16, bytes(3) });
         to.record(CmdSetViewport{ { 0.5f, 0, 100, 0.1f } });
         to.record(CmdDrawIndexed{ .indexCount = 3, .vertexOffset = -7 });
         to.record(CmdDraw{});
-        to.record(CmdBindVertexBuffers{ .buffers = { BufferHandle::make(1, 1), {}, BufferHandle::make(2, 1) }, .count = 3 });
+        to.record(CmdBindVertexBuffers{ .buffers = { BufferHandle::make(1, 1), {}, BufferHandle::make(2, 1) },
+                                        .count = 3 });
         to.record(CmdEndPass{});
     });
-    EXPECT_EQ(bodyOf(trace),
-            "CreateTexture handle=3.2 desc={ type=Cube format=RGBA16F usage=Sampled|TransferTarget layers=6 width=64 height=64 "
-            "debugName=\"sky \\x22blue\\x22\" }\n"
-            "UpdateBuffer buffer=5.1 offset=16 bytes=5a5a5a\n"
-            "SetViewport viewport={ x=0.5 width=100 height=0.1 }\n"
-            "DrawIndexed indexCount=3 vertexOffset=-7\n"
-            "Draw\n"
-            "BindVertexBuffers buffers=[ 1.1 0.0 2.1 ] count=3\n"
-            "EndPass\n");
+    EXPECT_EQ(bodyOf(trace), "CreateTexture handle=3.2 desc={ type=Cube format=RGBA16F usage=Sampled|TransferTarget "
+                             "layers=6 width=64 height=64 "
+                             "debugName=\"sky \\x22blue\\x22\" }\n"
+                             "UpdateBuffer buffer=5.1 offset=16 bytes=5a5a5a\n"
+                             "SetViewport viewport={ x=0.5 width=100 height=0.1 }\n"
+                             "DrawIndexed indexCount=3 vertexOffset=-7\n"
+                             "Draw\n"
+                             "BindVertexBuffers buffers=[ 1.1 0.0 2.1 ] count=3\n"
+                             "EndPass\n");
 }
 
 TEST(Trace, PutsLargePayloadsIntoTheSideFileInOrder) {
@@ -123,15 +131,19 @@ TEST(Trace, ErrorsNameTheLineAndTheReason) {
     EXPECT_EQ(message("SetStencilReference front=256"), "line 4: SetStencilReference: 256 is out of range");
     EXPECT_EQ(message("DestroyBuffer handle=1048576.1"), "line 4: DestroyBuffer: handle 1048576.1 is out of range");
     EXPECT_EQ(message("CreateTexture desc={ format=RGBA9 }"), "line 4: CreateTexture: 'RGBA9' is no such name");
-    EXPECT_EQ(message("CreateTexture desc={ usage=Sampled|Sampler }"), "line 4: CreateTexture: 'Sampler' is no such name");
+    EXPECT_EQ(message("CreateTexture desc={ usage=Sampled|Sampler }"),
+              "line 4: CreateTexture: 'Sampler' is no such name");
     EXPECT_EQ(message("BindVertexBuffers offsets=[ 1 2 3 4 5 ]"), "line 4: BindVertexBuffers: more than 4 elements");
     EXPECT_EQ(message("UpdateBuffer bytes=5g"), "line 4: UpdateBuffer: '5g' is no byte in hex");
     EXPECT_EQ(message("UpdateBuffer bytes=555"), "line 4: UpdateBuffer: 3 hex digits; bytes have two each");
-    EXPECT_EQ(message("UpdateBuffer bytes=@0+9", bytes(8)), "line 4: UpdateBuffer: payload @0+9: the side file has only 8 bytes");
-    EXPECT_EQ(message("UpdateBuffer bytes=@4+4", bytes(8)), "line 4: UpdateBuffer: payload @4+4: the next one begins at byte 0");
+    EXPECT_EQ(message("UpdateBuffer bytes=@0+9", bytes(8)),
+              "line 4: UpdateBuffer: payload @0+9: the side file has only 8 bytes");
+    EXPECT_EQ(message("UpdateBuffer bytes=@4+4", bytes(8)),
+              "line 4: UpdateBuffer: payload @4+4: the next one begins at byte 0");
     EXPECT_EQ(message("PushGroup name=\"a\\q\""), "line 4: PushGroup: an escape is \\xNN");
     EXPECT_THAT(readTrace("filament-trace 2\n", {}).error().message, HasSubstr("line 1: no trace of this version"));
-    EXPECT_THAT(readTrace(std::string(traceHeader()) + "Draw\n", {}).error().message, HasSubstr("before the first 'Stream'"));
+    EXPECT_THAT(readTrace(std::string(traceHeader()) + "Draw\n", {}).error().message,
+                HasSubstr("before the first 'Stream'"));
 }
 
 TEST(Trace, EveryEnumeratorHasANameThatReadsBackAsItself) {
@@ -157,7 +169,8 @@ TEST(Trace, EveryEnumeratorHasANameThatReadsBackAsItself) {
 
 class TraceFile : public testing::Test {
 protected:
-    std::filesystem::path mPath = std::filesystem::path(testing::TempDir()) /
+    std::filesystem::path mPath =
+            std::filesystem::path(testing::TempDir()) /
             ("filament_" + std::string(testing::UnitTest::GetInstance()->current_test_info()->name()) + ".trace");
     Errors mErrors;
 
@@ -199,7 +212,8 @@ TEST_F(TraceFile, ReplaysOnAFreshStreamWithTheTicketsOfTheRecording) {
         (*driver)->execute(objects.view());
         (*driver)->execute(frame.view());
     }
-    auto stream = CommandStream::start([&](ResultSink& sink) -> Result<std::unique_ptr<Driver>> { return createNullDriver(sink); });
+    auto stream = CommandStream::start(
+            [&](ResultSink& sink) -> Result<std::unique_ptr<Driver>> { return createNullDriver(sink); });
     ASSERT_TRUE(stream.ok());
     const Result<std::vector<Ticket>> tickets = replayTrace(mPath, **stream);
     ASSERT_TRUE(tickets.ok()) << tickets.error().message;
@@ -224,7 +238,8 @@ TEST_F(TraceFile, MissingAndBrokenFilesAreErrorsThatNameThem) {
     EXPECT_EQ(nowhere.error().code, ErrorCode::Unreadable);
 }
 
-// ---------------------------------------------------------------------------------------------- fuzzing without a fuzzer
+// ---------------------------------------------------------------------------------------------- fuzzing without a
+// fuzzer
 
 std::vector<uint8_t> fuzzSeed() {
     const TraceText trace = textOf(recordEverything);
@@ -236,24 +251,50 @@ std::vector<uint8_t> fuzzSeed() {
 
 // Cuts, copies and flips; words of the grammar are likelier than noise.
 void mutate(std::vector<uint8_t>& input, std::mt19937& random) {
-    static constexpr std::string_view kWords[] = { " ", "=", "{", " }", "[", " ]", "\"", "@0+64", "4294967295", "-1", "0.0",
-        "1.1", "count=", "desc={", "bytes=", "\n", "Draw", "Stream\n", "|", "255", "nan", "65535", "subpassCount=4" };
+    static constexpr std::string_view kWords[] = { " ",
+                                                   "=",
+                                                   "{",
+                                                   " }",
+                                                   "[",
+                                                   " ]",
+                                                   "\"",
+                                                   "@0+64",
+                                                   "4294967295",
+                                                   "-1",
+                                                   "0.0",
+                                                   "1.1",
+                                                   "count=",
+                                                   "desc={",
+                                                   "bytes=",
+                                                   "\n",
+                                                   "Draw",
+                                                   "Stream\n",
+                                                   "|",
+                                                   "255",
+                                                   "nan",
+                                                   "65535",
+                                                   "subpassCount=4" };
     const auto pick = [&](size_t below) { return static_cast<size_t>(random()) % below; };
     const size_t at = pick(input.size());
     const auto here = input.begin() + static_cast<std::ptrdiff_t>(at);
     switch (pick(4)) {
-        case 0: *here = static_cast<uint8_t>(random()); break;
-        case 1: {
-            const std::string_view word = kWords[pick(std::size(kWords))];
-            input.insert(here, word.begin(), word.end());
-            break;
-        }
-        case 2: input.erase(here, here + static_cast<std::ptrdiff_t>(pick(std::min<size_t>(20, input.size() - at)))); break;
-        default: {
-            const std::vector<uint8_t> piece(here, here + static_cast<std::ptrdiff_t>(pick(std::min<size_t>(200, input.size() - at))));
-            const size_t to = pick(input.size());
-            input.insert(input.begin() + static_cast<std::ptrdiff_t>(to), piece.begin(), piece.end());
-        }
+    case 0:
+        *here = static_cast<uint8_t>(random());
+        break;
+    case 1: {
+        const std::string_view word = kWords[pick(std::size(kWords))];
+        input.insert(here, word.begin(), word.end());
+        break;
+    }
+    case 2:
+        input.erase(here, here + static_cast<std::ptrdiff_t>(pick(std::min<size_t>(20, input.size() - at))));
+        break;
+    default: {
+        const std::vector<uint8_t> piece(
+                here, here + static_cast<std::ptrdiff_t>(pick(std::min<size_t>(200, input.size() - at))));
+        const size_t to = pick(input.size());
+        input.insert(input.begin() + static_cast<std::ptrdiff_t>(to), piece.begin(), piece.end());
+    }
     }
 }
 

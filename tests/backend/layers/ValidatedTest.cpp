@@ -45,14 +45,17 @@ TEST_F(Validated, IsSilentAboutACorrectMergedPass) {
     execute([](CommandBuffer& to) {
         const TextureHandle a = TextureHandle::make(0, 1), b = TextureHandle::make(1, 1);
         using enum TextureUsage;
-        to.record(CmdCreateTexture{ a, { .usage = ColorAttachment | InputAttachment | Transient, .width = 8, .height = 8 } });
+        to.record(CmdCreateTexture{
+                a, { .usage = ColorAttachment | InputAttachment | Transient, .width = 8, .height = 8 } });
         to.record(CmdCreateTexture{ b, { .usage = ColorAttachment, .width = 8, .height = 8 } });
         PassDesc desc = mergedPassDesc(a, b);
         desc.colors[0].store = StoreOp::Discard;
         CmdCreateProgram program = createProgram();
         program.desc.layout = {};
         program.desc.layout[0].count = 1;
-        program.desc.layout[0].bindings[0] = { .binding = 2, .type = BindingType::InputAttachment, .inputAttachment = 0 };
+        program.desc.layout[0].bindings[0] = { .binding = 2,
+                                               .type = BindingType::InputAttachment,
+                                               .inputAttachment = 0 };
         to.record(program);
         to.record(CmdCreatePipeline{ kPipeline, { .program = kProgram, .pass = desc.layout, .subpass = 1 } });
         const std::vector<BindGroupEntry> entries{ { .binding = 2, .texture = a } };
@@ -76,8 +79,9 @@ TEST_F(Validated, NamesCommandObjectPassRuleAndCureInOneLine) {
         to.record(CmdEndPass{});
     });
     ASSERT_EQ(mErrors.messages.size(), 2u);
-    EXPECT_EQ(mErrors.messages[0], "command 3 Draw 'painted' in pass 'main': group 1 is not bound, or was lost by a pipeline of "
-                                   "another layout; record CmdBindGroup");
+    EXPECT_EQ(mErrors.messages[0],
+              "command 3 Draw 'painted' in pass 'main': group 1 is not bound, or was lost by a pipeline of "
+              "another layout; record CmdBindGroup");
     EXPECT_EQ(mErrors.messages[1], "a stream of 4 commands was dropped: a driver could crash on the errors above");
     EXPECT_THAT(mErrors.kinds, testing::Each(DriverErrorKind::Validation));
 }
@@ -161,36 +165,82 @@ using C = CommandBuffer;
 
 std::vector<Case> objectCases() {
     return {
-        { "NoneHandle", [](C& to) { to.record(CmdCreateBuffer{ {}, { .size = 4 } }); }, "the handle is none" },
-        { "HandleInUse", [](C& to) { to.record(CmdCreateBuffer{ kVertices, { .size = 4 } }); }, "is in use" },
-        { "OtherGenerationInUse", [](C& to) { to.record(CmdCreateBuffer{ BufferHandle::make(0, 2), { .size = 4 } }); }, "is in use" },
-        { "DestroyTwice", [](C& to) { to.record(CmdDestroyBuffer{ kVertices }); to.record(CmdDestroyBuffer{ kVertices }); },
+        { "NoneHandle",
+          [](C& to) {
+              to.record(CmdCreateBuffer{ {}, { .size = 4 } });
+          },
+          "the handle is none" },
+        { "HandleInUse",
+          [](C& to) {
+              to.record(CmdCreateBuffer{ kVertices, { .size = 4 } });
+          },
+          "is in use" },
+        { "OtherGenerationInUse",
+          [](C& to) {
+              to.record(CmdCreateBuffer{ BufferHandle::make(0, 2), { .size = 4 } });
+          },
+          "is in use" },
+        { "DestroyTwice",
+          [](C& to) {
+              to.record(CmdDestroyBuffer{ kVertices });
+              to.record(CmdDestroyBuffer{ kVertices });
+          },
           "was destroyed" },
-        { "DestroyUnknown", [](C& to) { to.record(CmdDestroySampler{ SamplerHandle::make(77, 1) }); }, "does not exist" },
-        { "EmptyBuffer", [](C& to) { to.record(CmdCreateBuffer{ BufferHandle::make(20, 1), {} }); }, "the size is 0" },
-        { "CreateInPass", [](C& to) { inPass(to, [](C& in) { in.record(CmdCreateBuffer{ BufferHandle::make(20, 1), { .size = 4 } }); }); },
+        { "DestroyUnknown", [](C& to) { to.record(CmdDestroySampler{ SamplerHandle::make(77, 1) }); },
+          "does not exist" },
+        { "EmptyBuffer",
+          [](C& to) {
+              to.record(CmdCreateBuffer{ BufferHandle::make(20, 1), {} });
+          },
+          "the size is 0" },
+        { "CreateInPass",
+          [](C& to) {
+              inPass(to, [](C& in) { in.record(CmdCreateBuffer{ BufferHandle::make(20, 1), { .size = 4 } }); });
+          },
           "only outside of passes" },
-        { "TextureWithoutFormat", [](C& to) { to.record(textureWith([](auto& d) { d.format = Format::None; })); }, "format is none" },
-        { "TextureOfZeroWidth", [](C& to) { to.record(textureWith([](auto& d) { d.width = 0; })); }, "both must be > 0" },
-        { "TextureTooLarge", [](C& to) { to.record(textureWith([](auto& d) { d.height = 99'999; })); }, "maxTextureSize" },
-        { "TooManyLevels", [](C& to) { to.record(textureWith([](auto& d) { d.levels = 5; })); }, "5 levels; 8 x 8 has 1..4" },
+        { "TextureWithoutFormat", [](C& to) { to.record(textureWith([](auto& d) { d.format = Format::None; })); },
+          "format is none" },
+        { "TextureOfZeroWidth", [](C& to) { to.record(textureWith([](auto& d) { d.width = 0; })); },
+          "both must be > 0" },
+        { "TextureTooLarge", [](C& to) { to.record(textureWith([](auto& d) { d.height = 99'999; })); },
+          "maxTextureSize" },
+        { "TooManyLevels", [](C& to) { to.record(textureWith([](auto& d) { d.levels = 5; })); },
+          "5 levels; 8 x 8 has 1..4" },
         { "LayersOf2D", [](C& to) { to.record(textureWith([](auto& d) { d.layers = 2; })); }, "use Texture2DArray" },
-        { "CubeOf5", [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::Cube, d.layers = 5; })); }, "6 square layers" },
-        { "TwoSamples", [](C& to) { to.record(textureWith([](auto& d) { d.samples = 2, d.usage = TextureUsage::ColorAttachment; })); },
+        { "CubeOf5", [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::Cube, d.layers = 5; })); },
+          "6 square layers" },
+        { "TwoSamples",
+          [](C& to) {
+              to.record(textureWith([](auto& d) { d.samples = 2, d.usage = TextureUsage::ColorAttachment; }));
+          },
           "2 samples" },
-        { "SampledMultisample", [](C& to) { to.record(textureWith([](auto& d) { d.samples = 4; })); }, "resolve into another" },
+        { "SampledMultisample", [](C& to) { to.record(textureWith([](auto& d) { d.samples = 4; })); },
+          "resolve into another" },
         { "UnrenderableAttachment",
-          [](C& to) { to.record(textureWith([](auto& d) { d.format = Format::RGB9E5, d.usage = TextureUsage::ColorAttachment; })); },
+          [](C& to) {
+              to.record(
+                      textureWith([](auto& d) { d.format = Format::RGB9E5, d.usage = TextureUsage::ColorAttachment; }));
+          },
           "RGB9E5 cannot be an attachment" },
         { "DepthAsColor",
-          [](C& to) { to.record(textureWith([](auto& d) { d.format = Format::D32F, d.usage = TextureUsage::ColorAttachment; })); },
+          [](C& to) {
+              to.record(textureWith([](auto& d) { d.format = Format::D32F, d.usage = TextureUsage::ColorAttachment; }));
+          },
           "cannot be a colour attachment" },
         { "SampledTransient",
-          [](C& to) { to.record(textureWith([](auto& d) { d.usage = TextureUsage::Transient | TextureUsage::Sampled; })); },
+          [](C& to) {
+              to.record(textureWith([](auto& d) { d.usage = TextureUsage::Transient | TextureUsage::Sampled; }));
+          },
           "never outlives its pass" },
-        { "Anisotropy17", [](C& to) { to.record(CmdCreateSampler{ SamplerHandle::make(20, 1), { .anisotropy = 17 } }); }, "it is 1..16",
-          Outcome::Forwarded },
-        { "ProgramWithoutCode", [](C& to) { to.record(CmdCreateProgram{ ProgramHandle::make(20, 1), {} }); },
+        { "Anisotropy17",
+          [](C& to) {
+              to.record(CmdCreateSampler{ SamplerHandle::make(20, 1), { .anisotropy = 17 } });
+          },
+          "it is 1..16", Outcome::Forwarded },
+        { "ProgramWithoutCode",
+          [](C& to) {
+              to.record(CmdCreateProgram{ ProgramHandle::make(20, 1), {} });
+          },
           "has a vertex and a fragment stage" },
         { "UnorderedLayout",
           [](C& to) {
@@ -200,73 +250,124 @@ std::vector<Case> objectCases() {
               to.record(command);
           },
           "group 1: binding 0 follows 3" },
-        { "PipelineWithoutProgram", [](C& to) { recordPipelineWith(to, [](auto& d) { d.program = {}; }); }, "the program is none" },
-        { "PipelineSubpassOutOfRange", [](C& to) { recordPipelineWith(to, [](auto& d) { d.subpass = 1; }); }, "subpass 1 of 1" },
-        { "AttributeBeyondStride", [](C& to) { recordPipelineWith(to, [](auto& d) { d.vertices.attributes[1].offset = 6; }); },
+        { "PipelineWithoutProgram", [](C& to) { recordPipelineWith(to, [](auto& d) { d.program = {}; }); },
+          "the program is none" },
+        { "PipelineSubpassOutOfRange", [](C& to) { recordPipelineWith(to, [](auto& d) { d.subpass = 1; }); },
+          "subpass 1 of 1" },
+        { "AttributeBeyondStride",
+          [](C& to) { recordPipelineWith(to, [](auto& d) { d.vertices.attributes[1].offset = 6; }); },
           "bytes 6..10 of a stride of 8" },
-        { "AttributeTwice", [](C& to) { recordPipelineWith(to, [](auto& d) { d.vertices.attributes[1].location = 0; }); },
+        { "AttributeTwice",
+          [](C& to) { recordPipelineWith(to, [](auto& d) { d.vertices.attributes[1].location = 0; }); },
           "attribute 0 is given twice" },
-        { "AttributeOfMissingBuffer", [](C& to) { recordPipelineWith(to, [](auto& d) { d.vertices.attributes[0].buffer = 2; }); },
+        { "AttributeOfMissingBuffer",
+          [](C& to) { recordPipelineWith(to, [](auto& d) { d.vertices.attributes[0].buffer = 2; }); },
           "reads buffer 2 of 2" },
-        { "DepthTestWithoutDepth", [](C& to) { recordPipelineWith(to, [](auto& d) { d.pass.depthFormat = Format::None; }); },
+        { "DepthTestWithoutDepth",
+          [](C& to) { recordPipelineWith(to, [](auto& d) { d.pass.depthFormat = Format::None; }); },
           "a depth test without a depth attachment", Outcome::Forwarded },
-        { "StencilTestWithoutStencil", [](C& to) { recordPipelineWith(to, [](auto& d) { d.depthStencil.stencilTest = true; }); },
+        { "StencilTestWithoutStencil",
+          [](C& to) { recordPipelineWith(to, [](auto& d) { d.depthStencil.stencilTest = true; }); },
           "a stencil test without stencil", Outcome::Forwarded },
         { "BlendOfIntegers",
-          [](C& to) { recordPipelineWith(to, [](auto& d) { d.pass.colorFormats[0] = Format::R32UI, d.blend[0].enabled = true; }); },
+          [](C& to) {
+              recordPipelineWith(to,
+                                 [](auto& d) { d.pass.colorFormats[0] = Format::R32UI, d.blend[0].enabled = true; });
+          },
           "cannot blend" },
     };
 }
 
 std::vector<Case> groupCases() {
     return {
-        { "EntryMissing", [](C& to) { recordGroupWith(to, [](auto& e) { e.pop_back(); }); }, "1 entries for 2 bindings" },
+        { "EntryMissing", [](C& to) { recordGroupWith(to, [](auto& e) { e.pop_back(); }); },
+          "1 entries for 2 bindings" },
         { "EntryTwice", [](C& to) { recordGroupWith(to, [](auto& e) { e[1] = e[0]; }); }, "binding 0 has 2 entries" },
         { "BufferWithoutUniformUsage", [](C& to) { recordGroupWith(to, [](auto& e) { e[0].buffer = kVertices; }); },
           "'vertices' lacks BufferUsage::Uniform" },
-        { "UnalignedUniform", [](C& to) { recordGroupWith(to, [](auto& e) { e[0].offset = 16; }); }, "no multiple of 256" },
-        { "UniformBeyondBuffer", [](C& to) { recordGroupWith(to, [](auto& e) { e[0].offset = 512; }); }, "bytes 512..576 of buffer" },
+        { "UnalignedUniform", [](C& to) { recordGroupWith(to, [](auto& e) { e[0].offset = 16; }); },
+          "no multiple of 256" },
+        { "UniformBeyondBuffer", [](C& to) { recordGroupWith(to, [](auto& e) { e[0].offset = 512; }); },
+          "bytes 512..576 of buffer" },
         { "UniformOfZeroBytes", [](C& to) { recordGroupWith(to, [](auto& e) { e[0].size = 0; }); }, "0 bytes visible" },
         { "DestroyedTexture",
-          [](C& to) { to.record(CmdDestroyTexture{ kImage }); recordGroupWith(to, [](auto&) {}); }, "the texture 0x100002 was destroyed" },
+          [](C& to) {
+              to.record(CmdDestroyTexture{ kImage });
+              recordGroupWith(to, [](auto&) {});
+          },
+          "the texture 0x100002 was destroyed" },
         { "TextureWithoutSampledUsage", [](C& to) { recordGroupWith(to, [](auto& e) { e[1].texture = kColor; }); },
           "'color' lacks TextureUsage::Sampled" },
         { "CompareOnColor", [](C& to) { recordGroupWith(to, [](auto& e) { e[1].sampler = kCompare; }); },
           "a comparing sampler needs a depth format", Outcome::Forwarded },
-        { "MissingSampler", [](C& to) { recordGroupWith(to, [](auto& e) { e[1].sampler = {}; }); }, "the sampler is none" },
+        { "MissingSampler", [](C& to) { recordGroupWith(to, [](auto& e) { e[1].sampler = {}; }); },
+          "the sampler is none" },
     };
 }
 
 std::vector<Case> contentCases() {
     static const std::vector<std::byte> data = bytes(256), blocks = bytes(8);
     return {
-        { "UpdateBeyondTheEnd", [](C& to) { to.record(CmdUpdateBuffer{ kIndices, 1, std::span(data).first(60) }); }, "bytes 1..61" },
-        { "UpdateInPass", [](C& to) { inPass(to, [](C& in) { in.record(CmdUpdateBuffer{ kIndices, 0, blocks }); }); }, "only outside" },
-        { "UploadOfTooFewBytes", [](C& to) { to.record(uploadWith(blocks, [](auto&) {})); }, "8 bytes for 8 x 8 x 1 texels of RGBA8; that is 256" },
-        { "UploadOfMissingLevel", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.level = 4; })); }, "level 4 of 4" },
-        { "UploadOfMissingLayer", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.layer = 1; })); }, "layers 1..2 of 1" },
-        { "UploadOutsideOfTheLevel", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.level = 1; })); }, "leaves level 1 of 4 x 4" },
-        { "UploadAtNegativeX", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.rect.x = -1; })); }, "rectangle -1,0" },
-        { "UploadWithoutUsage", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.texture = kDepth; })); }, "lacks TextureUsage::TransferTarget" },
+        { "UpdateBeyondTheEnd",
+          [](C& to) {
+              to.record(CmdUpdateBuffer{ kIndices, 1, std::span(data).first(60) });
+          },
+          "bytes 1..61" },
+        { "UpdateInPass", [](C& to) { inPass(to, [](C& in) {
+                                          in.record(CmdUpdateBuffer{ kIndices, 0, blocks });
+                                      }); },
+          "only outside" },
+        { "UploadOfTooFewBytes", [](C& to) { to.record(uploadWith(blocks, [](auto&) {})); },
+          "8 bytes for 8 x 8 x 1 texels of RGBA8; that is 256" },
+        { "UploadOfMissingLevel", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.level = 4; })); },
+          "level 4 of 4" },
+        { "UploadOfMissingLayer", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.layer = 1; })); },
+          "layers 1..2 of 1" },
+        { "UploadOutsideOfTheLevel", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.level = 1; })); },
+          "leaves level 1 of 4 x 4" },
+        { "UploadAtNegativeX", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.rect.x = -1; })); },
+          "rectangle -1,0" },
+        { "UploadWithoutUsage", [](C& to) { to.record(uploadWith(data, [](auto& c) { c.texture = kDepth; })); },
+          "lacks TextureUsage::TransferTarget" },
         { "UploadThroughBlocks",
           [](C& to) {
-              to.record(textureWith([](auto& d) { d.format = Format::BC1, d.usage = TextureUsage::Sampled | TextureUsage::TransferTarget; }));
-              to.record(uploadWith(blocks, [](auto& c) { c.texture = TextureHandle::make(20, 1), c.rect = { 2, 0, 4, 4 }; }));
+              to.record(textureWith([](auto& d) {
+                  d.format = Format::BC1, d.usage = TextureUsage::Sampled | TextureUsage::TransferTarget;
+              }));
+              to.record(uploadWith(blocks, [](auto& c) {
+                  c.texture = TextureHandle::make(20, 1), c.rect = { 2, 0, 4, 4 };
+              }));
           },
           "cuts through 4x4 blocks" },
-        { "MipsWithoutUsage", [](C& to) { to.record(CmdGenerateMips{ kDepth }); }, "needs TransferSource and TransferTarget" },
-        { "BlitWithoutUsage", [](C& to) { to.record(blitWith([](auto& c) { c.source = kDepth; })); }, "source 'depth' lacks" },
-        { "BlitOutside", [](C& to) { to.record(blitWith([](auto& c) { c.targetRect = { 10, 10, 8, 8 }; })); }, "target 'color': rectangle" },
-        { "BlitOntoItself", [](C& to) { to.record(blitWith([](auto& c) { c.target = kImage; })); }, "overlap", Outcome::Forwarded },
-        { "ReadWithoutUsage", [](C& to) { to.record(CmdReadTexture{ .texture = kDepth, .rect = { 0, 0, 1, 1 }, .ticket = { 5 } }); },
-          "lacks TextureUsage::TransferSource" },
-        { "ReadOutside", [](C& to) { to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 17, 1 }, .ticket = { 5 } }); },
-          "leaves level 0 of 16 x 16" },
-        { "ReadWithoutTicket", [](C& to) { to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 1, 1 } }); }, "ticket is none",
+        { "MipsWithoutUsage", [](C& to) { to.record(CmdGenerateMips{ kDepth }); },
+          "needs TransferSource and TransferTarget" },
+        { "BlitWithoutUsage", [](C& to) { to.record(blitWith([](auto& c) { c.source = kDepth; })); },
+          "source 'depth' lacks" },
+        { "BlitOutside", [](C& to) { to.record(blitWith([](auto& c) {
+                                         c.targetRect = { 10, 10, 8, 8 };
+                                     })); },
+          "target 'color': rectangle" },
+        { "BlitOntoItself", [](C& to) { to.record(blitWith([](auto& c) { c.target = kImage; })); }, "overlap",
           Outcome::Forwarded },
+        { "ReadWithoutUsage",
+          [](C& to) {
+              to.record(CmdReadTexture{ .texture = kDepth, .rect = { 0, 0, 1, 1 }, .ticket = { 5 } });
+          },
+          "lacks TextureUsage::TransferSource" },
+        { "ReadOutside",
+          [](C& to) {
+              to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 17, 1 }, .ticket = { 5 } });
+          },
+          "leaves level 0 of 16 x 16" },
+        { "ReadWithoutTicket",
+          [](C& to) {
+              to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 1, 1 } });
+          },
+          "ticket is none", Outcome::Forwarded },
         { "TicketTwice",
           [](C& to) {
-              for (int i = 0; i < 2; ++i) to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 1, 1 }, .ticket = { 5 } });
+              for (int i = 0; i < 2; ++i)
+                  to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 1, 1 }, .ticket = { 5 } });
           },
           "ticket 5 was used before", Outcome::Forwarded },
     };
@@ -274,26 +375,38 @@ std::vector<Case> contentCases() {
 
 std::vector<Case> passCases() {
     return {
-        { "PassInPass", [](C& to) { inPass(to, [](C& in) { in.record(CmdBeginPass{ passDesc() }); }); }, "only outside of passes" },
+        { "PassInPass", [](C& to) { inPass(to, [](C& in) { in.record(CmdBeginPass{ passDesc() }); }); },
+          "only outside of passes" },
         { "EndWithoutBegin", [](C& to) { to.record(CmdEndPass{}); }, "only inside a pass" },
         { "PassLeftOpen", [](C& to) { to.record(CmdBeginPass{ passDesc() }); }, "pass 'main' is still open" },
         { "DrawOutsideOfPasses", [](C& to) { to.record(CmdDraw{ .vertexCount = 3 }); }, "only inside a pass" },
-        { "NoAttachments", [](C& to) { recordPassWith(to, [](auto& d) { d = { .area = { 0, 0, 1, 1 }, .debugName = "main" }; }); },
+        { "NoAttachments",
+          [](C& to) { recordPassWith(to, [](auto& d) {
+                          d = { .area = { 0, 0, 1, 1 }, .debugName = "main" };
+                      }); },
           "without attachments" },
         { "EmptyArea", [](C& to) { recordPassWith(to, [](auto& d) { d.area.width = 0; }); }, "is empty" },
         { "AreaLargerThanAttachment", [](C& to) { recordPassWith(to, [](auto& d) { d.area.width = 17; }); },
           "colour 0 'color' is smaller than the area" },
-        { "AttachmentMissing", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].texture = {}; }); }, "the colour 0 is none" },
-        { "AttachmentOfOtherFormat", [](C& to) { recordPassWith(to, [](auto& d) { d.layout.colorFormats[0] = Format::RGBA16F; }); },
+        { "AttachmentMissing", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].texture = {}; }); },
+          "the colour 0 is none" },
+        { "AttachmentOfOtherFormat",
+          [](C& to) { recordPassWith(to, [](auto& d) { d.layout.colorFormats[0] = Format::RGBA16F; }); },
           "has format RGBA8, the layout says RGBA16F" },
-        { "AttachmentOfOtherSampleCount", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].texture = kSamples4; }); },
+        { "AttachmentOfOtherSampleCount",
+          [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].texture = kSamples4; }); },
           "has 4 samples, the layout says 1" },
-        { "AttachmentWithoutUsage", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].texture = kImage, d.area = { 0, 0, 8, 8 }; }); },
+        { "AttachmentWithoutUsage",
+          [](C& to) { recordPassWith(to, [](auto& d) {
+                          d.colors[0].texture = kImage, d.area = { 0, 0, 8, 8 };
+                      }); },
           "'image' lacks TextureUsage::ColorAttachment" },
-        { "AttachmentLevelMissing", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].level = 1; }); }, "level 1 of 1" },
+        { "AttachmentLevelMissing", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].level = 1; }); },
+          "level 1 of 1" },
         { "DepthOfOtherFormat", [](C& to) { recordPassWith(to, [](auto& d) { d.layout.depthFormat = Format::D16; }); },
           "depth 'depth' has format D32F, the layout says D16" },
-        { "ResolveWithoutSamples", [](C& to) { recordPassWith(to, [](auto& d) { d.layout.resolveMask = 1, d.colors[0].resolve = kColor; }); },
+        { "ResolveWithoutSamples",
+          [](C& to) { recordPassWith(to, [](auto& d) { d.layout.resolveMask = 1, d.colors[0].resolve = kColor; }); },
           "a resolve needs samples > 1" },
         { "ResolveNotInMask", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].resolve = kColor; }); },
           "resolveMask does not name it", Outcome::Forwarded },
@@ -307,11 +420,14 @@ std::vector<Case> passCases() {
           },
           "colours 0 and 1 are the same image" },
         { "SamplesAndSubpasses",
-          [](C& to) { recordPassWith(to, [](auto& d) { d.layout.samples = 4, d.layout.subpassCount = 2; }); }, "samples > 1 excludes subpasses" },
+          [](C& to) { recordPassWith(to, [](auto& d) { d.layout.samples = 4, d.layout.subpassCount = 2; }); },
+          "samples > 1 excludes subpasses" },
         { "InputBeforeWritten", [](C& to) { recordPassWith(to, [](auto& d) { d.layout.subpasses[0].inputMask = 1; }); },
           "earlier ones wrote only 0x0" },
-        { "TooManySubpasses", [](C& to) { inPass(to, [](C& in) { in.record(CmdNextSubpass{}); }); }, "the pass has only 1 subpasses" },
-        { "GroupLeftOpen", [](C& to) { to.record(CmdPushGroup{ "left" }); }, "group 'left' is still open", Outcome::Forwarded },
+        { "TooManySubpasses", [](C& to) { inPass(to, [](C& in) { in.record(CmdNextSubpass{}); }); },
+          "the pass has only 1 subpasses" },
+        { "GroupLeftOpen", [](C& to) { to.record(CmdPushGroup{ "left" }); }, "group 'left' is still open",
+          Outcome::Forwarded },
         { "PopWithoutPush", [](C& to) { to.record(CmdPopGroup{}); }, "no group is open", Outcome::Forwarded },
         { "TimerLeftOpen", [](C& to) { to.record(CmdBeginTimer{ { 3 } }); }, "1 timers are still open" },
         { "TimerNeverBegun", [](C& to) { to.record(CmdEndTimer{ { 3 } }); }, "timer 3 is not open" },
@@ -323,7 +439,12 @@ std::vector<Case> passCases() {
               to.record(CmdEndTimer{ { 4 } });
           },
           "timer 4 began inside of timer 3" },
-        { "FrameInFrame", [](C& to) { to.record(CmdBeginFrame{ 1 }); to.record(CmdBeginFrame{ 2 }); }, "a frame is open", Outcome::Forwarded },
+        { "FrameInFrame",
+          [](C& to) {
+              to.record(CmdBeginFrame{ 1 });
+              to.record(CmdBeginFrame{ 2 });
+          },
+          "a frame is open", Outcome::Forwarded },
         { "EndOfNoFrame", [](C& to) { to.record(CmdEndFrame{ 1 }); }, "no frame is open", Outcome::Forwarded },
     };
 }
@@ -331,38 +452,54 @@ std::vector<Case> passCases() {
 std::vector<Case> drawCases() {
     return {
         { "NoPipeline",
-          [](C& to) { to.record(CmdBeginPass{ passDesc() }); to.record(CmdDraw{ .vertexCount = 3 }); to.record(CmdEndPass{}); },
+          [](C& to) {
+              to.record(CmdBeginPass{ passDesc() });
+              to.record(CmdDraw{ .vertexCount = 3 });
+              to.record(CmdEndPass{});
+          },
           "no pipeline is bound" },
         { "PipelineOfAnotherPass",
           [](C& to) {
               PassDesc desc = passDesc();
               desc.layout.depthFormat = Format::None;
               desc.depth = {};
-              inPass(to, [](C&) {}, desc);
+              inPass(
+                      to, [](C&) {}, desc);
           },
           "made for another PassLayout" },
         { "GroupIndexOutOfRange",
-          [](C& to) { inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 3, .dynamicCount = 1 }); }); },
+          [](C& to) {
+              inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 3, .dynamicCount = 1 }); });
+          },
           "group index 3; 0..2" },
-        { "DynamicOffsetMissing", [](C& to) { inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 1 }); }); },
+        { "DynamicOffsetMissing",
+          [](C& to) { inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 1 }); }); },
           "0 dynamic offsets; the layout has 1" },
         { "DynamicOffsetUnaligned",
           [](C& to) {
-              inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 1, .dynamicCount = 1, .dynamicOffsets = { 4 } }); });
+              inPass(to, [](C& in) {
+                  in.record(CmdBindGroup{ .group = kGroup, .index = 1, .dynamicCount = 1, .dynamicOffsets = { 4 } });
+              });
           },
           "dynamic offset 4 is no multiple of 256" },
         { "DynamicOffsetBeyondTheEnd",
           [](C& to) {
-              inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 1, .dynamicCount = 1, .dynamicOffsets = { 512 } }); });
+              inPass(to, [](C& in) {
+                  in.record(CmdBindGroup{ .group = kGroup, .index = 1, .dynamicCount = 1, .dynamicOffsets = { 512 } });
+              });
           },
           "leave buffer 'uniforms' of 512 bytes" },
         { "VertexBufferWithoutUsage",
-          [](C& to) { inPass(to, [](C& in) { in.record(CmdBindVertexBuffers{ .buffers = { kIndices }, .count = 1 }); }); },
+          [](C& to) {
+              inPass(to, [](C& in) { in.record(CmdBindVertexBuffers{ .buffers = { kIndices }, .count = 1 }); });
+          },
           "'indices' lacks BufferUsage::Vertex" },
-        { "IndexBufferWithoutUsage", [](C& to) { inPass(to, [](C& in) { in.record(CmdBindIndexBuffer{ .buffer = kVertices }); }); },
+        { "IndexBufferWithoutUsage",
+          [](C& to) { inPass(to, [](C& in) { in.record(CmdBindIndexBuffer{ .buffer = kVertices }); }); },
           "lacks BufferUsage::Index" },
         { "IndexOffsetUnaligned",
-          [](C& to) { inPass(to, [](C& in) { in.record(CmdBindIndexBuffer{ .buffer = kIndices, .offset = 1 }); }); }, "no multiple of 2" },
+          [](C& to) { inPass(to, [](C& in) { in.record(CmdBindIndexBuffer{ .buffer = kIndices, .offset = 1 }); }); },
+          "no multiple of 2" },
         { "VertexBufferMissing",
           [](C& to) {
               inPass(to, [](C& in) {
@@ -383,9 +520,13 @@ std::vector<Case> drawCases() {
         { "VerticesBeyondTheEnd", [](C& to) { inPass(to, [](C& in) { in.record(CmdDraw{ .vertexCount = 21 }); }); },
           "vertex 20 ends at byte 252" },
         { "InstancesBeyondTheEnd",
-          [](C& to) { inPass(to, [](C& in) { in.record(CmdDraw{ .vertexCount = 3, .instanceCount = 1, .firstInstance = 15 }); }); },
+          [](C& to) {
+              inPass(to,
+                     [](C& in) { in.record(CmdDraw{ .vertexCount = 3, .instanceCount = 1, .firstInstance = 15 }); });
+          },
           "instance 15 ends at byte 248" },
-        { "IndicesBeyondTheEnd", [](C& to) { inPass(to, [](C& in) { in.record(CmdDrawIndexed{ .indexCount = 30, .firstIndex = 1 }); }); },
+        { "IndicesBeyondTheEnd",
+          [](C& to) { inPass(to, [](C& in) { in.record(CmdDrawIndexed{ .indexCount = 30, .firstIndex = 1 }); }); },
           "indices 1..31 leave index buffer 'indices' of 60 bytes" },
         { "SamplesItsOwnAttachment",
           [](C& to) {
@@ -416,8 +557,12 @@ std::vector<Case> drawCases() {
               });
           },
           "group 1 is not bound, or was lost" },
-        { "EmptyViewport", [](C& to) { inPass(to, [](C& in) { in.record(CmdSetViewport{}); }); }, "finite and not empty" },
-        { "NegativeScissor", [](C& to) { inPass(to, [](C& in) { in.record(CmdSetScissor{ { -1, 0, 4, 4 } }); }); }, "begins outside" },
+        { "EmptyViewport", [](C& to) { inPass(to, [](C& in) { in.record(CmdSetViewport{}); }); },
+          "finite and not empty" },
+        { "NegativeScissor", [](C& to) { inPass(to, [](C& in) {
+                                             in.record(CmdSetScissor{ { -1, 0, 4, 4 } });
+                                         }); },
+          "begins outside" },
     };
 }
 

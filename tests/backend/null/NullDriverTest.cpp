@@ -36,7 +36,8 @@ protected:
 
 TEST_F(NullDriver, CountsDeviceBytesOverAllLevelsLayersAndSamples) {
     const auto first = TextureHandle::make(1, 1), second = TextureHandle::make(2, 1);
-    mCommands.record(CmdCreateTexture{ first, { .format = Format::RGBA8, .levels = 3, .layers = 2, .width = 4, .height = 2 } });
+    mCommands.record(
+            CmdCreateTexture{ first, { .format = Format::RGBA8, .levels = 3, .layers = 2, .width = 4, .height = 2 } });
     mCommands.record(CmdCreateTexture{ second, { .format = Format::RGBA16F, .samples = 4, .width = 3, .height = 1 } });
     mCommands.record(CmdCreateBuffer{ BufferHandle::make(1, 1), { .size = 1000 } });
     execute();

@@ -24,7 +24,8 @@ struct Listener {
         ids.push_back(kCommandId<C>);
         if constexpr (std::same_as<C, CmdDraw>) draws.push_back(command);
         if constexpr (std::same_as<C, CmdPushGroup>) names.emplace_back(command.name);
-        if constexpr (std::same_as<C, CmdUpdateBuffer>) payloads.emplace_back(command.bytes.begin(), command.bytes.end());
+        if constexpr (std::same_as<C, CmdUpdateBuffer>)
+            payloads.emplace_back(command.bytes.begin(), command.bytes.end());
     }
 };
 
@@ -77,8 +78,10 @@ struct PayloadsOutside {
     }
     template <class T>
     void visit(T const& value) {
-        if constexpr (std::same_as<T, std::string_view> || kIsSpan<T>) place(value.data());
-        else if constexpr (HasFields<T>) visitFields(value, [&](const char*, auto const& field) { visit(field); });
+        if constexpr (std::same_as<T, std::string_view> || kIsSpan<T>)
+            place(value.data());
+        else if constexpr (HasFields<T>)
+            visitFields(value, [&](const char*, auto const& field) { visit(field); });
     }
 };
 
@@ -133,7 +136,8 @@ TEST(CommandBuffer, AdoptsEveryPayloadFieldOfEveryCommand) {
 TEST(CommandBuffer, CarriesPayloadsLargerThanAChunkAndTinyOnesAtAnyAlignment) {
     CommandBuffer commands;
     std::vector<std::vector<std::byte>> expected;
-    for (const size_t size : { size_t{ 1 }, size_t{ 65'535 }, size_t{ 65'536 }, size_t{ 65'537 }, size_t{ 3'000'000 }, size_t{ 2 } }) {
+    for (const size_t size :
+         { size_t{ 1 }, size_t{ 65'535 }, size_t{ 65'536 }, size_t{ 65'537 }, size_t{ 3'000'000 }, size_t{ 2 } }) {
         expected.push_back(numbered(size, static_cast<uint32_t>(size)));
         commands.record(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = expected.back() });
     }

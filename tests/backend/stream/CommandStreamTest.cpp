@@ -64,7 +64,9 @@ private:
 
 std::unique_ptr<CommandStream> startScripted(Script& script, CommandStreamOptions options = {}) {
     auto stream = CommandStream::start(
-            [&](ResultSink& sink) -> Result<std::unique_ptr<Driver>> { return { std::make_unique<ScriptedDriver>(script, sink) }; },
+            [&](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
+                return { std::make_unique<ScriptedDriver>(script, sink) };
+            },
             options);
     EXPECT_TRUE(stream.ok());
     return std::move(*stream);
@@ -82,7 +84,7 @@ protected:
     CommandStreamOptions options() const { return { .ownThread = GetParam() }; }
 };
 INSTANTIATE_TEST_SUITE_P(CommandStream, BothThreadModes, testing::Values(true, false),
-        [](auto const& mode) { return mode.param ? "OwnThread" : "Inline"; });
+                         [](auto const& mode) { return mode.param ? "OwnThread" : "Inline"; });
 
 TEST_P(BothThreadModes, TheDriverLivesAndDiesOnOneThread) {
     Script script;
@@ -303,7 +305,8 @@ TEST(CommandStream, ASteadyFrameAllocatesNothing) {
     const BufferHandle buffer = stream->allocateBuffer();
     std::vector<std::byte> bytes(10'000);
     CommandBuffer& first = stream->acquire();
-    first.record(CmdCreateBuffer{ buffer, { .size = bytes.size(), .usage = BufferUsage::Uniform, .debugName = "frame" } });
+    first.record(
+            CmdCreateBuffer{ buffer, { .size = bytes.size(), .usage = BufferUsage::Uniform, .debugName = "frame" } });
     stream->submit(first);
     std::vector<Ticket> timers(1, stream->nextTicket());
     const auto frame = [&](uint64_t number) {
