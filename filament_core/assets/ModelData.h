@@ -35,7 +35,7 @@ struct MaterialData {
     float metallicFactor = 1, roughnessFactor = 1;
     float normalScale = 1, occlusionStrength = 1;
     float3 emissiveFactor{ 0.0f };
-    float emissiveStrength = 1; ///< KHR_materials_emissive_strength: multiplies emissiveFactor, independent of the exposure
+    float emissiveStrength = 1; ///< KHR_materials_emissive_strength: multiplies emissiveFactor
     TextureRef baseColor, metallicRoughness, normal, occlusion, emissive;
     AlphaMode alphaMode = AlphaMode::Opaque;
     float alphaCutoff = 0.5f;
