@@ -9,6 +9,7 @@ JobSystem::JobSystem(JobSystemOptions options) : mScheduler(std::make_unique<Sch
 JobSystem::~JobSystem() = default;
 
 uint32_t JobSystem::workerCount() const { return mScheduler->workerCount(); }
+uint64_t JobSystem::busyNanoseconds() const { return mScheduler->busyNanoseconds(); }
 
 void JobGroup::wait() { mJobs.scheduler().wait(mCompletion); }
 

@@ -49,6 +49,8 @@ public:
     JobSystem& operator=(JobSystem const&) = delete;
 
     uint32_t workerCount() const;
+    /// Time that all workers together spent in frame jobs since the start; background jobs do not count.
+    uint64_t busyNanoseconds() const;
 
     /// Runs `function` once, some time, on a worker that has nothing else to do; for long work such as decoding files.
     /// wait() never picks up a background job, and at most half of the workers (at least one) run them at a time.

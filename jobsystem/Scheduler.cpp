@@ -3,6 +3,7 @@
 
 #include "jobsystem/CpuSet.h"
 
+#include <chrono>
 #include <algorithm>
 
 namespace filament::jobs {
@@ -95,7 +96,7 @@ void Scheduler::runWorker(uint32_t index, std::string const& name, int core) {
     tSeat = &seat;
     for (;;) {
         if (Job* job = spinForWork(&seat, nullptr)) {
-            execute(&seat, *job);
+            workUntilIdle(seat, job);
         } else if (runBackgroundJob()) {
             continue;
         } else if (mStopping.load(std::memory_order_seq_cst)) {
@@ -104,6 +105,14 @@ void Scheduler::runWorker(uint32_t index, std::string const& name, int core) {
             sleepUntilWork(seat);
         }
     }
+}
+
+// Two clock reads for a stretch of jobs, not for each.
+void Scheduler::workUntilIdle(Seat& seat, Job* job) {
+    const auto begin = std::chrono::steady_clock::now();
+    for (; job; job = findWork(&seat)) execute(&seat, *job);
+    const auto busy = std::chrono::steady_clock::now() - begin;
+    mBusyNanoseconds.fetch_add(static_cast<uint64_t>(std::chrono::nanoseconds(busy).count()), std::memory_order_relaxed);
 }
 
 void Scheduler::sleepUntilWork(Seat& seat) {
@@ -117,7 +126,7 @@ void Scheduler::sleepUntilWork(Seat& seat) {
     }
     if (!job) return;
     notifyWork();
-    execute(&seat, *job);
+    workUntilIdle(seat, job);
 }
 
 // ---------------------------------------------------------------------------------------------- queues

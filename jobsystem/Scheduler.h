@@ -44,6 +44,7 @@ public:
     Scheduler& operator=(Scheduler const&) = delete;
 
     uint32_t workerCount() const { return mWorkerCount; }
+    uint64_t busyNanoseconds() const { return mBusyNanoseconds.load(std::memory_order_relaxed); }
 
     /// An unset job, or null: no workers, or no free job.
     Job* tryAllocate();
@@ -78,6 +79,7 @@ private:
 
     Seat* takeGuestSeat();
     void runWorker(uint32_t index, std::string const& name, int core);
+    void workUntilIdle(Seat& seat, Job* job);
     void sleepUntilWork(Seat& seat);
     bool runBackgroundJob();
     bool mayRunBackground() const;
@@ -102,6 +104,7 @@ private:
     Completion mBackgroundCompletion;
     alignas(kCacheLineBytes) ParkingLot mIdle;
     alignas(kCacheLineBytes) ParkingLot mWaiting;
+    std::atomic<uint64_t> mBusyNanoseconds{ 0 };
     std::atomic<bool> mStopping{ false };
     std::vector<std::thread> mThreads;
 };

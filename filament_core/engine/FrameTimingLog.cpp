@@ -48,6 +48,7 @@ FrameTimings FrameTimingLog::publish(Record const& record) const {
     timings.prepareMilliseconds = milliseconds(record.stamps.begin, record.stamps.prepared);
     timings.recordMilliseconds = milliseconds(record.stamps.prepared, record.stamps.recorded);
     timings.replayMilliseconds = static_cast<double>(record.replay.replayEnd - record.replay.replayBegin) * 1e-6;
+    timings.workerBusyMilliseconds = static_cast<double>(record.stamps.workerBusyNanoseconds) * 1e-6;
     timings.beginSeconds = mEngine.secondsSinceStart(nanoseconds(record.stamps.begin));
     timings.submitSeconds = mEngine.secondsSinceStart(nanoseconds(record.stamps.recorded));
     timings.replayBeginSeconds = mEngine.secondsSinceStart(record.replay.replayBegin);

@@ -22,6 +22,7 @@ public:
     using TimePoint = std::chrono::steady_clock::time_point;
     struct Stamps {
         TimePoint begin, prepared, recorded;
+        uint64_t workerBusyNanoseconds = 0; ///< while the frame was prepared
     };
 
     /// After submit().

@@ -141,6 +141,9 @@ MaterialInstance Engine::createInstance(Material material, std::string name) {
     instance.name = name.empty() ? parent.name : std::move(name);
     instance.parameters.resize(parent.package.uniformBytes);
     instance.cullingDisabled = parent.package.doubleSided;
+    if (Parameter const* threshold = parent.package.findParameter("_maskThreshold")) {
+        std::memcpy(instance.parameters.data() + threshold->offset, &parent.package.maskThreshold, sizeof(float));
+    }
     const scene::TextureBinding white{ mImpl->textureHandle(mImpl->defaults.white), mImpl->samplers.get({}, mImpl->pending) };
     for (Parameter const& parameter : parent.package.parameters) {
         if (shader::isTexture(parameter.type)) instance.textures.push_back(white);

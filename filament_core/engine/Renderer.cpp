@@ -30,8 +30,8 @@ uint32_t countRunning(CompiledGraph const& plan) { return static_cast<uint32_t>(
 } // namespace
 
 struct Renderer::Impl {
-    explicit Impl(Engine::Impl& owner)
-            : engine(owner), data(*owner.stream), graph(arena), transients(*owner.stream), timings(owner) {}
+    Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
+            : engine(owner), options(rendererOptions), data(*owner.stream), graph(arena), transients(*owner.stream), timings(owner) {}
 
     ~Impl() {
         data.destroy(engine.pending);
@@ -45,10 +45,12 @@ struct Renderer::Impl {
         graph.reset();
         timers.clear();
         engine::FrameTimingLog::Stamps stamps{ .begin = clock() };
+        const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext* context = arena.make<FrameContext>();
         context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().data,
                 { view.camera, view.size, view.timeSeconds });
         stamps.prepared = clock();
+        stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
 
         CommandBuffer& commands = engine.stream->acquire(); // waits when two frames ahead
         commands.record(CmdBeginFrame{ ++frame });
@@ -56,7 +58,7 @@ struct Renderer::Impl {
         upload(commands, *context);
         describe(*context, view, target);
         plan = compile(graph, transients);
-        framegraph::record(commands, plan, engine.stream->info().features.timers ? &timers : nullptr);
+        framegraph::record(commands, plan, options.passTimers ? &timers : nullptr);
         commands.record(CmdEndFrame{ frame });
         engine.stream->submit(commands);
 
@@ -72,7 +74,7 @@ struct Renderer::Impl {
                 { .specular = context.packet.specular ? context.packet.specular : black,
                         .dfg = engine.textureHandle(engine.defaults.dfg),
                         .sky = context.packet.sky ? context.packet.sky : black,
-                        .cubeSampler = sampler(kTrilinear), .dfgSampler = sampler(kBilinear) });
+                        .trilinear = sampler(kTrilinear), .bilinear = sampler(kBilinear) });
         context.viewGroup = data.viewGroup();
         context.postGroup = data.postGroup();
         context.instanceIds = engine.defaults.instanceIds;
@@ -145,6 +147,7 @@ struct Renderer::Impl {
     static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
 
     Engine::Impl& engine;
+    RendererOptions options;
     Arena arena;
     passes::FrameData data;
     FrameGraph graph;
@@ -161,7 +164,7 @@ struct Renderer::Impl {
     bool hasSky = false, hasIndirectLight = false;
 };
 
-Renderer::Renderer(Engine& engine) : mImpl(new Impl(engine.impl())) {}
+Renderer::Renderer(Engine& engine, RendererOptions const& options) : mImpl(new Impl(engine.impl(), options)) {}
 Renderer::Renderer(Renderer&&) noexcept = default;
 Renderer::~Renderer() = default;
 

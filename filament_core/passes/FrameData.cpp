@@ -61,9 +61,9 @@ void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& text
             { .binding = shader::kBindingFrame, .buffer = set.frame, .size = sizeof(FrameUniforms) },
             { .binding = shader::kBindingObjects, .buffer = set.objects, .size = kWindowBytes },
             { .binding = shader::kBindingLights, .buffer = set.lights, .size = sizeof(shader::LightUniforms) },
-            { .binding = shader::kBindingSpecular, .texture = textures.specular, .sampler = textures.cubeSampler },
-            { .binding = shader::kBindingDfg, .texture = textures.dfg, .sampler = textures.dfgSampler },
-            { .binding = shader::kBindingSky, .texture = textures.sky, .sampler = textures.cubeSampler },
+            { .binding = shader::kBindingSpecular, .texture = textures.specular, .sampler = textures.trilinear },
+            { .binding = shader::kBindingDfg, .texture = textures.dfg, .sampler = textures.bilinear },
+            { .binding = shader::kBindingSky, .texture = textures.sky, .sampler = textures.bilinear },
     } };
     set.view = mStream.allocateBindGroup();
     commands.record(CmdCreateBindGroup{ set.view, { shader::viewGroupLayout(), entries, "view" } });

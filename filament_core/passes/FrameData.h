@@ -16,8 +16,8 @@ namespace filament::passes {
 /// The textures of the view group; every handle is set.
 struct ViewTextures {
     backend::TextureHandle specular, dfg, sky;
-    backend::SamplerHandle cubeSampler; ///< trilinear
-    backend::SamplerHandle dfgSampler;  ///< bilinear, clamped
+    backend::SamplerHandle trilinear; ///< of the specular levels
+    backend::SamplerHandle bilinear;  ///< of the sky and the table: one level each
     friend bool operator==(ViewTextures const&, ViewTextures const&) = default;
 };
 

@@ -72,7 +72,7 @@ Result<Engine> createEngine(Options const& options, Backend backend) {
 class Stage {
 public:
     Stage(Engine& engine, Options const& options)
-            : mEngine(engine), mOptions(options), mScene(engine), mRenderer(engine) {}
+            : mEngine(engine), mOptions(options), mScene(engine), mRenderer(engine, { .passTimers = true }) {}
 
     Result<void> load(BackendRun& run, std::filesystem::path const& model, std::filesystem::path const& environment);
     void drawFirst(BackendRun& run);

@@ -35,7 +35,7 @@ struct FrameTimings {
     double prepareMilliseconds = 0;  ///< app thread and workers: cull, sort, upload data
     double recordMilliseconds = 0;   ///< app thread: graph and commands
     double replayMilliseconds = 0;   ///< driver thread
-    double gpuMilliseconds = 0;      ///< device, sum of passes; 0 without timers
+    double gpuMilliseconds = 0;      ///< device, sum of passes; 0 without RendererOptions::passTimers
     double beginSeconds = 0, submitSeconds = 0;            ///< app thread, since the engine started
     double replayBeginSeconds = 0, replayEndSeconds = 0;   ///< driver thread
     double workerBusyMilliseconds = 0; ///< all workers together, while the frame was prepared
@@ -51,9 +51,14 @@ struct FrameStatistics {
     uint32_t passesRun = 0, passesCulled = 0;
 };
 
+struct RendererOptions {
+    /// Time every pass on the device (FrameTimings::passes). Costs two flushes a pass on OpenGL ES.
+    bool passTimers = false;
+};
+
 class Renderer {
 public:
-    explicit Renderer(Engine& engine);
+    explicit Renderer(Engine& engine, RendererOptions const& options = {});
     Renderer(Renderer&&) noexcept;
     ~Renderer();
 

@@ -149,7 +149,7 @@ TEST_P(EngineTest, CreatesNothingOnceEverySetOfFrameDataWasUsed) {
 TEST_P(EngineTest, ReportsWhatEachFrameCost) {
     Spheres spheres(*mEngine);
     const Owned<SwapChain> target = mEngine->own(mEngine->create(SwapChainDesc{ .size = spheres.view.size }));
-    Renderer renderer(*mEngine);
+    Renderer renderer(*mEngine, { .passTimers = true });
     for (int i = 0; i < 5; ++i) renderer.render(spheres.scene, spheres.view, target);
     mEngine->waitIdle();
     const std::vector<FrameTimings> timings = renderer.takeTimings();
@@ -158,7 +158,8 @@ TEST_P(EngineTest, ReportsWhatEachFrameCost) {
         EXPECT_EQ(timings[i].frame, i + 1);
         EXPECT_LE(timings[i].beginSeconds, timings[i].submitSeconds);
         EXPECT_LE(timings[i].replayBeginSeconds, timings[i].replayEndSeconds);
-        EXPECT_FALSE(timings[i].passes.empty());
+        ASSERT_FALSE(timings[i].passes.empty());
+        EXPECT_GT(timings[i].gpuMilliseconds, 0.0);
     }
 }
 
