@@ -3,8 +3,8 @@
 
 #include "jobsystem/CpuSet.h"
 
-#include <chrono>
 #include <algorithm>
+#include <chrono>
 
 namespace filament::jobs {
 namespace {
@@ -112,7 +112,8 @@ void Scheduler::workUntilIdle(Seat& seat, Job* job) {
     const auto begin = std::chrono::steady_clock::now();
     for (; job; job = findWork(&seat)) execute(&seat, *job);
     const auto busy = std::chrono::steady_clock::now() - begin;
-    mBusyNanoseconds.fetch_add(static_cast<uint64_t>(std::chrono::nanoseconds(busy).count()), std::memory_order_relaxed);
+    mBusyNanoseconds.fetch_add(static_cast<uint64_t>(std::chrono::nanoseconds(busy).count()),
+                               std::memory_order_relaxed);
 }
 
 void Scheduler::sleepUntilWork(Seat& seat) {

@@ -15,6 +15,7 @@
 
 namespace filament::backend {
 
+// clang-format off
 // Objects [O]. Destroying an object that earlier commands use is fine: the driver keeps it until the GPU is done.
 struct CmdCreateBuffer { BufferHandle handle; BufferDesc desc; };
 struct CmdCreateTexture { TextureHandle handle; TextureDesc desc; };
@@ -88,6 +89,7 @@ struct CmdBeginTimer { Ticket ticket; };            // [O] timers may nest
 struct CmdEndTimer { Ticket ticket; };              // [O] answers with the GPU nanoseconds in between
 struct CmdPushGroup { std::string_view name; };
 struct CmdPopGroup {};
+// clang-format on
 
 template <class... C>
 struct TypeList {
@@ -95,11 +97,12 @@ struct TypeList {
 };
 
 using Commands = TypeList<CmdCreateBuffer, CmdCreateTexture, CmdCreateSampler, CmdCreateProgram, CmdCreatePipeline,
-        CmdCreateBindGroup, CmdDestroyBuffer, CmdDestroyTexture, CmdDestroySampler, CmdDestroyProgram,
-        CmdDestroyPipeline, CmdDestroyBindGroup, CmdUpdateBuffer, CmdUploadTexture, CmdGenerateMips, CmdBlit,
-        CmdReadTexture, CmdBeginPass, CmdNextSubpass, CmdEndPass, CmdSetViewport, CmdSetScissor,
-        CmdSetStencilReference, CmdBindPipeline, CmdBindGroup, CmdBindVertexBuffers, CmdBindIndexBuffer, CmdDraw,
-        CmdDrawIndexed, CmdBeginFrame, CmdEndFrame, CmdBeginTimer, CmdEndTimer, CmdPushGroup, CmdPopGroup>;
+                          CmdCreateBindGroup, CmdDestroyBuffer, CmdDestroyTexture, CmdDestroySampler, CmdDestroyProgram,
+                          CmdDestroyPipeline, CmdDestroyBindGroup, CmdUpdateBuffer, CmdUploadTexture, CmdGenerateMips,
+                          CmdBlit, CmdReadTexture, CmdBeginPass, CmdNextSubpass, CmdEndPass, CmdSetViewport,
+                          CmdSetScissor, CmdSetStencilReference, CmdBindPipeline, CmdBindGroup, CmdBindVertexBuffers,
+                          CmdBindIndexBuffer, CmdDraw, CmdDrawIndexed, CmdBeginFrame, CmdEndFrame, CmdBeginTimer,
+                          CmdEndTimer, CmdPushGroup, CmdPopGroup>;
 
 /// Position of a command in the list; its id in the stream.
 template <class C, class List = Commands>
@@ -107,11 +110,13 @@ inline constexpr uint32_t kCommandId = ~0u;
 template <class C, class... Rest>
 inline constexpr uint32_t kCommandId<C, TypeList<C, Rest...>> = 0;
 template <class C, class First, class... Rest>
-    requires(!std::same_as<C, First>)
-inline constexpr uint32_t kCommandId<C, TypeList<First, Rest...>> = 1 + kCommandId<C, TypeList<Rest...>>;
+requires(!std::same_as<C, First>) inline constexpr uint32_t kCommandId<C, TypeList<First, Rest...>> =
+        1 + kCommandId<C, TypeList<Rest...>>;
 
 template <class D, class C>
-concept Executes = requires(D& driver, C const& command) { driver.execute(command); };
+concept Executes = requires(D& driver, C const& command) {
+    driver.execute(command);
+};
 
 template <class D, class C>
 struct MustExecute {

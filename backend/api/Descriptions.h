@@ -21,8 +21,8 @@ inline constexpr uint32_t kMaxSubpasses = 4;
 inline constexpr uint32_t kMaxVertexAttributes = 16;
 inline constexpr uint32_t kMaxVertexBuffers = 4;
 inline constexpr uint32_t kMaxBindGroups = 3;
-inline constexpr uint32_t kMaxBindings = 16;        ///< of one group
-inline constexpr uint32_t kMaxDynamicOffsets = 4;   ///< of one group
+inline constexpr uint32_t kMaxBindings = 16;      ///< of one group
+inline constexpr uint32_t kMaxDynamicOffsets = 4; ///< of one group
 
 struct Rect {
     int32_t x = 0, y = 0; ///< row 0 is the top row
@@ -77,9 +77,9 @@ struct TextureDesc {
     TextureType type = TextureType::Texture2D;
     Format format = Format::RGBA8;
     TextureUsage usage = TextureUsage::Sampled;
-    uint8_t samples = 1;   ///< 1 or 4; > 1 only for 2D attachments with one level
-    uint8_t levels = 1;    ///< 1..fullMipCount
-    uint16_t layers = 1;   ///< array layers; 6 for a cube (+x -x +y -y +z -z, the order of both APIs)
+    uint8_t samples = 1; ///< 1 or 4; > 1 only for 2D attachments with one level
+    uint8_t levels = 1;  ///< 1..fullMipCount
+    uint16_t layers = 1; ///< array layers; 6 for a cube (+x -x +y -y +z -z, the order of both APIs)
     uint32_t width = 1, height = 1;
     std::string_view debugName;
 };
@@ -232,7 +232,16 @@ struct RasterState {
     friend bool operator==(RasterState const&, RasterState const&) = default;
 };
 
-enum class StencilOp : uint8_t { Keep, Zero, Replace, IncrementClamp, DecrementClamp, Invert, IncrementWrap, DecrementWrap };
+enum class StencilOp : uint8_t {
+    Keep,
+    Zero,
+    Replace,
+    IncrementClamp,
+    DecrementClamp,
+    Invert,
+    IncrementWrap,
+    DecrementWrap
+};
 
 struct StencilFace {
     CompareOp compare = CompareOp::Always;
@@ -254,8 +263,17 @@ struct DepthStencilState {
 };
 
 enum class BlendFactor : uint8_t {
-    Zero, One, SrcColor, OneMinusSrcColor, DstColor, OneMinusDstColor,
-    SrcAlpha, OneMinusSrcAlpha, DstAlpha, OneMinusDstAlpha, SrcAlphaSaturate,
+    Zero,
+    One,
+    SrcColor,
+    OneMinusSrcColor,
+    DstColor,
+    OneMinusDstColor,
+    SrcAlpha,
+    OneMinusSrcAlpha,
+    DstAlpha,
+    OneMinusDstAlpha,
+    SrcAlphaSaturate,
 };
 enum class BlendOp : uint8_t { Add, Subtract, ReverseSubtract, Min, Max };
 
@@ -284,11 +302,11 @@ struct PipelineDesc {
 
 struct BindGroupEntry {
     uint8_t binding = 0;
-    BufferHandle buffer;    ///< uniform buffers
-    uint64_t offset = 0;    ///< bytes, a multiple of DeviceLimits::uniformOffsetAlignment
-    uint32_t size = 0;      ///< bytes visible to the shader, <= DeviceLimits::maxUniformBlockBytes
-    TextureHandle texture;  ///< sampled textures and input attachments
-    SamplerHandle sampler;  ///< sampled textures
+    BufferHandle buffer;   ///< uniform buffers
+    uint64_t offset = 0;   ///< bytes, a multiple of DeviceLimits::uniformOffsetAlignment
+    uint32_t size = 0;     ///< bytes visible to the shader, <= DeviceLimits::maxUniformBlockBytes
+    TextureHandle texture; ///< sampled textures and input attachments
+    SamplerHandle sampler; ///< sampled textures
 };
 
 /// Immutable once made. Every binding of the layout has exactly one entry.

@@ -34,7 +34,7 @@ struct DeviceLimits {
 };
 
 struct DeviceFeatures {
-    bool mergedPasses = false;  ///< subpass input or framebuffer fetch: PassLayout::subpassCount > 1
+    bool mergedPasses = false; ///< subpass input or framebuffer fetch: PassLayout::subpassCount > 1
     bool timers = false;
     bool blockCompression = false; ///< BC1..BC7
     bool depthClamp = false;
@@ -44,8 +44,8 @@ struct DeviceFeatures {
 struct DeviceInfo {
     BackendType backend = BackendType::Null;
     ShaderLanguage shaderLanguage = ShaderLanguage::SpirV;
-    std::string deviceName;  ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
-    std::string driverName;  ///< "Mesa 22.3.6" and the API version
+    std::string deviceName; ///< "llvmpipe (LLVM 15.0.6, 256 bits)"
+    std::string driverName; ///< "Mesa 22.3.6" and the API version
     DeviceLimits limits;
     DeviceFeatures features;
 };
@@ -84,8 +84,8 @@ public:
 };
 
 struct DriverOptions {
-    std::string requireDevice;  ///< case-insensitive part of DeviceInfo::deviceName; empty: the first usable one
-    bool validation = false;    ///< Vulkan layers with synchronization validation; KHR_debug on GLES -> onError
+    std::string requireDevice; ///< case-insensitive part of DeviceInfo::deviceName; empty: the first usable one
+    bool validation = false;   ///< Vulkan layers with synchronization validation; KHR_debug on GLES -> onError
 };
 
 } // namespace filament::backend

@@ -10,6 +10,7 @@ namespace {
 
 using enum FormatKind;
 
+// clang-format off
 constexpr std::array<FormatInfo, static_cast<size_t>(Format::Count)> kFormats{ {
         { "None", 0, 1, 0, Color, false, false, false },
         { "R8", 1, 1, 1, Color, false, false, true },
@@ -67,6 +68,7 @@ constexpr std::array<VertexFormatInfo, static_cast<size_t>(VertexFormat::Count)>
         { "Short4N", 8, 4, true, false },
         { "UInt", 4, 1, false, true },
 } };
+// clang-format on
 
 } // namespace
 

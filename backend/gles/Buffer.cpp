@@ -45,8 +45,8 @@ void Buffers::update(BufferHandle handle, uint64_t offset, std::span<const std::
         // New storage instead of a wait for draws that still read the old one.
         gl.BufferData(kEditTarget, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), buffer->hint);
     } else {
-        gl.BufferSubData(
-                kEditTarget, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()), bytes.data());
+        gl.BufferSubData(kEditTarget, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),
+                         bytes.data());
     }
 }
 

@@ -111,8 +111,8 @@ void Commands::execute(CmdDraw const& command) {
     const auto vertices = static_cast<GLsizei>(command.vertexCount),
                instances = static_cast<GLsizei>(command.instanceCount);
     if (based && command.firstInstance != 0) {
-        mDevice.gl.DrawArraysInstancedBaseInstance(
-                mPipeline->topology, first, vertices, instances, command.firstInstance);
+        mDevice.gl.DrawArraysInstancedBaseInstance(mPipeline->topology, first, vertices, instances,
+                                                   command.firstInstance);
     } else {
         mDevice.gl.DrawArraysInstanced(mPipeline->topology, first, vertices, instances);
     }
@@ -121,7 +121,7 @@ void Commands::execute(CmdDraw const& command) {
 void Commands::execute(CmdDrawIndexed const& command) {
     Quirks const& quirks = mDevice.quirks;
     const DrawBase emulated{ quirks.baseInstance ? 0 : command.firstInstance,
-        quirks.baseVertex ? 0 : command.vertexOffset };
+                             quirks.baseVertex ? 0 : command.vertexOffset };
     if (!prepareDraw(true, emulated)) return;
     const bool wide = mSources.indexType == IndexType::UInt32;
     const GLenum type = wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT;
@@ -133,7 +133,7 @@ void Commands::execute(CmdDrawIndexed const& command) {
     GlApi const& gl = mDevice.gl;
     if (quirks.baseInstance && command.firstInstance != 0) {
         gl.DrawElementsInstancedBaseVertexBaseInstance(mode, count, type, indices, instances, command.vertexOffset,
-                command.firstInstance);
+                                                       command.firstInstance);
     } else if (quirks.baseVertex && command.vertexOffset != 0) {
         gl.DrawElementsInstancedBaseVertex(mode, count, type, indices, instances, command.vertexOffset);
     } else {
@@ -150,7 +150,7 @@ void Commands::execute(CmdEndFrame const&) {
     const GLenum error = mDevice.takeError();
     if (error != GL_NO_ERROR && !mDevice.messages) {
         mDevice.error(DriverErrorKind::Validation, "{} during this frame; DriverOptions::validation names the call",
-                glErrorName(error));
+                      glErrorName(error));
     }
 #endif
     poll(false);
@@ -163,8 +163,8 @@ void Commands::poll(bool wait) {
 
 void Commands::execute(CmdPushGroup const& command) {
     if (!mDevice.messages) return;
-    mDevice.gl.PushDebugGroup(
-            GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(command.name.size()), command.name.data());
+    mDevice.gl.PushDebugGroup(GL_DEBUG_SOURCE_APPLICATION, 0, static_cast<GLsizei>(command.name.size()),
+                              command.name.data());
 }
 
 void Commands::execute(CmdPopGroup const&) {

@@ -5,7 +5,7 @@ namespace filament::backend::gles {
 namespace {
 
 struct ContextWish {
-    EGLint minor;    // of ES 3.x
+    EGLint minor;     // of ES 3.x
     bool resetNotice; // tells a lost device from a broken one; not every driver has it
 };
 
@@ -13,7 +13,7 @@ EGLContext createContext(Egl const& egl, EGLDisplay display, ContextWish wish, b
     std::vector<EGLint> attributes{ EGL_CONTEXT_MAJOR_VERSION, 3, EGL_CONTEXT_MINOR_VERSION, wish.minor };
     if (wish.resetNotice) {
         attributes.insert(attributes.end(),
-                { EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT, EGL_LOSE_CONTEXT_ON_RESET_EXT });
+                          { EGL_CONTEXT_OPENGL_RESET_NOTIFICATION_STRATEGY_EXT, EGL_LOSE_CONTEXT_ON_RESET_EXT });
     }
     if (debug) attributes.insert(attributes.end(), { EGL_CONTEXT_OPENGL_DEBUG, EGL_TRUE });
     attributes.push_back(EGL_NONE);
@@ -39,12 +39,12 @@ Result<Context> Context::create(Egl const& egl, DisplaySource source, bool debug
     }
     if (context == EGL_NO_CONTEXT) {
         return fail(ErrorCode::Unsupported, "this EGL display offers no OpenGL ES 3.1 context (EGL error {:#x})",
-                egl.GetError());
+                    egl.GetError());
     }
     Context made(egl, display, context);
     if (!egl.MakeCurrent(display, EGL_NO_SURFACE, EGL_NO_SURFACE, context)) {
         return fail(ErrorCode::DeviceUnavailable, "the OpenGL ES context cannot be made current (EGL error {:#x})",
-                egl.GetError());
+                    egl.GetError());
     }
     return made;
 }

@@ -48,7 +48,7 @@ Texture DepthReader::makeTexture(Format format, Rect const& rect) {
     gl.GenTextures(1, &texture.name);
     mDevice.state.bindTexture(kUnit, GL_TEXTURE_2D, texture.name);
     gl.TexStorage2D(GL_TEXTURE_2D, 1, glFormat(format).internalFormat, static_cast<GLsizei>(rect.width),
-            static_cast<GLsizei>(rect.height));
+                    static_cast<GLsizei>(rect.height));
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); // depth textures filter no other way
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
@@ -67,8 +67,8 @@ void DepthReader::blit(Texture const& source, uint32_t level, uint32_t layer, Re
     const auto width = static_cast<GLint>(rect.width), height = static_cast<GLint>(rect.height);
     mDevice.state.bindFramebuffers(draw, read);
     mDevice.state.setScissor({});
-    mDevice.gl.BlitFramebuffer(
-            rect.x, rect.y, rect.x + width, rect.y + height, 0, 0, width, height, GL_DEPTH_BUFFER_BIT, GL_NEAREST);
+    mDevice.gl.BlitFramebuffer(rect.x, rect.y, rect.x + width, rect.y + height, 0, 0, width, height,
+                               GL_DEPTH_BUFFER_BIT, GL_NEAREST);
 }
 
 void DepthReader::draw(GLuint target, Rect const& rect) {

@@ -9,8 +9,8 @@ namespace {
 constexpr uint32_t kAllGroups = (1u << kMaxBindGroups) - 1;
 constexpr uint8_t kNoSlot = 0xFF;
 
-BindGroup::Slot resolve(
-        BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures const& textures) {
+BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers,
+                        Textures const& textures) {
     BindGroup::Slot slot{ .type = type };
     if (type == BindingType::UniformBuffer || type == BindingType::DynamicUniformBuffer) {
         Buffer const* buffer = buffers.find(entry.buffer);
@@ -34,7 +34,7 @@ BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textu
     for (uint32_t i = 0; i < desc.layout.count; ++i) {
         BindingDesc const& binding = desc.layout.bindings[i];
         const auto entry = std::find_if(desc.entries.begin(), desc.entries.end(),
-                [&](BindGroupEntry const& at) { return at.binding == binding.binding; });
+                                        [&](BindGroupEntry const& at) { return at.binding == binding.binding; });
         FILAMENT_ASSERT(entry != desc.entries.end(), "every binding of a bind group layout has an entry");
         group.slots.push_back(resolve(*entry, binding.type, buffers, textures));
         group.isUsable = group.isUsable && group.slots.back().object != 0;
@@ -48,7 +48,7 @@ void Descriptors::reset() {
 }
 
 void Descriptors::bind(uint32_t index, BindGroup const* group,
-        std::array<uint32_t, kMaxDynamicOffsets> const& dynamicOffsets) {
+                       std::array<uint32_t, kMaxDynamicOffsets> const& dynamicOffsets) {
     mBound[index] = { group, dynamicOffsets };
     mPending |= 1u << index;
 }

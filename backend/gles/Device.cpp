@@ -13,7 +13,7 @@ bool isWorthTelling(GLenum source, GLenum type, GLenum severity) {
 }
 
 void GL_APIENTRY onMessage(GLenum source, GLenum type, GLuint, GLenum severity, GLsizei length, const GLchar* message,
-        const void* user) {
+                           const void* user) {
     auto const* device = static_cast<Device const*>(user);
     if (device->creating || !isWorthTelling(source, type, severity)) return;
     std::string_view text(message, static_cast<size_t>(length));
@@ -39,7 +39,8 @@ Device::~Device() {
 GLenum Device::takeError() {
     const GLenum first = gl.GetError();
     // A lost context answers GL_CONTEXT_LOST for ever on some drivers: bounded, not "until none".
-    for (int i = 0; i < 8 && first != GL_NO_ERROR && gl.GetError() != GL_NO_ERROR; ++i) {}
+    for (int i = 0; i < 8 && first != GL_NO_ERROR && gl.GetError() != GL_NO_ERROR; ++i) {
+    }
     return first;
 }
 
@@ -54,7 +55,7 @@ bool Device::created(const char* what, std::string_view name) {
     if (found == GL_NO_ERROR) return true;
     const bool memory = found == GL_OUT_OF_MEMORY;
     error(memory ? DriverErrorKind::OutOfMemory : DriverErrorKind::Other, "{} '{}': {}; what uses it is skipped{}",
-            what, name, glErrorName(found), memory ? ", free something or make it smaller" : "");
+          what, name, glErrorName(found), memory ? ", free something or make it smaller" : "");
     return false;
 }
 

@@ -14,7 +14,7 @@ struct Counting {
     uint64_t count = 0;
 
     template <class C>
-        requires Executes<Commands, C>
+    requires Executes<Commands, C>
     void execute(C const& command) {
         ++count;
         commands.execute(command);
@@ -77,12 +77,12 @@ DriverStatistics GlesDriver::statistics() const {
     return mPublished;
 }
 
-Result<std::unique_ptr<Driver>> createFilteredDriver(
-        DriverOptions const& options, ResultSink& sink, QuirkFilter filter) {
+Result<std::unique_ptr<Driver>> createFilteredDriver(DriverOptions const& options, ResultSink& sink,
+                                                     QuirkFilter filter) {
     Result<Egl const*> egl = Egl::load();
     if (!egl) return egl.error();
     Error refusal{ ErrorCode::DeviceUnavailable,
-        "OpenGL ES: EGL has no display without a window system; install libegl-mesa0 and libgl1-mesa-dri" };
+                   "OpenGL ES: EGL has no display without a window system; install libegl-mesa0 and libgl1-mesa-dri" };
     std::string others;
     for (DisplaySource source : (*egl)->displaySources()) {
         Result<OpenDevice> device = openDevice(**egl, source, options.validation);
@@ -99,7 +99,7 @@ Result<std::unique_ptr<Driver>> createFilteredDriver(
     }
     if (others.empty()) return refusal;
     return fail(ErrorCode::DeviceUnavailable, "no OpenGL ES device is called '{}'; there is {}", options.requireDevice,
-            others);
+                others);
 }
 
 } // namespace gles

@@ -16,8 +16,8 @@ namespace filament::backend::gles {
 using QuirkFilter = void (*)(Quirks&);
 
 /// createGlesDriver() with a filter.
-Result<std::unique_ptr<Driver>> createFilteredDriver(
-        DriverOptions const& options, ResultSink& sink, QuirkFilter filter);
+Result<std::unique_ptr<Driver>> createFilteredDriver(DriverOptions const& options, ResultSink& sink,
+                                                     QuirkFilter filter);
 
 /// A context that this driver can work with.
 struct OpenDevice {

@@ -26,16 +26,15 @@ bool hasExtension(const char* list, std::string_view name) {
 bool Egl::open() {
     void* library = dlopen("libEGL.so.1", RTLD_NOW | RTLD_LOCAL);
     if (!library) return false;
-#define X(name)                                                                          \
-    name = reinterpret_cast<decltype(name)>(dlsym(library, "egl" #name));                \
+#define X(name)                                                                                                        \
+    name = reinterpret_cast<decltype(name)>(dlsym(library, "egl" #name));                                              \
     if (!name) return false;
     FILAMENT_EGL_FUNCTIONS(X)
 #undef X
     const char* client = QueryString(EGL_NO_DISPLAY, EGL_EXTENSIONS);
     mSurfaceless = hasExtension(client, "EGL_MESA_platform_surfaceless");
     mDevicePlatform = hasExtension(client, "EGL_EXT_platform_device");
-    mGetPlatformDisplay =
-            reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(GetProcAddress("eglGetPlatformDisplayEXT"));
+    mGetPlatformDisplay = reinterpret_cast<PFNEGLGETPLATFORMDISPLAYEXTPROC>(GetProcAddress("eglGetPlatformDisplayEXT"));
     if (hasExtension(client, "EGL_EXT_device_enumeration") || hasExtension(client, "EGL_EXT_device_base")) {
         mQueryDevices = reinterpret_cast<PFNEGLQUERYDEVICESEXTPROC>(GetProcAddress("eglQueryDevicesEXT"));
     }
@@ -46,8 +45,8 @@ Result<Egl const*> Egl::load() {
     static Egl library;
     static const bool opened = library.open(); // once per process, whichever thread comes first
     if (opened) return &library;
-    return fail(
-            ErrorCode::DeviceUnavailable, "OpenGL ES: libEGL.so.1 cannot be opened or is older than 1.5; {}", kInstall);
+    return fail(ErrorCode::DeviceUnavailable, "OpenGL ES: libEGL.so.1 cannot be opened or is older than 1.5; {}",
+                kInstall);
 }
 
 std::vector<DisplaySource> Egl::displaySources() const {
@@ -68,7 +67,7 @@ Result<EGLDisplay> Egl::openDisplay(DisplaySource source) const {
     }
     if (!Initialize(display, nullptr, nullptr)) { // no effect on one that is initialised
         return fail(ErrorCode::DeviceUnavailable, "EGL found no driver for its display (EGL error {:#x}); {}",
-                GetError(), kInstall);
+                    GetError(), kInstall);
     }
     return display;
 }

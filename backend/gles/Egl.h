@@ -19,9 +19,11 @@
 namespace filament::backend::gles {
 
 // Every EGL function the driver calls.
+// clang-format off
 #define FILAMENT_EGL_FUNCTIONS(X)                                                                              \
     X(BindAPI) X(CreateContext) X(DestroyContext) X(GetCurrentContext) X(GetCurrentDisplay) X(GetCurrentSurface) \
     X(GetError) X(GetProcAddress) X(Initialize) X(MakeCurrent) X(QueryAPI) X(QueryString) X(ReleaseThread)
+// clang-format on
 
 /// One place to look for devices.
 struct DisplaySource {

@@ -27,7 +27,8 @@ public:
 
     bool isReached() const { return poll(0) != GL_TIMEOUT_EXPIRED; }
     void wait() const {
-        while (poll(kSliceNanoseconds) == GL_TIMEOUT_EXPIRED) {}
+        while (poll(kSliceNanoseconds) == GL_TIMEOUT_EXPIRED) {
+        }
     }
 
 private:

@@ -41,11 +41,24 @@ constexpr std::array<GlFormat, static_cast<size_t>(Format::Count)> kFormats{ {
 
 constexpr std::array<GLenum, static_cast<size_t>(VertexFormat::Count)> kVertexTypes{
     0,
-    GL_FLOAT, GL_FLOAT, GL_FLOAT, GL_FLOAT,
-    GL_HALF_FLOAT, GL_HALF_FLOAT,
-    GL_UNSIGNED_BYTE, GL_UNSIGNED_BYTE, GL_BYTE, GL_BYTE,
-    GL_UNSIGNED_SHORT, GL_UNSIGNED_SHORT, GL_UNSIGNED_SHORT, GL_UNSIGNED_SHORT,
-    GL_SHORT, GL_SHORT, GL_SHORT, GL_SHORT,
+    GL_FLOAT,
+    GL_FLOAT,
+    GL_FLOAT,
+    GL_FLOAT,
+    GL_HALF_FLOAT,
+    GL_HALF_FLOAT,
+    GL_UNSIGNED_BYTE,
+    GL_UNSIGNED_BYTE,
+    GL_BYTE,
+    GL_BYTE,
+    GL_UNSIGNED_SHORT,
+    GL_UNSIGNED_SHORT,
+    GL_UNSIGNED_SHORT,
+    GL_UNSIGNED_SHORT,
+    GL_SHORT,
+    GL_SHORT,
+    GL_SHORT,
+    GL_SHORT,
     GL_UNSIGNED_INT,
 };
 
@@ -72,21 +85,29 @@ GLenum glTopology(Topology topology) {
 }
 
 GLenum glCompare(CompareOp op) {
-    static constexpr GLenum kOps[] = { GL_ALWAYS, GL_NEVER, GL_LESS, GL_EQUAL, GL_LEQUAL, GL_GREATER, GL_NOTEQUAL,
-        GL_GEQUAL, GL_ALWAYS };
+    static constexpr GLenum kOps[] = { GL_ALWAYS,  GL_NEVER,    GL_LESS,   GL_EQUAL, GL_LEQUAL,
+                                       GL_GREATER, GL_NOTEQUAL, GL_GEQUAL, GL_ALWAYS };
     return lookUp(kOps, op);
 }
 
 GLenum glStencilOp(StencilOp op) {
-    static constexpr GLenum kOps[] = { GL_KEEP, GL_ZERO, GL_REPLACE, GL_INCR, GL_DECR, GL_INVERT, GL_INCR_WRAP,
-        GL_DECR_WRAP };
+    static constexpr GLenum kOps[] = { GL_KEEP, GL_ZERO,   GL_REPLACE,   GL_INCR,
+                                       GL_DECR, GL_INVERT, GL_INCR_WRAP, GL_DECR_WRAP };
     return lookUp(kOps, op);
 }
 
 GLenum glBlendFactor(BlendFactor factor) {
-    static constexpr GLenum kFactors[] = { GL_ZERO, GL_ONE, GL_SRC_COLOR, GL_ONE_MINUS_SRC_COLOR, GL_DST_COLOR,
-        GL_ONE_MINUS_DST_COLOR, GL_SRC_ALPHA, GL_ONE_MINUS_SRC_ALPHA, GL_DST_ALPHA, GL_ONE_MINUS_DST_ALPHA,
-        GL_SRC_ALPHA_SATURATE };
+    static constexpr GLenum kFactors[] = { GL_ZERO,
+                                           GL_ONE,
+                                           GL_SRC_COLOR,
+                                           GL_ONE_MINUS_SRC_COLOR,
+                                           GL_DST_COLOR,
+                                           GL_ONE_MINUS_DST_COLOR,
+                                           GL_SRC_ALPHA,
+                                           GL_ONE_MINUS_SRC_ALPHA,
+                                           GL_DST_ALPHA,
+                                           GL_ONE_MINUS_DST_ALPHA,
+                                           GL_SRC_ALPHA_SATURATE };
     return lookUp(kFactors, factor);
 }
 
@@ -105,22 +126,32 @@ GLenum glFilter(Filter filter) { return filter == Filter::Linear ? GL_LINEAR : G
 GLenum glMinFilter(SamplerDesc const& desc) {
     const bool linear = desc.minFilter == Filter::Linear;
     switch (desc.mipFilter) {
-        case MipFilter::None: return glFilter(desc.minFilter);
-        case MipFilter::Nearest: return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
-        case MipFilter::Linear: return linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
+    case MipFilter::None:
+        return glFilter(desc.minFilter);
+    case MipFilter::Nearest:
+        return linear ? GL_LINEAR_MIPMAP_NEAREST : GL_NEAREST_MIPMAP_NEAREST;
+    case MipFilter::Linear:
+        return linear ? GL_LINEAR_MIPMAP_LINEAR : GL_NEAREST_MIPMAP_LINEAR;
     }
     return GL_NEAREST;
 }
 
 const char* glErrorName(GLenum error) {
     switch (error) {
-        case GL_INVALID_ENUM: return "GL_INVALID_ENUM";
-        case GL_INVALID_VALUE: return "GL_INVALID_VALUE";
-        case GL_INVALID_OPERATION: return "GL_INVALID_OPERATION";
-        case GL_INVALID_FRAMEBUFFER_OPERATION: return "GL_INVALID_FRAMEBUFFER_OPERATION";
-        case GL_OUT_OF_MEMORY: return "GL_OUT_OF_MEMORY";
-        case GL_CONTEXT_LOST: return "GL_CONTEXT_LOST";
-        default: return "an unknown GL error";
+    case GL_INVALID_ENUM:
+        return "GL_INVALID_ENUM";
+    case GL_INVALID_VALUE:
+        return "GL_INVALID_VALUE";
+    case GL_INVALID_OPERATION:
+        return "GL_INVALID_OPERATION";
+    case GL_INVALID_FRAMEBUFFER_OPERATION:
+        return "GL_INVALID_FRAMEBUFFER_OPERATION";
+    case GL_OUT_OF_MEMORY:
+        return "GL_OUT_OF_MEMORY";
+    case GL_CONTEXT_LOST:
+        return "GL_CONTEXT_LOST";
+    default:
+        return "an unknown GL error";
     }
 }
 

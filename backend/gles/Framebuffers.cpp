@@ -81,17 +81,18 @@ GLuint Framebuffers::create(FramebufferKey const& wanted, std::string_view what)
     const GLenum status = gl.CheckFramebufferStatus(GL_FRAMEBUFFER);
     if (status == GL_FRAMEBUFFER_COMPLETE) return object;
     mDevice.error(DriverErrorKind::Other,
-            "'{}': the driver refuses this set of attachments (framebuffer status {:#x}); it is skipped. "
-            "Attachments of one pass need equal sample counts and renderable formats",
-            what, status);
+                  "'{}': the driver refuses this set of attachments (framebuffer status {:#x}); it is skipped. "
+                  "Attachments of one pass need equal sample counts and renderable formats",
+                  what, status);
     destroy(object);
     return 0;
 }
 
 void Framebuffers::forget(GLuint texture) {
     const auto uses = [texture](FramebufferKey const& key) {
-        return key.depth.texture == texture || std::any_of(key.colors.begin(), key.colors.end(),
-                [texture](ImageKey const& image) { return image.texture == texture; });
+        return key.depth.texture == texture ||
+               std::any_of(key.colors.begin(), key.colors.end(),
+                           [texture](ImageKey const& image) { return image.texture == texture; });
     };
     for (auto at = mObjects.begin(); at != mObjects.end();) {
         if (!uses(at->first)) {

@@ -16,8 +16,8 @@ __eglMustCastToProperFunctionPointerType findSuffixed(GlApi::Lookup lookup, cons
 } // namespace
 
 const char* GlApi::load(Lookup lookup) {
-#define X(name)                                                             \
-    name = reinterpret_cast<decltype(name)>(lookup("gl" #name));            \
+#define X(name)                                                                                                        \
+    name = reinterpret_cast<decltype(name)>(lookup("gl" #name));                                                       \
     if (!name) return "gl" #name;
     FILAMENT_GL_CORE_FUNCTIONS(X)
 #undef X

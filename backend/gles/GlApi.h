@@ -13,6 +13,7 @@
 namespace filament::backend::gles {
 
 // OpenGL ES 3.1
+// clang-format off
 #define FILAMENT_GL_CORE_FUNCTIONS(X)                                                                           \
     X(ActiveTexture) X(AttachShader) X(BindBuffer) X(BindBufferRange) X(BindFramebuffer) X(BindSampler)         \
     X(BindTexture) X(BindVertexArray) X(BindVertexBuffer) X(BlendEquationSeparate) X(BlendFuncSeparate)         \
@@ -48,6 +49,7 @@ namespace filament::backend::gles {
     X(DrawElementsInstancedBaseVertexBaseInstance, PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEEXTPROC)     \
     X(GetQueryObjectui64v, PFNGLGETQUERYOBJECTUI64VEXTPROC)                                                     \
     X(QueryCounter, PFNGLQUERYCOUNTEREXTPROC)
+// clang-format on
 
 struct GlApi {
 #define X(name) decltype(&::gl##name) name = nullptr;

@@ -17,7 +17,7 @@ void Pass::begin(PassDesc const& desc) {
     state.bindFramebuffers(mFramebuffer, mFramebuffer);
     state.setScissor(desc.area);
     state.setViewport({ static_cast<float>(desc.area.x), static_cast<float>(desc.area.y),
-            static_cast<float>(desc.area.width), static_cast<float>(desc.area.height) });
+                        static_cast<float>(desc.area.width), static_cast<float>(desc.area.height) });
     invalidate(discardedByLoad());
     clear();
 }
@@ -44,7 +44,7 @@ bool Pass::add(FramebufferKey& key, Attachment const& attachment, bool isDepth) 
         key.addColor(*texture, attachment.level, attachment.layer);
     }
     mCoversAll = mCoversAll && std::max(texture->desc.width >> attachment.level, 1u) == mDesc.area.width &&
-            std::max(texture->desc.height >> attachment.level, 1u) == mDesc.area.height;
+                 std::max(texture->desc.height >> attachment.level, 1u) == mDesc.area.height;
     return true;
 }
 
@@ -79,7 +79,7 @@ void Pass::clearColor(uint32_t index) {
     std::array<float, 4> const& value = mDesc.colors[index].clear;
     if (formatInfo(mDesc.layout.colorFormats[index]).kind == FormatKind::UnsignedInteger) {
         const GLuint words[] = { static_cast<GLuint>(value[0]), static_cast<GLuint>(value[1]),
-            static_cast<GLuint>(value[2]), static_cast<GLuint>(value[3]) };
+                                 static_cast<GLuint>(value[2]), static_cast<GLuint>(value[3]) };
         mDevice.gl.ClearBufferuiv(GL_COLOR, static_cast<GLint>(index), words);
     } else {
         mDevice.gl.ClearBufferfv(GL_COLOR, static_cast<GLint>(index), value.data());
@@ -120,7 +120,7 @@ void Pass::invalidate(Points const& points) {
         mDevice.gl.InvalidateFramebuffer(GL_FRAMEBUFFER, points.count, points.at.data());
     } else {
         mDevice.gl.InvalidateSubFramebuffer(GL_FRAMEBUFFER, points.count, points.at.data(), area.x, area.y,
-                static_cast<GLsizei>(area.width), static_cast<GLsizei>(area.height));
+                                            static_cast<GLsizei>(area.width), static_cast<GLsizei>(area.height));
     }
 }
 

@@ -8,8 +8,8 @@ namespace {
 
 bool providesLocation(VertexLayout const& layout, uint8_t location) {
     const auto end = layout.attributes.begin() + layout.attributeCount;
-    return std::any_of(
-            layout.attributes.begin(), end, [=](VertexAttribute const& at) { return at.location == location; });
+    return std::any_of(layout.attributes.begin(), end,
+                       [=](VertexAttribute const& at) { return at.location == location; });
 }
 
 std::vector<ProgramInput> inputsWithoutArray(Program const& program, VertexLayout const& layout) {

@@ -18,7 +18,7 @@ struct Pipeline {
     std::vector<ProgramInput> constantInputs; ///< read by the program, not in the layout
     RasterState raster{};
     GLenum topology = GL_TRIANGLES;
-    DepthStencilState depthStencil{}; ///< without the tests that the subpass has no attachment for
+    DepthStencilState depthStencil{};                     ///< without the tests that the subpass has no attachment for
     std::array<BlendState, kMaxColorAttachments> blend{}; ///< write masks as the subpass allows
     uint8_t colorCount = 0;
 

@@ -18,14 +18,16 @@ std::string_view asText(std::span<const std::byte> bytes) {
 
 std::string literal(ConstantValue const& constant) {
     switch (constant.type) {
-        case ConstantValue::Type::Bool: return constant.bits ? "true" : "false";
-        case ConstantValue::Type::Int: {
-            const auto value = static_cast<int32_t>(constant.bits);
-            // The lowest integer has no literal: its sign is an operator.
-            if (value == std::numeric_limits<int32_t>::min()) return "(-2147483647 - 1)";
-            return fmt::format("({})", value);
-        }
-        case ConstantValue::Type::Float: break;
+    case ConstantValue::Type::Bool:
+        return constant.bits ? "true" : "false";
+    case ConstantValue::Type::Int: {
+        const auto value = static_cast<int32_t>(constant.bits);
+        // The lowest integer has no literal: its sign is an operator.
+        if (value == std::numeric_limits<int32_t>::min()) return "(-2147483647 - 1)";
+        return fmt::format("({})", value);
+    }
+    case ConstantValue::Type::Float:
+        break;
     }
     // A constant expression (ESSL 3.10, 4.3.3), and exact for every value, infinities included.
     return fmt::format("uintBitsToFloat({:#010x}u) /* {} */", constant.bits, std::bit_cast<float>(constant.bits));
@@ -49,13 +51,30 @@ struct AttributeShape {
 
 AttributeShape shapeOf(GLenum type) {
     switch (type) {
-        case GL_INT: case GL_INT_VEC2: case GL_INT_VEC3: case GL_INT_VEC4: return { GL_INT, 1 };
-        case GL_UNSIGNED_INT: case GL_UNSIGNED_INT_VEC2: case GL_UNSIGNED_INT_VEC3: case GL_UNSIGNED_INT_VEC4:
-            return { GL_UNSIGNED_INT, 1 };
-        case GL_FLOAT_MAT2: case GL_FLOAT_MAT2x3: case GL_FLOAT_MAT2x4: return { GL_FLOAT, 2 };
-        case GL_FLOAT_MAT3: case GL_FLOAT_MAT3x2: case GL_FLOAT_MAT3x4: return { GL_FLOAT, 3 };
-        case GL_FLOAT_MAT4: case GL_FLOAT_MAT4x2: case GL_FLOAT_MAT4x3: return { GL_FLOAT, 4 };
-        default: return { GL_FLOAT, 1 };
+    case GL_INT:
+    case GL_INT_VEC2:
+    case GL_INT_VEC3:
+    case GL_INT_VEC4:
+        return { GL_INT, 1 };
+    case GL_UNSIGNED_INT:
+    case GL_UNSIGNED_INT_VEC2:
+    case GL_UNSIGNED_INT_VEC3:
+    case GL_UNSIGNED_INT_VEC4:
+        return { GL_UNSIGNED_INT, 1 };
+    case GL_FLOAT_MAT2:
+    case GL_FLOAT_MAT2x3:
+    case GL_FLOAT_MAT2x4:
+        return { GL_FLOAT, 2 };
+    case GL_FLOAT_MAT3:
+    case GL_FLOAT_MAT3x2:
+    case GL_FLOAT_MAT3x4:
+        return { GL_FLOAT, 3 };
+    case GL_FLOAT_MAT4:
+    case GL_FLOAT_MAT4x2:
+    case GL_FLOAT_MAT4x3:
+        return { GL_FLOAT, 4 };
+    default:
+        return { GL_FLOAT, 1 };
     }
 }
 
@@ -86,7 +105,7 @@ Program::Program(Device& device, ProgramDesc const& desc) : mDevice(device), mBi
     const SplitText vertex = splitAfterVersion(asText(desc.vertex));
     const SplitText fragment = splitAfterVersion(desc.fragment.empty() ? kNoFragment : asText(desc.fragment));
     mName = linkProgram(device, { vertex.version, constants, vertex.body },
-            { fragment.version, constants, fragment.body }, desc.debugName);
+                        { fragment.version, constants, fragment.body }, desc.debugName);
     ++device.statistics.programsCreated;
     if (!mName) return;
     device.label(GL_PROGRAM, mName, desc.debugName);
@@ -109,7 +128,7 @@ void Program::readInputs() {
         GLint elements = 0;
         GLenum type = 0;
         gl.GetActiveAttrib(mName, static_cast<GLuint>(i), static_cast<GLsizei>(name.size()), nullptr, &elements, &type,
-                name.data());
+                           name.data());
         const GLint first = gl.GetAttribLocation(mName, name.data());
         if (first < 0) continue; // gl_VertexID and the like
         const AttributeShape shape = shapeOf(type);
@@ -128,8 +147,8 @@ void Program::readOutputs() {
     for (GLint i = 0; i < count; ++i) {
         constexpr std::array<GLenum, 2> kProperties{ GL_LOCATION, GL_ARRAY_SIZE };
         std::array<GLint, 2> values{ -1, 1 };
-        gl.GetProgramResourceiv(mName, GL_PROGRAM_OUTPUT, static_cast<GLuint>(i), kProperties.size(), kProperties.data(),
-                values.size(), nullptr, values.data());
+        gl.GetProgramResourceiv(mName, GL_PROGRAM_OUTPUT, static_cast<GLuint>(i), kProperties.size(),
+                                kProperties.data(), values.size(), nullptr, values.data());
         const auto [first, elements] = values;
         if (first < 0) continue; // gl_FragDepth and the like
         for (GLint at = first; at < first + elements && at < static_cast<GLint>(kMaxColorAttachments); ++at) {

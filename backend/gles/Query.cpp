@@ -7,7 +7,9 @@ namespace filament::backend::gles {
 
 Queries::~Queries() {
     for (Timer const& timer : mOpen) mSpare.push_back(timer.begin);
-    for (Timer const& timer : mEnded) mSpare.insert(mSpare.end(), { timer.begin, timer.end });
+    for (; !mEnded.empty(); mEnded.pop_front()) {
+        mSpare.insert(mSpare.end(), { mEnded.front().begin, mEnded.front().end });
+    }
     if (!mSpare.empty()) mDevice.gl.DeleteQueries(static_cast<GLsizei>(mSpare.size()), mSpare.data());
 }
 
@@ -19,8 +21,8 @@ GLuint Queries::stamp() {
         query = mSpare.back();
         mSpare.pop_back();
     }
-    // llvmpipe collects commands into a scene and stamps in every tile of it; the last tile counts. Flushed apart, the stamp
-    // is a scene of its own, which runs when all scenes before it are done.
+    // llvmpipe collects commands into a scene and stamps in every tile of it; the last tile counts. Flushed apart, the
+    // stamp is a scene of its own, which runs when all scenes before it are done.
     mDevice.gl.Flush();
     mDevice.gl.QueryCounter(query, GL_TIMESTAMP_EXT);
     mDevice.gl.Flush();
@@ -67,7 +69,7 @@ void Queries::poll(bool wait) {
 }
 
 void Queries::endFrame() {
-    mFrames.emplace_back(mDevice);
+    mFrames.push_back(Fence(mDevice));
     mDevice.gl.Flush();
     if (mFrames.size() <= kFramesInFlight) return;
     mFrames.front().wait();

@@ -7,8 +7,8 @@
 #pragma once
 
 #include "backend/gles/Fence.h"
+#include "filament_core/base/Fifo.h"
 
-#include <deque>
 #include <vector>
 
 namespace filament::backend::gles {
@@ -36,10 +36,10 @@ private:
     uint64_t read(GLuint query) const;
 
     Device& mDevice;
-    std::vector<Timer> mOpen;    // innermost last
-    std::deque<Timer> mEnded;    // oldest first
+    std::vector<Timer> mOpen; // innermost last
+    Fifo<Timer> mEnded;       // oldest first
     std::vector<GLuint> mSpare;
-    std::deque<Fence> mFrames;
+    Fifo<Fence> mFrames;
 };
 
 } // namespace filament::backend::gles

@@ -37,8 +37,8 @@ bool hasAny(Extensions const& names, std::initializer_list<const char*> wanted) 
 
 bool hasBlockCompression(Extensions const& names) {
     return names.contains("GL_EXT_texture_compression_s3tc") && names.contains("GL_EXT_texture_compression_rgtc") &&
-            names.contains("GL_EXT_texture_compression_bptc") &&
-            hasAny(names, { "GL_EXT_texture_compression_s3tc_srgb", "GL_NV_sRGB_formats" });
+           names.contains("GL_EXT_texture_compression_bptc") &&
+           hasAny(names, { "GL_EXT_texture_compression_s3tc_srgb", "GL_NV_sRGB_formats" });
 }
 
 } // namespace
@@ -55,20 +55,22 @@ Result<Quirks> Quirks::probe(GlApi const& gl) {
         return fail(ErrorCode::Unsupported, "{} cannot render to float textures", text(gl, GL_RENDERER));
     }
     Quirks quirks;
-    quirks.baseVertex = gl.DrawElementsInstancedBaseVertex &&
+    quirks.baseVertex =
+            gl.DrawElementsInstancedBaseVertex &&
             (es32 || hasAny(names, { "GL_EXT_draw_elements_base_vertex", "GL_OES_draw_elements_base_vertex" }));
     quirks.baseInstance = quirks.baseVertex && names.contains("GL_EXT_base_instance") &&
-            gl.DrawArraysInstancedBaseInstance && gl.DrawElementsInstancedBaseVertexBaseInstance;
+                          gl.DrawArraysInstancedBaseInstance && gl.DrawElementsInstancedBaseVertexBaseInstance;
     quirks.readDepth = names.contains("GL_NV_read_depth");
     quirks.indexedBlend = gl.BlendFuncSeparatei && gl.BlendEquationSeparatei && gl.ColorMaski && gl.Enablei &&
-            gl.Disablei && (es32 || hasAny(names, { "GL_EXT_draw_buffers_indexed", "GL_OES_draw_buffers_indexed" }));
+                          gl.Disablei &&
+                          (es32 || hasAny(names, { "GL_EXT_draw_buffers_indexed", "GL_OES_draw_buffers_indexed" }));
     quirks.framebufferFetch = names.contains("GL_EXT_shader_framebuffer_fetch");
     quirks.timers = names.contains("GL_EXT_disjoint_timer_query") && gl.QueryCounter && gl.GetQueryObjectui64v;
     quirks.blockCompression = hasBlockCompression(names);
     quirks.depthClamp = names.contains("GL_EXT_depth_clamp");
     quirks.anisotropy = names.contains("GL_EXT_texture_filter_anisotropic");
     quirks.debugMessages = gl.DebugMessageCallback && gl.ObjectLabel && gl.PushDebugGroup && gl.PopDebugGroup &&
-            (es32 || names.contains("GL_KHR_debug"));
+                           (es32 || names.contains("GL_KHR_debug"));
     quirks.resetStatus =
             gl.GetGraphicsResetStatus && (es32 || hasAny(names, { "GL_KHR_robustness", "GL_EXT_robustness" }));
     return quirks;
@@ -82,8 +84,9 @@ DeviceInfo describeDevice(GlApi const& gl, Quirks const& quirks) {
     info.driverName = text(gl, GL_VERSION);
     DeviceLimits& limits = info.limits;
     limits.maxTextureSize = static_cast<uint32_t>(integer(gl, GL_MAX_TEXTURE_SIZE));
-    limits.maxColorAttachments = std::min({ static_cast<uint32_t>(integer(gl, GL_MAX_COLOR_ATTACHMENTS)),
-            static_cast<uint32_t>(integer(gl, GL_MAX_DRAW_BUFFERS)), kMaxColorAttachments });
+    limits.maxColorAttachments =
+            std::min({ static_cast<uint32_t>(integer(gl, GL_MAX_COLOR_ATTACHMENTS)),
+                       static_cast<uint32_t>(integer(gl, GL_MAX_DRAW_BUFFERS)), kMaxColorAttachments });
     limits.maxUniformBlockBytes = static_cast<uint32_t>(integer(gl, GL_MAX_UNIFORM_BLOCK_SIZE));
     limits.uniformOffsetAlignment = static_cast<uint32_t>(integer(gl, GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
     limits.maxTextureUnits = static_cast<uint32_t>(integer(gl, GL_MAX_TEXTURE_IMAGE_UNITS));

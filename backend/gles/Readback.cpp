@@ -15,9 +15,9 @@ std::optional<Readbacks::Source> Readbacks::open(CmdReadTexture const& command) 
     TextureDesc const& desc = texture->desc;
     if (!formatInfo(desc.format).isRenderable || desc.samples > 1) {
         mDevice.error(DriverErrorKind::Other,
-                "a read-back needs a single-sampled texture of a renderable format, not {} x{}; "
-                "its ticket gets no answer",
-                formatInfo(desc.format).name, desc.samples);
+                      "a read-back needs a single-sampled texture of a renderable format, not {} x{}; "
+                      "its ticket gets no answer",
+                      formatInfo(desc.format).name, desc.samples);
         return {};
     }
     const bool readsAsFloat = mDevice.quirks.readDepth && desc.format != Format::D16; // D16 reads as integers only
@@ -56,9 +56,9 @@ void Readbacks::read(CmdReadTexture const& command) {
     gl.GenBuffers(1, &pending.buffer);
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, pending.buffer);
     gl.BufferData(GL_PIXEL_PACK_BUFFER, static_cast<GLsizeiptr>(pending.texels * pending.plan.texelBytes), nullptr,
-            GL_STREAM_READ);
+                  GL_STREAM_READ);
     gl.ReadPixels(source->rect.x, source->rect.y, static_cast<GLsizei>(source->rect.width),
-            static_cast<GLsizei>(source->rect.height), pending.plan.format, pending.plan.type, nullptr);
+                  static_cast<GLsizei>(source->rect.height), pending.plan.format, pending.plan.type, nullptr);
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, 0);
     if (!mDevice.created("read-back of format", formatInfo(source->format).name)) {
         gl.DeleteBuffers(1, &pending.buffer);
@@ -72,8 +72,7 @@ void Readbacks::answer(Pending const& pending) {
     GlApi const& gl = mDevice.gl;
     const size_t bytes = pending.texels * pending.plan.texelBytes;
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, pending.buffer);
-    const void* mapped =
-            gl.MapBufferRange(GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
+    const void* mapped = gl.MapBufferRange(GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);
     if (mapped) {
         std::span<const std::byte> texels(static_cast<const std::byte*>(mapped), bytes);
         if (pending.plan.repackTo != Format::None) {

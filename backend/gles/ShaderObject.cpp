@@ -41,7 +41,8 @@ GLuint compile(Device& device, GLenum stage, ShaderText text, std::string_view n
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (compiled) return shader;
     device.error(DriverErrorKind::ShaderCompile, "program '{}', {} shader: {}; draws with it are skipped", name,
-            stage == GL_VERTEX_SHADER ? "vertex" : "fragment", readLog(shader, gl.GetShaderiv, gl.GetShaderInfoLog));
+                 stage == GL_VERTEX_SHADER ? "vertex" : "fragment",
+                 readLog(shader, gl.GetShaderiv, gl.GetShaderInfoLog));
     gl.DeleteShader(shader);
     return 0;
 }
@@ -65,7 +66,7 @@ GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::
     if (program) gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
     if (!program || linked) return program;
     device.error(DriverErrorKind::ShaderCompile, "program '{}' does not link: {}; draws with it are skipped", name,
-            readLog(program, gl.GetProgramiv, gl.GetProgramInfoLog));
+                 readLog(program, gl.GetProgramiv, gl.GetProgramInfoLog));
     gl.DeleteProgram(program);
     return 0;
 }

@@ -103,7 +103,7 @@ void State::setViewport(Viewport const& viewport) {
     if (mViewport == viewport) return;
     mViewport = viewport;
     mGl.Viewport(static_cast<GLint>(std::lround(viewport.x)), static_cast<GLint>(std::lround(viewport.y)),
-            static_cast<GLsizei>(std::lround(viewport.width)), static_cast<GLsizei>(std::lround(viewport.height)));
+                 static_cast<GLsizei>(std::lround(viewport.width)), static_cast<GLsizei>(std::lround(viewport.height)));
 }
 
 void State::setScissor(std::optional<Rect> rect) {
@@ -134,7 +134,7 @@ void State::setDepth(CompareOp compare, bool write) {
 }
 
 void State::setStencilFace(GLenum face, StencilFace const& wanted, uint8_t reference, StencilFace& known,
-        uint8_t& knownReference) {
+                           uint8_t& knownReference) {
     if (wanted == known && reference == knownReference) return;
     mGl.StencilFuncSeparate(face, glCompare(wanted.compare), reference, wanted.readMask);
     mGl.StencilOpSeparate(face, glStencilOp(wanted.fail), glStencilOp(wanted.depthFail), glStencilOp(wanted.pass));
@@ -175,7 +175,7 @@ void State::setBlend(uint32_t attachment, BlendState const& wanted) {
         }
     }
     const GLenum factors[] = { glBlendFactor(wanted.srcColor), glBlendFactor(wanted.dstColor),
-        glBlendFactor(wanted.srcAlpha), glBlendFactor(wanted.dstAlpha) };
+                               glBlendFactor(wanted.srcAlpha), glBlendFactor(wanted.dstAlpha) };
     const GLenum ops[] = { glBlendOp(wanted.colorOp), glBlendOp(wanted.alphaOp) };
     if (mQuirks.indexedBlend) {
         mGl.BlendFuncSeparatei(attachment, factors[0], factors[1], factors[2], factors[3]);
@@ -201,9 +201,15 @@ void State::setConstantAttribute(uint32_t location, GLenum scalarType) {
     if (mConstantAttributes[location] == scalarType) return;
     mConstantAttributes[location] = scalarType;
     switch (scalarType) {
-        case GL_INT: mGl.VertexAttribI4i(location, 0, 0, 0, 1); break;
-        case GL_UNSIGNED_INT: mGl.VertexAttribI4ui(location, 0, 0, 0, 1); break;
-        default: mGl.VertexAttrib4f(location, 0, 0, 0, 1); break;
+    case GL_INT:
+        mGl.VertexAttribI4i(location, 0, 0, 0, 1);
+        break;
+    case GL_UNSIGNED_INT:
+        mGl.VertexAttribI4ui(location, 0, 0, 0, 1);
+        break;
+    default:
+        mGl.VertexAttrib4f(location, 0, 0, 0, 1);
+        break;
     }
 }
 

@@ -63,8 +63,8 @@ private:
 
     void enable(GLenum capability, bool wanted, bool& known);
     void setDepth(CompareOp compare, bool write);
-    void setStencilFace(
-            GLenum face, StencilFace const& wanted, uint8_t reference, StencilFace& known, uint8_t& knownReference);
+    void setStencilFace(GLenum face, StencilFace const& wanted, uint8_t reference, StencilFace& known,
+                        uint8_t& knownReference);
     void setColorMask(uint32_t attachment, uint8_t mask);
 
     GlApi const& mGl;

@@ -19,25 +19,25 @@ Area areaOf(Rect const& rect) {
 }
 
 void uploadImage(GlApi const& gl, GLenum target, GLint level, Area area, GlFormat const& format,
-        std::span<const std::byte> bytes) {
+                 std::span<const std::byte> bytes) {
     if (format.format == 0) {
         gl.CompressedTexSubImage2D(target, level, area.x, area.y, area.width, area.height, format.internalFormat,
-                static_cast<GLsizei>(bytes.size()), bytes.data());
+                                   static_cast<GLsizei>(bytes.size()), bytes.data());
     } else {
-        gl.TexSubImage2D(
-                target, level, area.x, area.y, area.width, area.height, format.format, format.type, bytes.data());
+        gl.TexSubImage2D(target, level, area.x, area.y, area.width, area.height, format.format, format.type,
+                         bytes.data());
     }
 }
 
 void uploadLayers(GlApi const& gl, GLint level, Area area, GLint layer, GLsizei layers, GlFormat const& format,
-        std::span<const std::byte> bytes) {
+                  std::span<const std::byte> bytes) {
     constexpr GLenum kTarget = GL_TEXTURE_2D_ARRAY;
     if (format.format == 0) {
         gl.CompressedTexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers,
-                format.internalFormat, static_cast<GLsizei>(bytes.size()), bytes.data());
+                                   format.internalFormat, static_cast<GLsizei>(bytes.size()), bytes.data());
     } else {
         gl.TexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers, format.format,
-                format.type, bytes.data());
+                         format.type, bytes.data());
     }
 }
 
@@ -80,8 +80,8 @@ void Textures::create(TextureHandle handle, TextureDesc const& desc) {
     const bool offered = !isCompressed(desc.format) || mDevice.quirks.blockCompression;
     if (!offered) {
         mDevice.error(DriverErrorKind::Other,
-                "texture '{}': this device has no {}; see DeviceFeatures::blockCompression", desc.debugName,
-                formatInfo(desc.format).name);
+                      "texture '{}': this device has no {}; see DeviceFeatures::blockCompression", desc.debugName,
+                      formatInfo(desc.format).name);
     } else {
         mDevice.beginCreation();
         mDevice.gl.GenTextures(1, &texture.name);
@@ -120,7 +120,7 @@ void Textures::upload(CmdUploadTexture const& command) {
     const GLenum first = texture->target == GL_TEXTURE_CUBE_MAP ? GL_TEXTURE_CUBE_MAP_POSITIVE_X : texture->target;
     for (uint32_t i = 0; i < command.layerCount; ++i) {
         uploadImage(mDevice.gl, first + command.layer + i, command.level, area, format,
-                command.bytes.subspan(i * layerBytes, layerBytes));
+                    command.bytes.subspan(i * layerBytes, layerBytes));
     }
 }
 

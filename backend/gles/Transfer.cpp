@@ -19,8 +19,8 @@ bool Transfer::canCopy(Texture const& texture, const char* what) {
     FormatInfo const& format = formatInfo(texture.desc.format);
     if (format.isRenderable && format.kind <= FormatKind::UnsignedInteger && texture.desc.samples == 1) return true;
     mDevice.error(DriverErrorKind::Other,
-            "{} needs single-sampled textures of a renderable colour format, not {} x{}; skipped", what, format.name,
-            texture.desc.samples);
+                  "{} needs single-sampled textures of a renderable colour format, not {} x{}; skipped", what,
+                  format.name, texture.desc.samples);
     return false;
 }
 
@@ -30,7 +30,8 @@ void Transfer::copy(Image const& source, Image const& target, Filter filter) {
     mDevice.state.bindFramebuffers(draw, read);
     mDevice.state.setScissor({}); // blits obey the scissor
     mDevice.gl.BlitFramebuffer(source.rect.x, source.rect.y, right(source.rect), bottom(source.rect), target.rect.x,
-            target.rect.y, right(target.rect), bottom(target.rect), GL_COLOR_BUFFER_BIT, glFilter(filter));
+                               target.rect.y, right(target.rect), bottom(target.rect), GL_COLOR_BUFFER_BIT,
+                               glFilter(filter));
 }
 
 void Transfer::blit(CmdBlit const& command) {
@@ -38,7 +39,7 @@ void Transfer::blit(CmdBlit const& command) {
     Texture const* target = mTextures.find(command.target);
     if (!source || !target || !canCopy(*source, "a blit") || !canCopy(*target, "a blit")) return;
     copy({ *source, command.sourceLevel, command.sourceLayer, command.sourceRect },
-            { *target, command.targetLevel, command.targetLayer, command.targetRect }, command.filter);
+         { *target, command.targetLevel, command.targetLayer, command.targetRect }, command.filter);
 }
 
 void Transfer::generateMips(TextureHandle handle) {
@@ -47,7 +48,7 @@ void Transfer::generateMips(TextureHandle handle) {
     for (uint32_t layer = 0; layer < texture->desc.layers; ++layer) {
         for (uint32_t level = 1; level < texture->desc.levels; ++level) {
             copy({ *texture, level - 1, layer, wholeLevel(texture->desc, level - 1) },
-                    { *texture, level, layer, wholeLevel(texture->desc, level) }, Filter::Linear);
+                 { *texture, level, layer, wholeLevel(texture->desc, level) }, Filter::Linear);
         }
     }
 }

@@ -12,6 +12,7 @@
 #include "backend/vulkan/Barriers.h"
 #include "backend/vulkan/Buffer.h"
 #include "backend/vulkan/Texture.h"
+#include "filament_core/base/Fifo.h"
 
 #include <deque>
 #include <vector>
@@ -72,7 +73,7 @@ private:
     std::vector<VkQueryPool> mPools;
     std::vector<uint32_t> mFree;
     std::vector<Timer> mRunning;
-    std::deque<Timer> mWaiting; // ascending serials
+    Fifo<Timer> mWaiting; // ascending serials
 };
 
 } // namespace filament::backend::vulkan

@@ -7,8 +7,9 @@
 ///   Cost    constant.
 #pragma once
 
+#include "filament_core/base/Fifo.h"
+
 #include <cstdint>
-#include <deque>
 #include <optional>
 
 namespace filament::backend::vulkan {
@@ -33,7 +34,7 @@ private:
 
     uint64_t mSize;
     uint64_t mHead = 0, mTail = 0; // bytes since the beginning of time; the place in the ring is modulo mSize
-    std::deque<Mark> mMarks;       // ascending
+    Fifo<Mark> mMarks;             // ascending
 };
 
 } // namespace filament::backend::vulkan

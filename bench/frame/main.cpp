@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // frame_bench [--frames N] [--size WxH] [--json FILE]: whole frames of real models on both APIs, side by side with the
 // figures of another engine of this kind on the same software stack (a quiet machine, minimum of 24 frames, 1280x720,
-// environment + skybox + ACES, no anti-aliasing). Absolute times drift with the machine: read the ratio between the APIs
-// first, then the distance to the published figure.
+// environment + skybox + ACES, no anti-aliasing). Absolute times drift with the machine: read the ratio between the
+// APIs first, then the distance to the published figure.
 #include <filament/filament.h>
 
 #include <CLI/CLI.hpp>
@@ -32,8 +32,8 @@ constexpr std::array kSubjects{
 };
 
 struct Measured {
-    double loadSeconds = 0;       ///< engine created, model and environment loaded
-    double firstFrameSeconds = 0; ///< render() until the device is idle
+    double loadSeconds = 0;         ///< engine created, model and environment loaded
+    double firstFrameSeconds = 0;   ///< render() until the device is idle
     double minimum = 0, median = 0; ///< milliseconds of a frame, render() until the device is idle
     double pipelined = 0;           ///< milliseconds a frame when frames overlap
     uint64_t draws = 0;
@@ -41,16 +41,8 @@ struct Measured {
 
 double secondsSince(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-double4x4 fitted(Box const& box) {
-    const double3 size = box.max - box.min, center = (box.max + box.min) * 0.5;
-    const double scale = 1.0 / std::max({ size.x, size.y, size.z });
-    double4x4 fit(scale);
-    fit[3] = double4(-center * scale, 1);
-    return fit;
-}
-
 Result<Measured> measure(Backend backend, std::filesystem::path const& assets, Subject const& subject, int frames,
-        uint2 size) {
+                         uint2 size) {
     Measured measured;
     const auto start = Clock::now();
     auto engine = Engine::create({ .backend = backend });
@@ -62,9 +54,10 @@ Result<Measured> measure(Backend backend, std::filesystem::path const& assets, S
     measured.loadSeconds = secondsSince(start);
 
     Scene scene(*engine);
-    scene.add(*model, fitted(model->bounds()));
+    scene.add(*model, fitToUnitCube(model->bounds()));
     scene.setEnvironment(*environment);
-    const View view{ .camera = Camera::lookAt({ 0.9, 0.6, 1.5 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 }), .size = size };
+    const View view{ .camera = Camera::lookAt({ 0.9, 0.6, 1.5 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 }),
+                     .size = size };
     const Owned<SwapChain> target = engine->own(engine->create(SwapChainDesc{ .size = size, .name = "bench" }));
     Renderer renderer(*engine);
 
@@ -92,8 +85,8 @@ Result<Measured> measure(Backend backend, std::filesystem::path const& assets, S
 void print(Subject const& subject, Backend backend, Measured const& m) {
     const double better = std::min(subject.otherGl, subject.otherVulkan);
     std::printf("%-34s %-7s %8.2f %9.3f %8.1f %8.1f %10.1f %6llu   %5.0f  %5.2f x\n", subject.file, toString(backend),
-            m.loadSeconds, m.firstFrameSeconds, m.minimum, m.median, m.pipelined,
-            static_cast<unsigned long long>(m.draws), better, m.minimum / better);
+                m.loadSeconds, m.firstFrameSeconds, m.minimum, m.median, m.pipelined,
+                static_cast<unsigned long long>(m.draws), better, m.minimum / better);
     std::fflush(stdout);
 }
 
@@ -116,7 +109,7 @@ int main(int argc, char** argv) {
 
     nlohmann::json report;
     std::printf("%-34s %-7s %8s %9s %8s %8s %10s %6s   %5s  %s\n", "model", "api", "load s", "first s", "min ms",
-            "med ms", "overlap ms", "draws", "other", "min / other");
+                "med ms", "overlap ms", "draws", "other", "min / other");
     for (Subject const& subject : kSubjects) {
         for (Backend backend : { Backend::Vulkan, Backend::Gles }) {
             const auto measured = measure(backend, assets, subject, frames, pixels);
@@ -125,9 +118,11 @@ int main(int argc, char** argv) {
                 return 1;
             }
             print(subject, backend, *measured);
-            report[subject.file][toString(backend)] = { { "loadSeconds", measured->loadSeconds },
-                { "firstFrameSeconds", measured->firstFrameSeconds }, { "minimumMs", measured->minimum },
-                { "medianMs", measured->median }, { "overlappedMs", measured->pipelined }, { "draws", measured->draws } };
+            report[subject.file][toString(backend)] = {
+                { "loadSeconds", measured->loadSeconds }, { "firstFrameSeconds", measured->firstFrameSeconds },
+                { "minimumMs", measured->minimum },       { "medianMs", measured->median },
+                { "overlappedMs", measured->pipelined },  { "draws", measured->draws }
+            };
         }
     }
     if (!json.empty()) std::ofstream(json) << report.dump(2) << '\n';

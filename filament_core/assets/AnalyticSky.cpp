@@ -10,8 +10,8 @@
 namespace filament::assets {
 namespace {
 
-constexpr double kSunAngularRadius = 0.00465;   // radians: 16 arc minutes
-constexpr double kSunLuminance = 1.96e6;        // kcd/m^2 above the atmosphere: 133 klx over the disc's 6.8e-5 sr
+constexpr double kSunAngularRadius = 0.00465; // radians: 16 arc minutes
+constexpr double kSunLuminance = 1.96e6;      // kcd/m^2 above the atmosphere: 133 klx over the disc's 6.8e-5 sr
 constexpr uint32_t kRowsPerJob = 4;
 
 struct Perez {
@@ -25,9 +25,9 @@ double perez(Perez const& p, double cosTheta, double gamma, double cosGamma) {
 
 // Preetham et al. 1999, appendix A.2: distribution coefficients and zenith values, linear in turbidity.
 struct Sky {
-    double3 sun; // unit
-    std::array<Perez, 3> shape;   // of Y, x, y
-    std::array<double, 3> scale;  // zenith value / shape at the zenith
+    double3 sun;                 // unit
+    std::array<Perez, 3> shape;  // of Y, x, y
+    std::array<double, 3> scale; // zenith value / shape at the zenith
 };
 
 std::array<double, 3> zenithValues(double t, double sunTheta) {
@@ -35,11 +35,11 @@ std::array<double, 3> zenithValues(double t, double sunTheta) {
     const double s = sunTheta, s2 = s * s, s3 = s2 * s;
     const double luminance = (4.0453 * t - 4.9710) * std::tan(chi) - 0.2155 * t + 2.4192;
     const double x = t * t * (0.00166 * s3 - 0.00375 * s2 + 0.00209 * s) +
-            t * (-0.02903 * s3 + 0.06377 * s2 - 0.03202 * s + 0.00394) +
-            (0.11693 * s3 - 0.21196 * s2 + 0.06052 * s + 0.25886);
+                     t * (-0.02903 * s3 + 0.06377 * s2 - 0.03202 * s + 0.00394) +
+                     (0.11693 * s3 - 0.21196 * s2 + 0.06052 * s + 0.25886);
     const double y = t * t * (0.00275 * s3 - 0.00610 * s2 + 0.00317 * s) +
-            t * (-0.04214 * s3 + 0.08970 * s2 - 0.04153 * s + 0.00516) +
-            (0.15346 * s3 - 0.26756 * s2 + 0.06670 * s + 0.26688);
+                     t * (-0.04214 * s3 + 0.08970 * s2 - 0.04153 * s + 0.00516) +
+                     (0.15346 * s3 - 0.26756 * s2 + 0.06670 * s + 0.26688);
     return { std::max(luminance, 0.0), x, y };
 }
 
@@ -47,9 +47,12 @@ Sky makeSky(AnalyticSkyOptions const& options) {
     const double t = options.turbidity;
     Sky sky;
     sky.sun = glm::normalize(double3(options.sunDirection));
-    sky.shape[0] = { 0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771, -0.0670 * t + 0.3703 };
-    sky.shape[1] = { -0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989, -0.0033 * t + 0.0452 };
-    sky.shape[2] = { -0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537, -0.0109 * t + 0.0529 };
+    sky.shape[0] = { 0.1787 * t - 1.4630, -0.3554 * t + 0.4275, -0.0227 * t + 5.3251, 0.1206 * t - 2.5771,
+                     -0.0670 * t + 0.3703 };
+    sky.shape[1] = { -0.0193 * t - 0.2592, -0.0665 * t + 0.0008, -0.0004 * t + 0.2125, -0.0641 * t - 0.8989,
+                     -0.0033 * t + 0.0452 };
+    sky.shape[2] = { -0.0167 * t - 0.2608, -0.0950 * t + 0.0092, -0.0079 * t + 0.2102, -0.0441 * t - 1.6537,
+                     -0.0109 * t + 0.0529 };
     const double sunTheta = std::acos(std::clamp(sky.sun.y, 0.0, 1.0));
     const std::array<double, 3> zenith = zenithValues(t, sunTheta);
     for (size_t i = 0; i < 3; ++i) {
@@ -62,7 +65,7 @@ Sky makeSky(AnalyticSkyOptions const& options) {
 double3 rec709FromXyY(double x, double y, double luminance) {
     const double X = luminance * x / y, Z = luminance * (1 - x - y) / y;
     const double3 rgb(3.2406 * X - 1.5372 * luminance - 0.4986 * Z, -0.9689 * X + 1.8758 * luminance + 0.0415 * Z,
-            0.0557 * X - 0.2040 * luminance + 1.0570 * Z);
+                      0.0557 * X - 0.2040 * luminance + 1.0570 * Z);
     return glm::max(rgb, double3(0.0));
 }
 
@@ -130,7 +133,7 @@ std::vector<CoveredPixel> pixelsUnderDisc(uint32_t width, uint32_t height, doubl
         if (std::fabs(polarOfRow(y + 0.5, height) - sunPolar) > reach) continue;
         for (uint32_t x = 0; x < width; ++x) {
             const float2 centre((static_cast<float>(x) + 0.5f) / static_cast<float>(width),
-                    (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
+                                (static_cast<float>(y) + 0.5f) / static_cast<float>(height));
             if (glm::distance(double3(directionFromEquirect(centre)), sun) > reach) continue;
             const double share = discCoverage(x, y, height, sun);
             if (share > 0) covered.push_back({ x, y, share });
@@ -177,7 +180,7 @@ Result<void> checkOptions(AnalyticSkyOptions const& options) {
     const float length = glm::length(options.sunDirection);
     if (!(length > 0 && std::isfinite(length)) || options.sunDirection.y < 0) {
         return fail(ErrorCode::InvalidArgument, "the sun of a sky is not at or above the horizon: ({}, {}, {})",
-                options.sunDirection.x, options.sunDirection.y, options.sunDirection.z);
+                    options.sunDirection.x, options.sunDirection.y, options.sunDirection.z);
     }
     return {};
 }
@@ -197,7 +200,7 @@ Result<HdrImage> makeAnalyticSky(AnalyticSkyOptions const& options, jobs::JobSys
         for (auto y = static_cast<uint32_t>(begin); y < end; ++y) {
             for (uint32_t x = 0; x < image.width; ++x) {
                 const float2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(image.width),
-                        (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height));
+                                (static_cast<float>(y) + 0.5f) / static_cast<float>(image.height));
                 image.at(x, y) = float3(skyRadiance(sky, double3(directionFromEquirect(uv))));
             }
         }

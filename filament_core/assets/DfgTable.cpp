@@ -37,7 +37,8 @@ Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size, uint32_t samples) {
             const float roughness = (static_cast<float>(y) + 0.5f) / static_cast<float>(size);
             const float alpha = lib::alphaFromPerceptual(lib::clampPerceptualRoughness(roughness));
             for (size_t x = 0; x < size; ++x) {
-                const float2 dfg = integrateDfg((static_cast<float>(x) + 0.5f) / static_cast<float>(size), alpha, samples);
+                const float2 dfg =
+                        integrateDfg((static_cast<float>(x) + 0.5f) / static_cast<float>(size), alpha, samples);
                 const uint16_t halves[2] = { halfFromFloat(dfg.x), halfFromFloat(dfg.y) };
                 std::memcpy(table.data.data() + (y * size + x) * sizeof(halves), halves, sizeof(halves));
             }

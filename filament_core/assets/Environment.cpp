@@ -17,14 +17,14 @@ namespace {
 Result<void> checkOptions(EnvironmentOptions const& options) {
     if (!std::has_single_bit(options.faceSize) || options.faceSize < 16 || options.faceSize > 2048) {
         return fail(ErrorCode::InvalidArgument, "environment face size {} is not a power of two in [16, 2048]",
-                options.faceSize);
+                    options.faceSize);
     }
     if (options.samples < 1 || options.samples > 65536) {
         return fail(ErrorCode::InvalidArgument, "{} environment samples are not in [1, 65536]", options.samples);
     }
     if (options.format != backend::Format::RGBA16F && options.format != backend::Format::R11G11B10F) {
         return fail(ErrorCode::InvalidArgument, "environment format {} is neither RGBA16F nor R11G11B10F",
-                backend::formatInfo(options.format).name);
+                    backend::formatInfo(options.format).name);
     }
     return {};
 }
@@ -36,7 +36,7 @@ void report(EnvironmentOptions const& options, std::string_view stage, size_t do
 void warnAboutRepairs(std::filesystem::path const& path, HdrRepairs const& repairs) {
     if (repairs.total() == 0) return;
     log(Severity::Warning, "'{}': replaced {} NaN, {} infinite and {} negative components", path.string(),
-            repairs.notANumber, repairs.infinite, repairs.negative);
+        repairs.notANumber, repairs.infinite, repairs.negative);
 }
 
 std::filesystem::path cacheFile(std::filesystem::path const& directory, uint64_t key) {
@@ -50,7 +50,7 @@ Result<EnvironmentData> readCached(std::filesystem::path const& file, uint64_t k
 }
 
 Result<EnvironmentData> bakePicture(std::span<const std::byte> picture, std::filesystem::path const& path,
-        jobs::JobSystem& jobs, EnvironmentOptions const& options) {
+                                    jobs::JobSystem& jobs, EnvironmentOptions const& options) {
     report(options, "decode", 0, 1);
     const Result<HdrImage> image = decodeHdrImage(picture, path.string());
     if (!image) return image.error();
@@ -59,10 +59,11 @@ Result<EnvironmentData> bakePicture(std::span<const std::byte> picture, std::fil
 }
 
 Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs::JobSystem& jobs,
-        EnvironmentOptions const& options) {
+                                         EnvironmentOptions const& options) {
     const Result<std::vector<std::byte>> picture = readFileBytes(path);
     if (!picture) return picture.error();
-    const std::filesystem::path directory = options.useCache ? environmentCacheDirectory(options) : std::filesystem::path();
+    const std::filesystem::path directory =
+            options.useCache ? environmentCacheDirectory(options) : std::filesystem::path();
     if (directory.empty()) return bakePicture(*picture, path, jobs, options);
 
     const uint64_t key = environmentKey(*picture, options);
@@ -96,11 +97,12 @@ std::filesystem::path environmentCacheDirectory(EnvironmentOptions const& option
     return {};
 }
 
-Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs, EnvironmentOptions const& options) try {
+Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs,
+                                        EnvironmentOptions const& options) try {
     if (auto checked = checkOptions(options); !checked) return checked.error();
     if (image.width == 0 || image.height == 0 || image.pixels.size() != size_t(image.width) * image.height) {
-        return fail(ErrorCode::InvalidArgument, "an environment of {} x {} pixels has {} of them", image.width, image.height,
-                image.pixels.size());
+        return fail(ErrorCode::InvalidArgument, "an environment of {} x {} pixels has {} of them", image.width,
+                    image.height, image.pixels.size());
     }
     const uint32_t skySize = skyFaceSize(image.width);
     report(options, "project", 0, 1);
@@ -112,8 +114,9 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
     data.statistics.sourceHeight = image.height;
     data.statistics.repairs = image.repairs;
     data.irradianceSh = irradianceSh(cube.front(), jobs);
-    const std::vector<IblCubeLevel> levels = prefilterSpecular(cube, options.faceSize, options.samples, jobs,
-            [&](size_t done, size_t total) { report(options, "prefilter", done, total); });
+    const std::vector<IblCubeLevel> levels =
+            prefilterSpecular(cube, options.faceSize, options.samples, jobs,
+                              [&](size_t done, size_t total) { report(options, "prefilter", done, total); });
     data.levelOfRoughnessOne = static_cast<float>(levels.size() - 1);
     EncodedCube specular = encodeCube(levels, options.format, jobs);
     const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
@@ -125,11 +128,11 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
     return data;
 } catch (std::bad_alloc const&) {
     return fail(ErrorCode::OutOfMemory, "not enough memory to bake an environment of {} x {} pixels; make it smaller",
-            image.width, image.height);
+                image.width, image.height);
 }
 
 Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs::JobSystem& jobs,
-        EnvironmentOptions const& options) try {
+                                        EnvironmentOptions const& options) try {
     if (auto checked = checkOptions(options); !checked) return checked.error();
     Result<EnvironmentData> data = loadThroughCache(path, jobs, options);
     if (data) warnAboutRepairs(path, data->statistics.repairs);

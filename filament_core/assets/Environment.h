@@ -2,12 +2,13 @@
 /// loadEnvironment: an equirectangular .hdr or .exr as the cubes and coefficients that light a scene.
 ///   In      a picture (HdrReader.h); world direction d sees it at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
 ///   Out     EnvironmentData; bit for bit the same from the cache and from the baker, for any number of workers.
-///   Cache   one file per content of the picture, options and baker version, in `cacheDirectory`. Damaged files are found
+///   Cache   one file per content of the picture, options and baker version, in `cacheDirectory`. Damaged files are
+///   found
 ///           by their checksum and baked again; a directory that cannot be written costs a warning, not the result.
 ///   Thread  any; two loads of the same picture at once bake twice and leave one file.
 ///   Memory  the picture and about 60 MiB while baking; 7.3 MiB for the result with faces of 256 texels in RGBA16F.
-///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory with file, reason and cure; InvalidArgument for options.
-///   Cost    a 1024 x 512 picture: about a second on two cores the first time, then about 10 ms.
+///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory with file, reason and cure; InvalidArgument for
+///   options. Cost    a 1024 x 512 picture: about a second on two cores the first time, then about 10 ms.
 #pragma once
 
 #include "filament_core/assets/IblBaker.h"
@@ -36,7 +37,7 @@ struct EnvironmentOptions {
 
 struct EnvironmentStatistics {
     uint32_t sourceWidth = 0, sourceHeight = 0;
-    HdrRepairs repairs;              ///< of the picture
+    HdrRepairs repairs;               ///< of the picture
     EncodeLoss specularLoss, skyLoss; ///< by the range of the format
     bool fromCache = false;
 };
@@ -50,10 +51,11 @@ struct EnvironmentData {
 };
 
 Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs::JobSystem& jobs,
-        EnvironmentOptions const& options = {});
+                                        EnvironmentOptions const& options = {});
 
 /// Without file and cache: for generated skies.
-Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs, EnvironmentOptions const& options = {});
+Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs,
+                                        EnvironmentOptions const& options = {});
 
 /// Texels of a sky face for a picture of this width, a power of two in [16, 512]: a quarter of the horizon and more.
 uint32_t skyFaceSize(uint32_t sourceWidth);

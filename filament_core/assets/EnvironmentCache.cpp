@@ -32,7 +32,8 @@ struct FileHeader {
     std::array<float, 36> irradianceSh;
     CubeHeader specular, sky;
 };
-static_assert(sizeof(FileHeader) == 3 * 8 + 2 * 4 + 3 * 8 + 36 * 4 + 2 * sizeof(CubeHeader) && sizeof(CubeHeader) == 32);
+static_assert(sizeof(FileHeader) == 3 * 8 + 2 * 4 + 3 * 8 + 36 * 4 + 2 * sizeof(CubeHeader) &&
+              sizeof(CubeHeader) == 32);
 static_assert(std::is_trivially_copyable_v<FileHeader>);
 
 constexpr size_t kChecksummedFrom = 24;
@@ -44,12 +45,16 @@ CubeHeader headerOf(Image const& cube, EncodeLoss const& loss) {
 bool isPlausible(CubeHeader const& cube) {
     const auto format = static_cast<backend::Format>(cube.format);
     return cube.size >= 1 && cube.size <= kMaxFaceSize && cube.levels >= 1 && cube.levels <= kMaxLevels &&
-            (format == backend::Format::RGBA16F || format == backend::Format::R11G11B10F);
+           (format == backend::Format::RGBA16F || format == backend::Format::R11G11B10F);
 }
 
 Image emptyImage(CubeHeader const& cube) {
-    return { .width = cube.size, .height = cube.size, .layers = 6, .levels = cube.levels,
-        .format = static_cast<backend::Format>(cube.format), .data = {} };
+    return { .width = cube.size,
+             .height = cube.size,
+             .layers = 6,
+             .levels = cube.levels,
+             .format = static_cast<backend::Format>(cube.format),
+             .data = {} };
 }
 
 Error corrupt(const char* reason) { return fail(ErrorCode::Corrupt, "a cached environment {}", reason); }
@@ -58,15 +63,23 @@ Error corrupt(const char* reason) { return fail(ErrorCode::Corrupt, "a cached en
 
 uint64_t environmentKey(std::span<const std::byte> picture, EnvironmentOptions const& options) {
     const std::array<uint32_t, 4> choices{ kBakerVersion, options.faceSize, options.samples,
-        static_cast<uint32_t>(options.format) };
+                                           static_cast<uint32_t>(options.format) };
     return hashCombine(hashBytes(picture), hashValue(choices));
 }
 
 std::vector<std::byte> encodeEnvironment(EnvironmentData const& data, uint64_t key) {
     EnvironmentStatistics const& statistics = data.statistics;
-    FileHeader header{ kMagic, key, 0, statistics.sourceWidth, statistics.sourceHeight, statistics.repairs.notANumber,
-        statistics.repairs.infinite, statistics.repairs.negative, {}, headerOf(data.specular, statistics.specularLoss),
-        headerOf(data.sky, statistics.skyLoss) };
+    FileHeader header{ kMagic,
+                       key,
+                       0,
+                       statistics.sourceWidth,
+                       statistics.sourceHeight,
+                       statistics.repairs.notANumber,
+                       statistics.repairs.infinite,
+                       statistics.repairs.negative,
+                       {},
+                       headerOf(data.specular, statistics.specularLoss),
+                       headerOf(data.sky, statistics.skyLoss) };
     std::memcpy(header.irradianceSh.data(), data.irradianceSh.data(), sizeof(header.irradianceSh));
     std::vector<std::byte> bytes(sizeof(FileHeader));
     bytes.reserve(bytes.size() + data.specular.data.size() + data.sky.data.size());
@@ -97,9 +110,12 @@ Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint
     data.sky.data.assign(texels.begin() + static_cast<std::ptrdiff_t>(specularBytes), texels.end());
     std::memcpy(data.irradianceSh.data(), header.irradianceSh.data(), sizeof(header.irradianceSh));
     data.levelOfRoughnessOne = static_cast<float>(data.specular.levels - 1);
-    data.statistics = { header.sourceWidth, header.sourceHeight, { header.notANumber, header.infinite, header.negative },
-        { header.specular.clippedTexels, header.specular.lostEnergy }, { header.sky.clippedTexels, header.sky.lostEnergy },
-        true };
+    data.statistics = { header.sourceWidth,
+                        header.sourceHeight,
+                        { header.notANumber, header.infinite, header.negative },
+                        { header.specular.clippedTexels, header.specular.lostEnergy },
+                        { header.sky.clippedTexels, header.sky.lostEnergy },
+                        true };
     return data;
 }
 

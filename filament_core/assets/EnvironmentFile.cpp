@@ -23,12 +23,13 @@ struct CloseFile {
 using File = std::unique_ptr<std::FILE, CloseFile>;
 
 Error unreadable(std::filesystem::path const& path, const char* reason) {
-    return fail(ErrorCode::Unreadable, "cannot read '{}': {}; check the path and its permissions", path.string(), reason);
+    return fail(ErrorCode::Unreadable, "cannot read '{}': {}; check the path and its permissions", path.string(),
+                reason);
 }
 
 Error unwritable(std::filesystem::path const& path, const char* reason) {
     return fail(ErrorCode::Unreadable, "cannot write '{}': {}; choose a directory with space and write permission",
-            path.string(), reason);
+                path.string(), reason);
 }
 
 bool writeAll(int descriptor, std::span<const std::byte> bytes) {

@@ -153,7 +153,8 @@ bool expandRuns(std::span<const std::byte> packed, std::span<std::byte> out) {
 bool inflateZlib(std::span<const std::byte> packed, std::span<std::byte> out) {
     uLongf size = out.size();
     return uncompress(reinterpret_cast<Bytef*>(out.data()), &size, reinterpret_cast<const Bytef*>(packed.data()),
-                   packed.size()) == Z_OK && size == out.size();
+                      packed.size()) == Z_OK &&
+           size == out.size();
 }
 
 // RLE and ZIP store differences between neighbours, even bytes before odd ones.
@@ -168,7 +169,7 @@ void undoPredictor(std::span<std::byte> bytes, std::vector<std::byte>& scratch) 
 
 // A chunk that compression would not make smaller is stored as it is.
 bool unpackChunk(Compression compression, std::span<const std::byte> packed, std::span<std::byte> out,
-        std::vector<std::byte>& scratch) {
+                 std::vector<std::byte>& scratch) {
     if (packed.size() == out.size()) {
         std::ranges::copy(packed, out.begin());
         return true;
@@ -222,7 +223,8 @@ Result<std::vector<Chunk>> findChunks(std::span<const std::byte> file, ByteCurso
         const auto packed = size ? at.take(*size) : std::nullopt;
         if (!row || !packed) return corrupt("a block of rows is cut short");
         const int64_t first = int64_t(*row) - header.minY;
-        if (first < 0 || first >= header.height || first % rows != 0) return corrupt("a block has rows outside of the image");
+        if (first < 0 || first >= header.height || first % rows != 0)
+            return corrupt("a block has rows outside of the image");
         chunk = { static_cast<uint32_t>(first), *packed };
     }
     return chunks;
@@ -261,8 +263,8 @@ Result<HdrImage> decodeWithTinyExr(ExrHeader const& header, std::span<const std:
     EXRImage planes;
     InitEXRImage(&planes);
     bool ok = ParseEXRVersionFromMemory(&version, data, bytes.size()) == TINYEXR_SUCCESS &&
-            ParseEXRHeaderFromMemory(&tiny.value, &version, data, bytes.size(), &reason) == TINYEXR_SUCCESS &&
-            static_cast<size_t>(tiny.value.num_channels) == header.channels.size();
+              ParseEXRHeaderFromMemory(&tiny.value, &version, data, bytes.size(), &reason) == TINYEXR_SUCCESS &&
+              static_cast<size_t>(tiny.value.num_channels) == header.channels.size();
     for (int i = 0; ok && i < tiny.value.num_channels; ++i) {
         if (tiny.value.pixel_types[i] == TINYEXR_PIXELTYPE_HALF) {
             tiny.value.requested_pixel_types[i] = TINYEXR_PIXELTYPE_FLOAT;
@@ -277,7 +279,8 @@ Result<HdrImage> decodeWithTinyExr(ExrHeader const& header, std::span<const std:
     HdrImage image{ .width = header.width, .height = header.height, .pixels = {}, .repairs = {} };
     image.pixels.resize(size_t(image.width) * image.height);
     for (int component = 0; component < 3; ++component) {
-        const auto* plane = reinterpret_cast<const float*>(planes.images[header.source[static_cast<size_t>(component)]]);
+        const auto* plane =
+                reinterpret_cast<const float*>(planes.images[header.source[static_cast<size_t>(component)]]);
         for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i][component] = plane[i];
     }
     FreeEXRImage(&planes);
@@ -287,7 +290,8 @@ Result<HdrImage> decodeWithTinyExr(ExrHeader const& header, std::span<const std:
 } // namespace
 
 bool isExr(std::span<const std::byte> bytes) {
-    constexpr std::array<std::byte, 4> kMagic{ std::byte{ 0x76 }, std::byte{ 0x2F }, std::byte{ 0x31 }, std::byte{ 0x01 } };
+    constexpr std::array<std::byte, 4> kMagic{ std::byte{ 0x76 }, std::byte{ 0x2F }, std::byte{ 0x31 },
+                                               std::byte{ 0x01 } };
     return bytes.size() >= 4 && std::ranges::equal(bytes.first(4), kMagic);
 }
 

@@ -20,9 +20,12 @@ Result<HdrImage> decodeByContent(std::span<const std::byte> bytes) {
 
 const char* cureOf(ErrorCode code) {
     switch (code) {
-        case ErrorCode::Unsupported: return "save it as RGBE .hdr or as a scan-line ZIP .exr";
-        case ErrorCode::OutOfMemory: return "make it smaller";
-        default: return "export or copy it again";
+    case ErrorCode::Unsupported:
+        return "save it as RGBE .hdr or as a scan-line ZIP .exr";
+    case ErrorCode::OutOfMemory:
+        return "make it smaller";
+    default:
+        return "export or copy it again";
     }
 }
 
@@ -46,11 +49,11 @@ float repaired(float value, float largestReal, HdrRepairs& repairs) {
 
 std::optional<Error> checkHdrSize(int64_t width, int64_t height) {
     if (width >= 1 && height >= 1 && width <= kMaxHdrSide && height <= kMaxHdrSide &&
-            static_cast<uint64_t>(width) * static_cast<uint64_t>(height) <= kMaxHdrPixels) {
+        static_cast<uint64_t>(width) * static_cast<uint64_t>(height) <= kMaxHdrPixels) {
         return std::nullopt;
     }
     return fail(ErrorCode::Unsupported, "its size {} x {} is not within 1 and {} pixels a side and {} in all", width,
-            height, kMaxHdrSide, kMaxHdrPixels);
+                height, kMaxHdrSide, kMaxHdrPixels);
 }
 
 void sanitise(HdrImage& image) {
@@ -62,7 +65,7 @@ void sanitise(HdrImage& image) {
     }
     for (float3& pixel : image.pixels) {
         pixel = { repaired(pixel.x, largest, image.repairs), repaired(pixel.y, largest, image.repairs),
-            repaired(pixel.z, largest, image.repairs) };
+                  repaired(pixel.z, largest, image.repairs) };
     }
 }
 
@@ -76,7 +79,7 @@ Result<HdrImage> decodeHdrImage(std::span<const std::byte> bytes, std::string_vi
     return image;
 } catch (std::bad_alloc const&) {
     return fail(ErrorCode::OutOfMemory, "cannot decode '{}': not enough memory; {}", name,
-            cureOf(ErrorCode::OutOfMemory));
+                cureOf(ErrorCode::OutOfMemory));
 } catch (std::exception const& exception) { // out of a library's parser: std::out_of_range and the like
     return fail(ErrorCode::Corrupt, "cannot decode '{}': {}; {}", name, exception.what(), cureOf(ErrorCode::Corrupt));
 }

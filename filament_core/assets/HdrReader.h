@@ -7,7 +7,8 @@
 ///           R, G, B or Y. Not tiled, multi-part, deep or subsampled.
 ///   Thread  any; no shared state.
 ///   Limits  kMaxHdrSide on a side, kMaxHdrPixels in all; checked before memory is taken.
-///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with file, reason and cure. Never crashes.
+///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with file, reason and cure. Never
+///   crashes.
 #pragma once
 
 #include "filament_core/assets/HdrImage.h"

@@ -118,7 +118,7 @@ bool readFlatRow(ByteCursor& cursor, std::vector<Rgbe>& row) {
 bool readRow(ByteCursor& cursor, std::vector<Rgbe>& row) {
     const auto rest = cursor.rest();
     const bool newForm = row.size() >= 8 && row.size() < 32768 && rest.size() >= 4 && rest[0] == std::byte{ 2 } &&
-            rest[1] == std::byte{ 2 } && (rest[2] & std::byte{ 0x80 }) == std::byte{ 0 };
+                         rest[1] == std::byte{ 2 } && (rest[2] & std::byte{ 0x80 }) == std::byte{ 0 };
     if (!newForm) return readFlatRow(cursor, row);
     const size_t length = static_cast<size_t>(rest[2]) << 8 | static_cast<size_t>(rest[3]);
     cursor.take(4);

@@ -33,16 +33,20 @@ IblCubeLevel prefilterLevel(IblTree const& tree, uint32_t size, Lobe const& lobe
 
 using ShSums = std::array<double3, 9>;
 
-// Adds radiance * solid angle * polynomial for one row of a face. The polynomials are those of irradianceSh() in ibl.glsl.
-void projectRow(IblCubeLevel const& level, std::span<const float> solidAngles, uint32_t face, uint32_t y, ShSums& sums) {
+// Adds radiance * solid angle * polynomial for one row of a face. The polynomials are those of irradianceSh() in
+// ibl.glsl.
+void projectRow(IblCubeLevel const& level, std::span<const float> solidAngles, uint32_t face, uint32_t y,
+                ShSums& sums) {
     const uint32_t size = level.size();
     for (uint32_t x = 0; x < size; ++x) {
-        const CubePoint centre{ face, faceCoordinate(static_cast<int>(x), size), faceCoordinate(static_cast<int>(y), size) };
+        const CubePoint centre{ face, faceCoordinate(static_cast<int>(x), size),
+                                faceCoordinate(static_cast<int>(y), size) };
         const double3 n = glm::normalize(double3(directionFromCube(centre)));
         const double3 light = double3(level.radiance(face, static_cast<int>(x), static_cast<int>(y))) *
-                static_cast<double>(solidAngles[size_t(y) * size + x]);
-        const std::array<double, 9> polynomials{ 1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.z * n.x,
-            n.x * n.x - n.y * n.y };
+                              static_cast<double>(solidAngles[size_t(y) * size + x]);
+        const std::array<double, 9> polynomials{
+            1.0, n.y, n.z, n.x, n.x * n.y, n.y * n.z, 3.0 * n.z * n.z - 1.0, n.z * n.x, n.x * n.x - n.y * n.y
+        };
         for (size_t i = 0; i < 9; ++i) sums[i] += light * polynomials[i];
     }
 }
@@ -63,7 +67,8 @@ float maximumOf(backend::Format format, int component) {
 void encodeTexel(float3 color, backend::Format format, std::byte* out) {
     if (format == backend::Format::RGBA16F) {
         constexpr uint16_t kOne = 0x3C00;
-        const std::array<uint16_t, 4> halves{ halfFromFloat(color.x), halfFromFloat(color.y), halfFromFloat(color.z), kOne };
+        const std::array<uint16_t, 4> halves{ halfFromFloat(color.x), halfFromFloat(color.y), halfFromFloat(color.z),
+                                              kOne };
         std::memcpy(out, halves.data(), sizeof(halves));
     } else {
         const uint32_t packed = packR11G11B10F(color);
@@ -77,7 +82,7 @@ struct RowLoss {
 };
 
 RowLoss encodeRow(IblCubeLevel const& level, std::span<const float> solidAngles, uint32_t face, uint32_t y,
-        backend::Format format, std::byte* out) {
+                  backend::Format format, std::byte* out) {
     RowLoss loss;
     const size_t texelBytes = backend::formatInfo(format).bytesPerBlock;
     for (uint32_t x = 0; x < level.size(); ++x) {
@@ -104,8 +109,9 @@ uint32_t specularLevelCount(uint32_t faceSize) {
 }
 
 std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSize, uint32_t pieces,
-        jobs::JobSystem& jobs, IblProgress const& progress) {
-    FILAMENT_ASSERT(std::has_single_bit(faceSize) && faceSize >= 2, "the size of a cube face is a power of two, 2 or more");
+                                            jobs::JobSystem& jobs, IblProgress const& progress) {
+    FILAMENT_ASSERT(std::has_single_bit(faceSize) && faceSize >= 2,
+                    "the size of a cube face is a power of two, 2 or more");
     FILAMENT_ASSERT(faceSize <= cube.front().size(), "a specular cube is no finer than the environment it comes from");
     FILAMENT_ASSERT(pieces > 0, "a lobe is integrated over one piece of the sky or more");
     const uint32_t count = specularLevelCount(faceSize);
@@ -129,7 +135,8 @@ std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& j
     jobs::parallelFor(jobs, rows.size(), 4, [&](size_t begin, size_t end) {
         for (size_t row = begin; row < end; ++row) {
             rows[row].fill(double3(0.0));
-            projectRow(level, solidAngles, static_cast<uint32_t>(row / size), static_cast<uint32_t>(row % size), rows[row]);
+            projectRow(level, solidAngles, static_cast<uint32_t>(row / size), static_cast<uint32_t>(row % size),
+                       rows[row]);
         }
     });
     const std::array<double, 9> factors = shFactors();
@@ -144,17 +151,22 @@ std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& j
 
 EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format format, jobs::JobSystem& jobs) {
     FILAMENT_ASSERT(format == backend::Format::RGBA16F || format == backend::Format::R11G11B10F,
-            "an environment is stored as RGBA16F or R11G11B10F");
+                    "an environment is stored as RGBA16F or R11G11B10F");
     FILAMENT_ASSERT(!levels.empty(), "a cube has at least one level");
     const uint32_t size = levels.front().size();
     EncodedCube result;
-    result.image = { .width = size, .height = size, .layers = 6, .levels = static_cast<uint32_t>(levels.size()),
-        .format = format, .data = {} };
+    result.image = { .width = size,
+                     .height = size,
+                     .layers = 6,
+                     .levels = static_cast<uint32_t>(levels.size()),
+                     .format = format,
+                     .data = {} };
     result.image.data.resize(result.image.levelOffset(result.image.levels));
     double energy = 0, lost = 0;
     for (uint32_t i = 0; i < levels.size(); ++i) {
         const uint32_t levelSize = levels[i].size();
-        FILAMENT_ASSERT(levelSize == std::max(1u, size >> i), "each level of a cube is half the size of the one before");
+        FILAMENT_ASSERT(levelSize == std::max(1u, size >> i),
+                        "each level of a cube is half the size of the one before");
         const std::vector<float> solidAngles = texelSolidAngles(levelSize);
         std::byte* const out = result.image.data.data() + result.image.levelOffset(i);
         const size_t rowBytes = size_t(levelSize) * backend::formatInfo(format).bytesPerBlock;
@@ -162,7 +174,7 @@ EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format for
         jobs::parallelFor(jobs, rows.size(), 2, [&](size_t begin, size_t end) {
             for (size_t row = begin; row < end; ++row) {
                 rows[row] = encodeRow(levels[i], solidAngles, static_cast<uint32_t>(row / levelSize),
-                        static_cast<uint32_t>(row % levelSize), format, out + row * rowBytes);
+                                      static_cast<uint32_t>(row % levelSize), format, out + row * rowBytes);
             }
         });
         for (RowLoss const& row : rows) {

@@ -4,7 +4,8 @@
 ///   Out     prefilterSpecular(): one cube level per roughness, see shaders/lib/ibl.glsl for which;
 ///           irradianceSh(): nine coefficients in exactly the form that shaders/lib/ibl.glsl evaluates;
 ///           encodeCube(): any levels as texels of a GPU format.
-///   Source  split sum with V = N, the sky weighted by D and n.l: Karis 2013, "Real Shading in Unreal Engine 4"; the sky
+///   Source  split sum with V = N, the sky weighted by D and n.l: Karis 2013, "Real Shading in Unreal Engine 4"; the
+///   sky
 ///           is cut into pieces by IblTree. SH: Ramamoorthi and Hanrahan 2001; no windowing.
 ///   Thread  runs on the job system; sums have a fixed order, so the bits do not depend on the workers.
 ///   Memory  the results, 16 bytes a texel before encoding.
@@ -28,7 +29,7 @@ using IblProgress = std::function<void(size_t done, size_t total)>;
 
 /// `faceSize` is a power of two of at least 2 and at most cube[0].size(); each texel's lobe is cut into about `pieces`.
 std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSize, uint32_t pieces,
-        jobs::JobSystem& jobs, IblProgress const& progress = {});
+                                            jobs::JobSystem& jobs, IblProgress const& progress = {});
 
 /// Irradiance / pi as polynomial coefficients; w is 0. A constant environment L gives (L, 0, 0, ...).
 std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& jobs);

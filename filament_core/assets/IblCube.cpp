@@ -9,7 +9,7 @@ namespace filament::assets {
 namespace {
 
 constexpr uint32_t kRowsPerJob = 4;
-constexpr uint32_t kLeastSubSamples = 4;  // a side: the bilinear kernel of the source, sampled 4 times a texel
+constexpr uint32_t kLeastSubSamples = 4; // a side: the bilinear kernel of the source, sampled 4 times a texel
 constexpr uint32_t kMostSubSamples = 32;
 
 // Towards the poles the rows of the picture are stretched: a pixel covers 1 / sin(polar) times less azimuth than at the
@@ -93,7 +93,8 @@ Texel IblCubeLevel::beyondEdge(uint32_t face, int x, int y) const {
     };
     const CubePoint point = cubeFromDirection(directionFromCube({ face, coordinate(x), coordinate(y) }));
     const auto texel = [&](float c) {
-        return std::clamp(static_cast<int>((c * 0.5f + 0.5f) * static_cast<float>(mSize)), 0, static_cast<int>(mSize) - 1);
+        return std::clamp(static_cast<int>((c * 0.5f + 0.5f) * static_cast<float>(mSize)), 0,
+                          static_cast<int>(mSize) - 1);
     };
     return at(point.face, texel(point.s), texel(point.t));
 }
@@ -119,7 +120,7 @@ void IblCubeLevel::fillBorder() {
 IblCubeLevel faceLevelFromEquirect(HdrImage const& image, uint32_t size, jobs::JobSystem& jobs) {
     FILAMENT_ASSERT(std::has_single_bit(size), "the size of a cube face is a power of two");
     FILAMENT_ASSERT(image.width > 0 && image.pixels.size() == size_t(image.width) * image.height,
-            "an environment has width * height pixels, more than none");
+                    "an environment has width * height pixels, more than none");
     const HdrImage wide = widenedTowardsPoles(image, jobs);
     const uint32_t subSamples = subSamplesFor(image, size);
     IblCubeLevel level(size);

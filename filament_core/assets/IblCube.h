@@ -39,16 +39,19 @@ public:
     /// Bilinear.
     Texel sample(CubePoint point) const {
         const float half = 0.5f * static_cast<float>(mSize);
-        const float x = point.s * half + (half + 0.5f), y = point.t * half + (half + 0.5f); // 1 beyond: truncation floors
+        const float x = point.s * half + (half + 0.5f),
+                    y = point.t * half + (half + 0.5f); // 1 beyond: truncation floors
         const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
         const Texel fx = splat(x - static_cast<float>(x0)), fy = splat(y - static_cast<float>(y0));
-        const Texel* const row = &mTexels[(point.face * stride() + static_cast<size_t>(y0)) * stride() + static_cast<size_t>(x0)];
+        const Texel* const row =
+                &mTexels[(point.face * stride() + static_cast<size_t>(y0)) * stride() + static_cast<size_t>(x0)];
         const Texel upper = row[0] + (row[1] - row[0]) * fx;
         const Texel lower = row[stride()] + (row[stride() + 1] - row[stride()]) * fx;
         return upper + (lower - upper) * fy;
     }
 
-    /// Copies the texels beyond each edge from the neighbouring face; corners get the mean of the three that meet there.
+    /// Copies the texels beyond each edge from the neighbouring face; corners get the mean of the three that meet
+    /// there.
     void fillBorder();
 
 private:

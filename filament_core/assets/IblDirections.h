@@ -23,12 +23,18 @@ struct CubePoint {
 inline float3 directionFromCube(CubePoint point) {
     const float s = point.s, t = point.t;
     switch (point.face) {
-        case 0: return { 1, -t, -s };
-        case 1: return { -1, -t, s };
-        case 2: return { s, 1, t };
-        case 3: return { s, -1, -t };
-        case 4: return { s, -t, 1 };
-        default: return { -s, -t, -1 };
+    case 0:
+        return { 1, -t, -s };
+    case 1:
+        return { -1, -t, s };
+    case 2:
+        return { s, 1, t };
+    case 3:
+        return { s, -1, -t };
+    case 4:
+        return { s, -t, 1 };
+    default:
+        return { -s, -t, -1 };
     }
 }
 
@@ -52,8 +58,8 @@ inline float faceCoordinate(int texel, uint32_t size) {
     return (2.0f * static_cast<float>(texel) + 1.0f) / static_cast<float>(size) - 1.0f;
 }
 
-/// Solid angle of the part of a face from (0, 0) to (s, t); differences of four give any rectangle. From the integral of
-/// (1 + s^2 + t^2)^(-3/2).
+/// Solid angle of the part of a face from (0, 0) to (s, t); differences of four give any rectangle. From the integral
+/// of (1 + s^2 + t^2)^(-3/2).
 inline double cornerSolidAngle(double s, double t) { return std::atan2(s * t, std::sqrt(s * s + t * t + 1.0)); }
 
 /// u in [0, 1], v in [0, 1]. direction is a unit vector.

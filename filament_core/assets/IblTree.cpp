@@ -16,7 +16,8 @@ bool any(Mask m) { return ((m[0] | m[1]) | (m[2] | m[3])) != 0; }
 
 float sumOf(Texel t) { return (t[0] + t[1]) + (t[2] + t[3]); }
 
-// The lobe's weight over the cosine c to its axis, up to a factor: D(noh) n.l with noh^2 = (1 + c) / 2, as h is half way.
+// The lobe's weight over the cosine c to its axis, up to a factor: D(noh) n.l with noh^2 = (1 + c) / 2, as h is half
+// way.
 struct LobeWeight {
     float sum, difference; // 1 + alpha^2, 1 - alpha^2
     explicit LobeWeight(float alpha) : sum(1 + alpha * alpha), difference(1 - alpha * alpha) {}
@@ -53,7 +54,8 @@ IblTree::Level IblTree::leavesOf(IblCubeLevel const& texels, jobs::JobSystem& jo
             for (int corner = 0; corner < 4; ++corner) {
                 const int x = static_cast<int>(i % half) * 2 + (corner & 1);
                 const int y = static_cast<int>(i / half % half) * 2 + (corner >> 1);
-                const float3 d = glm::normalize(directionFromCube({ face, faceCoordinate(x, size), faceCoordinate(y, size) }));
+                const float3 d =
+                        glm::normalize(directionFromCube({ face, faceCoordinate(x, size), faceCoordinate(y, size) }));
                 const float angle = solidAngles[static_cast<size_t>(y) * size + static_cast<size_t>(x)];
                 const float3 energy = texels.radiance(face, x, y) * angle;
                 quad.x[corner] = quad.energyX[corner] = d.x;
@@ -77,7 +79,8 @@ IblTree::Level IblTree::parentsOf(Level const& children, jobs::JobSystem& jobs) 
             Quad& quad = level.quads[i];
             const size_t face = i / (size_t(half) * half);
             for (int corner = 0; corner < 4; ++corner) {
-                const size_t x = i % half * 2 + (corner & 1), y = i / half % half * 2 + (static_cast<size_t>(corner) >> 1);
+                const size_t x = i % half * 2 + (corner & 1),
+                             y = i / half % half * 2 + (static_cast<size_t>(corner) >> 1);
                 Quad const& from = children.quads[(face * size + y) * size + x];
                 double3 middle(0.0), centre(0.0);
                 for (int c = 0; c < 4; ++c) {
@@ -139,7 +142,8 @@ void IblTree::addQuad(size_t levelIndex, size_t quadIndex, float3 axis, Lobe con
     }
     if (!any(whole)) return;
     const LobeWeight weight(lobe.alpha);
-    const Texel energyCosine = quad.energyX * splat(axis.x) + quad.energyY * splat(axis.y) + quad.energyZ * splat(axis.z);
+    const Texel energyCosine =
+            quad.energyX * splat(axis.x) + quad.energyY * splat(axis.y) + quad.energyZ * splat(axis.z);
     const Texel light = masked(weight(energyCosine), whole);
     sums.red += light * quad.red;
     sums.green += light * quad.green;

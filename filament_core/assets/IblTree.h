@@ -3,8 +3,8 @@
 ///   In      an IblCube.  Out: mean radiance over a GGX lobe around any direction, without noise.
 ///   How     Barnes and Hut 1986, "A Hierarchical O(N log N) Force-Calculation Algorithm", with light instead of mass:
 ///           one quadtree per face whose nodes hold their energy and its centre. A node is taken whole when it is small
-///           against its distance from the lobe's axis; else its four children are looked at. Because energy sits at its
-///           centre, a sun is exact in whichever node it happens to be.
+///           against its distance from the lobe's axis; else its four children are looked at. Because energy sits at
+///           its centre, a sun is exact in whichever node it happens to be.
 ///   Why     importance sampling with 512 samples leaves 10 to 50 % of error in a studio of small bright lamps at
 ///           roughness 1, in the same time (bench/filament_core/assets/README.md).
 ///   Thread  made on the job system; integrate() from any thread.
@@ -45,7 +45,7 @@ private:
         Texel solidAngle;
     };
     struct Level {
-        uint32_t size = 0; // nodes a face side
+        uint32_t size = 0;       // nodes a face side
         std::vector<Quad> quads; // of (size / 2)^2 * 6 parents
     };
     struct Sums;

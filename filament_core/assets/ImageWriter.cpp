@@ -30,7 +30,7 @@ struct PngImage {
 
 Error pngFailure(std::filesystem::path const& path, const char* verb, PngImage const& png) {
     return fail(ErrorCode::Unreadable, "cannot {} '{}': {}; check the file and the free memory", verb, path.string(),
-            static_cast<const char*>(png.value.message));
+                static_cast<const char*>(png.value.message));
 }
 
 // One plane of tightly packed samples, by name.
@@ -41,7 +41,7 @@ struct Plane {
 
 // OpenEXR wants planes in alphabetical order; `planes` is.
 Result<void> writePlanes(std::filesystem::path const& path, uint32_t width, uint32_t height, std::span<Plane> planes,
-        int pixelType) {
+                         int pixelType) {
     EXRHeader header;
     InitEXRHeader(&header);
     EXRImage image;
@@ -136,9 +136,9 @@ void appendHdrRow(std::vector<std::byte>& out, std::span<const float3> row) {
 } // namespace
 
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
-        std::span<const std::byte> rgba8) {
+                      std::span<const std::byte> rgba8) {
     FILAMENT_ASSERT(width > 0 && height > 0 && rgba8.size() == size_t(width) * height * 4,
-            "writePng takes width * height * 4 bytes, more than none");
+                    "writePng takes width * height * 4 bytes, more than none");
     PngImage png;
     png.value.width = width;
     png.value.height = height;
@@ -161,37 +161,40 @@ Result<Image> readPng(std::filesystem::path const& path) {
         return pngFailure(path, "read", png);
     }
     if (uint64_t(png.value.width) * png.value.height > kMaxPngPixels) {
-        return fail(ErrorCode::Unsupported, "cannot read '{}': {} x {} pixels are more than {}; make it smaller", path.string(),
-                png.value.width, png.value.height, kMaxPngPixels);
+        return fail(ErrorCode::Unsupported, "cannot read '{}': {} x {} pixels are more than {}; make it smaller",
+                    path.string(), png.value.width, png.value.height, kMaxPngPixels);
     }
     png.value.format = PNG_FORMAT_RGBA;
     Image image{ .width = png.value.width, .height = png.value.height, .data = {} };
     image.data.resize(image.levelBytes(0));
-    if (!png_image_finish_read(&png.value, nullptr, image.data.data(), 0, nullptr)) return pngFailure(path, "read", png);
+    if (!png_image_finish_read(&png.value, nullptr, image.data.data(), 0, nullptr))
+        return pngFailure(path, "read", png);
     return image;
 }
 
-Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height, std::span<const float3> pixels,
-        ExrPrecision precision) {
+Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const float3> pixels, ExrPrecision precision) {
     FILAMENT_ASSERT(width > 0 && height > 0 && pixels.size() == size_t(width) * height,
-            "writeExr takes width * height pixels, more than none");
+                    "writeExr takes width * height pixels, more than none");
     std::array<Plane, 3> planes{ { { 'B', {} }, { 'G', {} }, { 'R', {} } } };
     for (int c = 0; c < 3; ++c) {
         std::vector<std::byte>& samples = planes[static_cast<size_t>(2 - c)].samples;
         samples.reserve(pixels.size() * 4);
         for (float3 const& pixel : pixels) {
-            if (precision == ExrPrecision::Half) append(samples, halfFromFloat(pixel[c]));
-            else append(samples, pixel[c]);
+            if (precision == ExrPrecision::Half)
+                append(samples, halfFromFloat(pixel[c]));
+            else
+                append(samples, pixel[c]);
         }
     }
     return writePlanes(path, width, height, planes,
-            precision == ExrPrecision::Half ? TINYEXR_PIXELTYPE_HALF : TINYEXR_PIXELTYPE_FLOAT);
+                       precision == ExrPrecision::Half ? TINYEXR_PIXELTYPE_HALF : TINYEXR_PIXELTYPE_FLOAT);
 }
 
 Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
-        std::span<const std::byte> rgba16f) {
+                      std::span<const std::byte> rgba16f) {
     FILAMENT_ASSERT(width > 0 && height > 0 && rgba16f.size() == size_t(width) * height * 8,
-            "writeExr takes width * height * 8 bytes, more than none");
+                    "writeExr takes width * height * 8 bytes, more than none");
     std::array<Plane, 4> planes{ { { 'A', {} }, { 'B', {} }, { 'G', {} }, { 'R', {} } } };
     for (size_t i = 0; i < rgba16f.size(); i += 8) {
         for (size_t c = 0; c < 4; ++c) {
@@ -204,8 +207,9 @@ Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_
 
 Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image) {
     FILAMENT_ASSERT(image.width > 0 && image.height > 0 && image.pixels.size() == size_t(image.width) * image.height,
-            "writeHdr takes width * height pixels, more than none");
-    const std::string header = fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", image.height, image.width);
+                    "writeHdr takes width * height pixels, more than none");
+    const std::string header =
+            fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", image.height, image.width);
     const auto headerBytes = std::as_bytes(std::span(header));
     std::vector<std::byte> bytes(headerBytes.begin(), headerBytes.end());
     for (uint32_t y = 0; y < image.height; ++y) appendHdrRow(bytes, { &image.at(0, y), image.width });

@@ -19,7 +19,7 @@ namespace filament::assets {
 
 /// RGBA8, 4 bytes a pixel.
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
-        std::span<const std::byte> rgba8);
+                      std::span<const std::byte> rgba8);
 
 /// Any PNG as RGBA8, one level.
 Result<Image> readPng(std::filesystem::path const& path);
@@ -27,11 +27,11 @@ Result<Image> readPng(std::filesystem::path const& path);
 enum class ExrPrecision : uint8_t { Half, Float };
 
 /// RGB in ZIP-compressed scan lines. Half clamps at 65504.
-Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height, std::span<const float3> pixels,
-        ExrPrecision precision = ExrPrecision::Half);
+Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const float3> pixels, ExrPrecision precision = ExrPrecision::Half);
 /// RGBA16F pixels (8 bytes each) bit for bit, with alpha.
 Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
-        std::span<const std::byte> rgba16f);
+                      std::span<const std::byte> rgba16f);
 
 /// RGBE with run lengths: 8 bits of mantissa shared by three components, 1e-38 to 1e38. Negative components become 0.
 Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image);

@@ -19,9 +19,9 @@ namespace filament::assets {
 inline constexpr uint32_t kNone = ~0u;
 
 struct TextureRef {
-    uint32_t image = kNone;   ///< into ModelData::images; kNone: the factor alone
+    uint32_t image = kNone; ///< into ModelData::images; kNone: the factor alone
     backend::SamplerDesc sampler{};
-    uint32_t uvSet = 0;       ///< 0 or 1
+    uint32_t uvSet = 0;           ///< 0 or 1
     float3x3 uvTransform{ 1.0f }; ///< KHR_texture_transform as uv' = (M * (u, v, 1)).xy
     bool hasTransform = false;
 };
@@ -46,7 +46,8 @@ struct MaterialData {
 /// One draw's worth of geometry. Positions and all other attributes are interleaved in one stream.
 struct PrimitiveData {
     backend::Topology topology = backend::Topology::Triangles;
-    backend::VertexLayout layout{}; ///< buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4)
+    backend::VertexLayout
+            layout{}; ///< buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4)
     std::vector<std::byte> vertices;
     std::vector<std::byte> indices; ///< always indexed
     backend::IndexType indexType = backend::IndexType::UInt16;
@@ -68,9 +69,9 @@ enum class LightType : uint8_t { Directional, Point, Spot };
 struct LightData {
     std::string name;
     LightType type = LightType::Point;
-    float3 color{ 1.0f };     ///< linear
-    float intensity = 1;      ///< lux (directional) or candela (point, spot)
-    float rangeMeters = 0;    ///< 0: unlimited
+    float3 color{ 1.0f };  ///< linear
+    float intensity = 1;   ///< lux (directional) or candela (point, spot)
+    float rangeMeters = 0; ///< 0: unlimited
     float innerConeRadians = 0, outerConeRadians = 0.7853982f;
 };
 

@@ -32,8 +32,8 @@ struct StbFree {
 
 bool isPngOrJpeg(std::span<const std::byte> bytes) {
     const auto at = [&](size_t i) { return static_cast<uint8_t>(bytes[i]); };
-    return bytes.size() >= 4 && ((at(0) == 0x89 && at(1) == 'P' && at(2) == 'N' && at(3) == 'G') ||
-                                        (at(0) == 0xFF && at(1) == 0xD8));
+    return bytes.size() >= 4 &&
+           ((at(0) == 0x89 && at(1) == 'P' && at(2) == 'N' && at(3) == 'G') || (at(0) == 0xFF && at(1) == 0xD8));
 }
 
 } // namespace
@@ -52,7 +52,7 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view nam
     if (!pixels) {
         const char* reason = stbi_failure_reason();
         return fail(ErrorCode::Corrupt, "image '{}' cannot be decoded: {}; export it again", name,
-                reason ? reason : "unknown reason");
+                    reason ? reason : "unknown reason");
     }
     Image image{ .width = static_cast<uint32_t>(width), .height = static_cast<uint32_t>(height), .data = {} };
     image.data.resize(image.levelBytes(0));

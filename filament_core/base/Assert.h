@@ -10,10 +10,10 @@ namespace filament {
 
 } // namespace filament
 
-#define FILAMENT_ASSERT(condition, rule)                                                                      \
-    (__builtin_expect(static_cast<bool>(condition), 1)                                                        \
-            ? static_cast<void>(0)                                                                            \
-            : ::filament::assertionFailed(__FILE__, __LINE__, #condition, rule))
+#define FILAMENT_ASSERT(condition, rule)                                                                               \
+    (__builtin_expect(static_cast<bool>(condition), 1)                                                                 \
+             ? static_cast<void>(0)                                                                                    \
+             : ::filament::assertionFailed(__FILE__, __LINE__, #condition, rule))
 
 #ifdef NDEBUG
 #define FILAMENT_DEBUG_ASSERT(condition, rule) static_cast<void>(0)

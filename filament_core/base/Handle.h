@@ -50,8 +50,7 @@ public:
 
 private:
     bool isLiveLocked(Handle<Tag> handle) const {
-        return handle && handle.index() < mGenerations.size() &&
-                mGenerations[handle.index()] == handle.generation();
+        return handle && handle.index() < mGenerations.size() && mGenerations[handle.index()] == handle.generation();
     }
 
     mutable std::mutex mMutex;

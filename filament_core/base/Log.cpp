@@ -15,10 +15,14 @@ std::atomic<Severity> gThreshold{ Severity::Info };
 
 const char* prefix(Severity severity) {
     switch (severity) {
-        case Severity::Debug: return "debug: ";
-        case Severity::Info: return "";
-        case Severity::Warning: return "warning: ";
-        case Severity::Error: return "error: ";
+    case Severity::Debug:
+        return "debug: ";
+    case Severity::Info:
+        return "";
+    case Severity::Warning:
+        return "warning: ";
+    case Severity::Error:
+        return "error: ";
     }
     return "";
 }

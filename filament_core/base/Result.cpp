@@ -5,16 +5,26 @@ namespace filament {
 
 const char* toString(ErrorCode code) {
     switch (code) {
-        case ErrorCode::InvalidArgument: return "invalid argument";
-        case ErrorCode::NotFound: return "not found";
-        case ErrorCode::Unreadable: return "unreadable";
-        case ErrorCode::Corrupt: return "corrupt";
-        case ErrorCode::Unsupported: return "unsupported";
-        case ErrorCode::DeviceUnavailable: return "device unavailable";
-        case ErrorCode::DeviceLost: return "device lost";
-        case ErrorCode::OutOfMemory: return "out of memory";
-        case ErrorCode::Timeout: return "timeout";
-        case ErrorCode::Internal: return "internal error";
+    case ErrorCode::InvalidArgument:
+        return "invalid argument";
+    case ErrorCode::NotFound:
+        return "not found";
+    case ErrorCode::Unreadable:
+        return "unreadable";
+    case ErrorCode::Corrupt:
+        return "corrupt";
+    case ErrorCode::Unsupported:
+        return "unsupported";
+    case ErrorCode::DeviceUnavailable:
+        return "device unavailable";
+    case ErrorCode::DeviceLost:
+        return "device lost";
+    case ErrorCode::OutOfMemory:
+        return "out of memory";
+    case ErrorCode::Timeout:
+        return "timeout";
+    case ErrorCode::Internal:
+        return "internal error";
     }
     return "unknown error";
 }

@@ -23,8 +23,11 @@ BufferHandle createInstanceIds(Engine::Impl& engine) {
 
 Texture createDfg(Engine::Impl& engine) {
     static const assets::Image table = assets::bakeDfgTable(engine.jobs); // the same for every engine of the process
-    return engine.createTexture({ .format = table.format, .width = table.width, .height = table.height,
-            .pixels = table.data, .name = "dfg" });
+    return engine.createTexture({ .format = table.format,
+                                  .width = table.width,
+                                  .height = table.height,
+                                  .pixels = table.data,
+                                  .name = "dfg" });
 }
 
 } // namespace
@@ -33,8 +36,10 @@ void createDefaultObjects(Engine::Impl& engine) {
     constexpr std::array<uint8_t, 4> white{ 255, 255, 255, 255 };
     constexpr std::array<uint8_t, 24> black{};
     engine.defaults.white = engine.createTexture({ .pixels = std::as_bytes(std::span(white)), .name = "white" });
-    engine.defaults.blackCube = engine.createTexture({ .kind = TextureKind::Cube, .layers = 6,
-            .pixels = std::as_bytes(std::span(black)), .name = "black cube" });
+    engine.defaults.blackCube = engine.createTexture({ .kind = TextureKind::Cube,
+                                                       .layers = 6,
+                                                       .pixels = std::as_bytes(std::span(black)),
+                                                       .name = "black cube" });
     engine.defaults.dfg = createDfg(engine);
     engine.defaults.instanceIds = createInstanceIds(engine);
 }

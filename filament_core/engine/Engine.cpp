@@ -16,25 +16,31 @@ using namespace backend;
 
 BackendType backendType(Backend backend) {
     switch (backend) {
-        case Backend::Vulkan: return BackendType::Vulkan;
-        case Backend::Gles: return BackendType::Gles;
-        case Backend::Null: return BackendType::Null;
+    case Backend::Vulkan:
+        return BackendType::Vulkan;
+    case Backend::Gles:
+        return BackendType::Gles;
+    case Backend::Null:
+        return BackendType::Null;
     }
     return BackendType::Null;
 }
 
 Backend publicBackend(BackendType type) {
     switch (type) {
-        case BackendType::Vulkan: return Backend::Vulkan;
-        case BackendType::Gles: return Backend::Gles;
-        case BackendType::Null: return Backend::Null;
+    case BackendType::Vulkan:
+        return Backend::Vulkan;
+    case BackendType::Gles:
+        return Backend::Gles;
+    case BackendType::Null:
+        return Backend::Null;
     }
     return Backend::Null;
 }
 
 DeviceDescription describe(DeviceInfo const& info) {
     return { publicBackend(info.backend), info.deviceName, info.driverName, info.limits.maxTextureSize,
-        info.limits.maxSamples };
+             info.limits.maxSamples };
 }
 
 // The driver with the layers that the options ask for around it.
@@ -69,9 +75,12 @@ void reportLeaks(Table const& table, const char* what) {
 
 const char* toString(Backend backend) {
     switch (backend) {
-        case Backend::Vulkan: return "vulkan";
-        case Backend::Gles: return "gles";
-        case Backend::Null: return "null";
+    case Backend::Vulkan:
+        return "vulkan";
+    case Backend::Gles:
+        return "gles";
+    case Backend::Null:
+        return "null";
     }
     return "unknown";
 }
@@ -146,8 +155,8 @@ DeviceDescription const& Engine::device() const { return mImpl->device; }
 
 EngineStatistics Engine::statistics() const {
     const DriverStatistics driver = mImpl->stream->statistics();
-    return { driver.draws, driver.pipelinesCreated, driver.pipelinesCreatedInPasses, driver.commands,
-        driver.deviceBytes, mImpl->stream->backPressureNanoseconds() };
+    return { driver.draws,    driver.pipelinesCreated, driver.pipelinesCreatedInPasses,
+             driver.commands, driver.deviceBytes,      mImpl->stream->backPressureNanoseconds() };
 }
 
 std::vector<std::string> Engine::takeErrors() {

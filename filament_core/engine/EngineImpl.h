@@ -66,9 +66,9 @@ struct SwapChainState {
 
 /// Objects that every engine has.
 struct Defaults {
-    Texture white;         ///< 1x1 opaque white, for textures that a material leaves unset
-    Texture blackCube;     ///< 1x1, for scenes without an environment
-    Texture dfg;           ///< split-sum table
+    Texture white;                     ///< 1x1 opaque white, for textures that a material leaves unset
+    Texture blackCube;                 ///< 1x1, for scenes without an environment
+    Texture dfg;                       ///< split-sum table
     backend::BufferHandle instanceIds; ///< 0, 1, 2, ... kObjectsPerWindow - 1
 };
 

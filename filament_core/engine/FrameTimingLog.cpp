@@ -74,7 +74,7 @@ std::vector<FrameTimings> FrameTimingLog::take() {
         record.taken = true;
     }
     std::sort(finished.begin(), finished.end(),
-            [](FrameTimings const& a, FrameTimings const& b) { return a.frame < b.frame; });
+              [](FrameTimings const& a, FrameTimings const& b) { return a.frame < b.frame; });
     return finished;
 }
 

@@ -16,7 +16,8 @@ using assets::TextureRef;
 
 /// One map of a glTF material: the stem of its parameters and constants, and what the file says about it.
 struct Map {
-    const char* stem; ///< baseColor -> baseColorMap, baseColorUvMatrix; hasBaseColorMap, baseColorUv, baseColorTransform
+    const char*
+            stem; ///< baseColor -> baseColorMap, baseColorUvMatrix; hasBaseColorMap, baseColorUv, baseColorTransform
     const char* has;
     TextureRef const& ref;
 };
@@ -34,7 +35,7 @@ std::array<Map, 5> mapsOf(MaterialData const& material) {
 // Occlusion in red, roughness and metallic of the same texture: the usual packing. One fetch serves both.
 bool sharesTexel(TextureRef const& a, TextureRef const& b) {
     return a.image != kNone && a.image == b.image && a.sampler == b.sampler && a.uvSet == b.uvSet &&
-            a.uvTransform == b.uvTransform;
+           a.uvTransform == b.uvTransform;
 }
 
 // An unlit material has a base colour only.
@@ -43,9 +44,12 @@ size_t mapCount(MaterialData const& material) { return material.unlit ? 1 : 5; }
 std::string packageName(MaterialData const& material) {
     std::string name = material.unlit ? "gltf_unlit_" : "gltf_lit_";
     switch (material.alphaMode) {
-        case AlphaMode::Opaque: return name + "opaque";
-        case AlphaMode::Mask: return name + "masked";
-        case AlphaMode::Blend: return name + "blended";
+    case AlphaMode::Opaque:
+        return name + "opaque";
+    case AlphaMode::Mask:
+        return name + "masked";
+    case AlphaMode::Blend:
+        return name + "blended";
     }
     return name + "opaque";
 }
@@ -57,7 +61,8 @@ std::vector<MaterialConstant> constantsOf(MaterialData const& material, bool has
         Map const& map = maps[i];
         if (map.ref.image == kNone) continue;
         constants.push_back({ map.has, true });
-        if (map.ref.uvSet != 0) constants.push_back({ std::string(map.stem) + "Uv", static_cast<int32_t>(map.ref.uvSet) });
+        if (map.ref.uvSet != 0)
+            constants.push_back({ std::string(map.stem) + "Uv", static_cast<int32_t>(map.ref.uvSet) });
         if (map.ref.hasTransform) constants.push_back({ std::string(map.stem) + "Transform", true });
     }
     if (!material.unlit && sharesTexel(material.occlusion, material.metallicRoughness)) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// glTF materials as instances of the engine's glTF materials: a package by shading and blending, specialised to exactly
-/// the maps that the material uses. Equal specialisations share one material.
+/// glTF materials as instances of the engine's glTF materials: a package by shading and blending, specialised to
+/// exactly the maps that the material uses. Equal specialisations share one material.
 #pragma once
 
 #include "filament_core/assets/ModelData.h"

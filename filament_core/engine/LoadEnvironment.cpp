@@ -24,8 +24,14 @@ struct Environment::Impl {
 namespace {
 
 Texture uploadCube(Engine& engine, assets::Image const& image, std::string name) {
-    return engine.create(TextureDesc{ .kind = TextureKind::Cube, .format = image.format, .width = image.width,
-            .height = image.height, .layers = 6, .levels = image.levels, .pixels = image.data, .name = std::move(name) });
+    return engine.create(TextureDesc{ .kind = TextureKind::Cube,
+                                      .format = image.format,
+                                      .width = image.width,
+                                      .height = image.height,
+                                      .layers = 6,
+                                      .levels = image.levels,
+                                      .pixels = image.data,
+                                      .name = std::move(name) });
 }
 
 } // namespace
@@ -39,18 +45,23 @@ IndirectLight Environment::indirectLight() const { return mImpl->indirectLight; 
 Skybox Environment::skybox() const { return mImpl->skybox; }
 
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
-        EnvironmentLoadOptions const& options) {
+                                    EnvironmentLoadOptions const& options) {
     Engine::Impl& impl = engine.impl();
-    auto data = assets::loadEnvironment(path, impl.jobs, { .cacheDirectory = impl.options.cacheDirectory,
-            .faceSize = options.faceSize, .samples = options.samples, .format = options.format,
-            .progress = options.progress });
+    auto data = assets::loadEnvironment(path, impl.jobs,
+                                        { .cacheDirectory = impl.options.cacheDirectory,
+                                          .faceSize = options.faceSize,
+                                          .samples = options.samples,
+                                          .format = options.format,
+                                          .progress = options.progress });
     if (!data) return data.error();
 
     const std::string name = path.filename().string();
     const Texture specular = uploadCube(engine, data->specular, name);
     const Texture sky = uploadCube(engine, data->sky, name + " sky");
     const IndirectLight light = engine.create(IndirectLightDesc{ .specular = specular,
-            .specularLevels = data->specular.levels, .irradianceSh = data->irradianceSh, .name = name });
+                                                                 .specularLevels = data->specular.levels,
+                                                                 .irradianceSh = data->irradianceSh,
+                                                                 .name = name });
     const Skybox skybox = engine.create(SkyboxDesc{ .cube = sky, .name = name });
     impl.flush(); // the driver thread uploads while the caller goes on
     return Environment(std::unique_ptr<Environment::Impl>(new Environment::Impl{ impl, specular, sky, light, skybox }));

@@ -18,11 +18,16 @@ using assets::PrimitiveData;
 
 PrimitiveType primitiveType(backend::Topology topology) {
     switch (topology) {
-        case backend::Topology::Triangles: return PrimitiveType::Triangles;
-        case backend::Topology::TriangleStrip: return PrimitiveType::TriangleStrip;
-        case backend::Topology::Lines: return PrimitiveType::Lines;
-        case backend::Topology::LineStrip: return PrimitiveType::LineStrip;
-        case backend::Topology::Points: return PrimitiveType::Points;
+    case backend::Topology::Triangles:
+        return PrimitiveType::Triangles;
+    case backend::Topology::TriangleStrip:
+        return PrimitiveType::TriangleStrip;
+    case backend::Topology::Lines:
+        return PrimitiveType::Lines;
+    case backend::Topology::LineStrip:
+        return PrimitiveType::LineStrip;
+    case backend::Topology::Points:
+        return PrimitiveType::Points;
     }
     return PrimitiveType::Triangles;
 }
@@ -45,8 +50,12 @@ public:
 private:
     void uploadImages() {
         for (assets::Image const& image : mData.images) {
-            mModel->textures.push_back(mEngine.create(TextureDesc{ .format = image.format, .width = image.width,
-                    .height = image.height, .levels = image.levels, .pixels = image.data, .name = mData.name }));
+            mModel->textures.push_back(mEngine.create(TextureDesc{ .format = image.format,
+                                                                   .width = image.width,
+                                                                   .height = image.height,
+                                                                   .levels = image.levels,
+                                                                   .pixels = image.data,
+                                                                   .name = mData.name }));
         }
     }
 
@@ -69,18 +78,27 @@ private:
     }
 
     RenderableDesc upload(PrimitiveData const& primitive, MaterialInstance instance, std::string const& name) {
-        VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount, .stride = primitive.layout.buffers[0].stride,
-            .data = primitive.vertices, .name = name };
+        VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount,
+                                   .stride = primitive.layout.buffers[0].stride,
+                                   .data = primitive.vertices,
+                                   .name = name };
         for (uint32_t i = 0; i < primitive.layout.attributeCount; ++i) {
             backend::VertexAttribute const& attribute = primitive.layout.attributes[i];
-            vertices.attributes.push_back({ static_cast<Attribute>(attribute.location), attribute.format, attribute.offset });
+            vertices.attributes.push_back(
+                    { static_cast<Attribute>(attribute.location), attribute.format, attribute.offset });
         }
         const bool wide = primitive.indexType == backend::IndexType::UInt32;
         RenderableDesc part{ .vertices = mEngine.create(vertices),
-            .indices = mEngine.create(IndexBufferDesc{ .indexCount = primitive.indexCount,
-                    .format = wide ? IndexFormat::UInt32 : IndexFormat::UInt16, .data = primitive.indices, .name = name }),
-            .material = instance, .primitive = primitiveType(primitive.topology), .boundsMin = primitive.boundsMin,
-            .boundsMax = primitive.boundsMax, .name = name };
+                             .indices = mEngine.create(
+                                     IndexBufferDesc{ .indexCount = primitive.indexCount,
+                                                      .format = wide ? IndexFormat::UInt32 : IndexFormat::UInt16,
+                                                      .data = primitive.indices,
+                                                      .name = name }),
+                             .material = instance,
+                             .primitive = primitiveType(primitive.topology),
+                             .boundsMin = primitive.boundsMin,
+                             .boundsMax = primitive.boundsMax,
+                             .name = name };
         mModel->vertexBuffers.push_back(part.vertices);
         mModel->indexBuffers.push_back(part.indices);
         return part;
@@ -112,16 +130,17 @@ private:
         const double3 axis = -double3(world[2]); // KHR_lights_punctual: along -Z of the node
         const float3 direction = glm::length(axis) > 0 ? float3(glm::normalize(axis)) : float3(0, 0, -1);
         switch (light.type) {
-            case assets::LightType::Directional:
-                mModel->lights.push_back(SunLight{ direction, Lux{ light.intensity }, light.color });
-                break;
-            case assets::LightType::Point:
-                mModel->lights.push_back(PointLight{ position, Candela{ light.intensity }, light.color, light.rangeMeters });
-                break;
-            case assets::LightType::Spot:
-                mModel->lights.push_back(SpotLight{ position, direction, Candela{ light.intensity }, light.color,
-                        light.rangeMeters, light.innerConeRadians, light.outerConeRadians });
-                break;
+        case assets::LightType::Directional:
+            mModel->lights.push_back(SunLight{ direction, Lux{ light.intensity }, light.color });
+            break;
+        case assets::LightType::Point:
+            mModel->lights.push_back(
+                    PointLight{ position, Candela{ light.intensity }, light.color, light.rangeMeters });
+            break;
+        case assets::LightType::Spot:
+            mModel->lights.push_back(SpotLight{ position, direction, Candela{ light.intensity }, light.color,
+                                                light.rangeMeters, light.innerConeRadians, light.outerConeRadians });
+            break;
         }
     }
 

@@ -19,17 +19,23 @@ using shader::ParameterType;
 
 ConstantValue::Type typeOf(std::variant<bool, int32_t, float> const& value) {
     switch (value.index()) {
-        case 0: return ConstantValue::Type::Bool;
-        case 1: return ConstantValue::Type::Int;
-        default: return ConstantValue::Type::Float;
+    case 0:
+        return ConstantValue::Type::Bool;
+    case 1:
+        return ConstantValue::Type::Int;
+    default:
+        return ConstantValue::Type::Float;
     }
 }
 
 uint32_t bitsOf(std::variant<bool, int32_t, float> const& value) {
     switch (value.index()) {
-        case 0: return std::get<bool>(value) ? 1u : 0u;
-        case 1: return static_cast<uint32_t>(std::get<int32_t>(value));
-        default: return std::bit_cast<uint32_t>(std::get<float>(value));
+    case 0:
+        return std::get<bool>(value) ? 1u : 0u;
+    case 1:
+        return static_cast<uint32_t>(std::get<int32_t>(value));
+    default:
+        return std::bit_cast<uint32_t>(std::get<float>(value));
     }
 }
 
@@ -41,17 +47,17 @@ std::vector<std::string_view> namesOf(Items const& items) {
 }
 
 Result<std::vector<ConstantValue>> resolveConstants(shader::MaterialPackage const& package,
-        std::vector<MaterialConstant> const& given) {
+                                                    std::vector<MaterialConstant> const& given) {
     std::vector<ConstantValue> values;
     for (MaterialConstant const& constant : given) {
         shader::Constant const* known = package.findConstant(constant.name);
         if (!known) {
             return fail(ErrorCode::NotFound, "material '{}' has no constant '{}'{}", package.name, constant.name,
-                    suggestion(constant.name, namesOf(package.constants)));
+                        suggestion(constant.name, namesOf(package.constants)));
         }
         if (known->type != typeOf(constant.value)) {
             return fail(ErrorCode::InvalidArgument, "constant '{}' of material '{}' was given a value of another type",
-                    constant.name, package.name);
+                        constant.name, package.name);
         }
         values.push_back({ known->id, bitsOf(constant.value), known->type });
     }
@@ -69,7 +75,10 @@ struct RawValue {
 RawValue rawValue(ParameterValue const& value, uint32_t& boolStorage) {
     struct Visitor {
         uint32_t& boolBits;
-        RawValue operator()(bool v) const { boolBits = v; return { ParameterType::Bool, 1, 4, &boolBits }; }
+        RawValue operator()(bool v) const {
+            boolBits = v;
+            return { ParameterType::Bool, 1, 4, &boolBits };
+        }
         RawValue operator()(int32_t const& v) const { return { ParameterType::Int, 1, 4, &v }; }
         RawValue operator()(uint32_t const& v) const { return { ParameterType::Uint, 1, 4, &v }; }
         RawValue operator()(float const& v) const { return { ParameterType::Float, 1, 4, &v }; }
@@ -84,7 +93,7 @@ RawValue rawValue(ParameterValue const& value, uint32_t& boolStorage) {
 
 Error unknownParameter(scene::Material const& material, std::string_view name) {
     return fail(ErrorCode::NotFound, "material '{}' has no parameter '{}'{}", material.name, name,
-            suggestion(name, namesOf(material.package.parameters)));
+                suggestion(name, namesOf(material.package.parameters)));
 }
 
 // Position of a texture parameter among the texture parameters.
@@ -144,7 +153,8 @@ MaterialInstance Engine::createInstance(Material material, std::string name) {
     if (Parameter const* threshold = parent.package.findParameter("_maskThreshold")) {
         std::memcpy(instance.parameters.data() + threshold->offset, &parent.package.maskThreshold, sizeof(float));
     }
-    const scene::TextureBinding white{ mImpl->textureHandle(mImpl->defaults.white), mImpl->samplers.get({}, mImpl->pending) };
+    const scene::TextureBinding white{ mImpl->textureHandle(mImpl->defaults.white),
+                                       mImpl->samplers.get({}, mImpl->pending) };
     for (Parameter const& parameter : parent.package.parameters) {
         if (shader::isTexture(parameter.type)) instance.textures.push_back(white);
     }
@@ -166,11 +176,11 @@ Result<void> Engine::set(MaterialInstance handle, std::string_view name, Paramet
     const RawValue raw = rawValue(value, boolStorage);
     if (raw.type != parameter->type) {
         return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' was given a value of another type",
-                name, instance.material->name);
+                    name, instance.material->name);
     }
     for (uint32_t column = 0; column < raw.columns; ++column) {
         std::memcpy(instance.parameters.data() + parameter->offset + column * 16,
-                static_cast<const std::byte*>(raw.data) + column * raw.columnBytes, raw.columnBytes);
+                    static_cast<const std::byte*>(raw.data) + column * raw.columnBytes, raw.columnBytes);
     }
     mImpl->markDirty(handle);
     instance.parametersDirty = true;
@@ -184,10 +194,10 @@ Result<void> Engine::set(MaterialInstance handle, std::string_view name, Texture
     if (!parameter) return unknownParameter(*instance.material, name);
     if (!shader::isTexture(parameter->type)) {
         return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is not a sampler", name,
-                instance.material->name);
+                    instance.material->name);
     }
     instance.textures[textureSlot(package, *parameter)] = { mImpl->textureHandle(texture),
-        mImpl->samplers.get(sampler, mImpl->pending) };
+                                                            mImpl->samplers.get(sampler, mImpl->pending) };
     mImpl->markDirty(handle);
     instance.texturesDirty = true;
     return {};
@@ -201,7 +211,8 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
     shader::MaterialPackage const& package = instance.material->package;
     if (package.uniformBytes > 0 && !instance.buffer) {
         instance.buffer = stream->allocateBuffer();
-        commands.record(CmdCreateBuffer{ instance.buffer, { package.uniformBytes, BufferUsage::Uniform, instance.name } });
+        commands.record(
+                CmdCreateBuffer{ instance.buffer, { package.uniformBytes, BufferUsage::Uniform, instance.name } });
     }
     if (package.uniformBytes > 0 && instance.parametersDirty) {
         commands.record(CmdUpdateBuffer{ instance.buffer, 0, instance.parameters });
@@ -223,7 +234,8 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
             entries[count++] = { .binding = parameter.binding, .texture = bound.texture, .sampler = bound.sampler };
         }
         instance.group = stream->allocateBindGroup();
-        commands.record(CmdCreateBindGroup{ instance.group,
+        commands.record(CmdCreateBindGroup{
+                instance.group,
                 { package.layout[shader::kGroupMaterial], std::span(entries).first(count), instance.name } });
     }
     instance.parametersDirty = instance.texturesDirty = false;

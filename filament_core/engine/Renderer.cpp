@@ -31,7 +31,8 @@ uint32_t countRunning(CompiledGraph const& plan) { return static_cast<uint32_t>(
 
 struct Renderer::Impl {
     Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
-            : engine(owner), options(rendererOptions), data(*owner.stream), graph(arena), transients(*owner.stream), timings(owner) {}
+            : engine(owner), options(rendererOptions), data(*owner.stream), graph(arena), transients(*owner.stream),
+              timings(owner) {}
 
     ~Impl() {
         data.destroy(engine.pending);
@@ -48,7 +49,7 @@ struct Renderer::Impl {
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext* context = arena.make<FrameContext>();
         context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().data,
-                { view.camera, view.size, view.timeSeconds });
+                                                { view.camera, view.size, view.timeSeconds });
         stamps.prepared = clock();
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
 
@@ -71,10 +72,11 @@ struct Renderer::Impl {
         const auto sampler = [&](Sampler const& wanted) { return engine.samplers.get(wanted, commands); };
         const TextureHandle black = engine.textureHandle(engine.defaults.blackCube);
         data.upload(commands, context.packet,
-                { .specular = context.packet.specular ? context.packet.specular : black,
-                        .dfg = engine.textureHandle(engine.defaults.dfg),
-                        .sky = context.packet.sky ? context.packet.sky : black,
-                        .trilinear = sampler(kTrilinear), .bilinear = sampler(kBilinear) });
+                    { .specular = context.packet.specular ? context.packet.specular : black,
+                      .dfg = engine.textureHandle(engine.defaults.dfg),
+                      .sky = context.packet.sky ? context.packet.sky : black,
+                      .trilinear = sampler(kTrilinear),
+                      .bilinear = sampler(kBilinear) });
         context.viewGroup = data.viewGroup();
         context.postGroup = data.postGroup();
         context.instanceIds = engine.defaults.instanceIds;
@@ -90,14 +92,17 @@ struct Renderer::Impl {
         if (context.packet.sky) context.skybox = &engine.materials.get(engine.engineMaterial("skybox", {}));
 
         const TextureId output = graph.importTexture(target.handle,
-                { .width = target.desc.width, .height = target.desc.height, .format = target.desc.format, .name = "output" },
-                framegraph::InitialContents::Undefined);
+                                                     { .width = target.desc.width,
+                                                       .height = target.desc.height,
+                                                       .format = target.desc.format,
+                                                       .name = "output" },
+                                                     framegraph::InitialContents::Undefined);
         if (target.desc.format == Format::RGBA16F) {
             passes::addColorPass(graph, &context, output);
             return;
         }
-        const TextureId color = graph.createTexture({ .width = view.size.x, .height = view.size.y,
-                .format = Format::RGBA16F, .name = "color" });
+        const TextureId color = graph.createTexture(
+                { .width = view.size.x, .height = view.size.y, .format = Format::RGBA16F, .name = "color" });
         passes::addColorPass(graph, &context, color);
         passes::addToneMapPass(graph, &context, toneMapMaterials(view.colorGrading), color, output);
     }
@@ -106,7 +111,7 @@ struct Renderer::Impl {
         const auto [entry, isNew] = toneMaps.try_emplace({ grading.toneMapper, grading.dither });
         if (isNew) {
             const std::vector<MaterialConstant> constants{ { "toneMapper", static_cast<int32_t>(grading.toneMapper) },
-                { "dither", grading.dither } };
+                                                           { "dither", grading.dither } };
             entry->second.merged = &engine.materials.get(engine.engineMaterial("tonemap", constants));
             entry->second.sampled = &engine.materials.get(engine.engineMaterial("tonemap_sampled", constants));
         }
@@ -130,9 +135,12 @@ struct Renderer::Impl {
 
     PixelTicket read(engine::TextureState const& texture) {
         const Ticket ticket = engine.stream->nextTicket();
-        engine.pending.record(CmdReadTexture{ texture.handle, 0, 0, { 0, 0, texture.desc.width, texture.desc.height }, ticket });
+        engine.pending.record(
+                CmdReadTexture{ texture.handle, 0, 0, { 0, 0, texture.desc.width, texture.desc.height }, ticket });
         engine.flush();
-        pixels[ticket.value] = { .width = texture.desc.width, .height = texture.desc.height, .format = texture.desc.format };
+        pixels[ticket.value] = { .width = texture.desc.width,
+                                 .height = texture.desc.height,
+                                 .format = texture.desc.format };
         return { ticket.value };
     }
 
@@ -178,7 +186,7 @@ void Renderer::render(Scene const& scene, View const& view, SwapChain swapChain)
 void Renderer::render(Scene const& scene, View const& view, RenderTarget target) {
     engine::TextureState const& color = mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color);
     FILAMENT_ASSERT(color.desc.width == view.size.x && color.desc.height == view.size.y,
-            "a view has the size of its render target");
+                    "a view has the size of its render target");
     mImpl->render(scene, view, color);
 }
 
@@ -225,16 +233,17 @@ std::vector<FrameTimings> Renderer::takeTimings() { return mImpl->timings.take()
 std::string Renderer::explain() const {
     prepare::PacketCounts const& counts = mImpl->counts;
     std::string text = fmt::format("frame {}: {} of {} renderables drawn, {} triangles in {} draws\n", mImpl->frame,
-            counts.visible, counts.renderables, counts.triangles, mImpl->statistics.draws);
+                                   counts.visible, counts.renderables, counts.triangles, mImpl->statistics.draws);
     if (counts.outOfView) text += fmt::format("  {} not drawn: their boxes are out of view\n", counts.outOfView);
     if (counts.nothingToDraw) text += fmt::format("  {} not drawn: they have no indices\n", counts.nothingToDraw);
     text += counts.suns ? fmt::format("sun: shaded{}\n", counts.suns > 1 ? ", the brightest of several" : "")
                         : "sun: not in the shaders, the scene has none\n";
-    text += counts.lights ? fmt::format("punctual lights: {} reach the view, {} do not, {} beyond the limit\n", counts.lights,
-                                    counts.lightsOutOfView, counts.lightsOverLimit)
+    text += counts.lights ? fmt::format("punctual lights: {} reach the view, {} do not, {} beyond the limit\n",
+                                        counts.lights, counts.lightsOutOfView, counts.lightsOverLimit)
                           : fmt::format("punctual lights: not in the shaders, none reaches the view ({} do not)\n",
-                                    counts.lightsOutOfView);
-    text += mImpl->hasIndirectLight ? "indirect light: from the environment\n" : "indirect light: none, the scene has no environment\n";
+                                        counts.lightsOutOfView);
+    text += mImpl->hasIndirectLight ? "indirect light: from the environment\n"
+                                    : "indirect light: none, the scene has no environment\n";
     text += mImpl->hasSky ? "sky: drawn where nothing covers it\n" : "sky: not drawn, the scene has none\n";
     if (mImpl->plan.graph) text += framegraph::toText(mImpl->plan);
     return text;

@@ -15,11 +15,16 @@ using scene::LightRecord;
 
 backend::Topology topology(PrimitiveType primitive) {
     switch (primitive) {
-        case PrimitiveType::Triangles: return backend::Topology::Triangles;
-        case PrimitiveType::TriangleStrip: return backend::Topology::TriangleStrip;
-        case PrimitiveType::Lines: return backend::Topology::Lines;
-        case PrimitiveType::LineStrip: return backend::Topology::LineStrip;
-        case PrimitiveType::Points: return backend::Topology::Points;
+    case PrimitiveType::Triangles:
+        return backend::Topology::Triangles;
+    case PrimitiveType::TriangleStrip:
+        return backend::Topology::TriangleStrip;
+    case PrimitiveType::Lines:
+        return backend::Topology::Lines;
+    case PrimitiveType::LineStrip:
+        return backend::Topology::LineStrip;
+    case PrimitiveType::Points:
+        return backend::Topology::Points;
     }
     return backend::Topology::Triangles;
 }
@@ -66,32 +71,44 @@ Renderable Scene::add(RenderableDesc const& desc) {
     engine::VertexBufferState const& vertices = engine.vertexBuffers.get(desc.vertices);
     engine::IndexBufferState const& indices = engine.indexBuffers.get(desc.indices);
     FILAMENT_ASSERT(desc.firstIndex <= indices.indexCount && desc.indexCount <= indices.indexCount - desc.firstIndex,
-            "a renderable's indices lie inside of its index buffer");
-    const scene::Geometry geometry{ vertices.handle, indices.handle,
-        engine.layouts.intern({ vertices.layout, topology(desc.primitive) }), desc.firstIndex,
-        desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex, indices.type };
+                    "a renderable's indices lie inside of its index buffer");
+    const scene::Geometry geometry{ vertices.handle,
+                                    indices.handle,
+                                    engine.layouts.intern({ vertices.layout, topology(desc.primitive) }),
+                                    desc.firstIndex,
+                                    desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
+                                    indices.type };
     return scene::addRenderable(mImpl->data, { geometry, &engine.instances.get(desc.material), desc.boundsMin,
-            desc.boundsMax, desc.worldFromObject, desc.culled, desc.name });
+                                               desc.boundsMax, desc.worldFromObject, desc.culled, desc.name });
 }
 
 Light Scene::add(SunLight const& light) {
     return scene::addLight(mImpl->data, { .type = LightRecord::Type::Sun,
-            .directionWorld = unitDirection(light.directionWorld), .color = light.color,
-            .intensity = light.illuminance.value });
+                                          .directionWorld = unitDirection(light.directionWorld),
+                                          .color = light.color,
+                                          .intensity = light.illuminance.value });
 }
 
 Light Scene::add(PointLight const& light) {
-    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Point, .positionWorld = light.positionWorld,
-            .color = light.color, .intensity = light.intensity.value, .rangeMeters = light.rangeMeters });
+    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Point,
+                                          .positionWorld = light.positionWorld,
+                                          .color = light.color,
+                                          .intensity = light.intensity.value,
+                                          .rangeMeters = light.rangeMeters });
 }
 
 Light Scene::add(SpotLight const& light) {
     FILAMENT_ASSERT(light.innerConeRadians >= 0 && light.innerConeRadians < light.outerConeRadians &&
-            light.outerConeRadians <= 1.5707964f, "a spot has 0 <= inner < outer <= pi/2");
-    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Spot, .positionWorld = light.positionWorld,
-            .directionWorld = unitDirection(light.directionWorld), .color = light.color,
-            .intensity = light.intensity.value, .rangeMeters = light.rangeMeters,
-            .innerConeRadians = light.innerConeRadians, .outerConeRadians = light.outerConeRadians });
+                            light.outerConeRadians <= 1.5707964f,
+                    "a spot has 0 <= inner < outer <= pi/2");
+    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Spot,
+                                          .positionWorld = light.positionWorld,
+                                          .directionWorld = unitDirection(light.directionWorld),
+                                          .color = light.color,
+                                          .intensity = light.intensity.value,
+                                          .rangeMeters = light.rangeMeters,
+                                          .innerConeRadians = light.innerConeRadians,
+                                          .outerConeRadians = light.outerConeRadians });
 }
 
 void Scene::add(Model const& model, double4x4 const& worldFromModel) {
@@ -126,7 +143,7 @@ void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotatio
 
 void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
     mImpl->data.skybox = { skybox ? mImpl->engine.skyboxes.get(skybox).cube : backend::TextureHandle{}, illuminance,
-        rotationRadians };
+                           rotationRadians };
 }
 
 Box Scene::bounds() const { return scene::sceneBounds(mImpl->data); }

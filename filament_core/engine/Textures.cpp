@@ -12,25 +12,32 @@ using namespace backend;
 
 TextureType textureType(TextureKind kind) {
     switch (kind) {
-        case TextureKind::Texture2D: return TextureType::Texture2D;
-        case TextureKind::Texture2DArray: return TextureType::Texture2DArray;
-        case TextureKind::Cube: return TextureType::Cube;
+    case TextureKind::Texture2D:
+        return TextureType::Texture2D;
+    case TextureKind::Texture2DArray:
+        return TextureType::Texture2DArray;
+    case TextureKind::Cube:
+        return TextureType::Cube;
     }
     return TextureType::Texture2D;
 }
 
 backend::TextureDesc backendDesc(filament::TextureDesc const& desc) {
     FILAMENT_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.levels > 0,
-            "a texture has at least one texel, layer and level");
+                    "a texture has at least one texel, layer and level");
     FILAMENT_ASSERT(desc.kind != TextureKind::Cube || (desc.layers == 6 && desc.width == desc.height),
-            "a cube has six square layers");
+                    "a cube has six square layers");
     const uint32_t full = fullMipCount(desc.width, desc.height);
     FILAMENT_ASSERT(desc.levels <= full, "a texture has at most floor(log2(size)) + 1 levels");
     TextureUsage usage = TextureUsage::Sampled | TextureUsage::TransferTarget | TextureUsage::TransferSource;
     if (desc.renderable) usage = usage | TextureUsage::ColorAttachment;
-    return { .type = textureType(desc.kind), .format = desc.format, .usage = usage,
-        .levels = static_cast<uint8_t>(desc.generateMips ? full : desc.levels),
-        .layers = static_cast<uint16_t>(desc.layers), .width = desc.width, .height = desc.height };
+    return { .type = textureType(desc.kind),
+             .format = desc.format,
+             .usage = usage,
+             .levels = static_cast<uint8_t>(desc.generateMips ? full : desc.levels),
+             .layers = static_cast<uint16_t>(desc.layers),
+             .width = desc.width,
+             .height = desc.height };
 }
 
 // One upload a level; all layers of a level are contiguous.
@@ -41,14 +48,18 @@ void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::Textu
         const uint32_t width = std::max(1u, desc.width >> level), height = std::max(1u, desc.height >> level);
         const size_t bytes = imageBytes(desc.format, width, height) * desc.layers;
         FILAMENT_ASSERT(offset + bytes <= desc.pixels.size(), "`pixels` holds all layers of all levels");
-        commands.record(CmdUploadTexture{ handle, static_cast<uint8_t>(level), 0, static_cast<uint16_t>(desc.layers),
-                { 0, 0, width, height }, desc.pixels.subspan(offset, bytes) });
+        commands.record(CmdUploadTexture{ handle,
+                                          static_cast<uint8_t>(level),
+                                          0,
+                                          static_cast<uint16_t>(desc.layers),
+                                          { 0, 0, width, height },
+                                          desc.pixels.subspan(offset, bytes) });
         offset += bytes;
     }
 }
 
 BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<const std::byte> data,
-        std::string const& name) {
+                          std::string const& name) {
     const BufferHandle handle = engine.stream->allocateBuffer();
     engine.pending.record(CmdCreateBuffer{ handle, { data.size(), usage, name } });
     engine.pending.record(CmdUpdateBuffer{ handle, 0, data });
@@ -80,17 +91,18 @@ Texture Engine::create(filament::TextureDesc const& desc) { return mImpl->create
 
 VertexBuffer Engine::create(VertexBufferDesc const& desc) {
     FILAMENT_ASSERT(desc.vertexCount > 0 && desc.stride > 0 && desc.stride % 4 == 0,
-            "a vertex buffer has vertices and a stride that is a multiple of 4");
+                    "a vertex buffer has vertices and a stride that is a multiple of 4");
     FILAMENT_ASSERT(desc.data.size() == static_cast<size_t>(desc.vertexCount) * desc.stride,
-            "`data` holds vertexCount * stride bytes");
+                    "`data` holds vertexCount * stride bytes");
     FILAMENT_ASSERT(desc.attributes.size() < kMaxVertexAttributes, "at most 15 vertex attributes");
     const VertexBuffer handle = mImpl->vertexBuffers.add();
     engine::VertexBufferState& state = mImpl->vertexBuffers.get(handle);
     for (AttributeDesc const& attribute : desc.attributes) {
         FILAMENT_ASSERT(attribute.offset + vertexFormatInfo(attribute.format).bytes <= desc.stride,
-                "an attribute lies inside of the stride");
+                        "an attribute lies inside of the stride");
         state.layout.attributes[state.layout.attributeCount++] = { static_cast<uint8_t>(attribute.attribute), 0,
-            attribute.format, static_cast<uint16_t>(attribute.offset) };
+                                                                   attribute.format,
+                                                                   static_cast<uint16_t>(attribute.offset) };
     }
     state.layout.buffers[0].stride = static_cast<uint16_t>(desc.stride);
     state.layout.bufferCount = 1;
@@ -130,7 +142,7 @@ Skybox Engine::create(SkyboxDesc const& desc) {
 
 RenderTarget Engine::create(RenderTargetDesc const& desc) {
     FILAMENT_ASSERT(has(mImpl->textures.get(desc.color).desc.usage, TextureUsage::ColorAttachment),
-            "the colour of a render target is a renderable texture");
+                    "the colour of a render target is a renderable texture");
     const RenderTarget handle = mImpl->renderTargets.add();
     mImpl->renderTargets.get(handle) = { desc.color, desc.name };
     return handle;
@@ -144,8 +156,11 @@ SwapChain Engine::create(SwapChainDesc const& desc) {
     state.size = desc.size;
     state.name = desc.name;
     for (uint32_t i = 0; i < desc.imageCount; ++i) {
-        state.images.push_back(create(filament::TextureDesc{ .format = desc.format, .width = desc.size.x,
-                .height = desc.size.y, .renderable = true, .name = desc.name }));
+        state.images.push_back(create(filament::TextureDesc{ .format = desc.format,
+                                                             .width = desc.size.x,
+                                                             .height = desc.size.y,
+                                                             .renderable = true,
+                                                             .name = desc.name }));
     }
     return handle;
 }

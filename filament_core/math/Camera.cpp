@@ -26,8 +26,7 @@ Camera Camera::lookAt(double3 eye, double3 at, Lens lens, Exposure exposure, dou
     right = glm::normalize(right);
     const double3 trueUp = glm::cross(back, right);
     Camera camera;
-    camera.worldFromView = double4x4(
-            double4(right, 0), double4(trueUp, 0), double4(back, 0), double4(eye, 1));
+    camera.worldFromView = double4x4(double4(right, 0), double4(trueUp, 0), double4(back, 0), double4(eye, 1));
     camera.lens = lens;
     camera.exposure = exposure;
     return camera;

@@ -6,7 +6,7 @@ namespace filament {
 Frustum frustumFromClip(float4x4 const& clipFromWorld) {
     const float4x4 rows = glm::transpose(clipFromWorld);
     Frustum frustum{ { rows[3] + rows[0], rows[3] - rows[0], rows[3] + rows[1], rows[3] - rows[1],
-            rows[3] - rows[2] } };
+                       rows[3] - rows[2] } };
     for (float4& plane : frustum.planes) plane /= glm::length(float3(plane));
     return frustum;
 }

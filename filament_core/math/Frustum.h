@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Frustum: the planes of a view, in the camera-relative world space of the shaders. Without a far plane: the projection
-/// has none.
+/// Frustum: the planes of a view, in the camera-relative world space of the shaders. Without a far plane: the
+/// projection has none.
 #pragma once
 
 #include "filament_core/math/Math.h"

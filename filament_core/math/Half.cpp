@@ -50,12 +50,12 @@ float floatFromHalf(uint16_t bits) {
 
 uint32_t packR11G11B10F(float3 value) {
     return roundToSmallFloat(value.x, 6, kMaxFloat11) | (roundToSmallFloat(value.y, 6, kMaxFloat11) << 11) |
-            (roundToSmallFloat(value.z, 5, kMaxFloat10) << 22);
+           (roundToSmallFloat(value.z, 5, kMaxFloat10) << 22);
 }
 
 float3 unpackR11G11B10F(uint32_t bits) {
     return { expandSmallFloat(bits & 0x7FFu, 6), expandSmallFloat((bits >> 11) & 0x7FFu, 6),
-        expandSmallFloat(bits >> 22, 5) };
+             expandSmallFloat(bits >> 22, 5) };
 }
 
 } // namespace filament

@@ -46,21 +46,30 @@ void recordScene(CommandBuffer& commands, FrameContext const& context, ChosenPip
 void addColorPass(FrameGraph& graph, FrameContext const* context, TextureId color) {
     const PassSettings settings = context->settings;
     const framegraph::TextureDesc like = graph.texture(color).desc;
-    const TextureId depth = graph.createTexture({ .width = like.width, .height = like.height, .format = Format::D32F,
-            .samples = settings.samples, .name = "depth" });
+    const TextureId depth = graph.createTexture({ .width = like.width,
+                                                  .height = like.height,
+                                                  .format = Format::D32F,
+                                                  .samples = settings.samples,
+                                                  .name = "depth" });
     const TextureId samples = settings.samples == 1 ? color
-                                                    : graph.createTexture({ .width = like.width, .height = like.height,
-                                                              .format = like.format, .samples = settings.samples, .name = "samples" });
+                                                    : graph.createTexture({ .width = like.width,
+                                                                            .height = like.height,
+                                                                            .format = like.format,
+                                                                            .samples = settings.samples,
+                                                                            .name = "samples" });
     graph.addPass(
             "color",
             [&](PassBuilder& pass) {
                 const float4 clear = settings.clearColor;
-                pass.writeColor(0, samples, { .clear = std::array{ clear.x, clear.y, clear.z, clear.w },
-                        .resolve = settings.samples == 1 ? TextureId{} : color });
+                pass.writeColor(0, samples,
+                                { .clear = std::array{ clear.x, clear.y, clear.z, clear.w },
+                                  .resolve = settings.samples == 1 ? TextureId{} : color });
                 pass.writeDepth(depth, { .clear = 0.0f });
             },
             [context](PassContext& pass) { return choose(pass, *context); },
-            [context](PassContext& pass, ChosenPipelines const& chosen) { recordScene(pass.commands(), *context, chosen); });
+            [context](PassContext& pass, ChosenPipelines const& chosen) {
+                recordScene(pass.commands(), *context, chosen);
+            });
 }
 
 } // namespace filament::passes

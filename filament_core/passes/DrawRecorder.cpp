@@ -56,21 +56,22 @@ private:
 } // namespace
 
 std::span<const PipelineHandle> choosePipelines(Arena& arena, PipelineCache& pipelines, CommandBuffer& setup,
-        uint32_t slot, std::span<const DrawCall> draws, uint8_t variant) {
+                                                uint32_t slot, std::span<const DrawCall> draws, uint8_t variant) {
     std::span<PipelineHandle> chosen = arena.array<PipelineHandle>(draws.size());
     for (size_t i = 0; i < draws.size(); ++i) {
         DrawCall const& draw = draws[i];
         const bool asBefore = i > 0 && draws[i - 1].material == draw.material &&
-                draws[i - 1].geometry->layout == draw.geometry->layout && draws[i - 1].mirrored == draw.mirrored;
+                              draws[i - 1].geometry->layout == draw.geometry->layout &&
+                              draws[i - 1].mirrored == draw.mirrored;
         chosen[i] = asBefore ? chosen[i - 1]
                              : pipelines.pipelineFor(setup, slot, *draw.material, draw.geometry->layout, variant,
-                                       draw.mirrored);
+                                                     draw.mirrored);
     }
     return chosen;
 }
 
 uint32_t recordDraws(CommandBuffer& commands, DrawContext const& context, std::span<const DrawCall> draws,
-        std::span<const PipelineHandle> pipelines) {
+                     std::span<const PipelineHandle> pipelines) {
     StateFilter state(commands, context);
     uint32_t recorded = 0;
     for (size_t i = 0; i < draws.size(); ++i) {
@@ -78,7 +79,7 @@ uint32_t recordDraws(CommandBuffer& commands, DrawContext const& context, std::s
         DrawCall const& draw = draws[i];
         state.bind(draw, pipelines[i]);
         commands.record(CmdDrawIndexed{ draw.geometry->indexCount, draw.instanceCount, draw.geometry->firstIndex, 0,
-                draw.firstObject % shader::kObjectsPerWindow });
+                                        draw.firstObject % shader::kObjectsPerWindow });
         ++recorded;
     }
     return recorded;

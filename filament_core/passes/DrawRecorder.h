@@ -15,7 +15,8 @@ namespace filament::passes {
 
 /// Parallel to `draws`; none where a draw has no pipeline.
 std::span<const backend::PipelineHandle> choosePipelines(Arena& arena, PipelineCache& pipelines,
-        backend::CommandBuffer& setup, uint32_t slot, std::span<const prepare::DrawCall> draws, uint8_t variant);
+                                                         backend::CommandBuffer& setup, uint32_t slot,
+                                                         std::span<const prepare::DrawCall> draws, uint8_t variant);
 
 /// What all draws of a pass share.
 struct DrawContext {
@@ -25,6 +26,6 @@ struct DrawContext {
 
 /// Returns the number of draws recorded.
 uint32_t recordDraws(backend::CommandBuffer& commands, DrawContext const& context,
-        std::span<const prepare::DrawCall> draws, std::span<const backend::PipelineHandle> pipelines);
+                     std::span<const prepare::DrawCall> draws, std::span<const backend::PipelineHandle> pipelines);
 
 } // namespace filament::passes

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameContext: what every pass may read: the packet, the settings of the view, and where things are on the device.
 ///   Life    in the frame arena, together with the packet: passes keep a pointer to it until the graph is recorded.
-///   A pass is one function: it declares itself into the graph, and says what to do before and inside of its backend pass.
+///   A pass is one function: it declares itself into the graph, and says what to do before and inside of its backend
+///   pass.
 #pragma once
 
 #include "filament_core/passes/FrameData.h"

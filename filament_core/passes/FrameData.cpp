@@ -51,7 +51,8 @@ void FrameData::grow(CommandBuffer& commands, Set& set, uint32_t windows) {
     set.lights = createBuffer(commands, sizeof(shader::LightUniforms), "lights");
     const BindGroupEntry entry{ .binding = shader::kBindingFrame, .buffer = set.frame, .size = sizeof(FrameUniforms) };
     set.post = mStream.allocateBindGroup();
-    commands.record(CmdCreateBindGroup{ set.post, { shader::viewGroupLayout(shader::MaterialDomain::PostProcess), std::span(&entry, 1), "post" } });
+    commands.record(CmdCreateBindGroup{
+            set.post, { shader::viewGroupLayout(shader::MaterialDomain::PostProcess), std::span(&entry, 1), "post" } });
 }
 
 void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& textures) {

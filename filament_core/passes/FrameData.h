@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameData: the uniform data of a frame on the device, and the bind group through which shaders see it.
 ///   In      a FramePacket.   Out: a bind group for kGroupView and offsets into it.
-///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They grow to
+///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They
+///   grow to
 ///           the largest frame and stay.
 ///   Thread  the app thread. Records outside of passes.
 #pragma once

@@ -15,12 +15,12 @@ constexpr uint32_t kNoGeometry = 0xFFF;
 
 // material 20 bits | geometry layout 12 | slot 8 | variant 4 | culling off 1 | mirrored 1
 uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint8_t variant, bool cullingDisabled,
-        bool mirrored) {
+                 bool mirrored) {
     FILAMENT_ASSERT(material < 1u << 20 && geometryLayout <= kNoGeometry && slot < 256,
-            "at most 2^20 materials, 4095 vertex layouts and 256 pass layouts");
+                    "at most 2^20 materials, 4095 vertex layouts and 256 pass layouts");
     return static_cast<uint64_t>(material) << 32 | static_cast<uint64_t>(geometryLayout) << 20 |
-            static_cast<uint64_t>(slot) << 8 | static_cast<uint64_t>(variant) << 4 |
-            static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
+           static_cast<uint64_t>(slot) << 8 | static_cast<uint64_t>(variant) << 4 |
+           static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
 }
 
 // A double-sided material shades both faces; its instances choose whether the back is drawn.
@@ -28,33 +28,42 @@ CullMode cullMode(shader::MaterialPackage const& package, bool cullingDisabled) 
     if (cullingDisabled) return CullMode::None;
     if (package.doubleSided) return CullMode::Back;
     switch (package.culling) {
-        case shader::Culling::None: return CullMode::None;
-        case shader::Culling::Front: return CullMode::Front;
-        case shader::Culling::Back: return CullMode::Back;
-        case shader::Culling::FrontAndBack: return CullMode::Back; // nothing is drawn: see colorWrite below
+    case shader::Culling::None:
+        return CullMode::None;
+    case shader::Culling::Front:
+        return CullMode::Front;
+    case shader::Culling::Back:
+        return CullMode::Back;
+    case shader::Culling::FrontAndBack:
+        return CullMode::Back; // nothing is drawn: see colorWrite below
     }
     return CullMode::Back;
 }
 
 // Colours are pre-multiplied (DESIGN: conventions); coverage accumulates in alpha.
 BlendState blendState(shader::Blending blending) {
-    BlendState over{ .enabled = true, .srcColor = BlendFactor::One, .dstColor = BlendFactor::OneMinusSrcAlpha,
-        .srcAlpha = BlendFactor::One, .dstAlpha = BlendFactor::OneMinusSrcAlpha };
+    BlendState over{ .enabled = true,
+                     .srcColor = BlendFactor::One,
+                     .dstColor = BlendFactor::OneMinusSrcAlpha,
+                     .srcAlpha = BlendFactor::One,
+                     .dstAlpha = BlendFactor::OneMinusSrcAlpha };
     switch (blending) {
-        case shader::Blending::Opaque:
-        case shader::Blending::Masked: return {};
-        case shader::Blending::Transparent:
-        case shader::Blending::Fade: return over;
-        case shader::Blending::Add:
-            over.dstColor = over.dstAlpha = BlendFactor::One;
-            return over;
-        case shader::Blending::Multiply:
-            over.srcColor = BlendFactor::Zero, over.dstColor = BlendFactor::SrcColor;
-            over.srcAlpha = BlendFactor::Zero, over.dstAlpha = BlendFactor::SrcAlpha;
-            return over;
-        case shader::Blending::Screen:
-            over.dstColor = BlendFactor::OneMinusSrcColor, over.dstAlpha = BlendFactor::OneMinusSrcAlpha;
-            return over;
+    case shader::Blending::Opaque:
+    case shader::Blending::Masked:
+        return {};
+    case shader::Blending::Transparent:
+    case shader::Blending::Fade:
+        return over;
+    case shader::Blending::Add:
+        over.dstColor = over.dstAlpha = BlendFactor::One;
+        return over;
+    case shader::Blending::Multiply:
+        over.srcColor = BlendFactor::Zero, over.dstColor = BlendFactor::SrcColor;
+        over.srcAlpha = BlendFactor::Zero, over.dstAlpha = BlendFactor::SrcAlpha;
+        return over;
+    case shader::Blending::Screen:
+        over.dstColor = BlendFactor::OneMinusSrcColor, over.dstAlpha = BlendFactor::OneMinusSrcAlpha;
+        return over;
     }
     return over;
 }
@@ -62,8 +71,9 @@ BlendState blendState(shader::Blending blending) {
 // The geometry's own attributes, then the instance index in the next buffer slot.
 VertexLayout withInstanceIndex(VertexLayout layout) {
     FILAMENT_ASSERT(layout.bufferCount < kMaxVertexBuffers && layout.attributeCount < kMaxVertexAttributes,
-            "a vertex layout leaves room for the instance index");
-    layout.attributes[layout.attributeCount++] = { shader::kAttributeInstance, layout.bufferCount, VertexFormat::UInt, 0 };
+                    "a vertex layout leaves room for the instance index");
+    layout.attributes[layout.attributeCount++] = { shader::kAttributeInstance, layout.bufferCount, VertexFormat::UInt,
+                                                   0 };
     layout.buffers[layout.bufferCount++] = { sizeof(uint32_t), true };
     return layout;
 }
@@ -83,20 +93,21 @@ ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& m
     shader::Variant const* code = material.package.findVariant(variant);
     if (!code) {
         log(Severity::Warning, "material '{}' was compiled without variant {} (variantFilter): it is not drawn",
-                material.name, variant);
+            material.name, variant);
         return {};
     }
     const bool spirv = mStream.info().shaderLanguage == ShaderLanguage::SpirV;
     ProgramDesc desc{ .constants = material.constants, .layout = material.package.layout, .debugName = material.name };
     desc.vertex = spirv ? std::as_bytes(std::span(code->vertexSpirv)) : std::as_bytes(std::span(code->vertexEssl));
-    desc.fragment = spirv ? std::as_bytes(std::span(code->fragmentSpirv)) : std::as_bytes(std::span(code->fragmentEssl));
+    desc.fragment =
+            spirv ? std::as_bytes(std::span(code->fragmentSpirv)) : std::as_bytes(std::span(code->fragmentEssl));
     program = mStream.allocateProgram();
     setup.record(CmdCreateProgram{ program, desc });
     return program;
 }
 
 PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
-        uint32_t geometryLayout, bool mirrored) const {
+                                     uint32_t geometryLayout, bool mirrored) const {
     shader::MaterialPackage const& package = material.package;
     PipelineDesc desc{ .pass = slot.layout, .subpass = slot.subpass, .debugName = material.name };
     desc.raster.cull = cullMode(package, cullingDisabled);
@@ -126,7 +137,7 @@ PipelineHandle PipelineCache::create(CommandBuffer& setup, uint64_t key, Pipelin
 }
 
 PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, scene::MaterialInstance const& instance,
-        uint32_t geometryLayout, uint8_t variant, bool mirrored) {
+                                          uint32_t geometryLayout, uint8_t variant, bool mirrored) {
     scene::Material& material = *instance.material;
     if (material.package.shading == shader::ShadingModel::Unlit) variant = 0; // lights select nothing
     const uint64_t key = makeKey(material.id, geometryLayout, slot, variant, instance.cullingDisabled, mirrored);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PipelineCache: which device pipeline draws a material with a geometry in a pass. Programs and pipelines are made here,
-/// when first asked for, and never inside a pass: passes choose their pipelines before they record.
+/// PipelineCache: which device pipeline draws a material with a geometry in a pass. Programs and pipelines are made
+/// here, when first asked for, and never inside a pass: passes choose their pipelines before they record.
 ///   Thread  the app thread.
 ///   Memory  one map entry a combination; lookups allocate nothing.
 ///   Fails   a variant that the material filtered out gives no pipeline and one warning naming material and variant.
@@ -32,7 +32,8 @@ public:
 
     /// Records creation into `setup` when the pipeline does not exist yet. None: the draw must be skipped.
     backend::PipelineHandle pipelineFor(backend::CommandBuffer& setup, uint32_t slot,
-            scene::MaterialInstance const& instance, uint32_t geometryLayout, uint8_t variant, bool mirrored);
+                                        scene::MaterialInstance const& instance, uint32_t geometryLayout,
+                                        uint8_t variant, bool mirrored);
 
     /// For full-screen materials: no vertices, no depth test unless the material asks for one.
     backend::PipelineHandle fullscreenPipeline(backend::CommandBuffer& setup, uint32_t slot, scene::Material& material);
@@ -50,9 +51,9 @@ private:
 
     backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material& material, uint8_t variant);
     backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
-            uint32_t geometryLayout, bool mirrored) const;
+                                   uint32_t geometryLayout, bool mirrored) const;
     backend::PipelineHandle create(backend::CommandBuffer& setup, uint64_t key, backend::PipelineDesc const& desc,
-            uint32_t material);
+                                   uint32_t material);
 
     backend::CommandStream& mStream;
     scene::GeometryLayouts const& mLayouts;

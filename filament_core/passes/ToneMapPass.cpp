@@ -20,15 +20,16 @@ Chosen choose(PassContext& pass, FrameContext const& context, ToneMapMaterials m
     scene::Material& material = merged ? *materials.merged : *materials.sampled;
     const uint32_t slot = context.pipelines->slot({ pass.passLayout(), pass.subpass() });
     const BindGroupEntry entry{ .binding = material.package.findParameter("color")->binding,
-        .texture = pass.texture(color), .sampler = merged ? SamplerHandle{} : context.nearestSampler };
+                                .texture = pass.texture(color),
+                                .sampler = merged ? SamplerHandle{} : context.nearestSampler };
     return { context.pipelines->fullscreenPipeline(pass.commands(), slot, material),
-        pass.bindGroup(material.package.layout[shader::kGroupMaterial], std::span(&entry, 1), "tone map") };
+             pass.bindGroup(material.package.layout[shader::kGroupMaterial], std::span(&entry, 1), "tone map") };
 }
 
 } // namespace
 
 void addToneMapPass(FrameGraph& graph, FrameContext const* context, ToneMapMaterials materials, TextureId color,
-        TextureId display) {
+                    TextureId display) {
     graph.addPass(
             "tone map",
             [&](PassBuilder& pass) {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Tone-mapping pass: scene-linear light -> what an 8-bit display buffer stores.
-///   Reads only the pixel that it writes, so that it can be a subpass of the colour pass; where the graph cannot merge it
-///   (MSAA, a device without subpass inputs) it samples instead. Same arithmetic, same bits.
+///   Reads only the pixel that it writes, so that it can be a subpass of the colour pass; where the graph cannot merge
+///   it (MSAA, a device without subpass inputs) it samples instead. Same arithmetic, same bits.
 #pragma once
 
 #include "filament_core/passes/FrameContext.h"
@@ -15,6 +15,6 @@ struct ToneMapMaterials {
 };
 
 void addToneMapPass(framegraph::FrameGraph& graph, FrameContext const* context, ToneMapMaterials materials,
-        framegraph::TextureId color, framegraph::TextureId display);
+                    framegraph::TextureId color, framegraph::TextureId display);
 
 } // namespace filament::passes

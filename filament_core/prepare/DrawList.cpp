@@ -21,9 +21,10 @@ uint64_t sortKey(scene::Renderables const& renderables, uint32_t i, ViewSpace co
     scene::MaterialInstance const& material = *renderables.material[i];
     if (material.material->isBlended()) return kBlendedBit | static_cast<uint64_t>(~depth) << 31;
     const uint64_t coarseDepth = depth >> 21; // exponent and two bits of mantissa: four steps an octave
-    const uint64_t geometry = (renderables.geometry[i].vertices.index() * 31u + renderables.geometry[i].firstIndex) & 0xFFFFu;
+    const uint64_t geometry =
+            (renderables.geometry[i].vertices.index() * 31u + renderables.geometry[i].firstIndex) & 0xFFFFu;
     return coarseDepth << 53 | (material.material->id & 0x3FFFull) << 39 | (material.id & 0x3FFFull) << 25 |
-            geometry << 9;
+           geometry << 9;
 }
 
 Visibility visibilityOf(scene::Renderables const& renderables, size_t i, ViewSpace const& space) {
@@ -31,12 +32,12 @@ Visibility visibilityOf(scene::Renderables const& renderables, size_t i, ViewSpa
     if (!(renderables.flags[i] & scene::kCulled)) return Visibility::Visible;
     const float3 center(renderables.worldCenter[i] - space.cameraWorld);
     return intersects(space.frustum, center, renderables.worldHalfExtent[i]) ? Visibility::Visible
-                                                                              : Visibility::OutOfView;
+                                                                             : Visibility::OutOfView;
 }
 
 bool sameDraw(scene::Renderables const& renderables, uint32_t a, uint32_t b) {
     return renderables.material[a] == renderables.material[b] && renderables.geometry[a] == renderables.geometry[b] &&
-            (renderables.flags[a] & scene::kMirrored) == (renderables.flags[b] & scene::kMirrored);
+           (renderables.flags[a] & scene::kMirrored) == (renderables.flags[b] & scene::kMirrored);
 }
 
 uint64_t trianglesOf(scene::Geometry const& geometry) { return geometry.indexCount / 3; }
@@ -44,7 +45,7 @@ uint64_t trianglesOf(scene::Geometry const& geometry) { return geometry.indexCou
 } // namespace
 
 std::span<const Visibility> cullRenderables(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
-        ViewSpace const& space) {
+                                            ViewSpace const& space) {
     std::span<Visibility> visibility = arena.array<Visibility>(renderables.count());
     jobs::parallelFor(jobs, visibility.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) visibility[i] = visibilityOf(renderables, i, space);
@@ -53,7 +54,8 @@ std::span<const Visibility> cullRenderables(jobs::JobSystem& jobs, Arena& arena,
 }
 
 std::span<const SortItem> sortVisible(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
-        std::span<const Visibility> visibility, ViewSpace const& space, PacketCounts& counts) {
+                                      std::span<const Visibility> visibility, ViewSpace const& space,
+                                      PacketCounts& counts) {
     counts.renderables = static_cast<uint32_t>(visibility.size());
     std::span<SortItem> all = arena.array<SortItem>(visibility.size());
     uint32_t count = 0;
@@ -74,7 +76,8 @@ std::span<const SortItem> sortVisible(jobs::JobSystem& jobs, Arena& arena, scene
 }
 
 std::span<const shader::ObjectData> writeObjects(jobs::JobSystem& jobs, Arena& arena,
-        scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space) {
+                                                 scene::Renderables const& renderables, std::span<const SortItem> items,
+                                                 ViewSpace const& space) {
     std::span<shader::ObjectData> objects = arena.array<shader::ObjectData>(items.size());
     jobs::parallelFor(jobs, items.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
@@ -90,7 +93,7 @@ std::span<const shader::ObjectData> writeObjects(jobs::JobSystem& jobs, Arena& a
 }
 
 DrawLists mergeInstances(Arena& arena, scene::Renderables const& renderables, std::span<const SortItem> items,
-        PacketCounts& counts) {
+                         PacketCounts& counts) {
     std::span<DrawCall> draws = arena.array<DrawCall>(items.size());
     uint32_t count = 0, opaqueCount = 0;
     for (uint32_t i = 0; i < items.size(); ++i) {
@@ -104,7 +107,7 @@ DrawLists mergeInstances(Arena& arena, scene::Renderables const& renderables, st
             continue;
         }
         draws[count++] = { renderables.material[at], &renderables.geometry[at], i, 1,
-            (renderables.flags[at] & scene::kMirrored) != 0 };
+                           (renderables.flags[at] & scene::kMirrored) != 0 };
         if (!blended) opaqueCount = count;
     }
     return { draws.first(opaqueCount), draws.subspan(opaqueCount, count - opaqueCount) };

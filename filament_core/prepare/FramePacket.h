@@ -27,9 +27,9 @@ struct DrawCall {
 struct PacketCounts {
     uint32_t renderables = 0;
     uint32_t visible = 0;
-    uint32_t outOfView = 0;      ///< their box is outside of the frustum
-    uint32_t nothingToDraw = 0;  ///< no indices, or a transform that collapses them
-    uint32_t lights = 0;         ///< punctual lights that reach into the view
+    uint32_t outOfView = 0;     ///< their box is outside of the frustum
+    uint32_t nothingToDraw = 0; ///< no indices, or a transform that collapses them
+    uint32_t lights = 0;        ///< punctual lights that reach into the view
     uint32_t lightsOutOfView = 0;
     uint32_t lightsOverLimit = 0; ///< in view, but beyond kMaxPunctualLights: the dimmest
     uint32_t suns = 0;

@@ -9,7 +9,8 @@ namespace filament::prepare {
 namespace {
 
 uint8_t variantFor(PacketCounts const& counts) {
-    return static_cast<uint8_t>((counts.suns ? shader::kVariantSun : 0) | (counts.lights ? shader::kVariantPunctual : 0));
+    return static_cast<uint8_t>((counts.suns ? shader::kVariantSun : 0) |
+                                (counts.lights ? shader::kVariantPunctual : 0));
 }
 
 } // namespace

@@ -53,7 +53,7 @@ void writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float e
 } // namespace
 
 std::span<const LightData> selectLights(Arena& arena, scene::Lights const& lights, ViewSpace const& space,
-        shader::FrameUniforms& frame, PacketCounts& counts) {
+                                        shader::FrameUniforms& frame, PacketCounts& counts) {
     writeSun(frame, lights, space.exposure, counts);
 
     std::span<Candidate> candidates = arena.array<Candidate>(lights.records.size());

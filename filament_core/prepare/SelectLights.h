@@ -12,6 +12,6 @@ namespace filament::prepare {
 
 /// Writes the sun and the light count into `frame`; returns the punctual lights.
 std::span<const shader::LightData> selectLights(Arena& arena, scene::Lights const& lights, ViewSpace const& space,
-        shader::FrameUniforms& frame, PacketCounts& counts);
+                                                shader::FrameUniforms& frame, PacketCounts& counts);
 
 } // namespace filament::prepare

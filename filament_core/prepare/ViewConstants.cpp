@@ -28,7 +28,7 @@ ViewSpace makeViewSpace(ViewInput const& view) {
 }
 
 void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, ViewInput const& view,
-        scene::SceneData const& scene) {
+                        scene::SceneData const& scene) {
     const float width = static_cast<float>(view.size.x), height = static_cast<float>(view.size.y);
     frame.clipFromWorld = space.clipFromWorld;
     frame.worldFromClip = float4x4(glm::inverse(double4x4(space.clipFromWorld)));

@@ -22,6 +22,6 @@ ViewSpace makeViewSpace(ViewInput const& view);
 
 /// Everything of FrameUniforms but the lights (SelectLights.h).
 void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, ViewInput const& view,
-        scene::SceneData const& scene);
+                        scene::SceneData const& scene);
 
 } // namespace filament::prepare

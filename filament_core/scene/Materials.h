@@ -38,12 +38,12 @@ struct MaterialInstance {
     uint32_t id = 0; ///< small and dense: part of the sort key
     Material* material = nullptr;
     std::string name;
-    std::vector<std::byte> parameters;       ///< the MaterialParams block, std140
-    std::vector<TextureBinding> textures;    ///< parallel to the package's texture parameters, in their order
+    std::vector<std::byte> parameters;    ///< the MaterialParams block, std140
+    std::vector<TextureBinding> textures; ///< parallel to the package's texture parameters, in their order
     bool cullingDisabled = false;
     bool parametersDirty = true;
     bool texturesDirty = true;
-    backend::BufferHandle buffer;            ///< none while the material has no block
+    backend::BufferHandle buffer; ///< none while the material has no block
     backend::BindGroupHandle group;
 };
 

@@ -83,9 +83,7 @@ Light addLight(SceneData& scene, LightRecord const& light) {
     return scene.lights.index.add();
 }
 
-void removeLight(SceneData& scene, Light light) {
-    closeGap(scene.lights.records, scene.lights.index.remove(light));
-}
+void removeLight(SceneData& scene, Light light) { closeGap(scene.lights.records, scene.lights.index.remove(light)); }
 
 Box sceneBounds(SceneData const& scene) {
     Box box;

@@ -50,8 +50,8 @@ public:
 
 private:
     HandleAllocator<Tag> mHandles;
-    std::vector<uint32_t> mDense;       // by handle index
-    std::vector<Handle<Tag>> mOwners;   // by dense position
+    std::vector<uint32_t> mDense;     // by handle index
+    std::vector<Handle<Tag>> mOwners; // by dense position
 };
 
 /// One draw's worth of geometry on the device.
@@ -87,7 +87,7 @@ enum RenderableFlag : uint8_t {
 struct Renderables {
     DenseIndex<RenderableObject> index;
     std::vector<double4x4> worldFromObject;
-    std::vector<double3> worldCenter;      ///< of the bounds
+    std::vector<double3> worldCenter; ///< of the bounds
     std::vector<float3> worldHalfExtent;
     std::vector<CenteredBox> objectBounds;
     std::vector<Geometry> geometry;

@@ -16,7 +16,7 @@ using Words = std::vector<uint32_t>;
 
 /// GLSL -> optimised and lowered SPIR-V, still with names.
 Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
-        ProgramCompileOptions const& options) {
+                         ProgramCompileOptions const& options) {
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
     if (spirv && options.optimization != Optimization::None) spirv = optimizeSpirv(*spirv, options.optimization);
     if (spirv && options.exact)
@@ -25,7 +25,7 @@ Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std:
 }
 
 Result<void> writeStage(Words const& lowered, ProgramCompileOptions const& options,
-        backend::ProgramLayout const& layout, Words& spirv, std::string& essl) {
+                        backend::ProgramLayout const& layout, Words& spirv, std::string& essl) {
     if (options.spirv) {
         Result<Words> stripped = stripSpirv(lowered);
         if (!stripped) return stripped.error();
@@ -42,7 +42,7 @@ Result<void> writeStage(Words const& lowered, ProgramCompileOptions const& optio
 } // namespace
 
 Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
-        ProgramCompileOptions const& options) {
+                                      ProgramCompileOptions const& options) {
     Result<Words> vertex = lowerStage(vertexGlsl, backend::ShaderStage::Vertex, options.vertexName, options);
     if (!vertex) return vertex.error();
     Result<Words> fragment = lowerStage(fragmentGlsl, backend::ShaderStage::Fragment, options.fragmentName, options);

@@ -29,21 +29,21 @@ struct SetBinding {
 };
 
 enum class Optimization : uint8_t {
-    None,        ///< as glslang wrote it, for debugging
+    None, ///< as glslang wrote it, for debugging
     Performance,
-    Size,        ///< SPIRV-Tools' passes for small modules
+    Size, ///< SPIRV-Tools' passes for small modules
 };
 
 struct ProgramCompileOptions {
-    bool exact = true;    ///< same bits on both APIs
+    bool exact = true; ///< same bits on both APIs
     Optimization optimization = Optimization::Performance;
-    bool spirv = true;    ///< languages wanted; reflection happens in any case
+    bool spirv = true; ///< languages wanted; reflection happens in any case
     bool essl = true;
     /// Uniform buffers with a dynamic offset; nothing: all of group 0.
     std::optional<std::vector<SetBinding>> dynamicUniformBuffers = std::nullopt;
     /// The layout to number by, which must contain every binding that the shaders use; nothing: reflected from them.
     std::optional<backend::ProgramLayout> layout = std::nullopt;
-    std::string_view vertexName = "vertex";     ///< stands before the line in errors, until a #line names another
+    std::string_view vertexName = "vertex"; ///< stands before the line in errors, until a #line names another
     std::string_view fragmentName = "fragment";
 };
 
@@ -55,6 +55,6 @@ struct ProgramShaders {
 };
 
 Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
-        ProgramCompileOptions const& options = {});
+                                      ProgramCompileOptions const& options = {});
 
 } // namespace filament::shader

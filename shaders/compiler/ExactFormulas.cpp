@@ -11,9 +11,7 @@ namespace filament::shader {
 
 // ---------------------------------------------------------------------------------------------- geometry, blending
 
-Value exactLength(Value v) {
-    return v.isVector() ? call(GLSLstd450Sqrt, { dot(v, v) }) : call(GLSLstd450FAbs, { v });
-}
+Value exactLength(Value v) { return v.isVector() ? call(GLSLstd450Sqrt, { dot(v, v) }) : call(GLSLstd450FAbs, { v }); }
 
 Value exactNormalize(Value v) {
     return v.isVector() ? v * call(GLSLstd450InverseSqrt, { dot(v, v) }) : call(GLSLstd450FSign, { v });
@@ -78,8 +76,8 @@ namespace {
 /// Arc tangent on [0, 1], absolute error below 2e-8. Abramowitz and Stegun 1964, "Handbook of Mathematical
 /// Functions", 4.4.49.
 Value arcTangentOfUnit(Value x) {
-    constexpr float kCoefficients[] = { 0.0028662257f, -0.0161657367f, 0.0429096138f, -0.0752896400f, 0.1065626393f,
-        -0.1420889944f, 0.1999355085f, -0.3333314528f };
+    constexpr float kCoefficients[] = { 0.0028662257f, -0.0161657367f, 0.0429096138f, -0.0752896400f,
+                                        0.1065626393f, -0.1420889944f, 0.1999355085f, -0.3333314528f };
     const Value square = x * x;
     Value sum = x.like(kCoefficients[0]);
     for (size_t i = 1; i < std::size(kCoefficients); ++i) sum = sum * square + x.like(kCoefficients[i]);

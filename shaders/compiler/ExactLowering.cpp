@@ -32,14 +32,22 @@ private:
 
     Value lowerCore() const {
         switch (mAt.op) {
-            case spv::OpDot: return dot(operand(0), operand(1));
-            case spv::OpMatrixTimesVector: return exactMatrixTimesVector(operand(0), operand(1));
-            case spv::OpVectorTimesMatrix: return exactVectorTimesMatrix(operand(0), operand(1), mAt.type);
-            case spv::OpMatrixTimesMatrix: return exactMatrixTimesMatrix(operand(0), operand(1), mAt.type);
-            case spv::OpOuterProduct: return exactOuterProduct(operand(0), operand(1), mAt.type);
-            case spv::OpFMod: return exactMod(operand(0), operand(1));
-            case spv::OpFDiv: return lowerDivision();
-            default: return {};
+        case spv::OpDot:
+            return dot(operand(0), operand(1));
+        case spv::OpMatrixTimesVector:
+            return exactMatrixTimesVector(operand(0), operand(1));
+        case spv::OpVectorTimesMatrix:
+            return exactVectorTimesMatrix(operand(0), operand(1), mAt.type);
+        case spv::OpMatrixTimesMatrix:
+            return exactMatrixTimesMatrix(operand(0), operand(1), mAt.type);
+        case spv::OpOuterProduct:
+            return exactOuterProduct(operand(0), operand(1), mAt.type);
+        case spv::OpFMod:
+            return exactMod(operand(0), operand(1));
+        case spv::OpFDiv:
+            return lowerDivision();
+        default:
+            return {};
         }
     }
 
@@ -57,38 +65,65 @@ private:
 
     Value lowerExtended() const {
         switch (mAt.operands[1]) {
-            case GLSLstd450Length: return exactLength(argument(0));
-            case GLSLstd450Distance: return exactLength(argument(0) - argument(1));
-            case GLSLstd450Normalize: return exactNormalize(argument(0));
-            case GLSLstd450Reflect: return exactReflect(argument(0), argument(1));
-            case GLSLstd450Refract: return exactRefract(argument(0), argument(1), argument(2));
-            case GLSLstd450Cross: return exactCross(argument(0), argument(1));
-            case GLSLstd450FaceForward: return exactFaceForward(argument(0), argument(1), argument(2));
-            case GLSLstd450FMix: return exactMix(argument(0), argument(1), argument(2));
-            case GLSLstd450SmoothStep: return exactSmoothStep(argument(0), argument(1), argument(2));
-            case GLSLstd450Fma: return argument(0) * argument(1) + argument(2);
-            case GLSLstd450Determinant: return exactDeterminant(argument(0));
-            case GLSLstd450MatrixInverse: return exactInverse(argument(0));
-            default: return lowerOneVariable();
+        case GLSLstd450Length:
+            return exactLength(argument(0));
+        case GLSLstd450Distance:
+            return exactLength(argument(0) - argument(1));
+        case GLSLstd450Normalize:
+            return exactNormalize(argument(0));
+        case GLSLstd450Reflect:
+            return exactReflect(argument(0), argument(1));
+        case GLSLstd450Refract:
+            return exactRefract(argument(0), argument(1), argument(2));
+        case GLSLstd450Cross:
+            return exactCross(argument(0), argument(1));
+        case GLSLstd450FaceForward:
+            return exactFaceForward(argument(0), argument(1), argument(2));
+        case GLSLstd450FMix:
+            return exactMix(argument(0), argument(1), argument(2));
+        case GLSLstd450SmoothStep:
+            return exactSmoothStep(argument(0), argument(1), argument(2));
+        case GLSLstd450Fma:
+            return argument(0) * argument(1) + argument(2);
+        case GLSLstd450Determinant:
+            return exactDeterminant(argument(0));
+        case GLSLstd450MatrixInverse:
+            return exactInverse(argument(0));
+        default:
+            return lowerOneVariable();
         }
     }
 
     Value lowerOneVariable() const {
         switch (mAt.operands[1]) {
-            case GLSLstd450Radians: return kRadiansPerDegree * argument(0);
-            case GLSLstd450Degrees: return kDegreesPerRadian * argument(0);
-            case GLSLstd450Tan: return exactTan(argument(0));
-            case GLSLstd450Asin: return exactAsin(argument(0));
-            case GLSLstd450Acos: return exactAcos(argument(0));
-            case GLSLstd450Atan: return exactAtan(argument(0));
-            case GLSLstd450Atan2: return exactAtan2(argument(0), argument(1));
-            case GLSLstd450Sinh: return exactSinh(argument(0));
-            case GLSLstd450Cosh: return exactCosh(argument(0));
-            case GLSLstd450Tanh: return exactTanh(argument(0));
-            case GLSLstd450Asinh: return exactAsinh(argument(0));
-            case GLSLstd450Acosh: return exactAcosh(argument(0));
-            case GLSLstd450Atanh: return exactAtanh(argument(0));
-            default: return {};
+        case GLSLstd450Radians:
+            return kRadiansPerDegree * argument(0);
+        case GLSLstd450Degrees:
+            return kDegreesPerRadian * argument(0);
+        case GLSLstd450Tan:
+            return exactTan(argument(0));
+        case GLSLstd450Asin:
+            return exactAsin(argument(0));
+        case GLSLstd450Acos:
+            return exactAcos(argument(0));
+        case GLSLstd450Atan:
+            return exactAtan(argument(0));
+        case GLSLstd450Atan2:
+            return exactAtan2(argument(0), argument(1));
+        case GLSLstd450Sinh:
+            return exactSinh(argument(0));
+        case GLSLstd450Cosh:
+            return exactCosh(argument(0));
+        case GLSLstd450Tanh:
+            return exactTanh(argument(0));
+        case GLSLstd450Asinh:
+            return exactAsinh(argument(0));
+        case GLSLstd450Acosh:
+            return exactAcosh(argument(0));
+        case GLSLstd450Atanh:
+            return exactAtanh(argument(0));
+        default:
+            return {};
         }
     }
 

@@ -14,15 +14,17 @@ constexpr size_t kHeaderWords = 5;
 /// ESSL reaches into the arguments of an expression, so both languages must forbid it.
 bool canBeReordered(spv::Op op) {
     switch (op) {
-        case spv::OpFAdd:
-        case spv::OpFSub:
-        case spv::OpFMul:
-        case spv::OpFDiv:
-        case spv::OpFNegate:
-        case spv::OpVectorTimesScalar:
-        case spv::OpMatrixTimesScalar:
-        case spv::OpExtInst: return true;
-        default: return false;
+    case spv::OpFAdd:
+    case spv::OpFSub:
+    case spv::OpFMul:
+    case spv::OpFDiv:
+    case spv::OpFNegate:
+    case spv::OpVectorTimesScalar:
+    case spv::OpMatrixTimesScalar:
+    case spv::OpExtInst:
+        return true;
+    default:
+        return false;
     }
 }
 

@@ -23,10 +23,13 @@ const char* glslType(ParameterType type) {
 /// Everything is highp unless the author asks for less: mediump really is fp16 on some devices.
 const char* glslPrecision(Precision precision) {
     switch (precision) {
-        case Precision::Low: return "lowp ";
-        case Precision::Medium: return "mediump ";
-        case Precision::High:
-        case Precision::Default: return "";
+    case Precision::Low:
+        return "lowp ";
+    case Precision::Medium:
+        return "mediump ";
+    case Precision::High:
+    case Precision::Default:
+        return "";
     }
     return "";
 }
@@ -54,7 +57,8 @@ void declareTextures(StageText& out, MaterialDefinition const& definition) {
         Parameter const& parameter = definition.package.parameters[i];
         if (!isTexture(parameter.type)) continue;
         const std::string index = parameter.type == ParameterType::SubpassInput
-                ? fmt::format("input_attachment_index = {}, ", attachment++) : "";
+                                          ? fmt::format("input_attachment_index = {}, ", attachment++)
+                                          : "";
         out.originate(definition.parameterSources[i].at);
         out.line(fmt::format("layout({}set = 1, binding = {}) uniform {}{} materialParams_{};", index,
                              parameter.binding, glslPrecision(definition.parameterSources[i].precision),
@@ -64,13 +68,15 @@ void declareTextures(StageText& out, MaterialDefinition const& definition) {
 
 std::string literal(Constant const& constant) {
     switch (constant.type) {
-        case backend::ConstantValue::Type::Bool: return constant.defaultBits != 0 ? "true" : "false";
-        case backend::ConstantValue::Type::Int: return fmt::format("{}", static_cast<int32_t>(constant.defaultBits));
-        case backend::ConstantValue::Type::Float: {
-            std::string text = fmt::format("{:.9g}", std::bit_cast<float>(constant.defaultBits));
-            if (text.find_first_of(".e") == std::string::npos) text += ".0";
-            return text;
-        }
+    case backend::ConstantValue::Type::Bool:
+        return constant.defaultBits != 0 ? "true" : "false";
+    case backend::ConstantValue::Type::Int:
+        return fmt::format("{}", static_cast<int32_t>(constant.defaultBits));
+    case backend::ConstantValue::Type::Float: {
+        std::string text = fmt::format("{:.9g}", std::bit_cast<float>(constant.defaultBits));
+        if (text.find_first_of(".e") == std::string::npos) text += ".0";
+        return text;
+    }
     }
     return "0";
 }
@@ -79,7 +85,7 @@ void declareConstants(StageText& out, MaterialDefinition const& definition) {
     static constexpr const char* kTypes[] = { "bool", "int", "float" };
     for (Constant const& constant : definition.package.constants) {
         out.line(fmt::format("layout(constant_id = {}) const {} materialConstants_{} = {};", constant.id,
-                kTypes[static_cast<size_t>(constant.type)], constant.name, literal(constant)));
+                             kTypes[static_cast<size_t>(constant.type)], constant.name, literal(constant)));
         out.define("materialConstant_" + constant.name, "materialConstants_" + constant.name);
     }
 }
@@ -97,7 +103,7 @@ void declareVariables(StageText& out, MaterialDefinition const& definition) {
         Variable const& variable = definition.variables[i];
         out.originate(variable.at);
         out.line(fmt::format("layout(location = {}) VARYING {}vec4 variable_{};", kFirstVariableLocation + i,
-                glslPrecision(variable.precision), variable.name));
+                             glslPrecision(variable.precision), variable.name));
     }
 }
 

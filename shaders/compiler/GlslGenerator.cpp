@@ -250,9 +250,9 @@ backend::ProgramLayout materialLayout(MaterialDefinition const& definition) {
         const bool isInput = parameter.type == ParameterType::SubpassInput;
         const bool inVertex = definition.vertex && definition.vertex->text.find("materialParams_") != std::string::npos;
         group.bindings[group.count++] = { .binding = parameter.binding,
-            .type = isInput ? BindingType::InputAttachment : BindingType::SampledTexture,
-            .stages = inVertex && !isInput ? ShaderStage::Both : ShaderStage::Fragment,
-            .inputAttachment = isInput ? attachment++ : uint8_t{ 0 } };
+                                          .type = isInput ? BindingType::InputAttachment : BindingType::SampledTexture,
+                                          .stages = inVertex && !isInput ? ShaderStage::Both : ShaderStage::Fragment,
+                                          .inputAttachment = isInput ? attachment++ : uint8_t{ 0 } };
     }
     return layout;
 }

@@ -19,9 +19,12 @@ bool equalsIgnoringCase(std::string_view a, std::string_view b) {
 
 std::string describe(Token const& token) {
     switch (token.kind) {
-        case TokenKind::End: return "the end of the file";
-        case TokenKind::Quoted: return "\"" + token.text + "\"";
-        default: return "'" + token.text + "'";
+    case TokenKind::End:
+        return "the end of the file";
+    case TokenKind::Quoted:
+        return "\"" + token.text + "\"";
+    default:
+        return "'" + token.text + "'";
     }
 }
 
@@ -44,7 +47,7 @@ JsonValue scalar(Token const& token) {
 class Parser {
 public:
     Parser(std::string_view text, std::string_view fileName, IncludeResolver const& includes)
-        : mLexer(text, fileName, includes) {}
+            : mLexer(text, fileName, includes) {}
 
     Result<MaterialText> file() {
         MaterialText out;
@@ -86,11 +89,15 @@ private:
     Result<JsonValue> value(Token const& token, int depth) {
         if (depth > kMaxDepth) return errorAt(token.at, "values are nested too deeply");
         switch (token.kind) {
-            case TokenKind::Word:
-            case TokenKind::Quoted: return scalar(token);
-            case TokenKind::OpenBrace: return objectBody(token.at, depth + 1);
-            case TokenKind::OpenBracket: return arrayBody(token.at, depth + 1);
-            default: return unexpected(token, "a value");
+        case TokenKind::Word:
+        case TokenKind::Quoted:
+            return scalar(token);
+        case TokenKind::OpenBrace:
+            return objectBody(token.at, depth + 1);
+        case TokenKind::OpenBracket:
+            return arrayBody(token.at, depth + 1);
+        default:
+            return unexpected(token, "a value");
         }
     }
 
@@ -137,11 +144,16 @@ Error errorAt(SourcePosition const& at, std::string const& message, ErrorCode co
 
 const char* toString(JsonValue::Kind kind) {
     switch (kind) {
-        case JsonValue::Kind::Bool: return "a boolean";
-        case JsonValue::Kind::Number: return "a number";
-        case JsonValue::Kind::String: return "a string";
-        case JsonValue::Kind::Array: return "an array";
-        case JsonValue::Kind::Object: return "an object";
+    case JsonValue::Kind::Bool:
+        return "a boolean";
+    case JsonValue::Kind::Number:
+        return "a number";
+    case JsonValue::Kind::String:
+        return "a string";
+    case JsonValue::Kind::Array:
+        return "an array";
+    case JsonValue::Kind::Object:
+        return "an object";
     }
     return "a value";
 }

@@ -38,8 +38,8 @@ struct JsonValue {
     enum class Kind : uint8_t { Bool, Number, String, Array, Object };
     Kind kind = Kind::String;
     SourcePosition at;
-    std::string text;   ///< as written, without quotes; of scalars
-    double number = 0;  ///< of Number
+    std::string text;  ///< as written, without quotes; of scalars
+    double number = 0; ///< of Number
     bool boolean = false;
     std::vector<JsonValue> items;    ///< of Array
     std::vector<JsonMember> members; ///< of Object, in the order of the file

@@ -20,7 +20,7 @@ bool endsWord(char c) {
 } // namespace
 
 JsonishLexer::JsonishLexer(std::string_view text, std::string_view fileName, IncludeResolver const& includes)
-    : mIncludes(includes), mTotalBytes(text.size()) {
+        : mIncludes(includes), mTotalBytes(text.size()) {
     mInputs.push_back({ std::string(text), std::make_shared<std::string>(fileName) });
 }
 
@@ -108,10 +108,12 @@ Token JsonishLexer::word() {
 }
 
 Token JsonishLexer::next() {
-    while (skipBlank()) {}
+    while (skipBlank()) {
+    }
     while (startsWith("#include")) {
         if (std::string problem = include(); !problem.empty()) return error(std::move(problem));
-        while (skipBlank()) {}
+        while (skipBlank()) {
+        }
     }
     if (atEnd()) return token(TokenKind::End);
     constexpr std::pair<char, TokenKind> kMarks[] = { { '{', TokenKind::OpenBrace },   { '}', TokenKind::CloseBrace },

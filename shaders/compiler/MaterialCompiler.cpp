@@ -78,9 +78,11 @@ Result<CompiledVariant> compileVariant(Prepared const& prepared, uint8_t key, Co
                                                       .fragmentName = prepared.definition.fileName });
     if (!shaders) return shaders.error();
     CompiledVariant compiled{ .vertexInputs = shaders->vertexInputs };
-    compiled.variant = { .key = key, .vertexSpirv = std::move(shaders->vertexSpirv),
-        .fragmentSpirv = std::move(shaders->fragmentSpirv), .vertexEssl = std::move(shaders->vertexEssl),
-        .fragmentEssl = std::move(shaders->fragmentEssl) };
+    compiled.variant = { .key = key,
+                         .vertexSpirv = std::move(shaders->vertexSpirv),
+                         .fragmentSpirv = std::move(shaders->fragmentSpirv),
+                         .vertexEssl = std::move(shaders->vertexEssl),
+                         .fragmentEssl = std::move(shaders->fragmentEssl) };
     return compiled;
 }
 
@@ -91,8 +93,10 @@ Compiled compileVariants(Prepared const& prepared, CompileOptions const& options
     const auto compileRange = [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) results[i] = compileVariant(prepared, prepared.keys[i], options);
     };
-    if (options.jobs) jobs::parallelFor(*options.jobs, results.size(), 1, compileRange);
-    else compileRange(0, results.size());
+    if (options.jobs)
+        jobs::parallelFor(*options.jobs, results.size(), 1, compileRange);
+    else
+        compileRange(0, results.size());
     return results;
 }
 

@@ -23,9 +23,9 @@ class JobSystem;
 namespace filament::shader {
 
 struct CompileOptions {
-    bool exact = true;    ///< same bits on both APIs (ExactLowering.h)
+    bool exact = true; ///< same bits on both APIs (ExactLowering.h)
     Optimization optimization = Optimization::Performance;
-    bool spirv = true;    ///< languages that the package gets
+    bool spirv = true; ///< languages that the package gets
     bool essl = true;
     uint8_t filteredVariants = 0; ///< VariantBits never asked for, besides those of the material's own variantFilter
     /// Files besides the engine's own (which are asked first): usually those beside the .mat.

@@ -64,7 +64,8 @@ Result<void> readShadingModel(JsonValue const& value, std::string_view name, Tar
         }
     }
     static constexpr std::pair<std::string_view, ShadingModel> kNames[] = {
-        { "lit", ShadingModel::Lit }, { "unlit", ShadingModel::Unlit },
+        { "lit", ShadingModel::Lit },
+        { "unlit", ShadingModel::Unlit },
     };
     to.given.shadingModel = true;
     return readEnum(value, name, kNames, to.package.shading);
@@ -72,7 +73,8 @@ Result<void> readShadingModel(JsonValue const& value, std::string_view name, Tar
 
 Result<void> readDomain(JsonValue const& value, std::string_view name, Target& to) {
     static constexpr std::pair<std::string_view, MaterialDomain> kNames[] = {
-        { "surface", MaterialDomain::Surface }, { "postprocess", MaterialDomain::PostProcess },
+        { "surface", MaterialDomain::Surface },
+        { "postprocess", MaterialDomain::PostProcess },
     };
     return readEnum(value, name, kNames, to.package.domain);
 }
@@ -82,16 +84,18 @@ Result<void> readBlending(JsonValue const& value, std::string_view name, Target&
         return errorAt(value.at, "custom blending is known but not supported by this version", ErrorCode::Unsupported);
     }
     static constexpr std::pair<std::string_view, Blending> kNames[] = {
-        { "opaque", Blending::Opaque }, { "masked", Blending::Masked },
-        { "transparent", Blending::Transparent }, { "fade", Blending::Fade }, { "add", Blending::Add },
-        { "multiply", Blending::Multiply }, { "screen", Blending::Screen },
+        { "opaque", Blending::Opaque }, { "masked", Blending::Masked }, { "transparent", Blending::Transparent },
+        { "fade", Blending::Fade },     { "add", Blending::Add },       { "multiply", Blending::Multiply },
+        { "screen", Blending::Screen },
     };
     return readEnum(value, name, kNames, to.package.blending);
 }
 
 Result<void> readCulling(JsonValue const& value, std::string_view name, Target& to) {
     static constexpr std::pair<std::string_view, Culling> kNames[] = {
-        { "none", Culling::None }, { "front", Culling::Front }, { "back", Culling::Back },
+        { "none", Culling::None },
+        { "front", Culling::Front },
+        { "back", Culling::Back },
         { "frontAndBack", Culling::FrontAndBack },
     };
     to.given.culling = true;
@@ -100,7 +104,9 @@ Result<void> readCulling(JsonValue const& value, std::string_view name, Target& 
 
 Result<void> readVertexDomain(JsonValue const& value, std::string_view name, Target& to) {
     static constexpr std::pair<std::string_view, VertexDomain> kNames[] = {
-        { "object", VertexDomain::Object }, { "world", VertexDomain::World }, { "view", VertexDomain::View },
+        { "object", VertexDomain::Object },
+        { "world", VertexDomain::World },
+        { "view", VertexDomain::View },
         { "device", VertexDomain::Device },
     };
     return readEnum(value, name, kNames, to.package.vertexDomain);
@@ -144,10 +150,24 @@ constexpr std::array kProperties{
 };
 
 /// Properties of the guide that exist, so that "not yet" is told apart from "misspelt".
-constexpr std::array<std::string_view, 18> kLaterProperties{ "featureLevel", "quality", "instanced",
-    "vertexDomainDeviceJittered", "interpolation", "blendFunction", "postLightingBlending", "transparency",
-    "refractionMode", "refractionType", "alphaToCoverage", "reflections", "shadowMultiplier", "transparentShadow",
-    "clearCoatIorChange", "multiBounceAmbientOcclusion", "specularAmbientOcclusion", "customSurfaceShading" };
+constexpr std::array<std::string_view, 18> kLaterProperties{ "featureLevel",
+                                                             "quality",
+                                                             "instanced",
+                                                             "vertexDomainDeviceJittered",
+                                                             "interpolation",
+                                                             "blendFunction",
+                                                             "postLightingBlending",
+                                                             "transparency",
+                                                             "refractionMode",
+                                                             "refractionType",
+                                                             "alphaToCoverage",
+                                                             "reflections",
+                                                             "shadowMultiplier",
+                                                             "transparentShadow",
+                                                             "clearCoatIorChange",
+                                                             "multiBounceAmbientOcclusion",
+                                                             "specularAmbientOcclusion",
+                                                             "customSurfaceShading" };
 
 Error unknownProperty(std::string const& name, JsonValue const& value) {
     if (std::ranges::count(kLaterProperties, name) > 0) {

@@ -16,6 +16,7 @@ constexpr uint32_t kMaxBlockBytes = 16384; // what every device offers
 constexpr size_t kMaxParameterCount = 256;
 
 using TypeName = std::pair<std::string_view, ParameterType>;
+// clang-format off
 constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", ParameterType::Bool2 },
     { "bool3", ParameterType::Bool3 }, { "bool4", ParameterType::Bool4 }, { "float", ParameterType::Float },
     { "float2", ParameterType::Float2 }, { "float3", ParameterType::Float3 }, { "float4", ParameterType::Float4 },
@@ -25,6 +26,7 @@ constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", Para
     { "mat3", ParameterType::Float3x3 }, { "float4x4", ParameterType::Float4x4 }, { "mat4", ParameterType::Float4x4 },
     { "sampler2d", ParameterType::Sampler2D }, { "sampler2dArray", ParameterType::Sampler2DArray },
     { "samplerCubemap", ParameterType::SamplerCube }, { "subpassInput", ParameterType::SubpassInput } };
+// clang-format on
 
 /// "float[9]" -> float, 9. The size stays 0 for what is no array.
 Result<void> readType(JsonValue const& value, Parameter& out) {
@@ -53,7 +55,8 @@ Result<void> readType(JsonValue const& value, Parameter& out) {
 /// `format` of samplers: only float textures exist here.
 Result<void> checkFormat(JsonValue const& value) {
     static constexpr std::pair<std::string_view, bool> kFormats[] = {
-        { "float", true }, { "int", false },
+        { "float", true },
+        { "int", false },
     };
     bool isFloat = true;
     if (Result<void> known = readEnum(value, "format", kFormats, isFloat); !known) return known;
@@ -131,7 +134,9 @@ Result<void> readDefault(JsonValue const& value, Constant& out) {
 Result<void> readConstant(JsonValue const& item, MaterialDefinition& out) {
     static constexpr std::string_view kFields[] = { "name", "type", "default" };
     static constexpr std::pair<std::string_view, ConstantType> kConstantTypes[] = {
-        { "bool", ConstantType::Bool }, { "int", ConstantType::Int }, { "float", ConstantType::Float },
+        { "bool", ConstantType::Bool },
+        { "int", ConstantType::Int },
+        { "float", ConstantType::Float },
     };
     Result<NamedEntry> entry = readEntry(item, kFields, "constant");
     if (!entry) return entry.error();
@@ -185,9 +190,18 @@ Result<void> readEach(JsonValue const& value, std::string_view what, size_t limi
 
 Result<void> readRequirement(JsonValue const& item, MaterialDefinition& out) {
     static constexpr std::pair<std::string_view, uint32_t> kAttributes[] = {
-        { "position", kAttributePosition }, { "tangents", kAttributeTangents }, { "color", kAttributeColor },
-        { "uv0", kAttributeUv0 }, { "uv1", kAttributeUv1 }, { "custom0", 7 }, { "custom1", 8 },
-        { "custom2", 9 }, { "custom3", 10 }, { "custom4", 11 }, { "custom5", 12 }, { "custom6", 13 },
+        { "position", kAttributePosition },
+        { "tangents", kAttributeTangents },
+        { "color", kAttributeColor },
+        { "uv0", kAttributeUv0 },
+        { "uv1", kAttributeUv1 },
+        { "custom0", 7 },
+        { "custom1", 8 },
+        { "custom2", 9 },
+        { "custom3", 10 },
+        { "custom4", 11 },
+        { "custom5", 12 },
+        { "custom6", 13 },
         { "custom7", 14 },
     };
     uint32_t location = 0;
@@ -197,8 +211,13 @@ Result<void> readRequirement(JsonValue const& item, MaterialDefinition& out) {
 }
 
 constexpr std::pair<std::string_view, uint8_t> kVariantFilters[] = { { "directionalLighting", kVariantSun },
-    { "dynamicLighting", kVariantPunctual }, { "shadowReceiver", 0 }, { "skinning", 0 }, { "ssr", 0 }, { "stereo", 0 },
-    { "fog", 0 }, { "vsm", 0 } };
+                                                                     { "dynamicLighting", kVariantPunctual },
+                                                                     { "shadowReceiver", 0 },
+                                                                     { "skinning", 0 },
+                                                                     { "ssr", 0 },
+                                                                     { "stereo", 0 },
+                                                                     { "fog", 0 },
+                                                                     { "vsm", 0 } };
 
 Result<void> readFilter(JsonValue const& item, MaterialDefinition& out) {
     uint8_t bits = 0;

@@ -40,8 +40,8 @@ Result<void> readIdentifier(JsonValue const& value, std::string_view what, std::
     // Kinds other than strings are names, too, if somebody calls a parameter "true"; GLSL would refuse those.
     if (Result<void> isString = expectKind(value, JsonValue::Kind::String, what); !isString) return isString;
     std::string const& name = value.text;
-    const bool isIdentifier = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0]))
-            && std::ranges::all_of(name, isIdentifierCharacter);
+    const bool isIdentifier = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
+                              std::ranges::all_of(name, isIdentifierCharacter);
     const bool isReserved =
             name.starts_with("gl_") || name.find("__") != std::string::npos || name == kMaskThresholdParameter;
     if (!isIdentifier || isReserved || name.size() > 128) {
@@ -53,7 +53,9 @@ Result<void> readIdentifier(JsonValue const& value, std::string_view what, std::
 
 Result<void> readPrecision(JsonValue const& value, Precision& out) {
     static constexpr std::pair<std::string_view, Precision> kNames[] = { { "default", Precision::Default },
-        { "low", Precision::Low }, { "medium", Precision::Medium }, { "high", Precision::High } };
+                                                                         { "low", Precision::Low },
+                                                                         { "medium", Precision::Medium },
+                                                                         { "high", Precision::High } };
     return readEnum(value, "precision", kNames, out);
 }
 

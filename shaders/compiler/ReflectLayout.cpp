@@ -20,11 +20,13 @@ Result<void> insertBinding(BindGroupLayout& group, uint32_t set, BindingDesc con
     auto* const begin = group.bindings.data();
     auto* const end = begin + group.count;
     auto* const at = std::lower_bound(begin, end, added.binding,
-            [](BindingDesc const& have, uint8_t binding) { return have.binding < binding; });
+                                      [](BindingDesc const& have, uint8_t binding) { return have.binding < binding; });
     if (at != end && at->binding == added.binding) {
         if (at->type != added.type || at->inputAttachment != added.inputAttachment) {
-            return fail(ErrorCode::InvalidArgument, "set {} binding {} ('{}') is declared as two different things; "
-                    "give one of them another binding", set, added.binding, name);
+            return fail(ErrorCode::InvalidArgument,
+                        "set {} binding {} ('{}') is declared as two different things; "
+                        "give one of them another binding",
+                        set, added.binding, name);
         }
         at->stages = static_cast<ShaderStage>(static_cast<uint8_t>(at->stages) | static_cast<uint8_t>(added.stages));
         return {};
@@ -38,19 +40,21 @@ Result<void> insertBinding(BindGroupLayout& group, uint32_t set, BindingDesc con
 class StageReader {
 public:
     StageReader(std::span<const uint32_t> spirv, ShaderStage stage, StageResources& out)
-        : mCompiler(spirv.data(), spirv.size()), mStage(stage), mOut(out) {}
+            : mCompiler(spirv.data(), spirv.size()), mStage(stage), mOut(out) {}
 
     Result<void> read(std::optional<std::vector<SetBinding>> const& dynamicBuffers) {
         // Declared but never read: not there, as for the drivers.
         const spirv_cross::ShaderResources all =
                 mCompiler.get_shader_resources(mCompiler.get_active_interface_variables());
         if (const char* unsupported = unsupportedKind(all)) {
-            return fail(ErrorCode::InvalidArgument, "{} are not supported in shaders; use uniform blocks and combined "
-                    "image samplers", unsupported);
+            return fail(ErrorCode::InvalidArgument,
+                        "{} are not supported in shaders; use uniform blocks and combined "
+                        "image samplers",
+                        unsupported);
         }
         for (auto const& buffer : all.uniform_buffers) {
             const SetBinding at{ static_cast<uint8_t>(decoration(buffer, spv::DecorationDescriptorSet)),
-                static_cast<uint8_t>(decoration(buffer, spv::DecorationBinding)) };
+                                 static_cast<uint8_t>(decoration(buffer, spv::DecorationBinding)) };
             const bool isDynamic = dynamicBuffers ? std::ranges::count(*dynamicBuffers, at) > 0 : at.set == 0;
             const BindingType type = isDynamic ? BindingType::DynamicUniformBuffer : BindingType::UniformBuffer;
             if (Result<void> added = add(buffer, type); !added) return added;
@@ -83,11 +87,13 @@ private:
         const uint32_t binding = decoration(resource, spv::DecorationBinding);
         if (set >= backend::kMaxBindGroups || binding >= backend::kMaxBindings) {
             return fail(ErrorCode::InvalidArgument, "'{}' is at set {} binding {}; sets end at {} and bindings at {}",
-                    resource.name, set, binding, backend::kMaxBindGroups - 1, backend::kMaxBindings - 1);
+                        resource.name, set, binding, backend::kMaxBindGroups - 1, backend::kMaxBindings - 1);
         }
         if (!mCompiler.get_type(resource.type_id).array.empty()) {
-            return fail(ErrorCode::InvalidArgument, "'{}' is an array of resources; use an array texture or separate "
-                    "bindings", resource.name);
+            return fail(ErrorCode::InvalidArgument,
+                        "'{}' is an array of resources; use an array texture or separate "
+                        "bindings",
+                        resource.name);
         }
         BindingDesc desc{ .binding = static_cast<uint8_t>(binding), .type = type, .stages = mStage };
         if (type == BindingType::InputAttachment) {
@@ -110,14 +116,14 @@ private:
 
 bool covers(BindingDesc const& have, BindingDesc const& need) {
     const auto haveStages = static_cast<uint8_t>(have.stages), needStages = static_cast<uint8_t>(need.stages);
-    return have.type == need.type && have.inputAttachment == need.inputAttachment
-            && (haveStages & needStages) == needStages;
+    return have.type == need.type && have.inputAttachment == need.inputAttachment &&
+           (haveStages & needStages) == needStages;
 }
 
 } // namespace
 
 Result<StageResources> reflectResources(std::span<const uint32_t> vertexSpirv, std::span<const uint32_t> fragmentSpirv,
-        std::optional<std::vector<SetBinding>> const& dynamicBuffers) {
+                                        std::optional<std::vector<SetBinding>> const& dynamicBuffers) {
     try {
         StageResources resources;
         Result<void> vertex = StageReader(vertexSpirv, ShaderStage::Vertex, resources).read(dynamicBuffers);
@@ -138,7 +144,7 @@ Result<void> checkContains(ProgramLayout const& layout, ProgramLayout const& use
             const auto at = std::ranges::find(have, need.binding, &BindingDesc::binding);
             if (at == have.end() || !covers(*at, need)) {
                 return fail(ErrorCode::InvalidArgument, "the shader reads set {} binding {}, which the given layout {}",
-                        set, need.binding, at == have.end() ? "lacks" : "declares with another type or stage");
+                            set, need.binding, at == have.end() ? "lacks" : "declares with another type or stage");
             }
         }
     }

@@ -21,7 +21,7 @@ struct StageResources {
 
 /// `dynamicBuffers` as in ProgramCompileOptions.
 Result<StageResources> reflectResources(std::span<const uint32_t> vertexSpirv, std::span<const uint32_t> fragmentSpirv,
-        std::optional<std::vector<SetBinding>> const& dynamicBuffers);
+                                        std::optional<std::vector<SetBinding>> const& dynamicBuffers);
 
 /// InvalidArgument, naming the binding, unless `layout` has all of `used` with the same types and stages.
 Result<void> checkContains(backend::ProgramLayout const& layout, backend::ProgramLayout const& used);

@@ -16,7 +16,7 @@ constexpr size_t kHeaderWords = 5; // SPIR-V specification 2.3
 constexpr size_t kBoundWord = 3;
 
 void append(std::vector<uint32_t>& words, spv::Op op, std::initializer_list<uint32_t> fixed,
-        std::span<const uint32_t> rest = {}) {
+            std::span<const uint32_t> rest = {}) {
     words.push_back(static_cast<uint32_t>(1 + fixed.size() + rest.size()) << 16 | op);
     words.insert(words.end(), fixed);
     words.insert(words.end(), rest.begin(), rest.end());
@@ -28,8 +28,8 @@ bool isConstant(spv::Op op) { return op >= spv::OpConstantTrue && op <= spv::OpS
 
 /// Pure instructions whose operands are all ids.
 bool isArithmetic(spv::Op op) {
-    return (op >= spv::OpConvertFToU && op <= spv::OpBitcast) || (op >= spv::OpSNegate && op <= spv::OpDot)
-            || (op >= spv::OpLogicalEqual && op <= spv::OpFUnordGreaterThanEqual) || op == spv::OpCompositeConstruct;
+    return (op >= spv::OpConvertFToU && op <= spv::OpBitcast) || (op >= spv::OpSNegate && op <= spv::OpDot) ||
+           (op >= spv::OpLogicalEqual && op <= spv::OpFUnordGreaterThanEqual) || op == spv::OpCompositeConstruct;
 }
 
 } // namespace
@@ -72,20 +72,26 @@ void SpirvEditor::scan() {
 
 void SpirvEditor::scanGlobal(Instruction const& at) {
     switch (at.op) {
-        case spv::OpExtInstImport:
-            if (std::strcmp(reinterpret_cast<const char*>(at.operands.data()), "GLSL.std.450") == 0)
-                mExtended = at.result;
-            break;
-        case spv::OpDecorate:
-            if (at.operands[1] == spv::DecorationRelaxedPrecision || at.operands[1] == spv::DecorationNoContraction) {
-                mPrecision[at.operands[0]].push_back(static_cast<spv::Decoration>(at.operands[1]));
-            }
-            break;
-        case spv::OpTypeBool: mTypes[at.result] = { at.op, 0, 0 }; break;
-        case spv::OpTypeFloat: mTypes[at.result] = { at.op, 0, at.operands[0] }; break;
-        case spv::OpTypeVector:
-        case spv::OpTypeMatrix: mTypes[at.result] = { at.op, at.operands[0], at.operands[1] }; break;
-        default: break;
+    case spv::OpExtInstImport:
+        if (std::strcmp(reinterpret_cast<const char*>(at.operands.data()), "GLSL.std.450") == 0) mExtended = at.result;
+        break;
+    case spv::OpDecorate:
+        if (at.operands[1] == spv::DecorationRelaxedPrecision || at.operands[1] == spv::DecorationNoContraction) {
+            mPrecision[at.operands[0]].push_back(static_cast<spv::Decoration>(at.operands[1]));
+        }
+        break;
+    case spv::OpTypeBool:
+        mTypes[at.result] = { at.op, 0, 0 };
+        break;
+    case spv::OpTypeFloat:
+        mTypes[at.result] = { at.op, 0, at.operands[0] };
+        break;
+    case spv::OpTypeVector:
+    case spv::OpTypeMatrix:
+        mTypes[at.result] = { at.op, at.operands[0], at.operands[1] };
+        break;
+    default:
+        break;
     }
 }
 
@@ -198,8 +204,10 @@ SpirvEditor::Id SpirvEditor::findOrMakeType(spv::Op op, Id element, uint32_t cou
         if (type.op == op && type.element == element && type.count == count) return id;
     }
     const Id id = newId(0);
-    if (op == spv::OpTypeVector) append(mNewGlobals, op, { id, element, count });
-    else append(mNewGlobals, op, { id });
+    if (op == spv::OpTypeVector)
+        append(mNewGlobals, op, { id, element, count });
+    else
+        append(mNewGlobals, op, { id });
     mTypes[id] = { op, element, count };
     return id;
 }

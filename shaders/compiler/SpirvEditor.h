@@ -40,15 +40,15 @@ public:
 
     // ---- what the module says
     Id typeOf(Id value) const;
-    bool isFloat32(Id type) const;           ///< scalar, vector or matrix of 32-bit floats
+    bool isFloat32(Id type) const; ///< scalar, vector or matrix of 32-bit floats
     bool isVector(Id type) const;
-    uint32_t elementCount(Id type) const;    ///< components of a vector, columns of a matrix, 1 of a scalar
-    Id elementType(Id type) const;           ///< of a vector: its scalar; of a matrix: its column; of a scalar: itself
+    uint32_t elementCount(Id type) const; ///< components of a vector, columns of a matrix, 1 of a scalar
+    Id elementType(Id type) const;        ///< of a vector: its scalar; of a matrix: its column; of a scalar: itself
     /// Components of a 32-bit float constant; empty for everything else.
     std::span<const float> constantOf(Id value) const;
     /// Follows from constants and specialisation constants alone, so the driver can know it when it compiles.
     bool isConstantExpression(Id value) const;
-    Id extendedInstructions() const;         ///< the GLSL.std.450 import; 0: none
+    Id extendedInstructions() const;              ///< the GLSL.std.450 import; 0: none
     bool isExtended(Instruction const& at) const; ///< an OpExtInst of GLSL.std.450
 
     // ---- inside `replace`
@@ -56,7 +56,7 @@ public:
     Id emit(spv::Op op, Id type, std::initializer_list<uint32_t> operands);
     Id constant(std::span<const float> components, Id type); ///< a scalar or vector constant, made once
     Id splat(float value, Id type);
-    Id boolTypeLike(Id floatType);           ///< bool, or a vector of as many bools
+    Id boolTypeLike(Id floatType); ///< bool, or a vector of as many bools
 
 private:
     struct Type {

@@ -21,8 +21,8 @@ struct Value {
     SpirvEditor::Id type() const { return editor->typeOf(id); }
     uint32_t size() const { return editor->elementCount(type()); }
     bool isVector() const { return editor->isVector(type()); }
-    Value operator[](uint32_t element) const;       ///< component of a vector, column of a matrix
-    Value like(float value) const;                  ///< the constant, as wide as this
+    Value operator[](uint32_t element) const; ///< component of a vector, column of a matrix
+    Value like(float value) const;            ///< the constant, as wide as this
 };
 
 Value operator+(Value a, Value b); ///< equal types
@@ -42,7 +42,7 @@ Value compose(SpirvEditor::Id type, std::span<const Value> parts);
 Value repeat(Value scalar, SpirvEditor::Id type); ///< the scalar in every component of a vector type
 /// a < b component by component; scalars a and b choose a whole vector.
 Value selectLess(Value a, Value b, Value ifLess, Value otherwise);
-Value dot(Value a, Value b);        ///< ((x + y) + z) + w
+Value dot(Value a, Value b);             ///< ((x + y) + z) + w
 Value sum(std::span<const Value> terms); ///< left to right
 
 } // namespace filament::shader

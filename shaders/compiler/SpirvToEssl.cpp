@@ -55,7 +55,7 @@ void renumber(CompilerGLSL& compiler, spirv_cross::Resource const& resource, bac
     const uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);
     compiler.set_decoration(resource.id, spv::DecorationDescriptorSet, 0);
     compiler.set_decoration(resource.id, spv::DecorationBinding,
-            backend::flatBinding(layout, set, static_cast<uint8_t>(binding)));
+                            backend::flatBinding(layout, set, static_cast<uint8_t>(binding)));
 }
 
 void renumberAll(CompilerGLSL& compiler, backend::ProgramLayout const& layout) {

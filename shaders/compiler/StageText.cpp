@@ -37,7 +37,8 @@ void StageText::originate(SourcePosition const& at) {
 
 void StageText::lineDirective(uint32_t line, std::string_view file) {
     std::string name(file);
-    std::ranges::replace_if(name, [](unsigned char c) { return c < ' ' || c == '"' || c == '\\'; }, '_');
+    std::ranges::replace_if(
+            name, [](unsigned char c) { return c < ' ' || c == '"' || c == '\\'; }, '_');
     fmt::format_to(std::back_inserter(mText), "#line {} \"{}\"\n", line, name);
 }
 

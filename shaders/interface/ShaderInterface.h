@@ -14,6 +14,7 @@
 
 namespace filament::shader {
 
+// clang-format off
 // ---- vertex attribute locations (all shaders)
 enum AttributeLocation : uint8_t {
     kAttributePosition = 0, ///< float3
@@ -83,6 +84,7 @@ struct LightUniforms {
     std::array<LightData, kMaxPunctualLights> lights;
 };
 
+// clang-format on
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(LightUniforms) == 16384);
 static_assert(sizeof(FrameUniforms) % 16 == 0);
 

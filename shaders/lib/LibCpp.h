@@ -3,7 +3,8 @@
 ///   Use     tests check the BRDF before it has a pixel; the environment baker samples with the same functions.
 ///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and the C++ compiler rounds
 ///           transcendental functions its own way.
-///   Rules   for the .glsl files: no swizzles but .x .y .z .w, literals end in f, vec3(v4) truncates, built-ins are those
+///   Rules   for the .glsl files: no swizzles but .x .y .z .w, literals end in f, vec3(v4) truncates, built-ins are
+///   those
 ///           listed below, functions only.
 ///   Memory  none. Thread: pure functions.
 #pragma once

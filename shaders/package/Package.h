@@ -24,19 +24,21 @@ enum class Blending : uint8_t { Opaque, Masked, Transparent, Fade, Add, Multiply
 enum class Culling : uint8_t { None, Front, Back, FrontAndBack };
 enum class VertexDomain : uint8_t { Object, World, View, Device };
 
+// clang-format off
 enum class ParameterType : uint8_t {
     Bool, Bool2, Bool3, Bool4, Float, Float2, Float3, Float4, Int, Int2, Int3, Int4, Uint, Uint2, Uint3, Uint4,
     Float3x3, Float4x4,                          ///< std140 columns of 16 bytes
     Sampler2D, Sampler2DArray, SamplerCube, SubpassInput,
 };
+// clang-format on
 bool isTexture(ParameterType type); ///< samplers and subpass inputs
 
 struct Parameter {
     std::string name;
     ParameterType type = ParameterType::Float;
-    uint32_t arraySize = 0;  ///< 0: not an array
-    uint32_t offset = 0;     ///< bytes in the MaterialParams block; textures: 0
-    uint8_t binding = 0;     ///< textures: binding in kGroupMaterial
+    uint32_t arraySize = 0; ///< 0: not an array
+    uint32_t offset = 0;    ///< bytes in the MaterialParams block; textures: 0
+    uint8_t binding = 0;    ///< textures: binding in kGroupMaterial
     friend bool operator==(Parameter const&, Parameter const&) = default;
 };
 
@@ -50,8 +52,8 @@ struct Constant {
 
 /// What the scene may ask of a material; a set of bits is a variant key.
 enum VariantBit : uint8_t {
-    kVariantSun = 1,       ///< directionalLighting
-    kVariantPunctual = 2,  ///< dynamicLighting
+    kVariantSun = 1,      ///< directionalLighting
+    kVariantPunctual = 2, ///< dynamicLighting
 };
 
 struct Variant {

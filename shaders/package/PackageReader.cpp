@@ -63,7 +63,7 @@ Result<Sections> splitSections(std::span<const std::byte> content) {
         if (!sections.emplace(tag, body).second) return corrupt("a section appears twice");
     }
     for (const uint32_t tag :
-            { kSectionGeneral, kSectionParameters, kSectionConstants, kSectionLayout, kSectionVariants }) {
+         { kSectionGeneral, kSectionParameters, kSectionConstants, kSectionLayout, kSectionVariants }) {
         if (!sections.contains(tag)) return corrupt("a required section is missing");
     }
     return sections;
@@ -73,11 +73,12 @@ Result<Sections> splitSections(std::span<const std::byte> content) {
 
 bool readGeneral(ByteReader in, MaterialPackage& out) {
     out.name = in.text();
-    const bool enums = readEnum(in, out.domain, MaterialDomain::PostProcess)
-            && readEnum(in, out.shading, ShadingModel::Lit) && readEnum(in, out.blending, Blending::Screen)
-            && readEnum(in, out.culling, Culling::FrontAndBack) && readEnum(in, out.vertexDomain, VertexDomain::Device);
-    const bool flags = enums && readBool(in, out.doubleSided) && readBool(in, out.colorWrite)
-            && readBool(in, out.depthWrite) && readBool(in, out.depthCulling);
+    const bool enums = readEnum(in, out.domain, MaterialDomain::PostProcess) &&
+                       readEnum(in, out.shading, ShadingModel::Lit) && readEnum(in, out.blending, Blending::Screen) &&
+                       readEnum(in, out.culling, Culling::FrontAndBack) &&
+                       readEnum(in, out.vertexDomain, VertexDomain::Device);
+    const bool flags = enums && readBool(in, out.doubleSided) && readBool(in, out.colorWrite) &&
+                       readBool(in, out.depthWrite) && readBool(in, out.depthCulling);
     out.maskThreshold = in.f32();
     out.requiredAttributes = in.u32();
     out.uniformBytes = in.u32();

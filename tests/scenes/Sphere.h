@@ -75,13 +75,16 @@ struct SphereBuffers {
 };
 
 inline SphereBuffers uploadSphere(Engine& engine, SphereMesh const& mesh) {
-    const VertexBuffer vertices = engine.create(VertexBufferDesc{ .vertexCount = static_cast<uint32_t>(mesh.vertices.size()),
+    const VertexBuffer vertices = engine.create(VertexBufferDesc{
+            .vertexCount = static_cast<uint32_t>(mesh.vertices.size()),
             .stride = sizeof(SphereVertex),
             .attributes = { { Attribute::Position, VertexFormat::Float3, 0 },
-                    { Attribute::Tangents, VertexFormat::Float4, offsetof(SphereVertex, tangents) } },
-            .data = std::as_bytes(std::span(mesh.vertices)), .name = "sphere" });
+                            { Attribute::Tangents, VertexFormat::Float4, offsetof(SphereVertex, tangents) } },
+            .data = std::as_bytes(std::span(mesh.vertices)),
+            .name = "sphere" });
     const IndexBuffer indices = engine.create(IndexBufferDesc{ .indexCount = static_cast<uint32_t>(mesh.indices.size()),
-            .data = std::as_bytes(std::span(mesh.indices)), .name = "sphere" });
+                                                               .data = std::as_bytes(std::span(mesh.indices)),
+                                                               .name = "sphere" });
     return { vertices, indices };
 }
 

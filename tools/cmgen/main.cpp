@@ -87,7 +87,8 @@ Result<void> writeCube(Arguments const& arguments, Image const& cube, std::strin
         const Cross cross = crossOf(cube, level);
         const std::string file = cube.levels > 1 ? fmt::format("{}-{}", name, level) : name;
         auto written = writeExr(arguments.out / (file + ".exr"), cross.width(), cross.height(), cross.pixels);
-        if (written && arguments.previews) written = writePreview(arguments.out / (file + ".png"), cross, arguments.exposure);
+        if (written && arguments.previews)
+            written = writePreview(arguments.out / (file + ".png"), cross, arguments.exposure);
         if (!written) return written;
     }
     return {};
@@ -96,7 +97,8 @@ Result<void> writeCube(Arguments const& arguments, Image const& cube, std::strin
 Result<void> writeSh(std::filesystem::path const& path, std::array<float4, 9> const& sh) {
     static constexpr const char* kPolynomials[9] = { "1", "y", "z", "x", "xy", "yz", "3zz-1", "zx", "xx-yy" };
     std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), std::fclose);
-    if (!file) return fail(ErrorCode::Unreadable, "cannot write '{}'; choose a directory you may write to", path.string());
+    if (!file)
+        return fail(ErrorCode::Unreadable, "cannot write '{}'; choose a directory you may write to", path.string());
     fmt::print(file.get(), "# irradiance / pi = sum of coefficient * polynomial of the normal; red, green, blue\n");
     for (size_t i = 0; i < 9; ++i) {
         fmt::print(file.get(), "{:12.8f} {:12.8f} {:12.8f}  # {}\n", sh[i].x, sh[i].y, sh[i].z, kPolynomials[i]);
@@ -122,14 +124,15 @@ void printProgress(std::string_view stage, size_t done, size_t total) {
 void printLoss(const char* name, EncodeLoss const& loss) {
     if (loss.clippedTexels == 0) return;
     std::printf("%s: %llu texels clipped, %.3g %% of the energy lost\n", name,
-            static_cast<unsigned long long>(loss.clippedTexels), 100 * loss.lostEnergy);
+                static_cast<unsigned long long>(loss.clippedTexels), 100 * loss.lostEnergy);
 }
 
 Result<void> run(Arguments const& arguments) {
     jobs::JobSystem jobs({ .workers = arguments.workers });
     const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    EnvironmentOptions options{ .useCache = false, .faceSize = arguments.size, .samples = arguments.samples,
-        .format = arguments.format };
+    EnvironmentOptions options{
+        .useCache = false, .faceSize = arguments.size, .samples = arguments.samples, .format = arguments.format
+    };
     if (terminal) options.progress = printProgress;
     const auto start = std::chrono::steady_clock::now();
     const Result<EnvironmentData> data = loadEnvironment(arguments.environment, jobs, options);
@@ -145,7 +148,7 @@ Result<void> run(Arguments const& arguments) {
     if (done) done = writeDfg(arguments.out / "dfg.exr", bakeDfgTable(jobs, arguments.dfgSize));
     if (!done) return done;
     std::printf("%u x %u -> %u levels from %u texels a face, baked in %.0f ms\n", data->statistics.sourceWidth,
-            data->statistics.sourceHeight, data->specular.levels, data->specular.width, elapsed.count());
+                data->statistics.sourceHeight, data->specular.levels, data->specular.width, elapsed.count());
     printLoss("specular", data->statistics.specularLoss);
     printLoss("sky", data->statistics.skyLoss);
     return {};
@@ -157,10 +160,12 @@ int main(int argc, char** argv) {
     Arguments arguments;
     CLI::App app("Bakes an equirectangular .hdr or .exr: specular-N.exr, sky.exr, sh.txt, dfg.exr");
     app.add_option("environment", arguments.environment, "the picture")->required();
-    app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")->capture_default_str();
-    app.add_option("--samples", arguments.samples, "pieces of the sky that each texel integrates, about")->capture_default_str();
+    app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")
+            ->capture_default_str();
+    app.add_option("--samples", arguments.samples, "pieces of the sky that each texel integrates, about")
+            ->capture_default_str();
     const std::map<std::string, backend::Format> formats{ { "rgba16f", backend::Format::RGBA16F },
-        { "r11g11b10f", backend::Format::R11G11B10F } };
+                                                          { "r11g11b10f", backend::Format::R11G11B10F } };
     app.add_option("--format", arguments.format, "rgba16f or r11g11b10f")
             ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
     app.add_option("--out", arguments.out, "directory for the results")->capture_default_str();

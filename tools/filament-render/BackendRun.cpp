@@ -37,17 +37,6 @@ LoadProgress progressOf(Backend backend, const char* what) {
     };
 }
 
-/// Centre of the box at the origin, largest dimension 1. A point only moves.
-double4x4 fitted(Box const& box) {
-    if (box.empty()) return double4x4(1.0);
-    const double3 size = box.max - box.min, center = (box.min + box.max) * 0.5;
-    const double largest = std::max({ size.x, size.y, size.z });
-    const double scale = largest > 0 ? 1 / largest : 1;
-    double4x4 worldFromModel(scale);
-    worldFromModel[3] = double4(-scale * center, 1);
-    return worldFromModel;
-}
-
 View viewOf(Options const& options) {
     return { .camera = Camera::lookAt(options.eye, options.at, { .verticalFovDegrees = options.fovDegrees },
                                       options.exposure),
@@ -100,7 +89,7 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
     mModel.emplace(std::move(*loaded));
     run.modelName = mModel->name();
     run.warnings = mModel->warnings();
-    mScene.add(*mModel, mOptions.fit ? fitted(mModel->bounds()) : double4x4(1.0));
+    mScene.add(*mModel, mOptions.fit ? fitToUnitCube(mModel->bounds()) : double4x4(1.0));
     run.start.model = watch.lap();
 
     if (!environment.empty()) {

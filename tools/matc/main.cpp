@@ -42,7 +42,7 @@ Result<uint8_t> filteredBits(std::vector<std::string> const& filters) {
         const std::optional<uint8_t> known = shader::variantBitsOfFilter(filter);
         if (!known) {
             return fail(ErrorCode::InvalidArgument, "there is no variant '{}'{}", filter,
-                    suggestion(filter, shader::variantFilterNames()));
+                        suggestion(filter, shader::variantFilterNames()));
         }
         bits |= *known;
     }

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to bake an environment of 1024 x 512, step by step, and to load it again. Without assets: an analytic sky.
+// What it costs to bake an environment of 1024 x 512, step by step, and to load it again. Without assets: an analytic
+// sky.
 #include "filament_core/assets/AnalyticSky.h"
 #include "filament_core/assets/DfgTable.h"
 #include "filament_core/assets/Environment.h"
@@ -34,7 +35,14 @@ void prefilter(benchmark::State& state) {
     const auto pieces = static_cast<uint32_t>(state.range(0));
     for (auto _ : state) benchmark::DoNotOptimize(prefilterSpecular(fixture().cube, 256, pieces, fixture().jobs));
 }
-BENCHMARK(prefilter)->ArgName("pieces")->Arg(128)->Arg(256)->Arg(512)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime();
+BENCHMARK(prefilter)
+        ->ArgName("pieces")
+        ->Arg(128)
+        ->Arg(256)
+        ->Arg(512)
+        ->Arg(1024)
+        ->Unit(benchmark::kMillisecond)
+        ->UseRealTime();
 
 void projectSh(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(irradianceSh(fixture().cube[0], fixture().jobs));

@@ -12,4 +12,16 @@ struct Box {
     bool empty() const { return min.x > max.x; }
 };
 
+/// The transform that moves the box's centre to the origin and scales its largest dimension to 1; the identity for an
+/// empty box, no scale for one without extent.
+inline double4x4 fitToUnitCube(Box const& box) {
+    if (box.empty()) return double4x4(1.0);
+    const double3 size = box.max - box.min, center = (box.max + box.min) * 0.5;
+    const double largest = size.x > size.y ? (size.x > size.z ? size.x : size.z) : (size.y > size.z ? size.y : size.z);
+    const double scale = largest > 0 ? 1 / largest : 1;
+    double4x4 fit(scale);
+    fit[3] = double4(-center * scale, 1);
+    return fit;
+}
+
 } // namespace filament

@@ -10,9 +10,9 @@ namespace filament {
 
 /// Photographic exposure. Lagarde & de Rousiers 2014, "Moving Frostbite to PBR", section 5.1.
 struct Exposure {
-    float aperture = 16.0f;             ///< f-stops, > 0
-    float shutterSeconds = 1.0f / 125;  ///< > 0
-    float iso = 100.0f;                 ///< > 0
+    float aperture = 16.0f;            ///< f-stops, > 0
+    float shutterSeconds = 1.0f / 125; ///< > 0
+    float iso = 100.0f;                ///< > 0
 
     /// log2(N^2 / t * 100 / S)
     float ev100() const;

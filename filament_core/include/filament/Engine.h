@@ -41,9 +41,9 @@ struct EngineOptions {
     std::string requireDevice{}; ///< case-insensitive part of the device's name; empty: the first usable
     int workers = -1;            ///< job threads besides the app thread; -1: one per remaining core; 0: none
     ThreadAffinity affinity = ThreadAffinity::None;
-    int driverCore = -1;         ///< pin the driver thread to this core; -1: do not
-    bool validation = false;     ///< check every stream; Vulkan validation layers or KHR_debug on top
-    std::filesystem::path traceFile{}; ///< write every command as text, for replay; empty: do not
+    int driverCore = -1;                    ///< pin the driver thread to this core; -1: do not
+    bool validation = false;                ///< check every stream; Vulkan validation layers or KHR_debug on top
+    std::filesystem::path traceFile{};      ///< write every command as text, for replay; empty: do not
     std::filesystem::path cacheDirectory{}; ///< baked environments; empty: $XDG_CACHE_HOME/filament_core
 };
 

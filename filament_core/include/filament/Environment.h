@@ -14,9 +14,9 @@
 namespace filament {
 
 struct EnvironmentLoadOptions {
-    uint32_t faceSize = 256;              ///< texels of a cube face, power of two in [16, 2048]
-    Format format = Format::RGBA16F;      ///< or R11G11B10F
-    uint32_t samples = 512;               ///< pieces of the sky that each texel integrates, about
+    uint32_t faceSize = 256;         ///< texels of a cube face, power of two in [16, 2048]
+    Format format = Format::RGBA16F; ///< or R11G11B10F
+    uint32_t samples = 512;          ///< pieces of the sky that each texel integrates, about
     LoadProgress progress{};
 };
 
@@ -37,6 +37,6 @@ private:
 };
 
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
-        EnvironmentLoadOptions const& options = {});
+                                    EnvironmentLoadOptions const& options = {});
 
 } // namespace filament

@@ -6,6 +6,7 @@
 
 namespace filament {
 
+// clang-format off
 enum class Format : uint8_t {
     None,
     R8, RG8, RGBA8, RGBA8Srgb,
@@ -29,5 +30,6 @@ enum class VertexFormat : uint8_t {
     Short2, Short2N, Short4, Short4N,
     UInt, Count,
 };
+// clang-format on
 
 } // namespace filament

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// loadGltf: a .gltf or .glb file as engine objects, decoded and uploaded by the workers.
-///   Errors  NotFound, Unreadable, Corrupt, Unsupported: file, element (accessors[3], images[0]) and reason in one line.
-///   Life    the Model owns its buffers, textures and materials; it must outlive the scenes it was added to.
+///   Errors  NotFound, Unreadable, Corrupt, Unsupported: file, element (accessors[3], images[0]) and reason in one
+///   line. Life    the Model owns its buffers, textures and materials; it must outlive the scenes it was added to.
 #pragma once
 
 #include <filament/Engine.h>

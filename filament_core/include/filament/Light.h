@@ -17,9 +17,9 @@ struct SunLight {
 
 struct PointLight {
     double3 positionWorld{ 0 };
-    Candela intensity{ 100 };  ///< >= 0. From lumens: lm / (4 pi)
+    Candela intensity{ 100 }; ///< >= 0. From lumens: lm / (4 pi)
     LinearColor color{ 1.0f };
-    float rangeMeters = 0;     ///< beyond it the light is exactly zero; 0: unlimited
+    float rangeMeters = 0; ///< beyond it the light is exactly zero; 0: unlimited
 };
 
 struct SpotLight {

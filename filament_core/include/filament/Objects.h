@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The objects of an engine: small typed handles and the descriptions they are made from.
 ///   Every description is valid when default-initialised except for the fields that say otherwise.
-///   Lifetime  until Engine::destroy, or the end of the engine, which names what was forgotten. Owned<T> does it by RAII.
+///   Lifetime  until Engine::destroy, or the end of the engine, which names what was forgotten. Owned<T> does it by
+///   RAII.
 #pragma once
 
 #include <filament/Format.h>
@@ -52,9 +53,11 @@ enum class Attribute : uint8_t {
     Position = 0, ///< float3
     Tangents = 1, ///< float4: quaternion of the tangent frame (x tangent, z normal); w < 0: bitangent flipped
     Color = 2,    ///< float4, linear
-    Uv0 = 3, Uv1 = 4, ///< float2
-    Joints = 5, Weights = 6,
-    Custom0 = 7,  ///< float4; Custom0 + 7 is the last
+    Uv0 = 3,
+    Uv1 = 4, ///< float2
+    Joints = 5,
+    Weights = 6,
+    Custom0 = 7, ///< float4; Custom0 + 7 is the last
 };
 
 struct AttributeDesc {
@@ -101,7 +104,7 @@ using ParameterValue = std::variant<bool, int32_t, uint32_t, float, float2, floa
 
 /// Pre-filtered environment: irradiance and specular reflections of everything far away.
 struct IndirectLightDesc {
-    Texture specular{};               ///< cube; level i holds perceptual roughness 1 - sqrt(1 - i / (levels - 1))
+    Texture specular{}; ///< cube; level i holds perceptual roughness 1 - sqrt(1 - i / (levels - 1))
     uint32_t specularLevels = 1;
     std::array<float4, 9> irradianceSh{}; ///< rgb; see shaders/lib/ibl.glsl, irradianceSh()
     std::string name{};
@@ -119,8 +122,8 @@ struct RenderTargetDesc {
 
 /// Headless: a ring of images that frames are presented to and read back from.
 struct SwapChainDesc {
-    uint2 size{ 1280, 720 }; ///< pixels, >= 1
-    uint32_t imageCount = 2; ///< [1, 4]
+    uint2 size{ 1280, 720 };       ///< pixels, >= 1
+    uint32_t imageCount = 2;       ///< [1, 4]
     Format format = Format::RGBA8; ///< RGBA8 (display) or RGBA16F (scene-linear, without tone mapping)
     std::string name{};
 };

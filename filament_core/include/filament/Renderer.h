@@ -32,13 +32,13 @@ struct PassTiming {
 /// Of one frame; complete when the driver thread and the device are done with it.
 struct FrameTimings {
     uint64_t frame = 0;
-    double prepareMilliseconds = 0;  ///< app thread and workers: cull, sort, upload data
-    double recordMilliseconds = 0;   ///< app thread: graph and commands
-    double replayMilliseconds = 0;   ///< driver thread
-    double gpuMilliseconds = 0;      ///< device, sum of passes; 0 without RendererOptions::passTimers
-    double beginSeconds = 0, submitSeconds = 0;            ///< app thread, since the engine started
-    double replayBeginSeconds = 0, replayEndSeconds = 0;   ///< driver thread
-    double workerBusyMilliseconds = 0; ///< all workers together, while the frame was prepared
+    double prepareMilliseconds = 0;             ///< app thread and workers: cull, sort, upload data
+    double recordMilliseconds = 0;              ///< app thread: graph and commands
+    double replayMilliseconds = 0;              ///< driver thread
+    double gpuMilliseconds = 0;                 ///< device, sum of passes; 0 without RendererOptions::passTimers
+    double beginSeconds = 0, submitSeconds = 0; ///< app thread, since the engine started
+    double replayBeginSeconds = 0, replayEndSeconds = 0; ///< driver thread
+    double workerBusyMilliseconds = 0;                   ///< all workers together, while the frame was prepared
     std::vector<PassTiming> passes;
 };
 

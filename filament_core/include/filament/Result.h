@@ -45,16 +45,28 @@ public:
     bool ok() const { return mState.index() == 0; }
     explicit operator bool() const { return ok(); }
 
-    T& value() & { assert(ok()); return std::get<0>(mState); }
-    T const& value() const& { assert(ok()); return std::get<0>(mState); }
-    T&& value() && { assert(ok()); return std::get<0>(std::move(mState)); }
+    T& value() & {
+        assert(ok());
+        return std::get<0>(mState);
+    }
+    T const& value() const& {
+        assert(ok());
+        return std::get<0>(mState);
+    }
+    T&& value() && {
+        assert(ok());
+        return std::get<0>(std::move(mState));
+    }
     T& operator*() & { return value(); }
     T const& operator*() const& { return value(); }
     T&& operator*() && { return std::move(*this).value(); }
     T* operator->() { return &value(); }
     T const* operator->() const { return &value(); }
 
-    Error const& error() const { assert(!ok()); return std::get<1>(mState); }
+    Error const& error() const {
+        assert(!ok());
+        return std::get<1>(mState);
+    }
 
 private:
     std::variant<T, Error> mState;
@@ -69,7 +81,10 @@ public:
 
     bool ok() const { return mOk; }
     explicit operator bool() const { return mOk; }
-    Error const& error() const { assert(!mOk); return mError; }
+    Error const& error() const {
+        assert(!mOk);
+        return mError;
+    }
 
 private:
     Error mError;

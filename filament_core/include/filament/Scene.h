@@ -23,10 +23,10 @@ struct RenderableDesc {
     MaterialInstance material{};
     PrimitiveType primitive = PrimitiveType::Triangles;
     uint32_t firstIndex = 0;
-    uint32_t indexCount = 0;       ///< 0: all
+    uint32_t indexCount = 0;               ///< 0: all
     float3 boundsMin{ 0 }, boundsMax{ 0 }; ///< of the positions, in object space
     double4x4 worldFromObject{ 1.0 };      ///< affine
-    bool culled = true;            ///< false: drawn even when its box is out of view
+    bool culled = true;                    ///< false: drawn even when its box is out of view
     std::string name{};
 };
 

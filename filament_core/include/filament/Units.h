@@ -5,9 +5,17 @@
 
 namespace filament {
 
-struct Lux { float value = 0; };     ///< illuminance, lm/m^2: suns, environments
-struct Lumen { float value = 0; };   ///< luminous power: bulbs
-struct Candela { float value = 0; }; ///< luminous intensity, lm/sr: spots
-struct Nits { float value = 0; };    ///< luminance, cd/m^2: emissive surfaces, skies
+struct Lux {
+    float value = 0;
+}; ///< illuminance, lm/m^2: suns, environments
+struct Lumen {
+    float value = 0;
+}; ///< luminous power: bulbs
+struct Candela {
+    float value = 0;
+}; ///< luminous intensity, lm/sr: spots
+struct Nits {
+    float value = 0;
+}; ///< luminance, cd/m^2: emissive surfaces, skies
 
 } // namespace filament

@@ -26,11 +26,11 @@ struct ColorGrading {
 
 struct View {
     Camera camera{};
-    uint2 size{ 1280, 720 };       ///< pixels, >= 1
+    uint2 size{ 1280, 720 }; ///< pixels, >= 1
     ColorGrading colorGrading{};
     float4 clearColor{ 0, 0, 0, 1 }; ///< scene-linear and pre-exposed: what is behind everything, without a skybox
-    uint8_t samples = 1;           ///< MSAA: 1 or 4
-    double timeSeconds = 0;        ///< handed to the materials
+    uint8_t samples = 1;             ///< MSAA: 1 or 4
+    double timeSeconds = 0;          ///< handed to the materials
 };
 
 } // namespace filament

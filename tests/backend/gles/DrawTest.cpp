@@ -130,7 +130,8 @@ TEST_F(DrawTest, ConstantsReplaceTheDefaultsBitForBit) {
         void main() { color = vec4(third, lowest == (-2147483647 - 1) ? 1.0 : 0.0, flag ? 1.0 : 0.0, 1.0); })";
     const float third = 1.0f / 3.0f;
     const ConstantValue constants[] = { { 3, std::bit_cast<uint32_t>(third), ConstantValue::Type::Float },
-        { 4, 0x80000000u, ConstantValue::Type::Int }, { 5, 1, ConstantValue::Type::Bool } };
+                                        { 4, 0x80000000u, ConstantValue::Type::Int },
+                                        { 5, 1, ConstantValue::Type::Bool } };
     drawFullScreen(pass, simplePipeline(program(kFullScreenVertex, kFragment, {}, constants), pass.layout));
     EXPECT_EQ(pixel(), (Float4{ third, 1, 1, 1 }));
 }
@@ -200,8 +201,11 @@ protected:
         commands.record(CmdBindVertexBuffers{ .buffers = { corners, instances }, .count = 2 });
         commands.record(CmdBindIndexBuffer{ indices, 2 });
         if (indexed) {
-            commands.record(CmdDrawIndexed{ .indexCount = 4, .instanceCount = 2, .firstIndex = 1,
-                    .vertexOffset = vertexOffset, .firstInstance = firstInstance });
+            commands.record(CmdDrawIndexed{ .indexCount = 4,
+                                            .instanceCount = 2,
+                                            .firstIndex = 1,
+                                            .vertexOffset = vertexOffset,
+                                            .firstInstance = firstInstance });
         } else {
             commands.record(
                     CmdDraw{ .vertexCount = 4, .instanceCount = 2, .firstVertex = 2, .firstInstance = firstInstance });
@@ -212,8 +216,9 @@ protected:
 };
 
 TEST_F(InstanceTest, TheFirstInstanceOffsetsPerInstanceAttributesWithAndWithoutTheExtension) {
-    for (QuirkFilter filter : { QuirkFilter{}, QuirkFilter{ [](Quirks& quirks) { quirks.baseInstance = false; } },
-                 QuirkFilter{ [](Quirks& quirks) { quirks.baseInstance = quirks.baseVertex = false; } } }) {
+    for (QuirkFilter filter :
+         { QuirkFilter{}, QuirkFilter{ [](Quirks& quirks) { quirks.baseInstance = false; } },
+           QuirkFilter{ [](Quirks& quirks) { quirks.baseInstance = quirks.baseVertex = false; } } }) {
         start(filter);
         EXPECT_EQ(drawRow(0, false, 0), (std::vector<float>{ 1, 2, 0, 0 }));
         EXPECT_EQ(drawRow(2, false, 0), (std::vector<float>{ 0, 0, 3, 4 }));
@@ -269,9 +274,9 @@ TEST_F(DrawTest, APipelineOutlivesItsProgramHandle) {
 
 TEST(ConstantDefinitionsTest, TheyAreDefinesFollowedByTheNumberOfTheNextLine) {
     const ConstantValue constants[] = { { 0, 1, ConstantValue::Type::Bool },
-        { 7, 0xFFFFFFFFu, ConstantValue::Type::Int } };
+                                        { 7, 0xFFFFFFFFu, ConstantValue::Type::Int } };
     EXPECT_EQ(constantDefinitions(constants),
-            "#define SPIRV_CROSS_CONSTANT_ID_0 true\n#define SPIRV_CROSS_CONSTANT_ID_7 (-1)\n#line 2\n");
+              "#define SPIRV_CROSS_CONSTANT_ID_0 true\n#define SPIRV_CROSS_CONSTANT_ID_7 (-1)\n#line 2\n");
     EXPECT_EQ(constantDefinitions({}), "");
 }
 

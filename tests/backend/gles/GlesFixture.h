@@ -49,7 +49,7 @@ std::span<const std::byte> bytesOf(std::vector<T> const& values) {
 
 /// One colour attachment that is cleared and kept.
 inline PassDesc colorPass(TextureHandle texture, Format format, uint32_t width, uint32_t height,
-        std::array<float, 4> clear = {}) {
+                          std::array<float, 4> clear = {}) {
     PassDesc pass;
     pass.layout.colorCount = 1;
     pass.layout.colorFormats[0] = format;
@@ -110,7 +110,7 @@ protected:
     }
 
     ProgramHandle program(std::string_view vertex, std::string_view fragment, ProgramLayout const& layout = {},
-            std::span<const ConstantValue> constants = {}) {
+                          std::span<const ConstantValue> constants = {}) {
         const ProgramHandle handle = programs.allocate();
         ProgramDesc desc;
         desc.vertex = bytesOf(vertex);

@@ -75,8 +75,8 @@ TEST_F(GlesTest, ATriangleThatTurnsCounterClockwiseInThePictureFacesTheViewer) {
     desc.raster = { .cull = CullMode::Back, .frontFace = FrontFace::CounterClockwise };
     const PipelineHandle culling = pipeline(desc);
     // With row 0 (y = -1) on top: top left, bottom left, far right. Down, then right, then back up: counter-clockwise.
-    const BufferHandle triangles = buffer<float>({ -1, -1, -1, 3, 3, -1, /* the other way: */ -1, -1, 3, -1, -1, 3 },
-            BufferUsage::Vertex);
+    const BufferHandle triangles =
+            buffer<float>({ -1, -1, -1, 3, 3, -1, /* the other way: */ -1, -1, 3, -1, -1, 3 }, BufferUsage::Vertex);
     for (uint32_t first : { 0u, 3u }) {
         commands.record(CmdBeginPass{ pass });
         commands.record(CmdBindPipeline{ culling });

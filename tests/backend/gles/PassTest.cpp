@@ -103,8 +103,8 @@ TEST_F(GlesTest, AnSrgbResolveAveragesLight) {
         layout(location = 0) out highp vec4 color;
         void main() { color = vec4(1.0); gl_SampleMask[0] = 3; })";
     drawFullScreen(pass, simplePipeline(program(kFullScreenVertex, kHalfCovered), pass.layout));
-    // Half of the light is 0.5, which sRGB stores as 187.5 (IEC 61966-2-1) and llvmpipe's polynomial as 187; the mean of
-    // the code values would be 128.
+    // Half of the light is 0.5, which sRGB stores as 187.5 (IEC 61966-2-1) and llvmpipe's polynomial as 187; the mean
+    // of the code values would be 128.
     EXPECT_NEAR(read<Rgba>(resolved, { 0, 0, 1, 1 }).at(0)[0], 187.5, 0.5);
 }
 

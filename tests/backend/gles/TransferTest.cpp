@@ -39,10 +39,11 @@ TEST_P(FormatTest, AnUploadReadsBackByteForByte) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Renderable, FormatTest,
-        testing::Values(Format::R8, Format::RG8, Format::RGBA8, Format::RGBA8Srgb, Format::R8UI, Format::R32UI,
-                Format::RG32UI, Format::RGBA8UI, Format::RGB10A2, Format::R16F, Format::RG16F, Format::RGBA16F,
-                Format::R32F, Format::RG32F, Format::RGBA32F, Format::R11G11B10F),
-        [](auto const& tested) { return std::string(formatInfo(tested.param).name); });
+                         testing::Values(Format::R8, Format::RG8, Format::RGBA8, Format::RGBA8Srgb, Format::R8UI,
+                                         Format::R32UI, Format::RG32UI, Format::RGBA8UI, Format::RGB10A2, Format::R16F,
+                                         Format::RG16F, Format::RGBA16F, Format::R32F, Format::RG32F, Format::RGBA32F,
+                                         Format::R11G11B10F),
+                         [](auto const& tested) { return std::string(formatInfo(tested.param).name); });
 
 TEST_F(GlesTest, AnUploadReplacesItsRectangleOfItsLayersOnly) {
     TextureDesc desc = copyable(Format::R8, 4, 2);
@@ -91,7 +92,7 @@ TEST_P(DepthReadTest, DepthReadsAsFloatsWithAndWithoutTheExtension) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Depth, DepthReadTest, testing::Values(Format::D16, Format::D32F, Format::D32FS8),
-        [](auto const& tested) { return std::string(formatInfo(tested.param).name); });
+                         [](auto const& tested) { return std::string(formatInfo(tested.param).name); });
 
 TEST_F(GlesTest, AMipLevelIsTheBoxAverageOfTheLevelAbove) {
     const TextureHandle image = texture(copyable(Format::RGBA8, 4, 2, 3));

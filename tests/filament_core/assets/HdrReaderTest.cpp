@@ -25,7 +25,8 @@ Result<HdrImage> decode(std::string const& file) { return decodeHdrImage(bytesOf
 // ---------------------------------------------------------------------------------------------- Radiance
 
 TEST(HdrReader, AFlatPixelIsMantissaTimesTwoToTheExponentMinus136) {
-    const auto image = decode(rgbeFile("-Y 1 +X 2", { char(128), char(64), char(0), char(129), char(255), char(1), char(2), char(0) }));
+    const auto image = decode(
+            rgbeFile("-Y 1 +X 2", { char(128), char(64), char(0), char(129), char(255), char(1), char(2), char(0) }));
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(image->at(0, 0), float3(1.0f, 0.5f, 0.0f));
     EXPECT_EQ(image->at(1, 0), float3(0.0f)) << "exponent 0 is black whatever the mantissas say";
@@ -33,10 +34,10 @@ TEST(HdrReader, AFlatPixelIsMantissaTimesTwoToTheExponentMinus136) {
 
 TEST(HdrReader, RunLengthsOf1991RepeatAndCopy) {
     std::string row{ 2, 2, 0, 8 };
-    row += { char(128 + 8), char(128) };                                     // red: eight times 128
-    row += { 8, 0, 1, 2, 3, 4, 5, 6, 7 };                                    // green: copied
-    row += { char(128 + 3), 9, 1, 10, char(128 + 4), 11 };                   // blue: mixed
-    row += { char(128 + 8), char(136) };                                     // exponent: times one
+    row += { char(128 + 8), char(128) };                   // red: eight times 128
+    row += { 8, 0, 1, 2, 3, 4, 5, 6, 7 };                  // green: copied
+    row += { char(128 + 3), 9, 1, 10, char(128 + 4), 11 }; // blue: mixed
+    row += { char(128 + 8), char(136) };                   // exponent: times one
     const auto image = decode(rgbeFile("-Y 1 +X 8", row));
     ASSERT_TRUE(image) << image.error().message;
     EXPECT_EQ(image->at(5, 0), float3(128, 5, 11));
@@ -94,7 +95,8 @@ HdrImage testPicture(uint32_t width = 23, uint32_t height = 37) {
 }
 
 // Through libtinyexr, which can write what our own reader must read.
-std::vector<std::byte> exrFile(HdrImage const& image, int compression, bool half, std::vector<const char*> names = { "B", "G", "R" }) {
+std::vector<std::byte> exrFile(HdrImage const& image, int compression, bool half,
+                               std::vector<const char*> names = { "B", "G", "R" }) {
     EXRHeader header;
     InitEXRHeader(&header);
     EXRImage planes;
@@ -127,7 +129,8 @@ std::vector<std::byte> exrFile(HdrImage const& image, int compression, bool half
 }
 
 constexpr std::array<int, 5> kCompressions{ TINYEXR_COMPRESSIONTYPE_NONE, TINYEXR_COMPRESSIONTYPE_RLE,
-    TINYEXR_COMPRESSIONTYPE_ZIPS, TINYEXR_COMPRESSIONTYPE_ZIP, TINYEXR_COMPRESSIONTYPE_PIZ };
+                                            TINYEXR_COMPRESSIONTYPE_ZIPS, TINYEXR_COMPRESSIONTYPE_ZIP,
+                                            TINYEXR_COMPRESSIONTYPE_PIZ };
 
 TEST(HdrReader, EveryCompressionOfOpenExrGivesThePixelsThatWereWritten) {
     const HdrImage written = testPicture();
@@ -195,8 +198,8 @@ TEST(HdrReader, DamagedRadianceFilesNeverCrash) {
 
 // PIZ is decoded by libtinyexr, which loses memory over damaged blocks (not over truncated ones): see HdrExr.cpp.
 TEST(HdrReader, DamagedExrFilesNeverCrash) {
-    for (const int compression : { TINYEXR_COMPRESSIONTYPE_NONE, TINYEXR_COMPRESSIONTYPE_RLE, TINYEXR_COMPRESSIONTYPE_ZIPS,
-                 TINYEXR_COMPRESSIONTYPE_ZIP }) {
+    for (const int compression : { TINYEXR_COMPRESSIONTYPE_NONE, TINYEXR_COMPRESSIONTYPE_RLE,
+                                   TINYEXR_COMPRESSIONTYPE_ZIPS, TINYEXR_COMPRESSIONTYPE_ZIP }) {
         expectSurvival(exrFile(testPicture(), compression, true), 1000);
     }
 }

@@ -16,7 +16,7 @@ protected:
 
 double pixelSolidAngle(HdrImage const& image, uint32_t y) {
     return 2 * std::numbers::pi / image.width *
-            (std::cos(std::numbers::pi * y / image.height) - std::cos(std::numbers::pi * (y + 1) / image.height));
+           (std::cos(std::numbers::pi * y / image.height) - std::cos(std::numbers::pi * (y + 1) / image.height));
 }
 
 double luminance(float3 c) { return 0.2126 * c.x + 0.7152 * c.y + 0.0722 * c.z; }
@@ -42,7 +42,7 @@ TEST_F(HdrSkyTest, TheSunIsWhereItWasPutAndBrighterThanHalfFloats) {
     }
     EXPECT_GT(sky.pixels[brightest].y, kMaxHalf);
     const float3 found = directionFromEquirect({ (float(brightest % sky.width) + 0.5f) / float(sky.width),
-        (float(brightest / sky.width) + 0.5f) / float(sky.height) });
+                                                 (float(brightest / sky.width) + 0.5f) / float(sky.height) });
     EXPECT_GT(glm::dot(found, sun), std::cos(2 * kPi / float(sky.width) * 1.5f));
 }
 
@@ -67,7 +67,9 @@ TEST_F(HdrSkyTest, TheDiscCarriesTheSunsIlluminanceEvenWhenSmallerThanAPixel) {
 
 // Preetham et al. 1999, figures 6 to 8, and CIE tables: some 100 klx of sun and 10 to 20 klx of blue sky at noon.
 TEST_F(HdrSkyTest, AClearNoonHasTheIlluminanceOfAClearNoon) {
-    const AnalyticSkyOptions options{ .height = 64, .sunDirection = { 0.2f, 1, 0.2f }, .turbidity = 2.5f, .sunDisc = false };
+    const AnalyticSkyOptions options{
+        .height = 64, .sunDirection = { 0.2f, 1, 0.2f }, .turbidity = 2.5f, .sunDisc = false
+    };
     const double sun = luminance(analyticSunIlluminance(options));
     EXPECT_GT(sun, 80);
     EXPECT_LT(sun, 133);
@@ -109,7 +111,9 @@ TEST_F(HdrSkyTest, WorkersDoNotChangeTheBits) {
 }
 
 TEST_F(HdrSkyTest, OptionsOutsideOfTheirRangeAreErrorsThatNameThem) {
-    const auto message = [&](AnalyticSkyOptions const& options) { return makeAnalyticSky(options, mJobs).error().message; };
+    const auto message = [&](AnalyticSkyOptions const& options) {
+        return makeAnalyticSky(options, mJobs).error().message;
+    };
     EXPECT_NE(message({ .height = 7 }).find("height 7"), std::string::npos);
     EXPECT_NE(message({ .turbidity = 1 }).find("turbidity"), std::string::npos);
     EXPECT_NE(message({ .sunDirection = { 0, -1, 0 } }).find("horizon"), std::string::npos);

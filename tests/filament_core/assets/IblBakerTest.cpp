@@ -18,8 +18,12 @@ protected:
     jobs::JobSystem mJobs{ { .workers = 1 } };
 };
 
-const std::array<float3, 6> kNormals{ float3(1, 0, 0), float3(0, -1, 0), float3(0, 0, 1), float3(0.6f, 0.8f, 0),
-    float3(-0.57735f, 0.57735f, -0.57735f), float3(0, -0.6f, 0.8f) };
+const std::array<float3, 6> kNormals{ float3(1, 0, 0),
+                                      float3(0, -1, 0),
+                                      float3(0, 0, 1),
+                                      float3(0.6f, 0.8f, 0),
+                                      float3(-0.57735f, 0.57735f, -0.57735f),
+                                      float3(0, -0.6f, 0.8f) };
 
 // A sky with broad features on both sides and all axes.
 float3 unevenSky(float3 d) {
@@ -49,10 +53,12 @@ TEST_F(IblBakerTest, InAFurnaceEveryRoughnessAndTheIrradianceAreOne) {
     for (size_t i = 1; i < 9; ++i) EXPECT_NEAR(sh[i].x, 0.0f, 1e-4f);
 }
 
-// L = a + b.d + d.C.d: the cosine lobe scales its bands by 1, 2/3 and 1/4, so the coefficients are known in closed form.
+// L = a + b.d + d.C.d: the cosine lobe scales its bands by 1, 2/3 and 1/4, so the coefficients are known in closed
+// form.
 TEST_F(IblBakerTest, CoefficientsOfAPolynomialSkyAreKnownInClosedForm) {
     const auto sky = [](float3 d) {
-        return float3(2.0f + 0.3f * d.y + 0.6f * d.z - 0.9f * d.x, 1 + 0.8f * d.x * d.y - 0.4f * d.y * d.z, 1 + 0.4f * d.z * d.x);
+        return float3(2.0f + 0.3f * d.y + 0.6f * d.z - 0.9f * d.x, 1 + 0.8f * d.x * d.y - 0.4f * d.y * d.z,
+                      1 + 0.4f * d.z * d.x);
     };
     const std::array<float4, 9> sh = irradianceSh(cubeFromEquirect(pictureOf(256, sky), 128, mJobs)[0], mJobs);
     constexpr float kTolerance = 1e-3f;
@@ -75,11 +81,14 @@ TEST_F(IblBakerTest, IrradianceFollowsTheHemisphericalIntegralOfASmoothSky) {
         double3 reference(0.0);
         for (uint32_t face = 0; face < 6; ++face) {
             for (int i = 0; i < 64 * 64; ++i) {
-                const float3 d = glm::normalize(directionFromCube({ face, faceCoordinate(i % 64, 64), faceCoordinate(i / 64, 64) }));
-                reference += double3(unevenSky(d)) * double(std::max(0.0f, glm::dot(d, n)) * angles[static_cast<size_t>(i)] / kPi);
+                const float3 d = glm::normalize(
+                        directionFromCube({ face, faceCoordinate(i % 64, 64), faceCoordinate(i / 64, 64) }));
+                reference += double3(unevenSky(d)) *
+                             double(std::max(0.0f, glm::dot(d, n)) * angles[static_cast<size_t>(i)] / kPi);
             }
         }
-        EXPECT_LT(glm::distance(lib::irradianceSh(sh.data(), n, 3), float3(reference)), 0.04f * glm::length(float3(reference)));
+        EXPECT_LT(glm::distance(lib::irradianceSh(sh.data(), n, 3), float3(reference)),
+                  0.04f * glm::length(float3(reference)));
     }
 }
 
@@ -91,7 +100,8 @@ float3 prefilterByBruteForce(float3 n, float alpha) {
     double weights = 0;
     for (uint32_t face = 0; face < 6; ++face) {
         for (int i = 0; i < int(kSize * kSize); ++i) {
-            const float3 l = glm::normalize(directionFromCube({ face, faceCoordinate(i % int(kSize), kSize), faceCoordinate(i / int(kSize), kSize) }));
+            const float3 l = glm::normalize(directionFromCube(
+                    { face, faceCoordinate(i % int(kSize), kSize), faceCoordinate(i / int(kSize), kSize) }));
             const float nol = glm::dot(n, l);
             if (nol <= 0) continue;
             const float noh = glm::dot(n, glm::normalize(n + l));
@@ -120,11 +130,15 @@ TEST_F(IblBakerTest, EveryLevelIsTheLobeOfItsRoughnessOverTheSky) {
 
 // What importance sampling gets wrong by half: lamps of a few texels in a dark room, at roughness 1 (n.l alone weighs).
 TEST_F(IblBakerTest, SmallBrightLampsLightTheRoughestLevelByTheCosine) {
-    const std::array<float3, 2> lamps{ glm::normalize(float3(0.3f, 0.9f, 0.2f)), glm::normalize(float3(-0.7f, 0.1f, 0.6f)) };
-    const HdrImage room = pictureOf(256, [&](float3 d) {
-        const bool lit = glm::dot(d, lamps[0]) > 0.9995f || glm::dot(d, lamps[1]) > 0.9995f;
-        return float3(lit ? 5000.0f : 0.01f);
-    }, 2);
+    const std::array<float3, 2> lamps{ glm::normalize(float3(0.3f, 0.9f, 0.2f)),
+                                       glm::normalize(float3(-0.7f, 0.1f, 0.6f)) };
+    const HdrImage room = pictureOf(
+            256,
+            [&](float3 d) {
+                const bool lit = glm::dot(d, lamps[0]) > 0.9995f || glm::dot(d, lamps[1]) > 0.9995f;
+                return float3(lit ? 5000.0f : 0.01f);
+            },
+            2);
     const IblCube cube = cubeFromEquirect(room, 128, mJobs);
     const std::vector<IblCubeLevel> levels = prefilterSpecular(cube, 128, 512, mJobs);
     struct Lit {
@@ -134,22 +148,26 @@ TEST_F(IblBakerTest, SmallBrightLampsLightTheRoughestLevelByTheCosine) {
     std::vector<Lit> lit; // the texels of the lamps
     const std::vector<float> angles = texelSolidAngles(128);
     for (uint32_t i = 0; i < 6 * 128 * 128; ++i) {
-        const CubePoint point{ i / (128 * 128), faceCoordinate(int(i % 128), 128), faceCoordinate(int(i / 128 % 128), 128) };
+        const CubePoint point{ i / (128 * 128), faceCoordinate(int(i % 128), 128),
+                               faceCoordinate(int(i / 128 % 128), 128) };
         const float excess = cube[0].radiance(point.face, int(i % 128), int(i / 128 % 128)).x - 0.01f;
-        if (excess > 1e-3f) lit.push_back({ glm::normalize(directionFromCube(point)), excess * angles[i % (128 * 128)] });
+        if (excess > 1e-3f)
+            lit.push_back({ glm::normalize(directionFromCube(point)), excess * angles[i % (128 * 128)] });
     }
-    // A lamp on the horizon of a texel is seen by half, which its node, taken by its centre, may miss: the mean height of
-    // half a disc of that radius, 2 r / (3 pi), of what facing the lamp gives.
+    // A lamp on the horizon of a texel is seen by half, which its node, taken by its centre, may miss: the mean height
+    // of half a disc of that radius, 2 r / (3 pi), of what facing the lamp gives.
     const double radius = std::acos(0.9995), facing = 5000 * 2 * (1 - 0.9995);
     const double atHorizon = 2 * radius / (3 * std::numbers::pi) * facing;
     const int size = static_cast<int>(levels.back().size());
     for (int i = 0; i < 6 * size * size; ++i) {
         const CubePoint point{ static_cast<uint32_t>(i / (size * size)), faceCoordinate(i % size, uint32_t(size)),
-            faceCoordinate(i / size % size, uint32_t(size)) };
+                               faceCoordinate(i / size % size, uint32_t(size)) };
         const float3 n = glm::normalize(directionFromCube(point));
         double expected = 0.01;
-        for (Lit const& texel : lit) expected += texel.energy * std::max(0.0f, glm::dot(n, texel.direction)) / std::numbers::pi;
-        EXPECT_NEAR(levels.back().radiance(point.face, i % size, i / size % size).x, expected, 0.01 * expected + atHorizon);
+        for (Lit const& texel : lit)
+            expected += texel.energy * std::max(0.0f, glm::dot(n, texel.direction)) / std::numbers::pi;
+        EXPECT_NEAR(levels.back().radiance(point.face, i % size, i / size % size).x, expected,
+                    0.01 * expected + atHorizon);
     }
 }
 
@@ -164,7 +182,8 @@ TEST_F(IblBakerTest, TheFirstLevelIsTheSkyItself) {
 TEST_F(IblBakerTest, ABrightDiscKeepsItsEnergyThroughAllRoughnesses) {
     const float3 sun = glm::normalize(float3(0.4f, 0.5f, 0.8f));
     const float cosRadius = std::cos(0.03f);
-    const HdrImage image = pictureOf(256, [&](float3 d) { return float3(glm::dot(d, sun) > cosRadius ? 1e4f : 0.0f); }, 2);
+    const HdrImage image = pictureOf(
+            256, [&](float3 d) { return float3(glm::dot(d, sun) > cosRadius ? 1e4f : 0.0f); }, 2);
     const std::vector<IblCubeLevel> levels = prefilterSpecular(cubeFromEquirect(image, 128, mJobs), 128, 512, mJobs);
     std::vector<double> energies;
     for (IblCubeLevel const& level : levels) {

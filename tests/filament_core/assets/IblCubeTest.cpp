@@ -17,7 +17,8 @@ double energy(IblCubeLevel const& level) {
     double sum = 0;
     for (uint32_t face = 0; face < 6; ++face) {
         for (size_t i = 0; i < angles.size(); ++i) {
-            sum += angles[i] * level.radiance(face, static_cast<int>(i % level.size()), static_cast<int>(i / level.size())).x;
+            sum += angles[i] *
+                   level.radiance(face, static_cast<int>(i % level.size()), static_cast<int>(i / level.size())).x;
         }
     }
     return sum;
@@ -25,10 +26,10 @@ double energy(IblCubeLevel const& level) {
 
 // OpenGL ES 3.2 table 8.25, written out once more by hand: texel (0, 0) and the middle of the first row of each face.
 TEST_F(IblCubeTest, FaceCoordinatesAreThoseOfTheGraphicsApis) {
-    const std::array<float3, 6> centres{ float3(1, 0, 0), float3(-1, 0, 0), float3(0, 1, 0), float3(0, -1, 0), float3(0, 0, 1),
-        float3(0, 0, -1) };
-    const std::array<float3, 6> topLeft{ float3(1, 1, 1), float3(-1, 1, -1), float3(-1, 1, -1), float3(-1, -1, 1),
-        float3(-1, 1, 1), float3(1, 1, -1) };
+    const std::array<float3, 6> centres{ float3(1, 0, 0),  float3(-1, 0, 0), float3(0, 1, 0),
+                                         float3(0, -1, 0), float3(0, 0, 1),  float3(0, 0, -1) };
+    const std::array<float3, 6> topLeft{ float3(1, 1, 1),   float3(-1, 1, -1), float3(-1, 1, -1),
+                                         float3(-1, -1, 1), float3(-1, 1, 1),  float3(1, 1, -1) };
     for (uint32_t face = 0; face < 6; ++face) {
         EXPECT_EQ(directionFromCube({ face, 0, 0 }), centres[face]);
         EXPECT_EQ(directionFromCube({ face, -1, -1 }), topLeft[face]);
@@ -69,8 +70,9 @@ TEST_F(IblCubeTest, SixColouredDirectionsLandOnTheirFacesAndTexels) {
         float s, t;
     };
     // +x at u = 1/4, -x at 3/4, +z at 1/2, -z at the seam; an eighth above the horizon (v = 3/8) t is -tan(22.5).
-    const std::array<Mark, 4> marks{ { { 128, 128, 0, 0, 0 }, { 384, 128, 1, 0, 0 }, { 256, 96, 4, 0, -0.41421f },
-        { 0, 160, 5, 0, 0.41421f } } };
+    const std::array<Mark, 4> marks{
+        { { 128, 128, 0, 0, 0 }, { 384, 128, 1, 0, 0 }, { 256, 96, 4, 0, -0.41421f }, { 0, 160, 5, 0, 0.41421f } }
+    };
     for (size_t i = 0; i < marks.size(); ++i) {
         for (int dy = -2; dy < 2; ++dy) {
             for (int dx = -2; dx < 2; ++dx) {
@@ -96,7 +98,8 @@ TEST_F(IblCubeTest, SolidAnglesOfACubeAddUpToTheSphere) {
         const std::vector<float> angles = texelSolidAngles(size);
         EXPECT_NEAR(6 * std::accumulate(angles.begin(), angles.end(), 0.0), 4 * std::numbers::pi, 1e-4);
     }
-    EXPECT_GT(texelSolidAngles(64)[32 * 64 + 32], 4.9f * texelSolidAngles(64)[0]) << "corners are seen 3^1.5 times smaller";
+    EXPECT_GT(texelSolidAngles(64)[32 * 64 + 32], 4.9f * texelSolidAngles(64)[0])
+            << "corners are seen 3^1.5 times smaller";
 }
 
 TEST_F(IblCubeTest, AConstantSkyStaysConstantOnEveryLevelAndBorder) {
@@ -106,7 +109,8 @@ TEST_F(IblCubeTest, AConstantSkyStaysConstantOnEveryLevelAndBorder) {
         const int last = static_cast<int>(level.size());
         for (uint32_t face = 0; face < 6; ++face) {
             for (int y = -1; y <= last; ++y) {
-                for (int x = -1; x <= last; ++x) EXPECT_LT(glm::distance(level.radiance(face, x, y), float3(1, 2, 3)), 1e-5f);
+                for (int x = -1; x <= last; ++x)
+                    EXPECT_LT(glm::distance(level.radiance(face, x, y), float3(1, 2, 3)), 1e-5f);
             }
         }
     }
@@ -114,14 +118,17 @@ TEST_F(IblCubeTest, AConstantSkyStaysConstantOnEveryLevelAndBorder) {
 
 // A sun of a few pixels, at places where the picture is distorted in different ways.
 TEST_F(IblCubeTest, TheEnergyOfASmallBrightDiscIsTheSameInThePictureAndOnAllLevels) {
-    for (const float3 sun : { float3(0.3f, 0.2f, 0.9f), float3(1, 1, 1), float3(0.02f, 1, 0.01f), float3(0, 0.1f, -1) }) {
+    for (const float3 sun :
+         { float3(0.3f, 0.2f, 0.9f), float3(1, 1, 1), float3(0.02f, 1, 0.01f), float3(0, 0.1f, -1) }) {
         const float3 towards = glm::normalize(sun);
         const float cosRadius = std::cos(0.02f);
-        const HdrImage image = pictureOf(256, [&](float3 d) { return float3(glm::dot(d, towards) > cosRadius ? 1e5f : 0.01f); }, 4);
+        const HdrImage image = pictureOf(
+                256, [&](float3 d) { return float3(glm::dot(d, towards) > cosRadius ? 1e5f : 0.01f); }, 4);
         double inPicture = 0;
         for (uint32_t y = 0; y < image.height; ++y) {
-            const double angle = 2 * std::numbers::pi / image.width * (std::cos(std::numbers::pi * y / image.height) -
-                    std::cos(std::numbers::pi * (y + 1) / image.height));
+            const double angle = 2 * std::numbers::pi / image.width *
+                                 (std::cos(std::numbers::pi * y / image.height) -
+                                  std::cos(std::numbers::pi * (y + 1) / image.height));
             for (uint32_t x = 0; x < image.width; ++x) inPicture += angle * image.at(x, y).x;
         }
         const IblCube cube = cubeFromEquirect(image, 128, mJobs);
@@ -139,7 +146,8 @@ TEST_F(IblCubeTest, LookUpsAreSmoothAcrossFaceEdgesAndCorners) {
     for (uint32_t i = 0; i < 2000; ++i) {
         const float angle = float(i) / 2000 * 2 * kPi;
         const float3 d = glm::normalize(float3(std::cos(angle), std::sin(angle), std::sin(2 * angle)));
-        EXPECT_NEAR(cube[0].sample(cubeFromDirection(d))[0], sky(d).x, 5e-3f) << "direction " << d.x << " " << d.y << " " << d.z;
+        EXPECT_NEAR(cube[0].sample(cubeFromDirection(d))[0], sky(d).x, 5e-3f)
+                << "direction " << d.x << " " << d.y << " " << d.z;
     }
     for (const float3 corner : { float3(1, 1, 1), float3(-1, 1, -1), float3(1, -1, -1) }) {
         const float3 d = glm::normalize(corner);

@@ -28,7 +28,8 @@ protected:
     std::vector<std::filesystem::path> cacheFiles() const {
         std::vector<std::filesystem::path> files;
         std::error_code error;
-        for (auto const& entry : std::filesystem::directory_iterator(mFolder / "cache", error)) files.push_back(entry.path());
+        for (auto const& entry : std::filesystem::directory_iterator(mFolder / "cache", error))
+            files.push_back(entry.path());
         return files;
     }
 
@@ -178,8 +179,10 @@ TEST_F(IblEnvironmentTest, TheCacheIsInTheUsersCacheDirectory) {
     EXPECT_EQ(environmentCacheDirectory(mOptions), mFolder / "cache");
     ::setenv("XDG_CACHE_HOME", "relative", 1); // the specification says: ignore it
     EXPECT_NE(environmentCacheDirectory({}), "relative/filament_core");
-    if (variable) ::setenv("XDG_CACHE_HOME", before.c_str(), 1);
-    else ::unsetenv("XDG_CACHE_HOME");
+    if (variable)
+        ::setenv("XDG_CACHE_HOME", before.c_str(), 1);
+    else
+        ::unsetenv("XDG_CACHE_HOME");
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/HdrReader.h"
 #include "filament_core/assets/ImageWriter.h"
+#include "filament_core/assets/HdrReader.h"
 #include "filament_core/math/Half.h"
 #include "tests/filament_core/assets/HdrTestSupport.h"
 
@@ -67,8 +67,9 @@ TEST(ImageWriter, FloatExrsAreExactAndHalfExrsAreRoundedAndClamped) {
 
 TEST(ImageWriter, HalfPixelsOfTheRendererReachTheExrBitForBit) {
     const TemporaryFolder folder;
-    const std::array<uint16_t, 8> texels{ halfFromFloat(0.3f), halfFromFloat(7.0f), halfFromFloat(0.0f), halfFromFloat(1.0f),
-        halfFromFloat(100.0f), halfFromFloat(0.5f), halfFromFloat(60000.0f), halfFromFloat(1.0f) };
+    const std::array<uint16_t, 8> texels{ halfFromFloat(0.3f),     halfFromFloat(7.0f),   halfFromFloat(0.0f),
+                                          halfFromFloat(1.0f),     halfFromFloat(100.0f), halfFromFloat(0.5f),
+                                          halfFromFloat(60000.0f), halfFromFloat(1.0f) };
     ASSERT_TRUE(writeExr(folder / "frame.exr", 2, 1, std::as_bytes(std::span(texels))));
     const auto read = readHdrImage(folder / "frame.exr");
     ASSERT_TRUE(read) << read.error().message;
@@ -99,7 +100,9 @@ TEST(ImageWriter, RgbeKeepsTheLargestComponentWithinHalfAStepOfEightBits) {
 
 TEST(ImageWriter, RgbeOfNarrowPicturesIsWrittenFlat) {
     const TemporaryFolder folder;
-    const HdrImage image{ .width = 3, .height = 1, .pixels = { float3(1), float3(2), float3(-4, 4, 0) }, .repairs = {} };
+    const HdrImage image{
+        .width = 3, .height = 1, .pixels = { float3(1), float3(2), float3(-4, 4, 0) }, .repairs = {}
+    };
     ASSERT_TRUE(writeHdr(folder / "narrow.hdr", image));
     const auto read = readHdrImage(folder / "narrow.hdr");
     ASSERT_TRUE(read) << read.error().message;
@@ -108,7 +111,9 @@ TEST(ImageWriter, RgbeOfNarrowPicturesIsWrittenFlat) {
 }
 
 TEST(ImageLevels, OffsetsOfACubeCountAllFacesAndLevels) {
-    const Image cube{ .width = 8, .height = 8, .layers = 6, .levels = 4, .format = backend::Format::RGBA16F, .data = {} };
+    const Image cube{
+        .width = 8, .height = 8, .layers = 6, .levels = 4, .format = backend::Format::RGBA16F, .data = {}
+    };
     EXPECT_EQ(cube.levelBytes(0), 6u * 64 * 8);
     EXPECT_EQ(cube.levelBytes(3), 6u * 8);
     EXPECT_EQ(cube.levelOffset(0), 0u);

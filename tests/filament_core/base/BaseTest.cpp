@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/base/Arena.h"
+#include "filament_core/base/Fifo.h"
 #include "filament_core/base/Handle.h"
 #include "filament_core/base/Hash.h"
 #include "filament_core/base/Log.h"
@@ -9,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <array>
+#include <memory>
 #include <set>
 #include <string>
 #include <thread>
@@ -29,7 +31,9 @@ TEST(Arena, KeepsItsBlocksSoThatASecondFrameReservesNothing) {
 TEST(Arena, AlignsAndValueInitialises) {
     Arena arena(256);
     arena.allocate(1, 1);
-    struct alignas(64) Line { float values[16]; };
+    struct alignas(64) Line {
+        float values[16];
+    };
     for (int round = 0; round < 5; ++round) {
         const std::span<Line> lines = arena.array<Line>(3);
         EXPECT_EQ(reinterpret_cast<uintptr_t>(lines.data()) % 64, 0u);
@@ -88,6 +92,30 @@ TEST(HandleAllocator, GivesDistinctHandlesToConcurrentCallers) {
     std::set<uint32_t> all;
     for (auto const& one : given) all.insert(one.begin(), one.end());
     EXPECT_EQ(all.size(), 4000u);
+}
+
+TEST(Fifo, GivesThingsBackInOrderWhileItGrowsAndWrapsAround) {
+    Fifo<int> queue;
+    int pushed = 0, popped = 0;
+    for (int round = 0; round < 50; ++round) {
+        for (int i = 0; i < 1 + round % 7; ++i) queue.push_back(pushed++);
+        for (int i = 0; i < 1 + round % 5 && !queue.empty(); ++i) {
+            ASSERT_EQ(queue.front(), popped++);
+            queue.pop_front();
+        }
+        if (!queue.empty()) {
+            ASSERT_EQ(queue.back(), pushed - 1);
+        }
+    }
+    EXPECT_EQ(queue.size(), static_cast<size_t>(pushed - popped));
+}
+
+TEST(Fifo, LetsGoOfWhatWasPopped) {
+    Fifo<std::shared_ptr<int>> queue;
+    const auto kept = std::make_shared<int>(1);
+    queue.push_back(kept);
+    queue.pop_front();
+    EXPECT_EQ(kept.use_count(), 1);
 }
 
 TEST(Hash, DependsOnEveryByteAndOnTheLength) {

@@ -8,24 +8,27 @@
 namespace filament {
 namespace {
 
-constexpr std::array kModels{ "FlightHelmet/FlightHelmet.gltf", "SheenChair/SheenChair.gltf",
-    "NormalTangentTest/NormalTangentTest.glb", "AlphaBlendModeTest/AlphaBlendModeTest.glb",
-    "TextureSettingsTest/TextureSettingsTest.gltf", "TextureCoordinateTest/TextureCoordinateTest.glb",
-    "TextureLinearInterpolationTest/TextureLinearInterpolationTest.glb", "VertexColorTest/VertexColorTest.glb",
-    "OrientationTest/OrientationTest.glb", "MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb",
-    "UnlitTest/UnlitTest.glb", "EmissiveStrengthTest/EmissiveStrengthTest.glb",
-    "TextureTransformTest/TextureTransformTest.gltf", "BoxInterleaved/BoxInterleaved.gltf",
-    "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf", "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb",
-    "LightsPunctualLamp/LightsPunctualLamp.gltf", "LittlestTokyo/LittlestTokyo.glb" };
-constexpr std::array kEnvironments{ "studio_small_03_1k.hdr", "st_fagans_interior_1k.hdr", "spiaggia_di_mondello_1k.hdr" };
-
-double4x4 fitted(Box const& box) {
-    const double3 size = box.max - box.min, center = (box.max + box.min) * 0.5;
-    const double scale = 1.0 / std::max({ size.x, size.y, size.z });
-    double4x4 fit(scale);
-    fit[3] = double4(-center * scale, 1);
-    return fit;
-}
+constexpr std::array kModels{ "FlightHelmet/FlightHelmet.gltf",
+                              "SheenChair/SheenChair.gltf",
+                              "NormalTangentTest/NormalTangentTest.glb",
+                              "AlphaBlendModeTest/AlphaBlendModeTest.glb",
+                              "TextureSettingsTest/TextureSettingsTest.gltf",
+                              "TextureCoordinateTest/TextureCoordinateTest.glb",
+                              "TextureLinearInterpolationTest/TextureLinearInterpolationTest.glb",
+                              "VertexColorTest/VertexColorTest.glb",
+                              "OrientationTest/OrientationTest.glb",
+                              "MetalRoughSpheresNoTextures/MetalRoughSpheresNoTextures.glb",
+                              "UnlitTest/UnlitTest.glb",
+                              "EmissiveStrengthTest/EmissiveStrengthTest.glb",
+                              "TextureTransformTest/TextureTransformTest.gltf",
+                              "BoxInterleaved/BoxInterleaved.gltf",
+                              "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf",
+                              "Box-Draco/Box.gltf",
+                              "BoxMeshopt/BoxMeshopt.glb",
+                              "LightsPunctualLamp/LightsPunctualLamp.gltf",
+                              "LittlestTokyo/LittlestTokyo.glb" };
+constexpr std::array kEnvironments{ "studio_small_03_1k.hdr", "st_fagans_interior_1k.hdr",
+                                    "spiaggia_di_mondello_1k.hdr" };
 
 /// One engine with every environment loaded, kept for all models: loading is not what these tests measure.
 struct Stage {
@@ -64,9 +67,9 @@ protected:
         auto model = loadGltf(stage.engine, test::assetDir() / "models" / file);
         if (!model) return model.error();
         Scene scene(stage.engine);
-        scene.add(*model, fitted(model->bounds()));
+        scene.add(*model, fitToUnitCube(model->bounds()));
         View view{ .camera = Camera::lookAt({ 0.9, 0.6, 1.5 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 }),
-            .size = { 320, 240 } };
+                   .size = { 320, 240 } };
         std::vector<Image> images;
         Renderer renderer(stage.engine);
         for (Environment const& environment : stage.environments) {
@@ -95,7 +98,8 @@ bool isFlat(Image const& image) {
 }
 
 TEST_P(AssetImagesTest, HasTheSameBitsOnBothApis) {
-    if (test::assetDir().empty()) GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
+    if (test::assetDir().empty())
+        GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
     ASSERT_TRUE(sVulkan && sGles);
     auto vulkan = render(*sVulkan, GetParam());
     auto gles = render(*sGles, GetParam());
@@ -109,8 +113,8 @@ TEST_P(AssetImagesTest, HasTheSameBitsOnBothApis) {
     test::expectNoErrors(sGles->engine);
 }
 
-INSTANTIATE_TEST_SUITE_P(Models, AssetImagesTest, testing::ValuesIn(kModels), [](auto const& info) {
-    std::string name = std::filesystem::path(info.param).parent_path().string();
+INSTANTIATE_TEST_SUITE_P(Models, AssetImagesTest, testing::ValuesIn(kModels), [](auto const& test) {
+    std::string name = std::filesystem::path(test.param).parent_path().string();
     std::erase(name, '-');
     return name;
 });

@@ -48,8 +48,12 @@ private:
         double4x4 world(std::abs(scale));
         world[0][0] = scale; // negative: mirrored
         world[3] = double4(at, 1);
-        scene.add({ .vertices = mVertices, .indices = mIndices, .material = material, .boundsMin = float3(-1),
-                .boundsMax = float3(1), .worldFromObject = world });
+        scene.add({ .vertices = mVertices,
+                    .indices = mIndices,
+                    .material = material,
+                    .boundsMin = float3(-1),
+                    .boundsMax = float3(1),
+                    .worldFromObject = world });
     }
 
     Engine& mEngine;
@@ -76,7 +80,8 @@ TEST(EngineImages, AreTheSameForAnyNumberOfWorkersAndOnBothApis) {
     const std::vector<std::byte> reference = render(Backend::Vulkan, 0);
     ASSERT_FALSE(reference.empty());
     for (int workers : { 0, 1, 3 }) {
-        for (Backend backend : test::kBothApis) EXPECT_EQ(render(backend, workers), reference) << toString(backend) << workers;
+        for (Backend backend : test::kBothApis)
+            EXPECT_EQ(render(backend, workers), reference) << toString(backend) << workers;
     }
 }
 
@@ -177,7 +182,8 @@ TEST_P(EngineTest, ExplainsWhatItLeftOut) {
 }
 
 TEST_P(EngineTest, NamesTheNearestParameterWhenOneIsMisspelt) {
-    const Owned<Material> material = mEngine->own(*mEngine->create(MaterialDesc{ shader::engineMaterial("gltf_lit_opaque") }));
+    const Owned<Material> material =
+            mEngine->own(*mEngine->create(MaterialDesc{ shader::engineMaterial("gltf_lit_opaque") }));
     const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
     const Result<void> misspelt = mEngine->set(instance, "roughnesFactor", 0.5f);
     ASSERT_FALSE(misspelt);
@@ -185,7 +191,8 @@ TEST_P(EngineTest, NamesTheNearestParameterWhenOneIsMisspelt) {
     EXPECT_NE(misspelt.error().message.find("did you mean 'roughnessFactor'"), std::string::npos);
     EXPECT_EQ(mEngine->set(instance, "roughnessFactor", float3(1)).error().code, ErrorCode::InvalidArgument);
     EXPECT_EQ(mEngine->set(instance, "roughnessFactor", Texture{}).error().code, ErrorCode::InvalidArgument);
-    const auto constant = mEngine->create(MaterialDesc{ shader::engineMaterial("gltf_lit_opaque"), { { "hasNormalMapp", true } } });
+    const auto constant =
+            mEngine->create(MaterialDesc{ shader::engineMaterial("gltf_lit_opaque"), { { "hasNormalMapp", true } } });
     ASSERT_FALSE(constant);
     EXPECT_NE(constant.error().message.find("hasNormalMap"), std::string::npos);
 }
@@ -227,7 +234,8 @@ TEST_P(EngineTest, RendersWhileAnotherEngineRendersOnItsOwnThread) {
 }
 
 TEST_P(EngineTest, ATracedStreamReplaysToTheSameBits) {
-    const std::filesystem::path path = std::filesystem::temp_directory_path() / (std::string("trace-") + toString(GetParam()));
+    const std::filesystem::path path =
+            std::filesystem::temp_directory_path() / (std::string("trace-") + toString(GetParam()));
     std::vector<std::byte> recorded;
     {
         auto traced = Engine::create({ .backend = GetParam(), .workers = 0, .traceFile = path });
@@ -237,7 +245,8 @@ TEST_P(EngineTest, ATracedStreamReplaysToTheSameBits) {
         recorded = std::move(renderer.renderToImage(spheres.scene, spheres.view)->pixels);
     }
     const auto type = GetParam() == Backend::Vulkan ? backend::BackendType::Vulkan : backend::BackendType::Gles;
-    auto stream = backend::CommandStream::start([type](backend::ResultSink& sink) { return backend::createDriver(type, {}, sink); });
+    auto stream = backend::CommandStream::start(
+            [type](backend::ResultSink& sink) { return backend::createDriver(type, {}, sink); });
     ASSERT_TRUE(stream.ok());
     auto tickets = backend::replayTrace(path, **stream);
     ASSERT_TRUE(tickets.ok()) << tickets.error().message;
@@ -252,7 +261,7 @@ TEST_P(EngineTest, ATracedStreamReplaysToTheSameBits) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BothApis, EngineTest, testing::ValuesIn(test::kBothApis),
-        [](auto const& info) { return std::string(toString(info.param)); });
+                         [](auto const& test) { return std::string(toString(test.param)); });
 
 TEST(EngineCreate, SaysWhichDevicesThereAreWhenTheRequiredOneIsMissing) {
     for (Backend backend : test::kBothApis) {

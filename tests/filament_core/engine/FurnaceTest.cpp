@@ -14,8 +14,14 @@ class Furnace {
 public:
     explicit Furnace(Engine& engine) : mEngine(engine), mScene(engine) {
         const std::vector<uint16_t> ones(6 * (16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1) * 4, halfFromFloat(1.0f));
-        mCube = engine.own(engine.create(TextureDesc{ .kind = TextureKind::Cube, .format = Format::RGBA16F, .width = 16,
-                .height = 16, .layers = 6, .levels = 5, .pixels = std::as_bytes(std::span(ones)), .name = "ones" }));
+        mCube = engine.own(engine.create(TextureDesc{ .kind = TextureKind::Cube,
+                                                      .format = Format::RGBA16F,
+                                                      .width = 16,
+                                                      .height = 16,
+                                                      .layers = 6,
+                                                      .levels = 5,
+                                                      .pixels = std::as_bytes(std::span(ones)),
+                                                      .name = "ones" }));
         IndirectLightDesc light{ .specular = mCube, .specularLevels = 5, .name = "furnace" };
         light.irradianceSh[0] = float4(1);
         mLight = engine.own(engine.create(light));
@@ -25,8 +31,12 @@ public:
         mIndices = engine.own(sphere.indices);
         mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
         mInstance = engine.own(engine.createInstance(mMaterial, "white"));
-        mScene.add({ .vertices = mVertices, .indices = mIndices, .material = mInstance, .boundsMin = float3(-1),
-                .boundsMax = float3(1), .name = "sphere" });
+        mScene.add({ .vertices = mVertices,
+                     .indices = mIndices,
+                     .material = mInstance,
+                     .boundsMin = float3(-1),
+                     .boundsMax = float3(1),
+                     .name = "sphere" });
         mView.camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, { .verticalFovDegrees = 45 });
         mView.size = { 96, 96 };
         mView.clearColor = float4(1); // what the skybox of this environment would be
@@ -108,7 +118,7 @@ TEST_P(FurnaceTest, ABlackDielectricShowsItsFresnelReflectanceOnly) {
 }
 
 INSTANTIATE_TEST_SUITE_P(BothApis, FurnaceTest, testing::ValuesIn(test::kBothApis),
-        [](auto const& info) { return std::string(toString(info.param)); });
+                         [](auto const& test) { return std::string(toString(test.param)); });
 
 } // namespace
 } // namespace filament

@@ -30,14 +30,15 @@ inline std::optional<Engine> makeEngine(Backend backend, int workers = 1) {
 
 /// Errors that the device or a validation layer reported; a test expects none.
 inline void expectNoErrors(Engine& engine) {
-    for (std::string const& error : engine.takeErrors()) ADD_FAILURE() << toString(engine.device().backend) << ": " << error;
+    for (std::string const& error : engine.takeErrors())
+        ADD_FAILURE() << toString(engine.device().backend) << ": " << error;
 }
 
 /// Renders one frame into scene-linear half floats: no tone mapping.
 inline Image renderLinear(Engine& engine, Scene const& scene, View const& view) {
     Renderer renderer(engine);
-    const Owned<SwapChain> target = engine.own(engine.create(SwapChainDesc{ .size = view.size, .imageCount = 1,
-            .format = Format::RGBA16F, .name = "linear" }));
+    const Owned<SwapChain> target = engine.own(engine.create(
+            SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
     renderer.render(scene, view, target);
     auto image = renderer.waitPixels(renderer.readPixels(target));
     if (!image) {
@@ -54,7 +55,8 @@ inline float4 halfPixel(Image const& image, uint32_t x, uint32_t y) {
 }
 
 inline float4 bytePixel(Image const& image, uint32_t x, uint32_t y) {
-    const auto* p = reinterpret_cast<const uint8_t*>(image.pixels.data()) + (static_cast<size_t>(y) * image.width + x) * 4;
+    const auto* p =
+            reinterpret_cast<const uint8_t*>(image.pixels.data()) + (static_cast<size_t>(y) * image.width + x) * 4;
     return float4(p[0], p[1], p[2], p[3]) / 255.0f;
 }
 

@@ -46,7 +46,8 @@ TEST(PackedFloat, RoundTripsEveryFiniteValueOfEachComponent) {
         ASSERT_EQ(packR11G11B10F(unpackR11G11B10F(bits)), bits);
         ASSERT_EQ(packR11G11B10F(unpackR11G11B10F(bits << 11)), bits << 11);
     }
-    for (uint32_t bits = 0; bits < 31u << 5; ++bits) ASSERT_EQ(packR11G11B10F(unpackR11G11B10F(bits << 22)), bits << 22);
+    for (uint32_t bits = 0; bits < 31u << 5; ++bits)
+        ASSERT_EQ(packR11G11B10F(unpackR11G11B10F(bits << 22)), bits << 22);
 }
 
 TEST(PackedFloat, MakesNegativesZero) { EXPECT_EQ(packR11G11B10F({ -1.0f, -1e-20f, -5.0f }), 0u); }

@@ -34,9 +34,13 @@ struct PrepareFrameTest : testing::Test {
         world[0][0] = scaleX;
         world[3] = double4(at, 1);
         const scene::Geometry geometry{ .vertices = backend::BufferHandle::make(mesh, 1),
-            .indices = backend::BufferHandle::make(mesh, 1), .indexCount = 36 };
-        return addRenderable(scene, { .geometry = geometry, .material = instance, .boundsMin = float3(-0.5f),
-                                            .boundsMax = float3(0.5f), .worldFromObject = world });
+                                        .indices = backend::BufferHandle::make(mesh, 1),
+                                        .indexCount = 36 };
+        return addRenderable(scene, { .geometry = geometry,
+                                      .material = instance,
+                                      .boundsMin = float3(-0.5f),
+                                      .boundsMax = float3(0.5f),
+                                      .worldFromObject = world });
     }
 
     FramePacket prepare() { return prepareFrame(jobs, arena, scene, view); }
@@ -95,7 +99,7 @@ TEST_F(PrepareFrameTest, NoDrawCrossesAWindowOfObjects) {
     for (DrawCall const& draw : packet.opaque) {
         EXPECT_EQ(draw.firstObject, covered);
         EXPECT_EQ(draw.firstObject / shader::kObjectsPerWindow,
-                (draw.firstObject + draw.instanceCount - 1) / shader::kObjectsPerWindow);
+                  (draw.firstObject + draw.instanceCount - 1) / shader::kObjectsPerWindow);
         covered += draw.instanceCount;
     }
     EXPECT_EQ(covered, 1000u);
@@ -135,15 +139,17 @@ TEST_F(PrepareFrameTest, IsTheSameForAnyNumberOfWorkers) {
     const auto next = [&] { return (random = random * 1664525u + 1013904223u) >> 8; };
     for (int i = 0; i < 5000; ++i) {
         add({ next() % 40 - 20.0, next() % 40 - 20.0, -static_cast<double>(next() % 60) }, next() % 3 ? solid : glass,
-                next() % 5);
+            next() % 5);
     }
     uint64_t reference = 0;
     for (int workers : { 0, 1, 2, 3, 16 }) {
         jobs::JobSystem other({ .workers = workers });
         const FramePacket packet = prepareFrame(other, arena, scene, view);
         uint64_t hash = hashBytes(std::as_bytes(packet.objects));
-        for (DrawCall const& draw : packet.opaque) hash = hashCombine(hash, draw.firstObject * 4096ull + draw.instanceCount);
-        for (DrawCall const& draw : packet.blended) hash = hashCombine(hash, draw.firstObject * 4096ull + draw.instanceCount);
+        for (DrawCall const& draw : packet.opaque)
+            hash = hashCombine(hash, draw.firstObject * 4096ull + draw.instanceCount);
+        for (DrawCall const& draw : packet.blended)
+            hash = hashCombine(hash, draw.firstObject * 4096ull + draw.instanceCount);
         if (workers == 0) reference = hash;
         EXPECT_EQ(hash, reference) << workers << " workers";
     }
@@ -177,8 +183,10 @@ TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {
 }
 
 TEST_F(PrepareFrameTest, DropsALightWhoseRangeEndsBeforeTheView) {
-    addLight(scene, { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 30 }, .intensity = 1, .rangeMeters = 5 });
-    addLight(scene, { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 12 }, .intensity = 1, .rangeMeters = 5 });
+    addLight(scene,
+             { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 30 }, .intensity = 1, .rangeMeters = 5 });
+    addLight(scene,
+             { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 12 }, .intensity = 1, .rangeMeters = 5 });
     const FramePacket packet = prepare();
     EXPECT_EQ(packet.lights.size(), 1u);
     EXPECT_EQ(packet.counts.lightsOutOfView, 1u);

@@ -17,8 +17,11 @@ struct SceneDataTest : testing::Test {
     Renderable add(double x, std::string name = {}) {
         double4x4 world(1.0);
         world[3].x = x;
-        return addRenderable(scene, { .material = &instance, .boundsMin = float3(-1), .boundsMax = float3(1),
-                                            .worldFromObject = world, .name = std::move(name) });
+        return addRenderable(scene, { .material = &instance,
+                                      .boundsMin = float3(-1),
+                                      .boundsMax = float3(1),
+                                      .worldFromObject = world,
+                                      .name = std::move(name) });
     }
 };
 
@@ -52,7 +55,7 @@ TEST_F(SceneDataTest, EveryColumnHasTheSameLengthAfterRandomAddsAndRemoves) {
     Renderables const& r = scene.renderables;
     EXPECT_EQ(r.count(), live.size());
     for (size_t size : { r.worldFromObject.size(), r.worldCenter.size(), r.worldHalfExtent.size(),
-                 r.objectBounds.size(), r.geometry.size(), r.material.size(), r.flags.size(), r.name.size() }) {
+                         r.objectBounds.size(), r.geometry.size(), r.material.size(), r.flags.size(), r.name.size() }) {
         EXPECT_EQ(size, live.size());
     }
 }

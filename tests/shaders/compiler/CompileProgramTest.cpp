@@ -131,8 +131,8 @@ TEST(CompileProgram, LeavesSpecialisationConstantsOpenInBothLanguages) {
 }
 
 TEST(CompileProgram, NamesFileAndLineOfAnErrorAndCountsTheOthers) {
-    const Result<ProgramShaders> program = compileProgram(kFullScreen,
-            "#version 450\nlayout(location = 0) out vec4 color;\nvoid main() {\n  color = metalic;\n}\n",
+    const Result<ProgramShaders> program = compileProgram(
+            kFullScreen, "#version 450\nlayout(location = 0) out vec4 color;\nvoid main() {\n  color = metalic;\n}\n",
             { .fragmentName = "paint.frag" });
     ASSERT_FALSE(program);
     EXPECT_EQ(program.error().code, ErrorCode::InvalidArgument);
@@ -141,9 +141,9 @@ TEST(CompileProgram, NamesFileAndLineOfAnErrorAndCountsTheOthers) {
 }
 
 TEST(CompileProgram, FollowsLineDirectivesThatNameAFile) {
-    const Result<ProgramShaders> program = compileProgram(kFullScreen,
-            "#version 450\n#extension GL_GOOGLE_cpp_style_line_directive : require\n"
-            "#line 40 \"wood.mat\"\nvoid main() {\n  oops();\n}\n");
+    const Result<ProgramShaders> program =
+            compileProgram(kFullScreen, "#version 450\n#extension GL_GOOGLE_cpp_style_line_directive : require\n"
+                                        "#line 40 \"wood.mat\"\nvoid main() {\n  oops();\n}\n");
     ASSERT_FALSE(program);
     EXPECT_TRUE(program.error().message.starts_with("wood.mat:41: ")) << program.error().message;
 }

@@ -18,7 +18,8 @@ std::string shaderOf(std::string const& expression) {
 layout(set = 0, binding = 0, std140) uniform U { mat4 m, n; mat3 m3; vec4 a, b, c; vec4 s; } u;
 layout(constant_id = 0) const float kSpec = 3.0;
 layout(location = 0) out vec4 color;
-void main() { color = )" + expression + "; }";
+void main() { color = )" +
+           expression + "; }";
 }
 
 std::vector<uint32_t> asWritten(std::string const& expression) {
@@ -96,7 +97,8 @@ TEST(ExactLowering, PassesMediumPrecisionOnToEveryStep) {
     Result<std::vector<uint32_t>> spirv = spirvFromGlsl(R"(#version 450
         layout(set = 0, binding = 0, std140) uniform U { mediump vec3 a; mediump vec3 b; } u;
         layout(location = 0) out mediump float color;
-        void main() { color = dot(u.a, u.b); })", backend::ShaderStage::Fragment, "test");
+        void main() { color = dot(u.a, u.b); })",
+                                                        backend::ShaderStage::Fragment, "test");
     ASSERT_TRUE(spirv);
     const std::vector<uint32_t> lowered = lowerExactly(*spirv);
     EXPECT_EQ(test::validationErrors(lowered), "");

@@ -35,7 +35,8 @@ protected:
             void main() {
                 color = frameUniforms.viewport + objectUniforms.objects[0].row0 + lightUniforms.lights[0].offset
                         + texture(viewSpecular, vec3(1.0)) + texture(viewDfg, vec2(0.5)) + texture(viewSky, vec3(1.0));
-            })", backend::ShaderStage::Fragment, "interface");
+            })",
+                                                                  backend::ShaderStage::Fragment, "interface");
         EXPECT_TRUE(spirv) << (spirv ? "" : spirv.error().message);
         return spirv ? *spirv : std::vector<uint32_t>{};
     }
@@ -64,7 +65,8 @@ protected:
     spirv_cross::Compiler mCompiler{ compiled() };
 };
 
-#define MEMBER(type, name) Member { #name, offsetof(type, name) }
+#define MEMBER(type, name)                                                                                             \
+    Member { #name, offsetof(type, name) }
 
 TEST_F(Interface, FrameUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kBindingFrame).base_type_id);
@@ -92,7 +94,7 @@ TEST_F(Interface, LightUniformsAgree) {
     expectMembers(type, { MEMBER(LightUniforms, lights) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(LightUniforms));
     expectMembers(record(type), { MEMBER(LightData, positionRange), MEMBER(LightData, colorIntensity),
-            MEMBER(LightData, directionScale), MEMBER(LightData, offset) });
+                                  MEMBER(LightData, directionScale), MEMBER(LightData, offset) });
     EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(LightData));
 }
 

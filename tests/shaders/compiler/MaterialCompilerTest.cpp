@@ -128,7 +128,7 @@ TEST(MaterialCompiler, GivesMaskedMaterialsASettableThreshold) {
 
 TEST(MaterialCompiler, SuggestsTheNameThatWasProbablyMeant) {
     EXPECT_EQ(errorOf(withProperties("shadingModle : lit")).message,
-            "wood.mat:2: there is no property 'shadingModle'; did you mean 'shadingModel'?");
+              "wood.mat:2: there is no property 'shadingModle'; did you mean 'shadingModel'?");
     EXPECT_THAT(errorOf(withProperties("blending : transparant")).message, HasSubstr("did you mean 'transparent'?"));
     EXPECT_THAT(errorOf(withProperties("requires : [ uvO ]")).message, HasSubstr("did you mean 'uv0'?"));
     EXPECT_THAT(errorOf(withProperties("parameters : [ { name : a, type : flaot } ]")).message,

@@ -24,8 +24,8 @@ inline std::string validationErrors(std::span<const uint32_t> spirv) {
 
 inline std::string disassembly(std::span<const uint32_t> spirv) {
     std::string text;
-    spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Disassemble(spirv.data(), spirv.size(), &text,
-            SPV_BINARY_TO_TEXT_OPTION_FRIENDLY_NAMES);
+    spvtools::SpirvTools(SPV_ENV_VULKAN_1_1)
+            .Disassemble(spirv.data(), spirv.size(), &text, SPV_BINARY_TO_TEXT_OPTION_FRIENDLY_NAMES);
     return text;
 }
 

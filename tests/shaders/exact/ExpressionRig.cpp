@@ -98,15 +98,19 @@ void ExpressionRig::createInputs() {
     commands.record(CmdUpdateBuffer{ .buffer = matrices, .bytes = bytesOf(elements) });
     const SamplerHandle nearest = mStream->allocateSampler(), trilinear = mStream->allocateSampler();
     commands.record(CmdCreateSampler{ nearest, {} });
-    commands.record(CmdCreateSampler{ trilinear, { .magFilter = Filter::Linear, .minFilter = Filter::Linear,
-            .mipFilter = MipFilter::Linear, .wrapU = WrapMode::Repeat, .wrapV = WrapMode::Repeat } });
+    commands.record(CmdCreateSampler{ trilinear,
+                                      { .magFilter = Filter::Linear,
+                                        .minFilter = Filter::Linear,
+                                        .mipFilter = MipFilter::Linear,
+                                        .wrapU = WrapMode::Repeat,
+                                        .wrapV = WrapMode::Repeat } });
     mEntries = { { .binding = 0, .buffer = matrices, .size = 128 },
-        { .binding = 1, .texture = randomTexture(commands, 1, -4.0f, 4.0f), .sampler = nearest },
-        { .binding = 2, .texture = randomTexture(commands, 2, -4.0f, 4.0f), .sampler = nearest },
-        { .binding = 3, .texture = randomTexture(commands, 3, -4.0f, 4.0f), .sampler = nearest },
-        { .binding = 4, .texture = randomTexture(commands, 4, 0.001f, 0.999f), .sampler = nearest },
-        { .binding = 5, .texture = mippedTexture(commands, TextureType::Texture2D, 5), .sampler = trilinear },
-        { .binding = 6, .texture = mippedTexture(commands, TextureType::Cube, 6), .sampler = trilinear } };
+                 { .binding = 1, .texture = randomTexture(commands, 1, -4.0f, 4.0f), .sampler = nearest },
+                 { .binding = 2, .texture = randomTexture(commands, 2, -4.0f, 4.0f), .sampler = nearest },
+                 { .binding = 3, .texture = randomTexture(commands, 3, -4.0f, 4.0f), .sampler = nearest },
+                 { .binding = 4, .texture = randomTexture(commands, 4, 0.001f, 0.999f), .sampler = nearest },
+                 { .binding = 5, .texture = mippedTexture(commands, TextureType::Texture2D, 5), .sampler = trilinear },
+                 { .binding = 6, .texture = mippedTexture(commands, TextureType::Cube, 6), .sampler = trilinear } };
     mTarget = mStream->allocateTexture();
     commands.record(CmdCreateTexture{ mTarget,
                                       { .format = Format::RGBA32F,
@@ -151,7 +155,8 @@ Result<std::vector<uint32_t>> ExpressionRig::values(std::string const& expressio
     const std::string keep =
             "    if (a.x > 1e30) color = m[0] + n[0] + texture(smooth_, a.xy) + texture(cube, a.xyz);\n";
     const std::string fragment = std::string(kPrelude) + "    color = " + expression + ";\n" + keep + "}\n";
-    const Result<ProgramShaders> shaders = compileProgram(kVertex, fragment,
+    const Result<ProgramShaders> shaders = compileProgram(
+            kVertex, fragment,
             { .exact = exact, .dynamicUniformBuffers = std::vector<SetBinding>{}, .fragmentName = expression });
     if (!shaders) return shaders.error();
 

@@ -62,8 +62,10 @@ protected:
         scene.frame.irradianceSh[6] = { -0.1f, 0.05f, 0.1f, 0 };
         scene.frame.sunDirection = { 0.36f, 0.48f, 0.8f, 1 };
         scene.frame.sunIlluminance = { 3.0f, 2.5f, 2.0f, 0 };
-        scene.lights = { { { 0.5f, 0.4f, -1.2f, 0.04f }, { 2, 1, 0.5f, 0 }, { 0, 0, -1, 0 }, {} },
-            { { -0.6f, -0.4f, -1.0f, 0.0f }, { 0.5f, 2, 1, 1 }, { 0.3f, 0.2f, -0.93f, 4.0f }, { -3.0f, 0, 0, 0 } } };
+        scene.lights = {
+            { { 0.5f, 0.4f, -1.2f, 0.04f }, { 2, 1, 0.5f, 0 }, { 0, 0, -1, 0 }, {} },
+            { { -0.6f, -0.4f, -1.0f, 0.0f }, { 0.5f, 2, 1, 1 }, { 0.3f, 0.2f, -0.93f, 4.0f }, { -3.0f, 0, 0, 0 } }
+        };
         const std::vector<float> uvMatrix{ 0.7f, 0.3f, 0, 0, -0.3f, 0.7f, 0, 0, 0.1f, 0.2f, 1 };
         for (const char* map : { "baseColor", "metallicRoughness", "normal", "occlusion", "emissive" }) {
             scene.parameters[std::string(map) + "UvMatrix"] = uvMatrix;
@@ -102,8 +104,9 @@ TEST_F(MaterialBits, EveryVariantWithEveryFeatureHasTheSameBits) {
         uint8_t variant;
     };
     // The drivers take half a second for each: the blending modes share their lights, so one variant of them is enough.
-    for (Case const& each : { Case{ "gltf_lit_opaque", 0 }, Case{ "gltf_lit_opaque", 1 }, Case{ "gltf_lit_opaque", 2 },
-                 Case{ "gltf_lit_opaque", 3 }, Case{ "gltf_lit_masked", 3 }, Case{ "gltf_lit_blended", 3 } }) {
+    for (Case const& each :
+         { Case{ "gltf_lit_opaque", 0 }, Case{ "gltf_lit_opaque", 1 }, Case{ "gltf_lit_opaque", 2 },
+           Case{ "gltf_lit_opaque", 3 }, Case{ "gltf_lit_masked", 3 }, Case{ "gltf_lit_blended", 3 } }) {
         MaterialScene scene = everything(each.variant);
         scene.material = each.material;
         scene.parameters["_maskThreshold"] = { 0.75f };

@@ -27,7 +27,9 @@ struct Vertex {
 };
 
 template <class T>
-std::span<const std::byte> bytesOf(std::vector<T> const& values) { return std::as_bytes(std::span(values)); }
+std::span<const std::byte> bytesOf(std::vector<T> const& values) {
+    return std::as_bytes(std::span(values));
+}
 
 /// A plane two metres ahead whose normals lean up to 50 degrees in random directions.
 std::vector<Vertex> bumpyGrid() {
@@ -156,8 +158,12 @@ void MaterialRig::createShared() {
                                         .width = kPictureSide,
                                         .height = kPictureSide,
                                         .debugName = "color" } });
-    commands.record(CmdCreateTexture{ mDepth, { .format = Format::D32F, .usage = TextureUsage::DepthAttachment,
-            .width = kPictureSide, .height = kPictureSide, .debugName = "depth" } });
+    commands.record(CmdCreateTexture{ mDepth,
+                                      { .format = Format::D32F,
+                                        .usage = TextureUsage::DepthAttachment,
+                                        .width = kPictureSide,
+                                        .height = kPictureSide,
+                                        .debugName = "depth" } });
     mStream->submit(commands);
 }
 

@@ -15,12 +15,14 @@ vec3 viewAt(float nov) { return { std::sqrt(1 - nov * nov), 0, nov }; }
 // is integrated over half vectors, dl = 4 voh dh.
 double albedoByHalfVectors(float nov, float alpha) {
     const vec3 v = viewAt(nov);
-    return integrateHemisphere([&](vec3 h) {
-        const float voh = dot(v, h);
-        const float nol = 2 * voh * h.z - v.z;
-        if (voh <= 0 || nol <= 0) return 0.0;
-        return double(ndfGgx(h.z, alpha)) * visibilitySmithGgxCorrelated(nov, nol, alpha) * nol * 4 * voh;
-    }, 1500, 96, 4);
+    return integrateHemisphere(
+            [&](vec3 h) {
+                const float voh = dot(v, h);
+                const float nol = 2 * voh * h.z - v.z;
+                if (voh <= 0 || nol <= 0) return 0.0;
+                return double(ndfGgx(h.z, alpha)) * visibilitySmithGgxCorrelated(nov, nol, alpha) * nol * 4 * voh;
+            },
+            1500, 96, 4);
 }
 
 TEST(Brdf, TheNormalDistributionCoversTheSurfaceExactlyOnce) {
@@ -83,17 +85,22 @@ TEST(Brdf, TheSpecularLobeIsReciprocal) {
     for (int i = 0; i < 1000; ++i) {
         const float nov = uniform(random), nol = uniform(random), alpha = uniform(random);
         EXPECT_FLOAT_EQ(visibilitySmithGgxCorrelated(nov, nol, alpha), visibilitySmithGgxCorrelated(nol, nov, alpha));
-        EXPECT_FLOAT_EQ(visibilitySmithGgxCorrelatedFast(nov, nol, alpha), visibilitySmithGgxCorrelatedFast(nol, nov, alpha));
+        EXPECT_FLOAT_EQ(visibilitySmithGgxCorrelatedFast(nov, nol, alpha),
+                        visibilitySmithGgxCorrelatedFast(nol, nov, alpha));
     }
 }
 
 TEST(Brdf, TheFastVisibilityIsExactAtBothEndsAndNeverBrighterThanASixth) {
     for (const float nov : { 0.1f, 0.4f, 0.9f }) {
         for (const float nol : { 0.1f, 0.5f, 1.0f }) {
-            EXPECT_NEAR(visibilitySmithGgxCorrelatedFast(nov, nol, 1.0f) / visibilitySmithGgxCorrelated(nov, nol, 1.0f), 1, 1e-5);
-            EXPECT_NEAR(visibilitySmithGgxCorrelatedFast(nov, nol, 1e-4f) / visibilitySmithGgxCorrelated(nov, nol, 1e-4f), 1, 1e-2);
+            EXPECT_NEAR(visibilitySmithGgxCorrelatedFast(nov, nol, 1.0f) / visibilitySmithGgxCorrelated(nov, nol, 1.0f),
+                        1, 1e-5);
+            EXPECT_NEAR(visibilitySmithGgxCorrelatedFast(nov, nol, 1e-4f) /
+                                visibilitySmithGgxCorrelated(nov, nol, 1e-4f),
+                        1, 1e-2);
             for (const float alpha : { 0.1f, 0.3f, 0.6f }) {
-                const float ratio = visibilitySmithGgxCorrelatedFast(nov, nol, alpha) / visibilitySmithGgxCorrelated(nov, nol, alpha);
+                const float ratio = visibilitySmithGgxCorrelatedFast(nov, nol, alpha) /
+                                    visibilitySmithGgxCorrelated(nov, nol, alpha);
                 EXPECT_LE(ratio, 1.001f);
                 EXPECT_GT(ratio, 0.6f);
             }
@@ -144,7 +151,8 @@ TEST(Brdf, SchlickFollowsFresnelsEquationsForGlass) {
     for (int i = 0; i <= 100; ++i) {
         const double c = i / 100.0, g = std::sqrt(1.5 * 1.5 - 1 + c * c);
         const double a = (g - c) / (g + c), b = (c * (g + c) - 1) / (c * (g - c) + 1);
-        EXPECT_NEAR(fresnelSchlick(vec3(f0FromIor(1.5f)), 1.0f, static_cast<float>(c)).x, 0.5 * a * a * (1 + b * b), 0.04);
+        EXPECT_NEAR(fresnelSchlick(vec3(f0FromIor(1.5f)), 1.0f, static_cast<float>(c)).x, 0.5 * a * a * (1 + b * b),
+                    0.04);
     }
 }
 
@@ -180,7 +188,8 @@ TEST(Brdf, NoArgumentOfTheEdgeGridYieldsNanOrInfinity) {
             EXPECT_TRUE(isFinite(fresnelSchlick(vec3(a), 1.0f, roughness)));
             EXPECT_TRUE(std::isfinite(ndfGgxFromVectors(vec3(0, 0, 1), viewAt(a), alpha)));
             for (const float b : kEdges) {
-                const float v = visibilitySmithGgxCorrelated(a, b, alpha), fast = visibilitySmithGgxCorrelatedFast(a, b, alpha);
+                const float v = visibilitySmithGgxCorrelated(a, b, alpha),
+                            fast = visibilitySmithGgxCorrelatedFast(a, b, alpha);
                 EXPECT_TRUE(std::isfinite(v * ndfGgx(1.0f, alpha)) && v >= 0);
                 EXPECT_TRUE(std::isfinite(fast * ndfGgx(1.0f, alpha)) && fast >= 0);
                 EXPECT_EQ(v * 0.0f, 0.0f) << "times n.l = 0 is black, not NaN";

@@ -16,7 +16,8 @@ TEST(Color, EveryToneMapperSendsBlackToBlackAndStaysInRange) {
             for (const vec3 color : { vec3(x), vec3(x, 0, 0), vec3(0, x, 1), vec3(1, 0, x) }) {
                 const vec3 mapped = toneMap(color, mapper);
                 EXPECT_TRUE(isFinite(mapped));
-                EXPECT_TRUE(glm::all(glm::greaterThanEqual(mapped, vec3(0.0f))) && glm::all(glm::lessThanEqual(mapped, vec3(1.0f))));
+                EXPECT_TRUE(glm::all(glm::greaterThanEqual(mapped, vec3(0.0f))) &&
+                            glm::all(glm::lessThanEqual(mapped, vec3(1.0f))));
             }
         }
     }
@@ -42,7 +43,8 @@ TEST(Color, TheMobileCurveIsTheFilmicOneWithItsTransferFunction) {
     double squares = 0;
     int count = 0;
     for (float x = 0.01f; x < 10; x *= 1.2f, ++count) {
-        const float difference = toneMap(vec3(x), kToneMapMobile).x - srgbFromLinear(toneMap(vec3(x), kToneMapFilmic)).x;
+        const float difference =
+                toneMap(vec3(x), kToneMapMobile).x - srgbFromLinear(toneMap(vec3(x), kToneMapFilmic)).x;
         squares += difference * difference;
     }
     EXPECT_LT(std::sqrt(squares / count), 0.05);

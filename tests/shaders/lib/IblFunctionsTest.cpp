@@ -21,7 +21,8 @@ TEST(IblFunctions, FiveLevelsHoldTheRoughnessesOfTheTalk) {
 TEST(IblFunctions, RoughnessAndLevelAreInverses) {
     for (int i = 0; i <= 100; ++i) {
         const float roughness = static_cast<float>(i) / 100;
-        EXPECT_NEAR(perceptualRoughnessFromLevel(levelFromPerceptualRoughness(roughness, 4.0f), 4.0f), roughness, 1e-3f);
+        EXPECT_NEAR(perceptualRoughnessFromLevel(levelFromPerceptualRoughness(roughness, 4.0f), 4.0f), roughness,
+                    1e-3f);
     }
     EXPECT_EQ(levelFromPerceptualRoughness(1.0f, 7.0f), 7.0f);
 }
@@ -42,8 +43,9 @@ std::array<vec4, 9> projectSh(F&& radiance) {
         return values[i];
     };
     // squared normalisation constants of real spherical harmonics
-    const double k[9] = { 1 / (4 * kPiExact), 3 / (4 * kPiExact), 3 / (4 * kPiExact), 3 / (4 * kPiExact), 15 / (4 * kPiExact),
-        15 / (4 * kPiExact), 5 / (16 * kPiExact), 15 / (4 * kPiExact), 15 / (16 * kPiExact) };
+    const double k[9] = { 1 / (4 * kPiExact),  3 / (4 * kPiExact),  3 / (4 * kPiExact),
+                          3 / (4 * kPiExact),  15 / (4 * kPiExact), 15 / (4 * kPiExact),
+                          5 / (16 * kPiExact), 15 / (4 * kPiExact), 15 / (16 * kPiExact) };
     const double band[9] = { 1, 2. / 3, 2. / 3, 2. / 3, 0.25, 0.25, 0.25, 0.25, 0.25 };
     std::array<vec4, 9> sh;
     for (int i = 0; i < 9; ++i) {
@@ -58,8 +60,9 @@ double irradianceOverPi(F&& radiance, vec3 n) {
     return integrateSphere([&](vec3 d) { return radiance(d) * std::max(0.0f, dot(d, n)); }) / kPiExact;
 }
 
-const std::array<vec3, 7> kNormals{ vec3(1, 0, 0), vec3(-1, 0, 0), vec3(0, 1, 0), vec3(0, 0, 1), vec3(0, 0, -1),
-    vec3(0.57735f, 0.57735f, 0.57735f), vec3(0.6f, -0.8f, 0) };
+const std::array<vec3, 7> kNormals{ vec3(1, 0, 0),       vec3(-1, 0, 0), vec3(0, 1, 0),
+                                    vec3(0, 0, 1),       vec3(0, 0, -1), vec3(0.57735f, 0.57735f, 0.57735f),
+                                    vec3(0.6f, -0.8f, 0) };
 
 TEST(IblFunctions, ThreeBandsAreExactForPolynomialsOfTheSecondDegree) {
     const auto constant = [](vec3) { return 2.5f; };
@@ -67,7 +70,8 @@ TEST(IblFunctions, ThreeBandsAreExactForPolynomialsOfTheSecondDegree) {
     const auto quadratic = [](vec3 d) { return 1.0f + 0.4f * d.x * d.y - 0.3f * d.z * d.z + 0.2f * d.y * d.z; };
     const auto check = [&](auto radiance, const char* name) {
         const std::array<vec4, 9> sh = projectSh(radiance);
-        for (const vec3 n : kNormals) EXPECT_NEAR(irradianceSh(sh.data(), n, 3).x, irradianceOverPi(radiance, n), 2e-3) << name;
+        for (const vec3 n : kNormals)
+            EXPECT_NEAR(irradianceSh(sh.data(), n, 3).x, irradianceOverPi(radiance, n), 2e-3) << name;
     };
     check(constant, "constant");
     check(linear, "linear");
@@ -143,13 +147,16 @@ TEST(IblFunctions, AWhiteMetalPassesTheFurnaceOnlyWithEnergyCompensation) {
         const float alpha = alphaFromPerceptual(roughness);
         for (const float nov : { 0.1f, 0.4f, 0.9f }) {
             const vec3 v(std::sqrt(1 - nov * nov), 0, nov), white(1.0f);
-            const double oneBounce = integrateHemisphere([&](vec3 l) {
-                const vec3 h = glm::normalize(v + l);
-                return ndfGgx(min(h.z, 1.0f), alpha) * visibilitySmithGgxCorrelated(nov, l.z, alpha) * l.z *
-                        fresnelSchlick(white, 1.0f, dot(v, h)).x;
-            }, 600, 200, 1);
+            const double oneBounce = integrateHemisphere(
+                    [&](vec3 l) {
+                        const vec3 h = glm::normalize(v + l);
+                        return ndfGgx(min(h.z, 1.0f), alpha) * visibilitySmithGgxCorrelated(nov, l.z, alpha) * l.z *
+                               fresnelSchlick(white, 1.0f, dot(v, h)).x;
+                    },
+                    600, 200, 1);
             const float2 dfg = assets::integrateDfg(nov, alpha, 4096);
-            EXPECT_NEAR(oneBounce * energyCompensation(white, dfg).x, 1.0, 0.01) << "roughness " << roughness << " nov " << nov;
+            EXPECT_NEAR(oneBounce * energyCompensation(white, dfg).x, 1.0, 0.01)
+                    << "roughness " << roughness << " nov " << nov;
             EXPECT_LT(oneBounce, roughness == 1.0f ? 0.8 : 1.003);
         }
     }

@@ -17,7 +17,8 @@ TEST(Light, TheWindowReachesZeroAtTheRangeWithZeroSlope) {
     EXPECT_EQ(distanceAttenuation(vec3(0, 0, range), inverse), 0.0f);
     EXPECT_EQ(distanceAttenuation(vec3(0, 0, 2 * range), inverse), 0.0f);
     EXPECT_LT(distanceAttenuation(vec3(0, 0, 0.99f * range), inverse), 1e-3f * inverse * 100);
-    EXPECT_NEAR(distanceAttenuation(vec3(0, 0, 0.1f * range), inverse) * sq(0.1f * range), 1.0f, 1e-3f) << "near: no window";
+    EXPECT_NEAR(distanceAttenuation(vec3(0, 0, 0.1f * range), inverse) * sq(0.1f * range), 1.0f, 1e-3f)
+            << "near: no window";
 }
 
 TEST(Light, ALightAtTheSurfaceIsBrightButFinite) {

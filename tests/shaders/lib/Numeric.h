@@ -13,8 +13,8 @@ namespace filament::shader::lib {
 inline constexpr double kPiExact = std::numbers::pi;
 
 /// Cosines, roughnesses and visibilities that shading must survive, zero and one among them.
-inline constexpr std::array<float, 13> kEdges{ 0.0f, 1e-30f, 1e-10f, 1e-6f, 1e-4f, 0.01f, 0.1f, 0.5f, 0.9f, 0.999f,
-    0.999999f, 0.99999994f, 1.0f };
+inline constexpr std::array<float, 13> kEdges{ 0.0f, 1e-30f, 1e-10f, 1e-6f,     1e-4f,       0.01f, 0.1f,
+                                               0.5f, 0.9f,   0.999f, 0.999999f, 0.99999994f, 1.0f };
 
 /// Integral of f(direction) over the upper hemisphere: midpoints in azimuth and in t, cosine = 1 - t^power, which
 /// crowds the points around the pole for narrow lobes.
@@ -28,7 +28,7 @@ double integrateHemisphere(F&& f, int polarSteps = 512, int azimuthSteps = 64, d
         for (int j = 0; j < azimuthSteps; ++j) {
             const double phi = 2 * kPiExact * (j + 0.5) / azimuthSteps;
             const vec3 d(static_cast<float>(std::cos(phi) * sinTheta), static_cast<float>(std::sin(phi) * sinTheta),
-                    static_cast<float>(cosTheta));
+                         static_cast<float>(cosTheta));
             sum += static_cast<double>(f(d)) * measure;
         }
     }

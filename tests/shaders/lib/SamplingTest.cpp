@@ -44,7 +44,8 @@ double meanCosine(Sample&& sample) {
 TEST(Sampling, DirectionsHaveTheMeanCosineOfTheirDensity) {
     EXPECT_NEAR(meanCosine(hemisphereUniformSample), 0.5, 1e-3);
     EXPECT_NEAR(meanCosine(hemisphereCosineSample), 2.0 / 3, 1e-3);
-    EXPECT_NEAR(meanCosine([](vec2 u) { return importanceSampleGgx(u, 1.0f); }), 2.0 / 3, 1e-3) << "alpha 1 is the cosine lobe";
+    EXPECT_NEAR(meanCosine([](vec2 u) { return importanceSampleGgx(u, 1.0f); }), 2.0 / 3, 1e-3)
+            << "alpha 1 is the cosine lobe";
 }
 
 // Chi-square: 32 bins of equal probability by the distribution's closed form, P(cos > c) = alpha^2 (1 - c^2) /

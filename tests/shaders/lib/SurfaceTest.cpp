@@ -15,7 +15,8 @@ TEST(SpecularAntiAliasing, OnlyEverRoughens) {
     for (const float edge : kEdges) {
         const float roughness = clampPerceptualRoughness(edge);
         for (const float derivative : { 0.0f, 1e-20f, 0.1f, 1e10f }) {
-            const float result = filteredPerceptualRoughness(roughness, vec3(derivative), vec3(derivative), 0.15f, 0.2f);
+            const float result =
+                    filteredPerceptualRoughness(roughness, vec3(derivative), vec3(derivative), 0.15f, 0.2f);
             EXPECT_GE(result, roughness * 0.999f);
             EXPECT_LE(result, 1.0f);
         }
@@ -53,7 +54,8 @@ TEST(TangentFrame, ATangentQuaternionIsTheRotationOfTheAxes) {
     for (float angle = 0.1f; angle < 6.2f; angle += 0.3f) {
         const vec4 q(axis * std::sin(angle / 2), std::cos(angle / 2));
         const auto rotate = [&](vec3 v) { // Rodrigues
-            return v * std::cos(angle) + cross(axis, v) * std::sin(angle) + axis * (dot(axis, v) * (1 - std::cos(angle)));
+            return v * std::cos(angle) + cross(axis, v) * std::sin(angle) +
+                   axis * (dot(axis, v) * (1 - std::cos(angle)));
         };
         vec3 n, t, b;
         tangentFrame(q, n, t, b);

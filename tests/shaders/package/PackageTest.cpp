@@ -29,12 +29,12 @@ MaterialPackage fullPackage() {
     package.maskThreshold = 0.25f;
     package.requiredAttributes = 0b1011;
     package.parameters = { { .name = "tint", .type = ParameterType::Float3 },
-        { .name = "weights", .type = ParameterType::Float, .arraySize = 3 },
-        { .name = "uvMatrix", .type = ParameterType::Float3x3 },
-        { .name = "albedo", .type = ParameterType::Sampler2D, .binding = 1 } };
+                           { .name = "weights", .type = ParameterType::Float, .arraySize = 3 },
+                           { .name = "uvMatrix", .type = ParameterType::Float3x3 },
+                           { .name = "albedo", .type = ParameterType::Sampler2D, .binding = 1 } };
     package.uniformBytes = assignOffsets(package.parameters);
     package.constants = { { .name = "hasAlbedo", .id = 0 },
-        { .name = "steps", .id = 1, .type = backend::ConstantValue::Type::Int, .defaultBits = 7 } };
+                          { .name = "steps", .id = 1, .type = backend::ConstantValue::Type::Int, .defaultBits = 7 } };
     package.layout[1].count = 2;
     package.layout[1].bindings[0] = { .binding = 0, .type = backend::BindingType::UniformBuffer };
     package.layout[1].bindings[1] = { .binding = 1, .type = backend::BindingType::SampledTexture };
@@ -100,12 +100,18 @@ TEST(Package, SurvivesRandomMutationsWithAValidChecksum) {
         for (uint32_t edits = 1 + random() % 4; edits > 0; --edits) {
             const size_t at = random() % bytes.size();
             switch (random() % 4) {
-                case 0: bytes[at] = static_cast<std::byte>(random()); break;
-                case 1: bytes[at] = std::byte{ 0xFF }; break;
-                case 2: bytes.erase(bytes.begin() + static_cast<ptrdiff_t>(at)); break;
-                default:
-                    bytes.insert(bytes.begin() + static_cast<ptrdiff_t>(at), static_cast<std::byte>(random()));
-                    break;
+            case 0:
+                bytes[at] = static_cast<std::byte>(random());
+                break;
+            case 1:
+                bytes[at] = std::byte{ 0xFF };
+                break;
+            case 2:
+                bytes.erase(bytes.begin() + static_cast<ptrdiff_t>(at));
+                break;
+            default:
+                bytes.insert(bytes.begin() + static_cast<ptrdiff_t>(at), static_cast<std::byte>(random()));
+                break;
             }
         }
         accepted += fuzzPackage(bytes);

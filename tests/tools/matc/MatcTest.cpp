@@ -70,7 +70,8 @@ TEST_F(Matc, ReportsErrorsWithFileAndLineAndWritesNothing) {
     const std::string input = file("stone.mat", "material {\n  shadingModle : lit\n}\nfragment {}\n");
     const Outcome outcome = matc("-o " + path("out.fmat") + " " + input);
     EXPECT_EQ(outcome.status, 1);
-    EXPECT_THAT(outcome.output, HasSubstr("stone.mat:2: there is no property 'shadingModle'; did you mean 'shadingModel'?"));
+    EXPECT_THAT(outcome.output,
+                HasSubstr("stone.mat:2: there is no property 'shadingModle'; did you mean 'shadingModel'?"));
     EXPECT_FALSE(fs::exists(path("out.fmat")));
 }
 
@@ -89,8 +90,9 @@ TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
 
 TEST_F(Matc, IncludesFilesBesideTheMaterial) {
     file("half.glsl", "const float kHalf = 0.5;\n");
-    const std::string input = file("stone.mat", "material { shadingModel : unlit }\nfragment {\n#include \"half.glsl\"\n"
-            "void material(inout MaterialInputs m) { prepareMaterial(m); m.baseColor *= kHalf; } }\n");
+    const std::string input = file(
+            "stone.mat", "material { shadingModel : unlit }\nfragment {\n#include \"half.glsl\"\n"
+                         "void material(inout MaterialInputs m) { prepareMaterial(m); m.baseColor *= kHalf; } }\n");
     const Outcome outcome = matc("-o " + path("out") + " " + input);
     EXPECT_EQ(outcome.status, 0) << outcome.output;
 }
@@ -105,7 +107,8 @@ TEST_F(Matc, PrintsTheGeneratedGlslOnRequest) {
 TEST_F(Matc, SaysWhatIsMissing) {
     EXPECT_THAT(matc("-o " + path("out") + " " + path("gone.mat")).output, HasSubstr("cannot read"));
     EXPECT_THAT(matc(file("stone.mat", kLit)).output, HasSubstr("give the package to write with -o"));
-    EXPECT_THAT(matc("-o " + path("no/such/folder/x") + " " + file("stone.mat", kLit)).output, HasSubstr("cannot write"));
+    EXPECT_THAT(matc("-o " + path("no/such/folder/x") + " " + file("stone.mat", kLit)).output,
+                HasSubstr("cannot write"));
 }
 
 } // namespace
