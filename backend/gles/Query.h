@@ -15,7 +15,7 @@ namespace filament::backend::gles {
 
 class Queries {
 public:
-    explicit Queries(Device& device) : mDevice(device) {}
+    explicit Queries(Device& device) : mDevice(device) { mSpare.reserve(64); }
     ~Queries();
 
     void beginTimer(Ticket ticket);

@@ -47,8 +47,10 @@ struct BackendRun {
     std::string explanation;
 };
 
-/// Samples before this one belong to the warm-up: with two frames in flight every ring has gone round once.
-inline constexpr size_t kWarmUpSamples = 3;
+/// Samples before this one belong to the warm-up. Three frames use every set of frame data once; the driver thread may
+/// be two frames behind the app and the device two behind the driver, so that their rings have gone round by the
+/// seventh.
+inline constexpr size_t kWarmUpSamples = 7;
 
 /// The names of files and of keys in reports: "vulkan", "gles".
 const char* fileStem(Backend backend);

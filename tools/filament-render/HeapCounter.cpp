@@ -10,7 +10,7 @@ namespace {
 
 std::atomic<uint64_t> gAllocations{ 0 };
 
-void* counted(std::size_t bytes, std::size_t alignment) {
+[[maybe_unused]] void* counted(std::size_t bytes, std::size_t alignment) {
     gAllocations.fetch_add(1, std::memory_order_relaxed);
     if (bytes == 0) bytes = 1;
     void* memory = alignment <= alignof(std::max_align_t)
@@ -24,6 +24,17 @@ void* counted(std::size_t bytes, std::size_t alignment) {
 
 uint64_t filament::tools::heapAllocations() { return gAllocations.load(std::memory_order_relaxed); }
 
+// A sanitizer brings an allocator of its own, whose checks matter more than this count: there it stays at zero.
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+#define FILAMENT_SANITIZED 1
+#elif defined(__has_feature)
+#if __has_feature(address_sanitizer) || __has_feature(thread_sanitizer)
+#define FILAMENT_SANITIZED 1
+#endif
+#endif
+
+#ifndef FILAMENT_SANITIZED
+
 // The array and nothrow forms of the standard library come back to these.
 void* operator new(std::size_t bytes) { return counted(bytes, 0); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
@@ -33,3 +44,5 @@ void operator delete(void* memory) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::align_val_t) noexcept { std::free(memory); }
 void operator delete(void* memory, std::size_t, std::align_val_t) noexcept { std::free(memory); }
+
+#endif
