@@ -2,7 +2,7 @@
 /// GlApi: the OpenGL ES functions as a table, one per context, found through eglGetProcAddress.
 ///   Why     nothing links against libGLESv2, and every driver of the process may talk to another implementation.
 ///   Use     gl.BindTexture(...) for glBindTexture. Entries below "optional" may be called only after Quirks said so:
-///           an implementation may answer with a stub for a function that it does not have.
+///           an implementation may answer with an entry point for a function that it does not have.
 #pragma once
 
 #include <EGL/egl.h>
