@@ -300,14 +300,23 @@ TEST_P(JobSystemTest, WorkersThatFellAsleepWakeUpForNewWork) {
 
 TEST_P(JobSystemTest, AWaiterThatFellAsleepWakesUpWhenTheLastJobEnds) {
     for (int round = 0; round < 30; ++round) {
+        std::atomic<bool> finished{ false }, otherFinished{ false };
         JobGroup group(jobs);
-        group.run([] { std::this_thread::sleep_for(std::chrono::microseconds(500)); });
+        group.run([&] {
+            std::this_thread::sleep_for(std::chrono::microseconds(500));
+            finished = true;
+        });
         std::thread other([&] {
             JobGroup nested(jobs);
-            nested.run([] { std::this_thread::sleep_for(std::chrono::microseconds(300)); });
+            nested.run([&] {
+                std::this_thread::sleep_for(std::chrono::microseconds(300));
+                otherFinished = true;
+            });
         });
         group.wait();
+        EXPECT_TRUE(finished) << "wait() returns after the job, not before";
         other.join();
+        EXPECT_TRUE(otherFinished);
     }
 }
 

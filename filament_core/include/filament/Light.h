@@ -8,7 +8,7 @@
 
 namespace filament {
 
-/// Parallel light. A scene shades with its brightest sun; more are an error of the scene and reported as a warning.
+/// Parallel light. A scene shades with its brightest sun only; Renderer::explain() says so if there are more.
 struct SunLight {
     float3 directionWorld{ 0, -1, 0 }; ///< in which the light travels; need not be unit, must not be zero
     Lux illuminance{ 110'000 };        ///< on a surface facing it, >= 0
