@@ -5,37 +5,67 @@
 ///           Waker:    publish the work (a seq_cst operation), then wakeOne() or wakeAll()
 ///   Order   prepare() counts the sleeper with a seq_cst operation before it looks; the waker looks at the count with
 ///           one after it published. In their single total order one of the two sees the other: no wake-up is lost.
+///           tests/jobsystem/ParkingLotModelTest.cpp goes through all interleavings.
 ///   Cost    wakeOne() with nobody asleep is one load; with a wake-up under way one load and one exchange. A burst of
 ///           pushes therefore makes one system call; the woken thread, if it finds work, wakes the next one.
 ///   Fails   never.
 #pragma once
+
+#include "jobsystem/Atomics.h"
 
 #include <atomic>
 #include <cstdint>
 
 namespace filament::jobs {
 
-class ParkingLot {
+template <class Policy>
+class BasicParkingLot {
 public:
     using Ticket = uint32_t;
 
-    Ticket prepare();
-    void cancel();
-    void park(Ticket ticket); ///< returns after any wake-up that came after prepare()
+    Ticket prepare() {
+        mSleepers.fetch_add(1, std::memory_order_seq_cst);
+        const Ticket ticket = mEpoch.load(std::memory_order_seq_cst);
+        mWaking.store(false, std::memory_order_seq_cst);
+        return ticket;
+    }
+
+    void cancel() { mSleepers.fetch_sub(1, std::memory_order_seq_cst); }
+
+    /// Returns after any wake-up that came after prepare().
+    void park(Ticket ticket) {
+        while (mEpoch.load(std::memory_order_seq_cst) == ticket) Policy::wait(mEpoch, ticket);
+        mSleepers.fetch_sub(1, std::memory_order_seq_cst);
+        mWaking.store(false, std::memory_order_seq_cst);
+    }
 
     bool hasSleepers() const { return mSleepers.load(std::memory_order_seq_cst) != 0; }
 
     /// Wakes a sleeper, unless one is on its way that has not looked for work yet.
-    void wakeOne();
-    void wakeAll();
+    void wakeOne() {
+        if (!hasSleepers() || mWaking.exchange(true, std::memory_order_seq_cst)) return;
+        mEpoch.fetch_add(1, std::memory_order_seq_cst);
+        Policy::notifyOne(mEpoch);
+    }
+
+    void wakeAll() {
+        if (!hasSleepers()) return;
+        mEpoch.fetch_add(1, std::memory_order_seq_cst);
+        Policy::notifyAll(mEpoch);
+    }
 
 private:
-    std::atomic<uint32_t> mSleepers{ 0 }; // prepared or parked
-    std::atomic<uint32_t> mEpoch{ 0 };    // changes with every wake-up; parked threads wait on it
+    template <class T>
+    using Atomic = typename Policy::template Atomic<T>;
+
+    Atomic<uint32_t> mSleepers{ 0 }; // prepared or parked
+    Atomic<uint32_t> mEpoch{ 0 };    // changes with every wake-up; parked threads wait on it
     // True from a wakeOne() until a sleeper answers it by looking for work. A sleeper clears it after it read the
     // epoch and before it looks, the waker sets it before it changes the epoch: so if it is set after the last clear,
     // that sleeper's epoch is outdated and park() returns at once. It is never left set with everybody asleep.
-    std::atomic<bool> mWaking{ false };
+    Atomic<bool> mWaking{ false };
 };
+
+using ParkingLot = BasicParkingLot<StdAtomics>;
 
 } // namespace filament::jobs

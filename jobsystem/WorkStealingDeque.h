@@ -8,8 +8,10 @@
 ///           ever replaced under a thief's hands, and a recursion that forks without end stays in bounded memory.
 ///   Order   push() is one point in the single total order of seq_cst operations. A thread that pushes and then asks
 ///           "does anybody sleep?" and a thread that announces its sleep and then looks in here cannot both miss.
+///   Proof   tests/jobsystem/DequeModelTest.cpp goes through all interleavings of a few operations.
 #pragma once
 
+#include "jobsystem/Atomics.h"
 #include "jobsystem/Job.h"
 
 #include <array>
@@ -18,7 +20,7 @@
 
 namespace filament::jobs {
 
-template <class T, uint32_t kSlots>
+template <class T, uint32_t kSlots, class Policy = StdAtomics>
 class WorkStealingDeque {
     static_assert((kSlots & (kSlots - 1)) == 0, "slots are addressed with a mask");
 
@@ -61,11 +63,14 @@ public:
     bool isEmpty() const { return mTop.load(std::memory_order_seq_cst) >= mBottom.load(std::memory_order_seq_cst); }
 
 private:
-    std::atomic<T*>& slot(int64_t at) { return mSlots[static_cast<uint64_t>(at) & (kSlots - 1)]; }
+    template <class V>
+    using Atomic = typename Policy::template Atomic<V>;
 
-    alignas(kCacheLineBytes) std::atomic<int64_t> mTop{ 0 };    // thieves
-    alignas(kCacheLineBytes) std::atomic<int64_t> mBottom{ 0 }; // the owner
-    alignas(kCacheLineBytes) std::array<std::atomic<T*>, kSlots> mSlots{};
+    Atomic<T*>& slot(int64_t at) { return mSlots[static_cast<uint64_t>(at) & (kSlots - 1)]; }
+
+    alignas(kCacheLineBytes) Atomic<int64_t> mTop{ 0 };    // thieves
+    alignas(kCacheLineBytes) Atomic<int64_t> mBottom{ 0 }; // the owner
+    alignas(kCacheLineBytes) std::array<Atomic<T*>, kSlots> mSlots{};
 };
 
 } // namespace filament::jobs
