@@ -17,26 +17,26 @@ uint32_t depthBits(double3 const& worldCenter, ViewSpace const& space) {
 }
 
 uint64_t sortKey(scene::Renderables const& renderables, uint32_t i, ViewSpace const& space) {
-    const uint32_t depth = depthBits(renderables.worldCenter[i], space);
-    scene::MaterialInstance const& material = *renderables.material[i];
+    const uint32_t depth = depthBits(renderables.bounds.centerAt(i), space);
+    scene::Drawable const& drawable = renderables.drawables[renderables.drawable[i]];
+    scene::MaterialInstance const& material = *drawable.material;
     if (material.material->isBlended()) return kBlendedBit | static_cast<uint64_t>(~depth) << 31;
     const uint64_t coarseDepth = depth >> 21; // exponent and two bits of mantissa: four steps an octave
-    const uint64_t geometry =
-            (renderables.geometry[i].vertices.index() * 31u + renderables.geometry[i].firstIndex) & 0xFFFFu;
+    const uint64_t geometry = (drawable.geometry.vertices.index() * 31u + drawable.geometry.firstIndex) & 0xFFFFu;
     return coarseDepth << 53 | (material.material->id & 0x3FFFull) << 39 | (material.id & 0x3FFFull) << 25 |
            geometry << 9;
 }
 
 Visibility visibilityOf(scene::Renderables const& renderables, size_t i, ViewSpace const& space) {
-    if (renderables.geometry[i].indexCount == 0) return Visibility::NothingToDraw;
+    if (renderables.flags[i] & (scene::kNoIndices | scene::kCollapsed)) return Visibility::NothingToDraw;
     if (!(renderables.flags[i] & scene::kCulled)) return Visibility::Visible;
-    const float3 center(renderables.worldCenter[i] - space.cameraWorld);
-    return intersects(space.frustum, center, renderables.worldHalfExtent[i]) ? Visibility::Visible
-                                                                             : Visibility::OutOfView;
+    const float3 center(renderables.bounds.centerAt(i) - space.cameraWorld);
+    return intersects(space.frustum, center, renderables.bounds.halfExtentAt(i)) ? Visibility::Visible
+                                                                                 : Visibility::OutOfView;
 }
 
 bool sameDraw(scene::Renderables const& renderables, uint32_t a, uint32_t b) {
-    return renderables.material[a] == renderables.material[b] && renderables.geometry[a] == renderables.geometry[b] &&
+    return renderables.drawable[a] == renderables.drawable[b] &&
            (renderables.flags[a] & scene::kMirrored) == (renderables.flags[b] & scene::kMirrored);
 }
 
@@ -82,11 +82,10 @@ std::span<const shader::ObjectData> writeObjects(jobs::JobSystem& jobs, Arena& a
     jobs::parallelFor(jobs, items.size(), kGrain, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const uint32_t at = items[i].renderable;
-            double4x4 world = renderables.worldFromObject[at];
-            world[3] -= double4(space.cameraWorld, 0.0); // in double: the difference is small, the operands are not
-            const float4x4 rows(glm::transpose(world));
-            const float side = (renderables.flags[at] & scene::kMirrored) ? -1.0f : 1.0f;
-            objects[i] = { rows[0], rows[1], rows[2], float4(side, 0, 0, 0) };
+            scene::Placement const& placement = renderables.placement[at];
+            const float3 origin(placement.translation - space.cameraWorld); // in double: the difference is small
+            objects[i] = { float4(placement.rows[0], origin.x), float4(placement.rows[1], origin.y),
+                           float4(placement.rows[2], origin.z), float4(placement.side, 0, 0, 0) };
         }
     });
     return objects;
@@ -98,7 +97,7 @@ DrawLists mergeInstances(Arena& arena, scene::Renderables const& renderables, st
     uint32_t count = 0, opaqueCount = 0;
     for (uint32_t i = 0; i < items.size(); ++i) {
         const uint32_t at = items[i].renderable;
-        counts.triangles += trianglesOf(renderables.geometry[at]);
+        counts.triangles += trianglesOf(renderables.drawables[renderables.drawable[at]].geometry);
         const bool windowStarts = i % shader::kObjectsPerWindow == 0;
         const bool blended = (items[i].key & kBlendedBit) != 0;
         const bool listStarts = blended && opaqueCount == count;
@@ -106,7 +105,8 @@ DrawLists mergeInstances(Arena& arena, scene::Renderables const& renderables, st
             ++draws[count - 1].instanceCount;
             continue;
         }
-        draws[count++] = { renderables.material[at], &renderables.geometry[at], i, 1,
+        scene::Drawable const& drawable = renderables.drawables[renderables.drawable[at]];
+        draws[count++] = { drawable.material, &drawable.geometry, i, 1,
                            (renderables.flags[at] & scene::kMirrored) != 0 };
         if (!blended) opaqueCount = count;
     }

@@ -32,10 +32,10 @@ TEST_F(SceneDataTest, KeepsHandlesValidWhenOthersAreRemoved) {
     ASSERT_EQ(r.count(), 2u);
     EXPECT_EQ(r.name[r.index.at(b)], "b");
     EXPECT_EQ(r.name[r.index.at(c)], "c");
-    EXPECT_EQ(r.worldCenter[r.index.at(c)].x, 20);
+    EXPECT_EQ(r.bounds.centerAt(r.index.at(c)).x, 20);
     setTransform(scene, c, double4x4(2.0));
-    EXPECT_EQ(r.worldHalfExtent[r.index.at(c)], float3(2));
-    EXPECT_EQ(r.worldHalfExtent[r.index.at(b)], float3(1));
+    EXPECT_EQ(r.bounds.halfExtentAt(r.index.at(c)), float3(2));
+    EXPECT_EQ(r.bounds.halfExtentAt(r.index.at(b)), float3(1));
 }
 
 TEST_F(SceneDataTest, EveryColumnHasTheSameLengthAfterRandomAddsAndRemoves) {
@@ -54,8 +54,10 @@ TEST_F(SceneDataTest, EveryColumnHasTheSameLengthAfterRandomAddsAndRemoves) {
     }
     Renderables const& r = scene.renderables;
     EXPECT_EQ(r.count(), live.size());
-    for (size_t size : { r.worldFromObject.size(), r.worldCenter.size(), r.worldHalfExtent.size(),
-                         r.objectBounds.size(), r.geometry.size(), r.material.size(), r.flags.size(), r.name.size() }) {
+    for (size_t size :
+         { r.bounds.center[0].size(), r.bounds.center[1].size(), r.bounds.center[2].size(),
+           r.bounds.halfExtent[0].size(), r.bounds.halfExtent[1].size(), r.bounds.halfExtent[2].size(), r.flags.size(),
+           r.drawable.size(), r.placement.size(), r.objectBounds.size(), r.name.size() }) {
         EXPECT_EQ(size, live.size());
     }
 }
@@ -75,8 +77,11 @@ TEST_F(SceneDataTest, TurnsANonFiniteTransformIntoNothing) {
     double4x4 broken(1.0);
     broken[3].y = std::numeric_limits<double>::quiet_NaN();
     setTransform(scene, a, broken);
-    EXPECT_EQ(scene.renderables.worldHalfExtent[0], float3(0));
-    EXPECT_TRUE(std::isfinite(scene.renderables.worldCenter[0].y));
+    EXPECT_EQ(scene.renderables.bounds.halfExtentAt(0), float3(0));
+    EXPECT_TRUE(std::isfinite(scene.renderables.bounds.centerAt(0).y));
+    EXPECT_TRUE(scene.renderables.flags[0] & kCollapsed);
+    setTransform(scene, a, double4x4(1.0));
+    EXPECT_FALSE(scene.renderables.flags[0] & kCollapsed);
 }
 
 TEST_F(SceneDataTest, BoundsCoverEveryRenderable) {

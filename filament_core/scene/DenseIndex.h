@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+/// DenseIndex: handles for the user, dense arrays for the frame.
+///   Thread  the app thread between frames.
+///   Memory  8 bytes an element; adding and removing is O(1), removal moves the last element into the gap.
+///   Fails   a handle that names nothing (any more) is an assertion.
+#pragma once
+
+#include "filament_core/base/Handle.h"
+
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+namespace filament::scene {
+
+/// Maps handles to positions in dense arrays and back.
+template <class Tag>
+class DenseIndex {
+public:
+    Handle<Tag> add() {
+        const Handle<Tag> handle = mHandles.allocate();
+        if (handle.index() >= mDense.size()) mDense.resize(handle.index() + 1);
+        mDense[handle.index()] = static_cast<uint32_t>(mOwners.size());
+        mOwners.push_back(handle);
+        return handle;
+    }
+
+    /// The position that the last element must be moved into; the caller then drops the last element.
+    uint32_t remove(Handle<Tag> handle) {
+        const uint32_t gap = at(handle);
+        const Handle<Tag> last = mOwners.back();
+        mOwners[gap] = last;
+        mDense[last.index()] = gap;
+        mOwners.pop_back();
+        mHandles.free(handle);
+        return gap;
+    }
+
+    uint32_t at(Handle<Tag> handle) const {
+        FILAMENT_ASSERT(mHandles.isLive(handle), "the handle names something that was removed or never added");
+        return mDense[handle.index()];
+    }
+
+    uint32_t size() const { return static_cast<uint32_t>(mOwners.size()); }
+
+private:
+    HandleAllocator<Tag> mHandles;
+    std::vector<uint32_t> mDense;     // by handle index
+    std::vector<Handle<Tag>> mOwners; // by dense position
+};
+
+/// Moves the last element of a column into the gap and drops the last.
+template <class T>
+void closeGap(std::vector<T>& column, uint32_t gap) {
+    if (gap + 1 != column.size()) column[gap] = std::move(column.back());
+    column.pop_back();
+}
+
+} // namespace filament::scene

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/scene/Drawables.h"
+
+#include "filament_core/base/Assert.h"
+#include "filament_core/base/Hash.h"
+
+namespace filament::scene {
+namespace {
+
+uint32_t orderOf(MaterialInstance const& instance) {
+    constexpr uint32_t kMaterialMask = (1u << Drawables::kMaterialBits) - 1;
+    constexpr uint32_t kInstanceMask = (1u << Drawables::kInstanceBits) - 1;
+    const uint32_t blended = instance.material->isBlended() ? Drawables::kBlendedOrder : 0;
+    return blended | (instance.material->id & kMaterialMask) << Drawables::kInstanceBits |
+           (instance.id & kInstanceMask);
+}
+
+} // namespace
+
+uint32_t GeometryLayouts::intern(GeometryLayout const& layout) {
+    for (uint32_t i = 0; i < mLayouts.size(); ++i) {
+        if (mLayouts[i] == layout) return i;
+    }
+    mLayouts.push_back(layout);
+    return static_cast<uint32_t>(mLayouts.size() - 1);
+}
+
+size_t Drawables::Hash::operator()(Drawable const& drawable) const noexcept {
+    Geometry const& geometry = drawable.geometry;
+    const uint64_t buffers = static_cast<uint64_t>(geometry.vertices.bits) << 32 | geometry.indices.bits;
+    const uint64_t range = static_cast<uint64_t>(geometry.firstIndex) << 32 | geometry.indexCount;
+    return hashCombine(hashCombine(buffers, range), reinterpret_cast<uintptr_t>(drawable.material));
+}
+
+uint32_t Drawables::acquire(Drawable const& drawable) {
+    FILAMENT_ASSERT(drawable.material && drawable.material->material, "a renderable needs a material instance");
+    const auto [known, isNew] = mNumbers.try_emplace(drawable, limit());
+    if (isNew && !mFree.empty()) {
+        known->second = mFree.back();
+        mFree.pop_back();
+    } else if (isNew) {
+        mRecords.emplace_back();
+        mOrders.emplace_back();
+    }
+    const uint32_t number = known->second;
+    if (isNew) {
+        mRecords[number].drawable = drawable;
+        mOrders[number] = orderOf(*drawable.material);
+    }
+    ++mRecords[number].users;
+    return number;
+}
+
+void Drawables::release(uint32_t number) {
+    FILAMENT_ASSERT(number < limit() && mRecords[number].users > 0, "a drawable is released once a use");
+    Record& record = mRecords[number];
+    if (--record.users > 0) return;
+    mNumbers.erase(record.drawable);
+    mFree.push_back(number);
+}
+
+} // namespace filament::scene

@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Drawables: the distinct pairs of geometry and material instance in a scene, numbered. Renderables with equal numbers
+/// can share an instanced draw, so a frame compares and sorts numbers and never looks behind them.
+///   In      what renderables are made of.   Out: small dense numbers, given out again when nobody uses them.
+///   Thread  the app thread between frames; read-only while a frame is prepared.
+///   Memory  about 100 bytes a pair. Adding what is known already allocates nothing.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "filament_core/scene/Materials.h"
+
+#include <cstdint>
+#include <unordered_map>
+#include <vector>
+
+namespace filament::scene {
+
+/// One draw's worth of geometry on the device.
+struct Geometry {
+    backend::BufferHandle vertices, indices;
+    uint32_t layout = 0; ///< into GeometryLayouts: vertex layout and topology
+    uint32_t firstIndex = 0, indexCount = 0;
+    backend::IndexType indexType = backend::IndexType::UInt16;
+    friend bool operator==(Geometry const&, Geometry const&) = default;
+};
+
+/// Vertex layout and topology, interned: geometries with equal layouts share pipelines.
+struct GeometryLayout {
+    backend::VertexLayout vertices{};
+    backend::Topology topology = backend::Topology::Triangles;
+    friend bool operator==(GeometryLayout const&, GeometryLayout const&) = default;
+};
+
+class GeometryLayouts {
+public:
+    uint32_t intern(GeometryLayout const& layout);
+    GeometryLayout const& operator[](uint32_t index) const { return mLayouts[index]; }
+
+private:
+    std::vector<GeometryLayout> mLayouts;
+};
+
+struct Drawable {
+    Geometry geometry{};
+    MaterialInstance const* material = nullptr;
+    friend bool operator==(Drawable const&, Drawable const&) = default;
+};
+
+class Drawables {
+public:
+    /// Bits of order(): neighbours in this order share programs, then parameters. Ids beyond 12 bits wrap around, which
+    /// costs state changes and nothing else.
+    static constexpr uint32_t kMaterialBits = 12, kInstanceBits = 12;
+    static constexpr uint32_t kBlendedOrder = 1u << 31;
+
+    /// The number of this pair, with one more user.
+    uint32_t acquire(Drawable const& drawable);
+    void release(uint32_t number);
+
+    Drawable const& operator[](uint32_t number) const { return mRecords[number].drawable; }
+    /// material << kInstanceBits | instance, and kBlendedOrder if the material blends.
+    uint32_t order(uint32_t number) const { return mOrders[number]; }
+    /// All numbers are below; also those of pairs that nobody uses any more.
+    uint32_t limit() const { return static_cast<uint32_t>(mRecords.size()); }
+    uint32_t count() const { return static_cast<uint32_t>(mNumbers.size()); }
+
+private:
+    struct Hash {
+        size_t operator()(Drawable const& drawable) const noexcept;
+    };
+    struct Record {
+        Drawable drawable{};
+        uint32_t users = 0;
+    };
+
+    std::vector<Record> mRecords;
+    std::vector<uint32_t> mOrders; // parallel to mRecords: all that sorting reads
+    std::vector<uint32_t> mFree;
+    std::unordered_map<Drawable, uint32_t, Hash> mNumbers;
+};
+
+} // namespace filament::scene

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/scene/Renderables.h"
+
+#include <cmath>
+#include <utility>
+
+namespace filament::scene {
+namespace {
+
+bool isFinite(double4x4 const& matrix) {
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(matrix[column][row])) return false;
+        }
+    }
+    return true;
+}
+
+Placement placementOf(double4x4 const& world) {
+    Placement placement;
+    for (int row = 0; row < 3; ++row) {
+        placement.rows[row] = float3(double3(world[0][row], world[1][row], world[2][row]));
+    }
+    placement.side = glm::determinant(double3x3(world)) < 0 ? -1.0f : 1.0f;
+    placement.translation = double3(world[3]);
+    return placement;
+}
+
+bool isPoint(Placement const& placement) {
+    return placement.rows[0] == float3(0) && placement.rows[1] == float3(0) && placement.rows[2] == float3(0);
+}
+
+} // namespace
+
+void BoundsColumns::set(size_t i, double3 const& newCenter, float3 newHalfExtent) {
+    for (int axis = 0; axis < 3; ++axis) {
+        center[axis][i] = newCenter[axis];
+        halfExtent[axis][i] = newHalfExtent[axis];
+    }
+}
+
+void BoundsColumns::add() {
+    for (auto& column : center) column.push_back(0.0);
+    for (auto& column : halfExtent) column.push_back(0.0f);
+}
+
+void BoundsColumns::remove(uint32_t gap) {
+    for (auto& column : center) closeGap(column, gap);
+    for (auto& column : halfExtent) closeGap(column, gap);
+}
+
+Renderable add(Renderables& renderables, RenderableInput const& input) {
+    const uint32_t drawable = renderables.drawables.acquire({ input.geometry, input.material });
+    const Renderable handle = renderables.index.add();
+    const int flags = (input.culled ? kCulled : 0) | (input.geometry.indexCount == 0 ? kNoIndices : 0);
+    renderables.bounds.add();
+    renderables.flags.push_back(static_cast<uint8_t>(flags));
+    renderables.drawable.push_back(drawable);
+    renderables.placement.emplace_back();
+    renderables.objectBounds.push_back(boxFromMinMax(input.boundsMin, input.boundsMax));
+    renderables.name.push_back(input.name);
+    place(renderables, renderables.count() - 1, input.worldFromObject);
+    return handle;
+}
+
+void remove(Renderables& renderables, Renderable renderable) {
+    const uint32_t gap = renderables.index.remove(renderable);
+    renderables.drawables.release(renderables.drawable[gap]);
+    renderables.bounds.remove(gap);
+    closeGap(renderables.flags, gap);
+    closeGap(renderables.drawable, gap);
+    closeGap(renderables.placement, gap);
+    closeGap(renderables.objectBounds, gap);
+    closeGap(renderables.name, gap);
+}
+
+void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject) {
+    const double4x4 world = isFinite(worldFromObject) ? worldFromObject : double4x4(0.0);
+    CenteredBox const& bounds = renderables.objectBounds[at];
+    const Placement placement = placementOf(world);
+    renderables.placement[at] = placement;
+    renderables.bounds.set(at, double3(world * double4(double3(bounds.center), 1.0)),
+                           transformedHalfExtent(world, bounds.halfExtent));
+    const int kept = renderables.flags[at] & ~(kMirrored | kCollapsed);
+    const int changed = (placement.side < 0 ? kMirrored : 0) | (isPoint(placement) ? kCollapsed : 0);
+    renderables.flags[at] = static_cast<uint8_t>(kept | changed);
+}
+
+} // namespace filament::scene

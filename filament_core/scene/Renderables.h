@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Renderables: what can be drawn, by column; each step of a frame reads only the columns it needs.
+///   culling      bounds (36 B) and flags (1 B) of every renderable, in order
+///   sorting      drawable (4 B) of the visible ones
+///   object data  placement (64 B, one cache line) of the visible ones, in draw order
+///   The rest (objectBounds, name) is for changes and for people; frames do not touch it.
+///   Thread  the app thread between frames; read-only while a frame is prepared. place() may run on many threads at
+///           once, each with indices of its own.
+#pragma once
+
+#include "filament_core/math/Box.h"
+#include "filament_core/scene/DenseIndex.h"
+#include "filament_core/scene/Drawables.h"
+
+#include <filament/Objects.h>
+
+#include <array>
+#include <string>
+#include <vector>
+
+namespace filament::scene {
+
+/// Axis-aligned boxes in world space, a component a column: SIMD loads neighbours. Centres are double; subtracting the
+/// camera leaves what a float can hold.
+struct BoundsColumns {
+    std::array<std::vector<double>, 3> center;
+    std::array<std::vector<float>, 3> halfExtent;
+
+    double3 centerAt(size_t i) const { return { center[0][i], center[1][i], center[2][i] }; }
+    float3 halfExtentAt(size_t i) const { return { halfExtent[0][i], halfExtent[1][i], halfExtent[2][i] }; }
+    void set(size_t i, double3 const& newCenter, float3 newHalfExtent);
+    void add();
+    void remove(uint32_t gap);
+};
+
+/// worldFromObject as the shaders see it: the linear part rounded to float once, here, and the translation in double,
+/// because it meets the camera first.
+struct alignas(64) Placement {
+    std::array<float3, 3> rows{}; ///< of the linear part
+    float side = 1;               ///< -1 if it mirrors
+    double3 translation{ 0.0 };
+};
+static_assert(sizeof(Placement) == 64, "one cache line a renderable");
+
+enum RenderableFlag : uint8_t {
+    kCulled = 1,    ///< may be dropped when its box is out of view
+    kMirrored = 2,  ///< the transform turns front faces into back faces
+    kNoIndices = 4, ///< its geometry is empty
+    kCollapsed = 8, ///< the transform makes it a point, which has nothing to draw
+};
+
+struct Renderables {
+    DenseIndex<RenderableObject> index;
+    BoundsColumns bounds;
+    std::vector<uint8_t> flags;     ///< RenderableFlag
+    std::vector<uint32_t> drawable; ///< into `drawables`
+    std::vector<Placement> placement;
+    std::vector<CenteredBox> objectBounds;
+    std::vector<std::string> name;
+    Drawables drawables;
+
+    uint32_t count() const { return index.size(); }
+};
+
+struct RenderableInput {
+    Geometry geometry{};
+    MaterialInstance const* material = nullptr;
+    float3 boundsMin{ 0.0f }, boundsMax{ 0.0f };
+    double4x4 worldFromObject{ 1.0 };
+    bool culled = true;
+    std::string name;
+};
+
+Renderable add(Renderables& renderables, RenderableInput const& input);
+void remove(Renderables& renderables, Renderable renderable);
+
+/// Writes everything that follows from a transform: placement, bounds and flags of the renderable at position `at`.
+/// `worldFromObject` affine and finite; anything else is replaced by a zero scale, which draws nothing.
+void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject);
+
+} // namespace filament::scene
