@@ -7,6 +7,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
+#include "backend/api/ReplayProgress.h"
 
 #include <concepts>
 #include <cstddef>
@@ -126,8 +127,9 @@ struct MustExecute {
 
 // ---------------------------------------------------------------------------------------------- the stream in memory
 
-/// Precedes every command in a chunk; the command follows at the next multiple of kCommandAlignment.
-inline constexpr size_t kCommandAlignment = 16;
+/// Precedes every command in a chunk; the command follows at the next multiple of kCommandAlignment. Eight, so that the
+/// commands of a draw (header and all) take half a cache line each.
+inline constexpr size_t kCommandAlignment = 8;
 struct CommandHeader {
     uint32_t id = 0;
     uint32_t bytes = 0; ///< from this header to the next one, a multiple of kCommandAlignment
@@ -153,17 +155,25 @@ constexpr auto makeTable(TypeList<C...>) {
 }
 } // namespace detail
 
-/// Calls driver.execute(command) for every command of the stream, in order. One indirect call a command.
+/// Calls driver.execute(command) for every command of the stream, in order; publishes which one it is in. One indirect
+/// call and one store a command.
 template <class D>
 void replay(CommandView view, D& driver) {
     static constexpr auto kTable = detail::makeTable<D>(Commands{});
+    ReplayProgress unwatched;
+    ReplayProgress* const watched = ReplayProgress::ofThisThread();
+    ReplayProgress& progress = watched ? *watched : unwatched;
     for (CommandChunk const& chunk : view) {
-        for (size_t at = 0; at < chunk.size;) {
-            auto const& header = *reinterpret_cast<CommandHeader const*>(chunk.data + at);
-            kTable[header.id](driver, chunk.data + at + kCommandAlignment);
+        const std::byte* const end = chunk.data + chunk.size;
+        for (const std::byte* at = chunk.data; at < end;) {
+            auto const& header = *reinterpret_cast<CommandHeader const*>(at);
+            const std::byte* const command = at + kCommandAlignment;
             at += header.bytes;
+            progress.enter(command);
+            kTable[header.id](driver, command);
         }
     }
+    progress.leave();
 }
 
 } // namespace filament::backend

@@ -28,18 +28,21 @@ CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
 // The smallest spare block that is large enough, or a new one: large blocks stay for large payloads.
 CommandBuffer::Block& CommandBuffer::takeBlock(size_t bytes) {
     const size_t size = std::max(bytes, kBlockBytes);
-    auto best = mSpare.end();
-    for (auto it = mSpare.begin(); it != mSpare.end(); ++it) {
-        if (it->size >= size && (best == mSpare.end() || it->size < best->size)) best = it;
+    size_t best = mSpare.size();
+    for (size_t i = mSpare.size(); i-- > 0;) {
+        if (mSpare[i].size >= size && (best == mSpare.size() || mSpare[i].size < mSpare[best].size)) best = i;
+        if (best < mSpare.size() && mSpare[best].size == size) break; // no other fits better
     }
-    if (best != mSpare.end()) {
-        mUsed.push_back(std::move(*best));
-        mSpare.erase(best);
-        return mUsed.back();
-    }
+    if (best < mSpare.size()) return mUsed.emplace_back(takeSpare(best));
     auto* data = static_cast<std::byte*>(::operator new[](size, std::align_val_t{ kBlockAlignment }));
-    mUsed.push_back({ std::unique_ptr<std::byte[], FreeAligned>(data), size });
-    return mUsed.back();
+    return mUsed.emplace_back(Block{ std::unique_ptr<std::byte[], FreeAligned>(data), size });
+}
+
+CommandBuffer::Block CommandBuffer::takeSpare(size_t index) {
+    std::swap(mSpare[index], mSpare.back());
+    Block block = std::move(mSpare.back());
+    mSpare.pop_back();
+    return block;
 }
 
 void CommandBuffer::startChunk(size_t bytes) {
@@ -64,6 +67,16 @@ std::span<std::byte> CommandBuffer::allocate(size_t bytes, size_t alignment) {
     return { block.data.get(), bytes };
 }
 
+// A block for a block: the tail gets a spare one of the same size back, so that joining the same buffers every frame
+// allocates nothing, and no large block strays to where nobody asks for it.
+void CommandBuffer::returnEqualBlock(size_t size, CommandBuffer& tail) {
+    for (size_t i = mSpare.size(); i-- > 0;) {
+        if (mSpare[i].size != size) continue;
+        tail.mSpare.push_back(takeSpare(i));
+        return;
+    }
+}
+
 void CommandBuffer::append(CommandBuffer&& tail) {
     FILAMENT_ASSERT(&tail != this, "a command buffer cannot be appended to itself");
     if (!tail.mChunks.empty()) {
@@ -74,12 +87,10 @@ void CommandBuffer::append(CommandBuffer&& tail) {
     mCommandCount += tail.mCommandCount;
     mPayloadBytes += tail.mPayloadBytes;
 
-    // Blocks for blocks: the tail gets spare ones back, so that joining the same buffers every frame allocates nothing.
-    const size_t moved = tail.mUsed.size();
-    const size_t returned = std::min(moved, mSpare.size());
-    std::move(tail.mUsed.begin(), tail.mUsed.end(), std::back_inserter(mUsed));
-    std::move(mSpare.end() - static_cast<std::ptrdiff_t>(returned), mSpare.end(), std::back_inserter(tail.mSpare));
-    mSpare.resize(mSpare.size() - returned);
+    for (Block& block : tail.mUsed) {
+        returnEqualBlock(block.size, tail);
+        mUsed.push_back(std::move(block));
+    }
     tail.mUsed.clear();
     tail.mChunks.clear();
     tail.mCommands = tail.mPayload = {};

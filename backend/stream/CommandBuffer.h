@@ -86,6 +86,8 @@ private:
     }
 
     Block& takeBlock(size_t bytes);
+    Block takeSpare(size_t index);
+    void returnEqualBlock(size_t size, CommandBuffer& tail);
     void startChunk(size_t bytes);
 
     Range mCommands, mPayload;         // what is left of the newest block of each kind
