@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The shader library in double precision, in namespace filament::shader::lib64: what the formulas say when rounding
+/// does not matter. The reference renderer shades with it; the numerics tests measure fp32 and fp16 against it.
+///   Source  the build copies shaders/lib/*.glsl with `float` as double and literals without f
+///           (cmake/DoublePrecisionGlsl.cmake); every file, every function, rebuilt when one of them changes. Link
+///           shader_lib64.
+///   Differs from LibCpp.h in the types only: vec3 is glm::dvec3. Clamps that exist for fp32, such as kMinAlpha, stay:
+///           they belong to the material model.
+///   Memory  none. Thread: pure functions.
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+namespace filament::shader::lib64 {
+
+using glm::uint;
+using vec2 = glm::dvec2;
+using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
+
+using glm::clamp;
+using glm::cos;
+using glm::cross;
+using glm::dot;
+using glm::exp2;
+using glm::fract;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::pow;
+using glm::sin;
+using glm::sqrt;
+
+// GLSL functions have no linkage: internal here, and not every includer calls every one.
+#pragma GCC diagnostic push
+#pragma GCC diagnostic ignored "-Wunused-function"
+namespace {
+
+#include "generated/shaders/lib64/all.inl"
+
+} // namespace
+#pragma GCC diagnostic pop
+
+#undef OUT
+
+} // namespace filament::shader::lib64
