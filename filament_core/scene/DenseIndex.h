@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// DenseIndex: handles for the user, dense arrays for the frame.
-///   Thread  the app thread between frames.
+///   Thread  the app thread between frames; at() on any number of threads while nothing is added or removed.
 ///   Memory  8 bytes an element; adding and removing is O(1), removal moves the last element into the gap.
 ///   Fails   a handle that names nothing (any more) is an assertion.
 #pragma once
@@ -37,8 +37,10 @@ public:
     }
 
     uint32_t at(Handle<Tag> handle) const {
-        FILAMENT_ASSERT(mHandles.isLive(handle), "the handle names something that was removed or never added");
-        return mDense[handle.index()];
+        const uint32_t position = handle && handle.index() < mDense.size() ? mDense[handle.index()] : size();
+        FILAMENT_ASSERT(position < size() && mOwners[position] == handle,
+                        "the handle names something that was removed or never added");
+        return position;
     }
 
     uint32_t size() const { return static_cast<uint32_t>(mOwners.size()); }

@@ -7,10 +7,16 @@ namespace filament::scene {
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input) { return add(scene.renderables, input); }
 
-void removeRenderable(SceneData& scene, Renderable renderable) { remove(scene.renderables, renderable); }
+void removeRenderable(SceneData& scene, Renderable renderable) {
+    remove(scene.renderables, renderable);
+    scene.atNodes.renderables.detach(renderable);
+}
 
 void setTransform(SceneData& scene, Renderable renderable, double4x4 const& worldFromObject) {
-    place(scene.renderables, scene.renderables.index.at(renderable), worldFromObject);
+    const uint32_t at = scene.renderables.index.at(renderable);
+    FILAMENT_ASSERT(!scene.atNodes.renderables.isAttached(renderable),
+                    "a renderable that hangs at a node is moved by its node");
+    place(scene.renderables, at, worldFromObject);
 }
 
 Light addLight(SceneData& scene, LightRecord const& light) {
@@ -19,7 +25,10 @@ Light addLight(SceneData& scene, LightRecord const& light) {
     return scene.lights.index.add();
 }
 
-void removeLight(SceneData& scene, Light light) { closeGap(scene.lights.records, scene.lights.index.remove(light)); }
+void removeLight(SceneData& scene, Light light) {
+    closeGap(scene.lights.records, scene.lights.index.remove(light));
+    scene.atNodes.lights.detach(light);
+}
 
 Box sceneBounds(SceneData const& scene) {
     Box box;

@@ -4,8 +4,10 @@
 ///   Memory  one array a property; add and remove are O(1), removal moves the last element into the gap.
 #pragma once
 
+#include "filament_core/scene/Attachments.h"
 #include "filament_core/scene/Materials.h"
 #include "filament_core/scene/Renderables.h"
+#include "filament_core/scene/Transforms.h"
 
 #include <filament/Box.h>
 #include <filament/Objects.h>
@@ -31,6 +33,19 @@ struct Lights {
     std::vector<LightRecord> records;
 };
 
+/// Of a light that hangs at a node: in the node's space.
+struct LightPose {
+    double3 position{ 0.0 };
+    float3 direction{ 0, -1, 0 };
+};
+
+/// What hangs at which node; SceneNodes.h keeps it.
+struct NodeContents {
+    Attachments<RenderableObject> renderables;
+    Attachments<LightObject> lights;
+    std::vector<LightPose> lightPoses; ///< by handle index
+};
+
 struct IndirectLightState {
     backend::TextureHandle specular;
     float levelOfRoughnessOne = 0;
@@ -48,13 +63,15 @@ struct SkyboxState {
 struct SceneData {
     Renderables renderables;
     Lights lights;
+    Transforms transforms; ///< of the nodes
+    NodeContents atNodes;
     IndirectLightState indirectLight; ///< specular: none means no indirect light
     SkyboxState skybox;               ///< cube: none means no skybox
 };
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input);
 void removeRenderable(SceneData& scene, Renderable renderable);
-/// place() of Renderables.h, by handle.
+/// place() of Renderables.h, by handle. What hangs at a node is moved by its node.
 void setTransform(SceneData& scene, Renderable renderable, double4x4 const& worldFromObject);
 Light addLight(SceneData& scene, LightRecord const& light);
 void removeLight(SceneData& scene, Light light);

@@ -31,6 +31,7 @@ using RenderTarget = Handle<struct RenderTargetObject>;
 using SwapChain = Handle<struct SwapChainObject>;
 using Renderable = Handle<struct RenderableObject>; ///< of one Scene
 using Light = Handle<struct LightObject>;           ///< of one Scene
+using Node = Handle<struct NodeObject>;             ///< of one Scene
 
 enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube };
 

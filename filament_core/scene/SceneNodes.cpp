@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/scene/SceneNodes.h"
+
+#include <cmath>
+
+namespace filament::scene {
+namespace {
+
+// A direction survives any scale but zero: along an axis that the node flattens it stays as it was.
+float3 turned(Affine const& world, float3 direction) {
+    const double3 longer = transformVector(world, double3(direction));
+    const double length2 = glm::dot(longer, longer);
+    return length2 > 0 && std::isfinite(length2) ? float3(longer / std::sqrt(length2)) : direction;
+}
+
+template <class Tag>
+Node nodeOf(SceneData const& scene, Attachments<Tag> const& attachments, Handle<Tag> thing) {
+    return attachments.isAttached(thing) ? scene.transforms.nodeAt(attachments.nodeOf(thing)) : Node{};
+}
+
+} // namespace
+
+void attach(SceneData& scene, Renderable renderable, Node node) {
+    scene.renderables.index.at(renderable); // asserts that it is there
+    scene.atNodes.renderables.attach(renderable, scene.transforms.slotOf(node));
+    scene.transforms.markUnplaced(node);
+}
+
+void attach(SceneData& scene, Light light, Node node) {
+    LightRecord const& record = scene.lights.records[scene.lights.index.at(light)];
+    std::vector<LightPose>& poses = scene.atNodes.lightPoses;
+    if (light.index() >= poses.size()) poses.resize(light.index() + 1);
+    poses[light.index()] = { record.positionWorld, record.directionWorld };
+    scene.atNodes.lights.attach(light, scene.transforms.slotOf(node));
+    scene.transforms.markUnplaced(node);
+}
+
+Node nodeOf(SceneData const& scene, Renderable renderable) {
+    scene.renderables.index.at(renderable);
+    return nodeOf(scene, scene.atNodes.renderables, renderable);
+}
+
+Node nodeOf(SceneData const& scene, Light light) {
+    scene.lights.index.at(light);
+    return nodeOf(scene, scene.atNodes.lights, light);
+}
+
+void removeNode(SceneData& scene, Node node) {
+    for (const uint32_t slot : scene.transforms.remove(node)) {
+        while (const Renderable renderable = scene.atNodes.renderables.first(slot)) removeRenderable(scene, renderable);
+        while (const Light light = scene.atNodes.lights.first(slot)) removeLight(scene, light);
+    }
+}
+
+void placeAttached(SceneData& scene, uint32_t slot) {
+    Affine const& world = scene.transforms.worldAt(slot);
+    scene.atNodes.renderables.forEach(slot, [&](Renderable renderable) {
+        place(scene.renderables, scene.renderables.index.at(renderable), matrixFrom(world));
+    });
+    scene.atNodes.lights.forEach(slot, [&](Light light) {
+        LightPose const& pose = scene.atNodes.lightPoses[light.index()];
+        LightRecord& record = scene.lights.records[scene.lights.index.at(light)];
+        record.positionWorld = transformPoint(world, pose.position);
+        record.directionWorld = turned(world, pose.direction);
+    });
+}
+
+} // namespace filament::scene
