@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The parts below the scheduler, each alone: deque, storage, parking lot, cores.
-#include "jobsystem/CpuSet.h"
+// The parts below the scheduler, each alone: deque, storage, parking lot.
 #include "jobsystem/JobStorage.h"
 #include "jobsystem/ParkingLot.h"
 #include "jobsystem/WorkStealingDeque.h"
@@ -154,23 +153,6 @@ TEST(ParkingLot, TwoThreadsThatHandATokenToAndFroNeverBothSleep) {
     first.join();
     second.join();
     EXPECT_EQ(token.load(), 2 * kRounds);
-}
-
-TEST(CpuSet, PinningNarrowsTheCoresOfTheThreadToOne) {
-    const std::vector<int> cores = coresOfProcess();
-    ASSERT_FALSE(cores.empty());
-    std::thread([&] {
-        EXPECT_TRUE(pinThisThread(cores.back()));
-        EXPECT_EQ(coresOfProcess(), std::vector<int>{ cores.back() });
-    }).join();
-    EXPECT_EQ(coresOfProcess(), cores);
-}
-
-TEST(CpuSet, RefusesACoreThatDoesNotExist) {
-    testing::internal::CaptureStderr();
-    EXPECT_FALSE(pinThisThread(8191));
-    EXPECT_FALSE(pinThisThread(-1));
-    EXPECT_NE(testing::internal::GetCapturedStderr().find("cannot pin a thread to core 8191"), std::string::npos);
 }
 
 } // namespace

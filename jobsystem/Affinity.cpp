@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobsystem/Affinity.h"
+
+#include "filament_core/base/Log.h"
+
+#include <pthread.h>
+#include <sched.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <memory>
+#include <tuple>
+
+namespace filament::jobs {
+namespace {
+
+constexpr int kMaxCores = 8192; // the largest configuration of Linux
+
+struct FreeMask {
+    void operator()(cpu_set_t* mask) const { CPU_FREE(mask); }
+};
+
+bool contains(std::span<const int> cores, int core) {
+    return std::find(cores.begin(), cores.end(), core) != cores.end();
+}
+
+std::vector<int> indicesOf(std::span<const Cpu> cpus) {
+    std::vector<int> indices;
+    for (Cpu const& cpu : cpus) indices.push_back(cpu.index);
+    return indices;
+}
+
+int bindToMask(std::span<const int> cores) {
+    const size_t bytes = CPU_ALLOC_SIZE(kMaxCores);
+    const std::unique_ptr<cpu_set_t, FreeMask> mask(CPU_ALLOC(kMaxCores));
+    if (!mask) return ENOMEM;
+    CPU_ZERO_S(bytes, mask.get());
+    for (int core : cores) {
+        if (core < 0 || core >= kMaxCores) return EINVAL;
+        CPU_SET_S(core, bytes, mask.get());
+    }
+    return pthread_setaffinity_np(pthread_self(), bytes, mask.get());
+}
+
+void reportIgnored(AffinityPolicy const& policy, Topology const& topology, std::string_view owner) {
+    const std::vector<int> cores = indicesOf(topology.cpus);
+    for (int core : policy.avoidedCores) {
+        if (!contains(cores, core))
+            log(Severity::Warning, "{}: core {} need not be avoided, this process may run on cores {} only", owner,
+                core, rangesOf(cores));
+    }
+    for (Cpu const& cpu : allowedCpus(policy, topology)) {
+        if (contains(policy.avoidedCores, cpu.index))
+            log(Severity::Warning, "{}: core {} cannot be avoided, no other one is left", owner, cpu.index);
+    }
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------------------------- policy
+
+AffinityPolicy AffinityPolicy::avoiding(int core) const {
+    AffinityPolicy policy = *this;
+    if (!contains(policy.avoidedCores, core)) policy.avoidedCores.push_back(core);
+    return policy;
+}
+
+std::vector<Cpu> allowedCpus(AffinityPolicy const& policy, Topology const& topology) {
+    std::vector<Cpu> cpus = topology.cpus;
+    const auto keepUnlessNoneIsLeft = [&](auto const& isAllowed) {
+        std::vector<Cpu> kept;
+        std::copy_if(cpus.begin(), cpus.end(), std::back_inserter(kept), isAllowed);
+        if (!kept.empty()) cpus = std::move(kept);
+    };
+    if (policy.kind == AffinityPolicy::Kind::BigCores) {
+        const auto slower = [](Cpu const& a, Cpu const& b) { return a.efficiencyClass < b.efficiencyClass; };
+        const int best = std::max_element(cpus.begin(), cpus.end(), slower)->efficiencyClass;
+        keepUnlessNoneIsLeft([&](Cpu const& cpu) { return cpu.efficiencyClass == best; });
+    }
+    keepUnlessNoneIsLeft([&](Cpu const& cpu) { return !contains(policy.avoidedCores, cpu.index); });
+    return cpus;
+}
+
+uint32_t defaultWorkerCount(AffinityPolicy const& policy) {
+    if (policy.isNone()) return readCpuBudget().usableThreads - 1;
+    const Topology topology = readTopology();
+    return std::min(topology.usableThreads - 1, static_cast<uint32_t>(allowedCpus(policy, topology).size()));
+}
+
+Result<void> requireCore(int core, std::string_view option) {
+    const std::vector<int> cores = coresOfThisThread();
+    if (contains(cores, core)) return {};
+    return fail(ErrorCode::InvalidArgument,
+                "{}: there is no core {} for this process; choose one of {}, or -1 for none", option, core,
+                rangesOf(cores));
+}
+
+// ---------------------------------------------------------------------------------------------- threads
+
+bool bindThisThread(std::span<const int> cores) {
+    const int error = bindToMask(cores);
+    if (error != 0)
+        log(Severity::Warning, "cannot bind a thread to core {}: {}; it stays where it was", rangesOf(cores),
+            std::strerror(error));
+    return error == 0;
+}
+
+bool pinThisThread(int core) { return bindThisThread({ &core, 1 }); }
+
+void nameThisThread(std::string const& name) { pthread_setname_np(pthread_self(), name.substr(0, 15).c_str()); }
+
+// ---------------------------------------------------------------------------------------------- pins
+
+CorePins::~CorePins() {
+    if (mRegistry) mRegistry->giveBack(*this);
+}
+
+void CorePins::swap(CorePins& other) noexcept {
+    std::swap(mRegistry, other.mRegistry);
+    std::swap(mCores, other.mCores);
+    std::swap(mCallerCore, other.mCallerCore);
+}
+
+CoreRegistry& CoreRegistry::ofProcess() {
+    static auto& registry = *new CoreRegistry; // outlives whatever gives cores back at the end of the process
+    return registry;
+}
+
+CorePins CoreRegistry::lend(Topology const& topology, std::span<const Cpu> candidates, uint32_t threads,
+                            std::string_view owner) {
+    if (threads == 0 || candidates.empty()) return {};
+    const std::lock_guard lock(mMutex);
+    const int callerCore = leastUsed(topology, topology.cpus).index;
+    ++use(callerCore).callers;
+    std::vector<int> cores;
+    uint32_t shared = 0;
+    while (cores.size() < threads) {
+        const int core = leastUsed(topology, candidates).index;
+        if (use(core).pins++ > 0) ++shared;
+        cores.push_back(core);
+    }
+    if (shared > 0)
+        log(Severity::Warning, "{}: {} of {} pinned threads share a core with another one, only {} cores for them",
+            owner, shared, threads, candidates.size());
+    return { *this, std::move(cores), callerCore };
+}
+
+CorePins CoreRegistry::reserve(int core) {
+    if (core < 0 || core >= kMaxCores) return {};
+    const std::lock_guard lock(mMutex);
+    ++use(core).pins;
+    return { *this, { core }, -1 };
+}
+
+void CoreRegistry::giveBack(CorePins const& pins) {
+    const std::lock_guard lock(mMutex);
+    for (int core : pins.cores()) --use(core).pins;
+    if (pins.callerCore() >= 0) --use(pins.callerCore()).callers;
+}
+
+CoreRegistry::Use& CoreRegistry::use(int core) {
+    const auto index = static_cast<size_t>(core);
+    if (index >= mUses.size()) mUses.resize(index + 1);
+    return mUses[index];
+}
+
+// An untouched hardware thread, best on an untouched physical core, best where no caller is expected; then the faster
+// class, the cache that is filled already, and the order of the numbers.
+Cpu const& CoreRegistry::leastUsed(Topology const& topology, std::span<const Cpu> candidates) {
+    std::vector<int> ofPhysicalCore(topology.cpus.size());
+    for (Cpu const& cpu : topology.cpus)
+        ofPhysicalCore[static_cast<size_t>(cpu.physicalCore)] += use(cpu.index).pins + use(cpu.index).callers;
+    const auto rank = [&](Cpu const& cpu) {
+        Use const& used = use(cpu.index);
+        return std::tuple(used.pins, ofPhysicalCore[static_cast<size_t>(cpu.physicalCore)], used.callers,
+                          -cpu.efficiencyClass, cpu.cacheGroup, cpu.index);
+    };
+    return *std::min_element(candidates.begin(), candidates.end(),
+                             [&](Cpu const& a, Cpu const& b) { return rank(a) < rank(b); });
+}
+
+// ---------------------------------------------------------------------------------------------- placement
+
+WorkerPlacement::WorkerPlacement(AffinityPolicy const& policy, uint32_t workers, std::string_view owner) {
+    if (policy.isNone()) return;
+    const Topology topology = readTopology();
+    reportIgnored(policy, topology, owner);
+    const std::vector<Cpu> allowed = allowedCpus(policy, topology);
+    if (policy.kind == AffinityPolicy::Kind::Pin)
+        mPins = CoreRegistry::ofProcess().lend(topology, allowed, workers, owner);
+    else if (allowed.size() < topology.cpus.size())
+        mWorkerCores = indicesOf(allowed);
+    mUnpinnedCores = indicesOf(allowedCpus(AffinityPolicy{ .avoidedCores = policy.avoidedCores }, topology));
+}
+
+void WorkerPlacement::placeWorker(uint32_t worker) const {
+    if (worker < mPins.cores().size()) {
+        pinThisThread(mPins.cores()[worker]);
+    } else if (!mWorkerCores.empty()) {
+        bindThisThread(mWorkerCores);
+    }
+}
+
+void WorkerPlacement::placeBackgroundThread() const {
+    if (!mUnpinnedCores.empty()) bindThisThread(mUnpinnedCores);
+}
+
+} // namespace filament::jobs

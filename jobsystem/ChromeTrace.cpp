@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// The JSON of JobTrace.h: one event a line, so that a text tool can compare and search it.
+#include "jobsystem/JobTrace.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cerrno>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <limits>
+#include <ostream>
+#include <string_view>
+
+namespace filament::jobs {
+namespace {
+
+constexpr int kProcess = 1; // the file has one; its number means nothing
+
+// Length of the UTF-8 sequence that `text` begins with; 0 if it is none. Table 3-7 of the Unicode standard.
+size_t utf8Length(std::string_view text) {
+    const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
+    const auto within = [&](size_t i, unsigned least, unsigned most) { return byte(i) >= least && byte(i) <= most; };
+    const auto tail = [&](size_t i) { return within(i, 0x80, 0xBF); };
+    const unsigned lead = byte(0);
+    if (lead < 0x80) return 1;
+    if (within(0, 0xC2, 0xDF)) return tail(1) ? 2 : 0;
+    if (within(0, 0xE0, 0xEF)) {
+        const bool second = within(1, lead == 0xE0 ? 0xA0 : 0x80, lead == 0xED ? 0x9F : 0xBF);
+        return second && tail(2) ? 3 : 0;
+    }
+    if (within(0, 0xF0, 0xF4)) {
+        const bool second = within(1, lead == 0xF0 ? 0x90 : 0x80, lead == 0xF4 ? 0x8F : 0xBF);
+        return second && tail(2) && tail(3) ? 4 : 0;
+    }
+    return 0;
+}
+
+// A JSON string; bytes that are not UTF-8 become the replacement character.
+std::string jsonString(std::string_view text) {
+    std::string json = "\"";
+    while (!text.empty()) {
+        const size_t length = utf8Length(text);
+        const auto first = static_cast<unsigned char>(text[0]);
+        if (length == 0) {
+            json += "\\ufffd";
+        } else if (first == '"' || first == '\\') {
+            json += { '\\', text[0] };
+        } else if (first < 0x20) {
+            fmt::format_to(std::back_inserter(json), "\\u{:04x}", first);
+        } else {
+            json += text.substr(0, length);
+        }
+        text.remove_prefix(std::max<size_t>(length, 1));
+    }
+    return json + '"';
+}
+
+// Exact: a double would round what a machine up for months writes.
+std::string microseconds(int64_t nanoseconds) {
+    return fmt::format("{}.{:03}", nanoseconds / 1000, nanoseconds % 1000);
+}
+
+std::string nameLines(TraceTrack const& track, size_t thread) {
+    return fmt::format(R"({{"ph":"M","pid":{0},"tid":{1},"name":"thread_name","args":{{"name":{2}}}}})"
+                       ",\n"
+                       R"({{"ph":"M","pid":{0},"tid":{1},"name":"thread_sort_index","args":{{"sort_index":{1}}}}})",
+                       kProcess, thread, jsonString(track.name));
+}
+
+std::string eventLine(TraceEvent const& event, size_t thread, int64_t origin) {
+    const bool isSpan = event.kind == TraceEvent::Kind::Span;
+    std::string arguments;
+    if (!isSpan) arguments = fmt::format(R"("stolen":{})", event.kind == TraceEvent::Kind::StolenJob);
+    if (isSpan && event.frame >= 0) arguments = fmt::format(R"("frame":{})", event.frame);
+    return fmt::format(R"({{"ph":"X","pid":{},"tid":{},"cat":"{}","name":{},"ts":{},"dur":{},"args":{{{}}}}})",
+                       kProcess, thread, isSpan ? "span" : "job", jsonString(event.name),
+                       microseconds(event.begin - origin), microseconds(event.end - event.begin), arguments);
+}
+
+int64_t firstBegin(std::vector<TraceTrack> const& tracks) {
+    int64_t first = std::numeric_limits<int64_t>::max();
+    for (TraceTrack const& track : tracks) {
+        for (TraceEvent const& event : track.events) first = std::min(first, event.begin);
+    }
+    return first;
+}
+
+} // namespace
+
+void writeChromeTrace(std::vector<TraceTrack> const& tracks, std::ostream& out) {
+    const int64_t origin = firstBegin(tracks);
+    uint64_t dropped = 0;
+    for (TraceTrack const& track : tracks) dropped += track.dropped;
+    out << fmt::format(R"({{"displayTimeUnit":"ns","otherData":{{"droppedEvents":{}}},"traceEvents":[)", dropped);
+    const char* separator = "\n";
+    for (size_t i = 0; i < tracks.size(); ++i) {
+        out << separator << nameLines(tracks[i], i + 1);
+        separator = ",\n";
+        for (TraceEvent const& event : tracks[i].events) out << separator << eventLine(event, i + 1, origin);
+    }
+    out << "\n]}\n";
+}
+
+Result<void> writeChromeTrace(std::vector<TraceTrack> const& tracks, std::filesystem::path const& file) {
+    errno = 0;
+    std::ofstream out(file, std::ios::binary);
+    if (out) writeChromeTrace(tracks, out);
+    out.close();
+    if (out) return {};
+    return fail(ErrorCode::Unreadable, "cannot write the job trace '{}': {}; choose a file that can be written",
+                file.string(), errno != 0 ? std::strerror(errno) : "writing stopped");
+}
+
+} // namespace filament::jobs

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+/// JobTrace: who ran what when, for pictures of a frame in chrome://tracing, Perfetto or the project's plot tool.
+///   In      jobs as the seats of a scheduler run them; spans of other threads, told by anybody who measured them.
+///   Out     tracks of events, or Chrome trace-event JSON.
+///   Time    nanoseconds of std::chrono::steady_clock.
+///   Names   of events: text that lives as long as the process, such as literals. Of tracks: copied.
+///   Thread  recordJob(): whoever holds that seat. All others: any, also while jobs are recorded; a snapshot then has
+///           all events that were complete when it began, and none that is torn.
+///   Memory  32 bytes an event, up to 2 MiB a track; its address space is taken at the first event, the rest as it
+///   fills. Limits  a track keeps its newest 65535 events; what it lost is counted and written into the file. Fails
+///   writing: Unreadable, naming the file. Recording: never. Cost    bench/jobsystem/TraceBench.cpp. A system without a
+///   trace pays one predicted branch a job. Source  "Trace Event Format", Google 2016: complete events ("X") and thread
+///   names ("M").
+#pragma once
+
+#include "filament_core/base/Result.h"
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <iosfwd>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <vector>
+
+namespace filament::jobs {
+
+struct TraceEvent {
+    enum class Kind : uint8_t { Job, StolenJob, Span };
+    const char* name = "";
+    int64_t begin = 0;
+    int64_t end = 0;
+    Kind kind = Kind::Span;
+    int64_t frame = -1; ///< of a span: the number of the frame it belongs to; -1: none
+};
+
+struct TraceTrack {
+    std::string name{};
+    std::vector<TraceEvent> events{}; ///< by begin, longer ones first: what contains others precedes them
+    uint64_t dropped = 0;             ///< older events that the ring lost
+};
+
+class JobTrace {
+public:
+    static constexpr uint32_t kEventsPerTrack = 65536;
+
+    using Track = uint32_t;
+
+    explicit JobTrace(uint32_t seats, uint32_t eventsPerTrack = kEventsPerTrack);
+    ~JobTrace();
+    JobTrace(JobTrace const&) = delete;
+    JobTrace& operator=(JobTrace const&) = delete;
+
+    static int64_t now() {
+        const auto time = std::chrono::steady_clock::now().time_since_epoch();
+        return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
+    }
+
+    void nameSeat(uint32_t seat, std::string name);
+    void recordJob(uint32_t seat, const char* name, int64_t begin, int64_t end, bool stolen);
+
+    /// A track for spans; asking again for a name gives the same one.
+    Track track(std::string const& name);
+    void span(Track track, const char* name, int64_t begin, int64_t end, int64_t frame = -1);
+
+    /// Tracks that have events: seats in their order, then the others in theirs.
+    std::vector<TraceTrack> snapshot() const;
+
+private:
+    class Ring;
+
+    std::unique_ptr<Ring[]> mSeats;
+    uint32_t mSeatCount;
+    uint32_t mEventsPerTrack;
+    mutable std::mutex mMutex; // of everything below, and of the names of seats
+    std::vector<std::unique_ptr<Ring>> mSpans;
+};
+
+/// The same tracks give the same bytes. Times are microseconds since the first event.
+void writeChromeTrace(std::vector<TraceTrack> const& tracks, std::ostream& out);
+Result<void> writeChromeTrace(std::vector<TraceTrack> const& tracks, std::filesystem::path const& file);
+
+} // namespace filament::jobs

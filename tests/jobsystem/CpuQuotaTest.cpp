@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// Directories with the files of /proc and of the cgroup mounts as various machines have them.
+#include "jobsystem/CpuQuota.h"
+
+#include "tests/jobsystem/FakeRoot.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <string>
+
+namespace filament::jobs {
+namespace {
+
+constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+
+// Version 2, as on a current distribution.
+constexpr const char* kUnifiedMount =
+        "31 23 0:26 / /sys/fs/cgroup rw,nosuid shared:9 - cgroup2 cgroup2 rw,nsdelegate\n";
+// Version 1, cpu and cpuacct together.
+constexpr const char* kLegacyMount =
+        "33 31 0:30 / /sys/fs/cgroup/cpu,cpuacct rw,nosuid shared:11 - cgroup cgroup rw,cpu,cpuacct\n"
+        "34 31 0:31 / /sys/fs/cgroup/cpuset rw,nosuid shared:12 - cgroup cgroup rw,cpuset\n";
+
+TEST(CpuQuota, IsUnlimitedWhereThereAreNoFilesAtAll) { EXPECT_EQ(cpuQuota(FakeRoot().path()), kUnlimited); }
+
+TEST(CpuQuota, IsTheQuotientOfCpuMaxInVersion2) {
+    const FakeRoot root;
+    root.write("proc/self/mountinfo", kUnifiedMount);
+    root.write("proc/self/cgroup", "0::/user.slice/render.service\n");
+    root.write("sys/fs/cgroup/user.slice/render.service/cpu.max", "150000 100000\n");
+    EXPECT_EQ(cpuQuota(root.path()), 1.5);
+}
+
+TEST(CpuQuota, IsTheLeastOfTheGroupAndThoseAboveIt) {
+    const FakeRoot root;
+    root.write("proc/self/mountinfo", kUnifiedMount);
+    root.write("proc/self/cgroup", "0::/a/b/c\n");
+    root.write("sys/fs/cgroup/a/b/c/cpu.max", "max 100000\n");
+    root.write("sys/fs/cgroup/a/b/cpu.max", "800000 100000\n");
+    root.write("sys/fs/cgroup/a/cpu.max", "300000 100000\n");
+    root.write("sys/fs/cgroup/other/cpu.max", "100000 100000\n");
+    EXPECT_EQ(cpuQuota(root.path()), 3.0);
+    root.write("sys/fs/cgroup/cpu.max", "50000 100000\n"); // the root group of a container's own name space
+    EXPECT_EQ(cpuQuota(root.path()), 0.5);
+}
+
+TEST(CpuQuota, IsTheQuotientOfTwoFilesInVersion1) {
+    const FakeRoot root;
+    root.write("proc/self/mountinfo", kLegacyMount);
+    root.write("proc/self/cgroup", "5:cpuset:/\n4:cpu,cpuacct:/docker/abc\n1:name=systemd:/docker/abc\n");
+    root.write("sys/fs/cgroup/cpu,cpuacct/docker/abc/cpu.cfs_quota_us", "-1\n");
+    root.write("sys/fs/cgroup/cpu,cpuacct/docker/abc/cpu.cfs_period_us", "100000\n");
+    EXPECT_EQ(cpuQuota(root.path()), kUnlimited);
+    root.write("sys/fs/cgroup/cpu,cpuacct/docker/abc/cpu.cfs_quota_us", "50000\n");
+    root.write("sys/fs/cgroup/cpu,cpuacct/docker/abc/cpu.cfs_period_us", "20000\n");
+    EXPECT_EQ(cpuQuota(root.path()), 2.5);
+}
+
+TEST(CpuQuota, TakesTheLesserWhereBothVersionsAreMounted) {
+    const FakeRoot root;
+    root.write("proc/self/mountinfo",
+               std::string(kLegacyMount) + "41 31 0:38 / /sys/fs/cgroup/unified rw - cgroup2 cgroup2 rw\n");
+    root.write("proc/self/cgroup", "4:cpu,cpuacct:/x\n0::/y\n");
+    root.write("sys/fs/cgroup/cpu,cpuacct/x/cpu.cfs_quota_us", "400000");
+    root.write("sys/fs/cgroup/cpu,cpuacct/x/cpu.cfs_period_us", "100000");
+    root.write("sys/fs/cgroup/unified/y/cpu.max", "700000 100000");
+    EXPECT_EQ(cpuQuota(root.path()), 4.0);
+    root.write("sys/fs/cgroup/unified/y/cpu.max", "100000 100000");
+    EXPECT_EQ(cpuQuota(root.path()), 1.0);
+}
+
+// A container of version 1 without its own name space: the mount shows only the container's part of the hierarchy.
+TEST(CpuQuota, FindsTheGroupBelowAMountThatShowsAPartOfTheHierarchy) {
+    const FakeRoot root;
+    root.write("proc/self/mountinfo", "33 31 0:30 /docker/abc /sys/fs/cgroup/cpu ro - cgroup cgroup rw,cpu\n");
+    root.write("proc/self/cgroup", "4:cpu:/docker/abc\n");
+    root.write("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "200000");
+    root.write("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000");
+    EXPECT_EQ(cpuQuota(root.path()), 2.0);
+    root.write("proc/self/cgroup", "4:cpu:/docker/abc/nested\n");
+    root.write("sys/fs/cgroup/cpu/nested/cpu.cfs_quota_us", "100000");
+    root.write("sys/fs/cgroup/cpu/nested/cpu.cfs_period_us", "100000");
+    EXPECT_EQ(cpuQuota(root.path()), 1.0);
+    root.write("proc/self/cgroup", "4:cpu:/docker/abcdef\n"); // another container, which only looks alike
+    EXPECT_EQ(cpuQuota(root.path()), 2.0);
+}
+
+TEST(CpuQuota, DoesNotLeaveTheMountForAGroupOutsideOfIt) {
+    const FakeRoot root;
+    root.write("proc/self/mountinfo", kUnifiedMount);
+    root.write("proc/self/cgroup", "0::/../../elsewhere\n");
+    root.write("sys/elsewhere/cpu.max", "100000 100000");
+    root.write("sys/fs/cgroup/cpu.max", "600000 100000");
+    EXPECT_EQ(cpuQuota(root.path()), 6.0);
+}
+
+TEST(CpuQuota, ReadsMountPointsWithBlanksAndGroupsWithColons) {
+    const FakeRoot root;
+    root.write("proc/self/mountinfo", "31 23 0:26 / /mnt/c\\040g\\134x rw - cgroup2 none rw\n");
+    root.write("proc/self/cgroup", "0::/app:1\n");
+    root.write("mnt/c g\\x/app:1/cpu.max", "100000 50000");
+    EXPECT_EQ(cpuQuota(root.path()), 2.0);
+}
+
+TEST(CpuQuota, IgnoresWhatIsMalformed) {
+    const FakeRoot root;
+    root.write("proc/self/mountinfo", std::string("\n - \nx - cgroup2\n1 2 3 4\n\\04") + '\n' + kUnifiedMount + "9 9");
+    root.write("proc/self/cgroup", "nonsense\n0:\n::::\n0::\n0::/g\n\xff\xfe");
+    EXPECT_EQ(cpuQuota(root.path()), kUnlimited);
+    for (const char* text :
+         { "", "\n", "max", "x y", "-5 100000", "100000", "100000 0", "100000 -1", "1e999 1", "0 0" }) {
+        root.write("sys/fs/cgroup/g/cpu.max", text);
+        EXPECT_EQ(cpuQuota(root.path()), kUnlimited) << '"' << text << '"';
+    }
+    root.write("sys/fs/cgroup/g/cpu.max", "100000 100000");
+    EXPECT_EQ(cpuQuota(root.path()), 1.0);
+}
+
+} // namespace
+} // namespace filament::jobs
