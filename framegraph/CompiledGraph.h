@@ -115,6 +115,8 @@ struct PassTimer {
 };
 
 /// Appends the whole frame. `timers`, if given, gets one ticket for each group, in order; the stream has the answers.
-void record(backend::CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers = nullptr);
+/// `ranges`, if given, lets passes record their draws in parallel (PassContext::recordRanges); the bits are the same.
+void record(backend::CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers = nullptr,
+            RangeRecorder* ranges = nullptr);
 
 } // namespace filament::framegraph

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PassContext: what the code of a pass sees while its commands are recorded. PassCode: that code, stored in an arena.
-///   Thread  the one that calls record().
+///   Thread  the one that calls record(); bodies of recordRanges(): any.
 ///   Memory  captures live in the graph's arena and are never destructed: trivially destructible ones only.
 ///   Fails   asserts on textures that the pass did not declare, and on creating objects inside a pass.
 #pragma once
@@ -8,6 +8,7 @@
 #include "backend/api/Descriptions.h"
 #include "backend/stream/CommandBuffer.h"
 #include "filament_core/base/Arena.h"
+#include "framegraph/RangeRecorder.h"
 
 #include <cstdint>
 #include <optional>
@@ -43,9 +44,20 @@ struct PassId {
 
 class PassContext {
 public:
-    PassContext(CompiledGraph const& plan, backend::CommandBuffer& commands) : mPlan(plan), mCommands(commands) {}
+    PassContext(CompiledGraph const& plan, backend::CommandBuffer& commands, RangeRecorder* ranges = nullptr)
+            : mPlan(plan), mCommands(commands), mRanges(ranges) {}
 
     backend::CommandBuffer& commands() { return mCommands; }
+    /// body(commands, begin, end) for the ranges [0, grain), [grain, 2 grain), ... of `count` items, in parallel where
+    /// record() was given a RangeRecorder, joined in order behind what commands() holds. The stream does not depend on
+    /// that: a body records into the buffer that it is given, starts from nothing bound, and only reads what it shares.
+    template <class Body>
+    void recordRanges(size_t count, size_t grain, Body&& body) {
+        if (mRanges)
+            mRanges->record(mCommands, count, grain, body);
+        else
+            recordRangesInTurn(mCommands, count, grain, body);
+    }
     /// To allocate handles and tickets.
     backend::CommandStream& stream();
 
@@ -76,6 +88,7 @@ private:
 
     CompiledGraph const& mPlan;
     backend::CommandBuffer& mCommands;
+    RangeRecorder* mRanges;
     uint32_t mPass = 0;
     bool mInsidePass = false;
 };

@@ -37,8 +37,8 @@ void executePass(CommandBuffer& commands, CompiledGraph const& plan, PassContext
     commands.record(CmdPopGroup{});
 }
 
-void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup const& group) {
-    PassContext context(plan, commands);
+void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup const& group, RangeRecorder* ranges) {
+    PassContext context(plan, commands, ranges);
     const std::span<const uint32_t> passes = plan.order.subspan(group.first, group.count);
     for (const uint32_t pass : passes) {
         PassCode const& code = plan.graph->passes()[pass].code;
@@ -59,7 +59,7 @@ void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup c
 
 } // namespace
 
-void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers) {
+void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers, RangeRecorder* ranges) {
     plan.pool->recordCreations(commands);
     if (timers) timers->clear();
     for (PassGroup const& group : plan.groups) {
@@ -68,7 +68,7 @@ void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<Pass
             timers->push_back({ group.name, ticket });
             commands.record(CmdBeginTimer{ ticket });
         }
-        recordGroup(commands, plan, group);
+        recordGroup(commands, plan, group, ranges);
         if (timers) commands.record(CmdEndTimer{ ticket });
     }
     plan.pool->recordEvictions(commands);

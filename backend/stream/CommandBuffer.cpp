@@ -21,6 +21,7 @@ CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
     mUsed = std::exchange(other.mUsed, {});
     mSpare = std::exchange(other.mSpare, {});
     mCommandCount = std::exchange(other.mCommandCount, 0);
+    mKinds = std::exchange(other.mKinds, 0);
     mPayloadBytes = std::exchange(other.mPayloadBytes, 0);
     return *this;
 }
@@ -85,6 +86,7 @@ void CommandBuffer::append(CommandBuffer&& tail) {
     }
     if (tail.mPayload.left() > mPayload.left()) mPayload = tail.mPayload;
     mCommandCount += tail.mCommandCount;
+    mKinds |= tail.mKinds;
     mPayloadBytes += tail.mPayloadBytes;
 
     for (Block& block : tail.mUsed) {
@@ -94,7 +96,7 @@ void CommandBuffer::append(CommandBuffer&& tail) {
     tail.mUsed.clear();
     tail.mChunks.clear();
     tail.mCommands = tail.mPayload = {};
-    tail.mCommandCount = tail.mPayloadBytes = 0;
+    tail.mCommandCount = tail.mPayloadBytes = tail.mKinds = 0;
 }
 
 void CommandBuffer::reset() {
@@ -103,7 +105,7 @@ void CommandBuffer::reset() {
     mUsed.clear();
     mChunks.clear();
     mCommands = mPayload = {};
-    mCommandCount = mPayloadBytes = 0;
+    mCommandCount = mPayloadBytes = mKinds = 0;
 }
 
 CommandView CommandBuffer::view() const { return mChunks; }

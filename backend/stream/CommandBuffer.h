@@ -47,6 +47,11 @@ public:
     void reset();
     CommandView view() const; ///< valid until the next record() or reset()
     size_t commandCount() const;
+    /// Whether a command of type C is among them.
+    template <class C>
+    bool contains() const {
+        return (mKinds >> kCommandId<C> & 1) != 0;
+    }
     size_t bytesUsed() const;
     size_t bytesReserved() const;
 
@@ -73,6 +78,7 @@ private:
 
     template <class C>
     void append(C const& command) {
+        static_assert(Commands::kCount <= 64, "mKinds has a bit for each command");
         static_assert(alignof(C) <= kCommandAlignment && std::is_trivially_copyable_v<C>, "a command is plain data");
         constexpr size_t kBytes = (2 * kCommandAlignment - 1 + sizeof(C)) & ~(kCommandAlignment - 1);
         if (kBytes > mCommands.left()) [[unlikely]]
@@ -83,6 +89,7 @@ private:
         mCommands.at = at + kBytes;
         mChunks.back().size += kBytes;
         ++mCommandCount;
+        mKinds |= uint64_t{ 1 } << kCommandId<C>;
     }
 
     Block& takeBlock(size_t bytes);
@@ -95,6 +102,7 @@ private:
     std::vector<Block> mUsed;          // owns the memory of commands and payloads
     std::vector<Block> mSpare;         // kept for the next frame
     size_t mCommandCount = 0;
+    uint64_t mKinds = 0; // bit kCommandId<C>: contains<C>()
     size_t mPayloadBytes = 0;
 };
 

@@ -4,6 +4,7 @@
 #include "backend/stream/DriverThread.h"
 #include "backend/stream/ResultMailbox.h"
 
+#include <algorithm>
 #include <atomic>
 
 namespace filament::backend {
@@ -24,6 +25,17 @@ struct CommandStream::State {
     HandleAllocator<ProgramTag> programs;
     HandleAllocator<PipelineTag> pipelines;
     HandleAllocator<BindGroupTag> bindGroups;
+
+    /// ResultMailbox::waitFor(), with a look at the driver thread from time to time.
+    ResultMailbox::Wait waitFor(Ticket ticket, uint64_t submission, std::chrono::steady_clock::time_point deadline) {
+        ReplayWatch& watch = driver.watch();
+        while (true) {
+            watch.check();
+            const auto next = watch.warns() ? std::chrono::steady_clock::now() + watch.period() : deadline;
+            const ResultMailbox::Wait outcome = mailbox.waitFor(ticket, submission, std::min(next, deadline));
+            if (outcome != ResultMailbox::Wait::TimedOut || next >= deadline) return outcome;
+        }
+    }
 };
 
 CommandStream::CommandStream() = default;
@@ -64,17 +76,20 @@ CommandBuffer& CommandStream::acquire() { return mState->driver.acquire(); }
 void CommandStream::submit(CommandBuffer& commands) { mState->driver.submit(commands); }
 void CommandStream::waitIdle() { mState->driver.waitIdle(); }
 uint64_t CommandStream::backPressureNanoseconds() const { return mState->driver.backPressureNanoseconds(); }
+LatencyStatistics CommandStream::latency() const { return mState->driver.latency(); }
 std::vector<FrameTiming> CommandStream::takeTimings() { return mState->mailbox.takeTimings(); }
 
 std::optional<std::vector<std::byte>> CommandStream::takeReadback(Ticket ticket) {
-    return mState->mailbox.takeReadback(ticket);
+    std::optional<std::vector<std::byte>> bytes = mState->mailbox.takeReadback(ticket);
+    if (!bytes) mState->driver.watch().check(); // an app that polls waits nowhere else
+    return bytes;
 }
 
 Result<std::vector<std::byte>> CommandStream::waitReadback(Ticket ticket, std::chrono::milliseconds timeout) {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     if (std::optional<std::vector<std::byte>> bytes = takeReadback(ticket)) return std::move(*bytes);
     const uint64_t submission = mState->driver.requestIdle(); // or the answer would wait for the next frame
-    const ResultMailbox::Wait outcome = mState->mailbox.waitFor(ticket, submission, deadline);
+    const ResultMailbox::Wait outcome = mState->waitFor(ticket, submission, deadline);
     if (outcome == ResultMailbox::Wait::Answered) {
         // Two threads may wait for one ticket; the other one may have been faster.
         if (std::optional<std::vector<std::byte>> bytes = takeReadback(ticket)) return std::move(*bytes);
@@ -85,8 +100,8 @@ Result<std::vector<std::byte>> CommandStream::waitReadback(Ticket ticket, std::c
         return fail(ErrorCode::DeviceLost, "read-back {}: the device was lost; make a new engine", ticket.value);
     }
     if (outcome == ResultMailbox::Wait::TimedOut) {
-        return fail(ErrorCode::Timeout, "read-back {}: no answer within {} ms; the device is busy or hangs",
-                    ticket.value, timeout.count());
+        return fail(ErrorCode::Timeout, "read-back {}: no answer within {} ms; driver thread: {}", ticket.value,
+                    timeout.count(), mState->driver.watch().describe());
     }
     return fail(ErrorCode::NotFound,
                 "read-back {}: the device finished all submitted work without answering it; was it "

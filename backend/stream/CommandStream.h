@@ -28,16 +28,36 @@ struct DriverError {
 
 /// Wall-clock of the last replayed frame, nanoseconds of steady_clock.
 struct FrameTiming {
-    uint64_t frame = 0;      ///< CmdBeginFrame::frame, or the running number of the submission
-    int64_t submitted = 0;   ///< submit() called
-    int64_t replayBegin = 0; ///< the driver thread took it
-    int64_t replayEnd = 0;   ///< the driver thread is done with it (the GPU may still work)
+    uint64_t frame = 0;       ///< CmdBeginFrame::frame, or the running number of the submission
+    int64_t submitted = 0;    ///< submit() called
+    int64_t replayBegin = 0;  ///< the driver thread took it
+    int64_t replayEnd = 0;    ///< the driver thread is done with it (the GPU may still work)
+    int64_t backPressure = 0; ///< how long acquire() had waited for this submission's buffer
+    uint64_t hash = 0;        ///< hashStream() of it, with CommandStreamOptions::hashStreams
+};
+
+/// Nanoseconds. Quantiles by nearest rank: a value that occurred.
+struct LatencyDistribution {
+    int64_t min = 0, median = 0, p99 = 0, max = 0;
+};
+
+/// Of the last frames (submissions with a CmdBeginFrame that reached the driver), 256 at most.
+struct LatencyStatistics {
+    uint32_t frames = 0;                ///< how many the figures are of
+    LatencyDistribution submitToReplay; ///< waiting for the driver thread
+    LatencyDistribution replay;         ///< on the driver thread
+    LatencyDistribution submitToEnd;    ///< both
+    LatencyDistribution backPressure;   ///< acquire() waiting for a buffer
 };
 
 struct CommandStreamOptions {
     uint32_t maxFramesAhead = 2; ///< submitted but not yet replayed
     int driverCore = -1;         ///< pin the driver thread to this core; -1: do not
     bool ownThread = true;       ///< false: replay inside submit(), on the caller (single-threaded platforms, tests)
+    bool hashStreams = false;    ///< FrameTiming::hash; the driver thread reads every stream once more
+    /// A driver thread that stays in one command for so long is reported in the log, once, by whoever waits for it. 0:
+    /// not.
+    std::chrono::milliseconds stallWarning = std::chrono::seconds(10);
 };
 
 class CommandStream {
@@ -80,12 +100,14 @@ public:
     /// Nanoseconds that acquire() has waited in total.
     uint64_t backPressureNanoseconds() const;
     std::vector<FrameTiming> takeTimings();
+    LatencyStatistics latency() const;
 
     // ---- answers
     /// The bytes of a read-back, once; nothing while it is under way.
     std::optional<std::vector<std::byte>> takeReadback(Ticket ticket);
-    /// The blocking form, for read-backs that were submitted. Timeout if it takes longer, DeviceLost if the device is
-    /// gone, NotFound if the device finished all work without an answer (the read-back failed: see takeErrors()).
+    /// The blocking form, for read-backs that were submitted. Timeout if it takes longer (it says which command the
+    /// driver thread is in), DeviceLost if the device is gone, NotFound if the device finished all work without an
+    /// answer (the read-back failed: see takeErrors()).
     Result<std::vector<std::byte>> waitReadback(Ticket ticket,
                                                 std::chrono::milliseconds timeout = std::chrono::seconds(60));
     std::optional<uint64_t> takeTimer(Ticket ticket); ///< GPU nanoseconds

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/stream/DriverThread.h"
 
+#include "backend/stream/StreamHash.h"
 #include "filament_core/base/Assert.h"
 #include "filament_core/base/Log.h"
 
@@ -36,9 +37,9 @@ void nameAndPlaceThisThread(int core) {
 }
 
 // The number that the app gave to the frame; it opens the stream, so only the first chunk is searched.
-uint64_t frameNumber(CommandView commands, uint64_t otherwise) {
-    if (commands.empty()) return otherwise;
-    CommandChunk const& chunk = commands.front();
+uint64_t frameNumber(CommandBuffer const& commands, uint64_t otherwise) {
+    if (!commands.contains<CmdBeginFrame>()) return otherwise;
+    CommandChunk const& chunk = commands.view().front();
     for (size_t at = 0; at < chunk.size;) {
         auto const& header = *reinterpret_cast<CommandHeader const*>(chunk.data + at);
         if (header.id == kCommandId<CmdBeginFrame>) {
@@ -52,15 +53,16 @@ uint64_t frameNumber(CommandView commands, uint64_t otherwise) {
 } // namespace
 
 DriverThread::DriverThread(CommandStreamOptions const& options, ResultMailbox& mailbox)
-        : mOptions(options), mMailbox(mailbox), mSlots(std::max(1u, options.maxFramesAhead) + 1) {}
+        : mOptions(options), mMailbox(mailbox), mWatch(options.stallWarning),
+          mSlots(std::max(1u, options.maxFramesAhead) + 1) {}
 
 DriverThread::~DriverThread() {
     if (mThread.joinable()) {
-        {
-            const std::lock_guard lock(mMutex);
-            mStopping = true;
-        }
+        std::unique_lock lock(mMutex);
+        mStopping = true;
         mWork.notify_all();
+        waitForProgress(lock, [&] { return mEnded; });
+        lock.unlock();
         mThread.join();
     } else if (mDriver && !mMailbox.deviceLost()) {
         mDriver->waitIdle();
@@ -73,12 +75,14 @@ Result<void> DriverThread::start(DriverFactory factory) {
     mThread =
             std::thread([this, &outcome, factory = std::move(factory)]() mutable { run(std::move(factory), outcome); });
     std::unique_lock lock(mMutex);
-    mProgress.wait(lock, [&] { return mStarted; });
+    waitForProgress(lock, [&] { return mStarted; });
     return outcome;
 }
 
 Result<void> DriverThread::makeDriver(DriverFactory const& factory) {
+    mWatch.beginMakingDriver();
     Result<std::unique_ptr<Driver>> driver = factory(mMailbox);
+    mWatch.end();
     if (!driver) return driver.error();
     mDriver = std::move(*driver);
     mInfo = mDriver->info();
@@ -94,12 +98,18 @@ void DriverThread::run(DriverFactory factory, Result<void>& outcome) {
     {
         const std::lock_guard lock(mMutex);
         mStarted = true; // `outcome` belongs to start() from here on
+        mEnded = !usable;
     }
     mProgress.notify_all();
     if (!usable) return;
     serve();
+    mWatch.beginEndingDriver();
     if (!mMailbox.deviceLost()) mDriver->waitIdle();
     mDriver.reset();
+    mWatch.end();
+    const std::lock_guard lock(mMutex);
+    mEnded = true;
+    mProgress.notify_all();
 }
 
 void DriverThread::serve() {
@@ -118,7 +128,6 @@ void DriverThread::serve() {
             lock.unlock();
             replaySlot(next);
             lock.lock();
-            mReplayed = next;
         } else {
             return; // stopping, and nothing is left to do
         }
@@ -128,30 +137,66 @@ void DriverThread::serve() {
 
 void DriverThread::replaySlot(uint64_t submission) {
     Slot& slot = slotOf(submission);
-    FrameTiming timing{ .submitted = slot.submitted, .replayBegin = now() };
-    timing.frame = frameNumber(slot.commands.view(), submission);
-    if (!mMailbox.deviceLost()) mDriver->execute(slot.commands.view());
+    FrameTiming timing{ .frame = frameNumber(slot.commands, submission),
+                        .submitted = slot.submitted,
+                        .replayBegin = now(),
+                        .backPressure = slot.backPressure };
+    if (mOptions.hashStreams) timing.hash = hashStream(slot.commands.view());
+    const bool reachesDevice = !mMailbox.deviceLost();
+    if (reachesDevice) execute(slot, timing.frame);
+    const bool isFrame = slot.commands.contains<CmdBeginFrame>();
     slot.commands.reset();
     timing.replayEnd = now();
     mMailbox.onReplayed(timing);
+    const std::lock_guard lock(mMutex);
+    if (reachesDevice && isFrame) mLatency.add(timing);
+    mReplayed = submission;
+}
+
+void DriverThread::execute(Slot const& slot, uint64_t frame) {
+    mWatch.beginReplay(slot.commands, frame, slot.commands.contains<CmdBeginFrame>());
+    {
+        const WatchedReplay watched(mWatch.progress());
+        mDriver->execute(slot.commands.view());
+    }
+    mWatch.end();
 }
 
 void DriverThread::settle(uint64_t submission) {
-    if (!mMailbox.deviceLost()) mDriver->waitIdle();
+    if (!mMailbox.deviceLost()) {
+        mWatch.beginSettling();
+        mDriver->waitIdle();
+        mWatch.end();
+    }
     mMailbox.onIdle(submission);
+}
+
+// Those who wait for the driver thread keep an eye on it.
+template <class Predicate>
+void DriverThread::waitForProgress(std::unique_lock<std::mutex>& lock, Predicate isReached) {
+    if (!mWatch.warns()) return mProgress.wait(lock, isReached);
+    while (!mProgress.wait_for(lock, mWatch.period(), isReached)) {
+        lock.unlock(); // a log sink may ask this thread
+        mWatch.check();
+        lock.lock();
+    }
 }
 
 CommandBuffer& DriverThread::acquire() {
     FILAMENT_ASSERT(mAcquired == nullptr, "submit() the buffer that acquire() gave before the next acquire()");
     std::unique_lock lock(mMutex);
     const auto mayRecord = [&] { return mSubmitted - mReplayed < mSlots.size() - 1; };
+    int64_t waited = 0;
     if (!mayRecord()) {
         const int64_t begin = now();
-        mProgress.wait(lock, mayRecord);
-        mBackPressure += static_cast<uint64_t>(now() - begin);
+        waitForProgress(lock, mayRecord);
+        waited = now() - begin;
     }
-    mAcquired = &slotOf(mSubmitted + 1).commands;
-    return *mAcquired;
+    mBackPressure += static_cast<uint64_t>(waited);
+    Slot& slot = slotOf(mSubmitted + 1);
+    slot.backPressure = waited;
+    mAcquired = &slot.commands;
+    return slot.commands;
 }
 
 void DriverThread::submit(CommandBuffer& commands) {
@@ -168,8 +213,6 @@ void DriverThread::submit(CommandBuffer& commands) {
         mWork.notify_one();
     } else {
         replaySlot(submission);
-        const std::lock_guard lock(mMutex);
-        mReplayed = submission;
     }
 }
 
@@ -191,12 +234,21 @@ void DriverThread::waitIdle() {
     const uint64_t submission = requestIdle();
     if (!mOptions.ownThread) return;
     std::unique_lock lock(mMutex);
-    mProgress.wait(lock, [&] { return mIdleReached >= submission; });
+    waitForProgress(lock, [&] { return mIdleReached >= submission; });
 }
 
 uint64_t DriverThread::backPressureNanoseconds() const {
     const std::lock_guard lock(mMutex);
     return mBackPressure;
+}
+
+LatencyStatistics DriverThread::latency() const {
+    LatencyLog copy;
+    {
+        const std::lock_guard lock(mMutex);
+        copy = mLatency; // 8 KiB; the driver thread does not wait for the sorting
+    }
+    return copy.summary();
 }
 
 } // namespace filament::backend

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// DriverThread: owns a driver and the thread that it lives on; replays submitted buffers in order.
 ///   Thread  the driver is made, used and destroyed on the own thread (or, without one, on the caller's). start(),
-///           acquire(), submit(): one app thread. waitIdle(), requestIdle(), statistics(): any while it lives.
+///           acquire(), submit(): one app thread. waitIdle(), requestIdle(), statistics(), latency(): any while it
+///           lives.
 ///   Memory  maxFramesAhead + 1 command buffers, reused in turn. A steady frame allocates nothing.
+///   Stuck   whoever waits here looks at the driver thread from time to time, and reports in which command it is stuck.
 ///   Fails   start() with the factory's error. After DeviceLost buffers come and go, but are no longer replayed.
 ///   Cost    a submit is one lock and one wake-up; the threads block, nobody spins.
 #pragma once
 
 #include "backend/api/Driver.h"
 #include "backend/stream/CommandStream.h"
+#include "backend/stream/LatencyLog.h"
+#include "backend/stream/ReplayWatch.h"
 #include "backend/stream/ResultMailbox.h"
 
 #include <condition_variable>
@@ -33,6 +37,8 @@ public:
     DeviceInfo const& info() const { return mInfo; }
     DriverStatistics statistics() const { return mDriver->statistics(); }
     uint64_t backPressureNanoseconds() const;
+    LatencyStatistics latency() const;
+    ReplayWatch& watch() { return mWatch; }
 
     CommandBuffer& acquire();
     void submit(CommandBuffer& commands);
@@ -44,17 +50,22 @@ private:
     struct Slot {
         CommandBuffer commands;
         int64_t submitted = 0;
+        int64_t backPressure = 0;
     };
 
     void run(DriverFactory factory, Result<void>& outcome);
     Result<void> makeDriver(DriverFactory const& factory);
     void serve();
     void replaySlot(uint64_t submission);
+    void execute(Slot const& slot, uint64_t frame);
     void settle(uint64_t submission);
+    template <class Predicate>
+    void waitForProgress(std::unique_lock<std::mutex>& lock, Predicate isReached);
     Slot& slotOf(uint64_t submission) { return mSlots[submission % mSlots.size()]; }
 
     const CommandStreamOptions mOptions;
     ResultMailbox& mMailbox;
+    ReplayWatch mWatch;
     std::unique_ptr<Driver> mDriver;
     DeviceInfo mInfo;
     std::vector<Slot> mSlots;
@@ -70,8 +81,10 @@ private:
     uint64_t mIdleWanted = 0; // highest submission after which somebody wants an idle device
     uint64_t mIdleReached = 0;
     uint64_t mBackPressure = 0;
+    LatencyLog mLatency;
     bool mStarted = false;
     bool mStopping = false;
+    bool mEnded = false;
 };
 
 } // namespace filament::backend

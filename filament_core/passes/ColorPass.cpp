@@ -34,11 +34,11 @@ void recordSky(CommandBuffer& commands, FrameContext const& context, PipelineHan
     commands.record(CmdDraw{ 3 });
 }
 
-void recordScene(CommandBuffer& commands, FrameContext const& context, ChosenPipelines const& chosen) {
+void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines const& chosen) {
     const DrawContext draws{ context.viewGroup, context.instanceIds };
-    recordDraws(commands, draws, context.packet.opaque, chosen.opaque);
-    if (chosen.sky) recordSky(commands, context, chosen.sky);
-    recordDraws(commands, draws, context.packet.blended, chosen.blended);
+    recordDrawRanges(pass, draws, context.packet.opaque, chosen.opaque);
+    if (chosen.sky) recordSky(pass.commands(), context, chosen.sky);
+    recordDrawRanges(pass, draws, context.packet.blended, chosen.blended);
 }
 
 } // namespace
@@ -67,9 +67,7 @@ void addColorPass(FrameGraph& graph, FrameContext const* context, TextureId colo
                 pass.writeDepth(depth, { .clear = 0.0f });
             },
             [context](PassContext& pass) { return choose(pass, *context); },
-            [context](PassContext& pass, ChosenPipelines const& chosen) {
-                recordScene(pass.commands(), *context, chosen);
-            });
+            [context](PassContext& pass, ChosenPipelines const& chosen) { recordScene(pass, *context, chosen); });
 }
 
 } // namespace filament::passes

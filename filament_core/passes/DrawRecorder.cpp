@@ -70,19 +70,23 @@ std::span<const PipelineHandle> choosePipelines(Arena& arena, PipelineCache& pip
     return chosen;
 }
 
-uint32_t recordDraws(CommandBuffer& commands, DrawContext const& context, std::span<const DrawCall> draws,
-                     std::span<const PipelineHandle> pipelines) {
+void recordDraws(CommandBuffer& commands, DrawContext const& context, std::span<const DrawCall> draws,
+                 std::span<const PipelineHandle> pipelines) {
     StateFilter state(commands, context);
-    uint32_t recorded = 0;
     for (size_t i = 0; i < draws.size(); ++i) {
         if (!pipelines[i]) continue;
         DrawCall const& draw = draws[i];
         state.bind(draw, pipelines[i]);
         commands.record(CmdDrawIndexed{ draw.geometry->indexCount, draw.instanceCount, draw.geometry->firstIndex, 0,
                                         draw.firstObject % shader::kObjectsPerWindow });
-        ++recorded;
     }
-    return recorded;
+}
+
+void recordDrawRanges(framegraph::PassContext& pass, DrawContext const& context, std::span<const DrawCall> draws,
+                      std::span<const PipelineHandle> pipelines) {
+    pass.recordRanges(draws.size(), kDrawsPerRange, [&](CommandBuffer& commands, size_t begin, size_t end) {
+        recordDraws(commands, context, draws.subspan(begin, end - begin), pipelines.subspan(begin, end - begin));
+    });
 }
 
 } // namespace filament::passes

@@ -1,83 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/stream/CommandStream.h"
-
-#include "backend/null/NullDriver.h"
 #include "tests/backend/stream/CountAllocations.h"
+#include "tests/backend/stream/StreamTestKit.h"
 
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
-#include <pthread.h>
 
 #include <algorithm>
 #include <array>
-#include <atomic>
-#include <future>
 #include <thread>
 
 namespace filament::backend {
 namespace {
 
 using namespace std::chrono_literals;
-
-/// What a test wants to know about a driver's life, and to make it do.
-struct Script {
-    std::atomic<int> executed{ 0 }, idled{ 0 }, destroyed{ 0 };
-    std::atomic<bool> strayThread{ false }; ///< called from another thread than the one that made it
-    std::string threadName;
-    std::function<void(ResultSink&)> onExecute; ///< runs inside execute()
-};
-
-class ScriptedDriver final : public Driver {
-public:
-    ScriptedDriver(Script& script, ResultSink& sink) : mScript(script), mSink(sink) {
-        mInfo.deviceName = "scripted";
-        std::array<char, 16> name{};
-        pthread_getname_np(pthread_self(), name.data(), name.size());
-        mScript.threadName = name.data();
-    }
-    ~ScriptedDriver() override {
-        check();
-        ++mScript.destroyed;
-    }
-    DeviceInfo const& info() const override { return mInfo; }
-    void execute(CommandView) override {
-        check();
-        if (mScript.onExecute) mScript.onExecute(mSink);
-        ++mScript.executed;
-    }
-    void waitIdle() override {
-        check();
-        ++mScript.idled;
-    }
-    DriverStatistics statistics() const override { return { .commands = static_cast<uint64_t>(mScript.executed) }; }
-
-private:
-    void check() {
-        if (std::this_thread::get_id() != mHome) mScript.strayThread = true;
-    }
-    Script& mScript;
-    ResultSink& mSink;
-    DeviceInfo mInfo;
-    std::thread::id mHome = std::this_thread::get_id();
-};
-
-std::unique_ptr<CommandStream> startScripted(Script& script, CommandStreamOptions options = {}) {
-    auto stream = CommandStream::start(
-            [&](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
-                return { std::make_unique<ScriptedDriver>(script, sink) };
-            },
-            options);
-    EXPECT_TRUE(stream.ok());
-    return std::move(*stream);
-}
-
-std::unique_ptr<CommandStream> startNull(CommandStreamOptions options = {}) {
-    auto stream = CommandStream::start(
-            [](ResultSink& sink) -> Result<std::unique_ptr<Driver>> { return createNullDriver(sink); }, options);
-    EXPECT_TRUE(stream.ok());
-    return std::move(*stream);
-}
 
 class BothThreadModes : public testing::TestWithParam<bool> {
 protected:
@@ -108,19 +42,6 @@ TEST_P(BothThreadModes, AFailingFactoryIsAnErrorWithItsOwnText) {
     ASSERT_FALSE(stream.ok());
     EXPECT_EQ(stream.error().code, ErrorCode::DeviceUnavailable);
     EXPECT_EQ(stream.error().message, "no device: install mesa-vulkan-drivers");
-}
-
-TEST_P(BothThreadModes, ShutdownReplaysWhatWasSubmittedAndWaitsForTheDevice) {
-    Script script;
-    script.onExecute = [](ResultSink&) { std::this_thread::sleep_for(10ms); };
-    {
-        auto stream = startScripted(script, options());
-        stream->submit(stream->acquire());
-        stream->submit(stream->acquire());
-    }
-    EXPECT_EQ(script.executed, 2);
-    EXPECT_GE(script.idled, 1);
-    EXPECT_EQ(script.destroyed, 1);
 }
 
 TEST_P(BothThreadModes, ReadbacksTimersAndErrorsComeOutOnce) {
@@ -216,39 +137,18 @@ TEST_P(BothThreadModes, ErrorsBeyondTheLimitAreCountedNotKept) {
     EXPECT_THAT(errors.back().message, testing::HasSubstr("744 more errors"));
 }
 
-TEST(CommandStream, AcquireWaitsWhileTwoSubmittedFramesAreUnreplayed) {
-    Script script;
-    std::promise<void> gate;
-    std::shared_future<void> opened = gate.get_future().share();
-    script.onExecute = [opened](ResultSink&) { opened.wait(); };
-    auto stream = startScripted(script);
-    stream->submit(stream->acquire());
-    stream->submit(stream->acquire());
-    std::atomic<bool> acquired{ false };
-    std::thread app([&] {
-        CommandBuffer& third = stream->acquire();
-        acquired = true;
-        stream->submit(third);
-    });
-    std::this_thread::sleep_for(50ms);
-    EXPECT_FALSE(acquired) << "two frames are ahead already";
-    gate.set_value();
-    app.join();
-    stream->waitIdle();
-    EXPECT_EQ(script.executed, 3);
-    EXPECT_GT(stream->backPressureNanoseconds(), 10'000'000u);
-}
-
 TEST(CommandStream, ATimeoutNamesTheTicketAndTheStreamGoesOn) {
     Script script;
-    std::promise<void> gate;
-    script.onExecute = [opened = gate.get_future().share()](ResultSink&) { opened.wait(); };
+    Gate gate;
+    script.onExecute = [&](ResultSink&) { gate.wait(); };
     auto stream = startScripted(script);
     stream->submit(stream->acquire());
-    Result<std::vector<std::byte>> bytes = stream->waitReadback(stream->nextTicket(), 20ms);
+    const Ticket ticket = stream->nextTicket();
+    Result<std::vector<std::byte>> bytes = stream->waitReadback(ticket, 20ms);
     ASSERT_FALSE(bytes.ok());
     EXPECT_EQ(bytes.error().code, ErrorCode::Timeout);
-    gate.set_value();
+    EXPECT_THAT(bytes.error().message, testing::StartsWith(fmt::format("read-back {}: no answer", ticket.value)));
+    gate.open();
     stream->waitIdle();
     EXPECT_EQ(script.executed, 1);
 }

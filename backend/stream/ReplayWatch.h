@@ -1,0 +1,72 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ReplayWatch: what the driver thread is doing, in words, and a warning when it is stuck in it.
+///   In      the driver thread says what it begins and ends; replay() says which command it is in (ReplayProgress).
+///   Out     describe(): "in command DrawIndexed (number 1234 of frame 17, pass 'color', after pipeline 'helmet') for
+///           10.2 s". check(): the same as a warning in the log, once for each stall.
+///   Thread  begin...(), end(): the driver thread. The rest: any; there is no thread of its own: whoever waits for the
+///           driver thread calls check() every period(). A stall is timed from when somebody first looked at it.
+///   Memory  the names of the pipelines that live.
+///   Fails   never.
+///   Cost    a short lock at the start and the end of a stream. A description walks the stream up to the command.
+#pragma once
+
+#include "backend/api/ReplayProgress.h"
+#include "backend/stream/CommandBuffer.h"
+
+#include <chrono>
+#include <cstdint>
+#include <mutex>
+#include <string>
+#include <unordered_map>
+
+namespace filament::backend {
+
+class ReplayWatch {
+public:
+    using PipelineNames = std::unordered_map<PipelineHandle, std::string>;
+
+    /// `limit`: how long nothing may change before check() warns; zero: never.
+    explicit ReplayWatch(std::chrono::milliseconds limit) : mLimit(limit) {}
+
+    // ---- the driver thread
+    void beginMakingDriver() { begin(Activity::MakingDriver); }
+    void beginEndingDriver() { begin(Activity::EndingDriver); }
+    /// The device is waited for.
+    void beginSettling() { begin(Activity::Settling); }
+    /// `commands` stay as they are until end().
+    void beginReplay(CommandBuffer const& commands, uint64_t frame, bool isNumberedByApp);
+    void end();
+    ReplayProgress& progress() { return mProgress; }
+
+    // ---- any thread
+    bool warns() const { return mLimit.count() > 0; }
+    /// How often those who wait look.
+    std::chrono::milliseconds period() const;
+    void check();
+    std::string describe();
+
+private:
+    using Clock = std::chrono::steady_clock;
+    enum class Activity : uint8_t { None, MakingDriver, Replaying, Settling, EndingDriver };
+
+    void begin(Activity activity);
+    void look(Clock::time_point now);
+    std::string describe(Clock::time_point now);
+    std::string describeReplay();
+    std::string frameText() const;
+
+    const std::chrono::milliseconds mLimit;
+    ReplayProgress mProgress;
+
+    std::mutex mMutex;
+    Activity mActivity = Activity::None;
+    CommandBuffer const* mCommands = nullptr; // while it replays
+    uint64_t mFrame = 0;
+    bool mIsNumberedByApp = false;
+    const std::byte* mSeenCommand = nullptr;
+    Clock::time_point mSince{}; // of the activity, or of the first look at mSeenCommand
+    bool mHasWarned = false;
+    PipelineNames mPipelineNames;
+};
+
+} // namespace filament::backend
