@@ -178,6 +178,11 @@ double4x4 parseTransform(JsonNode const& node) {
     if (node["matrix"].numbers(m)) {
         double4x4 matrix;
         std::memcpy(&matrix[0][0], m.data(), sizeof m);
+        const double4 lastRow(m[3], m[7], m[11], m[15]);
+        if (glm::length(lastRow - double4(0, 0, 0, 1)) > 1e-6) {
+            node.diagnostics().warn("{}.matrix: its last row is not 0 0 0 1 and was ignored", node.path());
+        }
+        for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1 : 0;
         return matrix;
     }
     std::array<double, 3> t{ 0, 0, 0 }, s{ 1, 1, 1 };

@@ -102,11 +102,10 @@ double4x4 transformOf(float3 translation, float4 rotation, float3 scale) {
     return matrix;
 }
 
-/// EXT_mesh_gpu_instancing: the transforms of the instances, or the identity alone.
-std::vector<double4x4> instanceTransforms(GltfDocument const& document, uint32_t index, GltfDiagnostics& diagnostics) {
+/// EXT_mesh_gpu_instancing: the transforms of the instances.
+std::vector<double4x4> instanceTransforms(GltfInstancing const& source, GltfDocument const& document, uint32_t index,
+                                          GltfDiagnostics& diagnostics) {
     constexpr size_t kMaxInstances = size_t{ 1 } << 20;
-    if (!document.nodes[index].instancing) return { double4x4(1.0) };
-    GltfInstancing const& source = *document.nodes[index].instancing;
     const auto translations = readVectors<float3>(document, source.translation, "TRANSLATION", diagnostics);
     const auto rotations = readVectors<float4>(document, source.rotation, "ROTATION", diagnostics);
     const auto scales = readVectors<float3>(document, source.scale, "SCALE", diagnostics);
@@ -127,20 +126,26 @@ std::vector<double4x4> instanceTransforms(GltfDocument const& document, uint32_t
     return transforms;
 }
 
-void addNode(GltfDocument const& document, uint32_t index, double4x4 const& worldFromNode, RequestList& requests,
-             GltfScene& scene, GltfDiagnostics& diagnostics) {
-    GltfNode const& node = document.nodes[index];
-    NodeData data{ .name = node.name, .worldFromNode = worldFromNode, .light = node.light, .morphWeights = {} };
-    // a light beside a mesh stands alone: it shines once, from its node, however the mesh is placed
-    if (node.mesh == kNone || node.light != kNone) scene.nodes.push_back(data);
-    if (node.mesh == kNone || !diagnostics.ok()) return;
-    data.light = kNone;
-    const uint32_t mesh = requests.requestFor(node);
-    data.morphWeights = scene.meshes[mesh].weights;
-    for (double4x4 const& nodeFromInstance : instanceTransforms(document, index, diagnostics)) {
-        data.mesh = mesh;
-        data.worldFromNode = node.skin == kNone ? worldFromNode * nodeFromInstance : double4x4(1.0);
-        scene.nodes.push_back(data);
+/// At scene node `at`, which is node `index` of the file, or at nodes of its own.
+void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, RequestList& requests, GltfScene& scene,
+               GltfDiagnostics& diagnostics) {
+    GltfNode const& source = document.nodes[index];
+    const uint32_t mesh = requests.requestFor(source);
+    NodeData own{ .name = source.name, .mesh = mesh, .morphWeights = scene.meshes[mesh].weights };
+    if (source.skin != kNone) {
+        scene.nodes.push_back(std::move(own));
+        return;
+    }
+    if (!source.instancing) {
+        scene.nodes[at].mesh = mesh;
+        scene.nodes[at].morphWeights = std::move(own.morphWeights);
+        return;
+    }
+    own.parent = at;
+    for (double4x4 const& nodeFromInstance : instanceTransforms(*source.instancing, document, index, diagnostics)) {
+        own.parentFromNode = nodeFromInstance;
+        own.worldFromNode = scene.nodes[at].worldFromNode * nodeFromInstance;
+        scene.nodes.push_back(own);
     }
 }
 
@@ -150,13 +155,27 @@ GltfScene planScene(GltfDocument const& document, GltfDiagnostics& diagnostics) 
     GltfScene scene;
     const std::vector<double4x4> worldFromNode = worldTransforms(document, diagnostics);
     RequestList requests(document, worldFromNode, scene, diagnostics);
-    std::vector<uint32_t> open(document.roots.rbegin(), document.roots.rend());
+    struct Open {
+        uint32_t node, parent; // of the document; of the scene
+    };
+    std::vector<Open> open;
+    const auto push = [&](std::vector<uint32_t> const& nodes, uint32_t parent) {
+        for (size_t i = nodes.size(); i-- > 0;) open.push_back({ nodes[i], parent });
+    };
+    push(document.roots, kNone);
     while (!open.empty() && diagnostics.ok()) {
-        const uint32_t index = open.back();
+        const auto [node, parent] = open.back();
         open.pop_back();
-        addNode(document, index, worldFromNode[index], requests, scene, diagnostics);
-        std::vector<uint32_t> const& children = document.nodes[index].children;
-        open.insert(open.end(), children.rbegin(), children.rend());
+        GltfNode const& source = document.nodes[node];
+        const auto added = static_cast<uint32_t>(scene.nodes.size());
+        scene.nodes.push_back({ .name = source.name,
+                                .parent = parent,
+                                .parentFromNode = source.parentFromNode,
+                                .worldFromNode = worldFromNode[node],
+                                .light = source.light,
+                                .morphWeights = {} });
+        if (source.mesh != kNone) placeMesh(document, node, added, requests, scene, diagnostics);
+        push(source.children, added);
     }
     return scene;
 }

@@ -77,7 +77,9 @@ struct LightData {
 
 struct NodeData {
     std::string name;
-    double4x4 worldFromNode{ 1.0 }; ///< of the rest pose, hierarchy already applied
+    uint32_t parent = kNone; ///< into ModelData::nodes, before this one; kNone: a root
+    double4x4 parentFromNode{ 1.0 };
+    double4x4 worldFromNode{ 1.0 }; ///< of the rest pose: the product from the root down
     uint32_t mesh = kNone;
     uint32_t light = kNone;
     std::vector<float> morphWeights; ///< applied by the loader to the rest pose already

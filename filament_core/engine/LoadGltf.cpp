@@ -105,43 +105,47 @@ private:
     }
 
     void placeNodes() {
-        for (assets::NodeData const& node : mData.nodes) {
+        for (uint32_t i = 0; i < mData.nodes.size(); ++i) {
+            assets::NodeData const& node = mData.nodes[i];
+            const uint32_t parent = node.parent == kNone ? Model::Impl::kRoot : node.parent;
+            mModel->nodes.push_back({ node.name, parent, node.parentFromNode });
             if (node.mesh != kNone) {
-                for (RenderableDesc part : mMeshes[node.mesh]) {
-                    part.worldFromObject = node.worldFromNode;
-                    growBounds(part);
-                    mModel->parts.push_back(std::move(part));
+                for (RenderableDesc const& part : mMeshes[node.mesh]) {
+                    growBounds(part, node.worldFromNode);
+                    mModel->renderables.push_back({ part, i });
                 }
             }
-            if (node.light != kNone) placeLight(mData.lights[node.light], node.worldFromNode);
+            if (node.light != kNone) mModel->lights.push_back({ lightOf(mData.lights[node.light]), i });
         }
     }
 
-    void growBounds(RenderableDesc const& part) {
+    void growBounds(RenderableDesc const& part, double4x4 const& modelFromPart) {
         const CenteredBox box = boxFromMinMax(part.boundsMin, part.boundsMax);
-        const double3 center(part.worldFromObject * double4(double3(box.center), 1.0));
-        const double3 half(transformedHalfExtent(part.worldFromObject, box.halfExtent));
+        const double3 center(modelFromPart * double4(double3(box.center), 1.0));
+        const double3 half(transformedHalfExtent(modelFromPart, box.halfExtent));
         mModel->bounds.min = glm::min(mModel->bounds.min, center - half);
         mModel->bounds.max = glm::max(mModel->bounds.max, center + half);
     }
 
-    void placeLight(assets::LightData const& light, double4x4 const& world) {
-        const double3 position(world[3]);
-        const double3 axis = -double3(world[2]); // KHR_lights_punctual: along -Z of the node
-        const float3 direction = glm::length(axis) > 0 ? float3(glm::normalize(axis)) : float3(0, 0, -1);
+    // KHR_lights_punctual: at the origin of its node, along -Z.
+    static std::variant<SunLight, PointLight, SpotLight> lightOf(assets::LightData const& light) {
+        const double3 position(0.0);
+        const float3 direction(0, 0, -1);
         switch (light.type) {
         case assets::LightType::Directional:
-            mModel->lights.push_back(SunLight{ direction, Lux{ light.intensity }, light.color });
-            break;
+            return SunLight{ direction, Lux{ light.intensity }, light.color };
         case assets::LightType::Point:
-            mModel->lights.push_back(
-                    PointLight{ position, Candela{ light.intensity }, light.color, light.rangeMeters });
-            break;
+            return PointLight{ position, Candela{ light.intensity }, light.color, light.rangeMeters };
         case assets::LightType::Spot:
-            mModel->lights.push_back(SpotLight{ position, direction, Candela{ light.intensity }, light.color,
-                                                light.rangeMeters, light.innerConeRadians, light.outerConeRadians });
             break;
         }
+        return SpotLight{ position,
+                          direction,
+                          Candela{ light.intensity },
+                          light.color,
+                          light.rangeMeters,
+                          light.innerConeRadians,
+                          light.outerConeRadians };
     }
 
     Engine& mEngine;
@@ -168,7 +172,7 @@ Model::~Model() = default;
 
 std::string const& Model::name() const { return mImpl->name; }
 Box Model::bounds() const { return mImpl->bounds; }
-size_t Model::renderableCount() const { return mImpl->parts.size(); }
+size_t Model::renderableCount() const { return mImpl->renderables.size(); }
 std::vector<std::string> const& Model::warnings() const { return mImpl->warnings; }
 
 Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {

@@ -48,7 +48,7 @@ struct Renderer::Impl {
         engine::FrameTimingLog::Stamps stamps{ .begin = clock() };
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext* context = arena.make<FrameContext>();
-        context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().data,
+        context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(),
                                                 { view.camera, view.size, view.timeSeconds });
         stamps.prepared = clock();
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;

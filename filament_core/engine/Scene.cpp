@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/Scene.h>
 
-#include "filament_core/engine/ModelImpl.h"
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/scene/SceneNodes.h"
 
 #include <filament/Environment.h>
 
@@ -35,30 +35,12 @@ float3 unitDirection(float3 direction) {
     return direction / length;
 }
 
-// Rotation and scale of the directions, then of the positions, of a light inside of a model.
-struct PlaceLight {
-    Scene& scene;
-    double4x4 const& worldFromModel;
-
-    double3 position(double3 model) const { return double3(worldFromModel * double4(model, 1.0)); }
-    float3 direction(float3 model) const {
-        const double3 world = double3x3(worldFromModel) * double3(model);
-        return glm::length(world) > 0 ? float3(glm::normalize(world)) : model;
-    }
-    void operator()(SunLight light) const {
-        light.directionWorld = direction(light.directionWorld);
-        scene.add(light);
-    }
-    void operator()(PointLight light) const {
-        light.positionWorld = position(light.positionWorld);
-        scene.add(light);
-    }
-    void operator()(SpotLight light) const {
-        light.positionWorld = position(light.positionWorld);
-        light.directionWorld = direction(light.directionWorld);
-        scene.add(light);
-    }
-};
+// Adds a light whose record is in world space, or in the space of its node.
+Light addLight(scene::SceneData& data, LightRecord const& record, Node node) {
+    const Light light = scene::addLight(data, record);
+    if (node) scene::attach(data, light, node);
+    return light;
+}
 
 } // namespace
 
@@ -78,47 +60,48 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                     desc.firstIndex,
                                     desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
                                     indices.type };
-    return scene::addRenderable(mImpl->data, { geometry, &engine.instances.get(desc.material), desc.boundsMin,
-                                               desc.boundsMax, desc.worldFromObject, desc.culled, desc.name });
+    FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
+                    "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
+    const Renderable renderable =
+            scene::addRenderable(mImpl->data, { geometry, &engine.instances.get(desc.material), desc.boundsMin,
+                                                desc.boundsMax, desc.worldFromObject, desc.culled, desc.name });
+    if (desc.node) scene::attach(mImpl->data, renderable, desc.node);
+    return renderable;
 }
 
-Light Scene::add(SunLight const& light) {
-    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Sun,
-                                          .directionWorld = unitDirection(light.directionWorld),
-                                          .color = light.color,
-                                          .intensity = light.illuminance.value });
+Light Scene::add(SunLight const& light, Node node) {
+    return addLight(mImpl->data,
+                    { .type = LightRecord::Type::Sun,
+                      .directionWorld = unitDirection(light.directionWorld),
+                      .color = light.color,
+                      .intensity = light.illuminance.value },
+                    node);
 }
 
-Light Scene::add(PointLight const& light) {
-    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Point,
-                                          .positionWorld = light.positionWorld,
-                                          .color = light.color,
-                                          .intensity = light.intensity.value,
-                                          .rangeMeters = light.rangeMeters });
+Light Scene::add(PointLight const& light, Node node) {
+    return addLight(mImpl->data,
+                    { .type = LightRecord::Type::Point,
+                      .positionWorld = light.positionWorld,
+                      .color = light.color,
+                      .intensity = light.intensity.value,
+                      .rangeMeters = light.rangeMeters },
+                    node);
 }
 
-Light Scene::add(SpotLight const& light) {
+Light Scene::add(SpotLight const& light, Node node) {
     FILAMENT_ASSERT(light.innerConeRadians >= 0 && light.innerConeRadians < light.outerConeRadians &&
                             light.outerConeRadians <= 1.5707964f,
                     "a spot has 0 <= inner < outer <= pi/2");
-    return scene::addLight(mImpl->data, { .type = LightRecord::Type::Spot,
-                                          .positionWorld = light.positionWorld,
-                                          .directionWorld = unitDirection(light.directionWorld),
-                                          .color = light.color,
-                                          .intensity = light.intensity.value,
-                                          .rangeMeters = light.rangeMeters,
-                                          .innerConeRadians = light.innerConeRadians,
-                                          .outerConeRadians = light.outerConeRadians });
-}
-
-void Scene::add(Model const& model, double4x4 const& worldFromModel) {
-    for (RenderableDesc part : model.impl().parts) {
-        part.worldFromObject = worldFromModel * part.worldFromObject;
-        add(part);
-    }
-    for (Model::Impl::PartLight const& light : model.impl().lights) {
-        std::visit(PlaceLight{ *this, worldFromModel }, light);
-    }
+    return addLight(mImpl->data,
+                    { .type = LightRecord::Type::Spot,
+                      .positionWorld = light.positionWorld,
+                      .directionWorld = unitDirection(light.directionWorld),
+                      .color = light.color,
+                      .intensity = light.intensity.value,
+                      .rangeMeters = light.rangeMeters,
+                      .innerConeRadians = light.innerConeRadians,
+                      .outerConeRadians = light.outerConeRadians },
+                    node);
 }
 
 void Scene::remove(Renderable renderable) { scene::removeRenderable(mImpl->data, renderable); }
@@ -146,7 +129,7 @@ void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
                            rotationRadians };
 }
 
-Box Scene::bounds() const { return scene::sceneBounds(mImpl->data); }
+Box Scene::bounds() const { return scene::sceneBounds(mImpl->upToDate()); }
 uint32_t Scene::renderableCount() const { return mImpl->data.renderables.count(); }
 uint32_t Scene::lightCount() const { return mImpl->data.lights.index.size(); }
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "filament_core/engine/EngineImpl.h"
+#include "filament_core/prepare/UpdateTransforms.h"
 #include "filament_core/scene/SceneData.h"
 
 #include <filament/Scene.h>
@@ -10,8 +11,14 @@
 namespace filament {
 
 struct Scene::Impl {
+    /// The data after all changes of nodes: what frames and bounds are made from.
+    scene::SceneData const& upToDate() const {
+        prepare::updateTransforms(engine.jobs, data);
+        return data;
+    }
+
     Engine::Impl& engine;
-    scene::SceneData data;
+    mutable scene::SceneData data; ///< what is derived from nodes is written when somebody asks for it
 };
 
 } // namespace filament

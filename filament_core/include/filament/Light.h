@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Lights, in photometric units. Plain descriptions: Scene::add takes them and gives a handle.
+/// Lights, in photometric units. Plain descriptions: Scene::add takes them and gives a handle. For a light that hangs
+/// at a node, "World" in a field's name means the space of that node.
 #pragma once
 
 #include <filament/Color.h>

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Scene: what exists. Renderables, lights and one environment; drawn by any Renderer of the same engine.
-///   Thread  the app thread. Read-only while Renderer::render runs (it returns when the scene has been read).
+/// Scene: what exists. Renderables, lights, nodes that carry them, and one environment; drawn by any Renderer of the
+/// same engine.
+///   Thread  the app thread, also for what is const: bounds() and Renderer::render() first bring transforms up to date.
+///           Not to be changed while Renderer::render runs (it returns when the scene has been read).
 ///   Memory  arrays by column; adding and removing is O(1).
 ///   Life    the scene does not own buffers, materials or models: they must outlive it or be removed first.
 #pragma once
@@ -8,9 +10,11 @@
 #include <filament/Box.h>
 #include <filament/Engine.h>
 #include <filament/Light.h>
+#include <filament/Node.h>
 
 #include <memory>
 #include <string>
+#include <string_view>
 
 namespace filament {
 
@@ -25,7 +29,8 @@ struct RenderableDesc {
     uint32_t firstIndex = 0;
     uint32_t indexCount = 0;               ///< 0: all
     float3 boundsMin{ 0 }, boundsMax{ 0 }; ///< of the positions, in object space
-    double4x4 worldFromObject{ 1.0 };      ///< affine
+    double4x4 worldFromObject{ 1.0 };      ///< affine; with a node: stays the identity
+    Node node{};                           ///< the renderable stands where this node stands; none: at worldFromObject
     bool culled = true;                    ///< false: drawn even when its box is out of view
     std::string name{};
 };
@@ -43,14 +48,39 @@ public:
     ~Scene();
 
     Renderable add(RenderableDesc const& desc);
-    Light add(SunLight const& light);
-    Light add(PointLight const& light);
-    Light add(SpotLight const& light);
-    /// Every renderable and light of the model, placed by `worldFromModel`.
-    void add(Model const& model, double4x4 const& worldFromModel = double4x4(1.0));
+    /// With a node, position and direction are those in the node's space, and the light follows it. Scales change
+    /// neither range nor intensity.
+    Light add(SunLight const& light, Node node = {});
+    Light add(PointLight const& light, Node node = {});
+    Light add(SpotLight const& light, Node node = {});
     void remove(Renderable renderable);
     void remove(Light light);
+    /// Of a renderable without a node.
     void setTransform(Renderable renderable, double4x4 const& worldFromObject);
+
+    /// A copy of the model: its nodes below one new root, which stands at `worldFromModel` and has the model's name,
+    /// its renderables and lights at them. Moving or removing the root moves or removes all of it.
+    Node add(Model const& model, double4x4 const& worldFromModel = double4x4(1.0));
+
+    Node add(NodeDesc const& desc);
+    /// The node and all below it, with every renderable and light that hangs there; their handles end.
+    void remove(Node node);
+    /// Takes effect at once for worldFromNode(), and for what hangs at or below the node with the next frame.
+    void setTransform(Node node, double4x4 const& parentFromNode);
+    /// The node becomes the last child of `parent`; none: a root. Below itself it cannot be.
+    void setParent(Node node, Node parent, Reparent keep = Reparent::KeepLocal);
+    double4x4 parentFromNode(Node node) const;
+    double4x4 worldFromNode(Node node) const;
+    std::string const& name(Node node) const;
+    Node parent(Node node) const;           ///< none: a root
+    Node node(Renderable renderable) const; ///< none: it has a transform of its own
+    Node node(Light light) const;
+    /// for (Node child = scene.firstChild(node); child; child = scene.nextSibling(child)), in the order they were
+    /// added.
+    Node firstChild(Node node = {}) const; ///< {}: the first root
+    Node nextSibling(Node node) const;
+    /// The first of this name at or below `root` ({}: in the whole scene), parents first; none if there is none.
+    Node findNode(std::string_view name, Node root = {}) const;
 
     void setEnvironment(Environment const& environment, EnvironmentSettings const& settings = {});
     void setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians = 0); ///< {}: none
@@ -59,6 +89,7 @@ public:
     Box bounds() const; ///< of all renderables
     uint32_t renderableCount() const;
     uint32_t lightCount() const;
+    uint32_t nodeCount() const;
 
     struct Impl;
     Impl& impl() { return *mImpl; }

@@ -11,6 +11,7 @@
 #include <filament/Image.h>
 #include <filament/Light.h>
 #include <filament/Math.h>
+#include <filament/Node.h>
 #include <filament/Objects.h>
 #include <filament/Renderer.h>
 #include <filament/Result.h>

@@ -56,10 +56,14 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
 inline const char* brokenPromise(ModelData const& model, NodeData const& node) {
     if (node.mesh != kNone && node.mesh >= model.meshes.size()) return "mesh index";
     if (node.light != kNone && node.light >= model.lights.size()) return "light index";
+    const auto own = static_cast<uint32_t>(&node - model.nodes.data());
+    if (node.parent != kNone && node.parent >= own) return "parents before children";
     for (int column = 0; column < 4; ++column) {
         for (int row = 0; row < 4; ++row) {
             if (!std::isfinite(node.worldFromNode[column][row])) return "transform";
+            if (!std::isfinite(node.parentFromNode[column][row])) return "local transform";
         }
+        if (node.parentFromNode[column].w != (column == 3 ? 1 : 0)) return "affine transform";
     }
     return nullptr;
 }

@@ -205,7 +205,14 @@ TEST(GltfGeometry, SkinsFollowTheirJointsAndNotTheirNode) {
     // first joint (0, 0, 10), second (0, 5, 10); the third vertex hangs between them, its weights sum to 2
     EXPECT_THAT(cornersOf(model.meshes[0].primitives[0]),
                 ElementsAre(float3(0, 0, 10), float3(1, 5, 10), float3(0, 3.5f, 10)));
-    EXPECT_EQ(model.nodes[0].worldFromNode, double4x4(1.0));
+    // the mesh stands at a root of its own; its node in the file, and the joints, are nodes without it
+    ASSERT_EQ(model.nodes.size(), 4u);
+    EXPECT_EQ(model.nodes[0].mesh, kNone);
+    EXPECT_EQ(model.nodes[0].worldFromNode[3].x, 100);
+    EXPECT_EQ(model.nodes[1].mesh, 0u);
+    EXPECT_EQ(model.nodes[1].parent, kNone);
+    EXPECT_EQ(model.nodes[1].worldFromNode, double4x4(1.0));
+    EXPECT_EQ(model.nodes[3].parent, 2u);
 }
 
 TEST(GltfGeometry, InverseBindMatricesUndoTheBindPose) {
@@ -246,6 +253,21 @@ TEST(GltfGeometry, NodesMultiplyDownTheTreeInDouble) {
     const double4 origin = model.nodes[2].worldFromNode * double4(0, 0, 0, 1);
     EXPECT_NEAR(origin.x, 1e7, 1e-6); // 0.25 along x, stretched by 2, turned to y
     EXPECT_NEAR(origin.y, 0.5, 1e-9);
+    EXPECT_EQ(model.nodes[0].parent, kNone);
+    for (uint32_t i = 1; i < 3; ++i) {
+        NodeData const& node = model.nodes[i];
+        EXPECT_EQ(node.parent, i - 1);
+        EXPECT_EQ(node.worldFromNode, model.nodes[node.parent].worldFromNode * node.parentFromNode);
+    }
+}
+
+TEST(GltfGeometry, AMatrixThatIsNotAffineLosesItsLastRowAndSaysSo) {
+    TestFile file = TestFile::triangle();
+    file.root["nodes"][0]["matrix"] = { 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0.5, 7, 0, 0, 1 };
+    const ModelData model = loaded(file);
+    EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("nodes[0].matrix: its last row is not 0 0 0 1")));
+    EXPECT_EQ(model.nodes[0].parentFromNode[2], double4(0, 0, 1, 0));
+    EXPECT_EQ(model.nodes[0].parentFromNode[3], double4(7, 0, 0, 1));
 }
 
 TEST(GltfGeometry, InstancingPlacesOneNodePerInstance) {
@@ -254,8 +276,14 @@ TEST(GltfGeometry, InstancingPlacesOneNodePerInstance) {
     file.root["nodes"][0]["translation"] = { 0, 10, 0 };
     file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = translations;
     const ModelData model = loaded(file);
-    ASSERT_EQ(model.nodes.size(), 3u);
-    EXPECT_EQ(model.nodes[2].worldFromNode[3], double4(3, 10, 0, 1));
+    ASSERT_EQ(model.nodes.size(), 4u); // the node of the file, and below it the instances
+    EXPECT_EQ(model.nodes[0].mesh, kNone);
+    for (uint32_t i = 1; i < 4; ++i) {
+        EXPECT_EQ(model.nodes[i].parent, 0u);
+        EXPECT_EQ(model.nodes[i].mesh, 0u);
+    }
+    EXPECT_EQ(model.nodes[3].parentFromNode[3], double4(3, 0, 0, 1));
+    EXPECT_EQ(model.nodes[3].worldFromNode[3], double4(3, 10, 0, 1));
     EXPECT_EQ(model.meshes.size(), 1u);
 }
 

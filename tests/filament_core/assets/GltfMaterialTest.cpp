@@ -235,9 +235,9 @@ TEST(GltfMaterial, LightsHaveTheDefaultsOfTheirExtension) {
     EXPECT_FLOAT_EQ(model.lights[0].outerConeRadians, 3.14159265f / 4);
     EXPECT_EQ(model.lights[1].color, float3(1, 0.5f, 0.25f));
     EXPECT_EQ(model.lights[2].rangeMeters, 3.0f);
-    ASSERT_EQ(model.nodes.size(), 2u); // the light has a node of its own beside the mesh
+    ASSERT_EQ(model.nodes.size(), 1u); // it carries the mesh and the light
     EXPECT_EQ(model.nodes[0].light, 1u);
-    EXPECT_EQ(model.nodes[1].light, kNone);
+    EXPECT_EQ(model.nodes[0].mesh, 0u);
 }
 
 TEST(GltfMaterial, ProgressCountsEveryImageAndPrimitive) {
