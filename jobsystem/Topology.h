@@ -6,7 +6,7 @@
 ///   Memory  the description of the machine is loaded once per process, at the first readTopology(), and kept.
 ///   Fails   never: what is not known (no /sys, a processor that hwloc does not list) counts as a core of its own, of
 ///           the only class, in the first cache group.
-///   Cost    readCpuBudget 0.1 ms; readTopology the same and, once a process, 0.2 to 0.4 ms on 2 cores.
+///   Cost    readCpuBudget 0.05 ms; readTopology the same and, once a process, 0.4 ms for hwloc (2 cores).
 #pragma once
 
 #include <cstdint>

@@ -65,6 +65,7 @@ TEST(CpuQuota, TakesTheLesserWhereBothVersionsAreMounted) {
     root.write("sys/fs/cgroup/cpu,cpuacct/x/cpu.cfs_quota_us", "400000");
     root.write("sys/fs/cgroup/cpu,cpuacct/x/cpu.cfs_period_us", "100000");
     root.write("sys/fs/cgroup/unified/y/cpu.max", "700000 100000");
+    root.write("sys/fs/cgroup/unified/x/cpu.max", "50000 100000"); // not the process's group in that hierarchy
     EXPECT_EQ(cpuQuota(root.path()), 4.0);
     root.write("sys/fs/cgroup/unified/y/cpu.max", "100000 100000");
     EXPECT_EQ(cpuQuota(root.path()), 1.0);
@@ -82,8 +83,15 @@ TEST(CpuQuota, FindsTheGroupBelowAMountThatShowsAPartOfTheHierarchy) {
     root.write("sys/fs/cgroup/cpu/nested/cpu.cfs_quota_us", "100000");
     root.write("sys/fs/cgroup/cpu/nested/cpu.cfs_period_us", "100000");
     EXPECT_EQ(cpuQuota(root.path()), 1.0);
-    root.write("proc/self/cgroup", "4:cpu:/docker/abcdef\n"); // another container, which only looks alike
-    EXPECT_EQ(cpuQuota(root.path()), 2.0);
+    // other containers, the first of which only looks alike: what is mounted is as near as one can see
+    for (const char* folder : { "def", "other" }) {
+        root.write(std::string("sys/fs/cgroup/cpu/") + folder + "/cpu.cfs_quota_us", "50000");
+        root.write(std::string("sys/fs/cgroup/cpu/") + folder + "/cpu.cfs_period_us", "100000");
+    }
+    for (const char* membership : { "4:cpu:/docker/abcdef\n", "4:cpu:/other\n" }) {
+        root.write("proc/self/cgroup", membership);
+        EXPECT_EQ(cpuQuota(root.path()), 2.0) << membership;
+    }
 }
 
 TEST(CpuQuota, DoesNotLeaveTheMountForAGroupOutsideOfIt) {
