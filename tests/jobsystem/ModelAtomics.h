@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ModelAtomics: the policy that puts the job system's lock-free parts under the ModelChecker. Atomic<T> is spelled
+/// like std::atomic<T>; Plain<T> is a value that threads must not race for.
+///   Thread  the threads of the checker; outside of them a load returns the last store.
+///   Limits  T is at most 8 bytes and trivially copyable.
+#pragma once
+
+#include "tests/jobsystem/ModelChecker.h"
+
+#include <atomic>
+#include <cstring>
+#include <source_location>
+#include <type_traits>
+
+namespace filament::jobs::model {
+
+template <class T>
+class Atomic {
+    static_assert(std::is_trivially_copyable_v<T> && sizeof(T) <= 8);
+    using Order = std::memory_order;
+    using Where = std::source_location;
+    static constexpr Order kSeqCst = std::memory_order_seq_cst;
+
+public:
+    Atomic() : Atomic(T{}) {}
+    Atomic(T initial) { created(this, bits(initial)); }
+    ~Atomic() { destroyed(this); }
+    Atomic(Atomic const&) = delete;
+    Atomic& operator=(Atomic const&) = delete;
+
+    T load(Order order = kSeqCst, Where where = Where::current()) const { return make(Kind::Load, {}, order, where); }
+    void store(T value, Order order = kSeqCst, Where where = Where::current()) {
+        make(Kind::Store, value, order, where);
+    }
+    T exchange(T value, Order order = kSeqCst, Where where = Where::current()) {
+        return make(Kind::Exchange, value, order, where);
+    }
+    T fetch_add(T value, Order order = kSeqCst, Where where = Where::current()) {
+        return make(Kind::Add, value, order, where);
+    }
+    T fetch_sub(T value, Order order = kSeqCst, Where where = Where::current()) {
+        return make(Kind::Add, static_cast<T>(T{} - value), order, where);
+    }
+    T fetch_and(T value, Order order = kSeqCst, Where where = Where::current()) {
+        return make(Kind::And, value, order, where);
+    }
+    T fetch_or(T value, Order order = kSeqCst, Where where = Where::current()) {
+        return make(Kind::Or, value, order, where);
+    }
+
+    bool compare_exchange_strong(T& expected, T desired, Order success, Order failure, Where where = Where::current()) {
+        Operation operation = describe(Kind::CompareExchange, desired, success, where);
+        operation.failureOrder = failure;
+        operation.expected = bits(expected);
+        const Outcome outcome = perform(this, operation);
+        if (!outcome.succeeded) expected = fromBits(outcome.value);
+        return outcome.succeeded;
+    }
+    bool compare_exchange_strong(T& expected, T desired, Order order = kSeqCst, Where where = Where::current()) {
+        const Order failure = order == std::memory_order_acq_rel   ? std::memory_order_acquire
+                              : order == std::memory_order_release ? std::memory_order_relaxed
+                                                                   : order;
+        return compare_exchange_strong(expected, desired, order, failure, where);
+    }
+    // Where they fail for no reason, a loop goes round once more and nothing new can be seen.
+    bool compare_exchange_weak(T& expected, T desired, Order success, Order failure, Where where = Where::current()) {
+        return compare_exchange_strong(expected, desired, success, failure, where);
+    }
+    bool compare_exchange_weak(T& expected, T desired, Order order = kSeqCst, Where where = Where::current()) {
+        return compare_exchange_strong(expected, desired, order, where);
+    }
+
+private:
+    static uint64_t bits(T value) {
+        uint64_t bits = 0;
+        std::memcpy(&bits, &value, sizeof value);
+        return bits;
+    }
+    static T fromBits(uint64_t bits) {
+        T value;
+        std::memcpy(&value, &bits, sizeof value);
+        return value;
+    }
+    static Operation describe(Kind kind, T operand, Order order, Where where) {
+        return { .kind = kind,
+                 .order = order,
+                 .operand = bits(operand),
+                 .mask = sizeof(T) == 8 ? ~0ull : (1ull << 8 * sizeof(T) % 64) - 1,
+                 .function = where.function_name(),
+                 .line = static_cast<int>(where.line()) };
+    }
+    T make(Kind kind, T operand, Order order, Where where) const {
+        return fromBits(perform(this, describe(kind, operand, order, where)).value);
+    }
+};
+
+template <class T>
+class Plain {
+public:
+    Plain() = default;
+    explicit Plain(T value) : mValue(value) {}
+
+    T get() const {
+        mRaces.read();
+        return mValue;
+    }
+    void set(T value) {
+        mRaces.write();
+        mValue = value;
+    }
+
+private:
+    T mValue{};
+    mutable RaceDetector mRaces;
+};
+
+struct ModelAtomics {
+    template <class T>
+    using Atomic = model::Atomic<T>;
+    using Where = std::source_location;
+
+    static void wait(Atomic<uint32_t>& word, uint32_t old, Where where = Where::current()) {
+        perform(&word, { .kind = Kind::Wait, .expected = old, .function = where.function_name() });
+    }
+    static void notifyOne(Atomic<uint32_t>& word, Where where = Where::current()) {
+        perform(&word, { .kind = Kind::NotifyOne, .function = where.function_name() });
+    }
+    static void notifyAll(Atomic<uint32_t>& word, Where where = Where::current()) {
+        perform(&word, { .kind = Kind::NotifyAll, .function = where.function_name() });
+    }
+};
+
+} // namespace filament::jobs::model

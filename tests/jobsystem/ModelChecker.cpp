@@ -1,0 +1,557 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/jobsystem/ModelChecker.h"
+
+#include "tests/jobsystem/ModelFiber.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <exception>
+#include <utility>
+#include <vector>
+
+namespace filament::jobs::model {
+namespace {
+
+struct RunGivenUp {}; // unwinds the stack of a thread whose run is over
+
+/// A fork of the search. Of threads: `done` are those that need not be tried (any more).
+struct Node {
+    bool isSchedule;
+    uint8_t choice;
+    uint8_t allowed; // threads that may go on, or the number of values
+    uint8_t done;
+};
+
+enum class End : uint8_t { None, AllReturned, AllSleep, Pruned, Failed };
+
+enum class State : uint8_t { Ready, Sleeping, Returned };
+
+struct Thread {
+    std::unique_ptr<Fiber> fiber;
+    State state = State::Ready;
+    Operation next; // announced, not made
+};
+
+struct Step {
+    int thread;
+    Operation operation;
+    uint64_t before;
+    const char* note;
+};
+
+const char* nameOf(Kind kind) {
+    constexpr const char* kNames[] = { "resume", "load",    "store",  "exchange", "add",       "and",
+                                       "or",     "compare", "assume", "wait",     "notifyOne", "notifyAll" };
+    return kNames[static_cast<int>(kind)];
+}
+
+const char* nameOf(std::memory_order order) {
+    constexpr const char* kNames[] = { "relaxed", "consume", "acquire", "release", "acq_rel", "seq_cst" };
+    return kNames[static_cast<int>(order)];
+}
+
+bool entersKernel(Kind kind) { return kind == Kind::Wait || kind == Kind::NotifyOne || kind == Kind::NotifyAll; }
+bool onlyReads(Kind kind) { return kind == Kind::Load || kind == Kind::Wait; }
+bool touchesMemory(Kind kind) { return kind != Kind::NotifyOne && kind != Kind::NotifyAll; }
+
+// Two steps of different threads that lead to the same state in either order (Katz and Peled 1992, "Defining
+// conditional independence using collapses": it is enough that they do so from here).
+bool areIndependent(Operation const& a, Operation const& b, ModelMemory const& memory) {
+    if (a.location != b.location || a.location < 0) return true;
+    if (entersKernel(a.kind) && entersKernel(b.kind)) return false;
+    if (!touchesMemory(a.kind) || !touchesMemory(b.kind)) return true;
+    if (!onlyReads(a.kind) || !onlyReads(b.kind)) return false;
+    // Of two seq_cst loads the second reads nothing older than the first, unless the first has no choice anyway.
+    const bool ordered = a.order == std::memory_order_seq_cst && b.order == std::memory_order_seq_cst;
+    return !ordered || memory.isSettled(a.location);
+}
+
+class Checker {
+public:
+    explicit Checker(Options const& options) : mOptions(options) {}
+
+    Report explore(std::function<std::unique_ptr<Scenario>()> const& make);
+
+    void created(const void* object, uint64_t initial);
+    void destroyed(const void* object);
+    Outcome perform(const void* object, Operation operation);
+    void fail(const char* rule);
+    int self() const { return mSelf; }
+    bool isUnwinding() const { return mEnd != End::None; }
+    ModelMemory const& memory() const { return mMemory; }
+
+private:
+    void prepareThreads(int count);
+    void runOnce(std::function<std::unique_ptr<Scenario>()> const& make);
+    void judge(Scenario& scenario);
+    void runThread(int thread);
+    void leave();
+    void announce(Operation const& operation);
+    int nextThread();
+    int branch(uint8_t ready);
+    uint8_t allowedNow(uint8_t ready) const;
+    uint8_t threadsIn(State state) const;
+    uint8_t pick(uint32_t count);
+    uint8_t pick(Choices const& choices) { return choices.stores[pick(choices.count)]; }
+    bool advance();
+    int find(const void* object) const;
+    Outcome make(Operation const& operation);
+    Outcome change(Operation const& operation, uint64_t value);
+    Outcome compareExchange(Operation const& operation);
+    void wait(Operation const& operation);
+    void notify(Operation const& operation);
+    void note(const char* rule);
+    std::string describeRun() const;
+
+    Options const& mOptions;
+    ModelMemory mMemory;
+    Report mReport;
+    Fiber mMain;
+    std::vector<Thread> mThreads;
+    Scenario* mScenario = nullptr;
+
+    std::vector<Node> mNodes; // the path of the search
+    size_t mDepth = 0;        // how much of it this run has followed
+    std::vector<const void*> mObjects;
+    std::vector<Step> mSteps;
+    uint8_t mSleepSet = 0;
+    int mPreemptions = 0, mSpuriousReturns = 0;
+    int mSelf = -1; // the thread that runs; negative: none
+    int mLast = -1; // the thread that ran last
+    End mEnd = End::None;
+    std::string mFailure;
+};
+
+Checker* gChecker = nullptr;
+
+// ---------------------------------------------------------------------------------------------- the search
+
+Report Checker::explore(std::function<std::unique_ptr<Scenario>()> const& make) {
+    do {
+        runOnce(make);
+        mReport.steps += mSteps.size();
+        (mEnd == End::Pruned ? mReport.pruned : mReport.runs) += 1;
+        if (mFailure.empty() && mReport.runs + mReport.pruned == mOptions.maxRuns) mFailure = "too many runs";
+    } while (mFailure.empty() && advance());
+    mReport.failure = mFailure;
+    return mReport;
+}
+
+bool Checker::advance() {
+    while (!mNodes.empty()) {
+        Node& node = mNodes.back();
+        if (node.isSchedule) {
+            node.done = static_cast<uint8_t>(node.done | 1 << node.choice);
+            const uint8_t left = static_cast<uint8_t>(node.allowed & ~node.done);
+            node.choice = static_cast<uint8_t>(std::countr_zero(left));
+            if (left) return true;
+        } else if (++node.choice < node.allowed) {
+            return true;
+        }
+        mNodes.pop_back();
+    }
+    return false;
+}
+
+void Checker::prepareThreads(int count) {
+    if (mThreads.empty()) mThreads.resize(static_cast<size_t>(count));
+    for (int i = 0; i < count; ++i) {
+        Thread& thread = mThreads[static_cast<size_t>(i)];
+        thread.state = State::Ready;
+        thread.next = {};
+        if (!thread.fiber) thread.fiber = std::make_unique<Fiber>([this, i] { runThread(i); });
+    }
+}
+
+void Checker::runOnce(std::function<std::unique_ptr<Scenario>()> const& make) {
+    mMemory.clear();
+    mObjects.clear();
+    mSteps.clear();
+    mDepth = 0;
+    mSleepSet = 0;
+    mPreemptions = mSpuriousReturns = 0;
+    mSelf = mLast = -1;
+    mEnd = End::None;
+
+    const std::unique_ptr<Scenario> scenario = make();
+    mScenario = scenario.get();
+    prepareThreads(scenario->threads());
+    for (int i = 0; i < static_cast<int>(mThreads.size()); ++i) mMemory.tick(i);
+    const int first = nextThread();
+    mMain.switchTo(*mThreads[static_cast<size_t>(first)].fiber);
+
+    mSelf = -1;
+    if (mEnd == End::AllReturned || mEnd == End::AllSleep) judge(*scenario);
+    for (size_t i = 0; i < mThreads.size(); ++i) { // those that are still inside an operation
+        mSelf = static_cast<int>(i);
+        if (mThreads[i].state != State::Returned) mMain.switchTo(*mThreads[i].fiber);
+    }
+    mSelf = -1;
+}
+
+void Checker::judge(Scenario& scenario) {
+    const End end = std::exchange(mEnd, End::None); // the scenario may look at its atomics and fail
+    if (end == End::AllSleep && !scenario.mayRest()) {
+        note("every thread sleeps");
+    } else {
+        scenario.atEnd();
+    }
+    if (mEnd == End::None) mEnd = end;
+}
+
+/// The body of every fiber: once around is one run.
+void Checker::runThread(int thread) {
+    for (;;) {
+        mSelf = thread;
+        if (mEnd == End::None) { // else this run was over before this thread began
+            try {
+                mScenario->run(thread);
+            } catch (RunGivenUp const&) {
+            }
+        }
+        mThreads[static_cast<size_t>(thread)].state = State::Returned;
+        leave();
+    }
+}
+
+/// The running thread has nothing left to do in this run.
+void Checker::leave() {
+    Fiber& here = *mThreads[static_cast<size_t>(mSelf)].fiber;
+    const int next = mEnd == End::None ? nextThread() : -1;
+    here.switchTo(next < 0 ? mMain : *mThreads[static_cast<size_t>(next)].fiber);
+}
+
+// ---------------------------------------------------------------------------------------------- who goes next
+
+uint8_t Checker::threadsIn(State state) const {
+    uint8_t mask = 0;
+    for (size_t i = 0; i < mThreads.size(); ++i) {
+        if (mThreads[i].state == state) mask = static_cast<uint8_t>(mask | 1 << i);
+    }
+    return mask;
+}
+
+uint8_t Checker::allowedNow(uint8_t ready) const {
+    const bool mustStay = mOptions.preemptions >= 0 && mPreemptions >= mOptions.preemptions && mLast >= 0;
+    const auto last = static_cast<uint8_t>(mLast < 0 ? 0 : 1 << mLast);
+    return mustStay && (ready & last) ? last : ready;
+}
+
+/// Negative if the run is over.
+int Checker::nextThread() {
+    const uint8_t ready = threadsIn(State::Ready);
+    if (ready == 0) {
+        mEnd = threadsIn(State::Sleeping) ? End::AllSleep : End::AllReturned;
+        return -1;
+    }
+    if (mSteps.size() >= mOptions.maxSteps) {
+        note("the run does not end");
+        return -1;
+    }
+    // A step that touches nothing is independent of all others: it need not be tried in any other order.
+    for (int i = 0; i < static_cast<int>(mThreads.size()); ++i) {
+        Thread const& thread = mThreads[static_cast<size_t>(i)];
+        if (thread.state == State::Ready && thread.next.kind == Kind::Resume) return i;
+    }
+    const int next = branch(ready);
+    if (next < 0) return -1;
+    if (mLast >= 0 && mLast != next && (ready >> mLast & 1)) ++mPreemptions;
+    return mLast = next;
+}
+
+int Checker::branch(uint8_t ready) {
+    const bool bounded = mOptions.preemptions >= 0; // leaves runs out by itself; with sleep sets it would lose too many
+    if (mDepth == mNodes.size()) {
+        const uint8_t allowed = allowedNow(ready);
+        const auto fresh = static_cast<uint8_t>(allowed & ~mSleepSet);
+        if (fresh == 0) {
+            mEnd = End::Pruned;
+            return -1;
+        }
+        const bool stays = mLast >= 0 && (fresh >> mLast & 1);
+        const int first = stays ? mLast : std::countr_zero(fresh);
+        mNodes.push_back({ true, static_cast<uint8_t>(first), allowed, mSleepSet });
+    }
+    Node const& node = mNodes[mDepth++];
+    mSleepSet = 0;
+    for (size_t i = 0; i < mThreads.size() && !bounded; ++i) {
+        if ((node.done >> i & 1) && areIndependent(mThreads[i].next, mThreads[node.choice].next, mMemory))
+            mSleepSet = static_cast<uint8_t>(mSleepSet | 1 << i);
+    }
+    return node.choice;
+}
+
+uint8_t Checker::pick(uint32_t count) {
+    if (count == 1) return 0;
+    if (mDepth == mNodes.size()) mNodes.push_back({ false, 0, static_cast<uint8_t>(count), 0 });
+    return mNodes[mDepth++].choice;
+}
+
+/// Returns when it is this thread's turn to make the operation.
+void Checker::announce(Operation const& operation) {
+    const int self = mSelf;
+    Thread& thread = mThreads[static_cast<size_t>(self)];
+    thread.next = operation;
+    const int next = nextThread();
+    if (next != self) thread.fiber->switchTo(next < 0 ? mMain : *mThreads[static_cast<size_t>(next)].fiber);
+    if (mEnd != End::None) throw RunGivenUp{};
+    mSelf = self;
+}
+
+// ---------------------------------------------------------------------------------------------- operations
+
+void Checker::created(const void* object, uint64_t initial) {
+    if (mMemory.create(mSelf, initial) < 0) {
+        note("the scenario has too many atomics");
+        return;
+    }
+    mObjects.push_back(object);
+}
+
+void Checker::destroyed(const void* object) {
+    const int location = find(object);
+    if (location < 0 || isUnwinding()) return;
+    if (!mMemory.destroy(mSelf, location)) note("an atomic is destroyed while another thread may still use it");
+}
+
+int Checker::find(const void* object) const { // the newest one, because memory is used again
+    for (int i = static_cast<int>(mObjects.size()) - 1; i >= 0; --i) {
+        if (mObjects[static_cast<size_t>(i)] == object) return i;
+    }
+    return -1;
+}
+
+Outcome Checker::perform(const void* object, Operation operation) {
+    operation.location = find(object);
+    if (isUnwinding()) { // destructors of what the run left behind
+        if (mSelf >= 0 && std::uncaught_exceptions() == 0) throw RunGivenUp{};
+        return {};
+    }
+    if (mSelf < 0) return { mMemory.latest(operation.location) };
+    if (mOptions.mutate) mOptions.mutate(operation);
+    announce(operation);
+    if (!mMemory.isAlive(operation.location)) fail("an atomic is used after its destruction");
+    if (!mMemory.isConstructedFor(mSelf, operation.location)) fail("an atomic is used before its construction");
+    mMemory.tick(mSelf);
+    mSteps.push_back({ mSelf, operation, 0, "" });
+    return make(operation);
+}
+
+Outcome Checker::make(Operation const& operation) {
+    const int at = operation.location;
+    const uint64_t operand = operation.operand;
+    switch (operation.kind) {
+    case Kind::Load: {
+        const uint8_t from = pick(mMemory.readable(mSelf, at, operation.order));
+        const uint64_t value = mMemory.load(mSelf, at, from, operation.order);
+        mSteps.back().before = value;
+        return { value };
+    }
+    case Kind::Store: {
+        const uint8_t after = pick(mMemory.followable(mSelf, at, operation.order));
+        if (!mMemory.store(mSelf, at, after, operand, operation.order)) fail("the scenario stores too often");
+        return {};
+    }
+    case Kind::Exchange:
+    case Kind::Add:
+    case Kind::And:
+    case Kind::Or:
+        return change(operation, operand);
+    case Kind::CompareExchange:
+        return compareExchange(operation);
+    case Kind::Wait:
+        wait(operation);
+        return {};
+    case Kind::NotifyOne:
+    case Kind::NotifyAll:
+        notify(operation);
+        return {};
+    case Kind::Assume:
+    case Kind::Resume:
+        return {};
+    }
+    return {};
+}
+
+Outcome Checker::change(Operation const& operation, uint64_t operand) {
+    const int at = operation.location;
+    const uint8_t from = pick(mMemory.followable(mSelf, at, operation.order));
+    const uint64_t before = mMemory.value(at, from);
+    uint64_t after = operand;
+    if (operation.kind == Kind::Add) after = (before + operand) & operation.mask;
+    if (operation.kind == Kind::And) after = before & operand;
+    if (operation.kind == Kind::Or) after = before | operand;
+    mSteps.back().before = before;
+    if (!mMemory.modify(mSelf, at, from, after, operation.order)) fail("the scenario stores too often");
+    return { before };
+}
+
+Outcome Checker::compareExchange(Operation const& operation) {
+    const int at = operation.location;
+    Choices choices;
+    const Choices equal = mMemory.followable(mSelf, at, operation.order);
+    for (uint32_t i = 0; i < equal.count; ++i) {
+        const uint8_t store = equal.stores[i];
+        if (mMemory.value(at, store) == operation.expected) choices.stores[choices.count++] = store;
+    }
+    const Choices different = mMemory.readable(mSelf, at, operation.failureOrder);
+    for (uint32_t i = 0; i < different.count; ++i) {
+        const uint8_t store = different.stores[i];
+        if (mMemory.value(at, store) != operation.expected) choices.stores[choices.count++] = store;
+    }
+    const uint8_t from = pick(choices);
+    const uint64_t before = mMemory.value(at, from);
+    mSteps.back().before = before;
+    if (before == operation.expected) {
+        mSteps.back().note = " (succeeds)";
+        if (!mMemory.modify(mSelf, at, from, operation.operand, operation.order)) fail("the scenario stores too often");
+        return { before, true };
+    }
+    mMemory.load(mSelf, at, from, operation.failureOrder);
+    return { before, false };
+}
+
+void Checker::wait(Operation const& operation) {
+    const int at = operation.location;
+    const uint8_t from = pick(mMemory.readableByKernel(mSelf, at));
+    const uint64_t value = mMemory.load(mSelf, at, from, std::memory_order_relaxed);
+    mMemory.notePassedThroughKernel(mSelf, at);
+    mSteps.back().before = value;
+    if (value != operation.expected) return;
+    if (mSpuriousReturns < mOptions.spuriousReturns && pick(2) == 1) {
+        ++mSpuriousReturns;
+        mSteps.back().note = " (returns for no reason)";
+        return;
+    }
+    mSteps.back().note = " (sleeps)";
+    Thread& thread = mThreads[static_cast<size_t>(mSelf)];
+    thread.state = State::Sleeping;
+    Operation resume;
+    resume.location = at; // until it is woken: what it sleeps on
+    announce(resume);
+}
+
+void Checker::notify(Operation const& operation) {
+    mMemory.notePassedThroughKernel(mSelf, operation.location);
+    std::vector<Thread*> sleepers;
+    for (Thread& thread : mThreads) {
+        if (thread.state == State::Sleeping && thread.next.location == operation.location) sleepers.push_back(&thread);
+    }
+    if (sleepers.empty()) return;
+    if (operation.kind == Kind::NotifyOne) sleepers = { sleepers[pick(static_cast<uint32_t>(sleepers.size()))] };
+    mSteps.back().before = sleepers.size();
+    for (Thread* thread : sleepers) {
+        thread->state = State::Ready;
+        thread->next.location = -1;
+    }
+}
+
+// ---------------------------------------------------------------------------------------------- failures
+
+void Checker::note(const char* rule) {
+    if (mEnd != End::None) return;
+    mEnd = End::Failed;
+    mFailure = std::string(rule) + '\n' + describeRun();
+}
+
+void Checker::fail(const char* rule) {
+    note(rule);
+    if (mSelf >= 0 && std::uncaught_exceptions() == 0) throw RunGivenUp{};
+}
+
+std::string Checker::describeRun() const {
+    std::string text;
+    for (Step const& step : mSteps) {
+        Operation const& made = step.operation;
+        text += "  thread " + std::to_string(step.thread) + ": atomic " + std::to_string(made.location) + ' ' +
+                nameOf(made.kind) + ' ' + nameOf(made.order) + " finds " + std::to_string(step.before);
+        if (made.kind != Kind::Load) text += ", operand " + std::to_string(made.operand);
+        text += std::string(step.note) + "  in " + made.function + " line " + std::to_string(made.line) + '\n';
+    }
+    return text;
+}
+
+} // namespace
+
+// ---------------------------------------------------------------------------------------------- doors
+
+bool Operation::isIn(const char* name) const {
+    const char* found = std::strstr(function, name);
+    return found && found[std::strlen(name)] == '(' && (found == function || found[-1] == ':' || found[-1] == ' ');
+}
+
+Report explore(std::function<std::unique_ptr<Scenario>()> const& make, Options const& options) {
+    const auto checker = std::make_unique<Checker>(options);
+    Checker* outer = std::exchange(gChecker, checker.get());
+    const Report report = checker->explore(make);
+    gChecker = outer;
+    return report;
+}
+
+void require(bool condition, const char* rule) {
+    if (!condition) gChecker->fail(rule);
+}
+
+Mutation Mutation::weaken(const char* function, Kind kind, std::memory_order order) {
+    return { [=](Operation& operation) {
+        if (operation.kind != kind || !operation.isIn(function)) return;
+        operation.order = operation.failureOrder = order;
+        if (order == std::memory_order_release) operation.failureOrder = std::memory_order_relaxed;
+        if (order == std::memory_order_acq_rel) operation.failureOrder = std::memory_order_acquire;
+    } };
+}
+
+Mutation Mutation::to(Kind replacement, const char* function, Kind kind) {
+    return { [=](Operation& operation) {
+        if (operation.kind == kind && operation.isIn(function)) operation.kind = replacement;
+    } };
+}
+
+Mutation Mutation::toReleaseStore(const char* function) {
+    return { [=](Operation& operation) {
+        if (operation.kind != Kind::Exchange || !operation.isIn(function)) return;
+        operation.kind = Kind::Store;
+        operation.order = std::memory_order_release;
+    } };
+}
+
+void printExplored(std::string const& what, Report const& report) {
+    std::printf("[ EXPLORED ] %s: %llu runs, %llu more given up as equal, %llu steps\n", what.c_str(),
+                static_cast<unsigned long long>(report.runs), static_cast<unsigned long long>(report.pruned),
+                static_cast<unsigned long long>(report.steps));
+}
+
+uint64_t stressFactor() {
+    const char* text = std::getenv("FILAMENT_STRESS");
+    return text ? std::strtoull(text, nullptr, 10) : 0;
+}
+
+void created(const void* object, uint64_t initial) { gChecker->created(object, initial); }
+void destroyed(const void* object) { gChecker->destroyed(object); }
+Outcome perform(const void* object, Operation operation) { return gChecker->perform(object, operation); }
+
+void RaceDetector::read() {
+    const int self = gChecker->self();
+    if (self < 0 || gChecker->isUnwinding()) return;
+    for (int i = 0; i < kMaxThreads; ++i) {
+        if (i != self && !gChecker->memory().happenedBefore(self, mWrittenAt[i], i))
+            gChecker->fail("a data race: a read that a write does not happen before");
+    }
+    mReadAt[self] = gChecker->memory().view(self).clock[self];
+}
+
+void RaceDetector::write() {
+    read();
+    const int self = gChecker->self();
+    if (self < 0 || gChecker->isUnwinding()) return;
+    for (int i = 0; i < kMaxThreads; ++i) {
+        if (i != self && !gChecker->memory().happenedBefore(self, mReadAt[i], i))
+            gChecker->fail("a data race: a write that a read does not happen before");
+    }
+    mWrittenAt[self] = gChecker->memory().view(self).clock[self];
+}
+
+} // namespace filament::jobs::model

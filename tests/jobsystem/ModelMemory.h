@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ModelMemory: the memory that a program of the C++20 model may see, one step at a time.
+///   In      operations on atomics, by thread.  Out: which stores an operation may read from or come after; the caller
+///           picks one. All picks over all interleavings are all behaviours.
+///   Source  the view machine of Kang, Hur, Lahav, Vafeiadis and Dreyer 2017, "A promising semantics for relaxed-memory
+///           concurrency", section 3, without promises; seq_cst accesses and release sequences as in [atomics.order]
+///           and [intro.races] of C++20. A store keeps its place in the modification order of its object, a thread a
+///           view: the oldest store of each object that it may still read. Release stores carry the view of their
+///           thread, acquire loads take it over.
+///   Shows   store buffering, stale reads, writes seen in different orders by different threads, modification orders
+///           that differ from the order of execution. That is all that x86 does, and all that ARMv8 does except:
+///   Limits  a load never reads from a store that is later in its own thread's future (load buffering), and the order
+///           of seq_cst operations is the order of execution, therefore consistent with happens-before, which POWER is
+///           not. No fences. 4 threads, 32 objects, 64 stores to each.
+///   Thread  one.
+#pragma once
+
+#include <array>
+#include <atomic>
+#include <cstdint>
+
+namespace filament::jobs::model {
+
+inline constexpr int kMaxThreads = 4;
+inline constexpr int kMaxLocations = 32;
+inline constexpr int kMaxStores = 63;
+
+/// What a thread knows: the oldest store it may read, by location, and how far each other thread is known to be.
+struct View {
+    std::array<uint8_t, kMaxLocations> seen{};
+    std::array<uint16_t, kMaxThreads> clock{};
+};
+
+/// The stores to pick from, newest first.
+struct Choices {
+    std::array<uint8_t, kMaxStores + 1> stores;
+    uint32_t count = 0;
+};
+
+constexpr bool isAcquire(std::memory_order order) {
+    return order == std::memory_order_acquire || order == std::memory_order_acq_rel ||
+           order == std::memory_order_seq_cst || order == std::memory_order_consume;
+}
+constexpr bool isRelease(std::memory_order order) {
+    return order == std::memory_order_release || order == std::memory_order_acq_rel ||
+           order == std::memory_order_seq_cst;
+}
+
+class ModelMemory {
+public:
+    void clear();
+
+    /// `thread` < 0: before all threads. Negative if there are too many locations.
+    int create(int thread, uint64_t initial);
+    /// False if some access does not happen before the end of the object's life.
+    bool destroy(int thread, int location);
+    bool isAlive(int location) const { return mLocations[location].alive; }
+    bool isConstructedFor(int thread, int location) const;
+
+    /// Starts an operation of the thread: everything before is known to whoever synchronises with what follows.
+    void tick(int thread) { ++mViews[thread].clock[thread]; }
+
+    Choices readable(int thread, int location, std::memory_order order) const;
+    /// The stores that a new store may directly follow in the modification order.
+    Choices followable(int thread, int location, std::memory_order order) const;
+    /// True if a read-modify-write may read this store.
+    bool mayBeModified(int location, uint8_t store) const;
+
+    uint64_t load(int thread, int location, uint8_t from, std::memory_order order);
+    /// False if the location is full.
+    bool store(int thread, int location, uint8_t after, uint64_t value, std::memory_order order);
+    bool modify(int thread, int location, uint8_t from, uint64_t value, std::memory_order order);
+
+    /// True if a seq_cst load can read nothing but the last store.
+    bool isSettled(int location) const;
+
+    /// What the kernel may find in a futex word: nothing older than what came before a wake-up that it has handled.
+    Choices readableByKernel(int thread, int location) const;
+    void notePassedThroughKernel(int thread, int location);
+
+    uint64_t value(int location, uint8_t store) const { return mLocations[location].stores[store].value; }
+    uint64_t latest(int location) const;
+    View const& view(int thread) const { return mViews[thread]; }
+    bool happenedBefore(int thread, uint16_t time, int before) const { return time <= mViews[thread].clock[before]; }
+
+private:
+    struct Store {
+        uint64_t value;
+        View released; // what an acquire load that reads this store learns
+        bool isModification;
+    };
+    struct Location {
+        std::array<Store, kMaxStores + 1> stores;
+        std::array<uint8_t, kMaxStores + 1> order;   // store by rank in the modification order
+        std::array<uint8_t, kMaxStores + 1> rank;    // and back
+        std::array<uint16_t, kMaxThreads> touchedAt; // the last access of each thread, in its own time
+        int creator;                                 // negative: before all threads
+        uint16_t createdAt;
+        uint8_t count;       // of stores
+        uint8_t seqCstFloor; // the latest store that a seq_cst operation wrote or read
+        uint8_t kernelFloor; // the latest store known to a thread that was in the kernel with this word
+        bool alive;
+    };
+
+    bool insert(int thread, int location, uint8_t after, Store const& store, std::memory_order order);
+    void raise(int location, uint8_t& floor, uint8_t store) const;
+    void join(View& into, View const& from) const;
+    uint8_t floor(int thread, int location, std::memory_order order) const;
+
+    std::array<Location, kMaxLocations> mLocations;
+    std::array<View, kMaxThreads> mViews;
+    int mLocationCount = 0;
+};
+
+} // namespace filament::jobs::model

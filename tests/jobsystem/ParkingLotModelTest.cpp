@@ -1,0 +1,258 @@
+// SPDX-License-Identifier: Apache-2.0
+// Sleeping and waking under the model checker: who pushes and then looks for sleepers, against who announces its sleep
+// and then looks for work. The worker's loop is the one of Scheduler::sleepUntilWork().
+#include "jobsystem/ParkingLot.h"
+#include "jobsystem/WorkStealingDeque.h"
+#include "tests/jobsystem/ModelAtomics.h"
+
+#include <gtest/gtest.h>
+
+#include <array>
+#include <bit>
+#include <memory>
+#include <string>
+
+namespace filament::jobs::model {
+namespace {
+
+/// Counts what goes into the kernel to wake somebody, a run.
+struct CountingAtomics : ModelAtomics {
+    static inline int wakeUps = 0;
+
+    static void notifyOne(Atomic<uint32_t>& word) {
+        ++wakeUps;
+        ModelAtomics::notifyOne(word);
+    }
+};
+
+struct Job {
+    Plain<int> runs;
+};
+
+/// The smallest thing that can be pushed to and taken from: one bit a job. A push is one point in the total order of
+/// seq_cst operations, as the deque's is; with so few steps more threads can be explored.
+class Bits {
+public:
+    bool push(Job* job, Job* first) {
+        mJobs.fetch_or(1u << (job - first), std::memory_order_seq_cst);
+        return true;
+    }
+    Job* steal(Job* first) {
+        uint32_t jobs = mJobs.load(std::memory_order_seq_cst);
+        while (jobs != 0) {
+            const int lowest = std::countr_zero(jobs);
+            if (mJobs.compare_exchange_strong(jobs, jobs & (jobs - 1), std::memory_order_seq_cst))
+                return first + lowest;
+        }
+        return nullptr;
+    }
+    bool isEmpty() const { return mJobs.load() == 0; }
+
+private:
+    Atomic<uint32_t> mJobs{ 0 };
+};
+
+class Deque {
+public:
+    bool push(Job* job, Job*) { return mDeque.push(job); }
+    Job* steal(Job*) { return mDeque.steal(); }
+    bool isEmpty() const { return mDeque.isEmpty(); }
+
+private:
+    WorkStealingDeque<Job, 4, ModelAtomics> mDeque;
+};
+
+enum class Worker : uint8_t { AsBuilt, ParksWithoutASecondLook, LooksBeforeItAnnounces };
+
+struct Setup {
+    int producers, jobs, workers; // each producer pushes `jobs` jobs to a queue of its own
+    Worker worker = Worker::AsBuilt;
+
+    std::string name() const {
+        return std::to_string(producers) + " producers of " + std::to_string(jobs) + " jobs, " +
+               std::to_string(workers) + " workers";
+    }
+};
+
+/// Threads: the workers, then the producers. Workers never return; a run ends well when they sleep and all is done.
+template <class Queue>
+struct PushThenNotify : Scenario {
+    explicit PushThenNotify(Setup const& options) : setup(options) { CountingAtomics::wakeUps = 0; }
+
+    int threads() const override { return setup.workers + setup.producers; }
+
+    void run(int thread) override {
+        if (thread >= setup.workers) {
+            produce(thread - setup.workers);
+        } else {
+            for (;;) work();
+        }
+    }
+
+    void produce(int producer) {
+        for (int i = 0; i < setup.jobs; ++i) {
+            require(queues[producer].push(&jobs[producer][i], jobs[producer].data()), "there is room");
+            lot.wakeOne();
+        }
+    }
+
+    Job* find() {
+        for (int i = 0; i < setup.producers; ++i) {
+            if (Job* job = queues[i].steal(jobs[i].data())) return job;
+        }
+        return nullptr;
+    }
+
+    void work() {
+        Job* job = nullptr;
+        if (setup.worker == Worker::LooksBeforeItAnnounces) job = find();
+        const auto ticket = lot.prepare();
+        if (setup.worker == Worker::AsBuilt) job = find();
+        if (job) {
+            lot.cancel();
+        } else {
+            lot.park(ticket);
+            job = find();
+        }
+        if (!job) return;
+        lot.wakeOne(); // there may be more
+        for (; job; job = find()) job->runs.set(job->runs.get() + 1);
+    }
+
+    bool mayRest() override {
+        for (int i = 0; i < setup.producers; ++i) {
+            if (!queues[i].isEmpty()) return false;
+        }
+        return true;
+    }
+
+    void atEnd() override {
+        for (int i = 0; i < setup.producers; ++i) {
+            for (int k = 0; k < setup.jobs; ++k) require(jobs[i][k].runs.get() == 1, "every job runs once");
+        }
+        require(CountingAtomics::wakeUps <= 2 * setup.jobs * setup.producers,
+                "a job wakes one thread when it comes and one when it goes");
+    }
+
+    const Setup setup;
+    BasicParkingLot<CountingAtomics> lot;
+    std::array<Queue, 2> queues;
+    std::array<std::array<Job, 4>, 2> jobs;
+};
+
+template <class Queue>
+Report check(Setup const& setup, Options const& options = {}) {
+    return explore([&] { return std::make_unique<PushThenNotify<Queue>>(setup); }, options);
+}
+
+template <class Queue>
+void expectCorrect(Setup const& setup, Options const& options = {}) {
+    const Report report = check<Queue>(setup, options);
+    printExplored(setup.name(), report);
+    EXPECT_EQ(report.failure, "") << setup.name();
+}
+
+TEST(ParkingLotModel, NoWakeUpIsLostBetweenAProducerAndAWorker) {
+    expectCorrect<Deque>({ .producers = 1, .jobs = 1, .workers = 1 });
+    expectCorrect<Deque>({ .producers = 1, .jobs = 2, .workers = 1 });
+    expectCorrect<Bits>({ .producers = 1, .jobs = 2, .workers = 1 });
+}
+
+TEST(ParkingLotModel, AFutexThatReturnsForNoReasonChangesNothing) {
+    expectCorrect<Bits>({ .producers = 1, .jobs = 2, .workers = 1 }, { .spuriousReturns = 1 });
+}
+
+// With three and four threads every day with at most two (three) switches that no thread asked for: most errors of
+// concurrent programs need no more (Musuvathi and Qadeer 2007, "Iterative context bounding").
+TEST(ParkingLotModel, NoWakeUpIsLostAmongThreeAndFourThreads) {
+    expectCorrect<Bits>({ .producers = 1, .jobs = 1, .workers = 2 }, { .preemptions = 3 });
+    expectCorrect<Bits>({ .producers = 1, .jobs = 2, .workers = 2 }, { .preemptions = 2 });
+    expectCorrect<Bits>({ .producers = 2, .jobs = 1, .workers = 1 }, { .preemptions = 3 });
+    expectCorrect<Bits>({ .producers = 2, .jobs = 1, .workers = 2 }, { .preemptions = 1 });
+}
+
+TEST(ParkingLotModel, NoWakeUpIsLostInLongerRuns) {
+    if (stressFactor() == 0) GTEST_SKIP() << "minutes: set FILAMENT_STRESS=1";
+    expectCorrect<Bits>({ .producers = 1, .jobs = 3, .workers = 1 });
+    expectCorrect<Bits>({ .producers = 2, .jobs = 1, .workers = 1 });
+    expectCorrect<Deque>({ .producers = 1, .jobs = 1, .workers = 2 });
+    expectCorrect<Bits>({ .producers = 1, .jobs = 2, .workers = 2 }, { .preemptions = 3 });
+    expectCorrect<Bits>({ .producers = 2, .jobs = 1, .workers = 2 }, { .preemptions = 2 });
+    expectCorrect<Bits>({ .producers = 1, .jobs = 1, .workers = 3 }, { .preemptions = 2 });
+}
+
+TEST(ParkingLotModel, ABurstThatNobodyHasAnsweredYetIsOneSystemCall) {
+    struct Burst : Scenario {
+        int threads() const override { return 1; }
+        void run(int) override {
+            CountingAtomics::wakeUps = 0;
+            lot.prepare();
+            lot.prepare(); // two sleepers on their way
+            for (int i = 0; i < 5; ++i) lot.wakeOne();
+            require(CountingAtomics::wakeUps == 1, "the first wake-up of the burst");
+            lot.prepare(); // a third one, who will look for itself
+            lot.wakeOne();
+            require(CountingAtomics::wakeUps == 2, "the first wake-up after an answer");
+        }
+        BasicParkingLot<CountingAtomics> lot;
+    };
+    EXPECT_EQ(explore([] { return std::make_unique<Burst>(); }).failure, "");
+}
+
+// ---------------------------------------------------------------------------------------------- what if it were weaker
+
+template <class Queue>
+std::string findingOf(Mutation const& mutation) {
+    for (Setup const& setup : { Setup{ 1, 1, 1 }, Setup{ 1, 2, 1 } }) {
+        const Report report = check<Queue>(setup, { .mutate = mutation });
+        if (!report.ok()) return report.failure.substr(0, report.failure.find('\n'));
+    }
+    return "";
+}
+
+constexpr const char* kLost = "every thread sleeps";
+
+TEST(ParkingLotModel, AWorkerThatParksWithoutASecondLookSleepsBesideWork) {
+    const Report report = check<Bits>({ 1, 1, 1, Worker::ParksWithoutASecondLook });
+    EXPECT_EQ(report.failure.substr(0, report.failure.find('\n')), kLost);
+}
+
+TEST(ParkingLotModel, AWorkerThatLooksBeforeItAnnouncesSleepsBesideWork) {
+    const Report report = check<Bits>({ 1, 1, 1, Worker::LooksBeforeItAnnounces });
+    EXPECT_EQ(report.failure.substr(0, report.failure.find('\n')), kLost);
+}
+
+// The store of a push that only releases waits in the store buffer while its thread finds nobody asleep.
+TEST(ParkingLotModel, APushThatOnlyReleasesLosesAWakeUp) {
+    EXPECT_EQ(findingOf<Deque>(Mutation::toReleaseStore("push")), kLost);
+    EXPECT_EQ(findingOf<Deque>(Mutation::weaken("push", Kind::Exchange, std::memory_order_acq_rel)), kLost);
+    EXPECT_EQ(findingOf<Bits>(Mutation::weaken("push", Kind::Or, std::memory_order_acq_rel)), kLost);
+}
+
+TEST(ParkingLotModel, TheSleepersCountMustBeInTheTotalOrder) {
+    EXPECT_EQ(findingOf<Bits>(Mutation::weaken("prepare", Kind::Add, std::memory_order_acq_rel)), kLost);
+    EXPECT_EQ(findingOf<Bits>(Mutation::weaken("hasSleepers", Kind::Load, std::memory_order_acquire)), kLost);
+}
+
+TEST(ParkingLotModel, TheLastLookForWorkMustBeInTheTotalOrder) {
+    EXPECT_EQ(findingOf<Bits>(Mutation::weaken("steal", Kind::Load, std::memory_order_acquire)), kLost);
+    EXPECT_EQ(findingOf<Deque>(Mutation::weaken("steal", Kind::Load, std::memory_order_acquire)), kLost);
+}
+
+TEST(ParkingLotModel, AWakeUpMustChangeTheEpoch) {
+    const auto stays = [](Operation& operation) {
+        if (operation.isIn("wakeOne") && operation.kind == Kind::Add) operation.operand = 0;
+    };
+    EXPECT_EQ(findingOf<Bits>({ stays }), kLost);
+}
+
+TEST(ParkingLotModel, AnAnswerMustClearTheWakeUpThatIsUnderWay) {
+    const auto staysSet = [](Operation& operation) {
+        if ((operation.isIn("prepare") || operation.isIn("park")) && operation.kind == Kind::Store)
+            operation.kind = Kind::Load;
+    };
+    EXPECT_EQ(findingOf<Bits>({ staysSet }), kLost);
+}
+
+} // namespace
+} // namespace filament::jobs::model
