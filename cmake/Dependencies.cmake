@@ -52,4 +52,10 @@ if(FILAMENT_BUILD_TESTS)
 endif()
 if(FILAMENT_BUILD_BENCHES)
     find_package(benchmark REQUIRED)
+    find_package(TBB REQUIRED) # these two: what bench/threading is compared with
+    find_package(OpenMP REQUIRED COMPONENTS CXX)
 endif()
+
+# tools/plot runs under Debian's Python, which python3-matplotlib belongs to, even if another one comes first in PATH.
+find_program(FILAMENT_PLOT_PYTHON python3 PATHS /usr/bin NO_DEFAULT_PATH)
+find_program(FILAMENT_PLOT_PYTHON python3)

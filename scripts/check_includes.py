@@ -60,7 +60,7 @@ LIBRARIES = {
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
     r"CLI/": ["tools", "bench"],
     r"gtest/|gmock/": ["tests"],
-    r"benchmark/": ["bench"],
+    r"benchmark/|oneapi/|tbb/|omp\.h": ["bench"],
 }
 GENERATED = re.compile(r"generated/")  # written by the build, not in the tree
 

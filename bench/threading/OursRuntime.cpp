@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine's own job system.
+#include "bench/threading/Clock.h"
+#include "bench/threading/Placement.h"
+#include "bench/threading/Runtime.h"
+#include "jobsystem/JobSystem.h"
+
+namespace filament::bench {
+namespace {
+
+using jobs::JobGroup;
+using jobs::JobSystem;
+
+uint32_t forkTree(JobSystem& jobs, uint32_t depth) {
+    if (depth == 0) return 1;
+    uint32_t left = 0;
+    JobGroup group(jobs);
+    group.run([&] { left = forkTree(jobs, depth - 1); });
+    const uint32_t right = forkTree(jobs, depth - 1);
+    group.wait();
+    return left + right;
+}
+
+struct Link {
+    JobGroup& group;
+    uint32_t left;
+    void operator()() const {
+        if (left > 0) group.run(Link{ group, left - 1 });
+    }
+};
+
+class OursRuntime final : public Runtime {
+public:
+    explicit OursRuntime(RuntimeOptions const& options)
+            : mPinned(options.pinned), mJobs({ .workers = static_cast<int>(options.threads) - 1,
+                                               .affinity = options.pinned ? jobs::Affinity::Pin : jobs::Affinity::None,
+                                               .threadName = "bench" }) {}
+
+    void enter() override {
+        if (mPinned) mPin.emplace(coreOfThread(0));
+    }
+    void leave() override { mPin.reset(); }
+
+    void emptyJobs(uint32_t count, uint64_t repeats) override {
+        JobGroup group(mJobs);
+        for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
+            for (uint32_t i = 0; i < count; ++i) group.run([] {});
+            group.wait();
+        }
+    }
+
+    uint32_t tree(uint32_t depth) override { return forkTree(mJobs, depth); }
+
+    void loop(SpinWork const& work, uint64_t count, uint64_t repeats) override {
+        // a range of some 5 microseconds, as the header asks for
+        const auto grain = static_cast<size_t>(5'000 / work.itemNs);
+        for (uint64_t repeat = 0; repeat < repeats; ++repeat)
+            parallelFor(mJobs, count, grain, [&](size_t begin, size_t end) { keep(work.run(begin, end, repeat)); });
+    }
+
+    void chain(uint32_t links, uint64_t repeats) override {
+        for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
+            JobGroup group(mJobs);
+            group.run(Link{ group, links - 1 });
+            group.wait();
+        }
+    }
+
+    void spinJobs(std::span<const uint32_t> steps) override {
+        JobGroup group(mJobs);
+        for (const uint32_t count : steps) group.run([count] { keep(spinSteps(count, count)); });
+        group.wait();
+    }
+
+    std::optional<int64_t> wakeUp(int64_t idle) override {
+        if (mJobs.workerCount() == 0) return std::nullopt;
+        JobGroup group(mJobs);
+        StartSignal started;
+        spinFor(idle);
+        const int64_t now = wallNow();
+        group.run([&] { started.raise(); });
+        const int64_t latency = started.wait(now);
+        group.wait();
+        return latency;
+    }
+
+private:
+    const bool mPinned;
+    JobSystem mJobs;
+    std::optional<PinnedScope> mPin;
+};
+
+} // namespace
+
+std::unique_ptr<Runtime> makeOursRuntime(RuntimeOptions const& options) {
+    return std::make_unique<OursRuntime>(options);
+}
+
+} // namespace filament::bench

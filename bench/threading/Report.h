@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Report: the table on standard output, and everything as JSON.
+///   Thread  main thread.
+///   Fails   writeJson() says why the file could not be written.
+#pragma once
+
+#include "bench/threading/Workload.h"
+#include "filament_core/base/Result.h"
+
+#include <filesystem>
+#include <span>
+#include <string>
+#include <utility>
+#include <vector>
+
+namespace filament::bench {
+
+using MachineDescription = std::vector<std::pair<std::string, std::string>>;
+
+void printMachine(MachineDescription const& machine, Settings const& settings);
+/// One row; a new header whenever the columns change.
+class Table {
+public:
+    void print(Measured const& measured);
+    void printSummary() const; ///< targets met and missed
+
+private:
+    std::vector<std::string> mColumns;
+    std::vector<std::string> mMissed;
+    int mTargets = 0;
+};
+
+Result<void> writeJson(std::filesystem::path const& path, MachineDescription const& machine, Settings const& settings,
+                       std::span<const Measured> results);
+
+} // namespace filament::bench

@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Runtime: the same workloads on one way of using several threads. One file each: OursRuntime.cpp, OneTbbRuntime.cpp,
+/// OpenMpRuntime.cpp, StdAsyncRuntime.cpp, SerialRuntime.cpp; read them side by side.
+///   Use     enter(), then any of the workloads any number of times, then leave(); timing is the caller's.
+///   Thread  one thread, the same for all calls. `threads` includes it.
+///   Rule    each is written as its users would: the calling thread takes part, groups are reused where the library
+///           allows it, no tuning that needs to know the machine.
+///   Fails   makeRuntime() never; a workload that a runtime has no word for says so by its return value.
+#pragma once
+
+#include "bench/threading/SpinWork.h"
+
+#include <cstdint>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace filament::bench {
+
+enum class RuntimeKind : uint8_t { Ours, OneTbb, OpenMp, StdAsync, Serial };
+inline constexpr RuntimeKind kAllRuntimes[] = { RuntimeKind::Ours, RuntimeKind::OneTbb, RuntimeKind::OpenMp,
+                                                RuntimeKind::StdAsync, RuntimeKind::Serial };
+const char* toString(RuntimeKind kind); ///< "ours", "tbb", "openmp", "async", "serial"
+
+struct RuntimeOptions {
+    unsigned threads = 1; ///< that work, with the caller
+    bool pinned = false;  ///< thread i stays on coreOfThread(i) between enter() and leave()
+};
+
+class Runtime {
+public:
+    virtual ~Runtime() = default;
+
+    virtual void enter() = 0;
+    virtual void leave() = 0;
+
+    /// Starts `count` jobs that do nothing and waits for them, `repeats` times.
+    virtual void emptyJobs(uint32_t count, uint64_t repeats) = 0;
+    /// A binary tree of calls: every inner node forks its left half, calls its right one and joins. Returns the leaves.
+    virtual uint32_t tree(uint32_t depth) = 0;
+    /// `count` items in one parallel loop, `repeats` times.
+    virtual void loop(SpinWork const& work, uint64_t count, uint64_t repeats) = 0;
+    /// `links` empty jobs, each started by the end of the one before it, `repeats` times.
+    virtual void chain(uint32_t links, uint64_t repeats) = 0;
+    /// One job per entry, which spins that many steps, in this order.
+    virtual void spinJobs(std::span<const uint32_t> steps) = 0;
+    /// After `idle` nanoseconds without work: nanoseconds from "start a job" until another thread runs it.
+    virtual std::optional<int64_t> wakeUp(int64_t idle) = 0;
+
+    /// More jobs at once would take too long or too much memory; workloads scale down to this and say so.
+    virtual uint32_t affordableJobs() const { return std::numeric_limits<uint32_t>::max(); }
+};
+
+std::unique_ptr<Runtime> makeRuntime(RuntimeKind kind, RuntimeOptions const& options);
+
+std::unique_ptr<Runtime> makeOursRuntime(RuntimeOptions const& options);
+std::unique_ptr<Runtime> makeOneTbbRuntime(RuntimeOptions const& options);
+std::unique_ptr<Runtime> makeOpenMpRuntime(RuntimeOptions const& options);
+std::unique_ptr<Runtime> makeStdAsyncRuntime(RuntimeOptions const& options);
+std::unique_ptr<Runtime> makeSerialRuntime();
+
+} // namespace filament::bench

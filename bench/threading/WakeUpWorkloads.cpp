@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// How long a sleeping worker takes to start a job, after the app thread has computed for a while by itself.
+#include "bench/threading/Clock.h"
+#include "bench/threading/Workloads.h"
+
+#include <fmt/format.h>
+
+namespace filament::bench {
+namespace {
+
+struct WakeUp {
+    const char* name;
+    const char* title;
+    int64_t idleNs;
+    bool pinned;
+};
+
+Result<Workload> wakeUp(Settings const& settings, WakeUp const& what) {
+    if (settings.threads < 2)
+        return fail(ErrorCode::Unsupported, "{}: nobody to wake; run with --workers 1 or more", what.name);
+    Workload workload{
+        .name = what.name, .title = what.title, .unit = "us", .kind = "wakeup", .contenders = {}, .targets = {}
+    };
+    if (what.pinned) workload.targets = { { .limit = 50 }, { .figure = Figure::P99, .limit = 200 } };
+    const int wakeUps = settings.quick ? 2 : 20; // a round
+    for (const RuntimeKind kind :
+         { RuntimeKind::Ours, RuntimeKind::OneTbb, RuntimeKind::OpenMp, RuntimeKind::StdAsync }) {
+        std::shared_ptr<Runtime> runtime = makeRuntime(kind, { .threads = settings.threads, .pinned = what.pinned });
+        workload.contenders.push_back({ toString(kind), [=](std::vector<double>& figures) {
+                                           runtime->enter();
+                                           runtime->emptyJobs(8, 1); // the threads exist
+                                           for (int i = 0; i < wakeUps; ++i)
+                                               if (const auto latency = runtime->wakeUp(what.idleNs))
+                                                   figures.push_back(static_cast<double>(*latency) * 1e-3);
+                                           settle();
+                                           runtime->leave();
+                                       } });
+    }
+    return workload;
+}
+
+} // namespace
+
+void addWakeUpWorkloads(WorkloadList& list, Settings const& settings) {
+    for (WakeUp const& what : {
+                 WakeUp{ "wake_150us_pinned", "wake-up after 150 us, pinned", 150'000, true },
+                 WakeUp{ "wake_150us", "wake-up after 150 us, unpinned", 150'000, false },
+                 WakeUp{ "wake_3ms_pinned", "wake-up after 3 ms, pinned", 3'000'000, true },
+                 WakeUp{ "wake_3ms", "wake-up after 3 ms, unpinned", 3'000'000, false },
+         })
+        list.push_back({ what.name, [=] { return wakeUp(settings, what); } });
+}
+
+} // namespace filament::bench

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Workloads: the list of everything that threading_bench measures. README.md says what each one means.
+///   Memory  a workload is made when its turn comes and destroyed after its last round, with its threads and engines.
+///   Fails   make() says why a workload cannot run here.
+#pragma once
+
+#include "bench/threading/Runtime.h"
+#include "bench/threading/Workload.h"
+#include "filament_core/base/Result.h"
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+namespace filament::bench {
+
+struct WorkloadEntry {
+    std::string name;
+    std::function<Result<Workload>()> make;
+};
+using WorkloadList = std::vector<WorkloadEntry>;
+
+WorkloadList allWorkloads(Settings const& settings);
+
+void addJobWorkloads(WorkloadList& list, Settings const& settings);     ///< JobWorkloads.cpp: empty jobs, tree, chain
+void addLoopWorkloads(WorkloadList& list, Settings const& settings);    ///< LoopWorkloads.cpp
+void addUnevenWorkloads(WorkloadList& list, Settings const& settings);  ///< UnevenWorkloads.cpp: power law, hogged core
+void addWakeUpWorkloads(WorkloadList& list, Settings const& settings);  ///< WakeUpWorkloads.cpp
+void addScalingWorkloads(WorkloadList& list, Settings const& settings); ///< ScalingWorkloads.cpp
+void addCommandWorkloads(WorkloadList& list, Settings const& settings); ///< CommandWorkloads.cpp: record and replay
+void addFrameWorkloads(WorkloadList& list, Settings const& settings);   ///< FrameWorkloads.cpp: renderables
+
+/// Does its work `repeats` times.
+using RepeatedWork = std::function<void(Runtime& runtime, uint64_t repeats)>;
+
+/// One figure a round: nanoseconds of `work` over `items` of it, repeated until a sample takes Settings::sampleNs.
+/// Before it the runtime is warmed up, after it everybody goes to sleep; neither is counted.
+Sampler timed(std::shared_ptr<Runtime> runtime, RepeatedWork work, double items, double sampleNs);
+
+/// timed() once, without repeating: for work that takes milliseconds. Returns nanoseconds.
+double timeOnce(Runtime& runtime, std::function<void(Runtime&)> const& work);
+
+/// "64 of 1024 jobs, scaled", or empty if nothing was scaled.
+std::string scaledNote(uint32_t done, uint32_t wanted, const char* what);
+
+} // namespace filament::bench

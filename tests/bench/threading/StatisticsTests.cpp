@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "bench/threading/Statistics.h"
+#include "bench/threading/Workload.h"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+namespace filament::bench {
+namespace {
+
+using ::testing::DoubleNear;
+using ::testing::ElementsAre;
+
+TEST(Quartiles, OfOneToFiveAreTwoThreeAndFour) {
+    const double values[] = { 4, 1, 5, 2, 3 };
+    const Quartiles q = quartiles(values);
+    EXPECT_EQ(q.first, 2);
+    EXPECT_EQ(q.median, 3);
+    EXPECT_EQ(q.third, 4);
+}
+
+TEST(Quartiles, LieBetweenTheValuesWhenTheCountIsEven) {
+    const double values[] = { 10, 20, 30, 40 };
+    const Quartiles q = quartiles(values);
+    EXPECT_DOUBLE_EQ(q.first, 17.5);
+    EXPECT_DOUBLE_EQ(q.median, 25);
+    EXPECT_DOUBLE_EQ(q.third, 32.5);
+}
+
+TEST(Quartiles, OfNothingAreZero) { EXPECT_EQ(quartiles({}).median, 0); }
+
+TEST(Quantile, ReachesTheSmallestAndTheLargestValue) {
+    const double values[] = { 7, -1, 3 };
+    EXPECT_EQ(quantile(values, 0), -1);
+    EXPECT_EQ(quantile(values, 1), 7);
+}
+
+TEST(PairedRatios, AreFormedWithinARoundAndLeaveOutZeros) {
+    const double a[] = { 1, 20, 3, 9 }, b[] = { 2, 40, 0 };
+    EXPECT_THAT(pairedRatios(a, b), ElementsAre(0.5, 0.5));
+}
+
+/// Says what it is told, round after round.
+Sampler playing(std::vector<std::vector<double>> rounds) {
+    return [rounds = std::move(rounds), next = size_t{ 0 }](std::vector<double>& figures) mutable {
+        figures = rounds[next++];
+    };
+}
+
+Measured measure(Workload workload, int rounds) {
+    Rounds running(std::move(workload));
+    for (int i = 0; i < rounds; ++i) running.runOne();
+    return std::move(running).finish();
+}
+
+TEST(Rounds, CompareFiguresOfTheSameRoundOnly) {
+    // The machine is a hundred times slower in the second round: every ratio is still 1/2, the ratio of the medians
+    // too, but that of figures from different rounds would not be.
+    const Measured measured = measure({ .contenders = { { "ours", playing({ { 1 }, { 100 }, { 3 } }) },
+                                                        { "tbb", playing({ { 2 }, { 200 }, { 6 } }) } } },
+                                      3);
+    EXPECT_DOUBLE_EQ(measured.ratio("ours", "tbb").value(), 0.5);
+    EXPECT_FALSE(measured.ratio("ours", "openmp").has_value());
+}
+
+TEST(Rounds, TakeTheMedianOfARoundButKeepAllLatencies) {
+    const Measured measured = measure({ .contenders = { { "ours", playing({ { 1, 2, 90 }, { 3, 4, 5 } }) } } }, 2);
+    EXPECT_THAT(measured.find("ours")->rounds, ElementsAre(2, 4));
+    EXPECT_THAT(measured.find("ours")->all, ElementsAre(1, 2, 90, 3, 4, 5));
+}
+
+TEST(Rounds, RunTheContendersInTurns) {
+    std::string order;
+    const auto named = [&order](char name) {
+        return [&order, name](std::vector<double>& figures) {
+            order += name;
+            figures.push_back(1);
+        };
+    };
+    measure({ .contenders = { { "a", named('A') }, { "b", named('B') }, { "c", named('C') } } }, 3);
+    EXPECT_EQ(order, "ABCABCABC");
+}
+
+TEST(Targets, AreJudgedByTheFigureThatTheyName) {
+    const Measured measured =
+            measure({ .contenders = { { "ours", playing({ { 10, 10, 300 } }) }, { "serial", playing({ { 25 } }) } },
+                      .targets = { { .limit = 10 },
+                                   { .limit = 9.9 },
+                                   { .figure = Figure::P99, .limit = 200 },
+                                   { .contender = "serial",
+                                     .figure = Figure::Ratio,
+                                     .other = "ours",
+                                     .limit = 2.5,
+                                     .atLeast = true },
+                                   { .contender = "serial",
+                                     .figure = Figure::Ratio,
+                                     .other = "ours",
+                                     .limit = 2.6,
+                                     .atLeast = true } } },
+                    1);
+    std::vector<bool> met;
+    for (Verdict const& verdict : measured.verdicts) met.push_back(verdict.isMet);
+    EXPECT_THAT(met, ElementsAre(true, false, false, true, false));
+    EXPECT_THAT(measured.verdicts[2].value, DoubleNear(294.2, 1e-9)); // 10 + 0.98 * (300 - 10)
+}
+
+TEST(Targets, ThatNobodyMeasuredAreMissed) {
+    const Measured measured = measure({ .contenders = { { "ours", playing({ { 1 } }) } },
+                                        .targets = { { .contender = "absent", .limit = 5 },
+                                                     { .figure = Figure::Ratio, .other = "tbb", .limit = 5 } } },
+                                      1);
+    EXPECT_FALSE(measured.verdicts[0].isMet);
+    EXPECT_FALSE(measured.verdicts[1].isMet);
+}
+
+TEST(Targets, SayWhatTheyAskFor) {
+    EXPECT_EQ(describe({ .limit = 75 }, "ns/job"), "ours <= 75 ns/job");
+    EXPECT_EQ(describe({ .figure = Figure::P99, .limit = 200 }, "us"), "ours p99 <= 200 us");
+    EXPECT_EQ(describe({ .figure = Figure::Ratio, .other = "tbb", .limit = 0.75 }, "ns/job"), "ours / tbb <= 0.75");
+}
+
+} // namespace
+} // namespace filament::bench

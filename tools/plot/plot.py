@@ -1,0 +1,89 @@
+#!/usr/bin/python3
+# SPDX-License-Identifier: Apache-2.0
+"""Draws what the benchmarks and the tracers write down.
+
+  plot.py bench   FILE.json  -o OUT   all figures of threading_bench --json: costs, wake-ups, scaling, frames
+  plot.py scaling FILE.json  -o OUT   only how they grow with workers and with renderables
+  plot.py jobs    TRACE.json -o OUT   who ran what when: a Chrome trace-event file, as --trace-jobs writes it
+
+OUT ends in .png, .svg or .pdf. A file that cannot be drawn is refused with one line on standard error and exit status 2.
+Needs matplotlib (Debian: python3-matplotlib, which belongs to /usr/bin/python3).
+"""
+import argparse
+import pathlib
+import sys
+
+try:
+    import matplotlib
+except ImportError:
+    sys.exit("plot.py: error: this Python has no matplotlib: install python3-matplotlib and use /usr/bin/python3")
+matplotlib.use("Agg")  # no display
+import matplotlib.pyplot as plt
+
+import bench_plot
+import jobs_plot
+from style import BadInput, apply_style
+
+FORMATS = (".png", ".svg", ".pdf")
+
+
+def output_path(text):
+    path = pathlib.Path(text)
+    if path.suffix.lower() not in FORMATS:
+        raise argparse.ArgumentTypeError(f"'{text}' must end in one of {', '.join(FORMATS)}")
+    return path
+
+
+def milliseconds(text):
+    try:
+        value = float(text)
+    except ValueError:
+        raise argparse.ArgumentTypeError(f"'{text}' is no number of milliseconds") from None
+    if not 0 <= value < 1e9:
+        raise argparse.ArgumentTypeError(f"'{text}' is not between 0 and 1e9 milliseconds")
+    return value
+
+
+def parse_arguments(words):
+    parser = argparse.ArgumentParser(prog="plot.py", description=__doc__,
+                                     formatter_class=argparse.RawDescriptionHelpFormatter)
+    commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
+    for name, help_text in (("bench", "all figures of threading_bench"), ("scaling", "scaling figures only"),
+                            ("jobs", "a timeline of jobs")):
+        command = commands.add_parser(name, help=help_text)
+        command.add_argument("input", type=pathlib.Path, metavar="FILE.json")
+        command.add_argument("-o", "--output", type=output_path, required=True, metavar="OUT")
+        command.add_argument("--title", default=None, help="over the picture")
+        if name == "jobs":
+            command.add_argument("--from", dest="begin", type=milliseconds, default=None, metavar="MS",
+                                 help="first millisecond to show")
+            command.add_argument("--to", dest="end", type=milliseconds, default=None, metavar="MS",
+                                 help="last millisecond to show")
+    return parser.parse_args(words)
+
+
+def draw(arguments):
+    if arguments.command == "jobs":
+        return jobs_plot.draw(arguments.input, arguments.begin, arguments.end, arguments.title)
+    return bench_plot.draw(arguments.input, arguments.title, only_scaling=arguments.command == "scaling")
+
+
+def main(words):
+    arguments = parse_arguments(words)
+    try:
+        with matplotlib.rc_context():
+            apply_style()
+            figure = draw(arguments)
+            figure.savefig(arguments.output)
+            plt.close(figure)
+    except BadInput as error:
+        print(f"plot.py: error: {error}", file=sys.stderr)
+        return 2
+    except OSError as error:
+        print(f"plot.py: error: {arguments.output} cannot be written: {error.strerror}", file=sys.stderr)
+        return 2
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main(sys.argv[1:]))
