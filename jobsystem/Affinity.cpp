@@ -110,6 +110,12 @@ bool pinThisThread(int core) { return bindThisThread({ &core, 1 }); }
 
 void nameThisThread(std::string const& name) { pthread_setname_np(pthread_self(), name.substr(0, 15).c_str()); }
 
+std::string nameOfThisThread() {
+    char name[16] = {};
+    pthread_getname_np(pthread_self(), name, sizeof(name));
+    return name;
+}
+
 // ---------------------------------------------------------------------------------------------- pins
 
 CorePins::~CorePins() {

@@ -56,6 +56,7 @@ bool bindThisThread(std::span<const int> cores);
 bool pinThisThread(int core);
 /// What debuggers and profilers show; the operating system keeps 15 bytes.
 void nameThisThread(std::string const& name);
+std::string nameOfThisThread();
 
 class CoreRegistry;
 

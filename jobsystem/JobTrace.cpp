@@ -2,6 +2,7 @@
 #include "jobsystem/JobTrace.h"
 
 #include "filament_core/base/Assert.h"
+#include "jobsystem/Affinity.h"
 
 #include <algorithm>
 #include <bit>
@@ -113,8 +114,19 @@ void JobTrace::recordJob(uint32_t seat, const char* name, int64_t begin, int64_t
     mSeats[seat].push({ name, begin, end, stolen ? TraceEvent::Kind::StolenJob : TraceEvent::Kind::Job });
 }
 
+void JobTrace::recordJobHere(const char* name, int64_t begin, int64_t end, bool stolen) {
+    const std::string thread = nameOfThisThread();
+    const std::lock_guard lock(mMutex);
+    mSpans[trackLocked(thread)]->push(
+            { name, begin, end, stolen ? TraceEvent::Kind::StolenJob : TraceEvent::Kind::Job });
+}
+
 JobTrace::Track JobTrace::track(std::string const& name) {
     const std::lock_guard lock(mMutex);
+    return trackLocked(name);
+}
+
+JobTrace::Track JobTrace::trackLocked(std::string const& name) {
     const auto known = std::find_if(mSpans.begin(), mSpans.end(), [&](auto const& ring) { return ring->name == name; });
     if (known != mSpans.end()) return static_cast<Track>(known - mSpans.begin());
     mSpans.push_back(std::make_unique<Ring>());

@@ -61,6 +61,8 @@ public:
 
     void nameSeat(uint32_t seat, std::string name);
     void recordJob(uint32_t seat, const char* name, int64_t begin, int64_t end, bool stolen);
+    /// For a thread without a seat: on the track of its name, under a lock.
+    void recordJobHere(const char* name, int64_t begin, int64_t end, bool stolen);
 
     /// A track for spans; asking again for a name gives the same one.
     Track track(std::string const& name);
@@ -71,6 +73,7 @@ public:
 
 private:
     class Ring;
+    Track trackLocked(std::string const& name);
 
     std::unique_ptr<Ring[]> mSeats;
     uint32_t mSeatCount;

@@ -136,6 +136,7 @@ TEST(ThisThread, HasANameOfFifteenBytes) {
         std::string name;
         std::getline(std::ifstream("/proc/thread-self/comm"), name);
         EXPECT_EQ(name, "a name beyond f");
+        EXPECT_EQ(nameOfThisThread(), name);
     });
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/JobTrace.h"
 
+#include "jobsystem/Affinity.h"
 #include "tests/jobsystem/FakeRoot.h"
 
 #include <gmock/gmock.h>
@@ -141,7 +142,7 @@ TEST_P(JobTraceRace, NeverShowsTornEventsToAReaderWhileJobsAreRecorded) {
             }
         }
     };
-    constexpr uint64_t kOverwritten = 2'000'000; // some 10 ms of both, so that they run at the same time as this thread
+    constexpr uint64_t kOverwritten = 300'000; // some ms of both, so that they run at the same time as this thread
     while ((dropped["seat 0"] < kOverwritten || dropped["seat 1"] < kOverwritten) && !HasFailure()) check();
     stop = true;
     for (std::thread& writer : writers) writer.join();
@@ -160,6 +161,22 @@ TEST(JobTrace, TakesSpansOfOneTrackFromManyThreads) {
     }
     for (std::thread& thread : threads) thread.join();
     EXPECT_EQ(trace.snapshot().at(0).events.size(), 4000u);
+}
+
+TEST(JobTrace, PutsJobsOfThreadsWithoutASeatOnTracksOfTheirNames) {
+    JobTrace trace(1);
+    for (const char* name : { "loader", "decoder", "loader" }) {
+        std::thread([&] {
+            nameThisThread(name);
+            trace.recordJobHere("decode", 1, 2, true);
+        }).join();
+    }
+    const std::vector<TraceTrack> tracks = trace.snapshot();
+    ASSERT_EQ(tracks.size(), 2u);
+    EXPECT_EQ(tracks[0].name, "loader");
+    EXPECT_EQ(tracks[0].events.size(), 2u);
+    EXPECT_EQ(tracks[0].events.at(0).kind, TraceEvent::Kind::StolenJob);
+    EXPECT_EQ(tracks[1].name, "decoder");
 }
 
 TEST(JobTraceDeathTest, RefusesSpansThatEndBeforeTheyBegin) {
