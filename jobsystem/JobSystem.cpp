@@ -4,6 +4,14 @@
 #include "jobsystem/Scheduler.h"
 
 namespace filament::jobs {
+namespace {
+
+Occupant occupantHere(Scheduler const& scheduler) {
+    Seat const* seat = tThread.seatOf(scheduler);
+    return seat ? seat->occupant : 0;
+}
+
+} // namespace
 
 JobSystem::JobSystem(JobSystemOptions options) : mScheduler(std::make_unique<Scheduler>(options)) {}
 JobSystem::~JobSystem() = default;
@@ -11,20 +19,15 @@ JobSystem::~JobSystem() = default;
 uint32_t JobSystem::workerCount() const { return mScheduler->workerCount(); }
 uint64_t JobSystem::busyNanoseconds() const { return mScheduler->busyNanoseconds(); }
 
-void JobGroup::wait() { mJobs.scheduler().wait(mCompletion); }
-
-namespace detail {
-
-Job* tryAllocate(Scheduler& scheduler) { return scheduler.tryAllocate(); }
-void submit(Scheduler& scheduler, Job& job) { scheduler.submit(job); }
-
-std::unique_ptr<Job> allocateBackground(Scheduler& scheduler) {
-    return scheduler.workerCount() == 0 ? nullptr : std::make_unique_for_overwrite<Job>();
+AdoptedThread::AdoptedThread(Scheduler& scheduler) : mSeat(scheduler.adoptThread()) {}
+AdoptedThread::~AdoptedThread() {
+    if (mSeat) mSeat->scheduler->releaseThread(*mSeat);
 }
-void submitBackground(Scheduler& scheduler, std::unique_ptr<Job> job) { scheduler.submitBackground(std::move(job)); }
-Completion& backgroundCompletion(Scheduler& scheduler) { return scheduler.backgroundCompletion(); }
 
-bool isHungry(Scheduler& scheduler) { return scheduler.isHungry(); }
+JobGroup::JobGroup(JobSystem& jobs) : JobGroup(jobs, tThread.priority) {}
+JobGroup::JobGroup(JobSystem& jobs, Priority priority)
+        : mScheduler(jobs.scheduler()), mCompletion(occupantHere(mScheduler), priority) {}
 
-} // namespace detail
+void JobGroup::waitInside() { mScheduler.wait(mCompletion); }
+
 } // namespace filament::jobs

@@ -1,22 +1,29 @@
 // SPDX-License-Identifier: Apache-2.0
-/// JobSystem: a pool of worker threads that steal work from each other. JobGroup: fork and join.
-///   In      callables without arguments, captures up to 48 bytes.
+/// JobSystem: a pool of worker threads that steal work from each other. JobGroup: fork, join, continue.
+///   In      callables without arguments, captures up to 48 bytes; names are text known at compile time.
 ///   Out     nothing of its own: a job writes where its captures point, and wait() makes it visible to the waiter.
-///   Thread  everything here may be called from any thread, also from inside jobs; several systems may coexist.
-///   Memory  fixed after construction: about 300 KiB and 8 KiB a thread. Background jobs cost one heap block each.
-///   Limits  a thread queues 1024 jobs; beyond that, or with no workers, run() runs the job before it returns.
-///   Fails   never for jobs. A core that refuses to be pinned to is reported in the log and left out.
-///   Cost    bench/jobsystem/ForkJoinBench.cpp
+///   Thread  any, also from inside jobs; several systems may coexist. wait(), isDone() and then() of a group belong to
+///           the thread that made it. A thread that is no worker forks fast after AdoptedThread; without, its jobs go
+///           through a shared queue.
+///   Memory  fixed after construction: about 500 KiB and 11 KiB a thread. Background jobs cost one heap block each.
+///   Limits  a thread queues 1024 jobs (256 critical ones); beyond that, or with no workers, run() runs the job before
+///           it returns. Waits nest as deep as the machine has memory for stacks.
+///   Fails   a job that throws or breaks a rule ends the process with a message that names the job.
+///   Cost    bench/threading
 ///
-///   JobGroup group(jobs);                       parallelFor(jobs, lights.size(), 64, [&](size_t begin, size_t end) {
-///   group.run([&] { cull(scene, visible); });       for (size_t i = begin; i < end; ++i) fit(lights[i]);
-///   group.run([&] { skin(scene, bones); });     });
-///   group.wait();
+///   AdoptedThread seat(jobs);
+///   JobGroup group(jobs);                               parallelFor<"fit">(jobs, lights.size(), 64,
+///   group.run<"cull">([&] { cull(scene, visible); });       [&](size_t begin, size_t end) {
+///   group.run<"skin">([&] { skin(scene, bones); });             for (size_t i = begin; i < end; ++i) fit(lights[i]);
+///   group.wait();                                           });
 ///
 /// A job must not block on anything but wait() of a group: it may have been started inside somebody else's wait().
+/// Background jobs may block.
 #pragma once
 
 #include "filament_core/base/Assert.h"
+#include "jobsystem/Cancellation.h"
+#include "jobsystem/Completion.h"
 #include "jobsystem/Job.h"
 
 #include <cstddef>
@@ -28,6 +35,7 @@
 namespace filament::jobs {
 
 class Scheduler;
+struct Seat;
 
 enum class Affinity : uint8_t {
     None, ///< the operating system moves threads as it likes
@@ -35,7 +43,7 @@ enum class Affinity : uint8_t {
 };
 
 struct JobSystemOptions {
-    int workers = -1; ///< threads besides the caller; -1: one less than the cores of the process's cpuset; at most 255
+    int workers = -1; ///< threads besides the caller; -1: one less than the cores of the process's cpuset; at most 256
     Affinity affinity = Affinity::None;
     std::string threadName = "worker"; ///< debuggers show "worker 0", "worker 1", ...
 };
@@ -43,7 +51,7 @@ struct JobSystemOptions {
 class JobSystem {
 public:
     explicit JobSystem(JobSystemOptions options = {});
-    /// Runs all queued background jobs, then ends the workers. Every JobGroup has ended before.
+    /// Runs all queued background jobs, then ends the threads. Every JobGroup has ended before.
     ~JobSystem();
     JobSystem(JobSystem const&) = delete;
     JobSystem& operator=(JobSystem const&) = delete;
@@ -52,11 +60,15 @@ public:
     /// Time that all workers together spent in frame jobs since the start; background jobs do not count.
     uint64_t busyNanoseconds() const;
 
-    /// Runs `function` once, some time, on a worker that has nothing else to do; for long work such as decoding files.
-    /// wait() never picks up a background job, and at most half of the workers (at least one) run them at a time.
-    /// Without workers it runs before this returns. What it forks are ordinary jobs: keep those short.
-    template <class F>
+    /// Runs `function` once, some time, on a thread for long work: it may wait for files and locks. Half as many such
+    /// threads as workers (at least one), of a lower priority for the operating system, start when first needed.
+    /// Groups made inside are of Priority::Background unless they say otherwise. Without workers it runs before this
+    /// returns.
+    template <JobName kName = "job", class F>
     void runBackground(F&& function);
+    /// The same, unless `cancellation` is requested before it starts; captures up to 40 bytes.
+    template <JobName kName = "job", class F>
+    void runBackground(Cancellation const& cancellation, F&& function);
 
     Scheduler& scheduler() { return *mScheduler; }
 
@@ -64,38 +76,69 @@ private:
     std::unique_ptr<Scheduler> mScheduler;
 };
 
-/// Jobs to be waited for together. A group may be reused after wait(); one thread or job waits for it at a time.
+/// While this lives, the calling thread has a place among the workers: a deque of its own. Ends on the thread it began
+/// on, in reverse order; nested ones for the same system cost nothing. 16 threads at a time get a place; more work too,
+/// through the shared queue.
+class AdoptedThread {
+public:
+    explicit AdoptedThread(JobSystem& jobs) : AdoptedThread(jobs.scheduler()) {}
+    explicit AdoptedThread(Scheduler& scheduler);
+    ~AdoptedThread();
+    AdoptedThread(AdoptedThread const&) = delete;
+    AdoptedThread& operator=(AdoptedThread const&) = delete;
+
+private:
+    Seat* mSeat; // null: the thread sits already, or there was no place
+};
+
+/// Jobs to be waited for together. A group may be reused after wait().
 class JobGroup {
 public:
-    explicit JobGroup(JobSystem& jobs) : mJobs(jobs) {}
+    /// Of the priority of the job that makes it; Normal outside of jobs.
+    explicit JobGroup(JobSystem& jobs);
+    JobGroup(JobSystem& jobs, Priority priority);
     ~JobGroup() { wait(); }
     JobGroup(JobGroup const&) = delete;
     JobGroup& operator=(JobGroup const&) = delete;
 
     /// Queues `function`; it may also run at once, inside this call.
-    template <class F>
+    template <JobName kName = "job", class F>
     void run(F&& function);
 
     /// JobSystem::runBackground() as a member of this group.
-    template <class F>
+    template <JobName kName = "job", class F>
     void runBackground(F&& function);
+    template <JobName kName = "job", class F>
+    void runBackground(Cancellation const& cancellation, F&& function);
+
+    /// When every job of this group has finished, `function` runs as a member of `next`, next to the thread that
+    /// finished last. Call it after the last run(), once until this group is done; it may be done by then. `next` is
+    /// not more urgent than this group: whoever waits for it must be allowed to help here.
+    template <JobName kName = "job", class F>
+    void then(JobGroup& next, F&& function);
 
     /// True when every job finished; what they wrote is visible. To poll background jobs once a frame.
     bool isDone() const { return mCompletion.isDone(); }
 
-    /// Runs jobs, of this group or of others, until every job of this group has finished.
-    void wait();
+    /// Runs jobs, of this group or of others, but none that is less urgent than this group, until all of it is done.
+    void wait() {
+        if (!mCompletion.isDone()) waitInside();
+    }
 
 private:
-    JobSystem& mJobs;
+    void waitInside();
+
+    Scheduler& mScheduler;
     Completion mCompletion;
 };
 
 /// Calls body(begin, end) once for each of the ranges [0, grain), [grain, 2 grain), ..., the last one ends at `count`.
 /// The ranges do not depend on the workers, so a body that reduces over its range gives the same bits everywhere.
-/// Pick the grain so that one range takes 5 to 50 microseconds. Returns when all are done.
-template <class Body>
+/// Pick the grain so that one range takes 1 to 50 microseconds. Returns when all are done.
+template <JobName kName = "loop", class Body>
 void parallelFor(JobSystem& jobs, size_t count, size_t grain, Body&& body);
+template <JobName kName = "loop", class Body>
+void parallelFor(JobSystem& jobs, Priority priority, size_t count, size_t grain, Body&& body);
 
 } // namespace filament::jobs
 

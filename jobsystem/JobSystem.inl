@@ -4,58 +4,94 @@
 
 namespace filament::jobs {
 
-// The five doors of the scheduler that the templates need; everything else about it stays in Scheduler.h.
+// The doors of the scheduler that the templates need; everything else about it stays inside.
 namespace detail {
-Job* tryAllocate(Scheduler& scheduler); // null: run the job yourself
+
+Job* allocate(Scheduler& scheduler, Priority priority); // null: run the job yourself
 void submit(Scheduler& scheduler, Job& job);
-std::unique_ptr<Job> allocateBackground(Scheduler& scheduler); // null: run the job yourself
-void submitBackground(Scheduler& scheduler, std::unique_ptr<Job> job);
+Job* allocateBackground(Scheduler& scheduler); // null: run the job yourself
+void submitBackground(Scheduler& scheduler, Job& job);
 Completion& backgroundCompletion(Scheduler& scheduler); // of background jobs without a group
-bool isHungry(Scheduler& scheduler);                    // the calling thread has nothing left for thieves
+void continueWith(Scheduler& scheduler, Completion& before, Job& job);
+Seat* seatHere(Scheduler& scheduler);
+Priority inheritedPriority();
+bool isHungry(Scheduler& scheduler, Seat* seat, Priority priority); // a thief would find nothing at the calling thread
+void runInline(const char* name, void (*call)(void*), void* function);
+
+template <JobName kName, class F>
+void runInline(F& function) {
+    runInline(
+            kName.text, [](void* erased) { (*static_cast<F*>(erased))(); },
+            const_cast<void*>(static_cast<const void*>(std::addressof(function))));
+}
+
+template <JobName kName, class F>
+void runBackground(Scheduler& scheduler, Completion& completion, F&& function) {
+    Job* job = allocateBackground(scheduler);
+    if (!job) return runInline<kName>(function);
+    job->template set<kName>(std::forward<F>(function), completion);
+    submitBackground(scheduler, *job);
+}
 
 template <class F>
-void runBackground(Scheduler& scheduler, Completion& completion, F&& function) {
-    std::unique_ptr<Job> job = allocateBackground(scheduler);
-    if (!job) {
-        function();
-        return;
-    }
-    completion.add();
-    job->set(std::forward<F>(function), completion);
-    submitBackground(scheduler, std::move(job));
+auto unlessCancelled(Cancellation const& cancellation, F&& function) {
+    return [&cancellation, function = std::forward<F>(function)]() mutable {
+        if (!cancellation.isRequested()) function();
+    };
 }
+
 } // namespace detail
 
-template <class F>
+template <JobName kName, class F>
 void JobSystem::runBackground(F&& function) {
-    detail::runBackground(*mScheduler, detail::backgroundCompletion(*mScheduler), std::forward<F>(function));
+    detail::runBackground<kName>(*mScheduler, detail::backgroundCompletion(*mScheduler), std::forward<F>(function));
 }
 
-template <class F>
+template <JobName kName, class F>
+void JobSystem::runBackground(Cancellation const& cancellation, F&& function) {
+    runBackground<kName>(detail::unlessCancelled(cancellation, std::forward<F>(function)));
+}
+
+template <JobName kName, class F>
 void JobGroup::runBackground(F&& function) {
-    detail::runBackground(mJobs.scheduler(), mCompletion, std::forward<F>(function));
+    detail::runBackground<kName>(mScheduler, mCompletion, std::forward<F>(function));
 }
 
-template <class F>
+template <JobName kName, class F>
+void JobGroup::runBackground(Cancellation const& cancellation, F&& function) {
+    runBackground<kName>(detail::unlessCancelled(cancellation, std::forward<F>(function)));
+}
+
+template <JobName kName, class F>
 void JobGroup::run(F&& function) {
-    Scheduler& scheduler = mJobs.scheduler();
-    Job* job = detail::tryAllocate(scheduler);
+    Job* job = detail::allocate(mScheduler, mCompletion.priority());
+    if (!job) return detail::runInline<kName>(function);
+    job->template set<kName>(std::forward<F>(function), mCompletion);
+    detail::submit(mScheduler, *job);
+}
+
+template <JobName kName, class F>
+void JobGroup::then(JobGroup& next, F&& function) {
+    FILAMENT_ASSERT(&next.mScheduler == &mScheduler, "JobGroup::then: both groups are of one system");
+    FILAMENT_ASSERT(next.mCompletion.priority() >= mCompletion.priority(),
+                    "JobGroup::then: what comes next is not more urgent than what it waits for");
+    Job* job = detail::allocate(next.mScheduler, next.mCompletion.priority());
     if (!job) {
-        function();
-        return;
+        wait();
+        return detail::runInline<kName>(function);
     }
-    mCompletion.add();
-    job->set(std::forward<F>(function), mCompletion);
-    detail::submit(scheduler, *job);
+    job->template set<kName>(std::forward<F>(function), next.mCompletion);
+    detail::continueWith(mScheduler, mCompletion, *job);
 }
 
 namespace detail {
 
-template <class Body>
+template <JobName kName, class Body>
 struct ParallelLoop {
-    JobSystem& jobs;
+    Scheduler& scheduler;
     size_t count, grain;
     Body& body;
+    Priority priority;
     JobGroup group;
 
     void runChunk(size_t chunk) {
@@ -63,13 +99,18 @@ struct ParallelLoop {
         body(begin, count - begin < grain ? count : begin + grain);
     }
 
+    void runSerially(size_t chunks) {
+        for (size_t chunk = 0; chunk < chunks; ++chunk) runChunk(chunk);
+    }
+
     // Lazy binary splitting (Tzannes, Caragea, Barua, Vishkin 2010): the upper half becomes a job only when this
     // thread has nothing left to steal, so a loop makes a few jobs per worker, not one per chunk.
     void runChunks(size_t first, size_t last) {
+        Seat* seat = seatHere(scheduler);
         while (last - first > 1) {
-            if (isHungry(jobs.scheduler())) {
+            if (isHungry(scheduler, seat, priority)) {
                 const size_t middle = first + (last - first) / 2;
-                group.run([this, middle, last] { runChunks(middle, last); });
+                group.template run<kName>([this, middle, last] { runChunks(middle, last); });
                 last = middle;
             } else {
                 runChunk(first++);
@@ -81,18 +122,23 @@ struct ParallelLoop {
 
 } // namespace detail
 
-template <class Body>
-void parallelFor(JobSystem& jobs, size_t count, size_t grain, Body&& body) {
+template <JobName kName, class Body>
+void parallelFor(JobSystem& jobs, Priority priority, size_t count, size_t grain, Body&& body) {
     FILAMENT_ASSERT(grain > 0, "parallelFor: a range holds at least one index");
     const size_t chunks = count / grain + (count % grain != 0);
     if (chunks == 0) return;
-    detail::ParallelLoop<std::remove_reference_t<Body>> loop{ jobs, count, grain, body, JobGroup(jobs) };
-    if (jobs.workerCount() == 0 || chunks == 1) {
-        for (size_t chunk = 0; chunk < chunks; ++chunk) loop.runChunk(chunk);
-        return;
-    }
-    loop.group.run([&loop, chunks] { loop.runChunks(0, chunks); });
+    const AdoptedThread seat(jobs);
+    using Loop = detail::ParallelLoop<kName, std::remove_reference_t<Body>>;
+    Loop loop{ jobs.scheduler(), count, grain, body, priority, JobGroup(jobs, priority) };
+    const bool alone = chunks == 1 || jobs.workerCount() == 0;
+    auto run = [&loop, chunks, alone] { alone ? loop.runSerially(chunks) : loop.runChunks(0, chunks); };
+    detail::runInline<kName>(run);
     loop.group.wait();
+}
+
+template <JobName kName, class Body>
+void parallelFor(JobSystem& jobs, size_t count, size_t grain, Body&& body) {
+    parallelFor<kName>(jobs, detail::inheritedPriority(), count, grain, std::forward<Body>(body));
 }
 
 } // namespace filament::jobs

@@ -2,103 +2,127 @@
 #include "jobsystem/Scheduler.h"
 
 #include "jobsystem/CpuSet.h"
+#include "jobsystem/FreshStack.h"
+#include "jobsystem/JobFault.h"
 
 #include <algorithm>
-#include <chrono>
 
 namespace filament::jobs {
 namespace {
 
-// A sweep over all seats costs about 10 ns a seat; with the pauses a thread looks for 5 to 10 microseconds, about what
-// going to sleep and being woken costs, before it gives its core back.
-constexpr uint32_t kSpinSweeps = 48;
-constexpr uint32_t kPausesPerSweep = 4;
-
-void pause() {
-#if defined(__x86_64__) || defined(__i386__)
-    __builtin_ia32_pause();
-#elif defined(__aarch64__)
-    asm volatile("yield");
-#endif
-}
+// About what it costs to fall asleep; longer would heat idle cores, shorter would sleep between two loops of a frame.
+constexpr int64_t kWorkerSpinNanoseconds = 20'000;
 
 uint32_t workersFromOption(int workers) {
     FILAMENT_ASSERT(workers >= -1 && workers <= static_cast<int>(Scheduler::kMaxWorkers),
-                    "JobSystemOptions::workers is -1 (one less than the cores) or 0 to 255");
+                    "JobSystemOptions::workers is -1 (one less than the cores) or 0 to 256");
     if (workers >= 0) return static_cast<uint32_t>(workers);
     return std::min(static_cast<uint32_t>(coresOfProcess().size()) - 1, Scheduler::kMaxWorkers);
 }
 
-// Marsaglia 2003, "Xorshift RNGs": period 2^32 - 1. Which victim is tried first only affects speed.
-uint32_t nextRandom(uint32_t& state) {
-    state ^= state << 13;
-    state ^= state >> 17;
-    state ^= state << 5;
-    return state;
+/// What the calling thread is doing while this lives.
+class RunningJob {
+public:
+    RunningJob(const char* name, Priority priority) : mOuterName(tAssertContext), mOuterPriority(tThread.priority) {
+        tAssertContext = name;
+        tThread.priority = priority;
+    }
+    ~RunningJob() {
+        tAssertContext = mOuterName;
+        tThread.priority = mOuterPriority;
+    }
+    RunningJob(RunningJob const&) = delete;
+    RunningJob& operator=(RunningJob const&) = delete;
+
+private:
+    const char* mOuterName;
+    Priority mOuterPriority;
+};
+
+void call(Job& job, Priority priority) {
+    JobType const& type = *job.type;
+    const RunningJob running(type.name, priority);
+    try {
+        type.call(job);
+    } catch (...) {
+        reportThrow(type.name);
+    }
 }
 
 } // namespace
 
-thread_local Scheduler::Seat* Scheduler::tSeat = nullptr;
+namespace detail {
 
-/// The calling thread's seat while this lives; a foreign thread gets up again afterwards. May be none.
-class Scheduler::Seating {
-public:
-    explicit Seating(Scheduler& scheduler) : mPrevious(tSeat) {
-        if (mPrevious && mPrevious->scheduler == &scheduler) return;
-        mGuest = scheduler.takeGuestSeat();
-        tSeat = mGuest;
+void runInline(const char* name, void (*function)(void*), void* argument) {
+    auto run = [&] {
+        const RunningJob running(name, tThread.priority);
+        try {
+            function(argument);
+        } catch (...) {
+            reportThrow(name);
+        }
+    };
+    if (isStackLow()) {
+        callOnFreshStack(run);
+    } else {
+        run();
     }
-    ~Seating() {
-        tSeat = mPrevious;
-        if (mGuest) mGuest->taken.store(false, std::memory_order_release);
-    }
-    Seating(Seating const&) = delete;
-    Seating& operator=(Seating const&) = delete;
+}
 
-    Seat* seat() const { return tSeat; }
-
-private:
-    Seat* mPrevious;
-    Seat* mGuest = nullptr;
-};
+} // namespace detail
 
 // ---------------------------------------------------------------------------------------------- life
 
 Scheduler::Scheduler(JobSystemOptions const& options)
-        : mWorkerCount(workersFromOption(options.workers)), mSeatCount(mWorkerCount + kGuestSeats),
-          mBackgroundLimit(std::max(1u, mWorkerCount / 2)), mSeats(std::make_unique<Seat[]>(mSeatCount)),
-          mStorage(4096 + mSeatCount * 2 * JobStorage::kBatch) {
-    for (uint32_t i = 0; i < mSeatCount; ++i) {
-        mSeats[i].scheduler = this;
-        mSeats[i].random = 0x9E3779B9u * (i + 1) | 1u;
-        mSeats[i].taken.store(i < mWorkerCount, std::memory_order_relaxed);
-    }
+        : mSeats(*this, workersFromOption(options.workers)),
+          mStorage(4096 + (mSeats.workers() + SeatTable::kGuestSeats) * 2 * JobStorage::kBatch) {
+    const uint32_t workers = mSeats.workers();
+    if (workers == 0) return;
+    mBackground = std::make_unique<BackgroundThreads>(*this, std::max(1u, workers / 2), options.threadName + " bg");
     const std::vector<int> cores = coresOfProcess();
-    mThreads.reserve(mWorkerCount);
-    for (uint32_t i = 0; i < mWorkerCount; ++i) {
+    mThreads.reserve(workers);
+    for (uint32_t i = 0; i < workers; ++i) {
         const int core = options.affinity == Affinity::Pin ? cores[(i + 1) % cores.size()] : -1;
         mThreads.emplace_back(&Scheduler::runWorker, this, i, options.threadName + ' ' + std::to_string(i), core);
     }
 }
 
 Scheduler::~Scheduler() {
-    wait(mBackgroundCompletion);
+    mBackground.reset(); // its jobs may still need workers
     mStopping.store(true, std::memory_order_seq_cst);
     mIdle.wakeAll();
     for (std::thread& thread : mThreads) thread.join();
+}
+
+uint64_t Scheduler::busyNanoseconds() {
+    uint64_t sum = 0;
+    for (uint32_t i = 0; i < mSeats.workers(); ++i) sum += mSeats[i].busyNanoseconds.load(std::memory_order_relaxed);
+    return sum;
+}
+
+Seat* Scheduler::adoptThread() {
+    if (workerCount() == 0 || tThread.seatOf(*this) || tThread.background == mBackground.get()) return nullptr;
+    Seat* seat = mSeats.sitDown();
+    if (!seat) return nullptr;
+    seat->outer = tThread.seat;
+    tThread.seat = seat;
+    return seat;
+}
+
+void Scheduler::releaseThread(Seat& seat) {
+    FILAMENT_ASSERT(tThread.seat == &seat, "AdoptedThread ends on the thread it began on, the last one first");
+    tThread.seat = seat.outer;
+    mSeats.getUp(seat);
 }
 
 void Scheduler::runWorker(uint32_t index, std::string const& name, int core) {
     nameThisThread(name);
     if (core >= 0) pinThisThread(core);
     Seat& seat = mSeats[index];
-    tSeat = &seat;
+    tThread.seat = &seat;
     for (;;) {
-        if (Job* job = spinForWork(&seat, nullptr)) {
-            workUntilIdle(seat, job);
-        } else if (runBackgroundJob()) {
-            continue;
+        if (const Found found = spin(&seat, Priority::Normal, nullptr, kWorkerSpinNanoseconds)) {
+            work(seat, found);
         } else if (mStopping.load(std::memory_order_seq_cst)) {
             return;
         } else {
@@ -108,184 +132,163 @@ void Scheduler::runWorker(uint32_t index, std::string const& name, int core) {
 }
 
 // Two clock reads for a stretch of jobs, not for each.
-void Scheduler::workUntilIdle(Seat& seat, Job* job) {
-    const auto begin = std::chrono::steady_clock::now();
-    for (; job; job = findWork(&seat)) execute(&seat, *job);
-    const auto busy = std::chrono::steady_clock::now() - begin;
-    mBusyNanoseconds.fetch_add(static_cast<uint64_t>(std::chrono::nanoseconds(busy).count()),
+void Scheduler::work(Seat& seat, Found found) {
+    const int64_t begin = nanosecondsNow();
+    for (; found; found = takeOwn(&seat, Priority::Normal)) execute(&seat, found);
+    const int64_t busy = nanosecondsNow() - begin;
+    seat.busyNanoseconds.store(seat.busyNanoseconds.load(std::memory_order_relaxed) + static_cast<uint64_t>(busy),
                                std::memory_order_relaxed);
+    seat.patience.learn(busy);
 }
 
 void Scheduler::sleepUntilWork(Seat& seat) {
     const ParkingLot::Ticket ticket = mIdle.prepare();
-    Job* job = findWork(&seat);
-    if (job || !mInjected.isEmpty() || mayRunBackground() || mStopping.load(std::memory_order_seq_cst)) {
+    Found found = searchOthersThoroughly(&seat, Priority::Normal);
+    if (found || visibleWork(Priority::Normal) || mStopping.load(std::memory_order_seq_cst)) {
         mIdle.cancel();
     } else {
         mIdle.park(ticket);
-        job = findWork(&seat);
+        found = searchOthersThoroughly(&seat, Priority::Normal);
     }
-    if (!job) return;
-    notifyWork();
-    workUntilIdle(seat, job);
+    if (!found) return;
+    passOnWakeUp();
+    work(seat, found);
 }
 
-// ---------------------------------------------------------------------------------------------- queues
+// ---------------------------------------------------------------------------------------------- submitting
 
-bool Scheduler::SharedQueue::push(Job* job) {
-    if (!queue.enqueue(job)) return false;
-    count.fetch_add(1, std::memory_order_seq_cst); // the point that prepare() of a sleeper is ordered against
-    return true;
-}
-
-Job* Scheduler::SharedQueue::pop() {
-    Job* job = nullptr;
-    if (isEmpty() || !queue.try_dequeue(job)) return nullptr;
-    count.fetch_sub(1, std::memory_order_seq_cst);
-    return job;
-}
-
-Scheduler::Seat* Scheduler::takeGuestSeat() {
-    for (uint32_t i = mWorkerCount; i < mSeatCount; ++i) {
-        std::atomic<bool>& taken = mSeats[i].taken;
-        if (!taken.load(std::memory_order_relaxed) && !taken.exchange(true, std::memory_order_acquire))
-            return &mSeats[i];
-    }
-    return nullptr;
-}
-
-Job* Scheduler::tryAllocate() {
-    if (mWorkerCount == 0) return nullptr;
-    const Seating seating(*this);
-    Seat* seat = seating.seat();
+Job* Scheduler::allocate(Priority priority) {
+    if (workerCount() == 0) return nullptr;
+    if (priority == Priority::Background) return allocateBackground();
+    Seat* seat = tThread.seatOf(*this);
     return mStorage.allocate(seat ? &seat->cache : nullptr);
 }
 
 void Scheduler::submit(Job& job) {
-    const Seating seating(*this);
-    Seat* seat = seating.seat();
-    if (seat ? seat->deque.push(&job) : mInjected.push(&job)) {
-        notifyWork();
-    } else {
-        execute(seat, job);
-    }
+    Completion& completion = *job.completion;
+    const Priority priority = completion.priority();
+    if (priority == Priority::Background) return submitBackground(job);
+    Seat* seat = tThread.seatOf(*this);
+    completion.add(seat ? seat->occupant : 0);
+    enqueue(seat, job, priority);
 }
 
-bool Scheduler::isHungry() {
-    const Seating seating(*this);
-    Seat* seat = seating.seat();
-    return seat ? seat->deque.isEmpty() : mInjected.isEmpty();
+void Scheduler::enqueue(Seat* seat, Job& job, Priority priority) {
+    const bool queued = seat ? seat->push(priority, job) : mInjected[static_cast<int>(priority)].push(job);
+    if (!queued) return executeInline(seat, job, priority);
+    if (priority == Priority::FrameCritical && !mCriticalHint.load(std::memory_order_seq_cst))
+        mCriticalHint.store(true, std::memory_order_seq_cst);
+    notifyWork(priority);
 }
 
-void Scheduler::notifyWork() {
+void Scheduler::notifyWork(Priority priority) {
     if (mIdle.hasSleepers()) {
         mIdle.wakeOne();
-    } else {
-        mWaiting.wakeOne();
+    } else if (mSleepingWaiters.load(std::memory_order_seq_cst) != 0) {
+        wakeAWaiter(priority);
     }
 }
 
-// ---------------------------------------------------------------------------------------------- finding and running
-
-Job* Scheduler::findWork(Seat* seat) {
-    if (Job* job = seat ? seat->deque.take() : nullptr) return job;
-    if (Job* job = mInjected.pop()) return job;
-    return steal(seat);
-}
-
-Job* Scheduler::steal(Seat* thief) {
-    const uint32_t start = thief ? nextRandom(thief->random) % mSeatCount : 0;
-    for (uint32_t i = 0; i < mSeatCount; ++i) {
-        const uint32_t victim = start + i < mSeatCount ? start + i : start + i - mSeatCount;
-        if (&mSeats[victim] == thief) continue;
-        if (Job* job = mSeats[victim].deque.steal()) return job;
+void Scheduler::wakeAWaiter(Priority priority) {
+    const auto level = static_cast<uint8_t>(priority);
+    for (uint32_t i = 0, end = mSeats.inUse(); i < end; ++i) {
+        Seat& seat = mSeats[i];
+        if (!seat.bell.hasSleepers() || seat.waitsFor.load(std::memory_order_relaxed) < level) continue;
+        seat.bell.wakeOne();
+        return;
     }
-    return nullptr;
 }
 
-Job* Scheduler::spinForWork(Seat* seat, Completion const* until) {
-    for (uint32_t sweep = 0; sweep < kSpinSweeps; ++sweep) {
-        if (Job* job = findWork(seat)) return job;
-        if (until && until->isDone()) return nullptr;
-        for (uint32_t i = 0; i < kPausesPerSweep; ++i) pause();
-    }
-    return nullptr;
+Job* Scheduler::allocateBackground() { return mBackground ? new Job : nullptr; }
+
+void Scheduler::submitBackground(Job& job) {
+    Seat* seat = tThread.seatOf(*this);
+    job.completion->add(seat ? seat->occupant : 0);
+    mBackground->push(job);
 }
 
-void Scheduler::execute(Seat* seat, Job& job) {
+void Scheduler::executeBackground(Job& job) {
     Completion& completion = *job.completion;
-    job.call(job);
+    call(job, Priority::Background);
+    delete &job;
+    finish(nullptr, completion, true);
+}
+
+bool Scheduler::isHungry(Seat* seat, Priority priority) const {
+    switch (priority) {
+    case Priority::Background:
+        return mBackground && mBackground->wantsMore();
+    case Priority::FrameCritical:
+        return seat ? seat->critical.isEmpty() : mInjected[0].isEmpty();
+    case Priority::Normal:
+        break;
+    }
+    return seat ? seat->normal.isEmpty() : mInjected[1].isEmpty();
+}
+
+// ---------------------------------------------------------------------------------------------- running
+
+void Scheduler::execute(Seat* seat, Found const& found) {
+    Job& job = *found.job;
+    Completion& completion = *job.completion;
+    call(job, found.priority);
     mStorage.release(seat ? &seat->cache : nullptr, job);
-    finish(completion);
+    finish(seat, completion, found.stolen);
 }
 
-void Scheduler::finish(Completion& completion) {
-    if (completion.finishOne()) mWaiting.wakeAll();
-}
-
-// ---------------------------------------------------------------------------------------------- waiting
-
-void Scheduler::wait(Completion& completion) {
-    if (completion.isDone()) return;
-    const Seating seating(*this);
-    Seat* seat = seating.seat();
-    bool slept = false;
-    while (!completion.isDone()) {
-        if (Job* job = spinForWork(seat, &completion)) {
-            execute(seat, *job);
-        } else if (!completion.isDone()) {
-            sleepUntilWorkOr(seat, completion);
-            slept = true;
-        }
-    }
-    if (!slept) return;
-    completion.forgetSleepers();
-    notifyWork(); // a wake-up meant for new work may have been answered by this thread, which leaves
-}
-
-void Scheduler::sleepUntilWorkOr(Seat* seat, Completion& completion) {
-    const ParkingLot::Ticket ticket = mWaiting.prepare();
-    Job* job = nullptr;
-    const bool unfinished = completion.announceSleeper();
-    if (unfinished) job = findWork(seat);
-    if (!unfinished || job || !mInjected.isEmpty()) {
-        mWaiting.cancel();
+void Scheduler::executeInline(Seat* seat, Job& job, Priority priority) {
+    auto run = [&] { execute(seat, { &job, priority, false }); };
+    if (isStackLow()) {
+        callOnFreshStack(run);
     } else {
-        mWaiting.park(ticket);
-        if (!completion.isDone()) job = findWork(seat);
+        run();
     }
-    if (!job) return;
-    notifyWork();
-    execute(seat, *job);
 }
 
-// ---------------------------------------------------------------------------------------------- background
-
-void Scheduler::submitBackground(std::unique_ptr<Job> job) {
-    const bool queued = mBackground.push(job.get());
-    FILAMENT_ASSERT(queued, "out of memory for the queue of background jobs");
-    (void)job.release();
-    mIdle.wakeOne();
+// A thief leaves the owner's part of the count alone even if it is the owner: so it need not read the line before it
+// changes it, which would move it between the cores twice.
+void Scheduler::finish(Seat const* seat, Completion& completion, bool stolen) {
+    if (!stolen && seat && completion.finishLocal(seat->occupant)) return;
+    if (completion.finishShared()) close(completion);
 }
 
-bool Scheduler::mayRunBackground() const {
-    return !mBackground.isEmpty() && mBackgroundRunning.load(std::memory_order_seq_cst) < mBackgroundLimit;
-}
-
-bool Scheduler::runBackgroundJob() {
-    if (mBackground.isEmpty()) return false;
-    std::unique_ptr<Job> job;
-    if (mBackgroundRunning.fetch_add(1, std::memory_order_seq_cst) < mBackgroundLimit) job.reset(mBackground.pop());
-    Completion* completion = job ? job->completion : nullptr;
-    if (job) {
-        if (mayRunBackground()) mIdle.wakeOne(); // two quick submissions may have made one wake-up
-        job->call(*job);
+void Scheduler::close(Completion& completion) {
+    bool again = true;
+    while (again) {
+        const auto [continuation, sleeper] = completion.close();
+        if (continuation) enqueueCounted(*continuation);
+        again = completion.finishShared(); // the memory may be gone
+        if (sleeper) sleeper->wakeAll();
     }
-    job.reset();
-    mBackgroundRunning.fetch_sub(1, std::memory_order_seq_cst);
-    if (!completion) return false;
-    finish(*completion);
-    return true;
 }
 
+// The group of the job counts it already.
+void Scheduler::enqueueCounted(Job& job) {
+    const Priority priority = job.completion->priority();
+    if (priority == Priority::Background) return mBackground->push(job);
+    enqueue(tThread.seatOf(*this), job, priority);
+}
+
+void Scheduler::continueWith(Completion& before, Job& job) {
+    FILAMENT_ASSERT(!before.hasContinuation(), "JobGroup::then: a group has one continuation until it is done");
+    Seat* seat = tThread.seatOf(*this);
+    job.completion->add(seat ? seat->occupant : 0);
+    if (!before.setContinuation(job)) enqueueCounted(job);
+}
+
+// ---------------------------------------------------------------------------------------------- the templates' doors
+
+namespace detail {
+
+Job* allocate(Scheduler& scheduler, Priority priority) { return scheduler.allocate(priority); }
+void submit(Scheduler& scheduler, Job& job) { scheduler.submit(job); }
+Job* allocateBackground(Scheduler& scheduler) { return scheduler.allocateBackground(); }
+void submitBackground(Scheduler& scheduler, Job& job) { scheduler.submitBackground(job); }
+Completion& backgroundCompletion(Scheduler& scheduler) { return scheduler.backgroundCompletion(); }
+void continueWith(Scheduler& scheduler, Completion& before, Job& job) { scheduler.continueWith(before, job); }
+Seat* seatHere(Scheduler& scheduler) { return tThread.seatOf(scheduler); }
+Priority inheritedPriority() { return tThread.priority; }
+bool isHungry(Scheduler& scheduler, Seat* seat, Priority priority) { return scheduler.isHungry(seat, priority); }
+
+} // namespace detail
 } // namespace filament::jobs

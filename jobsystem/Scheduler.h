@@ -1,31 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Scheduler: who runs which job when; the inside of JobSystem.
-///   Seats   a deque and a cache of free jobs. Every worker owns one for life; a foreign thread sits down on one of
-///           kGuestSeats for the duration of a call, so that an app thread forks as cheaply as a worker does. When all
-///           guest seats are taken, its jobs go through the injection queue.
-///   Search  own deque (newest first), injection queue, then all other deques (oldest first) from a random one on.
-///   Sleep   workers sleep in mIdle, threads inside wait() in mWaiting, both after a short spin. New work wakes one
-///           thread, a worker before a waiter; a thread that wakes up and finds work wakes the next one before it
-///           starts. The last job of a group wakes the waiters, if one said that it sleeps.
+///   Search  own critical jobs (newest first), critical jobs of others if there is a hint of any, own normal jobs; then
+///           the injection queues and everybody else's deques (oldest first), from a random seat on.
+///   Sleep   after a short spin, workers sleep in mIdle and threads inside wait() at the bell of their seat. New work
+///   wakes
+///           one thread, a worker before a waiter; a thread that wakes up and sees more work than it took wakes the
+///           next. The last job of a group wakes the one thread that waits for it.
 ///   Thread  all functions: any.
-///   Memory  8.5 KiB a seat, 64 jobs of 72 bytes a seat and 4096 more; the queues grow only for threads without a seat.
+///   Memory  SeatTable, and 64 jobs of 72 bytes a seat and 4096 more; the queues grow only for threads without a seat.
 ///   Source  Blumofe and Leiserson 1999, "Scheduling multithreaded computations by work stealing".
+///   Files   Scheduler.cpp: workers, queues, running. Search.cpp: finding work. Waiting.cpp: wait() and sleep.
 #pragma once
 
+#include "jobsystem/BackgroundThreads.h"
+#include "jobsystem/InjectionQueue.h"
 #include "jobsystem/Job.h"
 #include "jobsystem/JobStorage.h"
 #include "jobsystem/JobSystem.h"
 #include "jobsystem/ParkingLot.h"
-#include "jobsystem/WorkStealingDeque.h"
-
-// The queue has fences that gcc's thread sanitizer ignores; its data is ordered without them.
-#if defined(__SANITIZE_THREAD__)
-#pragma GCC diagnostic ignored "-Wtsan"
-#endif
-#include <concurrentqueue.h>
+#include "jobsystem/Seat.h"
 
 #include <atomic>
 #include <memory>
+#include <optional>
 #include <string>
 #include <thread>
 #include <vector>
@@ -34,78 +31,87 @@ namespace filament::jobs {
 
 class Scheduler {
 public:
-    static constexpr uint32_t kGuestSeats = 8;
-    static constexpr uint32_t kMaxWorkers = 255;
-    static constexpr uint32_t kDequeSlots = 1024;
+    static constexpr uint32_t kMaxWorkers = 256;
 
     explicit Scheduler(JobSystemOptions const& options);
     ~Scheduler();
     Scheduler(Scheduler const&) = delete;
     Scheduler& operator=(Scheduler const&) = delete;
 
-    uint32_t workerCount() const { return mWorkerCount; }
-    uint64_t busyNanoseconds() const { return mBusyNanoseconds.load(std::memory_order_relaxed); }
+    uint32_t workerCount() const { return mSeats.workers(); }
+    uint64_t busyNanoseconds();
 
     /// An unset job, or null: no workers, or no free job.
-    Job* tryAllocate();
-    /// Queues a set job from tryAllocate(), or runs it if there is no room.
+    Job* allocate(Priority priority);
+    /// Queues a set job from allocate(), or runs it if there is no room.
     void submit(Job& job);
-    void submitBackground(std::unique_ptr<Job> job);
-    Completion& backgroundCompletion() { return mBackgroundCompletion; }
-    /// The calling thread has no job left that others could steal.
-    bool isHungry();
+    /// The same for long work, whatever the priority of its group.
+    Job* allocateBackground();
+    void submitBackground(Job& job);
+    /// Submits a set job from allocate() as soon as `before` is done.
+    void continueWith(Completion& before, Job& job);
     void wait(Completion& completion);
 
+    /// On a background thread: runs and deletes a job from allocateBackground().
+    void executeBackground(Job& job);
+    Completion& backgroundCompletion() { return mBackgroundCompletion; }
+
+    /// The calling thread, which sits on `seat` or nowhere, has no job left that others could steal.
+    bool isHungry(Seat* seat, Priority priority) const;
+
+    /// Null if the calling thread sits already, no seat is free, or it would not need one.
+    Seat* adoptThread();
+    void releaseThread(Seat& seat);
+
 private:
-    struct alignas(kCacheLineBytes) Seat {
-        WorkStealingDeque<Job, kDequeSlots> deque;
-        JobStorage::Cache cache;
-        Scheduler* scheduler = nullptr;
-        uint32_t random = 0; // state of the victim generator, not 0
-        std::atomic<bool> taken{ false };
-    };
-    class Seating;
+    struct Found {
+        Job* job = nullptr;
+        Priority priority = Priority::Normal;
+        bool stolen = false; ///< not from the own deque
 
-    /// A queue of jobs from anywhere. `count` is raised after an item is in. The queue may look empty to a thread that
-    /// races with others although an item is left; nobody sleeps while the count is positive, so it is not forgotten.
-    struct SharedQueue {
-        moodycamel::ConcurrentQueue<Job*> queue;
-        alignas(kCacheLineBytes) std::atomic<int64_t> count{ 0 };
-
-        bool push(Job* job);
-        Job* pop();
-        bool isEmpty() const { return count.load(std::memory_order_seq_cst) <= 0; }
+        explicit operator bool() const { return job != nullptr; }
     };
 
-    Seat* takeGuestSeat();
+    // Scheduler.cpp
     void runWorker(uint32_t index, std::string const& name, int core);
-    void workUntilIdle(Seat& seat, Job* job);
+    void work(Seat& seat, Found found);
     void sleepUntilWork(Seat& seat);
-    bool runBackgroundJob();
-    bool mayRunBackground() const;
-    Job* findWork(Seat* seat);
-    Job* steal(Seat* thief);
-    Job* spinForWork(Seat* seat, Completion const* until);
-    void sleepUntilWorkOr(Seat* seat, Completion& completion);
-    void execute(Seat* seat, Job& job);
-    void finish(Completion& completion);
-    void notifyWork();
+    void enqueue(Seat* seat, Job& job, Priority priority);
+    void notifyWork(Priority priority);
+    void wakeAWaiter(Priority priority);
+    void execute(Seat* seat, Found const& found);
+    void executeInline(Seat* seat, Job& job, Priority priority);
+    void finish(Seat const* seat, Completion& completion, bool stolen);
+    void close(Completion& completion);
+    void enqueueCounted(Job& job);
 
-    static thread_local Seat* tSeat; // of the thread's innermost scheduler
+    // Search.cpp; `least` is the least urgent priority that is looked for
+    Found takeOwn(Seat* seat, Priority least);
+    Found searchOthers(Seat* thief, Priority least);
+    Found searchOthersThoroughly(Seat* thief, Priority least);
+    Found steal(Seat* thief, Priority priority);
+    Found popInjected(Priority priority);
+    Found searchCritical(Seat* thief);
+    std::optional<Priority> visibleWork(Priority least);
+    void passOnWakeUp();
+    Found spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds);
 
-    const uint32_t mWorkerCount;
-    const uint32_t mSeatCount;
-    const uint32_t mBackgroundLimit;
-    std::unique_ptr<Seat[]> mSeats; // workers, then guests
+    // Waiting.cpp
+    void waitAt(Seat* seat, Completion& completion);
+    void runStolen(Seat* seat, Found const& found);
+    void sleepInWait(Seat* seat, Priority least, Completion& completion);
+
+    SeatTable mSeats;
     JobStorage mStorage;
-    SharedQueue mInjected;
-    SharedQueue mBackground;
-    std::atomic<uint32_t> mBackgroundRunning{ 0 };
-    Completion mBackgroundCompletion;
+    InjectionQueue mInjected[2]; // by priority
     alignas(kCacheLineBytes) ParkingLot mIdle;
-    alignas(kCacheLineBytes) ParkingLot mWaiting;
-    std::atomic<uint64_t> mBusyNanoseconds{ 0 };
-    std::atomic<bool> mStopping{ false };
+    std::atomic<uint32_t> mSleepingWaiters{ 0 };
+    alignas(kCacheLineBytes) ParkingLot mUnseatedBell; // of threads that wait without a seat
+    // Set by a push of a critical job; taken back by a search that finds none. So normal work costs one load to know.
+    alignas(kCacheLineBytes) std::atomic<bool> mCriticalHint{ false };
+    alignas(kCacheLineBytes) std::atomic<bool> mStopping{ false };
+    Completion mBackgroundCompletion{ 0, Priority::Background };
+    std::unique_ptr<BackgroundThreads> mBackground; // null without workers
     std::vector<std::thread> mThreads;
 };
 

@@ -7,7 +7,9 @@
 namespace filament {
 
 void assertionFailed(const char* file, int line, const char* condition, const char* rule) {
-    std::fprintf(stderr, "%s:%d: rule broken: %s (%s)\n", file, line, rule, condition);
+    const char* context = tAssertContext;
+    std::fprintf(stderr, "%s:%d: rule broken: %s (%s)%s%s%s\n", file, line, rule, condition,
+                 context ? " in job \"" : "", context ? context : "", context ? "\"" : "");
     std::fflush(stderr);
     std::abort();
 }

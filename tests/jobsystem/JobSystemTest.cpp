@@ -333,7 +333,7 @@ TEST(JobSystemOptions, ByDefaultLeaveOneCoreOfTheProcessToTheCaller) {
 
 TEST(JobSystemDeathTest, RefusesAnAbsurdNumberOfWorkers) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
-    EXPECT_DEATH(JobSystem({ .workers = 100'000 }), "0 to 255");
+    EXPECT_DEATH(JobSystem({ .workers = 100'000 }), "0 to 256");
 }
 
 TEST(JobSystemDeathTest, RefusesAnEmptyGrain) {

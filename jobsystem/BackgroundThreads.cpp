@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobsystem/BackgroundThreads.h"
+
+#include "filament_core/base/Assert.h"
+#include "jobsystem/CpuSet.h"
+#include "jobsystem/Scheduler.h"
+
+#include <sys/resource.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <system_error>
+
+namespace filament::jobs {
+
+BackgroundThreads::BackgroundThreads(Scheduler& scheduler, uint32_t limit, std::string name)
+        : mScheduler(scheduler), mLimit(limit), mName(std::move(name)), mBells(std::make_unique<ParkingLot[]>(limit)),
+          mFree(static_cast<int32_t>(limit)) {
+    mThreads.reserve(limit);
+}
+
+BackgroundThreads::~BackgroundThreads() {
+    {
+        const std::lock_guard lock(mMutex);
+        mStopping = true;
+    }
+    mPushed.notify_all();
+    for (std::thread& thread : mThreads) thread.join(); // none starts any more: push() is not called while this ends
+}
+
+void BackgroundThreads::push(Job& job) {
+    mFree.fetch_sub(1, std::memory_order_relaxed);
+    {
+        const std::lock_guard lock(mMutex);
+        mQueue.push_back(&job);
+        if (mIdle < mQueue.size() && mThreads.size() < mLimit) startThread();
+    }
+    mPushed.notify_one();
+    for (uint32_t i = 0; i < mLimit; ++i) mBells[i].wakeAll();
+}
+
+void BackgroundThreads::startThread() {
+    const auto index = static_cast<uint32_t>(mThreads.size());
+    try {
+        mThreads.emplace_back(&BackgroundThreads::runThread, this, std::ref(mBells[index]), index);
+    } catch (std::system_error const&) {
+        FILAMENT_ASSERT(!mThreads.empty(), "background jobs need a thread, and the system refuses it");
+    }
+}
+
+void BackgroundThreads::runThread(ParkingLot& bell, uint32_t index) {
+    nameThisThread(mName + ' ' + std::to_string(index));
+    setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
+    tThread.background = this;
+    tThread.backgroundBell = &bell;
+    tThread.priority = Priority::Background;
+    std::unique_lock lock(mMutex);
+    for (;;) {
+        while (!mQueue.empty()) {
+            Job* job = mQueue.front();
+            mQueue.pop_front();
+            lock.unlock();
+            run(*job);
+            lock.lock();
+        }
+        if (mStopping) return;
+        ++mIdle;
+        mPushed.wait(lock, [this] { return mStopping || !mQueue.empty(); });
+        --mIdle;
+    }
+}
+
+void BackgroundThreads::run(Job& job) {
+    mScheduler.executeBackground(job);
+    mFree.fetch_add(1, std::memory_order_relaxed);
+}
+
+// ---------------------------------------------------------------------------------------------- waiting
+
+void BackgroundThreads::waitFor(Completion& completion) {
+    while (!completion.isDone()) {
+        if (Job* job = popOf(completion)) {
+            run(*job);
+        } else {
+            sleepUntilDoneOrPushed(completion);
+        }
+    }
+}
+
+Job* BackgroundThreads::popOf(Completion const& completion) {
+    const std::lock_guard lock(mMutex);
+    const auto found =
+            std::find_if(mQueue.begin(), mQueue.end(), [&](Job const* job) { return job->completion == &completion; });
+    if (found == mQueue.end()) return nullptr;
+    Job* job = *found;
+    mQueue.erase(found);
+    return job;
+}
+
+void BackgroundThreads::sleepUntilDoneOrPushed(Completion& completion) {
+    ParkingLot& bell = *tThread.backgroundBell;
+    const ParkingLot::Ticket ticket = bell.prepare();
+    const bool pending = completion.announceSleeper(bell);
+    Job* job = pending ? popOf(completion) : nullptr;
+    if (job || !pending) {
+        bell.cancel();
+    } else {
+        bell.park(ticket);
+    }
+    completion.withdrawSleeper();
+    if (job) run(*job);
+}
+
+} // namespace filament::jobs

@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobsystem/FreshStack.h"
+
+#include "filament_core/base/Assert.h"
+
+#include <pthread.h>
+
+#include <algorithm>
+
+namespace filament::jobs {
+namespace {
+
+constexpr size_t kStackBytes = size_t(8) << 20;
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+constexpr size_t kStackReserveBytes = size_t(1) << 20; // frames of sanitized code are several times as large
+#else
+constexpr size_t kStackReserveBytes = size_t(256) << 10;
+#endif
+
+struct Call {
+    void (*call)(void*);
+    void* argument;
+    ThreadState caller;
+    const char* context;
+};
+
+void* runHelper(void* erased) {
+    Call& call = *static_cast<Call*>(erased);
+    tThread = call.caller;
+    tThread.stackFloor = 0;
+    tAssertContext = call.context;
+    call.call(call.argument);
+    return nullptr;
+}
+
+} // namespace
+
+void measureStack() {
+    pthread_attr_t attributes;
+    void* lowest = nullptr;
+    size_t bytes = 0;
+    tThread.stackFloor = 1; // of a thread that cannot be asked: never low
+    if (pthread_getattr_np(pthread_self(), &attributes) != 0) return;
+    if (pthread_attr_getstack(&attributes, &lowest, &bytes) == 0)
+        tThread.stackFloor = reinterpret_cast<uintptr_t>(lowest) + std::min(kStackReserveBytes, bytes / 4);
+    pthread_attr_destroy(&attributes);
+}
+
+void callOnFreshStack(void (*call)(void*), void* argument) {
+    Call request{ call, argument, tThread, tAssertContext };
+    pthread_attr_t attributes;
+    pthread_t helper{};
+    pthread_attr_init(&attributes);
+    pthread_attr_setstacksize(&attributes, kStackBytes);
+    const int error = pthread_create(&helper, &attributes, &runHelper, &request);
+    pthread_attr_destroy(&attributes);
+    FILAMENT_ASSERT(error == 0, "jobs are nested so deeply that the system refuses a thread for more stack");
+    pthread_join(helper, nullptr);
+}
+
+} // namespace filament::jobs

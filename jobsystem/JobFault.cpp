@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "jobsystem/JobFault.h"
+
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+
+namespace filament::jobs {
+
+void reportThrow(const char* jobName) {
+    try {
+        throw;
+    } catch (std::exception const& exception) {
+        std::fprintf(stderr, "job \"%s\" threw \"%s\": a job handles its exceptions itself\n", jobName,
+                     exception.what());
+    } catch (...) {
+        std::fprintf(stderr, "job \"%s\" threw what is no std::exception: a job handles its exceptions itself\n",
+                     jobName);
+    }
+    std::fflush(stderr);
+    std::abort();
+}
+
+} // namespace filament::jobs

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+/// JobFault: the end of a process whose job broke a rule that no caller can handle.
+///   Thread  any.
+///   Fails   does not return: one line on standard error that names the job, then abort().
+#pragma once
+
+#include "jobsystem/Job.h"
+
+namespace filament::jobs {
+
+/// Inside a catch block: tells what was thrown.
+[[noreturn]] void reportThrow(const char* jobName);
+
+} // namespace filament::jobs

@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// wait(): a thread that has nothing else to do until a group is done.
+#include "jobsystem/FreshStack.h"
+#include "jobsystem/Scheduler.h"
+
+#include <algorithm>
+
+namespace filament::jobs {
+namespace {
+
+// The end of the last job is near more often than not, and being woken takes about as long as this: a waiter that spins
+// as long as a wake-up would cost never takes more than twice the time of one that knows the future.
+constexpr int64_t kWaiterSpinNanoseconds = 50'000;
+
+} // namespace
+
+void Scheduler::wait(Completion& completion) {
+    if (isStackLow()) {
+        auto deeper = [&] { wait(completion); };
+        return callOnFreshStack(deeper);
+    }
+    if (mBackground && tThread.background == mBackground.get()) {
+        mBackground->waitFor(completion);
+    } else {
+        Seat* adopted = adoptThread();
+        waitAt(tThread.seatOf(*this), completion);
+        if (adopted) releaseThread(*adopted);
+    }
+    Seat const* seat = tThread.seatOf(*this);
+    completion.reclaim(seat ? seat->occupant : 0);
+}
+
+void Scheduler::waitAt(Seat* seat, Completion& completion) {
+    const Priority least = std::min(completion.priority(), Priority::Normal);
+    while (!completion.isDone()) {
+        if (const Found own = takeOwn(seat, least)) {
+            execute(seat, own);
+        } else if (const Found found = spin(seat, least, &completion, kWaiterSpinNanoseconds)) {
+            runStolen(seat, found);
+        } else if (!completion.isDone()) {
+            sleepInWait(seat, least, completion);
+        }
+    }
+}
+
+void Scheduler::runStolen(Seat* seat, Found const& found) {
+    const int64_t begin = nanosecondsNow();
+    execute(seat, found);
+    if (seat) seat->patience.learn(nanosecondsNow() - begin);
+}
+
+void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion) {
+    ParkingLot& bell = seat ? seat->bell : mUnseatedBell;
+    if (seat) {
+        seat->waitsFor.store(static_cast<uint8_t>(least), std::memory_order_relaxed);
+        mSleepingWaiters.fetch_add(1, std::memory_order_seq_cst);
+    }
+    const ParkingLot::Ticket ticket = bell.prepare();
+    const bool pending = completion.announceSleeper(bell);
+    Found found = pending ? searchOthersThoroughly(seat, least) : Found{};
+    if (found || !pending || visibleWork(least)) {
+        bell.cancel();
+    } else {
+        bell.park(ticket);
+    }
+    completion.withdrawSleeper();
+    if (seat) mSleepingWaiters.fetch_sub(1, std::memory_order_seq_cst);
+    if (!found && !completion.isDone()) found = searchOthersThoroughly(seat, least);
+    passOnWakeUp(); // one for new work may have been answered by this thread, which leaves or takes only one job
+    if (found) runStolen(seat, found);
+}
+
+} // namespace filament::jobs
