@@ -58,23 +58,23 @@ Workload forkJoinTree(Settings const& settings) {
     return workload;
 }
 
-Workload chain(Settings const& settings) {
+using ChainOf = void (Runtime::*)(uint32_t links, uint64_t repeats);
+
+Workload chain(Settings const& settings, const char* name, const char* of, ChainOf chainOf,
+               std::vector<Target> targets) {
     const uint32_t wanted = settings.quick ? 100 : 10'000;
-    Workload workload{ .name = "chain_10k",
-                       .title = fmt::format("chain of {} continuations", wanted),
+    Workload workload{ .name = name,
+                       .title = fmt::format("chain of {} {}", wanted, of),
                        .unit = "ns/link",
                        .kind = "jobs",
                        .contenders = {},
-                       .targets = { { .figure = Figure::Ratio, .other = "tbb", .limit = 1.0 } } };
+                       .targets = std::move(targets) };
     for (const RuntimeKind kind : kAllRuntimes) {
         auto runtime = runtimeOf(kind, settings);
         const uint32_t links = std::min(wanted, runtime->affordableJobs());
+        const auto work = [=](Runtime& r, uint64_t repeats) { (r.*chainOf)(links, repeats); };
         workload.contenders.push_back(
-                { toString(kind),
-                  timed(
-                          runtime, [links](Runtime& r, uint64_t repeats) { r.chain(links, repeats); }, links,
-                          settings.sampleNs),
-                  scaledNote(links, wanted, "links") });
+                { toString(kind), timed(runtime, work, links, settings.sampleNs), scaledNote(links, wanted, "links") });
     }
     return workload;
 }
@@ -92,7 +92,9 @@ void addJobWorkloads(WorkloadList& list, Settings const& settings) {
              } });
     list.push_back({ "batch_64k", [=] { return batch(settings, "batch_64k", settings.quick ? 256 : 65'536, {}); } });
     list.push_back({ "tree_64k", [=] { return forkJoinTree(settings); } });
-    list.push_back({ "chain_10k", [=] { return chain(settings); } });
+    list.push_back({ "chain_10k",
+                     [=] { return chain(settings, "chain_10k", "continuations", &Runtime::chain, { notSlower }); } });
+    list.push_back({ "relay_10k", [=] { return chain(settings, "relay_10k", "jobs", &Runtime::relay, {}); } });
 }
 
 } // namespace filament::bench

@@ -34,6 +34,15 @@ struct Link {
     tbb::task_handle operator()() const { return left > 0 ? group.defer(Link{ group, left - 1 }) : tbb::task_handle{}; }
 };
 
+/// A task that starts the next one.
+struct Relay {
+    tbb::task_group& group;
+    uint32_t left;
+    void operator()() const {
+        if (left > 0) group.run(Relay{ group, left - 1 });
+    }
+};
+
 /// Pins every thread while it works in the arena.
 class Pinning final : public tbb::task_scheduler_observer {
 public:
@@ -90,9 +99,19 @@ public:
 
     void chain(uint32_t links, uint64_t repeats) override {
         mArena.execute([&] {
+            tbb::task_group group;
             for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
-                tbb::task_group group;
                 group.run(Link{ group, links - 1 });
+                group.wait();
+            }
+        });
+    }
+
+    void relay(uint32_t links, uint64_t repeats) override {
+        mArena.execute([&] {
+            tbb::task_group group;
+            for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
+                group.run(Relay{ group, links - 1 });
                 group.wait();
             }
         });

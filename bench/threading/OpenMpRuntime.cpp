@@ -21,6 +21,13 @@ uint32_t forkTree(uint32_t depth) {
     return left + right;
 }
 
+/// A task that starts the next one.
+void relayFrom(uint32_t left) {
+    if (left == 0) return;
+#pragma omp task
+    relayFrom(left - 1);
+}
+
 class OpenMpRuntime final : public Runtime {
 public:
     explicit OpenMpRuntime(RuntimeOptions const& options)
@@ -83,6 +90,15 @@ public:
                 asm volatile("");
             }
 #pragma omp taskwait
+        }
+    }
+
+    void relay(uint32_t links, uint64_t repeats) override {
+#pragma omp parallel num_threads(mThreads)
+#pragma omp single
+        for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
+#pragma omp taskgroup
+            relayFrom(links);
         }
     }
 

@@ -21,11 +21,12 @@ uint32_t forkTree(JobSystem& jobs, uint32_t depth) {
     return left + right;
 }
 
-struct Link {
+/// A job that starts the next one.
+struct Relay {
     JobGroup& group;
     uint32_t left;
     void operator()() const {
-        if (left > 0) group.run(Link{ group, left - 1 });
+        if (left > 0) group.run(Relay{ group, left - 1 });
     }
 };
 
@@ -61,10 +62,12 @@ public:
     void chain(uint32_t links, uint64_t repeats) override {
         for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
             JobGroup group(mJobs);
-            group.run(Link{ group, links - 1 });
+            group.run(Relay{ group, links - 1 });
             group.wait();
         }
     }
+
+    void relay(uint32_t links, uint64_t repeats) override { chain(links, repeats); }
 
     void spinJobs(std::span<const uint32_t> steps) override {
         JobGroup group(mJobs);

@@ -5,6 +5,7 @@
 #include "bench/threading/Placement.h"
 #include "bench/threading/Runtime.h"
 
+#include <functional>
 #include <future>
 #include <utility>
 #include <vector>
@@ -57,6 +58,17 @@ public:
             for (uint32_t i = 1; i < links; ++i)
                 last = std::async(std::launch::async, [before = std::move(last)]() mutable { before.get(); });
             last.get();
+        }
+    }
+
+    void relay(uint32_t links, uint64_t repeats) override {
+        std::vector<std::future<void>> futures(links);
+        const std::function<void(uint32_t)> link = [&](uint32_t i) {
+            if (i + 1 < links) futures[i + 1] = std::async(std::launch::async, link, i + 1);
+        };
+        for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
+            futures[0] = std::async(std::launch::async, link, 0u);
+            for (auto& future : futures) future.get(); // a link ends after it has set the next future
         }
     }
 
