@@ -46,6 +46,13 @@ add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
     nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG)
 
+# The reference renderer's ray tracer. Its CMake package asks for TBB's headers, which nobody here needs.
+find_path(EMBREE_INCLUDE embree3/rtcore.h REQUIRED)
+find_library(EMBREE_LIBRARY embree3 REQUIRED)
+add_library(embree INTERFACE)
+target_include_directories(embree SYSTEM INTERFACE ${EMBREE_INCLUDE})
+target_link_libraries(embree INTERFACE ${EMBREE_LIBRARY})
+
 find_package(CLI11 REQUIRED)
 if(FILAMENT_BUILD_TESTS)
     find_package(GTest REQUIRED)

@@ -59,6 +59,7 @@ LIBRARIES = {
     r"nlohmann/": ["filament_core/assets", "tools", "tests", "bench"],
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
     r"CLI/": ["tools", "bench"],
+    r"embree\d?/": ["tools"],
     r"gtest/|gmock/": ["tests"],
     r"benchmark/|oneapi/|tbb/|omp\.h": ["bench"],
 }

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/Bsdf.h"
+
+#include "shaders/lib/LibCppDouble.h"
+#include "tools/reference/DirectionalAlbedo.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament::reference {
+namespace {
+
+namespace lib = shader::lib64;
+
+// Duff et al. 2017, "Building an Orthonormal Basis, Revisited".
+void basisAround(double3 n, double3& tangent, double3& bitangent) {
+    const double sign = std::copysign(1.0, n.z), a = -1 / (sign + n.z), b = n.x * n.y * a;
+    tangent = { 1 + sign * n.x * n.x * a, sign * b, -sign * n.x };
+    bitangent = { b, sign + n.y * n.y * a, -n.y };
+}
+
+// Heitz 2018, "Sampling the GGX Distribution of Visible Normals", listing 1: the hemisphere is squeezed until the lobe
+// is a disc seen from the side.
+double3 sampleVisibleNormal(double3 view, double alpha, double2 u) {
+    const double3 stretched = glm::normalize(double3(alpha * view.x, alpha * view.y, view.z));
+    double3 across, forward;
+    basisAround(stretched, across, forward);
+    // The disc's second axis lies in the plane of the normal: there the horizon cuts it.
+    const double size = std::hypot(stretched.x, stretched.y);
+    if (size > 0) {
+        across = double3(-stretched.y, stretched.x, 0) / size;
+        forward = glm::cross(stretched, across);
+    }
+    const double radius = std::sqrt(u.x), azimuth = lib::kTwoPi * u.y;
+    const double x = radius * std::cos(azimuth), s = 0.5 * (1 + stretched.z);
+    const double y = (1 - s) * std::sqrt(1 - x * x) + s * radius * std::sin(azimuth);
+    const double3 visible = x * across + y * forward + std::sqrt(std::max(0.0, 1 - x * x - y * y)) * stretched;
+    return glm::normalize(double3(alpha * visible.x, alpha * visible.y, std::max(visible.z, 1e-12)));
+}
+
+double smithMasking(double cosine, double alpha) {
+    const double a2 = alpha * alpha;
+    return 2 * cosine / (cosine + std::sqrt(a2 + (1 - a2) * cosine * cosine));
+}
+
+} // namespace
+
+namespace terms {
+
+double visibilitySmithGgxUncorrelated(double nov, double nol, double alpha) {
+    const double a2 = alpha * alpha;
+    const auto half = [a2](double cosine) { return cosine + std::sqrt(a2 + (1 - a2) * cosine * cosine); };
+    return 1 / (half(nov) * half(nol));
+}
+
+double fresnelDielectric(double ior, double cosine) {
+    const double sineSquared = (1 - cosine * cosine) / (ior * ior);
+    const double inside = std::sqrt(std::max(0.0, 1 - sineSquared));
+    const double parallel = (ior * cosine - inside) / (ior * cosine + inside);
+    const double perpendicular = (cosine - ior * inside) / (cosine + ior * inside);
+    return (parallel * parallel + perpendicular * perpendicular) / 2;
+}
+
+double diffuseDisney(double nov, double nol, double voh, double perceptualRoughness) {
+    const double f90 = 0.5 + 2 * perceptualRoughness * voh * voh;
+    return (1 + (f90 - 1) * lib::pow5(1 - nol)) * (1 + (f90 - 1) * lib::pow5(1 - nov)) * lib::kInversePi;
+}
+
+} // namespace terms
+
+Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion)
+        : mModel(model), mNormal(surface.normal), mNov(std::max(glm::dot(surface.normal, surface.view), kMinNov)),
+          mRoughness(surface.perceptualRoughness), mAlpha(lib::alphaFromPerceptual(mRoughness)), mF0(surface.f0),
+          mF90(surface.f90), mDiffuse(surface.diffuse) {
+    basisAround(mNormal, mTangent, mBitangent);
+    mView = toLocal(surface.view);
+    mVisibleView = glm::normalize(double3(mView.x, mView.y, std::max(mView.z, kMinNov)));
+
+    const double2 dfg = directionalAlbedo(mNov, mRoughness);
+    mCompensation = model.energy == EnergyTerm::Compensated ? lib::energyCompensation(mF0, dfg) : double3(1.0);
+    // specularDfg() for any f90; the split sum takes it for 1.
+    const double3 specularAlbedo = (mF0 * (dfg.y - dfg.x) + mF90 * dfg.x) * mCompensation;
+    mCoupling = model.coupling == CouplingTerm::Never ? double3(1.0) : glm::max(1.0 - specularAlbedo, 0.0);
+    if (useOcclusion) {
+        mAmbientDiffuse = double3(surface.occlusion);
+        mAmbientSpecular = lib::specularOcclusion(mNov, surface.occlusion, mAlpha);
+    }
+    if (model.lobes == LobeChoice::Specular) mDiffuse = double3(0.0);
+    if (model.lobes == LobeChoice::Diffuse) mCompensation = double3(0.0);
+    const double specular = model.lobes == LobeChoice::Diffuse ? 0 : lib::luminance(specularAlbedo);
+    const double diffuse = lib::luminance(mDiffuse * mCoupling);
+    // A tenth at least for each lobe that is there. Below the horizon visible half vectors miss a part of the value.
+    const bool isDiffuse = diffuse > 0 || mView.z <= kMinNov;
+    mSpecularChance = isDiffuse ? std::clamp(specular / std::max(specular + diffuse, 1e-12), 0.1, 0.9) : 1;
+    if (model.lobes == LobeChoice::Diffuse) mSpecularChance = 0;
+}
+
+double Bsdf::visibility(double nol) const {
+    switch (mModel.visibility) {
+    case VisibilityTerm::CorrelatedFast:
+        return lib::visibilitySmithGgxCorrelatedFast(mNov, nol, mAlpha);
+    case VisibilityTerm::Uncorrelated:
+        return terms::visibilitySmithGgxUncorrelated(mNov, nol, mAlpha);
+    case VisibilityTerm::Correlated:
+        break;
+    }
+    return lib::visibilitySmithGgxCorrelated(mNov, nol, mAlpha);
+}
+
+double3 Bsdf::fresnel(double voh) const {
+    if (mModel.fresnel == FresnelTerm::Schlick) return lib::fresnelSchlick(mF0, mF90, voh);
+    const auto exact = [voh](double f0) {
+        return terms::fresnelDielectric(lib::iorFromF0(std::min(f0, 0.999999)), voh);
+    };
+    return { exact(mF0.x), exact(mF0.y), exact(mF0.z) };
+}
+
+double Bsdf::diffuseTerm(double nol, double voh) const {
+    return mModel.diffuse == DiffuseTerm::Lambert ? lib::diffuseLambert()
+                                                  : terms::diffuseDisney(mNov, nol, voh, mRoughness);
+}
+
+double3 Bsdf::evaluate(double3 light, LightSource source) const {
+    const double nol = std::min(glm::dot(mNormal, light), 1.0);
+    if (nol <= 0) return double3(0.0);
+    const double3 local = toLocal(light);
+    const double3 sum = mView + local;
+    const double length = glm::length(sum);
+    if (length < 1e-12) return double3(0.0);
+    const double3 halfway = sum / length;
+    const double voh = lib::saturate(glm::dot(mView, halfway));
+    const double d = lib::ndfGgxFromVectors({ 0, 0, 1 }, halfway, mAlpha);
+    double3 specular = (d * visibility(nol)) * fresnel(voh) * mCompensation;
+    double3 diffuse = mDiffuse * diffuseTerm(nol, voh);
+    if (mModel.coupling != CouplingTerm::Engine || source != LightSource::Direct) diffuse *= mCoupling;
+    if (source == LightSource::Ambient) {
+        diffuse *= mAmbientDiffuse;
+        specular *= mAmbientSpecular;
+    }
+    return (diffuse + specular) * nol;
+}
+
+BsdfSample Bsdf::sample(double2 u, double choice) const {
+    double3 local;
+    if (choice < mSpecularChance) {
+        const double3 halfway = sampleVisibleNormal(mVisibleView, mAlpha, u);
+        local = 2 * glm::dot(mView, halfway) * halfway - mView;
+    } else {
+        local = lib::hemisphereCosineSample(u);
+    }
+    if (local.z <= 0) return {};
+    const double3 direction = glm::normalize(toWorld(local));
+    return { direction, pdf(direction) };
+}
+
+double Bsdf::pdf(double3 light) const {
+    const double3 local = toLocal(light);
+    if (local.z <= 0) return 0;
+    double density = (1 - mSpecularChance) * local.z * lib::kInversePi;
+    if (mSpecularChance > 0) density += mSpecularChance * specularPdf(local);
+    return density;
+}
+
+double Bsdf::specularPdf(double3 light) const {
+    const double3 sum = mView + light;
+    const double length = glm::length(sum);
+    if (length < 1e-12) return 0;
+    const double3 halfway = sum / length;
+    const double voh = glm::dot(mView, halfway), visible = glm::dot(mVisibleView, halfway);
+    if (voh <= 0 || visible <= 0 || halfway.z <= 0) return 0;
+    const double d = lib::ndfGgxFromVectors({ 0, 0, 1 }, halfway, mAlpha);
+    // Visible half vectors: G1 D (v.h) / n.v; light directions are 4 v.h times sparser.
+    return smithMasking(mVisibleView.z, mAlpha) * d * visible / mVisibleView.z / (4 * voh);
+}
+
+} // namespace filament::reference

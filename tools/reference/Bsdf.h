@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Bsdf: how a SurfaceSample reflects: the engine's standard material as one function, its value, a sampler, and the
+/// sampler's density.
+///   Value   f(view, light) * cos, in 1/sr: diffuse lobe + D V F * energy compensation, from shaders/lib in double.
+///   Sampler one lobe in proportion to the lobes' albedos. Specular: half vectors that the viewer sees (Heitz 2018,
+///           "Sampling the GGX Distribution of Visible Normals"); diffuse: cosine.
+///   Edge    views below the shading normal's horizon count as grazing (nov = 1e-4), as in the engine; the sampler
+///           always covers every direction in which the value is not zero.
+///   Thread  a value. Memory: none.
+#pragma once
+
+#include "tools/reference/BsdfModel.h"
+#include "tools/reference/Surface.h"
+
+namespace filament::reference {
+
+/// What sends the light: the engine does not treat both alike (CouplingTerm::Engine, occlusion maps).
+enum class LightSource : uint8_t {
+    Ambient, ///< the environment and other surfaces
+    Direct,  ///< suns and punctual lights
+};
+
+struct BsdfSample {
+    double3 direction{ 0.0 }; ///< world, unit
+    double pdf = 0;           ///< per steradian; 0: no direction, the path ends
+};
+
+class Bsdf {
+public:
+    /// `useOcclusion`: the occlusion map dims ambient light as it does in the engine.
+    Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion);
+
+    /// f * cos(light, normal), zero below the horizon. `light`: world, unit.
+    double3 evaluate(double3 light, LightSource source) const;
+    /// u and choice in (0, 1).
+    BsdfSample sample(double2 u, double choice) const;
+    /// Of sample(), per steradian.
+    double pdf(double3 light) const;
+
+private:
+    double3 toLocal(double3 v) const {
+        return { glm::dot(v, mTangent), glm::dot(v, mBitangent), glm::dot(v, mNormal) };
+    }
+    double3 toWorld(double3 v) const { return mTangent * v.x + mBitangent * v.y + mNormal * v.z; }
+    double visibility(double nol) const;
+    double3 fresnel(double voh) const;
+    double diffuseTerm(double nol, double voh) const;
+    double specularPdf(double3 light) const;
+
+    BsdfModel mModel;
+    double3 mNormal, mTangent, mBitangent;
+    double3 mView;        // local, as it is
+    double3 mVisibleView; // local, not below the horizon: what half vectors are sampled for
+    double mNov, mRoughness, mAlpha;
+    double3 mF0;
+    double mF90;
+    double3 mDiffuse;
+    double3 mCompensation;
+    double3 mCoupling;              // of the diffuse lobe, where it applies
+    double3 mAmbientDiffuse{ 1.0 }; // occlusion
+    double mAmbientSpecular = 1;    // occlusion
+    double mSpecularChance = 0;
+};
+
+/// What Bsdf adds to shaders/lib to choose from.
+namespace terms {
+
+/// Masking times shadowing over 4 nol nov. Walter et al. 2007, eq. 23 and 34.
+double visibilitySmithGgxUncorrelated(double nov, double nol, double alpha);
+/// Unpolarised reflectance of the boundary from air to `ior`. Born and Wolf 1999, "Principles of Optics", 1.5.2.
+double fresnelDielectric(double ior, double cosine);
+/// Burley 2012, "Physically-Based Shading at Disney", section 5.3, per steradian and albedo.
+double diffuseDisney(double nov, double nol, double voh, double perceptualRoughness);
+
+} // namespace terms
+
+} // namespace filament::reference

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// BsdfModel: which formula stands for each term of the standard material. The defaults are the engine's; one changed
+/// value isolates one term, so that its error can be measured.
+#pragma once
+
+#include <cstdint>
+
+namespace filament::reference {
+
+enum class VisibilityTerm : uint8_t {
+    Correlated,     ///< visibilitySmithGgxCorrelated(): the engine's, exact for Smith's model
+    CorrelatedFast, ///< visibilitySmithGgxCorrelatedFast()
+    Uncorrelated,   ///< masking times shadowing: darker where both graze
+};
+
+enum class FresnelTerm : uint8_t {
+    Schlick, ///< the engine's
+    Exact,   ///< Fresnel's equations for the index of refraction that has this f0, component by component
+};
+
+enum class DiffuseTerm : uint8_t {
+    Lambert, ///< the engine's
+    Disney,  ///< Burley 2012: retro-reflection at grazing angles
+};
+
+/// What the specular lobe loses by reflecting once only.
+enum class EnergyTerm : uint8_t {
+    Compensated, ///< the engine's factor energyCompensation(), from exact directional albedos
+    SingleScatter,
+};
+
+/// Whether the diffuse lobe gets what the specular lobe let through, 1 - its albedo towards the viewer, or all.
+enum class CouplingTerm : uint8_t {
+    Engine, ///< under the environment and indirect light, but not under suns and punctual lights
+    Always, ///< one surface for all light: never reflects more than it gets
+    Never,
+};
+
+/// Which lobes reflect. The two alone add up to both.
+enum class LobeChoice : uint8_t { Both, Diffuse, Specular };
+
+struct BsdfModel {
+    VisibilityTerm visibility = VisibilityTerm::Correlated;
+    FresnelTerm fresnel = FresnelTerm::Schlick;
+    DiffuseTerm diffuse = DiffuseTerm::Lambert;
+    EnergyTerm energy = EnergyTerm::Compensated;
+    CouplingTerm coupling = CouplingTerm::Engine;
+    LobeChoice lobes = LobeChoice::Both;
+    friend bool operator==(BsdfModel const&, BsdfModel const&) = default;
+};
+
+} // namespace filament::reference

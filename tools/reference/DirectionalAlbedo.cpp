@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/DirectionalAlbedo.h"
+
+#include "shaders/lib/LibCppDouble.h"
+
+#include <glm/geometric.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+namespace filament::reference {
+namespace {
+
+namespace lib = shader::lib64;
+
+constexpr double kPi = std::numbers::pi;
+constexpr int kCosines = 96, kRoughnesses = 64, kQuadrature = 16;
+
+// Smith's masking of one direction.
+double masking(double cosine, double alpha) {
+    const double a2 = alpha * alpha;
+    return 2 * cosine / (cosine + std::sqrt(a2 + (1 - a2) * cosine * cosine));
+}
+
+struct Reflection {
+    double voh = 0, nol = 0;
+};
+
+/// Heitz' disc: every point is a half vector, equally likely to be seen from v. Points are told by an azimuth and by an
+/// angle whose sine is the radius, so that nothing is singular at the disc's edge.
+class VisibleNormals {
+public:
+    VisibleNormals(double nov, double alpha)
+            : mAlpha(alpha), mView(std::sqrt(1 - nov * nov), 0, nov),
+              mStretched(glm::normalize(double3(alpha * mView.x, 0, mView.z))), mSqueeze(0.5 * (1 + mStretched.z)) {}
+
+    Reflection reflection(double angle, double azimuth) const {
+        const double radius = std::sin(angle);
+        const double across = radius * std::cos(azimuth), rest = std::sqrt(1 - across * across);
+        const double along = (1 - mSqueeze) * rest + mSqueeze * radius * std::sin(azimuth);
+        const double up = std::sqrt(std::max(0.0, rest * rest - along * along));
+        const double3 towardsNormal(-mStretched.z, 0, mStretched.x);
+        const double3 visible = along * towardsNormal + double3(0, across, 0) + up * mStretched;
+        const double3 h = glm::normalize(double3(mAlpha * visible.x, mAlpha * visible.y, std::max(visible.z, 0.0)));
+        const double voh = glm::dot(mView, h);
+        return { voh, 2 * voh * h.z - mView.z };
+    }
+
+    /// The angle at which light comes from the horizon, or that of the disc's edge: the integrand bends there.
+    double horizon(double azimuth) const {
+        double inside = 0, outside = kPi / 2;
+        double above = reflection(inside, azimuth).nol, below = reflection(outside, azimuth).nol;
+        if (below > 0) return outside;
+        for (int step = 0; step < 8; ++step) { // Illinois: the secant, halving the end that stays
+            const double middle = inside + (outside - inside) * above / (above - below);
+            const double nol = reflection(middle, azimuth).nol;
+            if (nol > 0) {
+                inside = middle, above = nol, below /= 2;
+            } else {
+                outside = middle, below = nol, above /= 2;
+            }
+        }
+        return inside;
+    }
+
+private:
+    double mAlpha;
+    double3 mView, mStretched;
+    double mSqueeze; // of the half of the disc that the view foreshortens
+};
+
+struct Node {
+    double x = 0, weight = 0;
+};
+
+// Nodes on [0, 1] of the quadrature that is exact for polynomials of degree 2 count - 1: Newton's iteration towards the
+// roots of Legendre's polynomial. Press et al. 2007, "Numerical Recipes", section 4.6.1.
+std::vector<Node> gaussLegendre(int count) {
+    std::vector<Node> nodes;
+    for (int i = 0; i < count; ++i) {
+        double x = std::cos(kPi * (i + 0.75) / (count + 0.5)), slope = 1;
+        for (int step = 0; step < 8; ++step) {
+            double value = 1, before = 0;
+            for (int n = 1; n <= count; ++n) {
+                const double next = ((2 * n - 1) * x * value - (n - 1) * before) / n;
+                before = std::exchange(value, next);
+            }
+            slope = count * (x * value - before) / (x * x - 1);
+            x -= value / slope;
+        }
+        nodes.push_back({ (x + 1) / 2, 1 / ((1 - x * x) * slope * slope) });
+    }
+    return nodes;
+}
+
+double2 integrate(double nov, double alpha, std::vector<Node> const& nodes, int azimuths) {
+    const VisibleNormals normals(nov, alpha);
+    const double maskingOfView = masking(nov, alpha);
+    double2 sum(0.0);
+    for (int j = 0; j < azimuths; ++j) {
+        const double azimuth = ((j + 0.5) / azimuths - 0.5) * kPi; // the other half is its mirror image
+        const double last = normals.horizon(azimuth);
+        for (Node const& node : nodes) {
+            const double angle = node.x * last;
+            const Reflection reflection = normals.reflection(angle, azimuth);
+            if (reflection.nol <= 0 || reflection.voh <= 0) continue;
+            const double measure = std::sin(2 * angle) * last * node.weight / azimuths;
+            const double visibility = lib::visibilitySmithGgxCorrelated(nov, reflection.nol, alpha);
+            const double passed = visibility * 4 * reflection.nol * nov / maskingOfView;
+            sum += passed * measure * double2(lib::pow5(1 - std::min(reflection.voh, 1.0)), 1.0);
+        }
+    }
+    return sum;
+}
+
+const double kLeastLog = std::log(lib::kMinPerceptualRoughness);
+
+/// Rows are even in the logarithm of roughness, columns in the cube root of the cosine: smooth surfaces at grazing
+/// angles, where the curves bend, get most of the table.
+class Table {
+public:
+    Table() : mEntries(kCosines * kRoughnesses) {
+        const std::vector<Node> nodes = gaussLegendre(kQuadrature);
+        for (int row = 0; row < kRoughnesses; ++row) {
+            const double alpha = lib::alphaFromPerceptual(roughnessOf(row));
+            for (int column = 0; column < kCosines; ++column) {
+                const double root = (column + 1.0) / kCosines;
+                mEntries[static_cast<size_t>(row * kCosines + column)] =
+                        integrate(root * root * root, alpha, nodes, kQuadrature);
+            }
+        }
+    }
+
+    double2 lookUp(double nov, double perceptualRoughness) const {
+        const double x = std::cbrt(nov) * kCosines - 1;
+        const double y = (1 - std::log(perceptualRoughness) / kLeastLog) * (kRoughnesses - 1);
+        const auto wx = weights(x), wy = weights(y);
+        const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
+        double2 sum(0.0);
+        for (int j = 0; j < 4; ++j) {
+            for (int i = 0; i < 4; ++i) {
+                sum += at(x0 + i - 1, y0 + j - 1) * (wx[static_cast<size_t>(i)] * wy[static_cast<size_t>(j)]);
+            }
+        }
+        return glm::clamp(sum, 1e-9, 1.0);
+    }
+
+private:
+    static double roughnessOf(int row) {
+        return std::exp(kLeastLog * (1 - static_cast<double>(row) / (kRoughnesses - 1)));
+    }
+
+    // Catmull and Rom 1974: through the entries, with continuous slope.
+    static std::array<double, 4> weights(double x) {
+        const double t = x - std::floor(x);
+        return { ((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2, ((4 - 3 * t) * t + 1) * t / 2,
+                 (t - 1) * t * t / 2 };
+    }
+
+    // One entry beyond the border the table goes on as the parabola through its last three.
+    double2 at(int x, int y) const {
+        const int column = std::clamp(x, 0, kCosines - 1), row = std::clamp(y, 0, kRoughnesses - 1);
+        const int dx = column - x, dy = row - y;
+        if (dx != 0) return 3.0 * (at(column, y) - at(column + dx, y)) + at(column + 2 * dx, y);
+        if (dy != 0) return 3.0 * (at(x, row) - at(x, row + dy)) + at(x, row + 2 * dy);
+        return mEntries[static_cast<size_t>(row * kCosines + column)];
+    }
+
+    std::vector<double2> mEntries;
+};
+
+} // namespace
+
+double2 integrateDirectionalAlbedo(double nov, double alpha, int radii, int azimuths) {
+    return integrate(nov, alpha, gaussLegendre(radii), azimuths);
+}
+
+double2 directionalAlbedo(double nov, double perceptualRoughness) {
+    static const Table sTable;
+    return sTable.lookUp(std::clamp(nov, 1e-4, 1.0), perceptualRoughness);
+}
+
+} // namespace filament::reference

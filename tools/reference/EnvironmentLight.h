@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+/// EnvironmentLight: radiance from every direction, and directions in proportion to radiance.
+///   In      an equirectangular picture: between its pixels bilinear, columns wrap around, rows end at the poles.
+///   Method  cells of equal azimuth and polar angle, each as likely as the exact integral of the bilinear picture over
+///           it (in u, v) times its solid angle; inside of a cell directions are uniform in solid angle. Every cell
+///           that holds light is likely: estimates are unbiased.
+///   Source  Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", section 12.5 (with uniform cells in cos
+///   theta). Limits  4096 x 2048 cells: larger pictures share cells, which costs noise, not truth. Memory  8 bytes a
+///   cell and the picture, shared. Thread: read-only after construction.
+#pragma once
+
+#include "filament_core/assets/HdrImage.h"
+#include "filament_core/math/Math.h"
+#include "tools/reference/Distribution.h"
+
+#include <memory>
+
+namespace filament::reference {
+
+struct EnvironmentSample {
+    double3 direction; ///< world, unit
+    double3 radiance;
+    double pdf = 0; ///< per steradian
+};
+
+class EnvironmentLight {
+public:
+    EnvironmentLight() = default; ///< black
+    EnvironmentLight(std::shared_ptr<const assets::HdrImage> image, double factor, double rotationRadians);
+
+    bool isBlack() const { return !mImage; }
+    /// `direction` is a unit vector of the world. The picture's radiance times `factor`.
+    double3 radiance(double3 direction) const;
+    /// u in [0, 1)^2. Not when isBlack().
+    EnvironmentSample sample(double2 u) const;
+    /// Of sample(), per steradian.
+    double pdf(double3 direction) const;
+
+private:
+    double2 pictureFromWorld(double3 direction) const; ///< (u, v) in [0, 1)^2
+    double3 texel(int x, int y) const;
+    double cellWeight(uint32_t column, uint32_t row) const;
+    double cellSolidAngle(uint32_t row) const;
+
+    std::shared_ptr<const assets::HdrImage> mImage;
+    double mFactor = 0;
+    double mCosine = 1, mSine = 0; // of the rotation
+    uint32_t mColumns = 0, mRows = 0;
+    Distribution mRowChoice;
+    std::vector<Distribution> mColumnChoice; // by row
+};
+
+} // namespace filament::reference

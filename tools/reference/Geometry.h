@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Part: one primitive of a model, placed in the world: triangles for Embree, and what the vertex stage makes of the
+/// attributes (shaders/material/surface_vertex_main.glsl) in double precision.
+///   In      a primitive of triangles and the transform of its node; attributes in any format that the loader packs.
+///   Out     positions relative to `origin`, as floats: what Embree intersects is what is interpolated.
+///   Memory  96 bytes a vertex, 12 a triangle. Thread: one part on one thread; then read-only.
+#pragma once
+
+#include "filament_core/assets/ModelData.h"
+#include "filament_core/math/Math.h"
+
+#include <vector>
+
+namespace filament::reference {
+
+struct Part {
+    assets::MaterialData const* material = nullptr;
+    std::vector<assets::Image> const* images = nullptr;
+    std::vector<float3> positions; ///< world - origin
+    std::vector<double3> normals;  ///< world, unit or zero
+    std::vector<double4> tangents; ///< world; w: sign of the bitangent
+    std::vector<float4> colors;    ///< empty: white
+    std::vector<float2> uvs[2];    ///< empty: (0, 0)
+    std::vector<uint32_t> indices; ///< three a triangle
+    bool isMirrored = false;       ///< the transform turns the winding around
+};
+
+/// The attribute at `location` of every vertex; missing components are 0, 0, 0, 1. Empty if there is none.
+std::vector<float4> decodeAttribute(assets::PrimitiveData const& primitive, uint8_t location);
+std::vector<uint32_t> decodeIndices(assets::PrimitiveData const& primitive);
+
+Part makePart(assets::PrimitiveData const& primitive, double4x4 const& worldFromObject, double3 origin);
+
+/// Where a ray met a triangle: barycentric weights of its second and third corner.
+struct TrianglePoint {
+    uint32_t triangle = 0;
+    double u = 0, v = 0;
+};
+
+/// Interpolated attributes at a point, and the triangle's plane. Not normalised, as varyings are not.
+struct Varyings {
+    double3 position{ 0.0 };
+    double3 faceNormal{ 0, 0, 1 }; ///< unit, out of the front face
+    double longestEdge = 0;
+    double3 normal{ 0, 0, 1 };
+    double4 tangent{ 0, 0, 0, 1 };
+    double4 color{ 1.0 };
+    double2 uvs[2]{ double2(0.0), double2(0.0) };
+};
+
+Varyings varyingsAt(Part const& part, TrianglePoint const& point);
+/// Only the part of them that the base colour needs: alpha tests run for many triangles that no ray keeps.
+Varyings colorVaryingsAt(Part const& part, TrianglePoint const& point);
+/// Out of the front face, any length.
+double3 faceNormal(Part const& part, uint32_t triangle);
+
+} // namespace filament::reference

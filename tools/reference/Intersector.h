@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Intersector: which triangle a ray meets. The only file that knows Embree (version 3, single rays, robust mode).
+///   In      parts, which it keeps referring to.
+///   Alpha   triangles are there where their material's mask lets them be; blended ones are always there: the caller
+///           decides what passes through, and goes on with the triangles passed in `Ray::passed`.
+///   Thread  build: one. Queries: any number at once. The tree is built by one thread, so that it is always the same.
+///   Memory  about 100 bytes a triangle.  Fails: OutOfMemory, DeviceUnavailable with Embree's reason.
+#pragma once
+
+#include "filament_core/base/Result.h"
+#include "tools/reference/Geometry.h"
+
+#include <array>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <span>
+
+namespace filament::reference {
+
+/// Triangles that a ray has gone through; a ray that has no room for more stops seeing.
+struct PassedTriangles {
+    struct Triangle {
+        uint32_t part = 0, index = 0;
+    };
+    std::array<Triangle, 64> triangles;
+    uint32_t count = 0;
+    bool isFull() const { return count == triangles.size(); }
+};
+
+struct Ray {
+    double3 origin{ 0.0 }; ///< relative to the scene's origin
+    double3 direction{ 0, 0, -1 };
+    double nearest = 0, farthest = std::numeric_limits<double>::infinity();
+    bool skipsBackFaces = false;             ///< of single-sided materials: what the camera does not see
+    PassedTriangles const* passed = nullptr; ///< not hit again
+};
+
+struct Hit {
+    uint32_t part = 0;
+    TrianglePoint point;
+    double distance = 0;
+};
+
+class Intersector {
+public:
+    static Result<Intersector> build(std::span<const Part> parts);
+
+    std::optional<Hit> nearest(Ray const& ray) const;
+    /// Whether anything is hit at all; blended triangles count.
+    bool isOccluded(Ray const& ray) const;
+
+private:
+    struct Deleter {
+        void operator()(void* scene) const;
+    };
+    explicit Intersector(void* scene) : mScene(scene) {}
+    std::unique_ptr<void, Deleter> mScene; // RTCScene, which keeps its device
+};
+
+} // namespace filament::reference

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/PathTracer.h"
+
+#include "tools/reference/Material.h"
+
+#include <algorithm>
+
+namespace filament::reference {
+namespace {
+
+// Pairs of dimensions of the sample's numbers: 0 is the pixel's, then four a bounce; layers have their own.
+enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kPerBounce };
+constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20;
+
+constexpr uint32_t kRouletteFrom = 4; // bounces that are never ended by chance
+
+double powerHeuristic(double pdf, double otherPdf) {
+    const double a = pdf * pdf, b = otherPdf * otherPdf;
+    return a > 0 ? a / (a + b) : 0;
+}
+
+} // namespace
+
+struct PathTracer::Path {
+    Ray ray;
+    SampleStream const& numbers;
+    uint64_t& rays;
+    bool isCamera = true;
+    double3 throughput{ 1.0 };
+    double bsdfPdf = 0; // of the direction, once the path was reflected
+    uint32_t bounce = 0, layers = 0;
+    PassedTriangles passed{};
+
+    double2 pair(BounceDimension dimension) const {
+        return numbers.pair(kFirstBounce + bounce * kPerBounce + dimension);
+    }
+};
+
+PathTracer::PathTracer(TracedScene const& scene, ReferenceSettings const& settings, double exposure, double3 background)
+        : mScene(scene), mSettings(settings), mExposure(exposure), mBackground(background),
+          mUseOcclusion(settings.occlusionMap == Switch::On ||
+                        (settings.occlusionMap == Switch::Auto && settings.integrator == Integrator::Unoccluded)) {}
+
+double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64_t& rays) const {
+    Path path{ .ray = ray, .numbers = numbers, .rays = rays };
+    double3 sum(0.0);
+    while (const std::optional<SurfaceSample> surface = nextSurface(path)) {
+        sum += path.throughput * surface->emitted;
+        if (!surface->scatters || path.bounce >= mSettings.maxBounces) return sum;
+        const Bsdf bsdf(*surface, mSettings.bsdf, mUseOcclusion);
+        sum += path.throughput * lightAt(path, *surface, bsdf);
+        if (mSettings.integrator == Integrator::Unoccluded || !reflect(path, *surface, bsdf)) return sum;
+    }
+    return sum + path.throughput * missed(path);
+}
+
+// The surface that the path meets next, blended ones by chance: one of little opacity may still reflect much.
+std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
+    path.ray.passed = path.passed.count > 0 ? &path.passed : nullptr;
+    while (true) {
+        ++path.rays;
+        const std::optional<Hit> hit = mScene.nearest(path.ray);
+        if (!hit) return {};
+        SurfaceSample surface = surfaceAt(mScene.part(*hit), hit->point, -path.ray.direction);
+        if (surface.opacity >= 1) return surface;
+
+        const double chance = 0.1 + 0.9 * surface.opacity;
+        if (path.numbers.pair(kFirstLayer + path.layers++).x < chance || path.passed.isFull()) {
+            path.throughput /= chance;
+            return surface;
+        }
+        path.throughput *= (1 - surface.opacity) / (1 - chance);
+        path.passed.triangles[path.passed.count++] = { hit->part, hit->point.triangle };
+        path.ray.passed = &path.passed;
+        path.ray.nearest = hit->distance;
+    }
+}
+
+double3 PathTracer::missed(Path const& path) const {
+    EnvironmentLight const& environment = mScene.environment();
+    if (path.isCamera) {
+        return mScene.skybox() ? environment.radiance(path.ray.direction) * mExposure : mBackground;
+    }
+    if (environment.isBlack()) return double3(0.0);
+    const double weight = environmentWeight(path.bsdfPdf, path.ray.direction);
+    return weight > 0 ? environment.radiance(path.ray.direction) * (mExposure * weight) : double3(0.0);
+}
+
+/// Of the environment as the BSDF's sample finds it.
+double PathTracer::environmentWeight(double bsdfPdf, double3 direction) const {
+    switch (mSettings.sampling) {
+    case Sampling::Bsdf:
+        return 1;
+    case Sampling::Light:
+        return 0;
+    case Sampling::Both:
+        break;
+    }
+    return powerHeuristic(bsdfPdf, mScene.environment().pdf(direction));
+}
+
+double3 PathTracer::lightAt(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const {
+    double3 sum(0.0);
+    if (!mScene.environment().isBlack()) {
+        if (mSettings.sampling != Sampling::Bsdf) sum += environmentSample(path, surface, bsdf);
+        if (mSettings.integrator == Integrator::Unoccluded) sum += unoccludedBsdfSample(path, bsdf);
+    }
+    if (!mScene.directLights().empty()) sum += directSample(path, surface, bsdf);
+    return sum * mExposure;
+}
+
+double3 PathTracer::environmentSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const {
+    const EnvironmentSample sample = mScene.environment().sample(path.pair(kEnvironment));
+    const double3 reflected = bsdf.evaluate(sample.direction, LightSource::Ambient) * sample.radiance;
+    if (reflected == double3(0.0)) return reflected;
+    const double share = visibility(path, surface, sample.direction, std::numeric_limits<double>::infinity());
+    if (share == 0) return double3(0.0);
+    const double weight =
+            mSettings.sampling == Sampling::Light ? 1 : powerHeuristic(sample.pdf, bsdf.pdf(sample.direction));
+    return reflected * (share * weight / sample.pdf);
+}
+
+double3 PathTracer::directSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const {
+    const DirectSample sample = mScene.directLights().sample(surface.position, path.pair(kChoices).x);
+    const double3 reflected = bsdf.evaluate(sample.direction, LightSource::Direct) * sample.illuminance;
+    if (reflected == double3(0.0)) return reflected;
+    return reflected * visibility(path, surface, sample.direction, sample.distance);
+}
+
+double3 PathTracer::unoccludedBsdfSample(Path const& path, Bsdf const& bsdf) const {
+    if (mSettings.sampling == Sampling::Light) return double3(0.0);
+    const BsdfSample sample = bsdf.sample(path.pair(kReflection), path.pair(kChoices).y);
+    if (sample.pdf <= 0) return double3(0.0);
+    const double weight = environmentWeight(sample.pdf, sample.direction);
+    return bsdf.evaluate(sample.direction, LightSource::Ambient) * mScene.environment().radiance(sample.direction) *
+           (weight / sample.pdf);
+}
+
+double PathTracer::visibility(Path& path, SurfaceSample const& surface, double3 direction, double distance) const {
+    if (mSettings.integrator == Integrator::Unoccluded) return 1;
+    if (glm::dot(direction, surface.geometricNormal) <= 0) return 0;
+    ++path.rays;
+    return mScene.transmittance(
+            { .origin = surface.rayOrigin(direction), .direction = direction, .farthest = distance });
+}
+
+bool PathTracer::reflect(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const {
+    const BsdfSample sample = bsdf.sample(path.pair(kReflection), path.pair(kChoices).y);
+    if (sample.pdf <= 0 || glm::dot(sample.direction, surface.geometricNormal) <= 0) return false;
+    path.throughput *= bsdf.evaluate(sample.direction, LightSource::Ambient) / sample.pdf;
+    const double largest = std::max({ path.throughput.x, path.throughput.y, path.throughput.z });
+    if (!(largest > 0)) return false;
+    if (path.bounce >= kRouletteFrom && largest < 1) {
+        const double survival = std::min(largest, 0.95);
+        if (path.pair(kRoulette).x >= survival) return false;
+        path.throughput /= survival;
+    }
+    path.ray = { .origin = surface.rayOrigin(sample.direction), .direction = sample.direction };
+    path.isCamera = false;
+    path.bsdfPdf = sample.pdf;
+    path.passed.count = 0;
+    ++path.bounce;
+    return true;
+}
+
+} // namespace filament::reference

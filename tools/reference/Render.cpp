@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/Film.h"
+#include "tools/reference/PathTracer.h"
+#include "tools/reference/Reference.h"
+
+#include <algorithm>
+#include <atomic>
+#include <bit>
+#include <chrono>
+#include <cmath>
+
+namespace filament::reference {
+namespace {
+
+constexpr uint32_t kMaxSide = 16384, kMaxSamples = 1u << 20, kMaxBounces = 4096;
+constexpr uint32_t kWantedPasses = 16;      // enough for a standard error that is itself good to a fifth
+constexpr uint32_t kMaxSamplesPerPass = 64; // progress and the error estimate come this often
+constexpr uint32_t kPassesBeforeStop = 4;   // before an error estimate may end the picture
+constexpr size_t kPixelsPerJob = 32;
+
+Result<void> check(ReferenceView const& view, ReferenceSettings const& settings) {
+    const auto refuse = [](const char* what, auto value, const char* cure) {
+        return Result<void>(fail(ErrorCode::InvalidArgument, "{} {}: give {}", what, value, cure));
+    };
+    if (view.size.x < 1 || view.size.x > kMaxSide) return refuse("width", view.size.x, "1 to 16384 pixels");
+    if (view.size.y < 1 || view.size.y > kMaxSide) return refuse("height", view.size.y, "1 to 16384 pixels");
+    if (settings.samplesPerPixel < 1 || settings.samplesPerPixel > kMaxSamples) {
+        return refuse("samples per pixel", settings.samplesPerPixel, "1 to 1048576");
+    }
+    if (settings.maxBounces < 1 || settings.maxBounces > kMaxBounces) {
+        return refuse("most bounces", settings.maxBounces, "1 to 4096");
+    }
+    if (!(settings.relativeError >= 0) || settings.relativeError > 1) {
+        return refuse("relative error", settings.relativeError, "a number from 0 to 1");
+    }
+    const float fov = view.camera.lens.verticalFovDegrees, factor = view.camera.exposure.factor();
+    if (!(fov > 0 && fov < 180)) return refuse("vertical field of view", fov, "degrees between 0 and 180");
+    if (!(factor > 0) || !std::isfinite(factor)) return refuse("exposure factor", factor, "a usable exposure");
+    return {};
+}
+
+struct Plan {
+    uint32_t samplesPerPass = 1, passes = 2;
+};
+
+// A power of two samples fills the strata of Sobol's sequence; two passes are the least that tell an error.
+Plan planOf(ReferenceSettings const& settings) {
+    const uint32_t wanted = std::bit_floor(std::max(settings.samplesPerPixel / kWantedPasses, 1u));
+    const uint32_t samples = std::min(wanted, kMaxSamplesPerPass);
+    return { samples, std::max((settings.samplesPerPixel + samples - 1) / samples, 2u) };
+}
+
+/// Camera rays, as Camera::clipFromView() would project them back, in double precision.
+class Lens {
+public:
+    Lens(ReferenceView const& view, double3 sceneOrigin)
+            : mOrigin(view.camera.position() - sceneOrigin), mWorldFromView(view.camera.worldFromView),
+              mSize(view.size), mNear(double(view.camera.lens.nearMeters)),
+              mTangent(std::tan(glm::radians(double(view.camera.lens.verticalFovDegrees)) / 2)) {}
+
+    /// Pixel coordinates: (0, 0) is the upper left corner of the picture.
+    Ray rayThrough(double2 point) const {
+        const double aspect = double(mSize.x) / mSize.y;
+        const double3 view(mTangent * aspect * (2 * point.x / mSize.x - 1), mTangent * (1 - 2 * point.y / mSize.y), -1);
+        const double length = glm::length(view);
+        return { .origin = mOrigin,
+                 .direction = glm::normalize(mWorldFromView * view),
+                 .nearest = mNear * length, // the near plane is perpendicular to the view, the ray is not
+                 .skipsBackFaces = true };
+    }
+
+private:
+    double3 mOrigin;
+    double3x3 mWorldFromView;
+    uint2 mSize;
+    double mNear, mTangent;
+};
+
+bool isFinite(double3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
+
+/// One picture while it is made.
+class Rendering {
+public:
+    Rendering(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings)
+            : mSettings(settings), mPlan(planOf(settings)), mFilm(view.size.x, view.size.y),
+              mLens(view, scene.origin()),
+              mTracer(scene, settings, double(view.camera.exposure.factor()), double3(view.clearColor)) {}
+
+    Plan const& plan() const { return mPlan; }
+
+    void runPass(jobs::JobSystem& jobs) {
+        const size_t pixels = size_t(mFilm.width()) * mFilm.height();
+        jobs::parallelFor(jobs, pixels, kPixelsPerJob, [&](size_t begin, size_t end) {
+            uint64_t rays = 0, lost = 0;
+            for (size_t pixel = begin; pixel < end; ++pixel) mFilm.add(pixel, meanOf(pixel, rays, lost));
+            mRays += rays;
+            mLost += lost;
+        });
+        mFilm.finishPass();
+        mFilm.measure(mStatistics);
+    }
+
+    RenderStatistics const& statistics() const { return mStatistics; }
+    uint32_t samplesDone() const { return mFilm.passes() * mPlan.samplesPerPass; }
+
+    ReferenceImage finish(double seconds) {
+        ReferenceImage image;
+        mFilm.develop(image);
+        image.statistics.samplesPerPixel = samplesDone();
+        image.statistics.rays = mRays;
+        image.statistics.lostSamples = mLost;
+        image.statistics.seconds = seconds;
+        return image;
+    }
+
+private:
+    double3 meanOf(size_t pixel, uint64_t& rays, uint64_t& lost) const {
+        const uint64_t stream = hashOf(hashOf(mSettings.seed, mFilm.passes()), pixel);
+        const double2 corner(static_cast<double>(pixel % mFilm.width()), static_cast<double>(pixel / mFilm.width()));
+        double3 sum(0.0);
+        for (uint32_t i = 0; i < mPlan.samplesPerPass; ++i) {
+            const SampleStream numbers(stream, i);
+            const double2 inside = mSettings.filter == PixelFilter::Box ? numbers.pair(0) : double2(0.5);
+            const double3 radiance = mTracer.radiance(mLens.rayThrough(corner + inside), numbers, rays);
+            if (isFinite(radiance))
+                sum += radiance;
+            else
+                ++lost;
+        }
+        return sum / double(mPlan.samplesPerPass);
+    }
+
+    ReferenceSettings mSettings;
+    Plan mPlan;
+    Film mFilm;
+    Lens mLens;
+    PathTracer mTracer;
+    RenderStatistics mStatistics;
+    std::atomic<uint64_t> mRays{ 0 }, mLost{ 0 };
+};
+
+} // namespace
+
+Result<ReferenceImage> render(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
+                              jobs::JobSystem& jobs, Progress const& progress) {
+    if (const Result<void> checked = check(view, settings); !checked) return checked.error();
+    const auto start = std::chrono::steady_clock::now();
+    const auto seconds = [start] {
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    };
+    Rendering rendering(scene, view, settings);
+    const Plan plan = rendering.plan();
+    for (uint32_t pass = 1; pass <= plan.passes; ++pass) {
+        rendering.runPass(jobs);
+        const double error = rendering.statistics().relativeError;
+        const bool goesOn =
+                !progress || progress({ rendering.samplesDone(), plan.passes * plan.samplesPerPass, error, seconds() });
+        const bool isGood = pass >= kPassesBeforeStop && error <= double(settings.relativeError);
+        if (!goesOn || (settings.relativeError > 0 && isGood)) break;
+    }
+    return rendering.finish(seconds());
+}
+
+Result<ReferenceImage> render(ReferenceScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,
+                              jobs::JobSystem& jobs, Progress const& progress) {
+    const Result<TracedScenePtr> traced = prepare(scene, jobs);
+    if (!traced) return traced.error();
+    return render(**traced, view, settings, jobs, progress);
+}
+
+} // namespace filament::reference

@@ -1,0 +1,233 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/TracedScene.h"
+
+#include "filament_core/math/Box.h"
+#include "tools/reference/Material.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament::reference {
+namespace {
+
+using assets::kNone;
+using assets::ModelData;
+using assets::NodeData;
+using assets::PrimitiveData;
+
+/// One primitive at one node, before it is made.
+struct Placement {
+    ModelData const* model = nullptr;
+    PrimitiveData const* primitive = nullptr;
+    double4x4 worldFromObject{ 1.0 };
+};
+
+bool isFinite(double4x4 const& m) {
+    bool finite = true;
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) finite = finite && std::isfinite(m[column][row]);
+    }
+    return finite;
+}
+
+void grow(Box& box, PrimitiveData const& primitive, double4x4 const& worldFromObject) {
+    const CenteredBox bounds = boxFromMinMax(primitive.boundsMin, primitive.boundsMax);
+    const double3 center(worldFromObject * double4(double3(bounds.center), 1.0));
+    const double3 half(transformedHalfExtent(worldFromObject, bounds.halfExtent));
+    box.min = glm::min(box.min, center - half);
+    box.max = glm::max(box.max, center + half);
+}
+
+assets::MaterialData const& materialOf(ModelData const& model, PrimitiveData const& primitive) {
+    static const assets::MaterialData sDefault{ .name = "glTF default" };
+    return primitive.material == kNone ? sDefault : model.materials[primitive.material];
+}
+
+void addLights(ModelData const& model, NodeData const& node, double4x4 const& world, ReferenceScene& lights) {
+    if (node.light == kNone) return;
+    assets::LightData const& light = model.lights[node.light];
+    const double3 position(world[3]);
+    const double3 axis = -double3(world[2]); // KHR_lights_punctual: along -Z of the node
+    const float3 direction = glm::length(axis) > 0 ? float3(glm::normalize(axis)) : float3(0, 0, -1);
+    switch (light.type) {
+    case assets::LightType::Directional:
+        lights.suns.push_back({ direction, Lux{ light.intensity }, light.color });
+        break;
+    case assets::LightType::Point:
+        lights.points.push_back({ position, Candela{ light.intensity }, light.color, light.rangeMeters });
+        break;
+    case assets::LightType::Spot:
+        lights.spots.push_back({ position, direction, Candela{ light.intensity }, light.color, light.rangeMeters,
+                                 light.innerConeRadians, light.outerConeRadians });
+        break;
+    }
+}
+
+bool isLight(float intensity, LinearColor color) {
+    const float sum = color.x + color.y + color.z;
+    return std::isfinite(intensity) && intensity >= 0 && std::isfinite(sum) && color.x >= 0 && color.y >= 0 &&
+           color.z >= 0;
+}
+
+bool isDirection(float3 direction) {
+    const float length = glm::length(direction);
+    return std::isfinite(length) && length > 0;
+}
+
+bool isPosition(double3 position) {
+    return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
+}
+
+Result<void> checkScene(ReferenceScene const& scene) {
+    for (ReferenceModel const& model : scene.models) {
+        if (!model.data || !isFinite(model.worldFromModel)) {
+            return fail(ErrorCode::InvalidArgument, "a model without data or with a transform that is not finite");
+        }
+    }
+    if (scene.environment) {
+        const auto& image = scene.environment->image;
+        if (!image || image->width == 0 || image->pixels.size() != size_t(image->width) * image->height) {
+            return fail(ErrorCode::InvalidArgument, "an environment without width * height pixels");
+        }
+        if (!(scene.environment->illuminance.value >= 0) || !std::isfinite(scene.environment->illuminance.value)) {
+            return fail(ErrorCode::InvalidArgument, "environment illuminance {} lux: give a finite value >= 0",
+                        scene.environment->illuminance.value);
+        }
+    }
+    bool isValid = true;
+    for (SunLight const& sun : scene.suns) {
+        isValid = isValid && isLight(sun.illuminance.value, sun.color) && isDirection(sun.directionWorld);
+    }
+    for (PointLight const& point : scene.points) {
+        isValid = isValid && isLight(point.intensity.value, point.color) && isPosition(point.positionWorld);
+    }
+    for (SpotLight const& spot : scene.spots) {
+        isValid = isValid && isLight(spot.intensity.value, spot.color) && isPosition(spot.positionWorld) &&
+                  isDirection(spot.directionWorld);
+    }
+    if (isValid) return {};
+    return fail(ErrorCode::InvalidArgument, "a light whose intensity, color, position or direction is not usable: "
+                                            "finite, not negative, directions not zero");
+}
+
+/// Walks the nodes once: what to trace, what shines, and what cannot be traced.
+class Collector {
+public:
+    Collector(ReferenceScene const& scene, std::vector<std::string>& warnings) : lights(scene), mWarnings(warnings) {
+        for (ReferenceModel const& model : scene.models) add(*model.data, model.worldFromModel);
+    }
+
+    std::vector<Placement> placements;
+    ReferenceScene lights; // those of the scene and of its models
+    Box bounds;
+
+private:
+    void add(ModelData const& model, double4x4 const& worldFromModel) {
+        size_t skipped = 0;
+        for (NodeData const& node : model.nodes) {
+            const double4x4 world = worldFromModel * node.worldFromNode;
+            if (!isFinite(world)) continue;
+            if (node.mesh != kNone) {
+                for (PrimitiveData const& primitive : model.meshes[node.mesh].primitives) {
+                    const bool isSurface = primitive.topology == backend::Topology::Triangles;
+                    skipped += !isSurface;
+                    if (!isSurface || primitive.indexCount < 3) continue;
+                    placements.push_back({ &model, &primitive, world });
+                    grow(bounds, primitive, world);
+                }
+            }
+            addLights(model, node, world, lights);
+        }
+        if (skipped > 0) {
+            mWarnings.push_back(fmt::format("{}: {} primitives of lines or points have no surface and are left out",
+                                            model.name, skipped));
+        }
+    }
+
+    std::vector<std::string>& mWarnings;
+};
+
+std::vector<Part> makeParts(std::vector<Placement> const& placements, double3 origin, jobs::JobSystem& jobs) {
+    std::vector<Part> parts(placements.size());
+    jobs::parallelFor(jobs, parts.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            Placement const& placement = placements[i];
+            parts[i] = makePart(*placement.primitive, placement.worldFromObject, origin);
+            parts[i].material = &materialOf(*placement.model, *placement.primitive);
+            parts[i].images = &placement.model->images;
+        }
+    });
+    return parts;
+}
+
+void moveLights(ReferenceScene& lights, double3 origin) {
+    for (PointLight& point : lights.points) point.positionWorld -= origin;
+    for (SpotLight& spot : lights.spots) spot.positionWorld -= origin;
+}
+
+} // namespace
+
+Box modelBounds(ModelData const& model) {
+    Box box;
+    for (NodeData const& node : model.nodes) {
+        if (node.mesh == kNone) continue;
+        for (PrimitiveData const& primitive : model.meshes[node.mesh].primitives)
+            grow(box, primitive, node.worldFromNode);
+    }
+    return box;
+}
+
+Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::JobSystem& jobs) {
+    if (const Result<void> checked = checkScene(scene); !checked) return checked.error();
+    std::vector<std::string> warnings;
+    Collector collected(scene, warnings);
+    const double3 origin =
+            collected.bounds.empty() ? double3(0.0) : (collected.bounds.min + collected.bounds.max) * 0.5;
+    std::vector<Part> parts = makeParts(collected.placements, origin, jobs);
+    Result<Intersector> intersector = Intersector::build(parts);
+    if (!intersector) return intersector.error();
+
+    auto* const traced = new TracedScene(std::move(*intersector));
+    TracedScenePtr result(traced);
+    traced->mParts = std::move(parts); // the elements stay where they are
+    traced->mOrigin = origin;
+    traced->mWarnings = std::move(warnings);
+    for (ReferenceModel const& model : scene.models) traced->mModels.push_back(model.data);
+    traced->mHasBlended = std::any_of(traced->mParts.begin(), traced->mParts.end(), [](Part const& part) {
+        return part.material->alphaMode == assets::AlphaMode::Blend;
+    });
+    if (scene.environment && scene.environment->illuminance.value > 0) {
+        traced->mEnvironment = EnvironmentLight(scene.environment->image, double(scene.environment->illuminance.value),
+                                                double(scene.environment->rotationRadians));
+    }
+    traced->mSkybox = scene.environment && scene.environment->skybox;
+    moveLights(collected.lights, origin);
+    traced->mDirectLights = DirectLights(collected.lights.suns, collected.lights.points, collected.lights.spots, 1.0);
+    return result;
+}
+
+double TracedScene::transmittance(Ray const& ray) const {
+    if (!mHasBlended) return mIntersector.isOccluded(ray) ? 0.0 : 1.0;
+    Ray rest = ray;
+    PassedTriangles passed;
+    rest.passed = &passed;
+    double share = 1;
+    while (share > 0 && !passed.isFull()) {
+        const std::optional<Hit> hit = nearest(rest);
+        if (!hit) return share;
+        share *= 1 - opacityAt(part(*hit), hit->point);
+        passed.triangles[passed.count++] = { hit->part, hit->point.triangle };
+        rest.nearest = hit->distance;
+    }
+    return 0;
+}
+
+void TracedSceneDeleter::operator()(TracedScene const* scene) const { delete scene; }
+
+Result<TracedScenePtr> prepare(ReferenceScene const& scene, jobs::JobSystem& jobs) {
+    return TracedScene::create(scene, jobs);
+}
+
+std::vector<std::string> const& warnings(TracedScene const& scene) { return scene.warnings(); }
+
+} // namespace filament::reference

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+/// TracedScene: everything that a path asks for: the next surface, what lies between two points, the lights.
+///   Space   positions are relative to `origin()`, the middle of what is drawn, so that floats keep their digits far
+///           from the world's origin.
+///   Light   lux and radiance, not exposed.
+///   Thread  read-only after prepare().
+#pragma once
+
+#include "tools/reference/DirectLights.h"
+#include "tools/reference/EnvironmentLight.h"
+#include "tools/reference/Intersector.h"
+#include "tools/reference/Reference.h"
+
+namespace filament::reference {
+
+class TracedScene {
+public:
+    static Result<TracedScenePtr> create(ReferenceScene const& scene, jobs::JobSystem& jobs);
+
+    double3 origin() const { return mOrigin; }
+    std::optional<Hit> nearest(Ray const& ray) const { return mIntersector.nearest(ray); }
+    Part const& part(Hit const& hit) const { return mParts[hit.part]; }
+    /// The share of light that passes from the ray's origin to `ray.farthest`: blended surfaces let some of it through.
+    double transmittance(Ray const& ray) const;
+
+    EnvironmentLight const& environment() const { return mEnvironment; }
+    DirectLights const& directLights() const { return mDirectLights; }
+    bool skybox() const { return mSkybox; }
+    std::vector<std::string> const& warnings() const { return mWarnings; }
+
+private:
+    explicit TracedScene(Intersector&& intersector) : mIntersector(std::move(intersector)) {}
+
+    std::vector<std::shared_ptr<const assets::ModelData>> mModels; // parts refer to their materials and images
+    std::vector<Part> mParts;
+    Intersector mIntersector;
+    double3 mOrigin{ 0.0 };
+    bool mHasBlended = false;
+    EnvironmentLight mEnvironment;
+    DirectLights mDirectLights;
+    bool mSkybox = false;
+    std::vector<std::string> mWarnings;
+};
+
+} // namespace filament::reference
