@@ -15,6 +15,9 @@ namespace filament::jobs {
 struct StdAtomics {
     template <class T>
     using Atomic = std::atomic<T>;
+    /// What one thread at a time may touch.
+    template <class T>
+    using Plain = T;
 
     /// Sleeps until a notify, unless `word` differs from `old` by now; both happen in one step.
     static void wait(std::atomic<uint32_t>& word, uint32_t old);

@@ -24,11 +24,16 @@ namespace filament::jobs {
 /// Names one stay of one thread on a seat; no two stays have the same. 0: nobody.
 using Occupant = uint64_t;
 
-class Completion {
+template <class Policy>
+class BasicCompletion {
+    template <class T>
+    using Atomic = typename Policy::template Atomic<T>;
+    using Bell = BasicParkingLot<Policy>;
+
 public:
-    Completion(Occupant owner, Priority priority) : mOwner(owner), mPriority(priority) {}
-    Completion(Completion const&) = delete;
-    Completion& operator=(Completion const&) = delete;
+    BasicCompletion(Occupant owner, Priority priority) : mOwner(owner), mPriority(priority) {}
+    BasicCompletion(BasicCompletion const&) = delete;
+    BasicCompletion& operator=(BasicCompletion const&) = delete;
 
     Priority priority() const { return mPriority; }
     bool isDone() const { return unitsOf(mShared.load(std::memory_order_acquire)) + mLocal == 0; }
@@ -55,20 +60,20 @@ public:
     }
 
     struct Closing {
-        Job* continuation = nullptr;   ///< to submit
-        ParkingLot* sleeper = nullptr; ///< to wake
+        Job* continuation = nullptr; ///< to submit
+        Bell* sleeper = nullptr;     ///< to wake
     };
     /// What the caller has to do: first the continuation, then finishShared() for the guard unit, then the sleeper.
     Closing close() {
         // Read before the flags go: without them the owner may write new ones.
         Job* continuation = mContinuation.load(std::memory_order_relaxed);
-        ParkingLot* sleeper = mSleeper.load(std::memory_order_relaxed);
+        Bell* sleeper = mSleeper.load(std::memory_order_relaxed);
         const int64_t before = mShared.fetch_and(~kFlags, std::memory_order_acq_rel);
         return { before & kHasContinuation ? continuation : nullptr, before & kHasSleeper ? sleeper : nullptr };
     }
 
     /// Asks the last job to ring `bell`. False if there is nothing to wait for, or but for a moment.
-    bool announceSleeper(ParkingLot& bell) {
+    bool announceSleeper(Bell& bell) {
         share();
         if (!isPending(mShared.load(std::memory_order_acquire))) return false;
         mSleeper.store(&bell, std::memory_order_relaxed);
@@ -126,12 +131,14 @@ private:
         return true;
     }
 
-    std::atomic<Occupant> mOwner;      // written by the owner only
-    int64_t mLocal = 0;                // jobs that the owner added minus those it finished
-    std::atomic<int64_t> mShared{ 0 }; // units << 2 | flags
-    std::atomic<ParkingLot*> mSleeper{ nullptr };
-    std::atomic<Job*> mContinuation{ nullptr };
+    Atomic<Occupant> mOwner;                              // written by the owner only
+    typename Policy::template Plain<int64_t> mLocal{ 0 }; // jobs that the owner added minus those it finished
+    Atomic<int64_t> mShared{ 0 };                         // units << 2 | flags
+    Atomic<Bell*> mSleeper{ nullptr };
+    Atomic<Job*> mContinuation{ nullptr };
     const Priority mPriority;
 };
+
+using Completion = BasicCompletion<StdAtomics>;
 
 } // namespace filament::jobs

@@ -18,7 +18,10 @@ namespace filament::jobs {
 inline constexpr size_t kCacheLineBytes = 64;
 inline constexpr size_t kJobCaptureBytes = 48;
 
-class Completion;
+struct StdAtomics;
+template <class Policy>
+class BasicCompletion;
+using Completion = BasicCompletion<StdAtomics>;
 struct Job;
 
 /// Text as a template argument: run<"skin">(...).

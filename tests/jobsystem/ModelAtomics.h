@@ -109,6 +109,11 @@ public:
         mValue = value;
     }
 
+    operator T() const { return get(); }
+    Plain& operator=(T value) { return set(value), *this; }
+    Plain& operator++() { return *this = static_cast<T>(get() + 1); }
+    Plain& operator--() { return *this = static_cast<T>(get() - 1); }
+
 private:
     T mValue{};
     mutable RaceDetector mRaces;
@@ -117,6 +122,8 @@ private:
 struct ModelAtomics {
     template <class T>
     using Atomic = model::Atomic<T>;
+    template <class T>
+    using Plain = model::Plain<T>;
     using Where = std::source_location;
 
     static void wait(Atomic<uint32_t>& word, uint32_t old, Where where = Where::current()) {

@@ -2,12 +2,11 @@
 #include "tests/jobsystem/ModelChecker.h"
 
 #include "tests/jobsystem/ModelFiber.h"
+#include "tests/jobsystem/ModelSearch.h"
 
 #include <algorithm>
-#include <bit>
 #include <cstdio>
 #include <cstdlib>
-#include <cstring>
 #include <exception>
 #include <utility>
 #include <vector>
@@ -16,14 +15,6 @@ namespace filament::jobs::model {
 namespace {
 
 struct RunGivenUp {}; // unwinds the stack of a thread whose run is over
-
-/// A fork of the search. Of threads: `done` are those that need not be tried (any more).
-struct Node {
-    bool isSchedule;
-    uint8_t choice;
-    uint8_t allowed; // threads that may go on, or the number of values
-    uint8_t done;
-};
 
 enum class End : uint8_t { None, AllReturned, AllSleep, Pruned, Failed };
 
@@ -42,17 +33,6 @@ struct Step {
     const char* note;
 };
 
-const char* nameOf(Kind kind) {
-    constexpr const char* kNames[] = { "resume", "load",    "store",  "exchange", "add",       "and",
-                                       "or",     "compare", "assume", "wait",     "notifyOne", "notifyAll" };
-    return kNames[static_cast<int>(kind)];
-}
-
-const char* nameOf(std::memory_order order) {
-    constexpr const char* kNames[] = { "relaxed", "consume", "acquire", "release", "acq_rel", "seq_cst" };
-    return kNames[static_cast<int>(order)];
-}
-
 bool entersKernel(Kind kind) { return kind == Kind::Wait || kind == Kind::NotifyOne || kind == Kind::NotifyAll; }
 bool onlyReads(Kind kind) { return kind == Kind::Load || kind == Kind::Wait; }
 bool touchesMemory(Kind kind) { return kind != Kind::NotifyOne && kind != Kind::NotifyAll; }
@@ -60,6 +40,8 @@ bool touchesMemory(Kind kind) { return kind != Kind::NotifyOne && kind != Kind::
 // Two steps of different threads that lead to the same state in either order (Katz and Peled 1992, "Defining
 // conditional independence using collapses": it is enough that they do so from here).
 bool areIndependent(Operation const& a, Operation const& b, ModelMemory const& memory) {
+    if (a.kind == Kind::Pause) return onlyReads(b.kind) || b.kind == Kind::Pause;
+    if (b.kind == Kind::Pause) return onlyReads(a.kind);
     if (a.location != b.location || a.location < 0) return true;
     if (entersKernel(a.kind) && entersKernel(b.kind)) return false;
     if (!touchesMemory(a.kind) || !touchesMemory(b.kind)) return true;
@@ -78,6 +60,7 @@ public:
     void created(const void* object, uint64_t initial);
     void destroyed(const void* object);
     Outcome perform(const void* object, Operation operation);
+    void pause();
     void fail(const char* rule);
     int self() const { return mSelf; }
     bool isUnwinding() const { return mEnd != End::None; }
@@ -93,10 +76,9 @@ private:
     int nextThread();
     int branch(uint8_t ready);
     uint8_t allowedNow(uint8_t ready) const;
+    uint8_t readyThreads() const;
     uint8_t threadsIn(State state) const;
-    uint8_t pick(uint32_t count);
-    uint8_t pick(Choices const& choices) { return choices.stores[pick(choices.count)]; }
-    bool advance();
+    uint8_t pick(Choices const& choices) { return choices.stores[mSearch.pick(choices.count)]; }
     int find(const void* object) const;
     Outcome make(Operation const& operation);
     Outcome change(Operation const& operation, uint64_t value);
@@ -113,11 +95,9 @@ private:
     std::vector<Thread> mThreads;
     Scenario* mScenario = nullptr;
 
-    std::vector<Node> mNodes; // the path of the search
-    size_t mDepth = 0;        // how much of it this run has followed
-    std::vector<const void*> mObjects;
+    ModelSearch mSearch;
+    std::vector<const void*> mObjects; // by location
     std::vector<Step> mSteps;
-    uint8_t mSleepSet = 0;
     int mPreemptions = 0, mSpuriousReturns = 0;
     int mSelf = -1; // the thread that runs; negative: none
     int mLast = -1; // the thread that ran last
@@ -135,25 +115,9 @@ Report Checker::explore(std::function<std::unique_ptr<Scenario>()> const& make) 
         mReport.steps += mSteps.size();
         (mEnd == End::Pruned ? mReport.pruned : mReport.runs) += 1;
         if (mFailure.empty() && mReport.runs + mReport.pruned == mOptions.maxRuns) mFailure = "too many runs";
-    } while (mFailure.empty() && advance());
+    } while (mFailure.empty() && mSearch.advance());
     mReport.failure = mFailure;
     return mReport;
-}
-
-bool Checker::advance() {
-    while (!mNodes.empty()) {
-        Node& node = mNodes.back();
-        if (node.isSchedule) {
-            node.done = static_cast<uint8_t>(node.done | 1 << node.choice);
-            const uint8_t left = static_cast<uint8_t>(node.allowed & ~node.done);
-            node.choice = static_cast<uint8_t>(std::countr_zero(left));
-            if (left) return true;
-        } else if (++node.choice < node.allowed) {
-            return true;
-        }
-        mNodes.pop_back();
-    }
-    return false;
 }
 
 void Checker::prepareThreads(int count) {
@@ -170,8 +134,7 @@ void Checker::runOnce(std::function<std::unique_ptr<Scenario>()> const& make) {
     mMemory.clear();
     mObjects.clear();
     mSteps.clear();
-    mDepth = 0;
-    mSleepSet = 0;
+    mSearch.beginRun();
     mPreemptions = mSpuriousReturns = 0;
     mSelf = mLast = -1;
     mEnd = End::None;
@@ -234,6 +197,15 @@ uint8_t Checker::threadsIn(State state) const {
     return mask;
 }
 
+uint8_t Checker::readyThreads() const {
+    uint8_t mask = threadsIn(State::Ready);
+    for (size_t i = 0; i < mThreads.size(); ++i) {
+        const bool pauses = mThreads[i].next.kind == Kind::Pause && !mMemory.hasUnseenStores(static_cast<int>(i));
+        if (pauses) mask = static_cast<uint8_t>(mask & ~(1 << i));
+    }
+    return mask;
+}
+
 uint8_t Checker::allowedNow(uint8_t ready) const {
     const bool mustStay = mOptions.preemptions >= 0 && mPreemptions >= mOptions.preemptions && mLast >= 0;
     const auto last = static_cast<uint8_t>(mLast < 0 ? 0 : 1 << mLast);
@@ -242,9 +214,10 @@ uint8_t Checker::allowedNow(uint8_t ready) const {
 
 /// Negative if the run is over.
 int Checker::nextThread() {
-    const uint8_t ready = threadsIn(State::Ready);
+    const uint8_t ready = readyThreads();
     if (ready == 0) {
-        mEnd = threadsIn(State::Sleeping) ? End::AllSleep : End::AllReturned;
+        const auto left = static_cast<uint8_t>(threadsIn(State::Sleeping) | threadsIn(State::Ready));
+        mEnd = left ? End::AllSleep : End::AllReturned;
         return -1;
     }
     if (mSteps.size() >= mOptions.maxSteps) {
@@ -263,31 +236,20 @@ int Checker::nextThread() {
 }
 
 int Checker::branch(uint8_t ready) {
-    const bool bounded = mOptions.preemptions >= 0; // leaves runs out by itself; with sleep sets it would lose too many
-    if (mDepth == mNodes.size()) {
-        const uint8_t allowed = allowedNow(ready);
-        const auto fresh = static_cast<uint8_t>(allowed & ~mSleepSet);
-        if (fresh == 0) {
-            mEnd = End::Pruned;
-            return -1;
-        }
-        const bool stays = mLast >= 0 && (fresh >> mLast & 1);
-        const int first = stays ? mLast : std::countr_zero(fresh);
-        mNodes.push_back({ true, static_cast<uint8_t>(first), allowed, mSleepSet });
+    const int next = mSearch.pickThread(allowedNow(ready), mLast);
+    if (next < 0) {
+        mEnd = End::Pruned;
+        return next;
     }
-    Node const& node = mNodes[mDepth++];
-    mSleepSet = 0;
-    for (size_t i = 0; i < mThreads.size() && !bounded; ++i) {
-        if ((node.done >> i & 1) && areIndependent(mThreads[i].next, mThreads[node.choice].next, mMemory))
-            mSleepSet = static_cast<uint8_t>(mSleepSet | 1 << i);
+    if (mOptions.preemptions >= 0) return next; // a bound leaves runs out that the sleep sets would rely on
+    uint8_t asleep = 0;
+    for (size_t i = 0; i < mThreads.size(); ++i) {
+        const bool explored = mSearch.explored() >> i & 1;
+        if (explored && areIndependent(mThreads[i].next, mThreads[static_cast<size_t>(next)].next, mMemory))
+            asleep = static_cast<uint8_t>(asleep | 1 << i);
     }
-    return node.choice;
-}
-
-uint8_t Checker::pick(uint32_t count) {
-    if (count == 1) return 0;
-    if (mDepth == mNodes.size()) mNodes.push_back({ false, 0, static_cast<uint8_t>(count), 0 });
-    return mNodes[mDepth++].choice;
+    mSearch.setSleepSet(asleep);
+    return next;
 }
 
 /// Returns when it is this thread's turn to make the operation.
@@ -340,6 +302,12 @@ Outcome Checker::perform(const void* object, Operation operation) {
     return make(operation);
 }
 
+void Checker::pause() {
+    announce({ .kind = Kind::Pause, .function = "pause" });
+    mSteps.push_back({ mSelf, { .kind = Kind::Pause, .function = "pause" }, 0, "" });
+    mMemory.seeEverything(mSelf);
+}
+
 Outcome Checker::make(Operation const& operation) {
     const int at = operation.location;
     const uint64_t operand = operation.operand;
@@ -370,6 +338,7 @@ Outcome Checker::make(Operation const& operation) {
         notify(operation);
         return {};
     case Kind::Assume:
+    case Kind::Pause:
     case Kind::Resume:
         return {};
     }
@@ -421,7 +390,7 @@ void Checker::wait(Operation const& operation) {
     mMemory.notePassedThroughKernel(mSelf, at);
     mSteps.back().before = value;
     if (value != operation.expected) return;
-    if (mSpuriousReturns < mOptions.spuriousReturns && pick(2) == 1) {
+    if (mSpuriousReturns < mOptions.spuriousReturns && mSearch.pick(2) == 1) {
         ++mSpuriousReturns;
         mSteps.back().note = " (returns for no reason)";
         return;
@@ -441,7 +410,8 @@ void Checker::notify(Operation const& operation) {
         if (thread.state == State::Sleeping && thread.next.location == operation.location) sleepers.push_back(&thread);
     }
     if (sleepers.empty()) return;
-    if (operation.kind == Kind::NotifyOne) sleepers = { sleepers[pick(static_cast<uint32_t>(sleepers.size()))] };
+    if (operation.kind == Kind::NotifyOne)
+        sleepers = { sleepers[mSearch.pick(static_cast<uint32_t>(sleepers.size()))] };
     mSteps.back().before = sleepers.size();
     for (Thread* thread : sleepers) {
         thread->state = State::Ready;
@@ -478,11 +448,6 @@ std::string Checker::describeRun() const {
 
 // ---------------------------------------------------------------------------------------------- doors
 
-bool Operation::isIn(const char* name) const {
-    const char* found = std::strstr(function, name);
-    return found && found[std::strlen(name)] == '(' && (found == function || found[-1] == ':' || found[-1] == ' ');
-}
-
 Report explore(std::function<std::unique_ptr<Scenario>()> const& make, Options const& options) {
     const auto checker = std::make_unique<Checker>(options);
     Checker* outer = std::exchange(gChecker, checker.get());
@@ -495,29 +460,6 @@ void require(bool condition, const char* rule) {
     if (!condition) gChecker->fail(rule);
 }
 
-Mutation Mutation::weaken(const char* function, Kind kind, std::memory_order order) {
-    return { [=](Operation& operation) {
-        if (operation.kind != kind || !operation.isIn(function)) return;
-        operation.order = operation.failureOrder = order;
-        if (order == std::memory_order_release) operation.failureOrder = std::memory_order_relaxed;
-        if (order == std::memory_order_acq_rel) operation.failureOrder = std::memory_order_acquire;
-    } };
-}
-
-Mutation Mutation::to(Kind replacement, const char* function, Kind kind) {
-    return { [=](Operation& operation) {
-        if (operation.kind == kind && operation.isIn(function)) operation.kind = replacement;
-    } };
-}
-
-Mutation Mutation::toReleaseStore(const char* function) {
-    return { [=](Operation& operation) {
-        if (operation.kind != Kind::Exchange || !operation.isIn(function)) return;
-        operation.kind = Kind::Store;
-        operation.order = std::memory_order_release;
-    } };
-}
-
 void printExplored(std::string const& what, Report const& report) {
     std::printf("[ EXPLORED ] %s: %llu runs, %llu more given up as equal, %llu steps\n", what.c_str(),
                 static_cast<unsigned long long>(report.runs), static_cast<unsigned long long>(report.pruned),
@@ -528,6 +470,8 @@ uint64_t stressFactor() {
     const char* text = std::getenv("FILAMENT_STRESS");
     return text ? std::strtoull(text, nullptr, 10) : 0;
 }
+
+void pause() { gChecker->pause(); }
 
 void created(const void* object, uint64_t initial) { gChecker->created(object, initial); }
 void destroyed(const void* object) { gChecker->destroyed(object); }

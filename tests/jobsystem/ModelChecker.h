@@ -7,13 +7,14 @@
 ///           accesses to an atomic before its construction or after its destruction, runs without an end.
 ///   How     every atomic operation is one step. A depth-first search over the choices "who goes next", "which store
 ///           does it read", "whom does the kernel wake" runs the scenario from its start for each leaf (Godefroid 1997,
-///           "Model checking for programming languages using VeriSoft"), on coroutines. Sleep sets (Godefroid 1996,
-///           "Partial-order methods", chapter 5) leave out runs that differ in the order of independent steps only.
+///           "Model checking for programming languages using VeriSoft"), on coroutines. Sleep sets leave out runs that
+///           differ from others in the order of independent steps only.
 ///   Memory  that of ModelMemory.h, with its limits.  Cost: about a microsecond a step.
 ///   Thread  one; the scenario must not depend on anything but its own objects.
 #pragma once
 
 #include "tests/jobsystem/ModelMemory.h"
+#include "tests/jobsystem/ModelOperation.h"
 
 #include <cstdint>
 #include <functional>
@@ -21,36 +22,6 @@
 #include <string>
 
 namespace filament::jobs::model {
-
-enum class Kind : uint8_t {
-    Resume,
-    Load,
-    Store,
-    Exchange,
-    Add,
-    And,
-    Or,
-    CompareExchange,
-    Assume,
-    Wait,
-    NotifyOne,
-    NotifyAll
-};
-
-struct Operation {
-    Kind kind = Kind::Resume;
-    std::memory_order order = std::memory_order_seq_cst;
-    std::memory_order failureOrder = std::memory_order_seq_cst; ///< of CompareExchange
-    int location = -1;
-    uint64_t operand = 0;
-    uint64_t expected = 0; ///< of CompareExchange and Wait
-    uint64_t mask = ~0ull; ///< of the object's width
-    const char* function = "";
-    int line = 0;
-
-    /// The operation is written in a function of this name.
-    bool isIn(const char* name) const;
-};
 
 class Scenario {
 public:
@@ -64,9 +35,7 @@ public:
 };
 
 struct Options {
-    /// Changes operations before they are made: what if this were weaker? Kind::Assume pretends that a
-    /// compare_exchange succeeded and changes nothing.
-    std::function<void(Operation&)> mutate;
+    std::function<void(Operation&)> mutate; ///< changes operations before they are made; see Mutation
     int preemptions = -1;    ///< at most so many switches away from a thread that could go on; -1: any, with sleep sets
     int spuriousReturns = 0; ///< of the futex, a run
     uint32_t maxSteps = 400; ///< a run that is longer has failed
@@ -88,19 +57,9 @@ Report explore(std::function<std::unique_ptr<Scenario>()> const& make, Options c
 /// A rule of the scenario.
 void require(bool condition, const char* rule);
 
-/// Options::mutate in words.
-struct Mutation {
-    std::function<void(Operation&)> apply;
-
-    /// Operations of this kind, written in this function, have another order.
-    static Mutation weaken(const char* function, Kind kind, std::memory_order order);
-    /// ... or are of another kind.
-    static Mutation to(Kind replacement, const char* function, Kind kind);
-    /// An exchange() whose result nobody looks at becomes a store().
-    static Mutation toReleaseStore(const char* function);
-
-    void operator()(Operation& operation) const { apply(operation); }
-};
+/// For loops that look until another thread has done something. The thread goes on when a store was made that it has
+/// not seen, and then it sees the last store of everything: stores become visible in the end.
+void pause();
 
 /// One line for the log of the tests.
 void printExplored(std::string const& what, Report const& report);

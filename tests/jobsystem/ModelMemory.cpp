@@ -138,6 +138,18 @@ void ModelMemory::notePassedThroughKernel(int thread, int location) {
     raise(location, mLocations[location].kernelFloor, mViews[thread].seen[location]);
 }
 
+bool ModelMemory::hasUnseenStores(int thread) const {
+    for (int i = 0; i < mLocationCount; ++i) {
+        Location const& at = mLocations[i];
+        if (at.alive && at.rank[mViews[thread].seen[i]] != at.count - 1) return true;
+    }
+    return false;
+}
+
+void ModelMemory::seeEverything(int thread) {
+    for (int i = 0; i < mLocationCount; ++i) mViews[thread].seen[i] = mLocations[i].order[mLocations[i].count - 1];
+}
+
 uint64_t ModelMemory::latest(int location) const {
     Location const& at = mLocations[location];
     return at.stores[at.order[at.count - 1]].value;

@@ -78,6 +78,9 @@ public:
     Choices readableByKernel(int thread, int location) const;
     void notePassedThroughKernel(int thread, int location);
 
+    bool hasUnseenStores(int thread) const;
+    void seeEverything(int thread); ///< without synchronising
+
     uint64_t value(int location, uint8_t store) const { return mLocations[location].stores[store].value; }
     uint64_t latest(int location) const;
     View const& view(int thread) const { return mViews[thread]; }

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ModelSearch: the depth-first search over everything that can go differently. A run asks it at every fork which way
+/// to go; advance() makes the next run go another way at the last fork where there is one left.
+///   Source  sleep sets: Godefroid 1996, "Partial-Order Methods for the Verification of Concurrent Systems", chapter 5.
+///   Thread  one.  Memory: 4 bytes a fork of the current path.  Fails: never.
+#pragma once
+
+#include <bit>
+#include <cstddef>
+#include <cstdint>
+#include <vector>
+
+namespace filament::jobs::model {
+
+class ModelSearch {
+public:
+    static constexpr int kNobody = -1;
+
+    void beginRun() {
+        mDepth = 0;
+        mSleepSet = 0;
+    }
+
+    /// One of the threads in the bit mask; kNobody if whatever they do next was explored before, in another order.
+    int pickThread(uint8_t mask, int preferred) {
+        if (mDepth == mNodes.size()) {
+            const auto fresh = static_cast<uint8_t>(mask & ~mSleepSet);
+            if (fresh == 0) return kNobody;
+            const bool stays = preferred >= 0 && (fresh >> preferred & 1);
+            const int first = stays ? preferred : std::countr_zero(fresh);
+            mNodes.push_back({ true, static_cast<uint8_t>(first), mask, mSleepSet });
+        }
+        return mNodes[mDepth++].choice;
+    }
+
+    /// Threads whose next step need not be tried here, as all that follows from it has been; after pickThread().
+    uint8_t explored() const { return mNodes[mDepth - 1].done; }
+    /// Those of them for which that still holds after the step of the thread that was picked.
+    void setSleepSet(uint8_t mask) { mSleepSet = mask; }
+
+    /// A number below `count`.
+    uint8_t pick(uint32_t count) {
+        if (count == 1) return 0;
+        if (mDepth == mNodes.size()) mNodes.push_back({ false, 0, static_cast<uint8_t>(count), 0 });
+        return mNodes[mDepth++].choice;
+    }
+
+    /// False if all was explored.
+    bool advance() {
+        while (!mNodes.empty()) {
+            Node& node = mNodes.back();
+            if (node.isOfThreads) {
+                node.done = static_cast<uint8_t>(node.done | 1 << node.choice);
+                const auto left = static_cast<uint8_t>(node.ways & ~node.done);
+                node.choice = static_cast<uint8_t>(std::countr_zero(left));
+                if (left) return true;
+            } else if (++node.choice < node.ways) {
+                return true;
+            }
+            mNodes.pop_back();
+        }
+        return false;
+    }
+
+private:
+    struct Node {
+        bool isOfThreads;
+        uint8_t choice;
+        uint8_t ways; // threads as a mask, or how many values
+        uint8_t done; // threads
+    };
+
+    std::vector<Node> mNodes; // from the root to where the search is
+    size_t mDepth = 0;        // how far this run has followed them
+    uint8_t mSleepSet = 0;
+};
+
+} // namespace filament::jobs::model
