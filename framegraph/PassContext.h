@@ -10,6 +10,7 @@
 #include "filament_core/base/Arena.h"
 #include "framegraph/RangeRecorder.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <optional>
 #include <span>
@@ -60,6 +61,15 @@ public:
     }
     /// To allocate handles and tickets.
     backend::CommandStream& stream();
+
+    /// body(begin, end) for the same ranges, where nothing is recorded: what a pass has to find out before it records.
+    template <class Body>
+    void forEachRange(size_t count, size_t grain, Body&& body) {
+        if (mRanges)
+            jobs::parallelFor<"look up">(mRanges->jobs(), count, grain, body);
+        else
+            for (size_t begin = 0; begin < count; begin += grain) body(begin, std::min(count, begin + grain));
+    }
 
     /// The texture behind an id that this pass declared.
     backend::TextureHandle texture(TextureId id) const;

@@ -41,7 +41,7 @@ public:
         FILAMENT_ASSERT(grain > 0, "recordRanges: a range holds at least one item");
         const size_t ranges = (count - 1) / grain + 1;
         if (ranges > mLanes.size()) mLanes.resize(ranges);
-        jobs::parallelFor(mJobs, ranges, 1, [&](size_t first, size_t last) {
+        jobs::parallelFor<"record">(mJobs, ranges, 1, [&](size_t first, size_t last) {
             for (size_t range = first; range < last; ++range) {
                 const size_t begin = range * grain;
                 body(mLanes[range].commands, begin, std::min(count, begin + grain));
@@ -49,6 +49,8 @@ public:
         });
         for (size_t range = 0; range < ranges; ++range) commands.append(std::move(mLanes[range].commands));
     }
+
+    jobs::JobSystem& jobs() { return mJobs; }
 
 private:
     /// On cache lines of its own: neighbours are written by different threads.

@@ -22,8 +22,8 @@ ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
     prepare::FramePacket const& packet = context.packet;
     const uint32_t slot = pipelines.slot({ pass.passLayout(), pass.subpass() });
     ChosenPipelines chosen;
-    chosen.opaque = choosePipelines(*context.arena, pipelines, pass.commands(), slot, packet.opaque, packet.variant);
-    chosen.blended = choosePipelines(*context.arena, pipelines, pass.commands(), slot, packet.blended, packet.variant);
+    chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, packet.opaque, packet.variant);
+    chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, packet.blended, packet.variant);
     if (packet.sky) chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.skybox);
     return chosen;
 }

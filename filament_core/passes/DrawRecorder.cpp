@@ -3,10 +3,13 @@
 
 #include "shaders/interface/ShaderInterface.h"
 
+#include <atomic>
+
 namespace filament::passes {
 namespace {
 
 using namespace backend;
+using framegraph::PassContext;
 using prepare::DrawCall;
 
 /// What the commands so far have bound; records only what differs.
@@ -53,20 +56,50 @@ private:
     IndexType mIndexType = IndexType::UInt16;
 };
 
-} // namespace
+/// No handle has these bits: the pipeline has never been asked for.
+constexpr PipelineHandle kMissing{ ~0u };
 
-std::span<const PipelineHandle> choosePipelines(Arena& arena, PipelineCache& pipelines, CommandBuffer& setup,
-                                                uint32_t slot, std::span<const DrawCall> draws, uint8_t variant) {
-    std::span<PipelineHandle> chosen = arena.array<PipelineHandle>(draws.size());
+bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
+    return a.material == b.material && a.geometry->layout == b.geometry->layout && a.mirrored == b.mirrored;
+}
+
+/// What the cache has; only reads it. False if it lacks some.
+bool lookUp(std::span<PipelineHandle> chosen, PipelineCache const& pipelines, uint32_t slot,
+            std::span<const DrawCall> draws, uint8_t variant) {
+    bool hasAll = true;
     for (size_t i = 0; i < draws.size(); ++i) {
         DrawCall const& draw = draws[i];
-        const bool asBefore = i > 0 && draws[i - 1].material == draw.material &&
-                              draws[i - 1].geometry->layout == draw.geometry->layout &&
-                              draws[i - 1].mirrored == draw.mirrored;
-        chosen[i] = asBefore ? chosen[i - 1]
-                             : pipelines.pipelineFor(setup, slot, *draw.material, draw.geometry->layout, variant,
-                                                     draw.mirrored);
+        chosen[i] = i > 0 && isDrawnAlike(draw, draws[i - 1])
+                            ? chosen[i - 1]
+                            : pipelines.find(slot, *draw.material, draw.geometry->layout, variant, draw.mirrored)
+                                      .value_or(kMissing);
+        hasAll = hasAll && chosen[i] != kMissing;
     }
+    return hasAll;
+}
+
+/// What lookUp() missed, in the order of drawing.
+void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineCache& pipelines, uint32_t slot,
+          std::span<const DrawCall> draws, uint8_t variant) {
+    for (size_t i = 0; i < draws.size(); ++i) {
+        if (chosen[i] != kMissing) continue;
+        DrawCall const& draw = draws[i];
+        chosen[i] = pipelines.pipelineFor(setup, slot, *draw.material, draw.geometry->layout, variant, draw.mirrored);
+    }
+}
+
+} // namespace
+
+std::span<const PipelineHandle> choosePipelines(PassContext& pass, Arena& arena, PipelineCache& pipelines,
+                                                uint32_t slot, std::span<const DrawCall> draws, uint8_t variant) {
+    const std::span<PipelineHandle> chosen = arena.array<PipelineHandle>(draws.size());
+    std::atomic<bool> someAreMissing{ false };
+    pass.forEachRange(draws.size(), kDrawsPerRange, [&](size_t begin, size_t end) {
+        const std::span<PipelineHandle> range = chosen.subspan(begin, end - begin);
+        if (!lookUp(range, pipelines, slot, draws.subspan(begin, end - begin), variant))
+            someAreMissing.store(true, std::memory_order_relaxed);
+    });
+    if (someAreMissing.load(std::memory_order_relaxed)) make(chosen, pass.commands(), pipelines, slot, draws, variant);
     return chosen;
 }
 
@@ -82,7 +115,7 @@ void recordDraws(CommandBuffer& commands, DrawContext const& context, std::span<
     }
 }
 
-void recordDrawRanges(framegraph::PassContext& pass, DrawContext const& context, std::span<const DrawCall> draws,
+void recordDrawRanges(PassContext& pass, DrawContext const& context, std::span<const DrawCall> draws,
                       std::span<const PipelineHandle> pipelines) {
     pass.recordRanges(draws.size(), kDrawsPerRange, [&](CommandBuffer& commands, size_t begin, size_t end) {
         recordDraws(commands, context, draws.subspan(begin, end - begin), pipelines.subspan(begin, end - begin));

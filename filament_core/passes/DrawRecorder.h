@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Draw lists -> draw commands. Pipelines are chosen first, outside of the pass; recording then only reads.
-///   Thread  choosing: the app thread. recordDraws(): any, into a buffer of its own. recordDrawRanges(): as the pass.
+///   Thread  choosePipelines(), recordDrawRanges(): as the pass. recordDraws(): any, into a buffer of its own.
 ///   Bits    a range binds everything that its first draw needs, so that the stream does not depend on who recorded it.
 ///   Cost    bench/filament_core/passes: state that did not change since the last draw is not recorded again.
 #pragma once
@@ -15,9 +15,13 @@
 
 namespace filament::passes {
 
-/// Parallel to `draws`; none where a draw has no pipeline.
-std::span<const backend::PipelineHandle> choosePipelines(Arena& arena, PipelineCache& pipelines,
-                                                         backend::CommandBuffer& setup, uint32_t slot,
+/// About 10 us of recording: what waking a thread for a range is worth.
+inline constexpr size_t kDrawsPerRange = 1024;
+
+/// Parallel to `draws`; none where a draw has no pipeline. For the `prepare` of a pass: what is not made yet is
+/// recorded into its commands, in the order of drawing. Looks up in ranges, on the job system where there is one.
+std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext& pass, Arena& arena,
+                                                         PipelineCache& pipelines, uint32_t slot,
                                                          std::span<const prepare::DrawCall> draws, uint8_t variant);
 
 /// What all draws of a pass share.
@@ -25,9 +29,6 @@ struct DrawContext {
     backend::BindGroupHandle viewGroup;
     backend::BufferHandle instanceIds;
 };
-
-/// About 10 us of recording: what waking a thread for a range is worth.
-inline constexpr size_t kDrawsPerRange = 1024;
 
 /// One range, as if nothing were bound. Draws without a pipeline are skipped.
 void recordDraws(backend::CommandBuffer& commands, DrawContext const& context, std::span<const prepare::DrawCall> draws,

@@ -13,14 +13,26 @@ using namespace backend;
 
 constexpr uint32_t kNoGeometry = 0xFFF;
 
-// material 20 bits | geometry layout 12 | slot 8 | variant 4 | culling off 1 | mirrored 1
+// always 1 | material 20 bits | geometry layout 12 | slot 8 | variant 4 | culling off 1 | mirrored 1
 uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint8_t variant, bool cullingDisabled,
                  bool mirrored) {
     FILAMENT_ASSERT(material < 1u << 20 && geometryLayout <= kNoGeometry && slot < 256,
                     "at most 2^20 materials, 4095 vertex layouts and 256 pass layouts");
-    return static_cast<uint64_t>(material) << 32 | static_cast<uint64_t>(geometryLayout) << 20 |
+    return uint64_t{ 1 } << 63 | static_cast<uint64_t>(material) << 32 | static_cast<uint64_t>(geometryLayout) << 20 |
            static_cast<uint64_t>(slot) << 8 | static_cast<uint64_t>(variant) << 4 |
            static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
+}
+
+// Lights select nothing in an unlit material.
+uint8_t neededVariant(scene::Material const& material, uint8_t variant) {
+    return material.package.shading == shader::ShadingModel::Unlit ? 0 : variant;
+}
+
+uint64_t makeKey(uint32_t slot, scene::MaterialInstance const& instance, uint32_t geometryLayout, uint8_t variant,
+                 bool mirrored) {
+    scene::Material const& material = *instance.material;
+    return makeKey(material.id, geometryLayout, slot, neededVariant(material, variant), instance.cullingDisabled,
+                   mirrored);
 }
 
 // A double-sided material shades both faces; its instances choose whether the back is drawn.
@@ -132,20 +144,25 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
 PipelineHandle PipelineCache::create(CommandBuffer& setup, uint64_t key, PipelineDesc const& desc, uint32_t material) {
     const PipelineHandle handle = mStream.allocatePipeline();
     setup.record(CmdCreatePipeline{ handle, desc });
-    mPipelines.emplace(key, Entry{ handle, material });
+    mPipelines.insert({ key, handle, material });
     return handle;
+}
+
+std::optional<PipelineHandle> PipelineCache::find(uint32_t slot, scene::MaterialInstance const& instance,
+                                                  uint32_t geometryLayout, uint8_t variant, bool mirrored) const {
+    PipelineTable::Entry const* entry = mPipelines.find(makeKey(slot, instance, geometryLayout, variant, mirrored));
+    return entry ? std::optional(entry->handle) : std::nullopt;
 }
 
 PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, scene::MaterialInstance const& instance,
                                           uint32_t geometryLayout, uint8_t variant, bool mirrored) {
-    scene::Material& material = *instance.material;
-    if (material.package.shading == shader::ShadingModel::Unlit) variant = 0; // lights select nothing
-    const uint64_t key = makeKey(material.id, geometryLayout, slot, variant, instance.cullingDisabled, mirrored);
-    if (const auto found = mPipelines.find(key); found != mPipelines.end()) return found->second.handle;
+    const uint64_t key = makeKey(slot, instance, geometryLayout, variant, mirrored);
+    if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
 
-    const ProgramHandle program = programFor(setup, material, variant);
+    scene::Material& material = *instance.material;
+    const ProgramHandle program = programFor(setup, material, neededVariant(material, variant));
     if (!program) {
-        mPipelines.emplace(key, Entry{ {}, material.id }); // warn once
+        mPipelines.insert({ key, {}, material.id }); // warn once
         return {};
     }
     PipelineDesc desc = describe(mSlots[slot], material, instance.cullingDisabled, geometryLayout, mirrored);
@@ -155,7 +172,7 @@ PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, s
 
 PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t slot, scene::Material& material) {
     const uint64_t key = makeKey(material.id, kNoGeometry, slot, 0, true, false);
-    if (const auto found = mPipelines.find(key); found != mPipelines.end()) return found->second.handle;
+    if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
     PipelineDesc desc = describe(mSlots[slot], material, true, kNoGeometry, false);
     desc.program = programFor(setup, material, 0);
     FILAMENT_ASSERT(desc.program, "a full-screen material has variant 0");
@@ -163,8 +180,7 @@ PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t 
 }
 
 void PipelineCache::forget(CommandBuffer& commands, scene::Material& material) {
-    std::erase_if(mPipelines, [&](auto const& item) {
-        Entry const& entry = item.second;
+    mPipelines.eraseIf([&](PipelineTable::Entry const& entry) {
         if (entry.material != material.id) return false;
         if (entry.handle) {
             commands.record(CmdDestroyPipeline{ entry.handle });

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PipelineCache: which device pipeline draws a material with a geometry in a pass. Programs and pipelines are made
 /// here, when first asked for, and never inside a pass: passes choose their pipelines before they record.
-///   Thread  the app thread.
-///   Memory  one map entry a combination; lookups allocate nothing.
+///   Thread  the app thread. find(): any number at a time, while nothing is made.
+///   Memory  one table entry a combination; lookups allocate nothing.
 ///   Fails   a variant that the material filtered out gives no pipeline and one warning naming material and variant.
 #pragma once
 
 #include "backend/stream/CommandStream.h"
+#include "filament_core/passes/PipelineTable.h"
 #include "filament_core/scene/SceneData.h"
 
 #include <cstdint>
-#include <unordered_map>
+#include <optional>
 #include <vector>
 
 namespace filament::passes {
@@ -30,6 +31,10 @@ public:
     /// Interns a pass; the result goes into pipelineFor(). Cheap for the few passes of a frame.
     uint32_t slot(PassSlot const& slot);
 
+    /// What pipelineFor() answers, if it has answered that before.
+    std::optional<backend::PipelineHandle> find(uint32_t slot, scene::MaterialInstance const& instance,
+                                                uint32_t geometryLayout, uint8_t variant, bool mirrored) const;
+
     /// Records creation into `setup` when the pipeline does not exist yet. None: the draw must be skipped.
     backend::PipelineHandle pipelineFor(backend::CommandBuffer& setup, uint32_t slot,
                                         scene::MaterialInstance const& instance, uint32_t geometryLayout,
@@ -44,11 +49,6 @@ public:
     size_t size() const { return mPipelines.size(); }
 
 private:
-    struct Entry {
-        backend::PipelineHandle handle;
-        uint32_t material = 0;
-    };
-
     backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material& material, uint8_t variant);
     backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
                                    uint32_t geometryLayout, bool mirrored) const;
@@ -58,7 +58,7 @@ private:
     backend::CommandStream& mStream;
     scene::GeometryLayouts const& mLayouts;
     std::vector<PassSlot> mSlots;
-    std::unordered_map<uint64_t, Entry> mPipelines;
+    PipelineTable mPipelines;
 };
 
 } // namespace filament::passes

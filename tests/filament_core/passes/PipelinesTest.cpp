@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/base/Log.h"
+#include "tests/filament_core/passes/DrawFixture.h"
+
+#include <gmock/gmock.h>
+
+#include <map>
+#include <tuple>
+#include <unordered_map>
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using prepare::DrawCall;
+
+struct CreatedPipelines {
+    std::vector<PipelineHandle> pipelines;
+    std::vector<std::string> names;
+    uint32_t programs = 0, destroyedPipelines = 0, destroyedPrograms = 0;
+    void execute(CmdCreatePipeline const& c) {
+        pipelines.push_back(c.handle);
+        names.emplace_back(c.desc.debugName);
+    }
+    void execute(CmdCreateProgram const&) { ++programs; }
+    void execute(CmdDestroyPipeline const&) { ++destroyedPipelines; }
+    void execute(CmdDestroyProgram const&) { ++destroyedPrograms; }
+    void execute(auto const&) {}
+};
+
+CreatedPipelines createdBy(CommandBuffer const& setup) {
+    CreatedPipelines created;
+    replay(setup.view(), created);
+    return created;
+}
+
+TEST(ChoosePipelines, OneForEachMaterialLayoutAndWindingMadeInTheOrderOfDrawing) {
+    DrawFixture fixture(6, 50, 20);
+    const std::vector<DrawCall> draws = fixture.randomDraws(3000, 5);
+    CommandBuffer setup;
+    const std::vector<PipelineHandle> chosen = fixture.choose(draws, setup);
+    std::map<std::tuple<uint32_t, uint32_t, bool>, PipelineHandle> expected;
+    std::vector<PipelineHandle> inOrder;
+    for (size_t i = 0; i < draws.size(); ++i) {
+        const std::tuple key{ draws[i].material->material->id, draws[i].geometry->layout, draws[i].mirrored };
+        const auto [entry, isNew] = expected.try_emplace(key, chosen[i]);
+        if (isNew) inOrder.push_back(chosen[i]);
+        ASSERT_EQ(chosen[i], entry->second) << "draw " << i;
+    }
+    const CreatedPipelines created = createdBy(setup);
+    EXPECT_EQ(created.pipelines, inOrder);
+    EXPECT_EQ(created.programs, 6u);
+    EXPECT_EQ(fixture.pipelines->size(), expected.size());
+}
+
+TEST(ChoosePipelines, ASecondFrameMakesNothing) {
+    DrawFixture fixture(6, 50, 20);
+    const std::vector<DrawCall> draws = fixture.randomDraws(3000, 6);
+    CommandBuffer first, second;
+    const auto chosen = fixture.choose(draws, first);
+    EXPECT_EQ(fixture.choose(draws, second), chosen);
+    EXPECT_EQ(second.commandCount(), 0u);
+}
+
+TEST(ChoosePipelines, AFilteredVariantGivesNoneAndOneWarning) {
+    DrawFixture fixture(1, 4, 1);
+    fixture.materials[0].name = "filtered";
+    std::vector<std::string> lines;
+    const LogSink before = setLogSink([&](Severity, std::string_view line) { lines.emplace_back(line); });
+    const std::vector<DrawCall> draws = fixture.randomDraws(100, 7);
+    CommandBuffer setup;
+    for (int frame = 0; frame < 2; ++frame) {
+        EXPECT_THAT(fixture.choose(draws, setup, nullptr, shader::kVariantSun), testing::Each(PipelineHandle{}));
+    }
+    setLogSink(before);
+    EXPECT_EQ(setup.commandCount(), 0u);
+    // front and back faces are two pipelines
+    EXPECT_THAT(lines, testing::SizeIs(2));
+    EXPECT_THAT(lines[0], testing::HasSubstr("material 'filtered' was compiled without variant 1"));
+}
+
+TEST(ChoosePipelines, UnlitMaterialsShareOnePipelineBetweenVariants) {
+    DrawFixture fixture(1, 1, 1);
+    fixture.materials[0].package.shading = shader::ShadingModel::Unlit;
+    const std::vector<DrawCall> draws{ fixture.draw(0, 0, 0) };
+    CommandBuffer setup;
+    const auto lit = fixture.choose(draws, setup, nullptr, shader::kVariantSun);
+    EXPECT_TRUE(lit[0]);
+    EXPECT_EQ(fixture.choose(draws, setup), lit);
+}
+
+TEST(PipelineCache, ForgettingAMaterialDestroysWhatWasMadeOfItAndNothingElse) {
+    DrawFixture fixture(3, 9, 2);
+    const std::vector<DrawCall> draws = fixture.randomDraws(500, 8);
+    CommandBuffer setup, commands;
+    const auto chosen = fixture.choose(draws, setup);
+    const size_t all = createdBy(setup).pipelines.size();
+    const uint32_t live = fixture.stream->liveHandles();
+    fixture.pipelines->forget(commands, fixture.materials[1]);
+    const CreatedPipelines forgotten = createdBy(commands);
+    EXPECT_EQ(forgotten.destroyedPrograms, 1u);
+    EXPECT_EQ(fixture.pipelines->size(), all - forgotten.destroyedPipelines);
+    EXPECT_EQ(fixture.stream->liveHandles(), live - forgotten.destroyedPipelines - 1);
+    CommandBuffer again;
+    const auto rechosen = fixture.choose(draws, again);
+    EXPECT_EQ(createdBy(again).pipelines.size(), forgotten.destroyedPipelines);
+    for (size_t i = 0; i < draws.size(); ++i)
+        EXPECT_EQ(rechosen[i] == chosen[i], draws[i].material->material != &fixture.materials[1]);
+}
+
+// ---------------------------------------------------------------------------------------------- the table itself
+
+TEST(PipelineTable, AnswersAsAMapDoesThroughInsertionsAndRemovals) {
+    PipelineTable table;
+    std::unordered_map<uint64_t, uint32_t> map;
+    std::mt19937_64 random(9);
+    for (uint32_t step = 0; step < 20'000; ++step) {
+        const uint64_t key = 1 + random() % 3000 * 0x1'0000'0001ull; // upper and lower bits vary together
+        PipelineTable::Entry const* entry = table.find(key);
+        ASSERT_EQ(entry != nullptr, map.contains(key)) << step;
+        if (entry)
+            ASSERT_EQ(entry->material, map[key]);
+        else
+            table.insert({ key, PipelineHandle::make(step & 1023, 1), map[key] = step });
+        if (step % 4000 == 3999) {
+            table.eraseIf([&](PipelineTable::Entry const& e) { return e.material % 2 == 0; });
+            std::erase_if(map, [](auto const& item) { return item.second % 2 == 0; });
+        }
+        ASSERT_EQ(table.size(), map.size());
+    }
+}
+
+// Keys differ only in the bits of the material or of the layout; a hash of some bits would put them all in one place.
+TEST(PipelineTable, SpreadsKeysThatDifferInAnyOfTheirFields) {
+    for (const int shift : { 0, 4, 8, 20, 32, 40 }) {
+        PipelineTable table;
+        for (uint64_t i = 0; i < 2000; ++i) table.insert({ uint64_t{ 1 } << 63 | i << shift, {}, 0 });
+        EXPECT_LT(table.longestProbe(), 40u) << "bits from " << shift;
+    }
+}
+
+TEST(PipelineTableDeathTest, InsertingAKeyTwice) {
+    PipelineTable table;
+    table.insert({ 5, {}, 0 });
+    EXPECT_DEATH(table.insert({ 5, {}, 0 }), "a pipeline is inserted once");
+}
+
+} // namespace
+} // namespace filament::passes
