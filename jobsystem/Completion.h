@@ -7,7 +7,7 @@
 ///           and the owner gives up its privilege, so that whoever finishes last can tell from the atomic part alone.
 ///   Guard   while somebody has to be told of the end (a sleeper, a continuation), the count holds one unit more than
 ///           there are jobs. The thread that leaves only this unit closes the group: it takes the continuation and the
-///           sleeper out and returns the unit. So the memory cannot go while it still looks at it.
+///           sleeper out, then returns the unit. So the memory cannot go while it still looks at it.
 ///   Thread  isDone(), announceSleeper(), withdrawSleeper(), setContinuation(), reclaim(): the thread that made the
 ///           group. add(), finish...(), close(): any.
 ///   Memory  48 bytes.   Fails: never.
@@ -63,13 +63,14 @@ public:
         Job* continuation = nullptr; ///< to submit
         Bell* sleeper = nullptr;     ///< to wake
     };
-    /// What the caller has to do: first the continuation, then finishShared() for the guard unit, then the sleeper.
+    /// What the caller has to do; the memory of this object may be gone when this returns. Until then nobody else
+    /// changes the count: no job is left, and the owner sees that it is being closed.
     Closing close() {
-        // Read before the flags go: without them the owner may write new ones.
-        Job* continuation = mContinuation.load(std::memory_order_relaxed);
-        Bell* sleeper = mSleeper.load(std::memory_order_relaxed);
-        const int64_t before = mShared.fetch_and(~kFlags, std::memory_order_acq_rel);
-        return { before & kHasContinuation ? continuation : nullptr, before & kHasSleeper ? sleeper : nullptr };
+        const int64_t flags = mShared.load(std::memory_order_relaxed) & kFlags;
+        const Closing closing{ flags & kHasContinuation ? mContinuation.load(std::memory_order_relaxed) : nullptr,
+                               flags & kHasSleeper ? mSleeper.load(std::memory_order_relaxed) : nullptr };
+        mShared.store(0, std::memory_order_release); // flags and guard in one: the owner cannot ask again in between
+        return closing;
     }
 
     /// Asks the last job to ring `bell`. False if there is nothing to wait for, or but for a moment.

@@ -253,13 +253,9 @@ void Scheduler::finish(Seat const* seat, Completion& completion, bool stolen) {
 }
 
 void Scheduler::close(Completion& completion) {
-    bool again = true;
-    while (again) {
-        const auto [continuation, sleeper] = completion.close();
-        if (continuation) enqueueCounted(*continuation);
-        again = completion.finishShared(); // the memory may be gone
-        if (sleeper) sleeper->wakeAll();
-    }
+    const auto [continuation, sleeper] = completion.close(); // the memory may be gone
+    if (continuation) enqueueCounted(*continuation);
+    if (sleeper) sleeper->wakeAll();
 }
 
 // The group of the job counts it already.
