@@ -24,13 +24,22 @@ void* Arena::allocate(size_t bytes, size_t alignment) {
             return result;
         }
     }
-    const size_t size = std::max(mBlockBytes, bytes + alignment);
-    mBlocks.push_back({ std::make_unique_for_overwrite<std::byte[]>(size), size, 0 });
-    mCurrent = mBlocks.size() - 1;
+    addBlock(std::max(mBlockBytes, bytes + alignment));
     return allocate(bytes, alignment);
 }
 
+void Arena::addBlock(size_t bytes) {
+    mBlocks.push_back({ std::make_unique_for_overwrite<std::byte[]>(bytes), bytes, 0 });
+    mCurrent = mBlocks.size() - 1;
+}
+
+// One block: what did not fit into the rest of a block would otherwise leave that rest unused in every frame to come.
 void Arena::reset() {
+    if (mBlocks.size() > 1) {
+        const size_t bytes = bytesReserved();
+        mBlocks.clear();
+        addBlock(bytes);
+    }
     for (Block& block : mBlocks) block.used = 0;
     mCurrent = 0;
 }

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Arena: linear memory for things that live exactly one frame.
-///   Memory  grows in blocks and keeps them; after warm-up a frame allocates nothing from the heap.
+///   Memory  grows in blocks; reset() replaces several by one of their size, so that after warm-up a frame allocates
+///           nothing from the heap, and frames of growing needs do so ever more seldom.
 ///   Thread  one thread at a time. Jobs get spans carved out before they start.
 ///   Limits  objects are never destructed: trivially destructible types only.
 ///   Fails   never (std::bad_alloc ends the process).
@@ -36,6 +37,14 @@ public:
         return { first, count };
     }
 
+    /// `count` elements with whatever the memory held before: for arrays that are written in full, or from the front.
+    template <class T>
+    std::span<T> arrayForOverwrite(size_t count) {
+        static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,
+                      "only plain data begins its life by being written");
+        return { static_cast<T*>(allocate(count * sizeof(T), alignof(T))), count };
+    }
+
     template <class T, class... Args>
     T* make(Args&&... args) {
         static_assert(std::is_trivially_destructible_v<T>, "the arena never runs destructors");
@@ -50,7 +59,7 @@ public:
         return { first, source.size() };
     }
 
-    /// Forgets everything allocated; keeps the blocks.
+    /// Forgets everything allocated; keeps as much memory as there was.
     void reset();
 
     size_t bytesUsed() const;
@@ -62,6 +71,8 @@ private:
         size_t size = 0;
         size_t used = 0;
     };
+
+    void addBlock(size_t bytes);
 
     size_t mBlockBytes;
     std::vector<Block> mBlocks;

@@ -71,7 +71,7 @@ struct Renderer::Impl {
     void upload(CommandBuffer& commands, FrameContext& context) {
         const auto sampler = [&](Sampler const& wanted) { return engine.samplers.get(wanted, commands); };
         const TextureHandle black = engine.textureHandle(engine.defaults.blackCube);
-        data.upload(commands, context.packet,
+        data.upload(engine.jobs, commands, context.packet,
                     { .specular = context.packet.specular ? context.packet.specular : black,
                       .dfg = engine.textureHandle(engine.defaults.dfg),
                       .sky = context.packet.sky ? context.packet.sky : black,

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "filament_core/math/Math.h"
+#include "filament_core/math/Simd.h"
 
 #include <array>
 
@@ -26,6 +27,36 @@ inline bool intersects(Frustum const& frustum, float3 center, float3 halfExtent)
     }
     return true;
 }
+
+/// Eight boxes, a component a member.
+struct Box8 {
+    std::array<simd::Float8, 3> center, halfExtent;
+};
+
+/// A frustum made ready for eight boxes at a time.
+class Frustum8 {
+public:
+    explicit Frustum8(Frustum const& frustum) {
+        for (size_t i = 0; i < frustum.planes.size(); ++i) {
+            mPlanes[i] = frustum.planes[i];
+            mReaches[i] = glm::abs(float3(frustum.planes[i]));
+        }
+    }
+
+    /// Bit i: intersects() of box i, to the bit also for NaN and infinities: the same operations in the same order.
+    uint32_t intersects(Box8 const& boxes) const {
+        simd::Mask8 outside{};
+        for (size_t i = 0; i < mPlanes.size(); ++i) {
+            const simd::Float8 distance = simd::dot(float3(mPlanes[i]), boxes.center) + mPlanes[i].w;
+            outside = outside | (distance < -simd::dot(mReaches[i], boxes.halfExtent));
+        }
+        return ~simd::bits8(outside) & 0xFFu;
+    }
+
+private:
+    std::array<float4, 5> mPlanes;
+    std::array<float3, 5> mReaches; // of a box along each normal: absolute values
+};
 
 inline bool intersectsSphere(Frustum const& frustum, float3 center, float radius) {
     for (float4 const& plane : frustum.planes) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/FrameData.h"
 
+#include "filament_core/prepare/ObjectData.h"
 #include "shaders/package/ViewLayout.h"
 
 #include <algorithm>
@@ -13,6 +14,7 @@ using shader::FrameUniforms;
 using shader::kObjectsPerWindow;
 
 constexpr uint32_t kWindowBytes = sizeof(shader::ObjectUniforms);
+constexpr size_t kCacheLineBytes = 64;
 
 template <class T>
 std::span<const std::byte> bytesOf(T const& value) {
@@ -70,7 +72,19 @@ void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& text
     commands.record(CmdCreateBindGroup{ set.view, { shader::viewGroupLayout(), entries, "view" } });
 }
 
-void FrameData::upload(CommandBuffer& commands, prepare::FramePacket const& packet, ViewTextures const& textures) {
+// A whole set's worth of memory whatever the number of objects, so that the buffer finds the block of an earlier frame
+// again; the objects are written into it and nowhere else.
+void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Set const& set,
+                              prepare::ObjectList const& list) {
+    if (list.empty()) return;
+    const std::span<std::byte> memory = commands.allocate(set.windows * size_t{ kWindowBytes }, kCacheLineBytes);
+    const std::span objects(reinterpret_cast<shader::ObjectData*>(memory.data()), list.size());
+    prepare::writeObjects(jobs, list, objects);
+    commands.recordAdopted(CmdUpdateBuffer{ set.objects, 0, std::as_bytes(objects) });
+}
+
+void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::FramePacket const& packet,
+                       ViewTextures const& textures) {
     mCurrent = (mCurrent + 1) % static_cast<uint32_t>(mSets.size());
     Set& set = mSets[mCurrent];
     const auto objects = static_cast<uint32_t>(packet.objects.size());
@@ -80,7 +94,7 @@ void FrameData::upload(CommandBuffer& commands, prepare::FramePacket const& pack
 
     commands.record(CmdUpdateBuffer{ set.frame, 0, bytesOf(packet.frame) });
     if (!packet.lights.empty()) commands.record(CmdUpdateBuffer{ set.lights, 0, std::as_bytes(packet.lights) });
-    if (objects > 0) commands.record(CmdUpdateBuffer{ set.objects, 0, std::as_bytes(packet.objects) });
+    uploadObjects(jobs, commands, set, packet.objects);
 }
 
 CmdBindGroup FrameData::bindView(BindGroupHandle group, uint32_t object) {

@@ -2,13 +2,13 @@
 /// FrameData: the uniform data of a frame on the device, and the bind group through which shaders see it.
 ///   In      a FramePacket.   Out: a bind group for kGroupView and offsets into it.
 ///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They
-///   grow to
-///           the largest frame and stay.
-///   Thread  the app thread. Records outside of passes.
+///           grow to the largest frame and stay. Objects are written straight into the memory of the command buffer.
+///   Thread  the app thread, with the workers for the objects. Records outside of passes.
 #pragma once
 
 #include "backend/stream/CommandStream.h"
 #include "filament_core/prepare/FramePacket.h"
+#include "jobsystem/JobSystem.h"
 
 #include <array>
 
@@ -27,7 +27,8 @@ public:
     explicit FrameData(backend::CommandStream& stream) : mStream(stream) {}
 
     /// Uploads the packet into the next set and makes its bind group current.
-    void upload(backend::CommandBuffer& commands, prepare::FramePacket const& packet, ViewTextures const& textures);
+    void upload(jobs::JobSystem& jobs, backend::CommandBuffer& commands, prepare::FramePacket const& packet,
+                ViewTextures const& textures);
     void destroy(backend::CommandBuffer& commands);
 
     backend::BindGroupHandle viewGroup() const { return mSets[mCurrent].view; }
@@ -49,6 +50,8 @@ private:
     void release(backend::CommandBuffer& commands, backend::BufferHandle& buffer);
     void grow(backend::CommandBuffer& commands, Set& set, uint32_t windows);
     void bind(backend::CommandBuffer& commands, Set& set, ViewTextures const& textures);
+    static void uploadObjects(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Set const& set,
+                              prepare::ObjectList const& list);
 
     backend::CommandStream& mStream;
     std::array<Set, 3> mSets{};

@@ -2,10 +2,12 @@
 /// FramePacket: what is seen in one view of one frame. The only thing that passes read of a scene.
 ///   In      made by prepareFrame (PrepareFrame.h).
 ///   Thread  a plain value, read-only once made.
-///   Memory  spans into the frame arena: valid until the end of the frame.
+///   Memory  spans into the frame arena and the columns of the scene: valid until the end of the frame, or until the
+///           scene changes.
 #pragma once
 
 #include "backend/api/Handles.h"
+#include "filament_core/prepare/SortKey.h"
 #include "filament_core/scene/SceneData.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -13,6 +15,16 @@
 #include <span>
 
 namespace filament::prepare {
+
+/// Where the objects of a frame are to be read from; writeObjects() (ObjectData.h) makes them what shaders see.
+struct ObjectList {
+    std::span<const SortItem> order; ///< of drawing
+    std::span<const scene::Placement> placements;
+    double3 cameraWorld{ 0.0 };
+
+    size_t size() const { return order.size(); }
+    bool empty() const { return order.empty(); }
+};
 
 /// Instances [firstObject, firstObject + instanceCount) of FramePacket::objects, all of one window, share geometry,
 /// material and raster state.
@@ -39,13 +51,17 @@ struct PacketCounts {
 struct FramePacket {
     shader::FrameUniforms frame{};
     std::span<const shader::LightData> lights;
-    std::span<const shader::ObjectData> objects; ///< in draw order
-    std::span<const DrawCall> opaque;            ///< opaque and masked, roughly front to back
-    std::span<const DrawCall> blended;           ///< back to front
-    uint8_t variant = 0;                         ///< shader::VariantBit set that the scene's lights select
-    backend::TextureHandle specular;             ///< none: no indirect light
-    backend::TextureHandle sky;                  ///< none: no skybox
+    ObjectList objects;
+    std::span<const DrawCall> opaque;  ///< opaque and masked, roughly front to back
+    std::span<const DrawCall> blended; ///< back to front
+    uint8_t variant = 0;               ///< shader::VariantBit set that the scene's lights select
+    backend::TextureHandle specular;   ///< none: no indirect light
+    backend::TextureHandle sky;        ///< none: no skybox
     PacketCounts counts;
 };
+
+/// Of everything in a packet and behind it, object data included: contents, never addresses. Equal for any number of
+/// workers.
+uint64_t hashPacket(FramePacket const& packet);
 
 } // namespace filament::prepare

@@ -3,6 +3,7 @@
 
 #include "filament_core/prepare/DrawList.h"
 #include "filament_core/prepare/SelectLights.h"
+#include "filament_core/prepare/SortItems.h"
 #include "filament_core/prepare/ViewConstants.h"
 
 namespace filament::prepare {
@@ -22,10 +23,12 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.lights = selectLights(arena, scene.lights, space, packet.frame, packet.counts);
     packet.variant = variantFor(packet.counts);
 
-    const auto visibility = cullRenderables(jobs, arena, scene.renderables, space);
-    const auto items = sortVisible(jobs, arena, scene.renderables, visibility, space, packet.counts);
-    packet.objects = writeObjects(jobs, arena, scene.renderables, items, space);
-    const DrawLists draws = mergeInstances(arena, scene.renderables, items, packet.counts);
+    scene::Renderables const& renderables = scene.renderables;
+    const VisibleItems visible = cullRenderables(jobs, arena, renderables, space, packet.counts);
+    const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, visible);
+    const std::span<const SortItem> order = sortItems(jobs, arena, items);
+    const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
+    packet.objects = { order, renderables.placement, space.cameraWorld };
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
     packet.specular = scene.indirectLight.specular;

@@ -12,7 +12,7 @@ namespace {
 template <class Body>
 void forRanges(jobs::JobSystem& jobs, size_t count, Body&& body) {
     if (count <= kTransformGrain) return body(0, count);
-    jobs::parallelFor(jobs, count, kTransformGrain, body);
+    jobs::parallelFor<"transforms">(jobs, count, kTransformGrain, body);
 }
 
 void placeAll(scene::SceneData& scene, std::span<const uint32_t> slots) {

@@ -39,23 +39,22 @@ uint32_t Drawables::acquire(Drawable const& drawable) {
         known->second = mFree.back();
         mFree.pop_back();
     } else if (isNew) {
-        mRecords.emplace_back();
-        mOrders.emplace_back();
+        mDrawables.emplace_back();
+        mUses.emplace_back();
     }
     const uint32_t number = known->second;
     if (isNew) {
-        mRecords[number].drawable = drawable;
-        mOrders[number] = orderOf(*drawable.material);
+        mDrawables[number] = drawable;
+        mUses[number] = { orderOf(*drawable.material), 0 };
     }
-    ++mRecords[number].users;
+    ++mUses[number].users;
     return number;
 }
 
 void Drawables::release(uint32_t number) {
-    FILAMENT_ASSERT(number < limit() && mRecords[number].users > 0, "a drawable is released once a use");
-    Record& record = mRecords[number];
-    if (--record.users > 0) return;
-    mNumbers.erase(record.drawable);
+    FILAMENT_ASSERT(number < limit() && mUses[number].users > 0, "a drawable is released once a use");
+    if (--mUses[number].users > 0) return;
+    mNumbers.erase(mDrawables[number]);
     mFree.push_back(number);
 }
 

@@ -48,8 +48,8 @@ struct Drawable {
 
 class Drawables {
 public:
-    /// Bits of order(): neighbours in this order share programs, then parameters. Ids beyond 12 bits wrap around, which
-    /// costs state changes and nothing else.
+    /// Bits of Use::order: neighbours in this order share programs, then parameters. Ids beyond 12 bits wrap around,
+    /// which costs state changes and nothing else.
     static constexpr uint32_t kMaterialBits = 12, kInstanceBits = 12;
     static constexpr uint32_t kBlendedOrder = 1u << 31;
 
@@ -57,24 +57,23 @@ public:
     uint32_t acquire(Drawable const& drawable);
     void release(uint32_t number);
 
-    Drawable const& operator[](uint32_t number) const { return mRecords[number].drawable; }
-    /// material << kInstanceBits | instance, and kBlendedOrder if the material blends.
-    uint32_t order(uint32_t number) const { return mOrders[number]; }
+    Drawable const& operator[](uint32_t number) const { return mDrawables[number]; }
+    /// What sorting reads of a pair.
+    struct Use {
+        uint32_t order = 0; ///< material << kInstanceBits | instance, and kBlendedOrder if the material blends
+        uint32_t users = 0;
+    };
+    Use use(uint32_t number) const { return mUses[number]; }
     /// All numbers are below; also those of pairs that nobody uses any more.
-    uint32_t limit() const { return static_cast<uint32_t>(mRecords.size()); }
+    uint32_t limit() const { return static_cast<uint32_t>(mDrawables.size()); }
     uint32_t count() const { return static_cast<uint32_t>(mNumbers.size()); }
 
 private:
     struct Hash {
         size_t operator()(Drawable const& drawable) const noexcept;
     };
-    struct Record {
-        Drawable drawable{};
-        uint32_t users = 0;
-    };
-
-    std::vector<Record> mRecords;
-    std::vector<uint32_t> mOrders; // parallel to mRecords: all that sorting reads
+    std::vector<Drawable> mDrawables;
+    std::vector<Use> mUses; // parallel to mDrawables
     std::vector<uint32_t> mFree;
     std::unordered_map<Drawable, uint32_t, Hash> mNumbers;
 };

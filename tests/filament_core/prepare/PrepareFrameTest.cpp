@@ -1,49 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/PrepareFrame.h"
 
-#include "filament_core/base/Hash.h"
+#include "filament_core/prepare/ObjectData.h"
+#include "tests/filament_core/prepare/BoxScene.h"
 
 #include <gtest/gtest.h>
 
-#include <deque>
+#include <vector>
 
 namespace filament::prepare {
 namespace {
 
 using scene::LightRecord;
 
-/// A scene of unit boxes, with handles made up: prepare never looks behind them.
-struct PrepareFrameTest : testing::Test {
-    std::deque<scene::Material> materials;
-    std::deque<scene::MaterialInstance> instances;
-    scene::SceneData scene;
+struct PrepareFrameTest : testing::Test, BoxScene {
     jobs::JobSystem jobs{ { .workers = 1 } };
     Arena arena;
     ViewInput view{ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }), .size = { 640, 480 } };
 
-    scene::MaterialInstance* material(shader::Blending blending) {
-        materials.emplace_back();
-        materials.back().id = static_cast<uint32_t>(materials.size());
-        materials.back().package.blending = blending;
-        instances.push_back({ .id = static_cast<uint32_t>(instances.size()), .material = &materials.back() });
-        return &instances.back();
-    }
-
-    Renderable add(double3 at, scene::MaterialInstance const* instance, uint32_t mesh = 1, double scaleX = 1) {
-        double4x4 world(1.0);
-        world[0][0] = scaleX;
-        world[3] = double4(at, 1);
-        const scene::Geometry geometry{ .vertices = backend::BufferHandle::make(mesh, 1),
-                                        .indices = backend::BufferHandle::make(mesh, 1),
-                                        .indexCount = 36 };
-        return addRenderable(scene, { .geometry = geometry,
-                                      .material = instance,
-                                      .boundsMin = float3(-0.5f),
-                                      .boundsMax = float3(0.5f),
-                                      .worldFromObject = world });
-    }
-
     FramePacket prepare() { return prepareFrame(jobs, arena, scene, view); }
+
+    std::vector<shader::ObjectData> objectsOf(FramePacket const& packet) {
+        std::vector<shader::ObjectData> objects(packet.objects.size());
+        writeObjects(jobs, packet.objects, objects);
+        return objects;
+    }
 };
 
 TEST_F(PrepareFrameTest, DropsWhatTheCameraCannotSeeAndSaysWhy) {
@@ -61,8 +42,7 @@ TEST_F(PrepareFrameTest, DropsWhatTheCameraCannotSeeAndSaysWhy) {
 TEST_F(PrepareFrameTest, PositionsAreRelativeToTheCameraAtAnyDistanceFromTheOrigin) {
     auto* opaque = material(shader::Blending::Opaque);
     add({ 0.25, 0, 0 }, opaque);
-    const FramePacket near = prepare();
-    const shader::ObjectData reference = near.objects[0];
+    const shader::ObjectData reference = objectsOf(prepare())[0];
 
     const double3 far(1e7, -3e6, 5e6);
     setTransform(scene, Renderable{ Renderable::make(0, 1) }, [&] {
@@ -71,11 +51,11 @@ TEST_F(PrepareFrameTest, PositionsAreRelativeToTheCameraAtAnyDistanceFromTheOrig
         return world;
     }());
     view.camera = Camera::lookAt(far + double3(0, 0, 10), far);
-    const FramePacket moved = prepare();
-    ASSERT_EQ(moved.objects.size(), 1u);
-    EXPECT_EQ(moved.objects[0].row0, reference.row0);
-    EXPECT_EQ(moved.objects[0].row1, reference.row1);
-    EXPECT_EQ(moved.objects[0].row2, reference.row2);
+    const std::vector<shader::ObjectData> moved = objectsOf(prepare());
+    ASSERT_EQ(moved.size(), 1u);
+    EXPECT_EQ(moved[0].row0, reference.row0);
+    EXPECT_EQ(moved[0].row1, reference.row1);
+    EXPECT_EQ(moved[0].row2, reference.row2);
 }
 
 TEST_F(PrepareFrameTest, MergesEqualNeighboursIntoOneInstancedDraw) {
@@ -113,7 +93,7 @@ TEST_F(PrepareFrameTest, MirroredInstancesDrawApart) {
     const FramePacket packet = prepare();
     ASSERT_EQ(packet.opaque.size(), 2u);
     EXPECT_NE(packet.opaque[0].mirrored, packet.opaque[1].mirrored);
-    EXPECT_EQ(packet.objects[packet.opaque[0].mirrored ? 0 : 1].flags.x, -1.0f);
+    EXPECT_EQ(objectsOf(packet)[packet.opaque[0].mirrored ? 0 : 1].flags.x, -1.0f);
 }
 
 TEST_F(PrepareFrameTest, DrawsOpaqueFrontToBackAndBlendedBackToFront) {
@@ -145,11 +125,7 @@ TEST_F(PrepareFrameTest, IsTheSameForAnyNumberOfWorkers) {
     for (int workers : { 0, 1, 2, 3, 16 }) {
         jobs::JobSystem other({ .workers = workers });
         const FramePacket packet = prepareFrame(other, arena, scene, view);
-        uint64_t hash = hashBytes(std::as_bytes(packet.objects));
-        for (DrawCall const& draw : packet.opaque)
-            hash = hashCombine(hash, draw.firstObject * 4096ull + draw.instanceCount);
-        for (DrawCall const& draw : packet.blended)
-            hash = hashCombine(hash, draw.firstObject * 4096ull + draw.instanceCount);
+        const uint64_t hash = hashPacket(packet);
         if (workers == 0) reference = hash;
         EXPECT_EQ(hash, reference) << workers << " workers";
     }

@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// What preparing a frame costs, step by step and whole. Counters: nanoseconds a renderable, wall clock and all threads
+// together (medians); everything is visible.
+#include "bench/filament_core/prepare/PrepareSetup.h"
+
+namespace filament::prepare {
+namespace {
+
+/// Times `step`, which takes what `before` returns.
+template <class Before, class Step>
+void timeStep(benchmark::State& state, Setup& setup, Before&& before, Step&& step) {
+    Samples samples;
+    for (auto _ : state) {
+        setup.arena.reset();
+        auto input = before();
+        state.SetIterationTime(samples.time([&] { benchmark::DoNotOptimize(step(input)); }));
+    }
+    samples.report(state, setup.count);
+}
+
+void cull(benchmark::State& state) {
+    Setup setup(state);
+    timeStep(
+            state, setup, [] { return 0; }, [&](int) { return setup.cull(); });
+}
+
+void keys(benchmark::State& state) {
+    Setup setup(state);
+    timeStep(
+            state, setup, [&] { return setup.cull(); },
+            [&](VisibleItems const& visible) {
+                return writeKeys(setup.jobs, setup.arena, setup.renderables().drawables, visible);
+            });
+}
+
+void sort(benchmark::State& state) {
+    Setup setup(state);
+    timeStep(
+            state, setup, [&] { return setup.keys(); },
+            [&](std::span<SortItem> items) { return sortItems(setup.jobs, setup.arena, items); });
+}
+
+void merge(benchmark::State& state) {
+    Setup setup(state);
+    DrawLists draws;
+    timeStep(
+            state, setup, [&] { return setup.order(); },
+            [&](std::span<const SortItem> order) {
+                return draws = mergeInstances(setup.jobs, setup.arena, setup.renderables().drawables, order,
+                                              setup.counts);
+            });
+    state.counters["draws"] = static_cast<double>(draws.opaque.size());
+}
+
+void objects(benchmark::State& state) {
+    Setup setup(state);
+    std::vector<shader::ObjectData> memory(setup.count);
+    const ObjectList list{ setup.order(), setup.renderables().placement, setup.space.cameraWorld };
+    Samples samples;
+    for (auto _ : state) {
+        state.SetIterationTime(samples.time([&] { writeObjects(setup.jobs, list, memory); }));
+        benchmark::ClobberMemory();
+    }
+    samples.report(state, setup.count);
+}
+
+/// All of it: what a frame pays before and apart from recording.
+void frame(benchmark::State& state) {
+    Setup setup(state);
+    std::vector<shader::ObjectData> memory(setup.count);
+    Samples samples;
+    for (auto _ : state) {
+        setup.arena.reset();
+        state.SetIterationTime(samples.time([&] {
+            const FramePacket packet = prepareFrame(setup.jobs, setup.arena, setup.boxes.scene, setup.view);
+            writeObjects(setup.jobs, packet.objects, memory);
+        }));
+    }
+    samples.report(state, setup.count);
+}
+
+void arguments(benchmark::internal::Benchmark* bench) {
+    bench->ArgNames({ kRenderables, kLooks, kWorkers })
+            ->ArgsProduct({ { 1000, 10'000, 100'000 }, { 1, 1024 }, { 0, 1 } })
+            ->UseManualTime();
+}
+BENCHMARK(cull)->Apply(arguments);
+BENCHMARK(keys)->Apply(arguments);
+BENCHMARK(sort)->Apply(arguments);
+BENCHMARK(merge)->Apply(arguments);
+BENCHMARK(objects)->Apply(arguments);
+BENCHMARK(frame)->Apply(arguments);
+
+} // namespace
+} // namespace filament::prepare

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the benchmarks of this folder share: scenes in which everything is visible, and clocks.
+#pragma once
+
+#include "filament_core/prepare/DrawList.h"
+#include "filament_core/prepare/ObjectData.h"
+#include "filament_core/prepare/SortItems.h"
+#include "tests/filament_core/prepare/BoxScene.h"
+
+#include <benchmark/benchmark.h>
+#include <time.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace filament::prepare {
+
+/// Scene, view and jobs as the arguments "renderables", "looks" (1, or 64 materials x 16 meshes, or one each) and
+/// "workers" (threads besides the caller) say.
+struct Setup {
+    explicit Setup(benchmark::State const& state)
+            : count(static_cast<uint32_t>(state.range(0))), jobs({ .workers = static_cast<int>(state.range(2)) }),
+              view(BoxScene::cubeView(count)), space(makeViewSpace(view)) {
+        const auto looks = static_cast<uint32_t>(state.range(1));
+        boxes.addCube(count, std::min(looks, 64u), std::max(looks / 64, 1u));
+    }
+
+    scene::Renderables const& renderables() const { return boxes.scene.renderables; }
+    VisibleItems cull() { return cullRenderables(jobs, arena, renderables(), space, counts); }
+    std::span<SortItem> keys() { return writeKeys(jobs, arena, renderables().drawables, cull()); }
+    std::span<const SortItem> order() { return sortItems(jobs, arena, keys()); }
+
+    uint32_t count;
+    BoxScene boxes;
+    jobs::JobSystem jobs;
+    Arena arena;
+    ViewInput view;
+    ViewSpace space;
+    PacketCounts counts;
+};
+
+/// Times of one thing, in seconds: medians, because neighbours on the machine make some of them long.
+class Samples {
+public:
+    /// Calls and times `function`; returns its wall time.
+    template <class F>
+    double time(F&& function) {
+        const double wall = now(CLOCK_MONOTONIC), threads = now(CLOCK_PROCESS_CPUTIME_ID);
+        function();
+        mThreads.push_back(now(CLOCK_PROCESS_CPUTIME_ID) - threads);
+        mWall.push_back(now(CLOCK_MONOTONIC) - wall);
+        return mWall.back();
+    }
+
+    double wall() { return median(mWall); }
+    /// All threads of the process together, waiting included.
+    double threads() { return median(mThreads); }
+
+    /// Counters: nanoseconds a renderable.
+    void report(benchmark::State& state, uint32_t renderables) {
+        state.counters["wall_ns"] = wall() * 1e9 / renderables;
+        state.counters["threads_ns"] = threads() * 1e9 / renderables;
+    }
+
+private:
+    static double now(clockid_t clock) {
+        timespec time{};
+        clock_gettime(clock, &time);
+        return static_cast<double>(time.tv_sec) + static_cast<double>(time.tv_nsec) * 1e-9;
+    }
+
+    static double median(std::vector<double>& values) {
+        const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+        std::nth_element(values.begin(), middle, values.end());
+        return *middle;
+    }
+
+    std::vector<double> mWall, mThreads;
+};
+
+inline constexpr const char* kRenderables = "renderables";
+inline constexpr const char* kLooks = "looks";
+inline constexpr const char* kWorkers = "workers";
+
+} // namespace filament::prepare

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/CullRenderables.h"
+
+#include <array>
+#include <atomic>
+#include <cstring>
+
+namespace filament::prepare {
+namespace {
+
+using scene::Renderables;
+using simd::Float8;
+using simd::kLanes;
+
+static_assert(kCullRange % kLanes == 0, "only the last range of a scene has boxes left over");
+
+struct Tally {
+    uint32_t visible = 0, outOfView = 0, nothingToDraw = 0;
+};
+
+/// Bit or lane i: renderable first + i.
+struct Seen8 {
+    uint32_t visible = 0, nothingToDraw = 0;
+    std::array<float, kLanes> depth;
+};
+
+// Both ends in one word that only falls: the nearest step, and above it how far the farthest is from the last.
+constexpr uint16_t kNoSpan = 0xFFFF;
+
+// Relaxed: the result does not depend on the order, and the end of the loop publishes it. Steps instead of exact depths
+// make changes rare: a draw has a few dozen of them, not one for each of its renderables.
+void extend(uint16_t& shared, uint32_t step) {
+    std::atomic_ref<uint16_t> span(shared);
+    uint16_t seen = span.load(std::memory_order_relaxed);
+    for (;;) {
+        const uint32_t nearest = std::min<uint32_t>(seen & 0xFFu, step);
+        const uint32_t inverted = std::min<uint32_t>(seen >> 8, 0xFFu - step);
+        const auto wanted = static_cast<uint16_t>(inverted << 8 | nearest);
+        if (wanted == seen || span.compare_exchange_weak(seen, wanted, std::memory_order_relaxed)) return;
+    }
+}
+
+class RangeCuller {
+public:
+    RangeCuller(Renderables const& renderables, ViewSpace const& space, std::span<uint16_t> spans)
+            : mRenderables(renderables), mSpace(space), mFrustum(space.frustum), mSpans(spans) {}
+
+    /// Writes the visible ones of [begin, end) to `slots`.
+    Tally cull(size_t begin, size_t end, SortItem* slots) const {
+        Tally tally;
+        SortItem* next = slots;
+        size_t i = begin;
+        for (; i + kLanes <= end; i += kLanes) next = keep(see8(i), i, next, tally);
+        for (; i < end; ++i) next = keep(see1(i), i, next, tally);
+        tally.visible = static_cast<uint32_t>(next - slots);
+        tally.outOfView = static_cast<uint32_t>(end - begin) - tally.visible - tally.nothingToDraw;
+        return tally;
+    }
+
+private:
+    Seen8 see8(size_t i) const {
+        scene::BoundsColumns const& bounds = mRenderables.bounds;
+        Box8 boxes;
+        for (int axis = 0; axis < 3; ++axis) {
+            boxes.center[axis] = simd::loadRelative8(&bounds.center[axis][i], mSpace.cameraWorld[axis]);
+            boxes.halfExtent[axis] = simd::load8(&bounds.halfExtent[axis][i]);
+        }
+        uint64_t flags;
+        std::memcpy(&flags, &mRenderables.flags[i], sizeof flags);
+        Seen8 seen;
+        seen.nothingToDraw = simd::bitOfEachByte(flags, kNoIndicesBit) | simd::bitOfEachByte(flags, kCollapsedBit);
+        seen.visible =
+                (mFrustum.intersects(boxes) | ~simd::bitOfEachByte(flags, kCulledBit)) & ~seen.nothingToDraw & 0xFFu;
+        simd::store8(seen.depth, simd::dot(mSpace.forward, boxes.center));
+        return seen;
+    }
+
+    Seen8 see1(size_t i) const {
+        const uint8_t flags = mRenderables.flags[i];
+        const float3 center(mRenderables.bounds.centerAt(i) - mSpace.cameraWorld);
+        const bool nothing = flags & (scene::kNoIndices | scene::kCollapsed);
+        const bool inView =
+                !(flags & scene::kCulled) || intersects(mSpace.frustum, center, mRenderables.bounds.halfExtentAt(i));
+        Seen8 seen;
+        seen.nothingToDraw = nothing;
+        seen.visible = inView && !nothing;
+        seen.depth[0] = glm::dot(mSpace.forward, center);
+        return seen;
+    }
+
+    SortItem* keep(Seen8 const& seen, size_t first, SortItem* next, Tally& tally) const {
+        tally.nothingToDraw += static_cast<uint32_t>(std::popcount(seen.nothingToDraw));
+        for (uint32_t left = seen.visible; left != 0; left &= left - 1) {
+            const auto lane = static_cast<uint32_t>(std::countr_zero(left));
+            const uint32_t renderable = static_cast<uint32_t>(first) + lane;
+            const uint32_t depth = depthBits(seen.depth[lane]);
+            const bool mirrored = mRenderables.flags[renderable] & scene::kMirrored;
+            const uint32_t draw = drawOf(mRenderables.drawable[renderable], mirrored);
+            extend(mSpans[draw], coarseStep(depth));
+            *next++ = { depth, renderable, draw };
+        }
+        return next;
+    }
+
+    static constexpr uint32_t kCulledBit = std::countr_zero<uint32_t>(scene::kCulled);
+    static constexpr uint32_t kNoIndicesBit = std::countr_zero<uint32_t>(scene::kNoIndices);
+    static constexpr uint32_t kCollapsedBit = std::countr_zero<uint32_t>(scene::kCollapsed);
+
+    Renderables const& mRenderables;
+    ViewSpace const& mSpace;
+    Frustum8 mFrustum;
+    std::span<uint16_t> mSpans;
+};
+
+} // namespace
+
+VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables const& renderables,
+                             ViewSpace const& space, PacketCounts& counts) {
+    const size_t ranges = (renderables.count() + kCullRange - 1) / kCullRange;
+    const auto slots = arena.arrayForOverwrite<SortItem>(renderables.count());
+    const auto spans = arena.arrayForOverwrite<uint16_t>(drawOf(renderables.drawables.limit(), false));
+    const auto tallies = arena.arrayForOverwrite<Tally>(ranges);
+    std::ranges::fill(spans, kNoSpan);
+    jobs::parallelFor<"cull">(jobs, renderables.count(), kCullRange, [&](size_t begin, size_t end) {
+        const RangeCuller culler(renderables, space, spans);
+        tallies[begin / kCullRange] = culler.cull(begin, end, &slots[begin]);
+    });
+
+    const auto firsts = arena.arrayForOverwrite<uint32_t>(ranges + 1);
+    Tally all;
+    for (size_t range = 0; range < ranges; ++range) {
+        firsts[range] = all.visible;
+        all.visible += tallies[range].visible;
+        all.outOfView += tallies[range].outOfView;
+        all.nothingToDraw += tallies[range].nothingToDraw;
+    }
+    firsts[ranges] = all.visible;
+    counts.renderables = renderables.count();
+    counts.visible = all.visible;
+    counts.outOfView = all.outOfView;
+    counts.nothingToDraw = all.nothingToDraw;
+    return { slots, firsts, spans };
+}
+
+} // namespace filament::prepare

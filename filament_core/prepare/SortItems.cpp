@@ -1,0 +1,101 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/SortItems.h"
+
+#include <algorithm>
+#include <array>
+
+namespace filament::prepare {
+namespace {
+
+constexpr size_t kRange = 16 * 1024;
+constexpr size_t kMaxRanges = 32;
+constexpr uint32_t kDigitBits = 11;
+constexpr uint32_t kDigits = 1u << kDigitBits;
+
+using Histogram = std::array<uint32_t, kDigits>;
+
+/// Where the digits begin that cover every bit in which the keys differ.
+struct DigitPlan {
+    std::array<uint32_t, 64 / kDigitBits + 1> shifts{};
+    uint32_t count = 0;
+};
+
+DigitPlan planDigits(std::span<const SortItem> items) {
+    uint64_t varying = 0;
+    for (SortItem const& item : items) varying |= item.key ^ items[0].key;
+    DigitPlan plan;
+    while (varying != 0) {
+        const auto shift = static_cast<uint32_t>(std::countr_zero(varying));
+        plan.shifts[plan.count++] = shift;
+        varying &= ~(static_cast<uint64_t>(kDigits - 1) << shift);
+    }
+    return plan;
+}
+
+// In quarters of a nanosecond (measured): a digit costs 10 for each item and 3 for each counter; comparing costs 8 for
+// each item and doubling.
+bool isCheaperToCompare(size_t count, uint32_t digits) {
+    return 8 * count * static_cast<size_t>(std::bit_width(count)) < digits * (10 * count + 3 * kDigits);
+}
+
+void sortByComparing(std::span<SortItem> items) {
+    std::sort(items.begin(), items.end(), [](SortItem const& a, SortItem const& b) {
+        return a.key != b.key ? a.key < b.key : a.renderable < b.renderable;
+    });
+}
+
+uint32_t digit(SortItem const& item, uint32_t shift) { return item.key >> shift & (kDigits - 1); }
+
+void count(std::span<const SortItem> items, uint32_t shift, Histogram& histogram) {
+    histogram.fill(0);
+    for (SortItem const& item : items) ++histogram[digit(item, shift)];
+}
+
+// Turns counts a range into the places where each range puts its first item of each digit.
+void placesFromCounts(std::span<Histogram> ranges) {
+    Histogram next{};
+    for (Histogram const& range : ranges) {
+        for (uint32_t d = 0; d < kDigits; ++d) next[d] += range[d];
+    }
+    uint32_t sum = 0;
+    for (uint32_t& first : next) first = std::exchange(sum, sum + first);
+    for (Histogram& range : ranges) {
+        for (uint32_t d = 0; d < kDigits; ++d) range[d] = std::exchange(next[d], next[d] + range[d]);
+    }
+}
+
+void move(std::span<const SortItem> from, uint32_t shift, Histogram& places, SortItem* to) {
+    for (SortItem const& item : from) to[places[digit(item, shift)]++] = item;
+}
+
+void sortDigit(jobs::JobSystem& jobs, std::span<const SortItem> from, SortItem* to, uint32_t shift,
+               std::span<Histogram> ranges) {
+    const size_t grain = (from.size() + ranges.size() - 1) / ranges.size();
+    jobs::parallelFor<"sort: count">(jobs, from.size(), grain, [&](size_t begin, size_t end) {
+        count(from.subspan(begin, end - begin), shift, ranges[begin / grain]);
+    });
+    placesFromCounts(ranges);
+    jobs::parallelFor<"sort: move">(jobs, from.size(), grain, [&](size_t begin, size_t end) {
+        move(from.subspan(begin, end - begin), shift, ranges[begin / grain], to);
+    });
+}
+
+} // namespace
+
+std::span<const SortItem> sortItems(jobs::JobSystem& jobs, Arena& arena, std::span<SortItem> items) {
+    const DigitPlan plan = planDigits(items);
+    if (isCheaperToCompare(items.size(), plan.count)) {
+        sortByComparing(items);
+        return items;
+    }
+    const size_t ranges = std::clamp<size_t>(items.size() / kRange, 1, kMaxRanges);
+    const auto histograms = arena.arrayForOverwrite<Histogram>(ranges);
+    std::span<SortItem> from = items, to = arena.arrayForOverwrite<SortItem>(items.size());
+    for (uint32_t i = 0; i < plan.count; ++i) {
+        sortDigit(jobs, from, to.data(), plan.shifts[i], histograms);
+        std::swap(from, to);
+    }
+    return from;
+}
+
+} // namespace filament::prepare

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+/// SortKey: the order of drawing as one number, smaller first. Equal keys keep the order of the scene.
+///
+///   opaque   63    0
+///            55-62 slice      where the renderable's slice of its draw begins, four steps an octave
+///            43-54 material   same programs together
+///            42    mirrored   same raster state together
+///            30-41 instance   same parameters and textures together
+///            10-29 drawable   same geometry: makes the draw unique, so that nothing comes between its instances
+///             0- 9 depth      front to back inside of the slice, sixteen steps an octave
+///   blended  63    1
+///            31-62 depth      of the renderable, every bit, inverted: back to front
+///
+/// A draw is what instances can share: geometry, material instance and side. Its renderables, wherever they are in the
+/// scene, are cut into slices by depth, and slices of all draws lie front to back. A slice is as thin as a quarter of
+/// an octave where a draw has many renderables, and as thick as the whole draw where it has few: about
+/// kSliceMembers or more are worth a draw call of their own. So n copies of one mesh take ceil(n / window) draw calls,
+/// a few copies one, and what is in front hides what is behind. Where every mesh is there once, the order is front to
+/// back by quarters of an octave, and by state within one. bench/filament_core/prepare/DrawOrderBench.cpp counts draws
+/// and overdraw beside other orders.
+///
+///   Depth   along the view direction, from 2^-16 m to 2^48 m; what is nearer (behind the camera, not a number) or
+///           farther counts as the end of that range. Blended: from 0 on.
+#pragma once
+
+#include "filament_core/scene/Drawables.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdint>
+
+namespace filament::prepare {
+
+/// A visible renderable and its place in the order of drawing.
+struct SortItem {
+    uint64_t key = 0; ///< from culling until writeKeys(): the bits of its depth
+    uint32_t renderable = 0;
+    uint32_t draw = 0; ///< drawable << 1 | mirrored: equal draws can be instances of one draw call
+};
+static_assert(sizeof(SortItem) == 16, "sorting moves four of them a cache line");
+
+inline constexpr uint64_t kBlendedKey = 1ull << 63;
+
+constexpr uint32_t drawOf(uint32_t drawable, bool mirrored) { return drawable << 1 | (mirrored ? 1 : 0); }
+constexpr uint32_t drawableOf(uint32_t draw) { return draw >> 1; }
+constexpr bool isMirrored(uint32_t draw) { return (draw & 1) != 0; }
+
+/// The bits of a non-negative float grow with its value; everything else, NaN included, counts as 0.
+constexpr uint32_t depthBits(float depth) { return std::bit_cast<uint32_t>(depth > 0 ? depth : 0.0f); }
+
+/// Ten bits: exponent and four bits of mantissa, counted from 2^-16.
+constexpr uint32_t depthStep(uint32_t bits) {
+    constexpr int32_t kFirst = (127 - 16) << 4;
+    return static_cast<uint32_t>(std::clamp(static_cast<int32_t>(bits >> 19) - kFirst, 0, 1023));
+}
+
+/// Eight bits: four steps an octave. Slices begin and end at these.
+constexpr uint32_t coarseStep(uint32_t bits) { return depthStep(bits) >> 2; }
+
+/// The coarse steps between which the visible renderables of a draw lie.
+struct DepthSpan {
+    uint32_t nearest = 0, farthest = 0;
+};
+
+/// Members of a slice, at least, on the average over a draw. A power of two.
+inline constexpr uint32_t kSliceMembers = 8;
+
+/// The first step of the slice that holds `step`. Slices are a power of two of steps wide, as narrow as `members`
+/// (about as many as are visible) can fill.
+constexpr uint32_t sliceStart(DepthSpan span, uint32_t members, uint32_t step) {
+    const auto bits = [](uint32_t value) { return static_cast<int>(std::bit_width(value)); };
+    const int width = std::clamp(bits(span.farthest - span.nearest) + bits(kSliceMembers) - bits(members), 0, 8);
+    return span.nearest + ((step - span.nearest) >> width << width);
+}
+
+/// `order`: of the draw's drawable (scene::Drawables::Use).
+constexpr uint64_t opaqueKey(uint32_t order, uint32_t draw, uint32_t slice, uint32_t depth) {
+    using scene::Drawables;
+    const uint64_t material = order >> Drawables::kInstanceBits & ((1u << Drawables::kMaterialBits) - 1);
+    const uint64_t instance = order & ((1u << Drawables::kInstanceBits) - 1);
+    return static_cast<uint64_t>(slice) << 55 | material << 43 | static_cast<uint64_t>(isMirrored(draw)) << 42 |
+           instance << 30 | static_cast<uint64_t>(drawableOf(draw)) << 10 | depthStep(depth);
+}
+
+constexpr uint64_t blendedKey(uint32_t depth) { return kBlendedKey | static_cast<uint64_t>(~depth) << 31; }
+
+} // namespace filament::prepare
