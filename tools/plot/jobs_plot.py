@@ -22,6 +22,7 @@ class Event:
     begin: float  # milliseconds
     end: float
     depth: int = 0
+    holds: bool = False  # others, inside of it
     frame: int = -1
     stolen: bool = False
 
@@ -56,8 +57,8 @@ def read_complete(event, where):
         raise BadInput(f"{where}: 'dur' is negative")
     arguments = arguments_of(event)
     frame = arguments.get("frame", -1)
-    return Event(field(event, "name", str, where), begin, begin + duration, 0,
-                 frame if isinstance(frame, int) else -1, arguments.get("stolen") is True)
+    return Event(field(event, "name", str, where), begin, begin + duration,
+                 frame=frame if isinstance(frame, int) else -1, stolen=arguments.get("stolen") is True)
 
 
 def read_tracks(path):
@@ -81,16 +82,16 @@ def read_tracks(path):
 
 
 def assign_depths(events):
-    """How many events of the same thread contain each one; returns the deepest."""
+    """How many events of the same thread contain each one."""
     events.sort(key=lambda e: (e.begin, -e.end))
-    open_ends, deepest = [], 0
+    around = []
     for event in events:
-        while open_ends and open_ends[-1] <= event.begin:
-            open_ends.pop()
-        event.depth = len(open_ends)
-        deepest = max(deepest, event.depth)
-        open_ends.append(event.end)
-    return deepest
+        while around and around[-1].end <= event.begin:
+            around.pop()
+        event.depth = len(around)
+        if around:
+            around[-1].holds = True
+        around.append(event)
 
 
 def cut_to(tracks, begin, end, path):
@@ -129,7 +130,8 @@ def draw_track(axes, row, track, colors, span, rasterized):
     """Nested events are drawn inside the ones that contain them, a little lower in height."""
     height = 0.8
     smallest = span * 3e-4  # a bar that is there at all can be seen
-    polygons, faces, edges = [], [], []
+    edged = span * 2e-3  # narrower ones would be all edge
+    polygons, faces, edges, widths = [], [], [], []
     for event in sorted(track.events, key=lambda e: e.depth):
         inset = height * 0.5 * (1 - 0.72 ** event.depth)
         low, high = row - height / 2 + inset, row + height / 2 - inset
@@ -137,18 +139,18 @@ def draw_track(axes, row, track, colors, span, rasterized):
         polygons.append([(event.begin, low), (event.begin, high), (end, high), (end, low)])
         faces.append(colors[event.name])
         edges.append("#222222" if event.stolen else "white")
-    axes.add_collection(PolyCollection(polygons, facecolors=faces, edgecolors=edges, linewidths=0.5, rasterized=rasterized))
+        widths.append(0.5 if end - event.begin > edged else 0)
+    axes.add_collection(PolyCollection(polygons, facecolors=faces, edgecolors=edges, linewidths=widths,
+                                       rasterized=rasterized))
 
 
 def label_spans(axes, row, track, begin, end):
-    """The names of bars that are wide enough for them."""
+    """The names of bars that are wide enough for them and hold no others."""
     width = end - begin
     for event in track.events:
         low, high = max(event.begin, begin), min(event.end, end)
         text = event.name if event.frame < 0 else f"{event.name} {event.frame}"
-        contains = any(o.depth == event.depth + 1 and o.begin < event.end and o.end > event.begin for o in track.events) \
-            if len(track.events) < 400 else event.depth == 0
-        if not contains and (high - low) / width > 0.0075 * len(text):
+        if not event.holds and (high - low) / width > 0.0075 * len(text):
             axes.text((low + high) / 2, row, text, ha="center", va="center", fontsize=7, color="white", clip_on=True)
 
 

@@ -216,8 +216,9 @@ class Nesting(unittest.TestCase):
     def test_an_event_is_as_deep_as_the_number_of_events_around_it(self):
         events = [jobs_plot.Event("inner", 2, 3), jobs_plot.Event("outer", 0, 10), jobs_plot.Event("middle", 1, 5),
                   jobs_plot.Event("after", 5, 6), jobs_plot.Event("next", 10, 11)]
-        self.assertEqual(jobs_plot.assign_depths(events), 2)
+        jobs_plot.assign_depths(events)
         self.assertEqual({e.name: e.depth for e in events}, {"outer": 0, "middle": 1, "inner": 2, "after": 1, "next": 0})
+        self.assertEqual({e.name for e in events if e.holds}, {"outer", "middle"})
 
     def test_a_frame_begins_with_its_first_event_on_any_thread(self):
         driver = jobs_plot.Track("driver", 0, [jobs_plot.Event("replay", 4, 5, frame=1)])
