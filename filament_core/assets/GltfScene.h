@@ -8,8 +8,7 @@
 ///           for a skinned mesh, whose place does not depend on its node (section 3.7.3.3).
 ///   Thread  one. Cost: linear in the nodes.
 ///   Limits  2^20 instances of EXT_mesh_gpu_instancing a node.
-///   Fails   Corrupt: a transform that is not finite, a skin without joints, instance attributes of
-///   different length.
+///   Fails   Corrupt: a transform that is not finite, a skin without joints, instance attributes of different length.
 #pragma once
 
 #include "filament_core/assets/GltfDiagnostics.h"

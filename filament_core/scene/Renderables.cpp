@@ -1,29 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/scene/Renderables.h"
 
-#include <cmath>
 #include <utility>
 
 namespace filament::scene {
 namespace {
 
-bool isFinite(double4x4 const& matrix) {
-    for (int column = 0; column < 4; ++column) {
-        for (int row = 0; row < 4; ++row) {
-            if (!std::isfinite(matrix[column][row])) return false;
-        }
-    }
-    return true;
+Placement placementOf(Affine const& world) {
+    Placement placement;
+    for (size_t row = 0; row < 3; ++row) placement.rows[row] = float3(world.linearRow(row));
+    placement.side = glm::determinant(linearPart(world)) < 0 ? -1.0f : 1.0f;
+    placement.translation = world.translation();
+    return placement;
 }
 
-Placement placementOf(double4x4 const& world) {
-    Placement placement;
-    for (int row = 0; row < 3; ++row) {
-        placement.rows[row] = float3(double3(world[0][row], world[1][row], world[2][row]));
-    }
-    placement.side = glm::determinant(double3x3(world)) < 0 ? -1.0f : 1.0f;
-    placement.translation = double3(world[3]);
-    return placement;
+// Arvo 1990, "Transforming axis-aligned bounding boxes", Graphics Gems; by rows.
+float3 worldHalfExtent(Affine const& world, float3 halfExtent) {
+    const double3 half(halfExtent);
+    return { glm::dot(glm::abs(world.linearRow(0)), half), glm::dot(glm::abs(world.linearRow(1)), half),
+             glm::dot(glm::abs(world.linearRow(2)), half) };
 }
 
 bool isPoint(Placement const& placement) {
@@ -74,16 +69,19 @@ void remove(Renderables& renderables, Renderable renderable) {
     closeGap(renderables.name, gap);
 }
 
-void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject) {
-    const double4x4 world = isFinite(worldFromObject) ? worldFromObject : double4x4(0.0);
+void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {
     CenteredBox const& bounds = renderables.objectBounds[at];
-    const Placement placement = placementOf(world);
+    const Placement placement = placementOf(worldFromObject);
     renderables.placement[at] = placement;
-    renderables.bounds.set(at, double3(world * double4(double3(bounds.center), 1.0)),
-                           transformedHalfExtent(world, bounds.halfExtent));
+    renderables.bounds.set(at, transformPoint(worldFromObject, double3(bounds.center)),
+                           worldHalfExtent(worldFromObject, bounds.halfExtent));
     const int kept = renderables.flags[at] & ~(kMirrored | kCollapsed);
     const int changed = (placement.side < 0 ? kMirrored : 0) | (isPoint(placement) ? kCollapsed : 0);
     renderables.flags[at] = static_cast<uint8_t>(kept | changed);
+}
+
+void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject) {
+    place(renderables, at, affineFrom(worldFromObject));
 }
 
 } // namespace filament::scene

@@ -9,6 +9,7 @@
 #pragma once
 
 #include "filament_core/math/Box.h"
+#include "filament_core/scene/Affine.h"
 #include "filament_core/scene/DenseIndex.h"
 #include "filament_core/scene/Drawables.h"
 
@@ -75,7 +76,9 @@ Renderable add(Renderables& renderables, RenderableInput const& input);
 void remove(Renderables& renderables, Renderable renderable);
 
 /// Writes everything that follows from a transform: placement, bounds and flags of the renderable at position `at`.
-/// `worldFromObject` affine and finite; anything else is replaced by a zero scale, which draws nothing.
+void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject);
+/// The last row of `worldFromObject` counts as 0 0 0 1. If the rest is not finite, a zero scale takes its place, which
+/// draws nothing.
 void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject);
 
 } // namespace filament::scene

@@ -55,7 +55,7 @@ void removeNode(SceneData& scene, Node node) {
 void placeAttached(SceneData& scene, uint32_t slot) {
     Affine const& world = scene.transforms.worldAt(slot);
     scene.atNodes.renderables.forEach(slot, [&](Renderable renderable) {
-        place(scene.renderables, scene.renderables.index.at(renderable), matrixFrom(world));
+        place(scene.renderables, scene.renderables.index.at(renderable), world);
     });
     scene.atNodes.lights.forEach(slot, [&](Light light) {
         LightPose const& pose = scene.atNodes.lightPoses[light.index()];

@@ -1,19 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Transforms: a forest of nodes in double precision, and which of its world transforms are out of date.
 ///   In      add, remove, setParent, setTransform, in any order.
-///   Out     the world transform of every node. Each is a pure function of its own chain of ancestors, composed from
-///   the
-///           root down: neither the order of the edits nor the number of threads changes a bit.
+///   Out     the world transform of every node: a pure function of its chain of ancestors, composed from the root down.
+///           Neither the order of the edits nor the number of threads changes a bit.
 ///   Order   an update goes through the changed nodes level by level, parents before children. Only nodes that moved,
 ///           and what hangs below them, are visited; without changes an update ends at its first test.
 ///   Thread  the app thread, except recompute(): that runs on many threads at once, each with a range of its own.
-///   Memory  about 270 bytes a node, in columns by handle index ("slot"), which grow and are reused. No node ever
-///   moves,
-///           so links and attachments are plain slots.
+///   Memory  about 270 bytes a node, in columns by handle index ("slot"), which grow and are reused. No node is ever
+///           moved in memory, so links and attachments are plain slots.
 ///   Limits  2^20 - 1 nodes, any depth: nothing here recurses.
 ///   Cost    add, setTransform: O(1). remove: its subtree. setParent: its subtree and the difference in depth. A world
 ///           transform on demand: O(1), with changes pending O(depth). Updates: bench/filament_core/prepare.
-///   Fails   a stale handle, or a cycle, is an assertion. A transform that is not finite or not affine counts as zero.
+///   Fails   a stale handle, or a cycle, is an assertion. A transform that is not finite counts as zero.
 #pragma once
 
 #include "filament_core/base/Handle.h"
@@ -111,8 +109,8 @@ private:
     void setDepths(uint32_t root);
     uint32_t nextInSubtree(uint32_t slot, uint32_t root) const;
     void move(uint32_t slot, uint32_t parent);
-    void sortChangedByDepth();
-    void queue(uint32_t slot);
+    void listByDepth();
+    void prefetch(uint32_t slot) const;
 
     HandleAllocator<NodeObject> mHandles;
     uint32_t mCount = 0;

@@ -1,12 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Nodes: transforms that hang below each other and carry renderables and lights. Scene::add makes them.
-///   Space      worldFromNode = worldFromParent * parentFromNode, in double from the root down, so that a model 10^7 m
-///   from
-///              the origin keeps its millimetres. The same bits for any number of workers and any order of edits.
-///   Transform  affine: scales may differ by axis, be zero or negative (faces that a mirror turns around are drawn
-///   right).
-///              One that is not affine, not finite, or overflows on the way down counts as a zero scale: that node and
-///              what hangs below it draw nothing, and never NaN.
+///   Space      worldFromNode = worldFromParent * parentFromNode, in double from the root down: a model 10^7 m from the
+///              origin keeps its millimetres. The same bits for any number of workers and any order of edits.
+///   Transform  affine, its last row counts as 0 0 0 1; scales may differ by axis, be zero or negative (the faces that
+///              a mirror turns around are drawn right). One that is not finite, or overflows on the way down, counts as
+///              a zero scale: that node and what hangs below it draw nothing, and never NaN.
 ///   Lifetime   from Scene::add to Scene::remove of the node or of one above it, or the end of the scene.
 ///   Limits     2^20 - 1 nodes a scene, any depth.
 ///   Cost       a frame computes what changed since the last one and what hangs below that, on all workers; nothing
