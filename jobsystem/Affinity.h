@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Affinity: on which cores the threads of a job system run.
-///   Policy  AffinityPolicy is a plain value and part of JobSystemOptions.
+/// Affinity: on which cores the threads of a job system run, as an AffinityPolicy asks.
 ///   Pins    a registry of the process remembers which core has how many pinned threads, so that two systems share a
 ///           core only when none is free. Distinct physical cores are lent first, then their other hardware threads,
 ///           faster ones before slower ones; one core that is lent last is meant for the thread that made the system.
@@ -10,6 +9,7 @@
 #pragma once
 
 #include "filament_core/base/Result.h"
+#include "jobsystem/AffinityPolicy.h"
 #include "jobsystem/Topology.h"
 
 #include <cstdint>
@@ -21,26 +21,6 @@
 #include <vector>
 
 namespace filament::jobs {
-
-struct AffinityPolicy {
-    enum class Kind : uint8_t {
-        None,     ///< the operating system moves workers as it likes
-        Pin,      ///< every worker stays on one core
-        BigCores, ///< workers move among the cores of the most capable class; on a uniform machine these are all
-    };
-
-    Kind kind = Kind::None;
-    std::vector<int> avoidedCores{}; ///< where no worker runs, whatever the kind
-
-    static AffinityPolicy none() { return {}; }
-    static AffinityPolicy pin() { return { Kind::Pin }; }
-    static AffinityPolicy bigCores() { return { Kind::BigCores }; }
-    /// Everywhere but on `core`: the driver thread's.
-    static AffinityPolicy avoid(int core) { return none().avoiding(core); }
-    AffinityPolicy avoiding(int core) const;
-
-    bool isNone() const { return kind == Kind::None && avoidedCores.empty(); }
-};
 
 /// The processors that a policy leaves to the workers; never empty, because a policy that leaves none avoids nothing.
 std::vector<Cpu> allowedCpus(AffinityPolicy const& policy, Topology const& topology);

@@ -2,7 +2,7 @@
 #include "jobsystem/BackgroundThreads.h"
 
 #include "filament_core/base/Assert.h"
-#include "jobsystem/CpuSet.h"
+#include "jobsystem/Affinity.h"
 #include "jobsystem/Scheduler.h"
 
 #include <sys/resource.h>
@@ -50,6 +50,7 @@ void BackgroundThreads::startThread() {
 
 void BackgroundThreads::runThread(ParkingLot& bell, uint32_t index) {
     nameThisThread(mName + ' ' + std::to_string(index));
+    mScheduler.placement().placeBackgroundThread();
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     tThread.background = this;
     tThread.backgroundBell = &bell;

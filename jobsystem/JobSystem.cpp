@@ -18,6 +18,7 @@ JobSystem::~JobSystem() = default;
 
 uint32_t JobSystem::workerCount() const { return mScheduler->workerCount(); }
 uint64_t JobSystem::busyNanoseconds() const { return mScheduler->busyNanoseconds(); }
+JobTrace* JobSystem::trace() const { return mScheduler->trace(); }
 
 AdoptedThread::AdoptedThread(Scheduler& scheduler) : mSeat(scheduler.adoptThread()) {}
 AdoptedThread::~AdoptedThread() {

@@ -22,6 +22,7 @@
 #pragma once
 
 #include "filament_core/base/Assert.h"
+#include "jobsystem/AffinityPolicy.h"
 #include "jobsystem/Cancellation.h"
 #include "jobsystem/Completion.h"
 #include "jobsystem/Job.h"
@@ -34,18 +35,15 @@
 
 namespace filament::jobs {
 
+class JobTrace;
 class Scheduler;
 struct Seat;
 
-enum class Affinity : uint8_t {
-    None, ///< the operating system moves threads as it likes
-    Pin,  ///< worker i stays on core i + 1 of the process's cpuset (modulo its size); the first core is the caller's
-};
-
 struct JobSystemOptions {
-    int workers = -1; ///< threads besides the caller; -1: one less than the cores of the process's cpuset; at most 256
-    Affinity affinity = Affinity::None;
+    int workers = -1; ///< threads besides the caller; -1: defaultWorkerCount(affinity); at most 256
+    AffinityPolicy affinity{};
     std::string threadName = "worker"; ///< debuggers show "worker 0", "worker 1", ...
+    bool trace = false;                ///< record which thread ran which job when
 };
 
 class JobSystem {
@@ -69,6 +67,9 @@ public:
     /// The same, unless `cancellation` is requested before it starts; captures up to 40 bytes.
     template <JobName kName = "job", class F>
     void runBackground(Cancellation const& cancellation, F&& function);
+
+    /// The timeline; null unless the options asked for it.
+    JobTrace* trace() const;
 
     Scheduler& scheduler() { return *mScheduler; }
 
@@ -116,6 +117,8 @@ public:
     /// not more urgent than this group: whoever waits for it must be allowed to help here.
     template <JobName kName = "job", class F>
     void then(JobGroup& next, F&& function);
+
+    Priority priority() const { return mCompletion.priority(); }
 
     /// True when every job finished; what they wrote is visible. To poll background jobs once a frame.
     bool isDone() const { return mCompletion.isDone(); }

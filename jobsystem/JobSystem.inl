@@ -16,19 +16,19 @@ void continueWith(Scheduler& scheduler, Completion& before, Job& job);
 Seat* seatHere(Scheduler& scheduler);
 Priority inheritedPriority();
 bool isHungry(Scheduler& scheduler, Seat* seat, Priority priority); // a thief would find nothing at the calling thread
-void runInline(const char* name, void (*call)(void*), void* function);
+void runInline(Scheduler& scheduler, const char* name, void (*call)(void*), void* function);
 
 template <JobName kName, class F>
-void runInline(F& function) {
+void runInline(Scheduler& scheduler, F& function) {
     runInline(
-            kName.text, [](void* erased) { (*static_cast<F*>(erased))(); },
+            scheduler, kName.text, [](void* erased) { (*static_cast<F*>(erased))(); },
             const_cast<void*>(static_cast<const void*>(std::addressof(function))));
 }
 
 template <JobName kName, class F>
 void runBackground(Scheduler& scheduler, Completion& completion, F&& function) {
     Job* job = allocateBackground(scheduler);
-    if (!job) return runInline<kName>(function);
+    if (!job) return runInline<kName>(scheduler, function);
     job->template set<kName>(std::forward<F>(function), completion);
     submitBackground(scheduler, *job);
 }
@@ -65,7 +65,7 @@ void JobGroup::runBackground(Cancellation const& cancellation, F&& function) {
 template <JobName kName, class F>
 void JobGroup::run(F&& function) {
     Job* job = detail::allocate(mScheduler, mCompletion.priority());
-    if (!job) return detail::runInline<kName>(function);
+    if (!job) return detail::runInline<kName>(mScheduler, function);
     job->template set<kName>(std::forward<F>(function), mCompletion);
     detail::submit(mScheduler, *job);
 }
@@ -78,7 +78,7 @@ void JobGroup::then(JobGroup& next, F&& function) {
     Job* job = detail::allocate(next.mScheduler, next.mCompletion.priority());
     if (!job) {
         wait();
-        return detail::runInline<kName>(function);
+        return detail::runInline<kName>(mScheduler, function);
     }
     job->template set<kName>(std::forward<F>(function), next.mCompletion);
     detail::continueWith(mScheduler, mCompletion, *job);
@@ -132,7 +132,7 @@ void parallelFor(JobSystem& jobs, Priority priority, size_t count, size_t grain,
     Loop loop{ jobs.scheduler(), count, grain, body, priority, JobGroup(jobs, priority) };
     const bool alone = chunks == 1 || jobs.workerCount() == 0;
     auto run = [&loop, chunks, alone] { alone ? loop.runSerially(chunks) : loop.runChunks(0, chunks); };
-    detail::runInline<kName>(run);
+    detail::runInline<kName>(jobs.scheduler(), run);
     loop.group.wait();
 }
 

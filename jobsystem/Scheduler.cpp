@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/Scheduler.h"
 
-#include "jobsystem/CpuSet.h"
 #include "jobsystem/FreshStack.h"
 #include "jobsystem/JobFault.h"
 
@@ -13,11 +12,12 @@ namespace {
 // About what it costs to fall asleep; longer would heat idle cores, shorter would sleep between two loops of a frame.
 constexpr int64_t kWorkerSpinNanoseconds = 20'000;
 
-uint32_t workersFromOption(int workers) {
+uint32_t workersFromOption(JobSystemOptions const& options) {
+    const int workers = options.workers;
     FILAMENT_ASSERT(workers >= -1 && workers <= static_cast<int>(Scheduler::kMaxWorkers),
                     "JobSystemOptions::workers is -1 (one less than the cores) or 0 to 256");
     if (workers >= 0) return static_cast<uint32_t>(workers);
-    return std::min(static_cast<uint32_t>(coresOfProcess().size()) - 1, Scheduler::kMaxWorkers);
+    return std::min(defaultWorkerCount(options.affinity), Scheduler::kMaxWorkers);
 }
 
 /// What the calling thread is doing while this lives.
@@ -39,7 +39,7 @@ private:
     Priority mOuterPriority;
 };
 
-void call(Job& job, Priority priority) {
+void callUntraced(Job& job, Priority priority) {
     JobType const& type = *job.type;
     const RunningJob running(type.name, priority);
     try {
@@ -53,14 +53,16 @@ void call(Job& job, Priority priority) {
 
 namespace detail {
 
-void runInline(const char* name, void (*function)(void*), void* argument) {
+void runInline(Scheduler& scheduler, const char* name, void (*function)(void*), void* argument) {
     auto run = [&] {
         const RunningJob running(name, tThread.priority);
+        const int64_t begin = scheduler.trace() ? nanosecondsNow() : 0;
         try {
             function(argument);
         } catch (...) {
             reportThrow(name);
         }
+        if (scheduler.trace()) scheduler.record(tThread.seatOf(scheduler), name, begin, false);
     };
     if (isStackLow()) {
         callOnFreshStack(run);
@@ -74,16 +76,17 @@ void runInline(const char* name, void (*function)(void*), void* argument) {
 // ---------------------------------------------------------------------------------------------- life
 
 Scheduler::Scheduler(JobSystemOptions const& options)
-        : mSeats(*this, workersFromOption(options.workers)),
+        : mSeats(*this, workersFromOption(options)), mPlacement(options.affinity, mSeats.workers(), options.threadName),
+          mTrace(options.trace ? std::make_unique<JobTrace>(mSeats.workers() + SeatTable::kGuestSeats) : nullptr),
           mStorage(4096 + (mSeats.workers() + SeatTable::kGuestSeats) * 2 * JobStorage::kBatch) {
     const uint32_t workers = mSeats.workers();
     if (workers == 0) return;
     mBackground = std::make_unique<BackgroundThreads>(*this, std::max(1u, workers / 2), options.threadName + " bg");
-    const std::vector<int> cores = coresOfProcess();
     mThreads.reserve(workers);
     for (uint32_t i = 0; i < workers; ++i) {
-        const int core = options.affinity == Affinity::Pin ? cores[(i + 1) % cores.size()] : -1;
-        mThreads.emplace_back(&Scheduler::runWorker, this, i, options.threadName + ' ' + std::to_string(i), core);
+        const std::string name = options.threadName + ' ' + std::to_string(i);
+        if (mTrace) mTrace->nameSeat(i, name);
+        mThreads.emplace_back(&Scheduler::runWorker, this, i, name);
     }
 }
 
@@ -106,6 +109,7 @@ Seat* Scheduler::adoptThread() {
     if (!seat) return nullptr;
     seat->outer = tThread.seat;
     tThread.seat = seat;
+    if (mTrace) mTrace->nameSeat(mSeats.indexOf(*seat), nameOfThisThread());
     return seat;
 }
 
@@ -115,9 +119,9 @@ void Scheduler::releaseThread(Seat& seat) {
     mSeats.getUp(seat);
 }
 
-void Scheduler::runWorker(uint32_t index, std::string const& name, int core) {
+void Scheduler::runWorker(uint32_t index, std::string const& name) {
     nameThisThread(name);
-    if (core >= 0) pinThisThread(core);
+    mPlacement.placeWorker(index);
     Seat& seat = mSeats[index];
     tThread.seat = &seat;
     for (;;) {
@@ -209,7 +213,7 @@ void Scheduler::submitBackground(Job& job) {
 
 void Scheduler::executeBackground(Job& job) {
     Completion& completion = *job.completion;
-    call(job, Priority::Background);
+    call(nullptr, { &job, Priority::Background, false });
     delete &job;
     finish(nullptr, completion, true);
 }
@@ -228,10 +232,28 @@ bool Scheduler::isHungry(Seat* seat, Priority priority) const {
 
 // ---------------------------------------------------------------------------------------------- running
 
+void Scheduler::call(Seat const* seat, Found const& found) {
+    if (!mTrace) [[likely]]
+        return callUntraced(*found.job, found.priority);
+    const char* name = found.job->type->name;
+    const int64_t begin = nanosecondsNow();
+    callUntraced(*found.job, found.priority);
+    record(seat, name, begin, found.stolen); // before the group is done: whoever waited finds it in the trace
+}
+
+void Scheduler::record(Seat const* seat, const char* name, int64_t begin, bool stolen) {
+    const int64_t end = nanosecondsNow();
+    if (seat) {
+        mTrace->recordJob(mSeats.indexOf(*seat), name, begin, end, stolen);
+    } else {
+        mTrace->recordJobHere(name, begin, end, stolen);
+    }
+}
+
 void Scheduler::execute(Seat* seat, Found const& found) {
     Job& job = *found.job;
     Completion& completion = *job.completion;
-    call(job, found.priority);
+    call(seat, found);
     mStorage.release(seat ? &seat->cache : nullptr, job);
     finish(seat, completion, found.stolen);
 }

@@ -12,11 +12,13 @@
 ///   Files   Scheduler.cpp: workers, queues, running. Search.cpp: finding work. Waiting.cpp: wait() and sleep.
 #pragma once
 
+#include "jobsystem/Affinity.h"
 #include "jobsystem/BackgroundThreads.h"
 #include "jobsystem/InjectionQueue.h"
 #include "jobsystem/Job.h"
 #include "jobsystem/JobStorage.h"
 #include "jobsystem/JobSystem.h"
+#include "jobsystem/JobTrace.h"
 #include "jobsystem/ParkingLot.h"
 #include "jobsystem/Seat.h"
 
@@ -63,6 +65,12 @@ public:
     Seat* adoptThread();
     void releaseThread(Seat& seat);
 
+    WorkerPlacement const& placement() const { return mPlacement; }
+    JobTrace* trace() const { return mTrace.get(); }
+    /// Into the trace, which there is: the calling thread, which sits on `seat` or nowhere, has run a job since
+    /// `begin`.
+    void record(Seat const* seat, const char* name, int64_t begin, bool stolen);
+
 private:
     struct Found {
         Job* job = nullptr;
@@ -73,13 +81,14 @@ private:
     };
 
     // Scheduler.cpp
-    void runWorker(uint32_t index, std::string const& name, int core);
+    void runWorker(uint32_t index, std::string const& name);
     void work(Seat& seat, Found found);
     void sleepUntilWork(Seat& seat);
     void enqueue(Seat* seat, Job& job, Priority priority);
     void notifyWork(Priority priority);
     void wakeAWaiter(Priority priority);
     void execute(Seat* seat, Found const& found);
+    void call(Seat const* seat, Found const& found);
     void executeInline(Seat* seat, Job& job, Priority priority);
     void finish(Seat const* seat, Completion& completion, bool stolen);
     void close(Completion& completion);
@@ -102,6 +111,8 @@ private:
     void sleepInWait(Seat* seat, Priority least, Completion& completion);
 
     SeatTable mSeats;
+    const WorkerPlacement mPlacement;
+    const std::unique_ptr<JobTrace> mTrace; // null: nobody asked for it
     JobStorage mStorage;
     InjectionQueue mInjected[2]; // by priority
     alignas(kCacheLineBytes) ParkingLot mIdle;

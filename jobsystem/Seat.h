@@ -56,6 +56,7 @@ public:
 
     /// Workers' seats come first.
     Seat& operator[](uint32_t index) { return mSeats[index]; }
+    uint32_t indexOf(Seat const& seat) const { return static_cast<uint32_t>(&seat - mSeats.get()); }
     /// Seats from here on have never been used: nothing is in their deques.
     uint32_t inUse() const { return mInUse.load(std::memory_order_seq_cst); }
     uint32_t workers() const { return mWorkers; }

@@ -33,9 +33,10 @@ struct Relay {
 class OursRuntime final : public Runtime {
 public:
     explicit OursRuntime(RuntimeOptions const& options)
-            : mPinned(options.pinned), mJobs({ .workers = static_cast<int>(options.threads) - 1,
-                                               .affinity = options.pinned ? jobs::Affinity::Pin : jobs::Affinity::None,
-                                               .threadName = "bench" }) {}
+            : mPinned(options.pinned),
+              mJobs({ .workers = static_cast<int>(options.threads) - 1,
+                      .affinity = options.pinned ? jobs::AffinityPolicy::pin() : jobs::AffinityPolicy::none(),
+                      .threadName = "bench" }) {}
 
     void enter() override {
         if (mPinned) mPin.emplace(coreOfThread(0));

@@ -60,8 +60,28 @@ DriverFactory driverFactory(EngineOptions const& options) {
     };
 }
 
+Result<void> checkCores(EngineOptions const& options) {
+    const std::pair<int, const char*> choices[] = { { options.driverCore, "EngineOptions::driverCore" },
+                                                    { options.avoidCore, "EngineOptions::avoidCore" } };
+    for (auto const& [core, option] : choices) {
+        if (core == -1) continue;
+        if (Result<void> there = jobs::requireCore(core, option); !there) return there;
+    }
+    return {};
+}
+
+jobs::AffinityPolicy affinityPolicy(EngineOptions const& options) {
+    jobs::AffinityPolicy policy;
+    if (options.affinity == ThreadAffinity::Pin) policy = jobs::AffinityPolicy::pin();
+    if (options.affinity == ThreadAffinity::BigCores) policy = jobs::AffinityPolicy::bigCores();
+    for (int core : { options.driverCore, options.avoidCore }) {
+        if (core != -1) policy = policy.avoiding(core);
+    }
+    return policy;
+}
+
 jobs::JobSystemOptions jobOptions(EngineOptions const& options) {
-    return { options.workers, options.affinity == ThreadAffinity::Pin ? jobs::Affinity::Pin : jobs::Affinity::None };
+    return { .workers = options.workers, .affinity = affinityPolicy(options) };
 }
 
 template <class Table>
@@ -92,7 +112,8 @@ std::vector<DeviceDescription> listDevices() {
 }
 
 Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> commandStream)
-        : options(std::move(engineOptions)), stream(std::move(commandStream)), jobs(jobOptions(options)),
+        : options(std::move(engineOptions)), stream(std::move(commandStream)),
+          driverPin(jobs::CoreRegistry::ofProcess().reserve(options.driverCore)), jobs(jobOptions(options)),
           device(describe(stream->info())), pipelines(*stream, layouts), samplers(*stream) {
     createDefaultObjects(*this);
 }
@@ -136,6 +157,7 @@ double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {
 }
 
 Result<Engine> Engine::create(EngineOptions const& options) {
+    if (Result<void> cores = checkCores(options); !cores) return cores.error();
     auto stream = CommandStream::start(driverFactory(options), { .driverCore = options.driverCore });
     if (!stream) return stream.error();
     return Engine(std::make_unique<Impl>(options, std::move(*stream)));

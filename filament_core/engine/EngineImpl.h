@@ -9,6 +9,7 @@
 #include "filament_core/engine/SamplerCache.h"
 #include "filament_core/passes/Pipelines.h"
 #include "filament_core/scene/SceneData.h"
+#include "jobsystem/Affinity.h"
 #include "jobsystem/JobSystem.h"
 
 #include <filament/Engine.h>
@@ -99,6 +100,7 @@ struct Engine::Impl {
     EngineOptions options;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     std::unique_ptr<backend::CommandStream> stream;
+    jobs::CorePins driverPin; ///< before `jobs`, so that no worker is pinned there
     jobs::JobSystem jobs;
     DeviceDescription device;
     backend::CommandBuffer pending;

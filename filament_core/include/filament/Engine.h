@@ -34,14 +34,20 @@ struct DeviceDescription {
 /// Every device that createEngine could use now; backends without a driver installed are absent.
 std::vector<DeviceDescription> listDevices();
 
-enum class ThreadAffinity : uint8_t { None, Pin };
+/// Where the job threads of an engine run, within the cores that the process may use.
+enum class ThreadAffinity : uint8_t {
+    None,     ///< where the operating system likes
+    Pin,      ///< each on one core; engines of one process share cores only when none is free
+    BigCores, ///< on the cores of the most capable class, where there are several classes
+};
 
 struct EngineOptions {
     Backend backend = Backend::Vulkan;
     std::string requireDevice{}; ///< case-insensitive part of the device's name; empty: the first usable
     int workers = -1;            ///< job threads besides the app thread; -1: one per remaining core; 0: none
     ThreadAffinity affinity = ThreadAffinity::None;
-    int driverCore = -1;                    ///< pin the driver thread to this core; -1: do not
+    int driverCore = -1;                    ///< pin the driver thread to this core and keep job threads off it
+    int avoidCore = -1;                     ///< keep job threads off this core, too; -1: off none
     bool validation = false;                ///< check every stream; Vulkan validation layers or KHR_debug on top
     std::filesystem::path traceFile{};      ///< write every command as text, for replay; empty: do not
     std::filesystem::path cacheDirectory{}; ///< baked environments; empty: $XDG_CACHE_HOME/filament_core
