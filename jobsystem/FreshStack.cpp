@@ -11,10 +11,15 @@ namespace filament::jobs {
 namespace {
 
 constexpr size_t kStackBytes = size_t(8) << 20;
-#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
-constexpr size_t kStackReserveBytes = size_t(1) << 20; // frames of sanitized code are several times as large
+
+// What a job may use between two looks at the stack, and what nested waits may use of a stack at most. Frames of
+// sanitized code are several times as large, and the thread sanitizer notes at most 65536 frames a thread.
+#if defined(__SANITIZE_THREAD__)
+constexpr size_t kReserveBytes = size_t(1) << 20, kMostBytes = size_t(2) << 20;
+#elif defined(__SANITIZE_ADDRESS__)
+constexpr size_t kReserveBytes = size_t(1) << 20, kMostBytes = kStackBytes;
 #else
-constexpr size_t kStackReserveBytes = size_t(256) << 10;
+constexpr size_t kReserveBytes = size_t(256) << 10, kMostBytes = kStackBytes;
 #endif
 
 struct Call {
@@ -41,8 +46,10 @@ void measureStack() {
     size_t bytes = 0;
     tThread.stackFloor = 1; // of a thread that cannot be asked: never low
     if (pthread_getattr_np(pthread_self(), &attributes) != 0) return;
-    if (pthread_attr_getstack(&attributes, &lowest, &bytes) == 0)
-        tThread.stackFloor = reinterpret_cast<uintptr_t>(lowest) + std::min(kStackReserveBytes, bytes / 4);
+    if (pthread_attr_getstack(&attributes, &lowest, &bytes) == 0) {
+        const size_t reserve = std::min(kReserveBytes, bytes / 4);
+        tThread.stackFloor = reinterpret_cast<uintptr_t>(lowest) + bytes - std::min(bytes - reserve, kMostBytes);
+    }
     pthread_attr_destroy(&attributes);
 }
 

@@ -5,7 +5,7 @@
 ///           switched stacks: debuggers, sanitizers and unwinders understand them.
 ///   Thread  any; the helper inherits ThreadState and the context of assertions. Other thread-locals are the helper's.
 ///   Memory  8 MiB of address space a helper, of which the operating system provides what is touched.
-///   Limits  between two looks at the stack a job may use kStackReserveBytes.
+///   Limits  between two looks at the stack a job may use 256 KiB, on a small stack a quarter of it.
 ///   Fails   ends the process with a message when the operating system refuses another thread.
 ///   Cost    isStackLow(): a compare; callOnFreshStack(): starting and ending a thread, 30 to 100 us per 8 MiB of
 ///   nesting.
