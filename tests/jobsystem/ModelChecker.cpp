@@ -299,7 +299,9 @@ Outcome Checker::perform(const void* object, Operation operation) {
     if (!mMemory.isConstructedFor(mSelf, operation.location)) fail("an atomic is used before its construction");
     mMemory.tick(mSelf);
     mSteps.push_back({ mSelf, operation, 0, "" });
-    return make(operation);
+    const Outcome outcome = make(operation);
+    mMemory.tick(mSelf); // what the thread does from here on is not covered by what the operation released
+    return outcome;
 }
 
 void Checker::pause() {
@@ -439,7 +441,8 @@ std::string Checker::describeRun() const {
         text += "  thread " + std::to_string(step.thread) + ": atomic " + std::to_string(made.location) + ' ' +
                 nameOf(made.kind) + ' ' + nameOf(made.order) + " finds " + std::to_string(step.before);
         if (made.kind != Kind::Load) text += ", operand " + std::to_string(made.operand);
-        text += std::string(step.note) + "  in " + made.function + " line " + std::to_string(made.line) + '\n';
+        text += std::string(step.note) + " in " + std::string(made.functionName()) + "(), line " +
+                std::to_string(made.line) + '\n';
     }
     return text;
 }
@@ -464,6 +467,13 @@ void printExplored(std::string const& what, Report const& report) {
     std::printf("[ EXPLORED ] %s: %llu runs, %llu more given up as equal, %llu steps\n", what.c_str(),
                 static_cast<unsigned long long>(report.runs), static_cast<unsigned long long>(report.pruned),
                 static_cast<unsigned long long>(report.steps));
+}
+
+Options boundedIfSanitized(Options options) {
+#if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
+    options.preemptions = options.preemptions < 0 ? 2 : std::min(options.preemptions, 2);
+#endif
+    return options;
 }
 
 uint64_t stressFactor() {

@@ -63,6 +63,9 @@ void pause();
 
 /// One line for the log of the tests.
 void printExplored(std::string const& what, Report const& report);
+/// Sanitizers make a step ten times as slow and find nothing in the one thread that explores: there with at most two
+/// preemptions.
+Options boundedIfSanitized(Options options);
 /// The environment's FILAMENT_STRESS: 0 for the tests of every day, else how much more to do.
 uint64_t stressFactor();
 

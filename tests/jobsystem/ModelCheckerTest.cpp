@@ -203,6 +203,8 @@ TEST(ModelChecker, FindsADataRaceUnlessSomethingOrdersIt) {
     EXPECT_EQ(check({ writer(release), reader(acquire) }).failure, "");
     EXPECT_NE(ruleOf(check({ writer(relaxed), reader(acquire) })).find("data race"), std::string::npos);
     EXPECT_NE(ruleOf(check({ writer(release), reader(relaxed) })).find("data race"), std::string::npos);
+    const auto lateWriter = [](Program& p) { p.flag.store(1, release), p.data.set(1); };
+    EXPECT_NE(ruleOf(check({ lateWriter, reader(acquire) })).find("data race"), std::string::npos);
 }
 
 TEST(ModelChecker, FindsALostWakeUp) {

@@ -57,7 +57,7 @@ public:
     bool isAlive(int location) const { return mLocations[location].alive; }
     bool isConstructedFor(int thread, int location) const;
 
-    /// Starts an operation of the thread: everything before is known to whoever synchronises with what follows.
+    /// The thread's own time goes on: what it does from here on is not known to whoever synchronised with it before.
     void tick(int thread) { ++mViews[thread].clock[thread]; }
 
     Choices readable(int thread, int location, std::memory_order order) const;

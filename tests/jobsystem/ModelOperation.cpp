@@ -1,14 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/jobsystem/ModelOperation.h"
 
-#include <cstring>
-
 namespace filament::jobs::model {
 
-bool Operation::isIn(const char* name) const {
-    const char* found = std::strstr(function, name);
-    return found && found[std::strlen(name)] == '(' && (found == function || found[-1] == ':' || found[-1] == ' ');
+// `function` is all of "bool filament::jobs::WorkStealingDeque<T, kSlots, Policy>::push(T*) [with T = ...]".
+std::string_view Operation::functionName() const {
+    std::string_view name = function;
+    size_t arguments = name.find('(');
+    while (arguments != name.npos && name.substr(arguments).starts_with("(anonymous"))
+        arguments = name.find('(', arguments + 1);
+    name = name.substr(0, arguments);
+    const size_t start = name.find_last_of(": ");
+    return start == name.npos ? name : name.substr(start + 1);
 }
+
+bool Operation::isIn(const char* name) const { return functionName() == name; }
 
 const char* nameOf(Kind kind) {
     constexpr const char* kNames[] = { "resume",  "load",   "store", "exchange",  "add",       "and",  "or",

@@ -7,6 +7,7 @@
 #include <atomic>
 #include <cstdint>
 #include <functional>
+#include <string_view>
 
 namespace filament::jobs::model {
 
@@ -39,6 +40,8 @@ struct Operation {
 
     /// The operation is written in a function of this name.
     bool isIn(const char* name) const;
+    /// The name without its class, result and arguments.
+    std::string_view functionName() const;
 };
 
 const char* nameOf(Kind kind);
