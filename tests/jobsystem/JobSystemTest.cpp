@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "jobsystem/JobSystem.h"
-
 #include "jobsystem/Topology.h"
-
-#include <gtest/gtest.h>
+#include "tests/jobsystem/JobSystemFixture.h"
 
 #include <algorithm>
 #include <array>
@@ -17,24 +14,8 @@
 namespace filament::jobs {
 namespace {
 
-/// Every promise of the job system holds for any number of workers.
-class JobSystemTest : public testing::TestWithParam<int> {
-protected:
-    JobSystem jobs{ { .workers = GetParam() } };
-};
-
-INSTANTIATE_TEST_SUITE_P(Workers, JobSystemTest, testing::Values(0, 1, 2, 7),
-                         [](auto const& parameter) { return std::to_string(parameter.param); });
-
-int64_t fibonacci(JobSystem& jobs, int n) {
-    if (n < 2) return n;
-    int64_t left = 0;
-    JobGroup group(jobs);
-    group.run([&] { left = fibonacci(jobs, n - 1); });
-    const int64_t right = fibonacci(jobs, n - 2);
-    group.wait();
-    return left + right;
-}
+class JobSystemTest : public JobSystemFixture {};
+INSTANTIATE_TEST_SUITE_P(Workers, JobSystemTest, testing::Values(0, 1, 2, 7), workersName);
 
 TEST_P(JobSystemTest, HasAsManyWorkersAsAskedFor) { EXPECT_EQ(jobs.workerCount(), static_cast<uint32_t>(GetParam())); }
 
@@ -209,14 +190,6 @@ TEST_P(JobSystemTest, BackgroundJobsOfAGroupFinishBeforeItsWaitReturns) {
     EXPECT_EQ(ran.load(), 50);
 }
 
-TEST_P(JobSystemTest, ABackgroundJobMayFork) {
-    std::vector<int64_t> results(4);
-    JobGroup loads(jobs);
-    for (int64_t& result : results) loads.runBackground([&] { result = fibonacci(jobs, 12); });
-    loads.wait();
-    for (const int64_t result : results) EXPECT_EQ(result, 144);
-}
-
 TEST_P(JobSystemTest, AFrameDoesNotWaitForABackgroundJob) {
     if (GetParam() == 0) GTEST_SKIP() << "without workers a background job runs inside runBackground()";
     std::atomic<bool> release = false, finished = false;
@@ -241,23 +214,6 @@ TEST_P(JobSystemTest, AFrameDoesNotWaitForABackgroundJob) {
     release = true;
     loads.wait();
     EXPECT_TRUE(finished.load());
-}
-
-TEST_P(JobSystemTest, HalfOfTheWorkersStayFreeOfBackgroundJobs) {
-    if (GetParam() == 0) GTEST_SKIP() << "without workers a background job runs inside runBackground()";
-    std::atomic<int> inside = 0, most = 0;
-    JobGroup loads(jobs);
-    for (int i = 0; i < 20; ++i) {
-        loads.runBackground([&] {
-            int now = inside.fetch_add(1) + 1, seen = most.load();
-            while (seen < now && !most.compare_exchange_weak(seen, now)) {
-            }
-            std::this_thread::sleep_for(std::chrono::milliseconds(2));
-            inside.fetch_sub(1);
-        });
-    }
-    loads.wait();
-    EXPECT_EQ(most.load(), std::max(1, GetParam() / 2));
 }
 
 // ---------------------------------------------------------------------------------------------- life
