@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/BackendRun.h"
 
-#include "tools/filament-render/Console.h"
+#include "tools/common/Console.h"
 #include "tools/filament-render/HeapCounter.h"
 
 #include <filament/Environment.h>
@@ -38,10 +38,7 @@ LoadProgress progressOf(Backend backend, const char* what) {
 }
 
 View viewOf(Options const& options) {
-    return { .camera = Camera::lookAt(options.eye, options.at, { .verticalFovDegrees = options.fovDegrees },
-                                      options.exposure),
-             .size = options.size,
-             .colorGrading = options.colorGrading };
+    return { .camera = cameraOf(options), .size = options.size, .colorGrading = options.colorGrading };
 }
 
 Result<Engine> createEngine(Options const& options, Backend backend) {

@@ -4,12 +4,10 @@
 #pragma once
 
 #include "filament_core/base/Result.h"
+#include "tools/common/SceneOptions.h"
 
 #include <filament/Engine.h>
-#include <filament/Light.h>
-#include <filament/View.h>
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
@@ -18,23 +16,11 @@ namespace filament::tools {
 
 enum class PictureFormat : uint8_t { Png, Exr };
 
-struct Options {
-    std::filesystem::path model;       ///< empty: the showcase
-    std::filesystem::path environment; ///< empty: none, or the showcase's sky
+struct Options : SceneOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
     std::string requireDevice;
-    uint2 size{ 1280, 720 };
     uint32_t frames = 1;
-    bool fit = true;
-    double3 eye{ 0.9, 0.6, 1.5 }, at{ 0.0 };
-    float fovDegrees = 40;
-    Exposure exposure{ .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 };
-    Lux iblIntensity{ 30'000 };
-    std::optional<SunLight> sun;
-    bool skybox = true; ///< where there is an environment
-    ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
     uint32_t tolerance = 0; ///< in 1/255
-    std::filesystem::path out = "out";
     PictureFormat format = PictureFormat::Png;
     bool timing = false, explain = false, trace = false;
     bool listDevices = false;

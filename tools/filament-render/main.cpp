@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-render [MODEL] [options]: one command line, one or two backends, their pictures and the comparison of the
 // two. Exit status 0: everything asked for was drawn and, with two backends, all pixels are equal (within --tolerance).
+#include "tools/common/Console.h"
+#include "tools/common/SceneFiles.h"
 #include "tools/filament-render/BackendRun.h"
-#include "tools/filament-render/Console.h"
 #include "tools/filament-render/Options.h"
 #include "tools/filament-render/Report.h"
 #include "tools/imgdiff/ImageCompare.h"
-#include "tools/showcase/Showcase.h"
 
 #include <fmt/format.h>
 
@@ -31,24 +31,6 @@ int listAllDevices() {
     if (!devices.empty()) return 0;
     return failed(fail(ErrorCode::DeviceUnavailable,
                        "no device of any backend; install mesa-vulkan-drivers, or libegl-mesa0 and libgl1-mesa-dri"));
-}
-
-/// What is drawn: the files of the command line, or the showcase, written into the folder of the pictures.
-Result<showcase::Files> chooseFiles(Options const& options) {
-    if (!options.model.empty()) return showcase::Files{ options.model, options.environment };
-    showProgress("making the showcase");
-    jobs::JobSystem jobs;
-    Result<showcase::Files> files = showcase::writeFiles(options.out, jobs);
-    if (files && !options.environment.empty()) files->environment = options.environment;
-    return files;
-}
-
-Result<void> makeFolder(std::filesystem::path const& folder) {
-    std::error_code error;
-    std::filesystem::create_directories(folder, error);
-    if (std::filesystem::is_directory(folder)) return {};
-    return fail(ErrorCode::Unreadable, "--out '{}': not a folder that can be made ({}); give another one",
-                folder.string(), error ? error.message() : "there is a file of that name");
 }
 
 std::filesystem::path picturePath(Options const& options, Backend backend) {
@@ -93,7 +75,7 @@ Result<ImageComparison> compareRuns(Options const& options, BackendRun const& a,
 }
 
 int render(Options const& options) {
-    if (const Result<void> made = makeFolder(options.out); !made) return failed(made.error());
+    if (const Result<void> made = makeOutFolder(options); !made) return failed(made.error());
     const Result<showcase::Files> files = chooseFiles(options);
     if (!files) return failed(files.error());
 
@@ -126,6 +108,7 @@ int render(Options const& options) {
 
 int main(int argc, char** argv) {
     using namespace filament::tools;
+    setProgramName("filament-render");
     routeLogToConsole();
     try {
         const auto options = parseOptions(argc, argv);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/filament-render/Console.h"
+#include "tools/common/Console.h"
 
 #include "filament_core/base/Log.h"
 
@@ -15,6 +15,7 @@ namespace {
 
 std::mutex gMutex;
 bool gProgressShown = false;
+std::string_view gProgram = "filament";
 
 void clearProgressLocked() {
     if (!gProgressShown) return;
@@ -31,6 +32,8 @@ std::string oneLine(std::string_view text) {
 }
 
 } // namespace
+
+void setProgramName(std::string_view name) { gProgram = name; }
 
 void showProgress(std::string_view text) {
     static const bool sTerminal = ::isatty(STDERR_FILENO) == 1;
@@ -52,13 +55,13 @@ void printWarning(std::string_view text) {
     const std::string line = oneLine(text);
     if (!sPrinted.insert(line).second) return;
     clearProgressLocked();
-    std::fprintf(stderr, "filament-render: warning: %s\n", line.c_str());
+    std::fprintf(stderr, "%s: warning: %s\n", gProgram.data(), line.c_str());
 }
 
 void printError(std::string_view text) {
     const std::lock_guard lock(gMutex);
     clearProgressLocked();
-    std::fprintf(stderr, "filament-render: error: %s\n", oneLine(text).c_str());
+    std::fprintf(stderr, "%s: error: %s\n", gProgram.data(), oneLine(text).c_str());
 }
 
 void routeLogToConsole() {

@@ -8,12 +8,15 @@
 
 namespace filament::tools {
 
+/// What warnings and errors begin with. Once, before any other call; a string literal.
+void setProgramName(std::string_view name);
+
 void showProgress(std::string_view text);
 void clearProgress();
 
-/// "filament-render: warning: ..."; a line that was printed before is not repeated.
+/// "PROGRAM: warning: ..."; a line that was printed before is not repeated.
 void printWarning(std::string_view text);
-/// "filament-render: error: ...", on one line whatever `text` holds.
+/// "PROGRAM: error: ...", on one line whatever `text` holds.
 void printError(std::string_view text);
 
 /// The library's own log lines come out as warnings, those below a warning not at all.

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/common/SceneOptions.h"
+
+#include "tools/common/CommandLine.h"
+
+#include <CLI/CLI.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace filament::tools {
+namespace {
+
+constexpr uint32_t kMaxSide = 16384;
+
+Result<void> convertSize(SceneWords const& words, SceneOptions& options) {
+    const size_t cross = words.size.find('x');
+    const auto width = wholeNumber(words.size.substr(0, cross), 1, kMaxSide);
+    const auto height =
+            cross == std::string::npos ? std::nullopt : wholeNumber(words.size.substr(cross + 1), 1, kMaxSide);
+    if (!width || !height) return invalidOption("--size", words.size, "WIDTHxHEIGHT, each from 1 to 16384 pixels");
+    options.size = { *width, *height };
+    return {};
+}
+
+Result<void> convertPicture(SceneWords const& words, SceneOptions& options) {
+    const auto toneMapper = toneMapperFromName(words.toneMapper);
+    if (!toneMapper) return invalidOption("--tone-mapper", words.toneMapper, "linear, aces, filmic or mobile");
+    options.colorGrading.toneMapper = *toneMapper;
+
+    if (auto done = convertSwitch("--skybox", words.skybox, options.skybox); !done) return done;
+    if (auto done = convertSwitch("--dither", words.dither, options.colorGrading.dither); !done) return done;
+    if (words.out.empty()) return invalidOption("--out", words.out, "the path of a folder");
+    return {};
+}
+
+Result<void> convertCamera(SceneWords const& words, SceneOptions& options) {
+    constexpr double kFarthest = 1e12;
+    const auto isNear = [](std::array<double, 3> const& p) {
+        return std::abs(p[0]) <= kFarthest && std::abs(p[1]) <= kFarthest && std::abs(p[2]) <= kFarthest;
+    };
+    std::array eye{ options.eye.x, options.eye.y, options.eye.z }, at{ options.at.x, options.at.y, options.at.z };
+    if (auto done = convertNumbers("--eye", words.eye, "three finite coordinates up to 1e12", eye, isNear); !done)
+        return done;
+    if (auto done = convertNumbers("--at", words.at, "three finite coordinates up to 1e12", at, isNear); !done)
+        return done;
+    if (eye == at) return fail(ErrorCode::InvalidArgument, "--eye and --at are the same point; look at another one");
+    options.eye = { eye[0], eye[1], eye[2] };
+    options.at = { at[0], at[1], at[2] };
+
+    const auto fov = finiteNumber(words.fov);
+    if (!fov || *fov < 0.01 || *fov > 179) return invalidOption("--fov", words.fov, "degrees from 0.01 to 179");
+    options.fovDegrees = static_cast<float>(*fov);
+    return {};
+}
+
+Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
+    const auto isExposure = [](std::array<double, 3> const& v) {
+        return std::all_of(v.begin(), v.end(), [](double value) { return value >= 1e-6 && value <= 1e6; });
+    };
+    std::array<double, 3> exposure{ options.exposure.aperture, options.exposure.shutterSeconds, options.exposure.iso };
+    if (auto done = convertNumbers("--exposure", words.exposure,
+                                   "aperture, shutter seconds and ISO, each from 1e-6 to 1e6", exposure, isExposure);
+        !done) {
+        return done;
+    }
+    options.exposure = { static_cast<float>(exposure[0]), static_cast<float>(exposure[1]),
+                         static_cast<float>(exposure[2]) };
+
+    const auto lux = finiteNumber(words.iblIntensity);
+    if (!lux || *lux < 0 || *lux > 1e9)
+        return invalidOption("--ibl-intensity", words.iblIntensity, "lux from 0 to 1e9");
+    options.iblIntensity = Lux{ static_cast<float>(*lux) };
+
+    if (words.sun.empty()) return {};
+    std::array<double, 4> sun{};
+    const auto isSun = [](std::array<double, 4> const& v) {
+        const double size = std::hypot(v[1], v[2], v[3]);
+        return v[0] >= 0 && v[0] <= 1e9 && size >= 1e-6 && size <= 1e6;
+    };
+    if (auto done =
+                convertNumbers("--sun", words.sun, "lux from 0 to 1e9 and a direction that is not zero", sun, isSun);
+        !done) {
+        return done;
+    }
+    options.sun = SunLight{ .directionWorld = float3(double3(sun[1], sun[2], sun[3])),
+                            .illuminance = Lux{ static_cast<float>(sun[0]) } };
+    return {};
+}
+
+} // namespace
+
+void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options) {
+    app.set_help_flag("--help", "print this text");
+    app.add_option("MODEL", words.model, ".gltf or .glb; without one the showcase is drawn")->type_name("");
+    app.add_option("--environment", words.environment, "equirectangular .hdr or .exr: light and background");
+    app.add_option("--size", words.size, "WIDTHxHEIGHT in pixels (1280x720)");
+    app.add_flag("--fit,!--no-fit", options.fit, "centre of the bounding box at the origin, largest dimension 1 (on)");
+    app.add_option("--eye", words.eye, "X Y Z of the camera (0.9 0.6 1.5)")->expected(3)->allow_extra_args(false);
+    app.add_option("--at", words.at, "X Y Z that it looks at (0 0 0)")->expected(3)->allow_extra_args(false);
+    app.add_option("--fov", words.fov, "vertical field of view in degrees (40)");
+    app.add_option("--exposure", words.exposure, "APERTURE SHUTTER_SECONDS ISO (16 0.008 100)")
+            ->expected(3)
+            ->allow_extra_args(false);
+    app.add_option("--ibl-intensity", words.iblIntensity, "lux of radiance 1 of the environment (30000)");
+    app.add_option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels")
+            ->expected(4)
+            ->allow_extra_args(false);
+    app.add_option("--skybox", words.skybox, "on or off: the environment as background (on)");
+    app.add_option("--tone-mapper", words.toneMapper, "linear, aces, filmic or mobile (aces)");
+    app.add_option("--dither", words.dither, "on or off (off)");
+    app.add_option("--out", words.out, "folder for pictures and report.json (out)");
+}
+
+Result<void> convertSceneOptions(SceneWords const& words, SceneOptions& options) {
+    options.model = words.model;
+    options.environment = words.environment;
+    options.out = words.out;
+    for (auto convert : { convertSize, convertPicture, convertCamera, convertLight }) {
+        if (Result<void> done = convert(words, options); !done) return done;
+    }
+    return {};
+}
+
+Camera cameraOf(SceneOptions const& options) {
+    return Camera::lookAt(options.eye, options.at, { .verticalFovDegrees = options.fovDegrees }, options.exposure);
+}
+
+} // namespace filament::tools

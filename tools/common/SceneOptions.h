@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// SceneOptions: what every tool that draws a model is asked in the same words: what, under which light, from where,
+/// how bright, and where to put the picture. One command line for filament-render and filament-reference.
+///   Fails   convertSceneOptions(): InvalidArgument in one line that names the option, the value and what would be
+///   right.
+#pragma once
+
+#include "filament_core/base/Result.h"
+
+#include <filament/Camera.h>
+#include <filament/Light.h>
+#include <filament/View.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace CLI {
+class App;
+}
+
+namespace filament::tools {
+
+struct SceneOptions {
+    std::filesystem::path model;       ///< empty: the showcase
+    std::filesystem::path environment; ///< empty: none, or the showcase's sky
+    uint2 size{ 1280, 720 };
+    bool fit = true;
+    double3 eye{ 0.9, 0.6, 1.5 }, at{ 0.0 };
+    float fovDegrees = 40;
+    Exposure exposure{ .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 };
+    Lux iblIntensity{ 30'000 };
+    std::optional<SunLight> sun;
+    bool skybox = true; ///< where there is an environment
+    ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
+    std::filesystem::path out = "out";
+};
+
+/// The words of those options as they were given.
+struct SceneWords {
+    std::string model, environment, size = "1280x720", fov = "40", iblIntensity = "30000", skybox, toneMapper = "aces",
+                                    dither, out = "out";
+    std::vector<std::string> eye, at, exposure, sun;
+};
+
+void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options);
+Result<void> convertSceneOptions(SceneWords const& words, SceneOptions& options);
+
+Camera cameraOf(SceneOptions const& options);
+
+} // namespace filament::tools

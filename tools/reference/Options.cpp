@@ -1,0 +1,179 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/Options.h"
+
+#include "tools/common/CommandLine.h"
+
+#include <CLI/CLI.hpp>
+
+#include <array>
+#include <string_view>
+#include <utility>
+
+namespace filament::reference {
+namespace {
+
+using tools::invalidOption;
+using tools::wholeNumber;
+
+struct Words {
+    std::string integrator = "path", samples = "256", error, maxBounces = "64", seed = "1", filter = "box",
+                occlusion = "auto", visibility = "correlated", fresnel = "schlick", diffuse = "lambert",
+                energy = "compensated", coupling = "engine", lobes = "both", rotation = "0", threads;
+};
+
+template <class T, size_t N>
+using Names = std::array<std::pair<std::string_view, T>, N>;
+
+template <class T, size_t N>
+Result<void> choose(const char* option, std::string const& word, Names<T, N> const& names, T& result) {
+    std::string list;
+    for (size_t i = 0; i < N; ++i) {
+        if (names[i].first == word) {
+            result = names[i].second;
+            return {};
+        }
+        list += i == 0 ? "" : i + 1 == N ? " or " : ", ";
+        list += names[i].first;
+    }
+    return invalidOption(option, word, list.c_str());
+}
+
+Result<void> convertChoices(Words const& words, Options& options) {
+    ReferenceSettings& settings = options.settings;
+    if (auto done = choose(
+                "--integrator", words.integrator,
+                Names<Integrator, 2>{ { { "path", Integrator::Path }, { "unoccluded", Integrator::Unoccluded } } },
+                settings.integrator);
+        !done) {
+        return done;
+    }
+    if (auto done = choose("--filter", words.filter,
+                           Names<PixelFilter, 2>{ { { "box", PixelFilter::Box }, { "center", PixelFilter::Center } } },
+                           settings.filter);
+        !done) {
+        return done;
+    }
+    return choose("--occlusion-map", words.occlusion,
+                  Names<Switch, 3>{ { { "auto", Switch::Auto }, { "on", Switch::On }, { "off", Switch::Off } } },
+                  settings.occlusionMap);
+}
+
+Result<void> convertMicrofacets(Words const& words, Options& options) {
+    BsdfModel& bsdf = options.settings.bsdf;
+    if (auto done = choose("--visibility", words.visibility,
+                           Names<VisibilityTerm, 3>{ { { "correlated", VisibilityTerm::Correlated },
+                                                       { "fast", VisibilityTerm::CorrelatedFast },
+                                                       { "uncorrelated", VisibilityTerm::Uncorrelated } } },
+                           bsdf.visibility);
+        !done) {
+        return done;
+    }
+    if (auto done = choose(
+                "--fresnel", words.fresnel,
+                Names<FresnelTerm, 2>{ { { "schlick", FresnelTerm::Schlick }, { "exact", FresnelTerm::Exact } } },
+                bsdf.fresnel);
+        !done) {
+        return done;
+    }
+    return choose("--energy", words.energy,
+                  Names<EnergyTerm, 2>{ { { "compensated", EnergyTerm::Compensated },
+                                          { "single-scatter", EnergyTerm::SingleScatter } } },
+                  bsdf.energy);
+}
+
+Result<void> convertLobes(Words const& words, Options& options) {
+    BsdfModel& bsdf = options.settings.bsdf;
+    if (auto done = choose(
+                "--diffuse", words.diffuse,
+                Names<DiffuseTerm, 2>{ { { "lambert", DiffuseTerm::Lambert }, { "disney", DiffuseTerm::Disney } } },
+                bsdf.diffuse);
+        !done) {
+        return done;
+    }
+    if (auto done = choose("--coupling", words.coupling,
+                           Names<CouplingTerm, 3>{ { { "engine", CouplingTerm::Engine },
+                                                     { "always", CouplingTerm::Always },
+                                                     { "never", CouplingTerm::Never } } },
+                           bsdf.coupling);
+        !done) {
+        return done;
+    }
+    return choose("--lobes", words.lobes,
+                  Names<LobeChoice, 3>{ { { "both", LobeChoice::Both },
+                                          { "diffuse", LobeChoice::Diffuse },
+                                          { "specular", LobeChoice::Specular } } },
+                  bsdf.lobes);
+}
+
+Result<void> convertNumbers(Words const& words, Options& options) {
+    const auto samples = wholeNumber(words.samples, 1, 1u << 20);
+    if (!samples) return invalidOption("--spp", words.samples, "a whole number from 1 to 1048576");
+    options.settings.samplesPerPixel = *samples;
+
+    const auto bounces = wholeNumber(words.maxBounces, 1, 4096);
+    if (!bounces) return invalidOption("--max-bounces", words.maxBounces, "a whole number from 1 to 4096");
+    options.settings.maxBounces = *bounces;
+
+    const auto seed = wholeNumber(words.seed, 0, ~0u);
+    if (!seed) return invalidOption("--seed", words.seed, "a whole number from 0 to 4294967295");
+    options.settings.seed = *seed;
+
+    const auto rotation = tools::finiteNumber(words.rotation);
+    if (!rotation || *rotation < -360 || *rotation > 360) {
+        return invalidOption("--ibl-rotation", words.rotation, "degrees from -360 to 360");
+    }
+    options.rotationDegrees = *rotation;
+
+    if (!words.error.empty()) {
+        const auto error = tools::finiteNumber(words.error);
+        if (!error || *error < 1e-6 || *error > 1)
+            return invalidOption("--error", words.error, "a number from 1e-6 to 1");
+        options.settings.relativeError = static_cast<float>(*error);
+    }
+    if (words.threads.empty()) return {};
+    const auto threads = wholeNumber(words.threads, 1, 256);
+    if (!threads) return invalidOption("--threads", words.threads, "a whole number from 1 to 256");
+    options.workers = static_cast<int>(*threads) - 1; // this thread works as well
+    return {};
+}
+
+void declare(CLI::App& app, Words& words, Options& options) {
+    app.add_option("--integrator", words.integrator, "path: all light; unoccluded: one reflection, no shadows (path)");
+    app.add_option("--spp", words.samples, "samples a pixel; with --error the most of them (256)");
+    app.add_option("--error", words.error, "stop when the relative standard error of the picture is below this");
+    app.add_option("--max-bounces", words.maxBounces, "most reflections of a path (64)");
+    app.add_option("--seed", words.seed, "another one gives another noise (1)");
+    app.add_option("--filter", words.filter, "box: the mean over a pixel; center: its middle (box)");
+    app.add_option("--occlusion-map", words.occlusion, "on, off or auto: with unoccluded only (auto)");
+    app.add_option("--visibility", words.visibility, "correlated, fast or uncorrelated (correlated)");
+    app.add_option("--fresnel", words.fresnel, "schlick or exact (schlick)");
+    app.add_option("--diffuse", words.diffuse, "lambert or disney (lambert)");
+    app.add_option("--energy", words.energy, "compensated or single-scatter (compensated)");
+    app.add_option("--coupling", words.coupling, "engine, always or never: what the coat takes from the diffuse lobe");
+    app.add_option("--lobes", words.lobes, "both, diffuse or specular (both)");
+    app.add_option("--ibl-rotation", words.rotation, "degrees that the environment is turned around +Y (0)");
+    app.add_option("--threads", words.threads, "threads that trace (one per core)");
+    app.add_flag("--error-image", options.writesErrors, "write DIR/error.exr: the standard error of every pixel");
+}
+
+} // namespace
+
+Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
+    Options options;
+    tools::SceneWords sceneWords;
+    Words words;
+    CLI::App app{ "Renders what the engine approximates: paths traced in double precision, with a standard error.",
+                  "filament-reference" };
+    tools::declareSceneOptions(app, sceneWords, options);
+    declare(app, words, options);
+    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    if (!parsed) return parsed.error();
+    if (!*parsed) return std::optional<Options>{};
+    if (const Result<void> done = tools::convertSceneOptions(sceneWords, options); !done) return done.error();
+    for (auto convert : { convertChoices, convertMicrofacets, convertLobes, convertNumbers }) {
+        if (const Result<void> done = convert(words, options); !done) return done.error();
+    }
+    return std::optional(std::move(options));
+}
+
+} // namespace filament::reference

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Options: what filament-reference's command line asks for, checked.
+///   Fails   parseOptions: InvalidArgument in one line that names the option, the value and what would be right.
+#pragma once
+
+#include "tools/common/SceneOptions.h"
+#include "tools/reference/Reference.h"
+
+#include <optional>
+
+namespace filament::reference {
+
+struct Options : tools::SceneOptions {
+    ReferenceSettings settings{};
+    int workers = -1;           ///< as JobSystemOptions::workers
+    bool writesErrors = false;  ///< error.exr
+    double rotationDegrees = 0; ///< of the environment around +Y
+};
+
+/// No value: the help text was asked for and is printed.
+Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
+
+} // namespace filament::reference

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/Output.h"
+
+#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/ImageWriter.h"
+#include "shaders/lib/LibCpp.h"
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament::reference {
+namespace {
+
+namespace lib = shader::lib;
+
+using Json = nlohmann::ordered_json;
+
+static_assert(static_cast<int>(ToneMapper::Linear) == lib::kToneMapLinear &&
+              static_cast<int>(ToneMapper::Aces) == lib::kToneMapAces &&
+              static_cast<int>(ToneMapper::Filmic) == lib::kToneMapFilmic &&
+              static_cast<int>(ToneMapper::Mobile) == lib::kToneMapMobile);
+
+// As shaders/post/tonemap.glsl and the conversion to UNORM after it.
+float3 displayColor(float3 color, ColorGrading const& grading, float2 pixelCenter) {
+    const int mapper = static_cast<int>(grading.toneMapper);
+    float3 result = lib::toneMap(color, mapper);
+    if (!lib::toneMapIncludesTransfer(mapper)) result = lib::srgbFromLinear(result);
+    if (grading.dither) result += (lib::interleavedGradientNoise(pixelCenter) - 0.5f) * (1.0f / 255.0f);
+    return lib::saturate(result);
+}
+
+double largestError(ReferenceImage const& image) {
+    float largest = 0;
+    for (float3 const& error : image.standardError) largest = std::max({ largest, error.x, error.y, error.z });
+    return double(largest);
+}
+
+} // namespace
+
+std::vector<std::byte> displayPixels(ReferenceImage const& image, ColorGrading const& grading) {
+    std::vector<std::byte> pixels;
+    pixels.reserve(image.color.size() * 4);
+    for (size_t i = 0; i < image.color.size(); ++i) {
+        const float2 center(static_cast<float>(i % image.width) + 0.5f, static_cast<float>(i / image.width) + 0.5f);
+        const float3 display = displayColor(image.color[i], grading, center);
+        for (int c = 0; c < 3; ++c) pixels.push_back(static_cast<std::byte>(std::lround(display[c] * 255.0f)));
+        pixels.push_back(std::byte{ 255 });
+    }
+    return pixels;
+}
+
+Result<void> writePictures(Options const& options, ReferenceImage const& image) {
+    if (Result<void> written = assets::writeExr(options.out / "reference.exr", image.width, image.height, image.color,
+                                                assets::ExrPrecision::Float);
+        !written) {
+        return written;
+    }
+    if (options.writesErrors) {
+        if (Result<void> written = assets::writeExr(options.out / "error.exr", image.width, image.height,
+                                                    image.standardError, assets::ExrPrecision::Float);
+            !written) {
+            return written;
+        }
+    }
+    return assets::writePng(options.out / "reference.png", image.width, image.height,
+                            displayPixels(image, options.colorGrading));
+}
+
+Result<void> writeReport(Options const& options, ReferenceImage const& image,
+                         std::vector<std::string> const& warnings) {
+    RenderStatistics const& statistics = image.statistics;
+    const Json report{ { "model", options.model.string() },
+                       { "environment", options.environment.string() },
+                       { "size", { image.width, image.height } },
+                       { "integrator", options.settings.integrator == Integrator::Path ? "path" : "unoccluded" },
+                       { "seed", options.settings.seed },
+                       { "samplesPerPixel", statistics.samplesPerPixel },
+                       { "passes", statistics.passes },
+                       { "relativeStandardError", statistics.relativeError },
+                       { "largestStandardError", largestError(image) },
+                       { "meanLuminance", statistics.meanLuminance },
+                       { "rays", statistics.rays },
+                       { "lostSamples", statistics.lostSamples },
+                       { "seconds", statistics.seconds },
+                       { "warnings", warnings } };
+    const std::string text = report.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+    return assets::replaceFile(options.out / "report.json", std::as_bytes(std::span(text)));
+}
+
+} // namespace filament::reference

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// filament-reference [MODEL] [options]: the picture that filament-render approximates, from the same command line.
+// Exit status 0: rendered and written.
+#include "filament_core/assets/GltfLoader.h"
+#include "filament_core/assets/HdrReader.h"
+#include "tools/common/Console.h"
+#include "tools/common/SceneFiles.h"
+#include "tools/reference/Output.h"
+
+#include <fmt/format.h>
+#include <glm/trigonometric.hpp>
+
+#include <algorithm>
+#include <cstdio>
+#include <exception>
+
+namespace filament::reference {
+namespace {
+
+using tools::printError;
+using tools::showProgress;
+
+int failed(Error const& error) {
+    printError(error.message);
+    return 1;
+}
+
+Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings) {
+    const Result<showcase::Files> files = tools::chooseFiles(options);
+    if (!files) return files.error();
+    showProgress("loading the model");
+    Result<assets::ModelData> model = assets::loadGltf(files->model, jobs);
+    if (!model) return model.error();
+    warnings = model->warnings;
+    ReferenceScene scene;
+    const double4x4 fit = options.fit ? fitToUnitCube(modelBounds(*model)) : double4x4(1.0);
+    scene.models.push_back({ std::make_shared<assets::ModelData>(std::move(*model)), fit });
+    if (!files->environment.empty()) {
+        showProgress("loading the environment");
+        Result<assets::HdrImage> image = assets::readHdrImage(files->environment);
+        if (!image) return image.error();
+        scene.environment = { .image = std::make_shared<assets::HdrImage>(std::move(*image)),
+                              .illuminance = options.iblIntensity,
+                              .rotationRadians = static_cast<float>(glm::radians(options.rotationDegrees)),
+                              .skybox = options.skybox };
+    }
+    if (options.sun) scene.suns.push_back(*options.sun);
+    return scene;
+}
+
+std::string progressLine(RenderProgress const& progress, float wantedError) {
+    constexpr size_t kWidth = 24;
+    double done = double(progress.samplesDone) / progress.samplesTotal;
+    if (wantedError > 0 && progress.relativeError > 0) {
+        const double ratio = double(wantedError) / progress.relativeError; // errors shrink with the root of the samples
+        done = std::max(done, std::min(ratio * ratio, 1.0));
+    }
+    const auto filled = static_cast<size_t>(done * kWidth);
+    const double left = progress.seconds * (1 - done) / std::max(done, 1e-6);
+    return fmt::format("[{}{}] {:3.0f} %  {}/{} samples  error {:.2f} %  {:.0f} s left", std::string(filled, '#'),
+                       std::string(kWidth - filled, '.'), done * 100, progress.samplesDone, progress.samplesTotal,
+                       progress.relativeError * 100, left);
+}
+
+int run(Options const& options) {
+    if (const Result<void> made = tools::makeOutFolder(options); !made) return failed(made.error());
+    jobs::JobSystem jobs({ .workers = options.workers });
+    std::vector<std::string> notes;
+    const Result<ReferenceScene> scene = loadScene(options, jobs, notes);
+    if (!scene) return failed(scene.error());
+    showProgress("building the ray tracer's tree");
+    const Result<TracedScenePtr> traced = prepare(*scene, jobs);
+    if (!traced) return failed(traced.error());
+    notes.insert(notes.end(), warnings(**traced).begin(), warnings(**traced).end());
+
+    const ReferenceView view{ .camera = tools::cameraOf(options), .size = options.size };
+    const Result<ReferenceImage> image =
+            render(**traced, view, options.settings, jobs, [&](RenderProgress const& progress) {
+                showProgress(progressLine(progress, options.settings.relativeError));
+                return true;
+            });
+    tools::clearProgress();
+    if (!image) return failed(image.error());
+    for (std::string const& note : notes) tools::printWarning(note);
+    for (auto write : { writePictures(options, *image), writeReport(options, *image, notes) }) {
+        if (!write) return failed(write.error());
+    }
+    RenderStatistics const& statistics = image->statistics;
+    std::printf("%s: %u samples a pixel, standard error %.2f %%, %.1f Mrays in %.1f s\n",
+                (options.out / "reference.exr").c_str(), statistics.samplesPerPixel, statistics.relativeError * 100,
+                static_cast<double>(statistics.rays) * 1e-6, statistics.seconds);
+    return 0;
+}
+
+} // namespace
+} // namespace filament::reference
+
+int main(int argc, char** argv) {
+    using namespace filament;
+    tools::setProgramName("filament-reference");
+    tools::routeLogToConsole();
+    try {
+        const auto options = reference::parseOptions(argc, argv);
+        if (!options) return reference::failed(options.error());
+        return *options ? reference::run(**options) : 0;
+    } catch (std::exception const& error) {
+        tools::printError(fmt::format("out of resources ({}); try a smaller model or size", error.what()));
+        return 1;
+    }
+}
