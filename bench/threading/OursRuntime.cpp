@@ -5,6 +5,8 @@
 #include "bench/threading/Runtime.h"
 #include "jobsystem/JobSystem.h"
 
+#include <deque>
+
 namespace filament::bench {
 namespace {
 
@@ -15,7 +17,7 @@ uint32_t forkTree(JobSystem& jobs, uint32_t depth) {
     if (depth == 0) return 1;
     uint32_t left = 0;
     JobGroup group(jobs);
-    group.run([&] { left = forkTree(jobs, depth - 1); });
+    group.run<"tree">([&] { left = forkTree(jobs, depth - 1); });
     const uint32_t right = forkTree(jobs, depth - 1);
     group.wait();
     return left + right;
@@ -26,7 +28,7 @@ struct Relay {
     JobGroup& group;
     uint32_t left;
     void operator()() const {
-        if (left > 0) group.run(Relay{ group, left - 1 });
+        if (left > 0) group.run<"relay">(Relay{ group, left - 1 });
     }
 };
 
@@ -40,13 +42,17 @@ public:
 
     void enter() override {
         if (mPinned) mPin.emplace(coreOfThread(0));
+        mSeat.emplace(mJobs);
     }
-    void leave() override { mPin.reset(); }
+    void leave() override {
+        mSeat.reset();
+        mPin.reset();
+    }
 
     void emptyJobs(uint32_t count, uint64_t repeats) override {
         JobGroup group(mJobs);
         for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
-            for (uint32_t i = 0; i < count; ++i) group.run([] {});
+            for (uint32_t i = 0; i < count; ++i) group.run<"empty">([] {});
             group.wait();
         }
     }
@@ -57,22 +63,31 @@ public:
         // a range of some 5 microseconds, as the header asks for
         const auto grain = static_cast<size_t>(5'000 / work.itemNs);
         for (uint64_t repeat = 0; repeat < repeats; ++repeat)
-            parallelFor(mJobs, count, grain, [&](size_t begin, size_t end) { keep(work.run(begin, end, repeat)); });
+            parallelFor<"loop">(mJobs, count, grain,
+                                [&](size_t begin, size_t end) { keep(work.run(begin, end, repeat)); });
     }
 
     void chain(uint32_t links, uint64_t repeats) override {
+        std::deque<JobGroup> groups; // one a link
+        for (uint32_t i = 0; i < links; ++i) groups.emplace_back(mJobs);
+        for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
+            groups[0].run<"link">([] {});
+            for (uint32_t i = 1; i < links; ++i) groups[i - 1].then<"link">(groups[i], [] {});
+            for (JobGroup& group : groups) group.wait(); // only the last one can take time
+        }
+    }
+
+    void relay(uint32_t links, uint64_t repeats) override {
         for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
             JobGroup group(mJobs);
-            group.run(Relay{ group, links - 1 });
+            group.run<"relay">(Relay{ group, links - 1 });
             group.wait();
         }
     }
 
-    void relay(uint32_t links, uint64_t repeats) override { chain(links, repeats); }
-
     void spinJobs(std::span<const uint32_t> steps) override {
         JobGroup group(mJobs);
-        for (const uint32_t count : steps) group.run([count] { keep(spinSteps(count, count)); });
+        for (const uint32_t count : steps) group.run<"spin">([count] { keep(spinSteps(count, count)); });
         group.wait();
     }
 
@@ -82,7 +97,7 @@ public:
         StartSignal started;
         spinFor(idle);
         const int64_t now = wallNow();
-        group.run([&] { started.raise(); });
+        group.run<"wake">([&] { started.raise(); });
         const int64_t latency = started.wait(now);
         group.wait();
         return latency;
@@ -92,6 +107,7 @@ private:
     const bool mPinned;
     JobSystem mJobs;
     std::optional<PinnedScope> mPin;
+    std::optional<jobs::AdoptedThread> mSeat;
 };
 
 } // namespace
