@@ -5,38 +5,17 @@ namespace filament::jobs {
 
 JobStorage::JobStorage(uint32_t capacity)
         : mJobs(std::make_unique_for_overwrite<Job[]>(capacity)),
-          mNextInBatch(std::make_unique<std::atomic<uint32_t>[]>(capacity)),
-          mNextBatch(std::make_unique<std::atomic<uint32_t>[]>(capacity)) {
+          mNextInBatch(std::make_unique<std::atomic<uint32_t>[]>(capacity)), mBatches(capacity) {
     for (uint32_t first = 0; first < capacity; first += kBatch) {
         const uint32_t last = (capacity - first < kBatch ? capacity : first + kBatch) - 1;
         for (uint32_t job = first; job < last; ++job) mNextInBatch[job].store(job + 1, std::memory_order_relaxed);
         mNextInBatch[last].store(kNone, std::memory_order_relaxed);
-        pushBatch(first);
+        mBatches.push(first);
     }
 }
 
-void JobStorage::pushBatch(uint32_t first) {
-    uint64_t head = mHead.load(std::memory_order_relaxed);
-    uint64_t next = 0;
-    do {
-        mNextBatch[first].store(static_cast<uint32_t>(head), std::memory_order_relaxed);
-        next = (((head >> 32) + 1) << 32) | first;
-    } while (!mHead.compare_exchange_weak(head, next, std::memory_order_release, std::memory_order_relaxed));
-}
-
-uint32_t JobStorage::popBatch() {
-    uint64_t head = mHead.load(std::memory_order_acquire);
-    uint64_t next = 0;
-    do {
-        const auto first = static_cast<uint32_t>(head);
-        if (first == kNone) return kNone;
-        next = (((head >> 32) + 1) << 32) | mNextBatch[first].load(std::memory_order_relaxed);
-    } while (!mHead.compare_exchange_weak(head, next, std::memory_order_acquire, std::memory_order_acquire));
-    return static_cast<uint32_t>(head);
-}
-
 void JobStorage::refill(Cache& cache) {
-    for (uint32_t job = popBatch(); job != kNone; job = mNextInBatch[job].load(std::memory_order_relaxed)) {
+    for (uint32_t job = mBatches.pop(); job != kNone; job = mNextInBatch[job].load(std::memory_order_relaxed)) {
         cache.free[cache.count++] = job;
     }
 }
@@ -47,7 +26,7 @@ void JobStorage::flush(Cache& cache) {
         mNextInBatch[cache.free[i]].store(cache.free[i + 1], std::memory_order_relaxed);
     }
     mNextInBatch[cache.free[kBatch - 1]].store(kNone, std::memory_order_relaxed);
-    pushBatch(cache.free[0]);
+    mBatches.push(cache.free[0]);
     for (uint32_t i = kBatch; i < cache.count; ++i) cache.free[i - kBatch] = cache.free[i];
     cache.count -= kBatch;
 }
@@ -57,10 +36,10 @@ Job* JobStorage::allocate(Cache* cache) {
         if (cache->count == 0) refill(*cache);
         return cache->count == 0 ? nullptr : &mJobs[cache->free[--cache->count]];
     }
-    const uint32_t job = popBatch();
+    const uint32_t job = mBatches.pop();
     if (job == kNone) return nullptr;
     const uint32_t rest = mNextInBatch[job].load(std::memory_order_relaxed);
-    if (rest != kNone) pushBatch(rest);
+    if (rest != kNone) mBatches.push(rest);
     return &mJobs[job];
 }
 
@@ -72,7 +51,7 @@ void JobStorage::release(Cache* cache, Job& job) {
         return;
     }
     mNextInBatch[index].store(kNone, std::memory_order_relaxed);
-    pushBatch(index);
+    mBatches.push(index);
 }
 
 } // namespace filament::jobs

@@ -7,6 +7,7 @@
 ///   Cost    a few instructions; once in 32 calls one compare-and-swap on the shared stack.
 #pragma once
 
+#include "jobsystem/IndexStack.h"
 #include "jobsystem/Job.h"
 
 #include <array>
@@ -31,20 +32,14 @@ public:
     void release(Cache* cache, Job& job);
 
 private:
-    // The stack of batches (Treiber 1986) is named by indices; the upper half of the head counts changes, so that a
-    // head that came back (ABA) is not taken for the same. Links live beside the jobs and are atomic, because a thread
-    // that is about to lose the race still reads them.
-    void pushBatch(uint32_t first);
-    uint32_t popBatch(); // kNone if the stack is empty
     void refill(Cache& cache);
     void flush(Cache& cache);
 
-    static constexpr uint32_t kNone = ~0u;
+    static constexpr uint32_t kNone = IndexStack<>::kNone;
 
     std::unique_ptr<Job[]> mJobs;
     std::unique_ptr<std::atomic<uint32_t>[]> mNextInBatch;
-    std::unique_ptr<std::atomic<uint32_t>[]> mNextBatch;           // of the first job of a batch
-    alignas(kCacheLineBytes) std::atomic<uint64_t> mHead{ kNone }; // changes << 32 | first job of the top batch
+    IndexStack<> mBatches; // named by their first jobs
 };
 
 } // namespace filament::jobs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ModelAtomics: the policy that puts the job system's lock-free parts under the ModelChecker. Atomic<T> is spelled
 /// like std::atomic<T>; Plain<T> is a value that threads must not race for.
-///   Thread  the threads of the checker; outside of them a load returns the last store.
+///   Thread  the threads of the checker. Before and after them the scenario may use atomics as a single thread does.
 ///   Limits  T is at most 8 bytes and trivially copyable.
 #pragma once
 

@@ -81,7 +81,8 @@ private:
     uint8_t pick(Choices const& choices) { return choices.stores[mSearch.pick(choices.count)]; }
     int find(const void* object) const;
     Outcome make(Operation const& operation);
-    Outcome change(Operation const& operation, uint64_t value);
+    Outcome change(Operation const& operation);
+    Outcome performAlone(Operation const& operation);
     Outcome compareExchange(Operation const& operation);
     void wait(Operation const& operation);
     void notify(Operation const& operation);
@@ -292,7 +293,7 @@ Outcome Checker::perform(const void* object, Operation operation) {
         if (mSelf >= 0 && std::uncaught_exceptions() == 0) throw RunGivenUp{};
         return {};
     }
-    if (mSelf < 0) return { mMemory.latest(operation.location) };
+    if (mSelf < 0) return performAlone(operation);
     if (mOptions.mutate) mOptions.mutate(operation);
     announce(operation);
     if (!mMemory.isAlive(operation.location)) fail("an atomic is used after its destruction");
@@ -329,7 +330,7 @@ Outcome Checker::make(Operation const& operation) {
     case Kind::Add:
     case Kind::And:
     case Kind::Or:
-        return change(operation, operand);
+        return change(operation);
     case Kind::CompareExchange:
         return compareExchange(operation);
     case Kind::Wait:
@@ -347,17 +348,35 @@ Outcome Checker::make(Operation const& operation) {
     return {};
 }
 
-Outcome Checker::change(Operation const& operation, uint64_t operand) {
+uint64_t changed(Operation const& operation, uint64_t before) {
+    switch (operation.kind) {
+    case Kind::Add:
+        return (before + operation.operand) & operation.mask;
+    case Kind::And:
+        return before & operation.operand;
+    case Kind::Or:
+        return before | operation.operand;
+    default:
+        return operation.operand;
+    }
+}
+
+Outcome Checker::change(Operation const& operation) {
     const int at = operation.location;
     const uint8_t from = pick(mMemory.followable(mSelf, at, operation.order));
     const uint64_t before = mMemory.value(at, from);
-    uint64_t after = operand;
-    if (operation.kind == Kind::Add) after = (before + operand) & operation.mask;
-    if (operation.kind == Kind::And) after = before & operand;
-    if (operation.kind == Kind::Or) after = before | operand;
     mSteps.back().before = before;
-    if (!mMemory.modify(mSelf, at, from, after, operation.order)) fail("the scenario stores too often");
+    if (!mMemory.modify(mSelf, at, from, changed(operation, before), operation.order))
+        fail("the scenario stores too often");
     return { before };
+}
+
+// The scenario is made or judged; no thread runs.
+Outcome Checker::performAlone(Operation const& operation) {
+    const uint64_t before = mMemory.latest(operation.location);
+    const bool fits = operation.kind != Kind::CompareExchange || before == operation.expected;
+    if (operation.kind != Kind::Load && fits) mMemory.replaceLatest(operation.location, changed(operation, before));
+    return { before, fits };
 }
 
 Outcome Checker::compareExchange(Operation const& operation) {

@@ -155,4 +155,9 @@ uint64_t ModelMemory::latest(int location) const {
     return at.stores[at.order[at.count - 1]].value;
 }
 
+void ModelMemory::replaceLatest(int location, uint64_t value) {
+    Location& at = mLocations[location];
+    at.stores[at.order[at.count - 1]].value = value;
+}
+
 } // namespace filament::jobs::model

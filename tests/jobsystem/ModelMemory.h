@@ -83,6 +83,7 @@ public:
 
     uint64_t value(int location, uint8_t store) const { return mLocations[location].stores[store].value; }
     uint64_t latest(int location) const;
+    void replaceLatest(int location, uint64_t value); ///< before and after all threads
     View const& view(int thread) const { return mViews[thread]; }
     bool happenedBefore(int thread, uint16_t time, int before) const { return time <= mViews[thread].clock[before]; }
 

@@ -1,0 +1,60 @@
+// SPDX-License-Identifier: Apache-2.0
+/// IndexStack: a stack of numbers below its capacity, for any number of threads; what is free lies on it.
+///   Source  Treiber 1986, "Systems programming: coping with parallelism". The upper half of the head counts changes,
+///   so
+///           that a head that came back (ABA) is not taken for the same. Links are atomic, because a thread that is
+///           about to lose the race still reads them.
+///   Thread  any. What was written before push() is visible after the pop() that returns the number.
+///   Memory  4 bytes a number, allocated by the constructor.
+///   Limits  a number lies on the stack once. A thread that sleeps inside pop() for exactly 2^32 changes is fooled.
+///   Fails   pop() returns kNone when the stack is empty.  Cost: one compare-and-swap.
+///   Proof   tests/jobsystem/IndexStackModelTest.cpp
+#pragma once
+
+#include "jobsystem/Atomics.h"
+
+#include <atomic>
+#include <cstdint>
+#include <memory>
+
+namespace filament::jobs {
+
+template <class Policy = StdAtomics>
+class IndexStack {
+public:
+    static constexpr uint32_t kNone = ~0u;
+
+    explicit IndexStack(uint32_t capacity) : mNext(std::make_unique<Atomic<uint32_t>[]>(capacity)) {}
+
+    void push(uint32_t index) {
+        uint64_t head = mHead.load(std::memory_order_relaxed);
+        do {
+            mNext[index].store(static_cast<uint32_t>(head), std::memory_order_relaxed);
+        } while (!mHead.compare_exchange_weak(head, follow(head, index), std::memory_order_release,
+                                              std::memory_order_relaxed));
+    }
+
+    uint32_t pop() {
+        uint64_t head = mHead.load(std::memory_order_acquire);
+        uint32_t index = kNone;
+        uint32_t next = kNone;
+        do {
+            index = static_cast<uint32_t>(head);
+            if (index == kNone) return kNone;
+            next = mNext[index].load(std::memory_order_relaxed);
+        } while (!mHead.compare_exchange_weak(head, follow(head, next), std::memory_order_acquire,
+                                              std::memory_order_acquire));
+        return index;
+    }
+
+private:
+    template <class T>
+    using Atomic = typename Policy::template Atomic<T>;
+
+    static uint64_t follow(uint64_t head, uint32_t top) { return (((head >> 32) + 1) << 32) | top; }
+
+    const std::unique_ptr<Atomic<uint32_t>[]> mNext;
+    alignas(64) Atomic<uint64_t> mHead{ kNone }; // changes << 32 | top
+};
+
+} // namespace filament::jobs
