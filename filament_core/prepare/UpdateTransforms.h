@@ -16,8 +16,8 @@
 
 namespace filament::prepare {
 
-/// Nodes a range, from bench/filament_core/prepare/UpdateTransformsBench.cpp.
-inline constexpr size_t kTransformGrain = 512;
+/// Nodes a range: 4 us of nodes alone, 10 us of nodes with a renderable each. 128 to 512 measured alike, 4096 slower.
+inline constexpr size_t kTransformGrain = 256;
 
 void updateTransforms(jobs::JobSystem& jobs, scene::SceneData& scene);
 

@@ -68,6 +68,10 @@ TEST_F(TransformsTest, AnUpdateVisitsWhatChangedAndWhatHangsBelowItOnce) {
     EXPECT_EQ(worldX(other), 9);
     EXPECT_EQ(update(), 2u);
     EXPECT_EQ(worldX(c), 1 + 21 + 31);
+    transforms.setTransform(c, moved(32));
+    transforms.setTransform(a, moved(5)); // takes b along, b takes c along
+    EXPECT_EQ(update(), 4u);
+    EXPECT_EQ(worldX(c), 5 + 21 + 32);
 }
 
 TEST_F(TransformsTest, ListsChildrenInTheOrderTheyCame) {
