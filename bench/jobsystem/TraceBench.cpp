@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a timeline costs a job, and what asking for the machine's topology costs a start.
 #include "jobsystem/CpuQuota.h"
+#include "jobsystem/JobSystem.h"
 #include "jobsystem/JobTrace.h"
 #include "jobsystem/Topology.h"
 
@@ -30,6 +31,19 @@ void traceJob(benchmark::State& state) {
     }
 }
 BENCHMARK(traceJob);
+
+/// A batch of empty jobs with and without a timeline: the difference is what a traced job pays.
+void batchOf1000(benchmark::State& state) {
+    JobSystem jobs({ .workers = static_cast<int>(state.range(0)), .trace = state.range(1) != 0 });
+    const AdoptedThread seat(jobs);
+    JobGroup group(jobs);
+    for (auto _ : state) {
+        for (int i = 0; i < 1000; ++i) group.run<"empty">([] {});
+        group.wait();
+    }
+    state.SetItemsProcessed(state.iterations() * 1000);
+}
+BENCHMARK(batchOf1000)->ArgNames({ "workers", "trace" })->ArgsProduct({ { 0, 1 }, { 0, 1 } })->UseRealTime();
 
 void readClock(benchmark::State& state) {
     for (auto _ : state) benchmark::DoNotOptimize(JobTrace::now());
