@@ -10,6 +10,14 @@
 #include <tuple>
 
 namespace filament::jobs {
+namespace {
+
+uint64_t nextId() {
+    static std::atomic<uint64_t> last{ 0 };
+    return last.fetch_add(1, std::memory_order_relaxed) + 1;
+}
+
+} // namespace
 
 /// The newest events of one track. One thread writes at a time, any thread reads.
 /// The writer announces event n after its fields are written, and overwrites a slot only after it announced the events
@@ -92,7 +100,7 @@ TraceTrack JobTrace::Ring::read() const {
 }
 
 JobTrace::JobTrace(uint32_t seats, uint32_t eventsPerTrack)
-        : mSeats(std::make_unique<Ring[]>(seats)), mSeatCount(seats), mEventsPerTrack(eventsPerTrack) {
+        : mId(nextId()), mSeats(std::make_unique<Ring[]>(seats)), mSeatCount(seats), mEventsPerTrack(eventsPerTrack) {
     FILAMENT_ASSERT(eventsPerTrack >= 2 && std::has_single_bit(eventsPerTrack),
                     "JobTrace keeps a power of two of events, at least 2");
     for (uint32_t i = 0; i < seats; ++i) {
@@ -115,10 +123,13 @@ void JobTrace::recordJob(uint32_t seat, const char* name, int64_t begin, int64_t
 }
 
 void JobTrace::recordJobHere(const char* name, int64_t begin, int64_t end, bool stolen) {
-    const std::string thread = nameOfThisThread();
+    static thread_local struct {
+        uint64_t trace = 0;
+        Track track = 0;
+    } tLast; // asking the system for the name costs more than the rest
     const std::lock_guard lock(mMutex);
-    mSpans[trackLocked(thread)]->push(
-            { name, begin, end, stolen ? TraceEvent::Kind::StolenJob : TraceEvent::Kind::Job });
+    if (tLast.trace != mId) tLast = { mId, trackLocked(nameOfThisThread()) };
+    mSpans[tLast.track]->push({ name, begin, end, stolen ? TraceEvent::Kind::StolenJob : TraceEvent::Kind::Job });
 }
 
 JobTrace::Track JobTrace::track(std::string const& name) {

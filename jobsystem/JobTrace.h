@@ -61,7 +61,7 @@ public:
 
     void nameSeat(uint32_t seat, std::string name);
     void recordJob(uint32_t seat, const char* name, int64_t begin, int64_t end, bool stolen);
-    /// For a thread without a seat: on the track of its name, under a lock.
+    /// For a thread without a seat: under a lock, on a track of the name that the thread has at its first job.
     void recordJobHere(const char* name, int64_t begin, int64_t end, bool stolen);
 
     /// A track for spans; asking again for a name gives the same one.
@@ -75,6 +75,7 @@ private:
     class Ring;
     Track trackLocked(std::string const& name);
 
+    const uint64_t mId; // of this trace among all of the process
     std::unique_ptr<Ring[]> mSeats;
     uint32_t mSeatCount;
     uint32_t mEventsPerTrack;

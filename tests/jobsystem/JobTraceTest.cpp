@@ -179,6 +179,24 @@ TEST(JobTrace, PutsJobsOfThreadsWithoutASeatOnTracksOfTheirNames) {
     EXPECT_EQ(tracks[1].name, "decoder");
 }
 
+TEST(JobTrace, KeepsTheThreadsOfTwoTracesApart) {
+    JobTrace first(0), second(0);
+    second.track("occupies the first number");
+    std::thread([&] {
+        nameThisThread("shared");
+        for (int i = 0; i < 3; ++i) {
+            first.recordJobHere("a", 1, 2, false);
+            second.recordJobHere("b", 1, 2, false);
+        }
+    }).join();
+    for (JobTrace const* trace : { &first, &second }) {
+        const std::vector<TraceTrack> tracks = trace->snapshot();
+        ASSERT_EQ(tracks.size(), 1u);
+        EXPECT_EQ(tracks[0].name, "shared");
+        EXPECT_EQ(tracks[0].events.size(), 3u);
+    }
+}
+
 TEST(JobTraceDeathTest, RefusesSpansThatEndBeforeTheyBegin) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     JobTrace trace(0);
