@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a frame of many renderables costs the CPU, through the public API, on the backend without a device.
-//   cpu Nw    CPU time of the app thread inside render(), and the time that N workers were busy for it
+//   cpu Nw    CPU time of the app thread and of N workers while render() ran, waiting for work included
 //   wall Nw   render() from call to return: the frame is submitted
 // Between frames the engine goes idle, outside of what is measured, so that back-pressure and the driver thread's own
 // work are not part of either.
 #include "bench/threading/Clock.h"
+#include "bench/threading/WorkerClocks.h"
 #include "bench/threading/Workloads.h"
 #include "shaders/package/EngineMaterials.h"
 
@@ -30,6 +31,7 @@ struct GridSize {
 class Grid {
 public:
     static Result<std::shared_ptr<Grid>> create(GridSize const& size, unsigned workers) {
+        const std::vector<pid_t> before = workersOfAllEngines(workers);
         auto engine = Engine::create({ .backend = Backend::Null, .workers = static_cast<int>(workers) });
         if (!engine) return engine.error();
         auto grid = std::shared_ptr<Grid>(new Grid(std::move(*engine)));
@@ -39,6 +41,12 @@ public:
         const FrameStatistics seen = grid->mRenderer.statistics();
         if (seen.visible != size.renderables)
             return fail(ErrorCode::Internal, "the grid shows {} of its {} boxes", seen.visible, size.renderables);
+        settle(); // every thread has started, and named itself
+        for (const pid_t thread : workersOfAllEngines(workers))
+            if (std::ranges::find(before, thread) == before.end()) grid->mWorkers.push_back(thread);
+        if (grid->mWorkers.size() != workers)
+            return fail(ErrorCode::Internal, "of an engine's {} workers only {} were found by name", workers,
+                        grid->mWorkers.size());
         return grid;
     }
 
@@ -46,16 +54,24 @@ public:
         double cpuMs = 0, wallMs = 0;
     };
     Cost frame() {
-        const int64_t cpu = threadCpuNow(), wall = wallNow();
+        const int64_t cpu = cpuNow(), wall = wallNow();
         mRenderer.render(mScene, mView, mTarget);
-        Cost cost{ .cpuMs = static_cast<double>(threadCpuNow() - cpu) * 1e-6,
-                   .wallMs = static_cast<double>(wallNow() - wall) * 1e-6 };
+        Cost cost{ .wallMs = static_cast<double>(wallNow() - wall) * 1e-6 };
+        cost.cpuMs = static_cast<double>(cpuNow() - cpu) * 1e-6;
         mEngine.waitIdle();
-        for (FrameTimings const& timings : mRenderer.takeTimings()) cost.cpuMs += timings.workerBusyMilliseconds;
         return cost;
     }
 
 private:
+    static std::vector<pid_t> workersOfAllEngines(unsigned count) {
+        std::vector<pid_t> threads;
+        for (unsigned i = 0; i < count; ++i)
+            for (const pid_t thread : threadsNamed(fmt::format("worker {}", i))) threads.push_back(thread);
+        return threads;
+    }
+
+    int64_t cpuNow() const { return threadCpuNow() + cpuNanosecondsOf(mWorkers); }
+
     explicit Grid(Engine engine)
             : mEngine(std::move(engine)), mScene(mEngine), mRenderer(mEngine),
               mTarget(mEngine.own(mEngine.create(SwapChainDesc{ .size = mView.size, .name = "grid" }))) {}
@@ -130,6 +146,7 @@ private:
     Scene mScene;
     Renderer mRenderer;
     Owned<SwapChain> mTarget;
+    std::vector<pid_t> mWorkers;
 };
 
 Result<Workload> frames(Settings const& settings, std::string const& name, GridSize const& size, double limitMs) {
