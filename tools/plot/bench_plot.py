@@ -173,6 +173,7 @@ def uneven_panel(figure, cell, workloads):
     names = [name for name in contenders_of(workloads) if name not in ("ideal", "fair")]
     draw_bars(axes, workloads, names, "Uneven work", "× ideal or fair share", over_ideal)
     axes.axhline(1, color="#222222", linewidth=1)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1, 2, 5)))
 
 
 def command_panel(figure, cell, workloads):
