@@ -38,6 +38,12 @@ double3 sampleVisibleNormal(double3 view, double alpha, double2 u) {
     return glm::normalize(double3(alpha * visible.x, alpha * visible.y, std::max(visible.z, 1e-12)));
 }
 
+double3 liftedAboveHorizon(double3 view) {
+    if (view.z >= kMinNov) return view;
+    const double size = std::hypot(view.x, view.y), radius = std::sqrt(1 - kMinNov * kMinNov);
+    return size > 0 ? double3(view.x / size * radius, view.y / size * radius, kMinNov) : double3(radius, 0, kMinNov);
+}
+
 double smithMasking(double cosine, double alpha) {
     const double a2 = alpha * alpha;
     return 2 * cosine / (cosine + std::sqrt(a2 + (1 - a2) * cosine * cosine));
@@ -69,12 +75,11 @@ double diffuseDisney(double nov, double nol, double voh, double perceptualRoughn
 } // namespace terms
 
 Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion)
-        : mModel(model), mNormal(surface.normal), mNov(std::max(glm::dot(surface.normal, surface.view), kMinNov)),
-          mRoughness(surface.perceptualRoughness), mAlpha(lib::alphaFromPerceptual(mRoughness)), mF0(surface.f0),
-          mF90(surface.f90), mDiffuse(surface.diffuse) {
+        : mModel(model), mNormal(surface.normal), mRoughness(surface.perceptualRoughness),
+          mAlpha(lib::alphaFromPerceptual(mRoughness)), mF0(surface.f0), mF90(surface.f90), mDiffuse(surface.diffuse) {
     basisAround(mNormal, mTangent, mBitangent);
-    mView = toLocal(surface.view);
-    mVisibleView = glm::normalize(double3(mView.x, mView.y, std::max(mView.z, kMinNov)));
+    mView = liftedAboveHorizon(toLocal(surface.view));
+    mNov = mView.z;
 
     const double2 dfg = directionalAlbedo(mNov, mRoughness);
     mCompensation = model.energy == EnergyTerm::Compensated ? lib::energyCompensation(mF0, dfg) : double3(1.0);
@@ -89,9 +94,8 @@ Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusi
     if (model.lobes == LobeChoice::Diffuse) mCompensation = double3(0.0);
     const double specular = model.lobes == LobeChoice::Diffuse ? 0 : lib::luminance(specularAlbedo);
     const double diffuse = lib::luminance(mDiffuse * mCoupling);
-    // A tenth at least for each lobe that is there. Below the horizon visible half vectors miss a part of the value.
-    const bool isDiffuse = diffuse > 0 || mView.z <= kMinNov;
-    mSpecularChance = isDiffuse ? std::clamp(specular / std::max(specular + diffuse, 1e-12), 0.1, 0.9) : 1;
+    // A tenth at least for each lobe that is there.
+    mSpecularChance = diffuse > 0 ? std::clamp(specular / (specular + diffuse), 0.1, 0.9) : 1;
     if (model.lobes == LobeChoice::Diffuse) mSpecularChance = 0;
 }
 
@@ -143,7 +147,7 @@ double3 Bsdf::evaluate(double3 light, LightSource source) const {
 BsdfSample Bsdf::sample(double2 u, double choice) const {
     double3 local;
     if (choice < mSpecularChance) {
-        const double3 halfway = sampleVisibleNormal(mVisibleView, mAlpha, u);
+        const double3 halfway = sampleVisibleNormal(mView, mAlpha, u);
         local = 2 * glm::dot(mView, halfway) * halfway - mView;
     } else {
         local = lib::hemisphereCosineSample(u);
@@ -166,11 +170,8 @@ double Bsdf::specularPdf(double3 light) const {
     const double length = glm::length(sum);
     if (length < 1e-12) return 0;
     const double3 halfway = sum / length;
-    const double voh = glm::dot(mView, halfway), visible = glm::dot(mVisibleView, halfway);
-    if (voh <= 0 || visible <= 0 || halfway.z <= 0) return 0;
-    const double d = lib::ndfGgxFromVectors({ 0, 0, 1 }, halfway, mAlpha);
     // Visible half vectors: G1 D (v.h) / n.v; light directions are 4 v.h times sparser.
-    return smithMasking(mVisibleView.z, mAlpha) * d * visible / mVisibleView.z / (4 * voh);
+    return smithMasking(mNov, mAlpha) * lib::ndfGgxFromVectors({ 0, 0, 1 }, halfway, mAlpha) / (4 * mNov);
 }
 
 } // namespace filament::reference

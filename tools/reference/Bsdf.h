@@ -4,8 +4,8 @@
 ///   Value   f(view, light) * cos, in 1/sr: diffuse lobe + D V F * energy compensation, from shaders/lib in double.
 ///   Sampler one lobe in proportion to the lobes' albedos. Specular: half vectors that the viewer sees (Heitz 2018,
 ///           "Sampling the GGX Distribution of Visible Normals"); diffuse: cosine.
-///   Edge    views below the shading normal's horizon count as grazing (nov = 1e-4), as in the engine; the sampler
-///           always covers every direction in which the value is not zero.
+///   Edge    views below the shading normal's horizon, which normal maps make, are lifted to nov = 1e-4: the engine
+///           clamps nov alone, which for a light right behind the surface is a pole.
 ///   Thread  a value. Memory: none.
 #pragma once
 
@@ -49,8 +49,7 @@ private:
 
     BsdfModel mModel;
     double3 mNormal, mTangent, mBitangent;
-    double3 mView;        // local, as it is
-    double3 mVisibleView; // local, not below the horizon: what half vectors are sampled for
+    double3 mView; // local, lifted to nov = kMinNov where it is below that
     double mNov, mRoughness, mAlpha;
     double3 mF0;
     double mF90;

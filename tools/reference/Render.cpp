@@ -90,7 +90,7 @@ public:
 
     void runPass(jobs::JobSystem& jobs) {
         const size_t pixels = size_t(mFilm.width()) * mFilm.height();
-        jobs::parallelFor(jobs, pixels, kPixelsPerJob, [&](size_t begin, size_t end) {
+        jobs::parallelFor<"pixels">(jobs, pixels, kPixelsPerJob, [&](size_t begin, size_t end) {
             uint64_t rays = 0, lost = 0;
             for (size_t pixel = begin; pixel < end; ++pixel) mFilm.add(pixel, meanOf(pixel, rays, lost));
             mRays += rays;

@@ -149,7 +149,7 @@ private:
 
 std::vector<Part> makeParts(std::vector<Placement> const& placements, double3 origin, jobs::JobSystem& jobs) {
     std::vector<Part> parts(placements.size());
-    jobs::parallelFor(jobs, parts.size(), 1, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"parts">(jobs, parts.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             Placement const& placement = placements[i];
             parts[i] = makePart(*placement.primitive, placement.worldFromObject, origin);

@@ -1,0 +1,313 @@
+// SPDX-License-Identifier: Apache-2.0
+// The material as a function and as a sampler: physics, and each against the other.
+#include "tests/tools/reference/TestScenes.h"
+
+#include "shaders/lib/LibCppDouble.h"
+#include "tools/reference/Bsdf.h"
+#include "tools/reference/DirectionalAlbedo.h"
+#include "tools/reference/SampleStream.h"
+
+#include <algorithm>
+#include <random>
+
+namespace filament::reference {
+namespace {
+
+double3 directionAt(double cosine, double azimuth) {
+    const double sine = std::sqrt(1 - cosine * cosine);
+    return { sine * std::cos(azimuth), sine * std::sin(azimuth), cosine };
+}
+
+/// A frame that is no axis of anything.
+const double3 kNormal = glm::normalize(double3(0.3, -0.5, 0.8));
+
+double3 inFrame(double3 local) {
+    const double3 tangent = glm::normalize(glm::cross(double3(0, 1, 0), kNormal));
+    return tangent * local.x + glm::cross(kNormal, tangent) * local.y + kNormal * local.z;
+}
+
+SurfaceSample surfaceOf(double roughness, double metallic, double3 baseColor, double3 localView) {
+    namespace lib = shader::lib64;
+    SurfaceSample surface;
+    surface.normal = surface.geometricNormal = kNormal;
+    surface.view = inFrame(localView);
+    surface.perceptualRoughness = lib::clampPerceptualRoughness(roughness);
+    surface.diffuse = lib::diffuseColor(baseColor, metallic);
+    surface.f0 = lib::f0FromBaseColor(baseColor, metallic, 0.5);
+    return surface;
+}
+
+/// Integral over the sphere, midpoints; cosine = 1 - 2 t^4 from the mirror direction of a view at azimuth 0, around
+/// which lobes crowd.
+template <class F>
+auto integrate(double viewCosine, F const& f, int polarSteps = 160, int azimuthSteps = 160) {
+    const double3 axis = inFrame(directionAt(viewCosine, kPiExact));
+    const double3 tangent = glm::normalize(glm::cross(double3(0.1, 1, 0.2), axis)), other = glm::cross(axis, tangent);
+    decltype(f(double3())) sum{ 0.0 };
+    for (int i = 0; i < polarSteps; ++i) {
+        const double t = (i + 0.5) / polarSteps, cosine = 1 - 2 * std::pow(t, 4);
+        for (int j = 0; j < azimuthSteps; ++j) {
+            const double3 local = directionAt(cosine, 2 * kPiExact * (j + 0.5) / azimuthSteps);
+            sum += f(tangent * local.x + other * local.y + axis * local.z) * (8 * t * t * t);
+        }
+    }
+    return sum * (2 * kPiExact / (double(polarSteps) * azimuthSteps));
+}
+
+constexpr double kCosines[] = { 0.05, 0.3, 0.7, 1.0 };
+constexpr double kRoughnesses[] = { 0.2, 0.5, 1.0 };
+constexpr VisibilityTerm kVisibilities[] = { VisibilityTerm::Correlated, VisibilityTerm::CorrelatedFast,
+                                             VisibilityTerm::Uncorrelated };
+
+TEST(Bsdf, ReflectsTheSameInBothDirectionsWithoutTermsThatDependOnTheView) {
+    const BsdfModel models[] = {
+        { .energy = EnergyTerm::SingleScatter, .coupling = CouplingTerm::Never },
+        { .visibility = VisibilityTerm::CorrelatedFast,
+          .energy = EnergyTerm::SingleScatter,
+          .coupling = CouplingTerm::Never },
+        { .visibility = VisibilityTerm::Uncorrelated,
+          .fresnel = FresnelTerm::Exact,
+          .diffuse = DiffuseTerm::Disney,
+          .energy = EnergyTerm::SingleScatter,
+          .coupling = CouplingTerm::Never },
+    };
+    std::mt19937 random(1);
+    std::uniform_real_distribution<double> unit(0.01, 1);
+    for (BsdfModel const& model : models) {
+        for (int i = 0; i < 100; ++i) {
+            const double3 a = directionAt(unit(random), 7 * unit(random)),
+                          b = directionAt(unit(random), 7 * unit(random));
+            const double roughness = unit(random), metallic = unit(random);
+            const double3 color(unit(random), unit(random), unit(random));
+            const Bsdf fromA(surfaceOf(roughness, metallic, color, a), model, false);
+            const Bsdf fromB(surfaceOf(roughness, metallic, color, b), model, false);
+            const double3 there = fromA.evaluate(inFrame(b), LightSource::Ambient) / b.z;
+            const double3 back = fromB.evaluate(inFrame(a), LightSource::Ambient) / a.z;
+            EXPECT_LT(glm::length(there - back), 1e-9 * glm::length(there)) << i;
+        }
+    }
+}
+
+TEST(Bsdf, ItsDensityCoversTheDirectionsAboveTheSurfaceAndNoMoreThanOnce) {
+    for (const double cosine : kCosines) {
+        for (const double roughness : kRoughnesses) {
+            for (const double metallic : { 0.0, 1.0 }) {
+                const Bsdf bsdf(surfaceOf(roughness, metallic, double3(0.5), directionAt(cosine, 0)), {}, false);
+                const double covered = integrate(
+                        cosine, [&](double3 light) { return bsdf.pdf(light); }, 500, 100);
+                // Samples below the horizon carry no direction: what is missing is their share, counted here.
+                constexpr uint32_t kCount = 1u << 14;
+                uint32_t lost = 0;
+                for (uint32_t i = 0; i < kCount; ++i) {
+                    const SampleStream numbers(9, i);
+                    lost += bsdf.sample(numbers.pair(0), numbers.pair(1).x).pdf == 0;
+                }
+                EXPECT_NEAR(covered + double(lost) / kCount, 1, 5e-3) << cosine << ' ' << roughness << ' ' << metallic;
+                EXPECT_LE(covered, 1 + 1e-3);
+            }
+        }
+    }
+}
+
+// Pearson's chi-square over 16 x 32 cells of the hemisphere; expected counts by quadrature of the density.
+TEST(Bsdf, SamplesFallAsTheirDensitySays) {
+    constexpr int kRows = 16, kColumns = 32, kInside = 12;
+    constexpr uint32_t kCount = 40000;
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> unit(0, 1);
+    for (const double cosine : { 0.1, 0.6, 0.95 }) {
+        for (const double roughness : { 0.3, 0.6, 1.0 }) {
+            const Bsdf bsdf(surfaceOf(roughness, 0.5, double3(0.6), directionAt(cosine, 0.4)), {}, false);
+            std::array<double, kRows * kColumns> expected{};
+            std::array<int, kRows * kColumns> counts{};
+            for (int row = 0; row < kRows * kInside; ++row) {
+                for (int column = 0; column < kColumns * kInside; ++column) {
+                    const double z = (row + 0.5) / (kRows * kInside);
+                    const double azimuth = 2 * kPiExact * (column + 0.5) / (kColumns * kInside);
+                    expected[static_cast<size_t>(row / kInside * kColumns + column / kInside)] +=
+                            bsdf.pdf(inFrame(directionAt(z, azimuth)));
+                }
+            }
+            for (uint32_t i = 0; i < kCount; ++i) {
+                const BsdfSample sample = bsdf.sample({ unit(random), unit(random) }, unit(random));
+                if (sample.pdf == 0) continue;
+                const double3 tangent = glm::normalize(glm::cross(double3(0, 1, 0), kNormal));
+                const double x = glm::dot(sample.direction, tangent),
+                             y = glm::dot(sample.direction, glm::cross(kNormal, tangent));
+                const double azimuth = std::atan2(y, x);
+                const double turn = azimuth / (2 * kPiExact) + (azimuth < 0 ? 1 : 0);
+                const int row = std::min(int(glm::dot(sample.direction, kNormal) * kRows), kRows - 1);
+                const int column = std::min(int(turn * kColumns), kColumns - 1);
+                ++counts[static_cast<size_t>(row * kColumns + column)];
+            }
+            double statistic = 0, rareExpected = 0, rareCount = 0;
+            int cells = 0;
+            for (size_t i = 0; i < counts.size(); ++i) {
+                const double mean = expected[i] * 2 * kPiExact / (kRows * kColumns * kInside * kInside) * kCount;
+                if (mean < 8) {
+                    rareExpected += mean;
+                    rareCount += counts[i];
+                    continue;
+                }
+                statistic += (counts[i] - mean) * (counts[i] - mean) / mean;
+                ++cells;
+            }
+            statistic += (rareCount - rareExpected) * (rareCount - rareExpected) / std::max(rareExpected, 1.0);
+            // Wilson and Hilferty: the cube root of chi-square over its degrees is nearly normal; 4 deviations.
+            const double degrees = cells;
+            const double z = (std::cbrt(statistic / degrees) - (1 - 2 / (9 * degrees))) / std::sqrt(2 / (9 * degrees));
+            EXPECT_LT(z, 4) << "view " << cosine << ", roughness " << roughness << ", " << cells << " cells";
+        }
+    }
+}
+
+TEST(Bsdf, WithCouplingNoSurfaceReflectsMoreThanItGets) {
+    for (const double cosine : kCosines) {
+        for (const double roughness : kRoughnesses) {
+            for (const double metallic : { 0.0, 0.5, 1.0 }) {
+                for (const VisibilityTerm visibility : { VisibilityTerm::Correlated, VisibilityTerm::Uncorrelated }) {
+                    const BsdfModel model{ .visibility = visibility, .coupling = CouplingTerm::Always };
+                    const Bsdf bsdf(surfaceOf(roughness, metallic, double3(1), directionAt(cosine, 0)), model, false);
+                    const double3 albedo =
+                            integrate(cosine, [&](double3 light) { return bsdf.evaluate(light, LightSource::Direct); });
+                    EXPECT_LE(albedo.x, 1 + 2e-3) << cosine << ' ' << roughness << ' ' << metallic;
+                }
+            }
+        }
+    }
+}
+
+TEST(Bsdf, TheEngineLightsTheDiffuseLobeOfDirectLightWithoutCoupling) {
+    const SurfaceSample surface = surfaceOf(0.5, 0, double3(0.8), directionAt(0.5, 0));
+    const double3 light = inFrame(directionAt(0.8, 2));
+    const auto reflected = [&](CouplingTerm coupling, LightSource source) {
+        return Bsdf(surface, { .coupling = coupling }, false).evaluate(light, source).x;
+    };
+    EXPECT_EQ(reflected(CouplingTerm::Engine, LightSource::Direct),
+              reflected(CouplingTerm::Never, LightSource::Direct));
+    EXPECT_EQ(reflected(CouplingTerm::Engine, LightSource::Ambient),
+              reflected(CouplingTerm::Always, LightSource::Ambient));
+    EXPECT_LT(reflected(CouplingTerm::Always, LightSource::Direct),
+              0.99 * reflected(CouplingTerm::Never, LightSource::Direct));
+}
+
+TEST(Bsdf, DiffuseAndSpecularAloneAddUpToBoth) {
+    for (const LightSource source : { LightSource::Ambient, LightSource::Direct }) {
+        const SurfaceSample surface = surfaceOf(0.4, 0.3, double3(0.8, 0.5, 0.2), directionAt(0.5, 0));
+        const double3 light = inFrame(directionAt(0.8, 2));
+        const auto with = [&](LobeChoice lobes) {
+            return Bsdf(surface, { .lobes = lobes }, false).evaluate(light, source);
+        };
+        const double3 sum = with(LobeChoice::Diffuse) + with(LobeChoice::Specular);
+        EXPECT_LT(glm::length(sum - with(LobeChoice::Both)), 1e-12);
+        EXPECT_GT(with(LobeChoice::Diffuse).x, 0);
+    }
+}
+
+TEST(Bsdf, EverySampleHasTheWeightThatTheDensityPromises) {
+    // The mean of value over density is the albedo; with visible normals single weights stay small.
+    for (const VisibilityTerm visibility : kVisibilities) {
+        for (const double cosine : kCosines) {
+            const Bsdf bsdf(surfaceOf(0.4, 1, double3(1), directionAt(cosine, 0)),
+                            { .visibility = visibility, .energy = EnergyTerm::SingleScatter }, false);
+            const double exact =
+                    integrate(cosine, [&](double3 light) { return bsdf.evaluate(light, LightSource::Ambient).x; });
+            double mean = 0, largest = 0;
+            constexpr uint32_t kCount = 4096;
+            for (uint32_t i = 0; i < kCount; ++i) {
+                const SampleStream numbers(11, i);
+                const BsdfSample sample = bsdf.sample(numbers.pair(0), numbers.pair(1).x);
+                if (sample.pdf == 0) continue;
+                const double weight = bsdf.evaluate(sample.direction, LightSource::Ambient).x / sample.pdf;
+                mean += weight / kCount;
+                largest = std::max(largest, weight);
+            }
+            EXPECT_NEAR(mean, exact, 5e-3);
+            EXPECT_LT(largest, 2.5);
+        }
+    }
+}
+
+TEST(Bsdf, TermsHaveTheirClosedForms) {
+    // Fresnel at normal incidence, at Brewster's angle (half of the perpendicular reflectance) and grazing.
+    const double ior = 1.5, brewster = std::atan(ior), r = (1 - ior * ior) / (1 + ior * ior);
+    EXPECT_NEAR(terms::fresnelDielectric(ior, 1), 0.04, 1e-15);
+    EXPECT_NEAR(terms::fresnelDielectric(ior, std::cos(brewster)), r * r / 2, 1e-15);
+    EXPECT_NEAR(terms::fresnelDielectric(ior, 0), 1, 1e-15);
+    // Masking is 1 and V = 1 / (4 nol nov) where alpha is 0; at alpha 1 and normal incidence G1 = 1.
+    EXPECT_NEAR(terms::visibilitySmithGgxUncorrelated(0.3, 0.7, 0), 1 / (4 * 0.3 * 0.7), 1e-12);
+    EXPECT_NEAR(terms::visibilitySmithGgxUncorrelated(1, 1, 1), 0.25, 1e-12);
+    // Correlated is never darker than uncorrelated: shadowed and masked areas overlap.
+    EXPECT_GT(shader::lib64::visibilitySmithGgxCorrelated(0.2, 0.3, 0.5),
+              terms::visibilitySmithGgxUncorrelated(0.2, 0.3, 0.5));
+    // Burley: 1 / pi from above at roughness 0.5 with voh = 1; half of it twice at grazing and roughness 0.
+    EXPECT_NEAR(terms::diffuseDisney(1, 1, 1, 0.5), 1 / kPiExact, 1e-12);
+    EXPECT_NEAR(terms::diffuseDisney(0, 0, 0, 0), 0.25 / kPiExact, 1e-12);
+}
+
+TEST(Bsdf, TheOcclusionMapDimsAmbientLightOnly) {
+    SurfaceSample surface = surfaceOf(0.5, 0, double3(0.8), directionAt(0.5, 0));
+    surface.occlusion = 0.25;
+    const double3 light = inFrame(directionAt(0.8, 2));
+    const Bsdf used(surface, { .lobes = LobeChoice::Diffuse }, true),
+            ignored(surface, { .lobes = LobeChoice::Diffuse }, false);
+    EXPECT_NEAR(used.evaluate(light, LightSource::Ambient).x, 0.25 * ignored.evaluate(light, LightSource::Ambient).x,
+                1e-12);
+    EXPECT_EQ(used.evaluate(light, LightSource::Direct), ignored.evaluate(light, LightSource::Direct));
+    const Bsdf specular(surface, { .lobes = LobeChoice::Specular }, true),
+            unoccluded(surface, { .lobes = LobeChoice::Specular }, false);
+    const double factor = shader::lib64::specularOcclusion(0.5, 0.25, 0.25);
+    EXPECT_NEAR(specular.evaluate(light, LightSource::Ambient).x,
+                factor * unoccluded.evaluate(light, LightSource::Ambient).x, 1e-12);
+}
+
+TEST(Bsdf, ViewsAndLightsAtOrBelowTheHorizonStayFinite) {
+    for (const double viewCosine : { -0.5, -1e-9, 0.0, 1e-9, 1e-4 }) {
+        for (const double roughness : { 0.0, 0.5, 1.0 }) {
+            const double3 view = directionAt(viewCosine, 0.3);
+            const Bsdf bsdf(surfaceOf(roughness, 1, double3(1), view), {}, false);
+            for (const double3 local : { directionAt(1e-9, 3), directionAt(0.5, 3.4), -view, directionAt(1, 0) }) {
+                const double3 value = bsdf.evaluate(inFrame(local), LightSource::Ambient);
+                EXPECT_TRUE(std::isfinite(value.x) && value.x >= 0);
+                EXPECT_TRUE(std::isfinite(bsdf.pdf(inFrame(local))));
+                // What reflects can be sampled, else estimates would miss it.
+                EXPECT_EQ(value.x > 0, bsdf.pdf(inFrame(local)) > 0) << viewCosine;
+            }
+            for (uint32_t i = 0; i < 64; ++i) {
+                const SampleStream numbers(5, i);
+                const BsdfSample sample = bsdf.sample(numbers.pair(0), numbers.pair(1).x);
+                EXPECT_TRUE(std::isfinite(sample.pdf) && sample.pdf >= 0);
+                EXPECT_NEAR(glm::length(sample.direction), sample.pdf > 0 ? 1 : 0, 1e-9);
+            }
+        }
+    }
+}
+
+TEST(DirectionalAlbedo, IsTheIntegralOfTheLobeOverLights) {
+    for (const double cosine : { 0.05, 0.4, 1.0 }) {
+        for (const double roughness : { 0.35, 0.7, 1.0 }) {
+            const Bsdf white(surfaceOf(roughness, 1, double3(1), directionAt(cosine, 0)),
+                             { .energy = EnergyTerm::SingleScatter }, false);
+            const double exact = integrate(
+                    cosine, [&](double3 light) { return white.evaluate(light, LightSource::Ambient).x; }, 400, 400);
+            EXPECT_NEAR(integrateDirectionalAlbedo(cosine, roughness * roughness).y, exact, 1e-3); // of the brute force
+        }
+    }
+}
+
+TEST(DirectionalAlbedo, ItsTableIsGoodToTwoTenThousandths) {
+    double worst = 0;
+    for (int i = 0; i < 40; ++i) {
+        for (int j = 0; j < 20; ++j) {
+            const double cosine = std::pow((i + 0.37) / 40, 3) + 1e-4, roughness = 0.045 + 0.955 * (j + 0.41) / 20;
+            const double2 exact = integrateDirectionalAlbedo(cosine, roughness * roughness);
+            const double2 error = glm::abs(directionalAlbedo(cosine, roughness) - exact);
+            worst = std::max({ worst, error.x, error.y });
+        }
+    }
+    EXPECT_LT(worst, 2e-4);
+    EXPECT_NEAR(directionalAlbedo(1, 0.045).y, 1, 2e-4);
+}
+
+} // namespace
+} // namespace filament::reference
