@@ -10,12 +10,21 @@ constexpr size_t kRange = 1024;
 constexpr size_t kAhead =
         12; // placements lie in the order of the scene: fetch early what the order of drawing jumps to
 
+// Straight to where it goes, a row at a time: a temporary object would be stored twice.
+inline void write(shader::ObjectData& object, scene::Placement const& placement, double3 const& cameraWorld) {
+    const float3 origin(placement.translation - cameraWorld);
+    object.row0 = float4(placement.rows[0], origin.x);
+    object.row1 = float4(placement.rows[1], origin.y);
+    object.row2 = float4(placement.rows[2], origin.z);
+    object.flags = float4(placement.side, 0, 0, 0);
+}
+
 } // namespace
 
 shader::ObjectData objectData(scene::Placement const& placement, double3 const& cameraWorld) {
-    const float3 origin(placement.translation - cameraWorld);
-    return { float4(placement.rows[0], origin.x), float4(placement.rows[1], origin.y),
-             float4(placement.rows[2], origin.z), float4(placement.side, 0, 0, 0) };
+    shader::ObjectData object;
+    write(object, placement, cameraWorld);
+    return object;
 }
 
 void writeObjects(jobs::JobSystem& jobs, ObjectList const& list, std::span<shader::ObjectData> objects) {
@@ -23,7 +32,7 @@ void writeObjects(jobs::JobSystem& jobs, ObjectList const& list, std::span<shade
     jobs::parallelFor<"objects">(jobs, objects.size(), kRange, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             __builtin_prefetch(&list.placements[list.order[std::min(i + kAhead, end - 1)].renderable]);
-            objects[i] = objectData(list.placements[list.order[i].renderable], list.cameraWorld);
+            write(objects[i], list.placements[list.order[i].renderable], list.cameraWorld);
         }
     });
 }

@@ -9,6 +9,9 @@
 namespace filament::prepare {
 namespace {
 
+// Fewer take less time than waking a worker for them.
+constexpr size_t kLightsWorthAJob = 256;
+
 uint8_t variantFor(PacketCounts const& counts) {
     return static_cast<uint8_t>((counts.suns ? shader::kVariantSun : 0) |
                                 (counts.lights ? shader::kVariantPunctual : 0));
@@ -20,14 +23,22 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     FramePacket packet;
     const ViewSpace space = makeViewSpace(view);
     writeFrameUniforms(packet.frame, space, view, scene);
-    packet.lights = selectLights(arena, scene.lights, space, packet.frame, packet.counts);
-    packet.variant = variantFor(packet.counts);
+    const LightSelector lights(arena, scene.lights);
+    const auto selectLights = [&] { packet.lights = lights.select(space, packet.frame, packet.counts); };
+    jobs::JobGroup besideCulling(jobs);
+    if (scene.lights.records.size() < kLightsWorthAJob)
+        selectLights();
+    else
+        besideCulling.run<"lights">(selectLights);
 
     scene::Renderables const& renderables = scene.renderables;
     const VisibleItems visible = cullRenderables(jobs, arena, renderables, space, packet.counts);
     const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, visible);
     const std::span<const SortItem> order = sortItems(jobs, arena, items);
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
+    besideCulling.wait();
+
+    packet.variant = variantFor(packet.counts);
     packet.objects = { order, renderables.placement, space.cameraWorld };
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;

@@ -10,11 +10,6 @@ namespace {
 using scene::LightRecord;
 using shader::LightData;
 
-struct Candidate {
-    uint32_t index = 0;
-    float importance = 0; ///< luminance-weighted intensity over squared distance
-};
-
 float weight(LightRecord const& light) {
     return light.intensity * glm::dot(light.color, float3(0.2126f, 0.7152f, 0.0722f));
 }
@@ -52,14 +47,15 @@ void writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float e
 
 } // namespace
 
-std::span<const LightData> selectLights(Arena& arena, scene::Lights const& lights, ViewSpace const& space,
-                                        shader::FrameUniforms& frame, PacketCounts& counts) {
-    writeSun(frame, lights, space.exposure, counts);
+LightSelector::LightSelector(Arena& arena, scene::Lights const& lights)
+        : mLights(lights), mCandidates(arena.arrayForOverwrite<Candidate>(lights.records.size())),
+          mChosen(arena.arrayForOverwrite<LightData>(
+                  std::min<size_t>(lights.records.size(), shader::kMaxPunctualLights))) {}
 
-    std::span<Candidate> candidates = arena.array<Candidate>(lights.records.size());
+uint32_t LightSelector::findCandidates(ViewSpace const& space, PacketCounts& counts) const {
     uint32_t count = 0;
-    for (uint32_t i = 0; i < lights.records.size(); ++i) {
-        LightRecord const& light = lights.records[i];
+    for (uint32_t i = 0; i < mLights.records.size(); ++i) {
+        LightRecord const& light = mLights.records[i];
         if (light.type == LightRecord::Type::Sun || light.intensity <= 0) continue;
         if (!reachesView(light, space)) {
             ++counts.lightsOutOfView;
@@ -67,20 +63,26 @@ std::span<const LightData> selectLights(Arena& arena, scene::Lights const& light
         }
         const double3 toLight = light.positionWorld - space.cameraWorld;
         const auto squaredDistance = static_cast<float>(std::max(glm::dot(toLight, toLight), 1e-4));
-        candidates[count++] = { i, weight(light) / squaredDistance };
+        const float importance = weight(light) / squaredDistance;
+        mCandidates[count++] = { i,
+                                 importance > 0 ? importance : 0.0f }; // a colour may be no number: sorting needs one
     }
-    if (count > shader::kMaxPunctualLights) {
-        std::sort(candidates.begin(), candidates.begin() + count, [](Candidate const& a, Candidate const& b) {
-            return a.importance != b.importance ? a.importance > b.importance : a.index < b.index;
-        });
-        counts.lightsOverLimit = count - shader::kMaxPunctualLights;
-        count = shader::kMaxPunctualLights;
-    }
-    std::span<LightData> chosen = arena.array<LightData>(count);
-    for (uint32_t i = 0; i < count; ++i) chosen[i] = lightData(lights.records[candidates[i].index], space);
-    counts.lights = count;
-    frame.ambient.w = static_cast<float>(count);
-    return chosen;
+    return count;
+}
+
+std::span<const LightData> LightSelector::select(ViewSpace const& space, shader::FrameUniforms& frame,
+                                                 PacketCounts& counts) const {
+    writeSun(frame, mLights, space.exposure, counts);
+    const std::span<Candidate> candidates = mCandidates.first(findCandidates(space, counts));
+    const auto isBrighter = [](Candidate const& a, Candidate const& b) {
+        return a.importance != b.importance ? a.importance > b.importance : a.index < b.index;
+    };
+    if (candidates.size() > mChosen.size()) std::ranges::sort(candidates, isBrighter);
+    counts.lights = static_cast<uint32_t>(std::min(candidates.size(), mChosen.size()));
+    counts.lightsOverLimit = static_cast<uint32_t>(candidates.size()) - counts.lights;
+    for (uint32_t i = 0; i < counts.lights; ++i) mChosen[i] = lightData(mLights.records[candidates[i].index], space);
+    frame.ambient.w = static_cast<float>(counts.lights);
+    return mChosen.first(counts.lights);
 }
 
 } // namespace filament::prepare

@@ -1,6 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which lights a view shades with: the brightest sun, and the punctual lights whose range reaches into the frustum.
+/// LightSelector: which lights a view shades with: the brightest sun, and the punctual lights whose range reaches into
+/// the frustum.
+///   Thread  the constructor: whose the arena is. select(): any, once; it runs beside culling.
+///   Memory  the arena, all of it in the constructor: 8 B a light and 64 B a light that can be kept.
 ///   Limits  kMaxPunctualLights; of more, the brightest at the camera are kept (ties by order in the scene).
+///   Fails   never. Cost: about 15 ns a light, 60 ns where more reach the view than can be kept (they are sorted).
 #pragma once
 
 #include "filament_core/base/Arena.h"
@@ -10,8 +14,26 @@
 
 namespace filament::prepare {
 
-/// Writes the sun and the light count into `frame`; returns the punctual lights.
-std::span<const shader::LightData> selectLights(Arena& arena, scene::Lights const& lights, ViewSpace const& space,
-                                                shader::FrameUniforms& frame, PacketCounts& counts);
+class LightSelector {
+public:
+    LightSelector(Arena& arena, scene::Lights const& lights);
+
+    /// Writes the sun and the light count into `frame`, and the light counts into `counts`; touches nothing else of
+    /// them. Returns the punctual lights.
+    std::span<const shader::LightData> select(ViewSpace const& space, shader::FrameUniforms& frame,
+                                              PacketCounts& counts) const;
+
+private:
+    struct Candidate {
+        uint32_t index = 0;
+        float importance = 0; ///< luminance-weighted intensity over squared distance
+    };
+
+    uint32_t findCandidates(ViewSpace const& space, PacketCounts& counts) const;
+
+    scene::Lights const& mLights;
+    std::span<Candidate> mCandidates;
+    std::span<shader::LightData> mChosen;
+};
 
 } // namespace filament::prepare

@@ -78,15 +78,15 @@ BENCHMARK(sortAgainstStd)
 /// Objects written where they are uploaded from, against objects written first and copied there.
 void objectsAgainstCopy(benchmark::State& state) {
     Setup setup(state);
-    std::vector<shader::ObjectData> first(setup.count), upload(setup.count);
+    UploadMemory first(setup.count), upload(setup.count);
     const ObjectList list{ setup.order(), setup.renderables().placement, setup.space.cameraWorld };
     Samples ours, copied;
     for (auto _ : state) {
-        state.SetIterationTime(ours.time([&] { writeObjects(setup.jobs, list, upload); }));
+        state.SetIterationTime(ours.time([&] { writeObjects(setup.jobs, list, upload.objects()); }));
         benchmark::ClobberMemory();
         copied.time([&] {
-            writeObjects(setup.jobs, list, first);
-            std::memcpy(upload.data(), first.data(), first.size() * sizeof(shader::ObjectData));
+            writeObjects(setup.jobs, list, first.objects());
+            std::memcpy(upload.objects().data(), first.objects().data(), first.objects().size_bytes());
         });
         benchmark::ClobberMemory();
     }

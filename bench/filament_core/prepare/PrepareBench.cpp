@@ -2,6 +2,7 @@
 // What preparing a frame costs, step by step and whole. Counters: nanoseconds a renderable, wall clock and all threads
 // together (medians); everything is visible.
 #include "bench/filament_core/prepare/PrepareSetup.h"
+#include "filament_core/prepare/SelectLights.h"
 
 namespace filament::prepare {
 namespace {
@@ -54,26 +55,50 @@ void merge(benchmark::State& state) {
 
 void objects(benchmark::State& state) {
     Setup setup(state);
-    std::vector<shader::ObjectData> memory(setup.count);
+    UploadMemory memory(setup.count);
     const ObjectList list{ setup.order(), setup.renderables().placement, setup.space.cameraWorld };
     Samples samples;
     for (auto _ : state) {
-        state.SetIterationTime(samples.time([&] { writeObjects(setup.jobs, list, memory); }));
+        state.SetIterationTime(samples.time([&] { writeObjects(setup.jobs, list, memory.objects()); }));
         benchmark::ClobberMemory();
     }
     samples.report(state, setup.count);
 }
 
+/// Point lights all over the scene, counters a light: from how many on they are worth a job of their own.
+void lights(benchmark::State& state) {
+    scene::Lights points;
+    Random random(7);
+    for (int64_t i = 0; i < state.range(0); ++i) {
+        points.records.push_back({ .type = scene::LightRecord::Type::Point,
+                                   .positionWorld = { random.within(-20, 20), random.within(-20, 20), 0 },
+                                   .intensity = static_cast<float>(random.within(1, 100)),
+                                   .rangeMeters = 5 });
+    }
+    const ViewSpace space = makeViewSpace(BoxScene::cubeView(10'000));
+    Arena arena;
+    Samples samples;
+    for (auto _ : state) {
+        arena.reset();
+        shader::FrameUniforms frame{};
+        PacketCounts counts;
+        state.SetIterationTime(samples.time(
+                [&] { benchmark::DoNotOptimize(LightSelector(arena, points).select(space, frame, counts)); }));
+    }
+    samples.report(state, static_cast<uint32_t>(state.range(0)));
+}
+BENCHMARK(lights)->ArgName("lights")->Arg(16)->Arg(256)->Arg(4096)->UseManualTime();
+
 /// All of it: what a frame pays before and apart from recording.
 void frame(benchmark::State& state) {
     Setup setup(state);
-    std::vector<shader::ObjectData> memory(setup.count);
+    UploadMemory memory(setup.count);
     Samples samples;
     for (auto _ : state) {
         setup.arena.reset();
         state.SetIterationTime(samples.time([&] {
             const FramePacket packet = prepareFrame(setup.jobs, setup.arena, setup.boxes.scene, setup.view);
-            writeObjects(setup.jobs, packet.objects, memory);
+            writeObjects(setup.jobs, packet.objects, memory.objects());
         }));
     }
     samples.report(state, setup.count);

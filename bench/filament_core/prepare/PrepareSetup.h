@@ -11,6 +11,7 @@
 #include <time.h>
 
 #include <algorithm>
+#include <memory>
 #include <vector>
 
 namespace filament::prepare {
@@ -37,6 +38,23 @@ struct Setup {
     ViewInput view;
     ViewSpace space;
     PacketCounts counts;
+};
+
+/// Memory as upload commands carry it: aligned to cache lines.
+class UploadMemory {
+public:
+    explicit UploadMemory(size_t objects) : mBytes((objects + 1) * sizeof(shader::ObjectData)) {
+        void* first = mBytes.data();
+        size_t bytes = mBytes.size();
+        mObjects = { static_cast<shader::ObjectData*>(
+                             std::align(64, objects * sizeof(shader::ObjectData), first, bytes)),
+                     objects };
+    }
+    std::span<shader::ObjectData> objects() { return mObjects; }
+
+private:
+    std::vector<std::byte> mBytes;
+    std::span<shader::ObjectData> mObjects;
 };
 
 /// Times of one thing, in seconds: medians, because neighbours on the machine make some of them long.

@@ -50,6 +50,32 @@ TEST(Arena, ServesARequestLargerThanItsBlocks) {
     EXPECT_EQ(large.size(), 100'000u);
 }
 
+TEST(Arena, FillsOneBlockFromTheSecondFrameOnWhateverTheOrderOfTheRequests) {
+    Arena arena(64);
+    for (size_t count : { 1000, 10, 5000, 300 }) arena.arrayForOverwrite<uint64_t>(count);
+    arena.reset();
+    const size_t reserved = arena.bytesReserved();
+    const std::byte* first = arena.arrayForOverwrite<std::byte>(1).data();
+    for (size_t count : { 5000, 300, 10, 1000 }) {
+        const std::span<uint64_t> array = arena.arrayForOverwrite<uint64_t>(count);
+        EXPECT_LT(static_cast<size_t>(reinterpret_cast<std::byte*>(array.data()) - first), reserved);
+    }
+    EXPECT_EQ(arena.bytesReserved(), reserved);
+}
+
+TEST(Arena, AFrameThatGrowsALittleEveryTimeSeldomReservesMore) {
+    Arena arena(1024);
+    size_t reserved = 0, changes = 0;
+    for (size_t frame = 0; frame < 1000; ++frame) {
+        for (int array = 0; array < 5; ++array) arena.arrayForOverwrite<uint64_t>(1000 + frame);
+        arena.reset();
+        changes += arena.bytesReserved() != reserved;
+        reserved = arena.bytesReserved();
+    }
+    EXPECT_LT(changes, 30u);
+    EXPECT_LT(reserved, 4 * 5 * 2000 * sizeof(uint64_t));
+}
+
 TEST(HandleAllocator, TellsAStaleHandleFromTheNextOwnerOfItsIndex) {
     HandleAllocator<struct TestTag> handles;
     const auto first = handles.allocate();

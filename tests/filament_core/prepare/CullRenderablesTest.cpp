@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/CullRenderables.h"
+
+#include "tests/filament_core/prepare/BoxScene.h"
+
+#include <gtest/gtest.h>
+
+#include <limits>
+#include <map>
+#include <vector>
+
+namespace filament::prepare {
+namespace {
+
+constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+struct CullTest : testing::Test, BoxScene {
+    Arena arena;
+    PacketCounts counts;
+    ViewSpace space = makeViewSpace({ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }), .size = { 640, 480 } });
+
+    scene::Renderables const& renderables() const { return scene.renderables; }
+
+    VisibleItems cull(int workers = 0) {
+        jobs::JobSystem jobs({ .workers = workers });
+        return cullRenderables(jobs, arena, renderables(), space, counts);
+    }
+
+    /// Some of everything: boxes in and out of view, mirrored, never dropped, without indices, collapsed, not a number.
+    void addMixture(uint32_t count) {
+        const auto* look = material();
+        Random random(count + 1);
+        for (uint32_t i = 0; i < count; ++i) {
+            double4x4 world(random.next() % 16 ? random.within(-2, 2) : 0.0);
+            world[3] = double4(random.within(-15, 15), random.within(-15, 15), random.within(-30, 15), 1);
+            scene::RenderableInput input = box(world, look, 1 + random.next() % 7);
+            input.culled = random.next() % 8 != 0;
+            if (random.next() % 8 == 0) input.geometry.indexCount = 0;
+            if (random.next() % 16 == 0) input.boundsMax.y = kNaN;
+            if (random.next() % 16 == 0) input.boundsMax.x = kInfinity;
+            addRenderable(scene, input);
+        }
+    }
+
+    bool isVisible(uint32_t i) const {
+        const uint8_t flags = renderables().flags[i];
+        if (flags & (scene::kNoIndices | scene::kCollapsed)) return false;
+        return !(flags & scene::kCulled) ||
+               intersects(space.frustum, float3(renderables().bounds.centerAt(i) - space.cameraWorld),
+                          renderables().bounds.halfExtentAt(i));
+    }
+
+    void expectWhatOneByOneSees(VisibleItems const& visible) {
+        std::vector<uint32_t> seen, expected;
+        for (size_t range = 0; range + 1 < visible.firsts.size(); ++range) {
+            const size_t count = visible.firsts[range + 1] - visible.firsts[range];
+            for (SortItem const& item : visible.slots.subspan(range * kCullRange, count)) {
+                seen.push_back(item.renderable);
+                const float3 center(renderables().bounds.centerAt(item.renderable) - space.cameraWorld);
+                EXPECT_EQ(item.key, depthBits(glm::dot(space.forward, center)));
+                const bool mirrored = renderables().flags[item.renderable] & scene::kMirrored;
+                EXPECT_EQ(item.draw, drawOf(renderables().drawable[item.renderable], mirrored));
+            }
+        }
+        uint32_t nothing = 0;
+        for (uint32_t i = 0; i < renderables().count(); ++i) {
+            if (isVisible(i)) expected.push_back(i);
+            nothing += (renderables().flags[i] & (scene::kNoIndices | scene::kCollapsed)) != 0;
+        }
+        EXPECT_EQ(seen, expected);
+        EXPECT_EQ(counts.renderables, renderables().count());
+        EXPECT_EQ(counts.visible, expected.size());
+        EXPECT_EQ(counts.nothingToDraw, nothing);
+        EXPECT_EQ(counts.outOfView, renderables().count() - counts.visible - nothing);
+    }
+};
+
+struct CullCountTest : CullTest, testing::WithParamInterface<uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(Renderables, CullCountTest,
+                         testing::Values(0, 1, 7, 8, 9, 255, 256, 257, 2047, 2048, 2049, 10'003));
+
+TEST_P(CullCountTest, SeesExactlyWhatTheScalarTestSeesForAnyNumberOfWorkers) {
+    addMixture(GetParam());
+    for (int workers : { 0, 3 }) expectWhatOneByOneSees(cull(workers));
+}
+
+TEST_F(CullTest, NothingInViewLeavesNothing) {
+    const auto* look = material();
+    for (int i = 0; i < 300; ++i) add({ 0.0, 0.0, 20.0 + i }, look);
+    EXPECT_EQ(cull().count(), 0u);
+    EXPECT_EQ(counts.outOfView, 300u);
+}
+
+TEST_F(CullTest, WhatMayNotBeDroppedIsVisibleFromBehind) {
+    scene::RenderableInput input = box(double4x4(1.0), material(), 1);
+    input.worldFromObject[3].z = 1000;
+    input.culled = false;
+    addRenderable(scene, input);
+    EXPECT_EQ(cull().count(), 1u);
+}
+
+TEST_F(CullTest, ATransformThatIsNotANumberHasNothingToDraw) {
+    double4x4 world(1.0);
+    world[1].z = std::numeric_limits<double>::quiet_NaN();
+    add(world, material());
+    EXPECT_EQ(cull().count(), 0u);
+    EXPECT_EQ(counts.nothingToDraw, 1u);
+}
+
+TEST_F(CullTest, SpansHoldTheNearestAndTheFarthestVisibleRenderableOfEachDraw) {
+    addMixture(5000);
+    for (int workers : { 0, 3 }) {
+        const VisibleItems visible = cull(workers);
+        std::map<uint32_t, DepthSpan> expected;
+        for (uint32_t i = 0; i < renderables().count(); ++i) {
+            if (!isVisible(i)) continue;
+            const float3 center(renderables().bounds.centerAt(i) - space.cameraWorld);
+            const uint32_t step = coarseStep(depthBits(glm::dot(space.forward, center)));
+            const uint32_t draw = drawOf(renderables().drawable[i], renderables().flags[i] & scene::kMirrored);
+            const auto [span, isNew] = expected.try_emplace(draw, DepthSpan{ step, step });
+            if (!isNew) span->second = { std::min(span->second.nearest, step), std::max(span->second.farthest, step) };
+        }
+        EXPECT_GT(expected.size(), 7u);
+        for (auto const& [draw, span] : expected) {
+            EXPECT_EQ(visible.spanOf(draw).nearest, span.nearest);
+            EXPECT_EQ(visible.spanOf(draw).farthest, span.farthest);
+        }
+    }
+}
+
+} // namespace
+} // namespace filament::prepare

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// From scenes to draw calls: what merges, in which order, and that it is the same for any number of workers.
+#include "filament_core/prepare/DrawList.h"
+
+#include "filament_core/prepare/ObjectData.h"
+#include "tests/filament_core/prepare/BoxScene.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+namespace filament::prepare {
+namespace {
+
+constexpr uint32_t kWindow = shader::kObjectsPerWindow;
+
+struct DrawListTest : testing::Test, BoxScene {
+    Arena arena;
+    ViewInput view{ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }), .size = { 640, 480 } };
+
+    FramePacket prepare(int workers = 1) {
+        jobs::JobSystem jobs({ .workers = workers });
+        return prepareFrame(jobs, arena, scene, view);
+    }
+
+    /// Every visible object is drawn once, by a draw of its own drawable and side, inside of one window.
+    void expectCoversItsObjects(FramePacket const& packet) {
+        uint32_t next = 0;
+        uint64_t triangles = 0;
+        for (std::span<const DrawCall> list : { packet.opaque, packet.blended }) {
+            for (DrawCall const& draw : list) {
+                ASSERT_EQ(draw.firstObject, next);
+                ASSERT_GT(draw.instanceCount, 0u);
+                ASSERT_EQ(draw.firstObject / kWindow, (draw.firstObject + draw.instanceCount - 1) / kWindow);
+                ASSERT_EQ(draw.material->material->isBlended(), list.data() == packet.blended.data());
+                for (uint32_t i = 0; i < draw.instanceCount; ++i, ++next) {
+                    const uint32_t at = packet.objects.order[next].renderable;
+                    scene::Drawable const& drawable = scene.renderables.drawables[scene.renderables.drawable[at]];
+                    ASSERT_EQ(draw.geometry, &drawable.geometry);
+                    ASSERT_EQ(draw.material, drawable.material);
+                    ASSERT_EQ(draw.mirrored, (scene.renderables.flags[at] & scene::kMirrored) != 0);
+                }
+                triangles += draw.instanceCount * uint64_t{ draw.geometry->indexCount / 3 };
+            }
+        }
+        EXPECT_EQ(next, packet.objects.size());
+        EXPECT_EQ(next, packet.counts.visible);
+        EXPECT_EQ(triangles, packet.counts.triangles);
+    }
+
+    void addRandom(uint32_t count, uint32_t seed) {
+        std::vector<scene::MaterialInstance*> looks;
+        for (int i = 0; i < 9; ++i) {
+            looks.push_back(material(i % 3 ? shader::Blending::Opaque : shader::Blending::Transparent));
+        }
+        Random random(seed);
+        for (uint32_t i = 0; i < count; ++i) {
+            const double3 at(random.within(-20, 20), random.within(-20, 20), random.within(-60, 5));
+            add(at, looks[random.next() % looks.size()], 1 + random.next() % 5, random.next() % 4 ? 1 : -1);
+        }
+    }
+};
+
+TEST_F(DrawListTest, NEqualBoxesTakeOneDrawAWindow) {
+    const auto* look = material();
+    uint32_t added = 0;
+    for (uint32_t count : { 0u, 1u, 255u, 256u, 257u, 511u, 512u, 513u, 5000u }) {
+        for (; added < count; ++added) add({ added % 9 * 0.1, 0.0, -0.01 * added }, look);
+        const FramePacket packet = prepare();
+        EXPECT_EQ(packet.counts.visible, count);
+        EXPECT_EQ(packet.opaque.size(), (count + kWindow - 1) / kWindow) << count;
+        expectCoversItsObjects(packet);
+    }
+}
+
+TEST_F(DrawListTest, AHundredThousandCopiesTakeThreeHundredAndNinetyOneDraws) {
+    addCube(100'000, 1, 1);
+    view = cubeView(100'000);
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.counts.visible, 100'000u);
+    EXPECT_EQ(packet.opaque.size(), 391u);
+    expectCoversItsObjects(packet);
+}
+
+TEST_F(DrawListTest, AFewCopiesAreOneDrawEvenWhenOthersLieBetweenThem) {
+    const auto* look = material();
+    for (uint32_t i = 0; i < 15; ++i) {
+        add({ 0.0, 0.0, -10.0 * i }, look, 1);
+        add({ 0.0, 0.0, -10.0 * i - 5 }, look, 100 + i);
+    }
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.opaque.size(), 16u);
+    EXPECT_EQ(packet.opaque[0].instanceCount, 15u);
+}
+
+TEST_F(DrawListTest, CopiesInOneDrawLieFrontToBack) {
+    const auto* look = material();
+    for (uint32_t i = 0; i < 15; ++i) add({ 0.0, 0.0, -10.0 * (i * 7 % 15) }, look);
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.opaque.size(), 1u);
+    for (uint32_t i = 0; i < 15; ++i) EXPECT_EQ(packet.objects.order[i].renderable * 7 % 15, i);
+}
+
+TEST_F(DrawListTest, ManyCopiesOfTwoMeshesAreCutByDepthSoThatWhatIsInFrontComesFirst) {
+    const auto* look = material();
+    for (uint32_t i = 0; i < 2000; ++i) add({ 0.0, 0.0, -0.5 * i }, look, 1 + i % 2);
+    const FramePacket packet = prepare();
+    EXPECT_LT(packet.opaque.size(), 2000 / kSliceMembers);
+    expectCoversItsObjects(packet);
+    double nearestSoFar = 0;
+    for (DrawCall const& draw : packet.opaque) {
+        const uint32_t first = packet.objects.order[draw.firstObject].renderable;
+        const double depth = 10 + 0.5 * first;
+        EXPECT_GT(depth, nearestSoFar * std::exp2(-0.25) * 0.999) << "a quarter of an octave at most behind the order";
+        nearestSoFar = std::max(nearestSoFar, depth);
+    }
+}
+
+TEST_F(DrawListTest, AllBlendedIsBackToFrontAndEqualDepthsKeepTheOrderOfTheScene) {
+    const auto* a = material(shader::Blending::Transparent);
+    const auto* b = material(shader::Blending::Fade);
+    for (uint32_t i = 0; i < 300; ++i) add({ 0.0, 0.0, -static_cast<double>(i / 2) }, i % 2 ? a : b, 1 + i % 3);
+    const FramePacket packet = prepare();
+    EXPECT_TRUE(packet.opaque.empty());
+    expectCoversItsObjects(packet);
+    for (uint32_t i = 0; i < 300; ++i) {
+        EXPECT_EQ(packet.objects.order[i].renderable, (299 - i) / 2 * 2 + i % 2) << i;
+    }
+}
+
+TEST_F(DrawListTest, NeighboursThatBlendMergeToo) {
+    const auto* glass = material(shader::Blending::Transparent);
+    for (int i = 0; i < 5; ++i) add({ 0.0, 0.0, -1.0 * i }, glass);
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.blended.size(), 1u);
+    EXPECT_EQ(packet.blended[0].instanceCount, 5u);
+}
+
+TEST_F(DrawListTest, EverythingOutOfViewIsAPacketWithoutObjects) {
+    const auto* look = material();
+    for (int i = 0; i < 300; ++i) add({ 0.0, 0.0, 100.0 + i }, look);
+    const FramePacket packet = prepare();
+    EXPECT_TRUE(packet.objects.empty());
+    EXPECT_TRUE(packet.opaque.empty());
+    EXPECT_EQ(packet.counts.triangles, 0u);
+}
+
+TEST_F(DrawListTest, MirroredCopiesAreADrawOfTheirOwnAndNoneIsLost) {
+    const auto* look = material();
+    for (int i = 0; i < 40; ++i) add({ 0.0, 0.0, -1.0 * i }, look, 1, i % 2 ? -1 : 1);
+    const FramePacket packet = prepare();
+    expectCoversItsObjects(packet);
+    uint32_t mirrored = 0;
+    for (DrawCall const& draw : packet.opaque) mirrored += draw.mirrored ? draw.instanceCount : 0;
+    EXPECT_EQ(mirrored, 20u);
+}
+
+TEST_F(DrawListTest, TransformsThatAreNotNumbersLeaveTheOthersAlone) {
+    const auto* look = material();
+    for (int i = 0; i < 100; ++i) {
+        double4x4 world(i % 10 ? 1.0 : std::numeric_limits<double>::quiet_NaN());
+        world[3] = double4(0, 0, -i, 1);
+        add(world, look);
+    }
+    const FramePacket packet = prepare();
+    EXPECT_EQ(packet.counts.visible, 90u);
+    EXPECT_EQ(packet.counts.nothingToDraw, 10u);
+    expectCoversItsObjects(packet);
+}
+
+struct DrawListCountTest : DrawListTest, testing::WithParamInterface<uint32_t> {};
+INSTANTIATE_TEST_SUITE_P(Renderables, DrawListCountTest, testing::Values(1, 255, 256, 257, 3000, 70'000));
+
+TEST_P(DrawListCountTest, ARandomSceneIsCoveredAndHasTheSameBitsForAnyNumberOfWorkers) {
+    addRandom(GetParam(), GetParam());
+    for (uint32_t i = 0; i < 300; ++i) { // enough for a job of their own
+        addLight(scene, { .type = scene::LightRecord::Type::Point, .intensity = 1.0f + static_cast<float>(i) });
+    }
+    const FramePacket reference = prepare(0);
+    expectCoversItsObjects(reference);
+    for (int workers : { 1, 2, 3, 16 }) {
+        EXPECT_EQ(hashPacket(prepare(workers)), hashPacket(reference)) << workers << " workers";
+    }
+}
+
+TEST_F(DrawListTest, TheHashIsOfContentsAndNotOfAddresses) {
+    addCube(500, 3, 4);
+    BoxScene other;
+    other.addCube(500, 3, 4);
+    jobs::JobSystem jobs({ .workers = 0 });
+    view = cubeView(500);
+    EXPECT_EQ(hashPacket(prepareFrame(jobs, arena, scene, view)),
+              hashPacket(prepareFrame(jobs, arena, other.scene, view)));
+}
+
+TEST_F(DrawListTest, TheHashTellsEveryKindOfDifference) {
+    const auto* look = material();
+    const Renderable box = add({ 0, 0, 0 }, look);
+    const uint64_t before = hashPacket(prepare());
+    double4x4 moved(1.0);
+    moved[3].x = 1e-6;
+    setTransform(scene, box, moved);
+    EXPECT_NE(hashPacket(prepare()), before) << "a position";
+    setTransform(scene, box, double4x4(1.0));
+    EXPECT_EQ(hashPacket(prepare()), before);
+    const Light sun = addLight(scene, { .type = scene::LightRecord::Type::Sun, .intensity = 1 });
+    EXPECT_NE(hashPacket(prepare()), before) << "a light";
+    removeLight(scene, sun);
+    scene.skybox.cube = backend::TextureHandle::make(3, 1);
+    EXPECT_NE(hashPacket(prepare()), before) << "a sky";
+    scene.skybox = {};
+    add({ 0, 0, 100 }, look);
+    EXPECT_NE(hashPacket(prepare()), before) << "something out of view, by the counts";
+}
+
+} // namespace
+} // namespace filament::prepare

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/SortKey.h"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <set>
+
+namespace filament::prepare {
+namespace {
+
+constexpr float kInfinity = std::numeric_limits<float>::infinity();
+
+TEST(SortKey, DepthStepsGrowWithDepthSixteenAnOctave) {
+    uint32_t last = 0;
+    for (float depth = 1e-6f; depth < 1e20f; depth *= 1.01f) {
+        const uint32_t step = depthStep(depthBits(depth));
+        EXPECT_GE(step, last);
+        EXPECT_LT(step, 1024u);
+        last = step;
+    }
+    EXPECT_EQ(last, 1023u);
+    EXPECT_EQ(depthStep(depthBits(2.0f)) - depthStep(depthBits(1.0f)), 16u);
+    EXPECT_EQ(coarseStep(depthBits(2.0f)) - coarseStep(depthBits(1.0f)), 4u);
+}
+
+TEST(SortKey, WhatIsNotInFrontCountsAsNearestAndInfinityAsFarthest) {
+    for (float depth : { 0.0f, -0.0f, -3.0f, -kInfinity, std::numeric_limits<float>::quiet_NaN(),
+                         -std::numeric_limits<float>::quiet_NaN() }) {
+        EXPECT_EQ(depthBits(depth), 0u);
+    }
+    EXPECT_EQ(depthStep(0), 0u);
+    EXPECT_EQ(depthStep(depthBits(kInfinity)), 1023u);
+    EXPECT_EQ(blendedKey(0) & kBlendedKey, kBlendedKey);
+    EXPECT_LT(blendedKey(depthBits(kInfinity)), blendedKey(0));
+}
+
+TEST(SortKey, BlendedKeysFallWithDepthToTheLastBit) {
+    EXPECT_GT(blendedKey(depthBits(1.0f)), blendedKey(depthBits(std::nextafter(1.0f, 2.0f))));
+    EXPECT_EQ(blendedKey(depthBits(1.0f)) & 0x7FFF'FFFFu, 0u) << "equal depths keep the order of the scene";
+}
+
+TEST(SortKey, OpaqueBeforeBlendedWhateverElse) {
+    EXPECT_LT(opaqueKey(~scene::Drawables::kBlendedOrder, drawOf(0xFFFFF, true), 255, ~0u), kBlendedKey);
+}
+
+TEST(SortKey, SliceThenMaterialThenSideThenInstanceThenDrawableThenDepth) {
+    const auto order = [](uint32_t material, uint32_t instance) { return material << 12 | instance; };
+    const uint32_t far = depthBits(1e10f), near = depthBits(1e-3f);
+    const uint64_t keys[] = {
+        opaqueKey(order(0, 0), drawOf(0, false), 0, near), opaqueKey(order(0, 0), drawOf(0, false), 0, far),
+        opaqueKey(order(0, 0), drawOf(1, false), 0, near), opaqueKey(order(0, 1), drawOf(0, false), 0, near),
+        opaqueKey(order(0, 0), drawOf(0, true), 0, near),  opaqueKey(order(1, 0), drawOf(0, false), 0, near),
+        opaqueKey(order(0, 0), drawOf(0, false), 1, near),
+    };
+    for (size_t i = 1; i < std::size(keys); ++i) EXPECT_LT(keys[i - 1], keys[i]) << i;
+}
+
+TEST(SortKey, AFewMembersAreOneSliceHoweverFarApart) {
+    for (uint32_t step : { 3u, 100u, 255u }) EXPECT_EQ(sliceStart({ 3, 255 }, 15, step), 3u);
+    EXPECT_NE(sliceStart({ 3, 255 }, 16, 255), 3u);
+    EXPECT_EQ(sliceStart({ 255, 255 }, 1, 255), 255u);
+}
+
+TEST(SortKey, ManyMembersGetASliceForEveryStep) {
+    std::set<uint32_t> slices;
+    for (uint32_t step = 10; step <= 40; ++step) slices.insert(sliceStart({ 10, 40 }, 100'000, step));
+    EXPECT_EQ(slices.size(), 31u);
+}
+
+TEST(SortKey, SlicesHoldTheirStepRiseWithItAndAreFullOnTheAverage) {
+    for (uint32_t members = 1; members < 5000; members = members * 3 / 2 + 1) {
+        for (uint32_t span = 0; span < 256; ++span) {
+            const uint32_t nearest = 255 - span;
+            std::set<uint32_t> slices;
+            uint32_t last = nearest;
+            for (uint32_t step = nearest; step <= 255; ++step) {
+                const uint32_t slice = sliceStart({ nearest, 255 }, members, step);
+                ASSERT_GE(slice, last);
+                ASSERT_LE(slice, step);
+                slices.insert(last = slice);
+            }
+            if (slices.size() > 1) {
+                ASSERT_GE(members / slices.size(), kSliceMembers) << members << " over " << span;
+            }
+        }
+    }
+}
+
+} // namespace
+} // namespace filament::prepare
