@@ -47,6 +47,7 @@ CommandBuffer::Block CommandBuffer::takeSpare(size_t index) {
 }
 
 void CommandBuffer::startChunk(size_t bytes) {
+    seal();
     Block const& block = takeBlock(bytes);
     mCommands = { block.data.get(), block.data.get() + block.size };
     mChunks.push_back({ block.data.get(), 0 });
@@ -81,6 +82,8 @@ void CommandBuffer::returnEqualBlock(size_t size, CommandBuffer& tail) {
 void CommandBuffer::append(CommandBuffer&& tail) {
     FILAMENT_ASSERT(&tail != this, "a command buffer cannot be appended to itself");
     if (!tail.mChunks.empty()) {
+        seal();
+        tail.seal();
         mChunks.insert(mChunks.end(), tail.mChunks.begin(), tail.mChunks.end());
         mCommands = tail.mCommands;
     }
@@ -108,13 +111,11 @@ void CommandBuffer::reset() {
     mCommandCount = mPayloadBytes = mKinds = 0;
 }
 
-CommandView CommandBuffer::view() const { return mChunks; }
-
 size_t CommandBuffer::commandCount() const { return mCommandCount; }
 
 size_t CommandBuffer::bytesUsed() const {
     size_t sum = mPayloadBytes;
-    for (CommandChunk const& chunk : mChunks) sum += chunk.size;
+    for (CommandChunk const& chunk : view()) sum += chunk.size;
     return sum;
 }
 

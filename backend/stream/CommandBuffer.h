@@ -45,7 +45,11 @@ public:
     void append(CommandBuffer&& tail);
 
     void reset();
-    CommandView view() const; ///< valid until the next record() or reset()
+    /// Valid until the next record() or reset().
+    CommandView view() const {
+        seal();
+        return mChunks;
+    }
     size_t commandCount() const;
     /// Whether a command of type C is among them.
     template <class C>
@@ -87,20 +91,27 @@ private:
         new (at) CommandHeader{ kCommandId<C>, static_cast<uint32_t>(kBytes) };
         new (at + kCommandAlignment) C(command); // in place: no detour over the stack
         mCommands.at = at + kBytes;
-        mChunks.back().size += kBytes;
         ++mCommandCount;
         mKinds |= uint64_t{ 1 } << kCommandId<C>;
     }
 
+    /// The size of the newest chunk follows from mCommands; it is written down when somebody asks, not with each
+    /// command.
+    void seal() const {
+        if (mChunks.empty()) return;
+        CommandChunk& newest = mChunks.back();
+        const auto size = static_cast<size_t>(mCommands.at - newest.data);
+        if (newest.size != size) newest.size = size; // a buffer that is only looked at is not written to
+    }
     Block& takeBlock(size_t bytes);
     Block takeSpare(size_t index);
     void returnEqualBlock(size_t size, CommandBuffer& tail);
     void startChunk(size_t bytes);
 
-    Range mCommands, mPayload;         // what is left of the newest block of each kind
-    std::vector<CommandChunk> mChunks; // command blocks in order
-    std::vector<Block> mUsed;          // owns the memory of commands and payloads
-    std::vector<Block> mSpare;         // kept for the next frame
+    Range mCommands, mPayload;                 // what is left of the newest block of each kind
+    mutable std::vector<CommandChunk> mChunks; // command blocks in order
+    std::vector<Block> mUsed;                  // owns the memory of commands and payloads
+    std::vector<Block> mSpare;                 // kept for the next frame
     size_t mCommandCount = 0;
     uint64_t mKinds = 0; // bit kCommandId<C>: contains<C>()
     size_t mPayloadBytes = 0;

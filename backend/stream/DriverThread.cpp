@@ -154,7 +154,7 @@ void DriverThread::replaySlot(uint64_t submission) {
 }
 
 void DriverThread::execute(Slot const& slot, uint64_t frame) {
-    mWatch.beginReplay(slot.commands, frame, slot.commands.contains<CmdBeginFrame>());
+    mWatch.beginReplay(slot.commands, frame);
     {
         const WatchedReplay watched(mWatch.progress());
         mDriver->execute(slot.commands.view());

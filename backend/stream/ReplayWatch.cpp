@@ -101,23 +101,24 @@ void ReplayWatch::begin(Activity activity) {
     mHasWarned = false;
 }
 
-void ReplayWatch::beginReplay(CommandBuffer const& commands, uint64_t frame, bool isNumberedByApp) {
+void ReplayWatch::beginReplay(CommandBuffer const& commands, uint64_t frame) {
     {
         const std::lock_guard lock(mMutex);
-        mCommands = &commands;
+        mCommands = commands.view();
         mFrame = frame;
-        mIsNumberedByApp = isNumberedByApp;
+        mIsNumberedByApp = commands.contains<CmdBeginFrame>();
+        mChangesPipelines = commands.contains<CmdCreatePipeline>() || commands.contains<CmdDestroyPipeline>();
     }
     begin(Activity::Replaying);
 }
 
 void ReplayWatch::end() {
     const std::lock_guard lock(mMutex);
-    if (mCommands && (mCommands->contains<CmdCreatePipeline>() || mCommands->contains<CmdDestroyPipeline>())) {
+    if (mActivity == Activity::Replaying && mChangesPipelines) {
         PipelineNameKeeper keeper{ mPipelineNames };
-        replay(mCommands->view(), keeper);
+        replay(mCommands, keeper);
     }
-    mCommands = nullptr;
+    mCommands = {};
     mActivity = Activity::None;
 }
 
@@ -179,7 +180,7 @@ std::string ReplayWatch::describe(Clock::time_point now) {
 // The stream stays where it is: end() waits for the lock that is held here.
 std::string ReplayWatch::describeReplay() {
     PlaceFinder finder(mSeenCommand, mPipelineNames);
-    replay(mCommands->view(), finder);
+    replay(mCommands, finder);
     return finder.text(frameText());
 }
 

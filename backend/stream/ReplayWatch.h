@@ -34,7 +34,7 @@ public:
     /// The device is waited for.
     void beginSettling() { begin(Activity::Settling); }
     /// `commands` stay as they are until end().
-    void beginReplay(CommandBuffer const& commands, uint64_t frame, bool isNumberedByApp);
+    void beginReplay(CommandBuffer const& commands, uint64_t frame);
     void end();
     ReplayProgress& progress() { return mProgress; }
 
@@ -60,9 +60,9 @@ private:
 
     std::mutex mMutex;
     Activity mActivity = Activity::None;
-    CommandBuffer const* mCommands = nullptr; // while it replays
+    CommandView mCommands; // while it replays
     uint64_t mFrame = 0;
-    bool mIsNumberedByApp = false;
+    bool mIsNumberedByApp = false, mChangesPipelines = false;
     const std::byte* mSeenCommand = nullptr;
     Clock::time_point mSince{}; // of the activity, or of the first look at mSeenCommand
     bool mHasWarned = false;

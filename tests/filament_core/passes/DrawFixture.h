@@ -8,8 +8,6 @@
 #include "framegraph/CompiledGraph.h"
 #include "shaders/interface/ShaderInterface.h"
 
-#include <gtest/gtest.h>
-
 #include <memory>
 #include <random>
 #include <string>

@@ -2,7 +2,7 @@
 #include "backend/stream/StreamHash.h"
 #include "tests/filament_core/passes/DrawFixture.h"
 
-#include <set>
+#include <gtest/gtest.h>
 
 namespace filament::passes {
 namespace {

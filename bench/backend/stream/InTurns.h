@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// measureInTurns: two ways of doing the same, one after the other in every iteration, so that a machine that is busy
+/// with something else slows both. Medians: a pre-empted iteration does not count.
+///   Out   counters: ns (median of a, an item), and `ratio` (median of a / median of b).
+#pragma once
+
+#include <benchmark/benchmark.h>
+
+#include <algorithm>
+#include <chrono>
+#include <vector>
+
+namespace filament::bench {
+
+inline double medianOf(std::vector<double>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::ranges::nth_element(values, middle);
+    return *middle;
+}
+
+template <class A, class B>
+void measureInTurns(benchmark::State& state, size_t items, const char* ratio, A&& a, B&& b) {
+    using Clock = std::chrono::steady_clock;
+    const auto seconds = [](Clock::duration time) { return std::chrono::duration<double>(time).count(); };
+    std::vector<double> timesOfA, timesOfB;
+    for (auto _ : state) {
+        const Clock::time_point start = Clock::now();
+        a();
+        const Clock::time_point middle = Clock::now();
+        b();
+        timesOfA.push_back(seconds(middle - start));
+        timesOfB.push_back(seconds(Clock::now() - middle));
+        state.SetIterationTime(timesOfA.back());
+    }
+    const double medianOfA = medianOf(timesOfA);
+    state.counters["ns"] = medianOfA * 1e9 / static_cast<double>(items);
+    state.counters[ratio] = medianOfA / medianOf(timesOfB);
+}
+
+} // namespace filament::bench
