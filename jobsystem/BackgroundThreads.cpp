@@ -19,13 +19,18 @@ BackgroundThreads::BackgroundThreads(Scheduler& scheduler, uint32_t limit, std::
     mThreads.reserve(limit);
 }
 
-BackgroundThreads::~BackgroundThreads() {
+void BackgroundThreads::stop() {
     {
         const std::lock_guard lock(mMutex);
         mStopping = true;
     }
     mPushed.notify_all();
-    for (std::thread& thread : mThreads) thread.join(); // none starts any more: push() is not called while this ends
+    for (uint32_t i = 0; i < startedThreads(); ++i) mThreads[i].join(); // their jobs may still start more
+}
+
+uint32_t BackgroundThreads::startedThreads() {
+    const std::lock_guard lock(mMutex);
+    return static_cast<uint32_t>(mThreads.size());
 }
 
 void BackgroundThreads::push(Job& job) {

@@ -34,10 +34,13 @@ public:
     static constexpr int kNiceness = 10;
 
     BackgroundThreads(Scheduler& scheduler, uint32_t limit, std::string name);
-    /// Runs what is queued, then ends the threads.
-    ~BackgroundThreads();
+    /// After stop(), and after every thread that runs jobs has ended: one of them may still be about to ring a bell.
+    ~BackgroundThreads() = default;
     BackgroundThreads(BackgroundThreads const&) = delete;
     BackgroundThreads& operator=(BackgroundThreads const&) = delete;
+
+    /// Runs what is queued and what that queues, then ends the threads. Once.
+    void stop();
 
     void push(Job& job);
     /// A thread would take another job at once.
@@ -47,6 +50,7 @@ public:
 
 private:
     void startThread();
+    uint32_t startedThreads();
     void runThread(ParkingLot& bell, uint32_t index);
     void run(Job& job);
     Job* popOf(Completion const& completion);

@@ -91,7 +91,7 @@ Scheduler::Scheduler(JobSystemOptions const& options)
 }
 
 Scheduler::~Scheduler() {
-    mBackground.reset(); // its jobs may still need workers
+    if (mBackground) mBackground->stop(); // its jobs may still need workers, and the system as it is
     mStopping.store(true, std::memory_order_seq_cst);
     mIdle.wakeAll();
     for (std::thread& thread : mThreads) thread.join();
