@@ -33,6 +33,7 @@ struct FrameTiming {
     int64_t replayBegin = 0;  ///< the driver thread took it
     int64_t replayEnd = 0;    ///< the driver thread is done with it (the GPU may still work)
     int64_t backPressure = 0; ///< how long acquire() had waited for this submission's buffer
+    bool isFrame = false;     ///< it has a CmdBeginFrame
     uint64_t hash = 0;        ///< hashStream() of it, with CommandStreamOptions::hashStreams
 };
 

@@ -140,16 +140,16 @@ void DriverThread::replaySlot(uint64_t submission) {
     FrameTiming timing{ .frame = frameNumber(slot.commands, submission),
                         .submitted = slot.submitted,
                         .replayBegin = now(),
-                        .backPressure = slot.backPressure };
+                        .backPressure = slot.backPressure,
+                        .isFrame = slot.commands.contains<CmdBeginFrame>() };
     if (mOptions.hashStreams) timing.hash = hashStream(slot.commands.view());
     const bool reachesDevice = !mMailbox.deviceLost();
     if (reachesDevice) execute(slot, timing.frame);
-    const bool isFrame = slot.commands.contains<CmdBeginFrame>();
     slot.commands.reset();
     timing.replayEnd = now();
     mMailbox.onReplayed(timing);
     const std::lock_guard lock(mMutex);
-    if (reachesDevice && isFrame) mLatency.add(timing);
+    if (reachesDevice && timing.isFrame) mLatency.add(timing);
     mReplayed = submission;
 }
 

@@ -196,7 +196,7 @@ Result<HdrImage> makeAnalyticSky(AnalyticSkyOptions const& options, jobs::JobSys
     const Sky sky = makeSky(options);
     HdrImage image{ .width = options.height * 2, .height = options.height, .pixels = {}, .repairs = {} };
     image.pixels.resize(size_t(image.width) * image.height);
-    jobs::parallelFor(jobs, image.height / 2, kRowsPerJob, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"sky">(jobs, image.height / 2, kRowsPerJob, [&](size_t begin, size_t end) {
         for (auto y = static_cast<uint32_t>(begin); y < end; ++y) {
             for (uint32_t x = 0; x < image.width; ++x) {
                 const float2 uv((static_cast<float>(x) + 0.5f) / static_cast<float>(image.width),

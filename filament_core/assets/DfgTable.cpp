@@ -32,7 +32,7 @@ Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size, uint32_t samples) {
     FILAMENT_ASSERT(size > 0 && samples > 0, "a DFG table has at least one entry of one sample");
     Image table{ .width = size, .height = size, .format = backend::Format::RG16F, .data = {} };
     table.data.resize(table.levelBytes(0));
-    jobs::parallelFor(jobs, size, 1, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"dfg table">(jobs, size, 1, [&](size_t begin, size_t end) {
         for (size_t y = begin; y < end; ++y) {
             const float roughness = (static_cast<float>(y) + 0.5f) / static_cast<float>(size);
             const float alpha = lib::alphaFromPerceptual(lib::clampPerceptualRoughness(roughness));

@@ -59,7 +59,7 @@ struct CompressedView {
 
 void decompressViews(GltfDocument& document, std::vector<CompressedView>& compressed, jobs::JobSystem& jobs,
                      GltfDiagnostics& diagnostics) {
-    jobs::parallelFor(jobs, compressed.size(), 1, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"decompress">(jobs, compressed.size(), 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             CompressedView& item = compressed[i];
             item.bytes = decodeMeshopt(*document.views[item.view].meshopt, item.source,

@@ -54,15 +54,16 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextu
                  std::vector<GltfPrimitiveJob>& primitives, std::filesystem::path const& baseDirectory,
                  jobs::JobSystem& jobs, GltfOptions const& options) {
     Progress progress(options, GltfStage::Content, textures.jobs.size() + primitives.size());
+    const jobs::AdoptedThread seat(jobs);
     jobs::JobGroup group(jobs);
     for (GltfImageJob& job : textures.jobs) {
-        group.run([&document, &baseDirectory, &options, &progress, &job] {
+        group.run<"decode image">([&document, &baseDirectory, &options, &progress, &job] {
             decodeImageJob(document, baseDirectory, options.maxTextureSize, job);
             progress.step();
         });
     }
     for (GltfPrimitiveJob& job : primitives) {
-        group.run([&document, &scene, &progress, &job] {
+        group.run<"build primitive">([&document, &scene, &progress, &job] {
             buildPrimitive(document, scene, job);
             progress.step();
         });

@@ -18,7 +18,7 @@ constexpr size_t kTexelsPerJob = 8; // about 50 microseconds at 512 pieces
 IblCubeLevel prefilterLevel(IblTree const& tree, uint32_t size, Lobe const& lobe, jobs::JobSystem& jobs) {
     IblCubeLevel level(size);
     const size_t faceTexels = size_t(size) * size;
-    jobs::parallelFor(jobs, 6 * faceTexels, kTexelsPerJob, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"prefilter">(jobs, 6 * faceTexels, kTexelsPerJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             const auto face = static_cast<uint32_t>(i / faceTexels);
             const int x = static_cast<int>(i % size), y = static_cast<int>(i % faceTexels / size);
@@ -132,7 +132,7 @@ std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& j
     const uint32_t size = level.size();
     const std::vector<float> solidAngles = texelSolidAngles(size);
     std::vector<ShSums> rows(size_t(6) * size);
-    jobs::parallelFor(jobs, rows.size(), 4, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"project SH">(jobs, rows.size(), 4, [&](size_t begin, size_t end) {
         for (size_t row = begin; row < end; ++row) {
             rows[row].fill(double3(0.0));
             projectRow(level, solidAngles, static_cast<uint32_t>(row / size), static_cast<uint32_t>(row % size),
@@ -171,7 +171,7 @@ EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format for
         std::byte* const out = result.image.data.data() + result.image.levelOffset(i);
         const size_t rowBytes = size_t(levelSize) * backend::formatInfo(format).bytesPerBlock;
         std::vector<RowLoss> rows(size_t(6) * levelSize);
-        jobs::parallelFor(jobs, rows.size(), 2, [&](size_t begin, size_t end) {
+        jobs::parallelFor<"encode cube">(jobs, rows.size(), 2, [&](size_t begin, size_t end) {
             for (size_t row = begin; row < end; ++row) {
                 rows[row] = encodeRow(levels[i], solidAngles, static_cast<uint32_t>(row / levelSize),
                                       static_cast<uint32_t>(row % levelSize), format, out + row * rowBytes);

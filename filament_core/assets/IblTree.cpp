@@ -47,7 +47,7 @@ IblTree::Level IblTree::leavesOf(IblCubeLevel const& texels, jobs::JobSystem& jo
     const uint32_t size = texels.size(), half = size / 2;
     const std::vector<float> solidAngles = texelSolidAngles(size);
     Level level{ size, std::vector<Quad>(size_t(6) * half * half) };
-    jobs::parallelFor(jobs, level.quads.size(), kQuadsPerJob, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"light tree">(jobs, level.quads.size(), kQuadsPerJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             Quad& quad = level.quads[i];
             const auto face = static_cast<uint32_t>(i / (size_t(half) * half));
@@ -74,7 +74,7 @@ IblTree::Level IblTree::leavesOf(IblCubeLevel const& texels, jobs::JobSystem& jo
 IblTree::Level IblTree::parentsOf(Level const& children, jobs::JobSystem& jobs) {
     const uint32_t size = children.size / 2, half = size / 2;
     Level level{ size, std::vector<Quad>(size_t(6) * half * half) };
-    jobs::parallelFor(jobs, level.quads.size(), kQuadsPerJob, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"light tree">(jobs, level.quads.size(), kQuadsPerJob, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) {
             Quad& quad = level.quads[i];
             const size_t face = i / (size_t(half) * half);

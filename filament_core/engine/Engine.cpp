@@ -8,6 +8,7 @@
 #include "filament_core/base/Result.h"
 #include "filament_core/engine/DefaultObjects.h"
 #include "filament_core/engine/EngineImpl.h"
+#include "jobsystem/JobTrace.h"
 
 namespace filament {
 namespace {
@@ -41,6 +42,12 @@ Backend publicBackend(BackendType type) {
 DeviceDescription describe(DeviceInfo const& info) {
     return { publicBackend(info.backend), info.deviceName, info.driverName, info.limits.maxTextureSize,
              info.limits.maxSamples };
+}
+
+FrameLatency describe(LatencyStatistics const& latency) {
+    const auto milliseconds = [](int64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; };
+    return { latency.frames, milliseconds(latency.submitToEnd.median), milliseconds(latency.submitToEnd.p99),
+             milliseconds(latency.backPressure.median), milliseconds(latency.backPressure.p99) };
 }
 
 // The driver with the layers that the options ask for around it.
@@ -81,7 +88,7 @@ jobs::AffinityPolicy affinityPolicy(EngineOptions const& options) {
 }
 
 jobs::JobSystemOptions jobOptions(EngineOptions const& options) {
-    return { .workers = options.workers, .affinity = affinityPolicy(options) };
+    return { .workers = options.workers, .affinity = affinityPolicy(options), .trace = options.traceJobs };
 }
 
 template <class Table>
@@ -158,7 +165,8 @@ double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {
 
 Result<Engine> Engine::create(EngineOptions const& options) {
     if (Result<void> cores = checkCores(options); !cores) return cores.error();
-    auto stream = CommandStream::start(driverFactory(options), { .driverCore = options.driverCore });
+    auto stream = CommandStream::start(driverFactory(options),
+                                       { .driverCore = options.driverCore, .hashStreams = options.hashFrames });
     if (!stream) return stream.error();
     return Engine(std::make_unique<Impl>(options, std::move(*stream)));
 }
@@ -177,13 +185,24 @@ DeviceDescription const& Engine::device() const { return mImpl->device; }
 
 EngineStatistics Engine::statistics() const {
     const DriverStatistics driver = mImpl->stream->statistics();
-    return { driver.draws,    driver.pipelinesCreated, driver.pipelinesCreatedInPasses,
-             driver.commands, driver.deviceBytes,      mImpl->stream->backPressureNanoseconds() };
+    return { driver.draws,
+             driver.pipelinesCreated,
+             driver.pipelinesCreatedInPasses,
+             driver.commands,
+             driver.deviceBytes,
+             mImpl->stream->backPressureNanoseconds(),
+             describe(mImpl->stream->latency()) };
 }
 
 std::vector<std::string> Engine::takeErrors() {
     mImpl->collectErrors();
     return std::exchange(mImpl->errors, {});
+}
+
+Result<void> Engine::writeJobTrace(std::filesystem::path const& file) const {
+    if (jobs::JobTrace const* timeline = mImpl->jobs.trace()) return writeChromeTrace(timeline->snapshot(), file);
+    return fail(ErrorCode::InvalidArgument, "job trace '{}': make the engine with EngineOptions::traceJobs",
+                file.string());
 }
 
 void Engine::waitIdle() {

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/FrameTimingLog.h"
 
+#include "jobsystem/JobTrace.h"
+
 #include <algorithm>
 
 namespace filament::engine {
@@ -27,6 +29,36 @@ void FrameTimingLog::add(uint64_t frame, Stamps const& stamps, std::span<const f
         pass.ticket = timers[i].ticket;
         timers[i].name.copy(pass.name.data(), pass.name.size() - 1);
     }
+    if (!mEngine.jobs.trace()) return;
+    traceFrame(record);
+    collectReplays(); // at once: a trace has every replay, not only those that somebody asks for
+}
+
+void FrameTimingLog::traceFrame(Record const& record) {
+    jobs::JobTrace& trace = *mEngine.jobs.trace();
+    const auto frame = static_cast<int64_t>(record.frame);
+    const auto track = trace.track("app thread");
+    const int64_t prepared = nanoseconds(record.stamps.prepared), acquired = nanoseconds(record.stamps.acquired);
+    trace.span(track, "prepare frame", nanoseconds(record.stamps.begin), prepared, frame);
+    trace.span(track, "wait for driver", prepared, acquired, frame);
+    trace.span(track, "record frame", acquired, nanoseconds(record.stamps.recorded), frame);
+}
+
+void FrameTimingLog::traceReplay(backend::FrameTiming const& replay) {
+    jobs::JobTrace& trace = *mEngine.jobs.trace();
+    const char* name = replay.isFrame ? "replay frame" : "replay set-up";
+    trace.span(trace.track("driver thread"), name, replay.replayBegin, replay.replayEnd,
+               replay.isFrame ? static_cast<int64_t>(replay.frame) : -1);
+}
+
+void FrameTimingLog::collectReplays() {
+    for (backend::FrameTiming const& replay : mEngine.stream->takeTimings()) {
+        if (mEngine.jobs.trace()) traceReplay(replay);
+        Record& record = mRecords[replay.frame % mRecords.size()];
+        if (!replay.isFrame || record.frame != replay.frame || record.taken) continue;
+        record.replay = replay;
+        record.replayed = true;
+    }
 }
 
 bool FrameTimingLog::isComplete(Record& record) {
@@ -46,9 +78,11 @@ FrameTimings FrameTimingLog::publish(Record const& record) const {
     FrameTimings timings;
     timings.frame = record.frame;
     timings.prepareMilliseconds = milliseconds(record.stamps.begin, record.stamps.prepared);
-    timings.recordMilliseconds = milliseconds(record.stamps.prepared, record.stamps.recorded);
+    timings.recordMilliseconds = milliseconds(record.stamps.acquired, record.stamps.recorded);
     timings.replayMilliseconds = static_cast<double>(record.replay.replayEnd - record.replay.replayBegin) * 1e-6;
     timings.workerBusyMilliseconds = static_cast<double>(record.stamps.workerBusyNanoseconds) * 1e-6;
+    timings.packetHash = record.stamps.packetHash;
+    timings.streamHash = record.replay.hash;
     timings.beginSeconds = mEngine.secondsSinceStart(nanoseconds(record.stamps.begin));
     timings.submitSeconds = mEngine.secondsSinceStart(nanoseconds(record.stamps.recorded));
     timings.replayBeginSeconds = mEngine.secondsSinceStart(record.replay.replayBegin);
@@ -61,12 +95,7 @@ FrameTimings FrameTimingLog::publish(Record const& record) const {
 }
 
 std::vector<FrameTimings> FrameTimingLog::take() {
-    for (backend::FrameTiming const& replay : mEngine.stream->takeTimings()) {
-        Record& record = mRecords[replay.frame % mRecords.size()];
-        if (record.frame != replay.frame || record.taken) continue;
-        record.replay = replay;
-        record.replayed = true;
-    }
+    collectReplays();
     std::vector<FrameTimings> finished;
     for (Record& record : mRecords) {
         if (record.taken || !isComplete(record)) continue;

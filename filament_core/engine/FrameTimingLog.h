@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameTimingLog: when each frame was prepared, recorded and replayed, and what its passes cost the device.
 ///   Thread  the app thread; answers are polled from the stream.
+///   Trace   with EngineOptions::traceJobs, frames and replays become spans beside the jobs.
 ///   Memory  the last 64 frames, 16 passes each, in place: writing allocates nothing. Older frames are overwritten.
 #pragma once
 
@@ -21,8 +22,9 @@ public:
 
     using TimePoint = std::chrono::steady_clock::time_point;
     struct Stamps {
-        TimePoint begin, prepared, recorded;
-        uint64_t workerBusyNanoseconds = 0; ///< while the frame was prepared
+        TimePoint begin, prepared, acquired, recorded; ///< between prepared and acquired: waiting for the driver
+        uint64_t workerBusyNanoseconds = 0;            ///< while the frame was prepared and recorded
+        uint64_t packetHash = 0;
     };
 
     /// After submit().
@@ -46,6 +48,9 @@ private:
         bool taken = true;
     };
 
+    void traceFrame(Record const& record);
+    void traceReplay(backend::FrameTiming const& replay);
+    void collectReplays();
     bool isComplete(Record& record);
     FrameTimings publish(Record const& record) const;
 

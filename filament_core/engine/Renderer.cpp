@@ -32,7 +32,7 @@ uint32_t countRunning(CompiledGraph const& plan) { return static_cast<uint32_t>(
 struct Renderer::Impl {
     Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
             : engine(owner), options(rendererOptions), data(*owner.stream), graph(arena), transients(*owner.stream),
-              timings(owner) {}
+              ranges(owner.jobs), timings(owner) {}
 
     ~Impl() {
         data.destroy(engine.pending);
@@ -42,6 +42,7 @@ struct Renderer::Impl {
 
     /// The six-line frame of docs/architecture.md, with its measurements.
     void render(Scene const& scene, View const& view, engine::TextureState const& target) {
+        const jobs::AdoptedThread seat(engine.jobs); // the app thread works along
         arena.reset();
         graph.reset();
         timers.clear();
@@ -51,19 +52,21 @@ struct Renderer::Impl {
         context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(),
                                                 { view.camera, view.size, view.timeSeconds });
         stamps.prepared = clock();
-        stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
+        if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context->packet);
 
         CommandBuffer& commands = engine.stream->acquire(); // waits when two frames ahead
+        stamps.acquired = clock();
         commands.record(CmdBeginFrame{ ++frame });
         engine.drainPending(commands);
         upload(commands, *context);
         describe(*context, view, target);
         plan = compile(graph, transients);
-        framegraph::record(commands, plan, options.passTimers ? &timers : nullptr);
+        framegraph::record(commands, plan, options.passTimers ? &timers : nullptr, &ranges);
         commands.record(CmdEndFrame{ frame });
         engine.stream->submit(commands);
 
         stamps.recorded = clock();
+        stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
         count(context->packet);
     }
@@ -160,6 +163,7 @@ struct Renderer::Impl {
     passes::FrameData data;
     FrameGraph graph;
     framegraph::TransientPool transients;
+    framegraph::RangeRecorder ranges;
     CompiledGraph plan;
     std::vector<framegraph::PassTimer> timers;
     engine::FrameTimingLog timings;

@@ -94,7 +94,7 @@ Compiled compileVariants(Prepared const& prepared, CompileOptions const& options
         for (size_t i = begin; i < end; ++i) results[i] = compileVariant(prepared, prepared.keys[i], options);
     };
     if (options.jobs)
-        jobs::parallelFor(*options.jobs, results.size(), 1, compileRange);
+        jobs::parallelFor<"compile variant">(*options.jobs, results.size(), 1, compileRange);
     else
         compileRange(0, results.size());
     return results;

@@ -10,6 +10,7 @@
 
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <utility>
 
 namespace filament::tools {
@@ -43,6 +44,9 @@ View viewOf(Options const& options) {
 
 Result<Engine> createEngine(Options const& options, Backend backend) {
     EngineOptions engineOptions{ .backend = backend, .requireDevice = options.requireDevice };
+    engineOptions.workers = options.workers;
+    engineOptions.affinity = options.affinity;
+    engineOptions.traceJobs = !options.traceJobs.empty();
     if (options.trace) engineOptions.traceFile = options.out / fmt::format("{}.trace", fileStem(backend));
     Result<Engine> engine = Engine::create(engineOptions);
     if (!engine) return engine;
@@ -52,6 +56,20 @@ Result<Engine> createEngine(Options const& options, Backend backend) {
                     options.size.x, options.size.y, engine->device().device, largest);
     }
     return engine;
+}
+
+/// Places of the copies: a square grid in the plane of x and z, as large as one copy would be.
+std::vector<double4x4> placesOf(uint32_t copies, double4x4 const& worldFromModel) {
+    const auto side = static_cast<uint32_t>(std::ceil(std::sqrt(copies)));
+    const double cell = 1.0 / side;
+    std::vector<double4x4> places;
+    for (uint32_t i = 0; i < copies; ++i) {
+        const double3 offset((i % side + 0.5) * cell - 0.5, 0, (i / side + 0.5) * cell - 0.5);
+        double4x4 grid(cell);
+        grid[3] = double4(copies > 1 ? offset : double3(0.0), 1);
+        places.push_back(grid * worldFromModel);
+    }
+    return places;
 }
 
 /// Everything between a living engine and its first picture, in the order in which it must end.
@@ -86,7 +104,8 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
     mModel.emplace(std::move(*loaded));
     run.modelName = mModel->name();
     run.warnings = mModel->warnings();
-    mScene.add(*mModel, mOptions.fit ? fitToUnitCube(mModel->bounds()) : double4x4(1.0));
+    const double4x4 worldFromModel = mOptions.fit ? fitToUnitCube(mModel->bounds()) : double4x4(1.0);
+    for (double4x4 const& place : placesOf(mOptions.copies, worldFromModel)) mScene.add(*mModel, place);
     run.start.model = watch.lap();
 
     if (!environment.empty()) {
@@ -138,6 +157,14 @@ void Stage::drawOthers(BackendRun& run) {
     run.atEnd = mEngine.statistics();
 }
 
+// With several backends the file's name carries the backend: jobs.json -> jobs.vulkan.json, jobs.gles.json.
+std::filesystem::path traceFileOf(Options const& options, Backend backend) {
+    if (options.backends.size() == 1) return options.traceJobs;
+    std::filesystem::path path = options.traceJobs;
+    const std::string extension = path.extension().string();
+    return path.replace_extension(fileStem(backend) + extension);
+}
+
 } // namespace
 
 const char* fileStem(Backend backend) {
@@ -166,6 +193,10 @@ Result<BackendRun> runBackend(Options const& options, Backend backend, std::file
     run.statistics = stage.renderer().statistics();
     run.explanation = stage.renderer().explain();
     run.errors = engine->takeErrors();
+    if (!options.traceJobs.empty()) {
+        if (const Result<void> traced = engine->writeJobTrace(traceFileOf(options, backend)); !traced)
+            return traced.error();
+    }
     return run;
 }
 

@@ -8,11 +8,12 @@
 namespace filament::tools {
 namespace {
 
-constexpr uint32_t kMaxFrames = 1'000'000;
+constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 256;
 
 /// The words of the options that only this program has.
 struct Words {
-    std::string backend = "both", frames = "1", tolerance = "0", format = "png", requireDevice;
+    std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
+                affinity = "none", requireDevice;
 };
 
 Result<void> convertChoices(Words const& words, Options& options) {
@@ -35,20 +36,44 @@ Result<void> convertCounts(Words const& words, Options& options) {
     if (!frames) return invalidOption("--frames", words.frames, "a whole number from 1 to 1000000");
     options.frames = *frames;
 
+    const auto copies = wholeNumber(words.copies, 1, kMaxCopies);
+    if (!copies) return invalidOption("--copies", words.copies, "a whole number from 1 to 100000");
+    options.copies = *copies;
+
     const auto tolerance = wholeNumber(words.tolerance, 0, 255);
     if (!tolerance) return invalidOption("--tolerance", words.tolerance, "a whole number from 0 to 255");
     options.tolerance = *tolerance;
     return {};
 }
 
+Result<void> convertThreads(Words const& words, Options& options) {
+    if (!words.workers.empty()) {
+        const auto workers = wholeNumber(words.workers, 0, kMaxWorkers);
+        if (!workers) return invalidOption("--workers", words.workers, "a whole number from 0 to 256");
+        options.workers = static_cast<int>(*workers);
+    }
+    if (words.affinity == "pin")
+        options.affinity = ThreadAffinity::Pin;
+    else if (words.affinity == "big-cores")
+        options.affinity = ThreadAffinity::BigCores;
+    else if (words.affinity != "none")
+        return invalidOption("--affinity", words.affinity, "none, pin or big-cores");
+    return {};
+}
+
 void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--backend", words.backend, "vulkan, gles or both (default)")->default_str("both");
     app.add_option("--frames", words.frames, "frames to draw; the last one is saved (1)");
+    app.add_option("--copies", words.copies, "draw the model so many times, on a grid (1)");
     app.add_option("--tolerance", words.tolerance, "largest difference in 1/255 that still counts as equal (0)");
     app.add_option("--format", words.format, "png, or exr: scene-linear half floats before the tone mapper (png)");
     app.add_flag("--timing", options.timing, "print what start and frames cost");
     app.add_flag("--explain", options.explain, "print what ran, what was culled, and why");
     app.add_flag("--trace", options.trace, "write every command as text: DIR/vulkan.trace, DIR/gles.trace");
+    app.add_option("--trace-jobs", words.traceJobs,
+                   "FILE: what every thread did when, for chrome://tracing or tools/plot/plot.py jobs");
+    app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
+    app.add_option("--affinity", words.affinity, "none, pin or big-cores: where the job threads run (none)");
     app.add_flag("--list-devices", options.listDevices, "print the devices of every backend");
     app.add_option("--require-device", words.requireDevice, "fail unless the device's name contains this");
 }
@@ -67,8 +92,9 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
     options.requireDevice = words.requireDevice;
+    options.traceJobs = words.traceJobs;
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert : { convertChoices, convertCounts }) {
+    for (auto convert : { convertChoices, convertCounts, convertThreads }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

@@ -20,9 +20,13 @@ struct Options : SceneOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
     std::string requireDevice;
     uint32_t frames = 1;
+    uint32_t copies = 1;    ///< of the model, on a grid
     uint32_t tolerance = 0; ///< in 1/255
     PictureFormat format = PictureFormat::Png;
     bool timing = false, explain = false, trace = false;
+    std::filesystem::path traceJobs; ///< empty: none
+    int workers = -1;                ///< as EngineOptions::workers
+    ThreadAffinity affinity = ThreadAffinity::None;
     bool listDevices = false;
 };
 

@@ -134,6 +134,8 @@ Json steadyJson(BackendRun const& run) {
              { "replayMs", spread(&FrameTimings::replayMilliseconds) },
              { "gpuMs", spread(&FrameTimings::gpuMilliseconds) },
              { "backPressureMs", static_cast<double>(run.atEnd.backPressureNanoseconds) * 1e-6 },
+             { "submitToReplayedMedianMs", run.atEnd.latency.submitToReplayedMedian },
+             { "submitToReplayedP99Ms", run.atEnd.latency.submitToReplayedP99 },
              { "appAndDriverOverlapMs", overlapMilliseconds(frames) } };
 }
 

@@ -44,7 +44,7 @@ using Images = std::array<TextureSetImages, SetCount>;
 
 Result<Images> addAllPictures(SceneBuilder& scene, jobs::JobSystem& jobs) {
     std::array<TextureSet, SetCount> sets;
-    jobs::parallelFor(jobs, SetCount, 1, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"texture">(jobs, SetCount, 1, [&](size_t begin, size_t end) {
         for (size_t i = begin; i < end; ++i) sets[i] = kTextureSets[i].make(kTextureSize);
     });
     Images images;

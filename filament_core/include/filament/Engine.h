@@ -49,8 +49,17 @@ struct EngineOptions {
     int driverCore = -1;                    ///< pin the driver thread to this core and keep job threads off it
     int avoidCore = -1;                     ///< keep job threads off this core, too; -1: off none
     bool validation = false;                ///< check every stream; Vulkan validation layers or KHR_debug on top
+    bool traceJobs = false;                 ///< remember what every thread did when: Engine::writeJobTrace()
+    bool hashFrames = false;                ///< FrameTimings::packetHash and streamHash, for tests; reads all twice
     std::filesystem::path traceFile{};      ///< write every command as text, for replay; empty: do not
     std::filesystem::path cacheDirectory{}; ///< baked environments; empty: $XDG_CACHE_HOME/filament_core
+};
+
+/// How far the driver thread was behind, over the last 256 frames at most. Milliseconds.
+struct FrameLatency {
+    uint32_t frames = 0;
+    double submitToReplayedMedian = 0, submitToReplayedP99 = 0; ///< from submit until the driver thread is done
+    double backPressureMedian = 0, backPressureP99 = 0;         ///< the app waited for a free command buffer
 };
 
 /// Running totals of an engine.
@@ -61,6 +70,7 @@ struct EngineStatistics {
     uint64_t commands = 0;
     uint64_t deviceBytes = 0;
     uint64_t backPressureNanoseconds = 0; ///< the app has waited this long for the driver thread
+    FrameLatency latency{};
 };
 
 template <class T>
@@ -80,6 +90,9 @@ public:
     std::vector<std::string> takeErrors();
     /// Waits until everything submitted has run.
     void waitIdle();
+    /// With EngineOptions::traceJobs: the newest jobs, frames and replays of all threads as Chrome trace events, for
+    /// chrome://tracing, Perfetto or tools/plot. InvalidArgument without that option; Unreadable names the file.
+    Result<void> writeJobTrace(std::filesystem::path const& file) const;
 
     Texture create(TextureDesc const& desc);
     VertexBuffer create(VertexBufferDesc const& desc);

@@ -38,7 +38,10 @@ struct FrameTimings {
     double gpuMilliseconds = 0;                 ///< device, sum of passes; 0 without RendererOptions::passTimers
     double beginSeconds = 0, submitSeconds = 0; ///< app thread, since the engine started
     double replayBeginSeconds = 0, replayEndSeconds = 0; ///< driver thread
-    double workerBusyMilliseconds = 0;                   ///< all workers together, while the frame was prepared
+    double workerBusyMilliseconds = 0;                   ///< all workers together, from render() to submitted
+    /// With EngineOptions::hashFrames: contents of what was prepared and of the commands. They do not depend on the
+    /// number of workers or on where these run.
+    uint64_t packetHash = 0, streamHash = 0;
     std::vector<PassTiming> passes;
 };
 

@@ -8,6 +8,10 @@
 #include "filament_core/base/Log.h"
 #include "shaders/package/EngineMaterials.h"
 
+#include <nlohmann/json.hpp>
+
+#include <fstream>
+#include <map>
 #include <thread>
 
 namespace filament {
@@ -270,6 +274,34 @@ TEST(EngineCreate, SaysWhichDevicesThereAreWhenTheRequiredOneIsMissing) {
         EXPECT_EQ(engine.error().code, ErrorCode::DeviceUnavailable);
         EXPECT_NE(engine.error().message.find("llvmpipe"), std::string::npos) << engine.error().message;
     }
+}
+
+TEST(EngineTrace, TellsWhatEveryThreadDidInValidJson) {
+    const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "engine-jobs.json";
+    auto engine = Engine::create({ .backend = Backend::Null, .workers = 1, .traceJobs = true });
+    ASSERT_TRUE(engine);
+    Spheres spheres(*engine);
+    Renderer renderer(*engine);
+    for (int frame = 0; frame < 3; ++frame) ASSERT_TRUE(renderer.renderToImage(spheres.scene, spheres.view));
+    (void)renderer.takeTimings();
+    ASSERT_TRUE(engine->writeJobTrace(file));
+    std::ifstream stream(file);
+    const auto json = nlohmann::json::parse(stream);
+    std::map<std::string, int> spans;
+    for (auto const& event : json.at("traceEvents")) {
+        if (event.at("ph") == "X") ++spans[event.at("name")];
+    }
+    for (const char* name : { "prepare frame", "wait for driver", "record frame", "replay frame" })
+        EXPECT_EQ(spans[name], 3) << name;
+    EXPECT_GT(spans["cull"], 0);
+}
+
+TEST(EngineTrace, IsRefusedWhereItWasNotAskedFor) {
+    auto engine = Engine::create({ .backend = Backend::Null });
+    ASSERT_TRUE(engine);
+    const Result<void> written = engine->writeJobTrace("unused.json");
+    ASSERT_FALSE(written);
+    EXPECT_NE(written.error().message.find("traceJobs"), std::string::npos) << written.error().message;
 }
 
 TEST(EngineCreate, ListsBothApis) {

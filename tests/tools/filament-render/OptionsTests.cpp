@@ -94,6 +94,14 @@ TEST(Options, AllReachTheirFields) {
                                      "--timing",
                                      "--explain",
                                      "--trace",
+                                     "--copies",
+                                     "9",
+                                     "--trace-jobs",
+                                     "jobs.json",
+                                     "--workers",
+                                     "3",
+                                     "--affinity",
+                                     "big-cores",
                                      "--require-device",
                                      "llvm" });
     EXPECT_EQ(options.model, "a b.glb");
@@ -117,6 +125,10 @@ TEST(Options, AllReachTheirFields) {
     EXPECT_EQ(options.out, "x/y");
     EXPECT_EQ(options.format, PictureFormat::Exr);
     EXPECT_TRUE(options.timing && options.explain && options.trace);
+    EXPECT_EQ(options.copies, 9u);
+    EXPECT_EQ(options.traceJobs, "jobs.json");
+    EXPECT_EQ(options.workers, 3);
+    EXPECT_EQ(options.affinity, ThreadAffinity::BigCores);
     EXPECT_EQ(options.requireDevice, "llvm");
 }
 
@@ -140,6 +152,10 @@ TEST(Options, EveryRefusalNamesTheOptionTheValueAndTheCure) {
         { { "--size", "4294967297x1" }, "--size", "4294967297", "16384" },
         { { "--frames", "0" }, "--frames", "0", "from 1" },
         { { "--frames", "1.5" }, "--frames", "1.5", "whole number" },
+        { { "--copies", "0" }, "--copies", "0", "from 1" },
+        { { "--workers", "-2" }, "--workers", "-2", "0 to 256" },
+        { { "--workers", "257" }, "--workers", "257", "0 to 256" },
+        { { "--affinity", "all" }, "--affinity", "all", "big-cores" },
         { { "--eye", "nan", "0", "0" }, "--eye", "nan 0 0", "finite" },
         { { "--eye", "0", "inf", "0" }, "--eye", "inf", "finite" },
         { { "--at", "0", "1e999", "0" }, "--at", "1e999", "finite" },
