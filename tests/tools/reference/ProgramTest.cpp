@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// filament-reference from outside: its options, its files, its one-line errors.
+#include "tests/tools/reference/TestScenes.h"
+
+#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/HdrReader.h"
+#include "filament_core/assets/ImageWriter.h"
+#include "tools/reference/Output.h"
+
+#include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
+
+#include <array>
+#include <cstdio>
+#include <fstream>
+#include <sys/wait.h>
+#include <unistd.h>
+
+namespace filament::reference {
+namespace {
+
+using ::testing::HasSubstr;
+
+Result<std::optional<Options>> parse(std::vector<const char*> words) {
+    words.insert(words.begin(), "filament-reference");
+    return parseOptions(static_cast<int>(words.size()), words.data());
+}
+
+TEST(Options, AreThoseOfFilamentRenderAndItsOwn) {
+    const auto parsed = parse({ "m.glb",
+                                "--environment",
+                                "s.hdr",
+                                "--size",
+                                "32x16",
+                                "--eye",
+                                "1",
+                                "2",
+                                "3",
+                                "--sun",
+                                "5",
+                                "0",
+                                "-1",
+                                "0",
+                                "--integrator",
+                                "unoccluded",
+                                "--spp",
+                                "64",
+                                "--error",
+                                "0.01",
+                                "--seed",
+                                "7",
+                                "--max-bounces",
+                                "3",
+                                "--filter",
+                                "center",
+                                "--occlusion-map",
+                                "off",
+                                "--visibility",
+                                "fast",
+                                "--fresnel",
+                                "exact",
+                                "--diffuse",
+                                "disney",
+                                "--energy",
+                                "single-scatter",
+                                "--coupling",
+                                "always",
+                                "--lobes",
+                                "specular",
+                                "--ibl-rotation",
+                                "90",
+                                "--threads",
+                                "2",
+                                "--error-image" });
+    ASSERT_TRUE(parsed.ok() && *parsed) << (parsed ? "" : parsed.error().message);
+    Options const& options = **parsed;
+    EXPECT_EQ(options.model, "m.glb");
+    EXPECT_EQ(options.size, uint2(32, 16));
+    EXPECT_EQ(options.eye, double3(1, 2, 3));
+    EXPECT_EQ(options.sun->illuminance.value, 5);
+    ReferenceSettings const& settings = options.settings;
+    EXPECT_EQ(settings.integrator, Integrator::Unoccluded);
+    EXPECT_EQ(settings.samplesPerPixel, 64u);
+    EXPECT_EQ(settings.relativeError, 0.01f);
+    EXPECT_EQ(settings.seed, 7u);
+    EXPECT_EQ(settings.maxBounces, 3u);
+    EXPECT_EQ(settings.filter, PixelFilter::Center);
+    EXPECT_EQ(settings.occlusionMap, Switch::Off);
+    EXPECT_EQ(settings.bsdf, (BsdfModel{ VisibilityTerm::CorrelatedFast, FresnelTerm::Exact, DiffuseTerm::Disney,
+                                         EnergyTerm::SingleScatter, CouplingTerm::Always, LobeChoice::Specular }));
+    EXPECT_EQ(options.rotationDegrees, 90);
+    EXPECT_EQ(options.workers, 1);
+    EXPECT_TRUE(options.writesErrors);
+}
+
+TEST(Options, EveryRefusalNamesTheOptionTheValueAndTheCure) {
+    struct Case {
+        std::vector<const char*> words;
+        const char *option, *cure;
+    };
+    for (Case const& bad : { Case{ { "--spp", "0" }, "--spp", "1048576" },
+                             { { "--error", "0" }, "--error", "1e-6" },
+                             { { "--integrator", "photon" }, "--integrator", "path or unoccluded" },
+                             { { "--visibility", "none" }, "--visibility", "correlated, fast or uncorrelated" },
+                             { { "--max-bounces", "1e3" }, "--max-bounces", "4096" },
+                             { { "--threads", "0" }, "--threads", "from 1" },
+                             { { "--ibl-rotation", "nan" }, "--ibl-rotation", "degrees" },
+                             { { "--size", "5" }, "--size", "WIDTHxHEIGHT" },
+                             { { "--nonsense" }, "nonsense", "filament-reference --help" } }) {
+        const auto parsed = parse(bad.words);
+        ASSERT_FALSE(parsed.ok()) << bad.option;
+        EXPECT_THAT(parsed.error().message, HasSubstr(bad.option));
+        EXPECT_THAT(parsed.error().message, HasSubstr(bad.cure));
+        EXPECT_EQ(parsed.error().message.find('\n'), std::string::npos);
+    }
+}
+
+TEST(Output, PixelsGoThroughTheEnginesToneMapper) {
+    ReferenceImage image{ .width = 3, .height = 1, .color = { float3(0), float3(0.5f), float3(1e6f, -1, 0.18f) } };
+    const std::vector<std::byte> linear = displayPixels(image, { .toneMapper = ToneMapper::Linear });
+    const auto code = [](double v) { return std::byte(static_cast<uint8_t>(std::lround(v * 255))); };
+    EXPECT_EQ(linear[0], std::byte{ 0 });
+    EXPECT_EQ(linear[3], std::byte{ 255 });
+    EXPECT_EQ(linear[4], code(1.055 * std::pow(0.5, 1 / 2.4) - 0.055));
+    EXPECT_EQ(linear[8], std::byte{ 255 });
+    EXPECT_EQ(linear[9], std::byte{ 0 });
+    EXPECT_EQ(linear[10], code(1.055 * std::pow(0.18, 1 / 2.4) - 0.055));
+    const std::vector<std::byte> mobile = displayPixels(image, { .toneMapper = ToneMapper::Mobile });
+    EXPECT_EQ(mobile[4], code(0.5 / 0.655 * 1.019)) << "its transfer function is included";
+}
+
+/// A folder that goes away with the test.
+class Program : public ::testing::Test {
+protected:
+    Program() { std::filesystem::create_directories(mFolder); }
+    ~Program() override { std::filesystem::remove_all(mFolder); }
+
+    struct Outcome {
+        int status = -1;
+        std::string text; // standard output and standard error
+    };
+    Outcome run(std::string const& arguments) const {
+        const std::string command = "cd '" + mFolder.string() +
+                                    "' && '" FILAMENT_BINARY_DIR "/bin/filament-reference' " + arguments + " 2>&1";
+        std::FILE* const pipe = ::popen(command.c_str(), "r");
+        Outcome outcome;
+        std::array<char, 512> buffer{};
+        while (std::fgets(buffer.data(), buffer.size(), pipe)) outcome.text += buffer.data();
+        outcome.status = WEXITSTATUS(::pclose(pipe));
+        return outcome;
+    }
+    std::string read(const char* name) const {
+        std::ifstream file(mFolder / name, std::ios::binary);
+        return { std::istreambuf_iterator<char>(file), {} };
+    }
+    /// One glowing triangle, facing +z.
+    void writeModel() const {
+        std::ofstream(mFolder / "triangle.gltf") << R"({ "asset": { "version": "2.0" },
+            "buffers": [ { "byteLength": 36, "uri": "data:application/octet-stream;base64,AACAvwAAgL8AAAAAAACAPwAAgL8AAAAAAAAAAAAAgD8AAAAA" } ],
+            "bufferViews": [ { "buffer": 0, "byteLength": 36 } ],
+            "accessors": [ { "bufferView": 0, "componentType": 5126, "count": 3, "type": "VEC3", "min": [-1,-1,0], "max": [1,1,0] } ],
+            "materials": [ { "emissiveFactor": [1, 0.5, 0.25] } ],
+            "meshes": [ { "primitives": [ { "attributes": { "POSITION": 0 }, "material": 0 } ] } ],
+            "nodes": [ { "mesh": 0 } ], "scenes": [ { "nodes": [ 0 ] } ], "scene": 0 })";
+    }
+
+    std::filesystem::path mFolder =
+            std::filesystem::temp_directory_path() / ("filament-reference-" + std::to_string(::getpid()));
+};
+
+TEST_F(Program, WritesPictureErrorsAndReport) {
+    writeModel();
+    const Outcome outcome =
+            run("triangle.gltf --size 16x8 --eye 0 0 2 --spp 16 --error-image --tone-mapper linear --out out");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto picture = assets::readHdrImage(mFolder / "out/reference.exr");
+    ASSERT_TRUE(picture.ok());
+    ASSERT_EQ(picture->width, 16u);
+    EXPECT_EQ(picture->at(8, 4), float3(1, 0.5f, 0.25f));
+    EXPECT_EQ(picture->at(0, 0), float3(0));
+    EXPECT_TRUE(assets::readHdrImage(mFolder / "out/error.exr").ok());
+    const auto display = assets::readPng(mFolder / "out/reference.png");
+    ASSERT_TRUE(display.ok());
+    EXPECT_EQ(display->data[(4 * 16 + 8) * 4], std::byte{ 255 });
+    const auto report = nlohmann::json::parse(read("out/report.json"));
+    EXPECT_EQ(report["samplesPerPixel"], 16);
+    EXPECT_EQ(report["lostSamples"], 0);
+    EXPECT_GT(report["relativeStandardError"], 0) << "edges are noisy";
+    EXPECT_GT(report["rays"], 16 * 8 * 16 - 1);
+    EXPECT_EQ(outcome.text.find('\r'), std::string::npos) << "no progress bar into a pipe";
+}
+
+TEST_F(Program, SaysInOneLineWhatIsWrongAndFails) {
+    writeModel();
+    std::ofstream(mFolder / "file") << "no folder";
+    std::ofstream(mFolder / "sky.hdr") << "no picture";
+    for (const char* arguments : { "missing.glb", "triangle.gltf --environment missing.hdr",
+                                   "triangle.gltf --environment sky.hdr", "triangle.gltf --out file/x", "--spp x" }) {
+        const Outcome outcome = run(arguments);
+        EXPECT_EQ(outcome.status, 1) << arguments;
+        EXPECT_THAT(outcome.text, ::testing::StartsWith("filament-reference: error: ")) << arguments;
+        EXPECT_EQ(std::count(outcome.text.begin(), outcome.text.end(), '\n'), 1) << outcome.text;
+    }
+}
+
+TEST_F(Program, PrintsItsOptions) {
+    const Outcome outcome = run("--help");
+    EXPECT_EQ(outcome.status, 0);
+    for (const char* option : { "--environment", "--integrator", "--error-image" }) {
+        EXPECT_THAT(outcome.text, HasSubstr(option));
+    }
+}
+
+} // namespace
+} // namespace filament::reference
