@@ -2,6 +2,7 @@
 #include <filament/Engine.h>
 
 #include "backend/create/CreateDriver.h"
+#include "backend/layers/Captured.h"
 #include "backend/layers/Traced.h"
 #include "backend/layers/Validated.h"
 #include "filament_core/base/Log.h"
@@ -53,8 +54,11 @@ FrameLatency describe(LatencyStatistics const& latency) {
 // The driver with the layers that the options ask for around it.
 DriverFactory driverFactory(EngineOptions const& options) {
     return [options](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
-        const DriverOptions driverOptions{ options.requireDevice, options.validation };
-        auto driver = createDriver(backendType(options.backend), driverOptions, sink);
+        const auto innermost = [&options](ResultSink& results) {
+            const DriverOptions driverOptions{ options.requireDevice, options.validation };
+            return createDriver(backendType(options.backend), driverOptions, results);
+        };
+        auto driver = options.debug.capture ? captured(options.debug.capture, sink, innermost) : innermost(sink);
         if (!driver) return driver.error();
         std::unique_ptr<Driver> outermost = std::move(*driver);
         if (!options.traceFile.empty()) {

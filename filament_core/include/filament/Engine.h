@@ -19,6 +19,9 @@
 #include <vector>
 
 namespace filament {
+namespace backend {
+class FrameCapture; // backend/layers/Captured.h
+}
 
 enum class Backend : uint8_t { Vulkan, Gles, Null };
 const char* toString(Backend backend);
@@ -41,6 +44,11 @@ enum class ThreadAffinity : uint8_t {
     BigCores, ///< on the cores of the most capable class, where there are several classes
 };
 
+/// Instruments for tools that look inside of a frame; none of them costs anything when it is not there.
+struct EngineDebug {
+    std::shared_ptr<backend::FrameCapture> capture{}; ///< shows every attachment of a frame, cuts it off after a draw
+};
+
 struct EngineOptions {
     Backend backend = Backend::Vulkan;
     std::string requireDevice{}; ///< case-insensitive part of the device's name; empty: the first usable
@@ -53,6 +61,7 @@ struct EngineOptions {
     bool hashFrames = false;                ///< FrameTimings::packetHash and streamHash, for tests; reads all twice
     std::filesystem::path traceFile{};      ///< write every command as text, for replay; empty: do not
     std::filesystem::path cacheDirectory{}; ///< baked environments; empty: $XDG_CACHE_HOME/filament_core
+    EngineDebug debug{};
 };
 
 /// How far the driver thread was behind, over the last 256 frames at most. Milliseconds.
