@@ -2,7 +2,7 @@
 /// LatencyLog: how long the last frames took from submit() to the end of their replay, and their distribution.
 ///   Thread  one at a time.
 ///   Memory  the last kFrames frames in place; nothing is allocated.
-///   Cost    four stores a frame; summary() about 10 us.
+///   Cost    four stores a frame; summary() sorts four columns of 256.
 #pragma once
 
 #include "backend/stream/CommandStream.h"

@@ -5,7 +5,7 @@
 ///           they are numbered per process; frame numbers and handles count as they are.
 ///   Use     two recordings are the same bits: serial against parallel, one run against another.
 ///   Memory  a list of the stream's tickets, nothing else.
-///   Cost    about 10 ns a draw and the bytes of the payloads at 4 bytes a cycle: bench/backend/stream.
+///   Cost    about 15 ns a command and the bytes of the payloads at 4 bytes a cycle: bench/backend/stream.
 #pragma once
 
 #include "backend/api/Commands.h"

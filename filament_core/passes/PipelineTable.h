@@ -4,7 +4,7 @@
 ///   Thread  find(): any number at a time, while nobody changes the table.
 ///   Memory  grows with the number of entries; a lookup allocates nothing.
 ///   Limits  a key is not zero.   Fails: never.
-///   Cost    2 ns a lookup while the table fits the cache, a fourth of std::unordered_map: bench/filament_core/passes.
+///   Cost    bench/filament_core/passes: 5 to 9 ns to choose the pipeline of a draw, reading the draw included.
 #pragma once
 
 #include "backend/api/Handles.h"

@@ -126,7 +126,7 @@ void joinBuffers(benchmark::State& state) {
     record();
     measureInTurns(state, count, "vs_recording", join, record);
 }
-BENCHMARK(joinBuffers)->ArgName("buffers")->Arg(1)->Arg(10)->Arg(100)->UseManualTime();
+BENCHMARK(joinBuffers)->ArgName("buffers")->Arg(1)->Arg(10)->Arg(100)->Iterations(200)->UseManualTime();
 
 // ---------------------------------------------------------------------------------------------- replay
 

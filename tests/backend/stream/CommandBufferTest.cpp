@@ -194,6 +194,36 @@ TEST(CommandBuffer, SteadyFramesReserveNothingNew) {
     for (int i = 0; i < 20; ++i) ASSERT_EQ(frame(), reserved) << "frame " << i;
 }
 
+TEST(CommandBuffer, ContainsTellsWhatWasRecordedUntilReset) {
+    CommandBuffer head, tail;
+    head.record(CmdDraw{});
+    tail.record(CmdEndFrame{});
+    EXPECT_TRUE(head.contains<CmdDraw>());
+    EXPECT_FALSE(head.contains<CmdEndFrame>());
+    head.append(std::move(tail));
+    EXPECT_TRUE(head.contains<CmdEndFrame>());
+    EXPECT_FALSE(tail.contains<CmdEndFrame>());
+    CommandBuffer moved(std::move(head));
+    EXPECT_TRUE(moved.contains<CmdDraw>());
+    moved.reset();
+    EXPECT_FALSE(moved.contains<CmdDraw>());
+}
+
+TEST(CommandBuffer, ATailGetsABlockBackForEachOneItGaveAndNoLargerOne) {
+    constexpr size_t kBlock = 64 * 1024;
+    CommandBuffer head, tail;
+    head.record(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = numbered(5'000'000, 0) });
+    head.record(CmdDraw{});
+    head.reset(); // one block for commands and a large one, both to spare
+    tail.record(CmdDraw{});
+    head.append(std::move(tail));
+    EXPECT_EQ(tail.bytesReserved(), kBlock);
+    tail.record(CmdDraw{});
+    head.append(std::move(tail));
+    EXPECT_EQ(tail.bytesReserved(), 0u) << "only the large block is to spare, and it stays";
+    EXPECT_GE(head.bytesReserved(), 5'000'000u);
+}
+
 TEST(CommandBuffer, GivesAnOversizedChunkBackAfterOneFrameWithoutIt) {
     CommandBuffer commands;
     commands.record(CmdUpdateBuffer{ .buffer = {}, .offset = 0, .bytes = numbered(10'000'000, 0) });
