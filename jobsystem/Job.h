@@ -10,6 +10,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <new>
+#include <optional>
 #include <type_traits>
 #include <utility>
 
@@ -38,9 +39,21 @@ enum class Priority : uint8_t {
 };
 
 struct JobType {
-    void (*call)(Job&); ///< runs the captured callable, then destroys it
+    /// Runs the captured callable and destroys it. True: its successor took its place in the job; call that, too.
+    bool (*call)(Job&);
     const char* name;
 };
+
+/// What a job returns that wants `function` to run next, in its place; next<"upload">(...) makes one.
+template <JobName kName, class F>
+struct Successor {
+    F function;
+};
+
+template <JobName kName, class F>
+Successor<kName, std::decay_t<F>> next(F&& function) {
+    return { std::forward<F>(function) };
+}
 
 struct alignas(kCacheLineBytes) Job {
     JobType const* type;
@@ -48,33 +61,61 @@ struct alignas(kCacheLineBytes) Job {
     alignas(16) std::byte captures[kJobCaptureBytes];
 
     template <JobName kName, class F>
-    void set(F&& function, Completion& done);
+    void set(F&& function);
 };
 static_assert(sizeof(Job) == kCacheLineBytes);
 
 namespace detail {
 
-template <class Callable>
-void callAndDestroy(Job& job) {
-    Callable& callable = *std::launder(reinterpret_cast<Callable*>(job.captures));
-    callable();
-    callable.~Callable();
+/// Puts what a job returned in its place; false if that is no successor, or an empty optional.
+template <JobName kName, class Result>
+bool follow(Job& job, Result&& result) {
+    if constexpr (std::is_invocable_v<Result&>) {
+        job.set<kName>(std::forward<Result>(result));
+        return true;
+    } else {
+        return false;
+    }
+}
+
+template <JobName, JobName kNext, class F>
+bool follow(Job& job, Successor<kNext, F>&& successor) {
+    job.set<kNext>(std::move(successor.function));
+    return true;
+}
+
+template <JobName kName, class Next>
+bool follow(Job& job, std::optional<Next>&& successor) {
+    return successor && follow<kName>(job, *std::move(successor));
 }
 
 template <class Callable, JobName kName>
-inline constexpr JobType kJobType{ &callAndDestroy<Callable>, kName.text };
+bool callAndDestroy(Job& job) {
+    Callable& callable = *std::launder(reinterpret_cast<Callable*>(job.captures));
+    if constexpr (std::is_void_v<std::invoke_result_t<Callable&>>) {
+        callable();
+        callable.~Callable();
+        return false;
+    } else {
+        auto result = callable();
+        callable.~Callable();
+        return follow<kName>(job, std::move(result));
+    }
+}
+
+template <class Callable, JobName kName>
+inline constexpr JobType kJobType{ &callAndDestroy<Callable, kName>, kName.text };
 
 } // namespace detail
 
 template <JobName kName, class F>
-void Job::set(F&& function, Completion& done) {
+void Job::set(F&& function) {
     using Callable = std::decay_t<F>;
     static_assert(sizeof(Callable) <= kJobCaptureBytes,
                   "a job captures at most 48 bytes: capture one reference to a struct");
     static_assert(alignof(Callable) <= 16, "captures of a job are aligned to 16 bytes");
     static_assert(std::is_invocable_v<Callable&>, "a job is called without arguments");
     new (captures) Callable(std::forward<F>(function));
-    completion = &done;
     type = &detail::kJobType<Callable, kName>;
 }
 

@@ -31,9 +31,9 @@ void JobStorage::flush(Cache& cache) {
     cache.count -= kBatch;
 }
 
-Job* JobStorage::allocate(Cache* cache) {
+Job* JobStorage::allocateShared(Cache* cache) {
     if (cache) {
-        if (cache->count == 0) refill(*cache);
+        refill(*cache);
         return cache->count == 0 ? nullptr : &mJobs[cache->free[--cache->count]];
     }
     const uint32_t job = mBatches.pop();
@@ -43,15 +43,14 @@ Job* JobStorage::allocate(Cache* cache) {
     return &mJobs[job];
 }
 
-void JobStorage::release(Cache* cache, Job& job) {
-    const auto index = static_cast<uint32_t>(&job - mJobs.get());
+void JobStorage::releaseShared(Cache* cache, uint32_t job) {
     if (cache) {
-        if (cache->count == cache->free.size()) flush(*cache);
-        cache->free[cache->count++] = index;
+        flush(*cache);
+        cache->free[cache->count++] = job;
         return;
     }
-    mNextInBatch[index].store(kNone, std::memory_order_relaxed);
-    mBatches.push(index);
+    mNextInBatch[job].store(kNone, std::memory_order_relaxed);
+    mBatches.push(job);
 }
 
 } // namespace filament::jobs

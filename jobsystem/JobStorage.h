@@ -28,10 +28,23 @@ public:
 
     explicit JobStorage(uint32_t capacity);
 
-    Job* allocate(Cache* cache);
-    void release(Cache* cache, Job& job);
+    Job* allocate(Cache* cache) {
+        if (cache && cache->count != 0) [[likely]]
+            return &mJobs[cache->free[--cache->count]];
+        return allocateShared(cache);
+    }
+    void release(Cache* cache, Job& job) {
+        const auto index = static_cast<uint32_t>(&job - mJobs.get());
+        if (cache && cache->count != cache->free.size()) [[likely]] {
+            cache->free[cache->count++] = index;
+        } else {
+            releaseShared(cache, index);
+        }
+    }
 
 private:
+    Job* allocateShared(Cache* cache);
+    void releaseShared(Cache* cache, uint32_t job);
     void refill(Cache& cache);
     void flush(Cache& cache);
 

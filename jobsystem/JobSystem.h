@@ -102,7 +102,10 @@ public:
     JobGroup(JobGroup const&) = delete;
     JobGroup& operator=(JobGroup const&) = delete;
 
-    /// Queues `function`; it may also run at once, inside this call.
+    /// Queues `function`; it may also run at once, inside this call. From the thread that made the group and from its
+    /// jobs at any time, from others while the group cannot end meanwhile.
+    /// A job that returns a callable, an optional one, or next<"name">(callable) is followed by it: at once, on the
+    /// same thread, as the same member of the group.
     template <JobName kName = "job", class F>
     void run(F&& function);
 

@@ -25,11 +25,28 @@ void runInline(Scheduler& scheduler, F& function) {
             const_cast<void*>(static_cast<const void*>(std::addressof(function))));
 }
 
+/// What there is no room or nobody for, successors included.
+template <JobName kName, class F>
+void runAtOnce(Scheduler& scheduler, F&& function) {
+    if constexpr (std::is_void_v<std::invoke_result_t<F&>>) {
+        runInline<kName>(scheduler, function);
+    } else {
+        Job job;
+        job.set<kName>(std::forward<F>(function));
+        auto run = [&job] {
+            do tAssertContext = job.type->name;
+            while (job.type->call(job));
+        };
+        runInline<kName>(scheduler, run);
+    }
+}
+
 template <JobName kName, class F>
 void runBackground(Scheduler& scheduler, Completion& completion, F&& function) {
     Job* job = allocateBackground(scheduler);
-    if (!job) return runInline<kName>(scheduler, function);
-    job->template set<kName>(std::forward<F>(function), completion);
+    if (!job) return runAtOnce<kName>(scheduler, std::forward<F>(function));
+    job->set<kName>(std::forward<F>(function));
+    job->completion = &completion;
     submitBackground(scheduler, *job);
 }
 
@@ -65,8 +82,9 @@ void JobGroup::runBackground(Cancellation const& cancellation, F&& function) {
 template <JobName kName, class F>
 void JobGroup::run(F&& function) {
     Job* job = detail::allocate(mScheduler, mCompletion.priority());
-    if (!job) return detail::runInline<kName>(mScheduler, function);
-    job->template set<kName>(std::forward<F>(function), mCompletion);
+    if (!job) return detail::runAtOnce<kName>(mScheduler, std::forward<F>(function));
+    job->set<kName>(std::forward<F>(function));
+    job->completion = &mCompletion;
     detail::submit(mScheduler, *job);
 }
 
@@ -78,9 +96,10 @@ void JobGroup::then(JobGroup& next, F&& function) {
     Job* job = detail::allocate(next.mScheduler, next.mCompletion.priority());
     if (!job) {
         wait();
-        return detail::runInline<kName>(mScheduler, function);
+        return detail::runAtOnce<kName>(mScheduler, std::forward<F>(function));
     }
-    job->template set<kName>(std::forward<F>(function), next.mCompletion);
+    job->set<kName>(std::forward<F>(function));
+    job->completion = &next.mCompletion;
     detail::continueWith(mScheduler, mCompletion, *job);
 }
 

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Patience: how often a thread without work of its own looks at what others have.
-///   Why     a look takes the cache line that the victim writes with every push, a theft takes several: some 100 ns
-///   each
-///           to the victim. So looks become rarer while there is nothing, and a theft whose job was shorter than what
-///           it cost puts off the next one: stealing must pay.
-///   Use     begin();  while (...) { if (isTimeToLook(now)) look, then looked(now); }  after a theft:
-///   learn(nanoseconds) Thread  one.
+/// Patience: how often a thread without work of its own looks at what others have, and when it takes it.
+///   Why     a look takes the cache line that the victim writes with every push, a theft takes several and the job's:
+///   100
+///           to 500 ns of the victim's time. A job that its owner would run in less is not worth it.
+///   How     looks become rarer while there is nothing. A thief takes only what was there at its last look: what an
+///   owner
+///           pushes and takes within kSecondLook stays where it is. After a theft that did not pay, the next look
+///           waits.
+///   Use     begin();  while (...) if (isTimeToLook(now)) { look: isStillThere() ? take, return : leave;  looked(now);
+///   }
+///           and learn(nanoseconds) when what was taken is done.
+///   Thread  one.
 #pragma once
 
 #include <algorithm>
@@ -30,25 +35,55 @@ inline void pauseCore() {
 
 class Patience {
 public:
-    static constexpr int64_t kShortestInterval = 100, kLongestInterval = 1000;
-    static constexpr int64_t kWorthStealing = 400;
+    static constexpr int64_t kFirstInterval = 100, kLongestInterval = 1000; // in nanoseconds, while there is nothing
+    static constexpr int64_t kSecondLook = 250;                             // after the first look that saw something
+    static constexpr int64_t kDisappointment = 2000; // longest interval while what was seen is gone at the second look
+    static constexpr int64_t kWorthStealing = 200;
 
     void begin(int64_t now) {
-        mInterval = kShortestInterval;
+        mInterval = kFirstInterval;
         mNextLook = now + mDelay;
+        mDelay = 0;
+        mSighting = {};
     }
     bool isTimeToLook(int64_t now) const { return now >= mNextLook; }
-    void looked(int64_t now) {
-        mNextLook = now + mInterval;
-        mInterval = std::min(2 * mInterval, kLongestInterval);
+
+    /// During a look: whether the oldest item of `deque`, which has items in [oldest, end), was there at the last look.
+    bool isStillThere(const void* deque, int64_t oldest, int64_t end) {
+        if (mSuspect.deque == deque && oldest < mSuspect.end) return true;
+        if (!mSighting.deque) mSighting = { deque, end };
+        return false;
     }
-    /// How long the stolen job and what it forked kept this thread busy.
+
+    /// After a look that took nothing: whether it saw something.
+    bool looked(int64_t now) {
+        const bool isFirstSighting = mSighting.deque && !mSuspect.deque;
+        if (isFirstSighting) {
+            mNextLook = now + kSecondLook;
+        } else {
+            mNextLook = now + mInterval;
+            mInterval = std::min(2 * mInterval, mSuspect.deque ? kDisappointment : kLongestInterval);
+        }
+        const bool sawWork = mSighting.deque != nullptr;
+        mSuspect = isFirstSighting ? mSighting : Sighting{};
+        mSighting = {};
+        return sawWork;
+    }
+
+    /// How long the stolen job and what it forked kept this thread busy, the theft included.
     void learn(int64_t nanoseconds) { mDelay = nanoseconds < kWorthStealing ? kLongestInterval : 0; }
 
 private:
-    int64_t mInterval = kShortestInterval;
+    struct Sighting {
+        const void* deque = nullptr; // null: nothing
+        int64_t end = 0;
+    };
+
+    int64_t mInterval = kFirstInterval;
     int64_t mNextLook = 0;
     int64_t mDelay = 0; // of the first look
+    Sighting mSuspect;  // at the last look; stays while thefts succeed: what was there is taken one by one
+    Sighting mSighting; // at this look
 };
 
 } // namespace filament::jobs

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/Scheduler.h"
 
-#include "jobsystem/FreshStack.h"
-#include "jobsystem/JobFault.h"
-
 #include <algorithm>
 
 namespace filament::jobs {
@@ -20,58 +17,7 @@ uint32_t workersFromOption(JobSystemOptions const& options) {
     return std::min(defaultWorkerCount(options.affinity), Scheduler::kMaxWorkers);
 }
 
-/// What the calling thread is doing while this lives.
-class RunningJob {
-public:
-    RunningJob(const char* name, Priority priority) : mOuterName(tAssertContext), mOuterPriority(tThread.priority) {
-        tAssertContext = name;
-        tThread.priority = priority;
-    }
-    ~RunningJob() {
-        tAssertContext = mOuterName;
-        tThread.priority = mOuterPriority;
-    }
-    RunningJob(RunningJob const&) = delete;
-    RunningJob& operator=(RunningJob const&) = delete;
-
-private:
-    const char* mOuterName;
-    Priority mOuterPriority;
-};
-
-void callUntraced(Job& job, Priority priority) {
-    JobType const& type = *job.type;
-    const RunningJob running(type.name, priority);
-    try {
-        type.call(job);
-    } catch (...) {
-        reportThrow(type.name);
-    }
-}
-
 } // namespace
-
-namespace detail {
-
-void runInline(Scheduler& scheduler, const char* name, void (*function)(void*), void* argument) {
-    auto run = [&] {
-        const RunningJob running(name, tThread.priority);
-        const int64_t begin = scheduler.trace() ? nanosecondsNow() : 0;
-        try {
-            function(argument);
-        } catch (...) {
-            reportThrow(name);
-        }
-        if (scheduler.trace()) scheduler.record(tThread.seatOf(scheduler), name, begin, false);
-    };
-    if (isStackLow()) {
-        callOnFreshStack(run);
-    } else {
-        run();
-    }
-}
-
-} // namespace detail
 
 // ---------------------------------------------------------------------------------------------- life
 
@@ -124,71 +70,68 @@ void Scheduler::runWorker(uint32_t index, std::string const& name) {
     mPlacement.placeWorker(index);
     Seat& seat = mSeats[index];
     tThread.seat = &seat;
+    bool woken = false;
+    int64_t now = nanosecondsNow();
     for (;;) {
-        if (const Found found = spin(&seat, Priority::Normal, nullptr, kWorkerSpinNanoseconds)) {
-            work(seat, found);
+        if (const Found found = spin(&seat, Priority::Normal, nullptr, kWorkerSpinNanoseconds, now)) {
+            if (woken) passOnWakeUp();
+            woken = false;
+            work(seat, found, now);
         } else if (mStopping.load(std::memory_order_seq_cst)) {
             return;
         } else {
-            sleepUntilWork(seat);
+            sleepUntilWork();
+            now = nanosecondsNow();
+            woken = true;
         }
     }
 }
 
-// Two clock reads for a stretch of jobs, not for each.
-void Scheduler::work(Seat& seat, Found found) {
-    const int64_t begin = nanosecondsNow();
-    for (; found; found = takeOwn(&seat, Priority::Normal)) execute(&seat, found);
-    const int64_t busy = nanosecondsNow() - begin;
-    seat.busyNanoseconds.store(seat.busyNanoseconds.load(std::memory_order_relaxed) + static_cast<uint64_t>(busy),
-                               std::memory_order_relaxed);
-    seat.patience.learn(busy);
-}
-
-void Scheduler::sleepUntilWork(Seat& seat) {
+void Scheduler::sleepUntilWork() {
     const ParkingLot::Ticket ticket = mIdle.prepare();
-    Found found = searchOthersThoroughly(&seat, Priority::Normal);
-    if (found || visibleWork(Priority::Normal) || mStopping.load(std::memory_order_seq_cst)) {
+    if (visibleWork(Priority::Normal) || mStopping.load(std::memory_order_seq_cst)) {
         mIdle.cancel();
     } else {
         mIdle.park(ticket);
-        found = searchOthersThoroughly(&seat, Priority::Normal);
     }
-    if (!found) return;
-    passOnWakeUp();
-    work(seat, found);
 }
 
 // ---------------------------------------------------------------------------------------------- submitting
 
 Job* Scheduler::allocate(Priority priority) {
+    if (Seat* seat = tThread.seatOf(*this); seat && priority != Priority::Background) [[likely]]
+        return mStorage.allocate(&seat->cache);
     if (workerCount() == 0) return nullptr;
-    if (priority == Priority::Background) return allocateBackground();
-    Seat* seat = tThread.seatOf(*this);
-    return mStorage.allocate(seat ? &seat->cache : nullptr);
+    return priority == Priority::Background ? allocateBackground() : mStorage.allocate(nullptr);
 }
 
 void Scheduler::submit(Job& job) {
     Completion& completion = *job.completion;
     const Priority priority = completion.priority();
-    if (priority == Priority::Background) return submitBackground(job);
     Seat* seat = tThread.seatOf(*this);
     completion.add(seat ? seat->occupant : 0);
     enqueue(seat, job, priority);
 }
 
+// The group of the job counts it already.
 void Scheduler::enqueue(Seat* seat, Job& job, Priority priority) {
-    const bool queued = seat ? seat->push(priority, job) : mInjected[static_cast<int>(priority)].push(job);
-    if (!queued) return executeInline(seat, job, priority);
+    if (seat && priority == Priority::Normal) [[likely]] {
+        if (!seat->normal.push(&job)) [[unlikely]]
+            return executeInline(seat, job, priority);
+    } else if (priority == Priority::Background) {
+        return mBackground->push(job);
+    } else if (seat ? !seat->critical.push(&job) : !mInjected[static_cast<int>(priority)].push(job)) {
+        return executeInline(seat, job, priority);
+    }
     if (priority == Priority::FrameCritical && !mCriticalHint.load(std::memory_order_seq_cst))
         mCriticalHint.store(true, std::memory_order_seq_cst);
     notifyWork(priority);
 }
 
-void Scheduler::notifyWork(Priority priority) {
+void Scheduler::wakeSomebody(Priority priority) {
     if (mIdle.hasSleepers()) {
         mIdle.wakeOne();
-    } else if (mSleepingWaiters.load(std::memory_order_seq_cst) != 0) {
+    } else {
         wakeAWaiter(priority);
     }
 }
@@ -211,13 +154,6 @@ void Scheduler::submitBackground(Job& job) {
     mBackground->push(job);
 }
 
-void Scheduler::executeBackground(Job& job) {
-    Completion& completion = *job.completion;
-    call(nullptr, { &job, Priority::Background, false });
-    delete &job;
-    finish(nullptr, completion, true);
-}
-
 bool Scheduler::isHungry(Seat* seat, Priority priority) const {
     switch (priority) {
     case Priority::Background:
@@ -230,68 +166,11 @@ bool Scheduler::isHungry(Seat* seat, Priority priority) const {
     return seat ? seat->normal.isEmpty() : mInjected[1].isEmpty();
 }
 
-// ---------------------------------------------------------------------------------------------- running
-
-void Scheduler::call(Seat const* seat, Found const& found) {
-    if (!mTrace) [[likely]]
-        return callUntraced(*found.job, found.priority);
-    const char* name = found.job->type->name;
-    const int64_t begin = nanosecondsNow();
-    callUntraced(*found.job, found.priority);
-    record(seat, name, begin, found.stolen); // before the group is done: whoever waited finds it in the trace
-}
-
-void Scheduler::record(Seat const* seat, const char* name, int64_t begin, bool stolen) {
-    const int64_t end = nanosecondsNow();
-    if (seat) {
-        mTrace->recordJob(mSeats.indexOf(*seat), name, begin, end, stolen);
-    } else {
-        mTrace->recordJobHere(name, begin, end, stolen);
-    }
-}
-
-void Scheduler::execute(Seat* seat, Found const& found) {
-    Job& job = *found.job;
-    Completion& completion = *job.completion;
-    call(seat, found);
-    mStorage.release(seat ? &seat->cache : nullptr, job);
-    finish(seat, completion, found.stolen);
-}
-
-void Scheduler::executeInline(Seat* seat, Job& job, Priority priority) {
-    auto run = [&] { execute(seat, { &job, priority, false }); };
-    if (isStackLow()) {
-        callOnFreshStack(run);
-    } else {
-        run();
-    }
-}
-
-// A thief leaves the owner's part of the count alone even if it is the owner: so it need not read the line before it
-// changes it, which would move it between the cores twice.
-void Scheduler::finish(Seat const* seat, Completion& completion, bool stolen) {
-    if (!stolen && seat && completion.finishLocal(seat->occupant)) return;
-    if (completion.finishShared()) close(completion);
-}
-
-void Scheduler::close(Completion& completion) {
-    const auto [continuation, sleeper] = completion.close(); // the memory may be gone
-    if (continuation) enqueueCounted(*continuation);
-    if (sleeper) sleeper->wakeAll();
-}
-
-// The group of the job counts it already.
-void Scheduler::enqueueCounted(Job& job) {
-    const Priority priority = job.completion->priority();
-    if (priority == Priority::Background) return mBackground->push(job);
-    enqueue(tThread.seatOf(*this), job, priority);
-}
-
 void Scheduler::continueWith(Completion& before, Job& job) {
     FILAMENT_ASSERT(!before.hasContinuation(), "JobGroup::then: a group has one continuation until it is done");
     Seat* seat = tThread.seatOf(*this);
     job.completion->add(seat ? seat->occupant : 0);
-    if (!before.setContinuation(job)) enqueueCounted(job);
+    if (!before.setContinuation(job)) enqueue(seat, job, job.completion->priority());
 }
 
 // ---------------------------------------------------------------------------------------------- the templates' doors

@@ -9,7 +9,7 @@
 ///   Thread  all functions: any.
 ///   Memory  SeatTable, and 64 jobs of 72 bytes a seat and 4096 more; the queues grow only for threads without a seat.
 ///   Source  Blumofe and Leiserson 1999, "Scheduling multithreaded computations by work stealing".
-///   Files   Scheduler.cpp: workers, queues, running. Search.cpp: finding work. Waiting.cpp: wait() and sleep.
+///   Files   Scheduler.cpp: workers and queues. Search.cpp: finding work. Running.cpp: calling it. Waiting.cpp: wait().
 #pragma once
 
 #include "jobsystem/Affinity.h"
@@ -82,32 +82,42 @@ private:
 
     // Scheduler.cpp
     void runWorker(uint32_t index, std::string const& name);
-    void work(Seat& seat, Found found);
-    void sleepUntilWork(Seat& seat);
+    void sleepUntilWork();
     void enqueue(Seat* seat, Job& job, Priority priority);
-    void notifyWork(Priority priority);
+    void notifyWork(Priority priority) {
+        const bool anybody = mIdle.hasSleepers() || mSleepingWaiters.load(std::memory_order_seq_cst) != 0;
+        if (anybody) [[unlikely]]
+            wakeSomebody(priority);
+    }
+    void wakeSomebody(Priority priority);
     void wakeAWaiter(Priority priority);
+
+    // Running.cpp
+    void work(Seat& seat, Found found, int64_t& now);
     void execute(Seat* seat, Found const& found);
-    void call(Seat const* seat, Found const& found);
     void executeInline(Seat* seat, Job& job, Priority priority);
+    bool call(Seat const* seat, Found const& found);
     void finish(Seat const* seat, Completion& completion, bool stolen);
     void close(Completion& completion);
-    void enqueueCounted(Job& job);
 
     // Search.cpp; `least` is the least urgent priority that is looked for
     Found takeOwn(Seat* seat, Priority least);
-    Found searchOthers(Seat* thief, Priority least);
-    Found searchOthersThoroughly(Seat* thief, Priority least);
-    Found steal(Seat* thief, Priority priority);
-    Found popInjected(Priority priority);
+    Found searchOthers(Seat* thief, Priority least, Patience& patience);
     Found searchCritical(Seat* thief);
+    Found popInjected(Priority priority);
+    Found stealCritical(Seat* thief);
+    Found stealNormal(Seat* thief, Patience& patience);
+    template <class Visit>
+    Job* visitOthers(Seat* thief, Visit&& visit);
     std::optional<Priority> visibleWork(Priority least);
     void passOnWakeUp();
-    Found spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds);
+    /// Looks for work for so long; `now` is the time, before and after, because reading a clock takes as long as a
+    /// fork.
+    Found spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds, int64_t& now);
 
     // Waiting.cpp
     void waitAt(Seat* seat, Completion& completion);
-    void runStolen(Seat* seat, Found const& found);
+    void runStolen(Seat* seat, Found const& found, int64_t& now);
     void sleepInWait(Seat* seat, Priority least, Completion& completion);
 
     SeatTable mSeats;

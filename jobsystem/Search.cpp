@@ -26,26 +26,20 @@ Scheduler::Found Scheduler::takeOwn(Seat* seat, Priority least) {
     return {};
 }
 
-Scheduler::Found Scheduler::searchOthers(Seat* thief, Priority least) {
+Scheduler::Found Scheduler::searchOthers(Seat* thief, Priority least, Patience& patience) {
     if (mCriticalHint.load(std::memory_order_relaxed)) {
         if (const Found found = searchCritical(thief)) return found;
     }
     if (least == Priority::FrameCritical) return {};
     if (const Found found = popInjected(Priority::Normal)) return found;
-    return steal(thief, Priority::Normal);
-}
-
-// Before a sleep nobody relies on hints.
-Scheduler::Found Scheduler::searchOthersThoroughly(Seat* thief, Priority least) {
-    if (const Found found = searchCritical(thief)) return found;
-    return searchOthers(thief, least);
+    return stealNormal(thief, patience);
 }
 
 // The hint goes before the search: a push that the search misses sets it again.
 Scheduler::Found Scheduler::searchCritical(Seat* thief) {
     if (mCriticalHint.load(std::memory_order_relaxed)) mCriticalHint.exchange(false, std::memory_order_seq_cst);
     Found found = popInjected(Priority::FrameCritical);
-    if (!found) found = steal(thief, Priority::FrameCritical);
+    if (!found) found = stealCritical(thief);
     if (found) mCriticalHint.store(true, std::memory_order_seq_cst); // where one was, more may be
     return found;
 }
@@ -54,16 +48,30 @@ Scheduler::Found Scheduler::popInjected(Priority priority) {
     return { mInjected[static_cast<int>(priority)].pop(), priority, true };
 }
 
-Scheduler::Found Scheduler::steal(Seat* thief, Priority priority) {
+/// Calls visit(seat) for all seats in use but the thief's, from a random one on, until it returns a job.
+template <class Visit>
+Job* Scheduler::visitOthers(Seat* thief, Visit&& visit) {
     const uint32_t seats = mSeats.inUse();
     const uint32_t start = thief ? nextRandom(thief->random) % seats : 0;
     for (uint32_t i = 0; i < seats; ++i) {
         Seat& victim = mSeats[start + i < seats ? start + i : start + i - seats];
         if (&victim == thief) continue;
-        Job* job = priority == Priority::FrameCritical ? victim.critical.steal() : victim.normal.steal();
-        if (job) return { job, priority, true };
+        if (Job* job = visit(victim)) return job;
     }
-    return {};
+    return nullptr;
+}
+
+Scheduler::Found Scheduler::stealCritical(Seat* thief) {
+    return { visitOthers(thief, [](Seat& victim) { return victim.critical.steal(); }), Priority::FrameCritical, true };
+}
+
+Scheduler::Found Scheduler::stealNormal(Seat* thief, Patience& patience) {
+    const auto stealWhatStayed = [&](Seat& victim) {
+        const auto items = victim.normal.extent();
+        const bool take = !items.isEmpty() && patience.isStillThere(&victim, items.oldest, items.end);
+        return take ? victim.normal.steal() : nullptr;
+    };
+    return { visitOthers(thief, stealWhatStayed), Priority::Normal, true };
 }
 
 std::optional<Priority> Scheduler::visibleWork(Priority least) {
@@ -82,17 +90,25 @@ void Scheduler::passOnWakeUp() {
     if (const std::optional<Priority> left = visibleWork(Priority::Normal)) notifyWork(*left);
 }
 
-Scheduler::Found Scheduler::spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds) {
-    Patience local;
-    Patience& patience = seat ? seat->patience : local;
-    const int64_t begin = nanosecondsNow();
+// As long as there is something to see, even if it is gone at the second look, going to sleep would make the next push
+// pay for a wake-up.
+Scheduler::Found Scheduler::spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds,
+                                 int64_t& now) {
+    constexpr int64_t kOftenFor = 2'000, kRarely = 250; // asking for the line of a completion delays who finishes there
+    Patience own;
+    Patience& patience = seat ? seat->patience : own;
+    const int64_t begin = now;
+    int64_t lastSeen = begin, nextQuestion = begin;
     patience.begin(begin);
-    for (int64_t now = begin; now - begin < nanoseconds; now = nanosecondsNow()) {
+    for (; now - lastSeen < nanoseconds; now = nanosecondsNow()) {
         if (patience.isTimeToLook(now)) {
-            if (const Found found = searchOthers(seat, least)) return found;
-            patience.looked(now);
+            if (const Found found = searchOthers(seat, least, patience)) return found;
+            if (patience.looked(now)) lastSeen = now;
         }
-        if (until && until->isDone()) return {};
+        if (until && now >= nextQuestion) {
+            if (until->isDone()) return {};
+            nextQuestion = now - begin < kOftenFor ? now : now + kRarely;
+        }
         pauseCore();
     }
     return {};

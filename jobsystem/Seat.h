@@ -42,10 +42,6 @@ struct alignas(kCacheLineBytes) Seat {
     alignas(kCacheLineBytes) ParkingLot bell;     ///< rung when the group waited for is done, or when there is work
     std::atomic<uint8_t> waitsFor{ kNotWaiting }; ///< priority of the group whose wait() may sleep
     std::atomic<bool> taken{ false };
-
-    bool push(Priority priority, Job& job) {
-        return priority == Priority::FrameCritical ? critical.push(&job) : normal.push(&job);
-    }
 };
 
 class SeatTable {

@@ -32,21 +32,33 @@ void Scheduler::wait(Completion& completion) {
 
 void Scheduler::waitAt(Seat* seat, Completion& completion) {
     const Priority least = std::min(completion.priority(), Priority::Normal);
+    bool woken = false;
+    int64_t now = 0; // 0: some time ago
     while (!completion.isDone()) {
         if (const Found own = takeOwn(seat, least)) {
             execute(seat, own);
-        } else if (const Found found = spin(seat, least, &completion, kWaiterSpinNanoseconds)) {
-            runStolen(seat, found);
+            now = 0;
+            continue;
+        }
+        if (now == 0) now = nanosecondsNow();
+        if (const Found found = spin(seat, least, &completion, kWaiterSpinNanoseconds, now)) {
+            if (woken) passOnWakeUp();
+            woken = false;
+            runStolen(seat, found, now);
         } else if (!completion.isDone()) {
             sleepInWait(seat, least, completion);
+            woken = true;
+            now = 0;
         }
     }
+    if (woken) passOnWakeUp(); // one for new work may have been answered by this thread, which leaves
 }
 
-void Scheduler::runStolen(Seat* seat, Found const& found) {
-    const int64_t begin = nanosecondsNow();
+void Scheduler::runStolen(Seat* seat, Found const& found, int64_t& now) {
+    const int64_t begin = now;
     execute(seat, found);
-    if (seat) seat->patience.learn(nanosecondsNow() - begin);
+    now = nanosecondsNow();
+    if (seat) seat->patience.learn(now - begin);
 }
 
 void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion) {
@@ -56,18 +68,13 @@ void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion) 
         mSleepingWaiters.fetch_add(1, std::memory_order_seq_cst);
     }
     const ParkingLot::Ticket ticket = bell.prepare();
-    const bool pending = completion.announceSleeper(bell);
-    Found found = pending ? searchOthersThoroughly(seat, least) : Found{};
-    if (found || !pending || visibleWork(least)) {
+    if (!completion.announceSleeper(bell) || visibleWork(least)) {
         bell.cancel();
     } else {
         bell.park(ticket);
     }
     completion.withdrawSleeper();
     if (seat) mSleepingWaiters.fetch_sub(1, std::memory_order_seq_cst);
-    if (!found && !completion.isDone()) found = searchOthersThoroughly(seat, least);
-    passOnWakeUp(); // one for new work may have been answered by this thread, which leaves or takes only one job
-    if (found) runStolen(seat, found);
 }
 
 } // namespace filament::jobs

@@ -37,17 +37,14 @@ public:
     /// The item pushed last, or null.
     T* take() {
         const int64_t bottom = mBottom.load(std::memory_order_relaxed) - 1;
-        if (mTop.load(std::memory_order_relaxed) > bottom) return nullptr; // top never passes bottom: surely empty
-        mBottom.exchange(bottom, std::memory_order_seq_cst); // claims the item before looking who else does
-        int64_t top = mTop.load(std::memory_order_seq_cst);
+        int64_t top = mTop.load(std::memory_order_relaxed);
+        if (top > bottom) return nullptr;                    // top never passes bottom: surely empty
+        if (top == bottom) return claim(top);                // the last item: as one of the thieves
+        mBottom.exchange(bottom, std::memory_order_seq_cst); // reserves the item before looking who else does
+        top = mTop.load(std::memory_order_seq_cst);
         if (top < bottom) return slot(bottom).load(std::memory_order_relaxed);
-        T* item = nullptr;
-        if (top == bottom) { // the last item: whoever moves top owns it
-            item = slot(bottom).load(std::memory_order_relaxed);
-            if (!mTop.compare_exchange_strong(top, top + 1, std::memory_order_seq_cst)) item = nullptr;
-        }
-        mBottom.store(bottom + 1, std::memory_order_release);
-        return item;
+        mBottom.store(bottom + 1, std::memory_order_release); // thieves took all others meanwhile
+        return top == bottom ? claim(top) : nullptr;
     }
 
     /// The oldest item, or null. Null means empty: a race lost to another thief is retried.
@@ -60,16 +57,33 @@ public:
         return nullptr;
     }
 
-    bool isEmpty() const { return mTop.load(std::memory_order_seq_cst) >= mBottom.load(std::memory_order_seq_cst); }
+    /// The places of the items that are in here: [oldest, end). A place is used again only after a take().
+    struct Extent {
+        int64_t oldest, end;
+        bool isEmpty() const { return oldest >= end; }
+    };
+    Extent extent() const {
+        const int64_t top = mTop.load(std::memory_order_seq_cst);
+        return { top, mBottom.load(std::memory_order_seq_cst) };
+    }
+
+    bool isEmpty() const { return extent().isEmpty(); }
 
 private:
     template <class V>
     using Atomic = typename Policy::template Atomic<V>;
 
+    // Whoever moves top owns the item.
+    T* claim(int64_t top) {
+        T* item = slot(top).load(std::memory_order_relaxed);
+        return mTop.compare_exchange_strong(top, top + 1, std::memory_order_seq_cst) ? item : nullptr;
+    }
+
     Atomic<T*>& slot(int64_t at) { return mSlots[static_cast<uint64_t>(at) & (kSlots - 1)]; }
 
-    alignas(kCacheLineBytes) Atomic<int64_t> mTop{ 0 };    // thieves
-    alignas(kCacheLineBytes) Atomic<int64_t> mBottom{ 0 }; // the owner
+    // In one cache line: both sides read both, so apart they would cost a look and a theft a second transfer.
+    alignas(kCacheLineBytes) Atomic<int64_t> mTop{ 0 }; // moved by thieves, and by the owner for the last item
+    Atomic<int64_t> mBottom{ 0 };                       // moved by the owner
     alignas(kCacheLineBytes) std::array<Atomic<T*>, kSlots> mSlots{};
 };
 

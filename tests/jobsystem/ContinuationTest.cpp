@@ -3,6 +3,7 @@
 
 #include <memory>
 #include <numeric>
+#include <optional>
 #include <vector>
 
 namespace filament::jobs {
@@ -120,6 +121,83 @@ TEST_P(ContinuationTest, OfBackgroundWorkRunsOnAFrameThread) {
     EXPECT_NE(after, std::thread::id{});
     EXPECT_EQ(after == background, workers() == 0);
 }
+
+// ---------------------------------------------------------------------------------------------- successors
+
+/// Counts down by returning itself.
+struct Countdown {
+    int left;
+    std::vector<int>& seen;
+    std::optional<Countdown> operator()() const {
+        seen.push_back(left);
+        return left > 0 ? std::optional<Countdown>({ left - 1, seen }) : std::nullopt;
+    }
+};
+
+TEST_P(ContinuationTest, AJobIsFollowedByTheCallableThatItReturns) {
+    std::vector<int> seen; // plain: one thread after the other
+    JobGroup group(jobs);
+    group.run([&seen] {
+        seen.push_back(1);
+        return [&seen] {
+            seen.push_back(2);
+            return next<"third">([&seen] { seen.push_back(3); });
+        };
+    });
+    group.wait();
+    EXPECT_EQ(seen, (std::vector{ 1, 2, 3 }));
+}
+
+TEST_P(ContinuationTest, AChainOfAHundredThousandSuccessorsNeedsNoStack) {
+    constexpr int kLinks = 100'000;
+    std::vector<int> seen;
+    JobGroup group(jobs);
+    group.run(Countdown{ kLinks, seen });
+    group.wait();
+    ASSERT_EQ(seen.size(), size_t(kLinks) + 1);
+    for (int i = 0; i <= kLinks; ++i) ASSERT_EQ(seen[i], kLinks - i);
+}
+
+TEST_P(ContinuationTest, AGroupIsNotDoneBeforeItsSuccessors) {
+    for (int round = 0; round < 200; ++round) {
+        std::atomic<int> finished = 0;
+        JobGroup group(jobs);
+        for (int i = 0; i < 8; ++i) {
+            group.run([&finished] { return [&finished] { return [&finished] { finished.fetch_add(1); }; }; });
+        }
+        group.wait();
+        ASSERT_EQ(finished.load(), 8);
+    }
+}
+
+TEST_P(ContinuationTest, WhatAJobReturnsThatCannotBeCalledIsIgnored) {
+    std::atomic<int> ran = 0;
+    JobGroup group(jobs);
+    group.run([&] { return ran.fetch_add(1); });
+    group.run([&]() -> std::optional<int> { return ran.fetch_add(1); });
+    group.wait();
+    EXPECT_EQ(ran.load(), 2);
+}
+
+TEST_P(ContinuationTest, CapturesOfSuccessorsAreDestroyedOnce) {
+    auto shared = std::make_shared<int>(7);
+    JobGroup group(jobs);
+    for (int i = 0; i < 50; ++i) {
+        group.run([shared] { return [shared] { return std::optional([shared] { EXPECT_EQ(*shared, 7); }); }; });
+    }
+    group.wait();
+    EXPECT_EQ(shared.use_count(), 1);
+}
+
+TEST_P(ContinuationTest, BackgroundJobsHaveSuccessorsToo) {
+    std::vector<int> seen;
+    JobGroup loads(jobs);
+    loads.runBackground(Countdown{ 100, seen });
+    loads.wait();
+    EXPECT_EQ(seen.size(), 101u);
+}
+
+// ---------------------------------------------------------------------------------------------- rules
 
 TEST(ContinuationDeathTest, RefusesToMakeUrgentWorkWaitForLessUrgentWork) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");

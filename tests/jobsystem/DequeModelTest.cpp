@@ -115,7 +115,7 @@ constexpr const char* kTwice = "an item comes out once";
 constexpr const char* kRace = "a data race: a read that a write does not happen before";
 
 TEST(DequeModel, WithoutItsCompareAndSwapTakeHandsOutTheLastItemTwice) {
-    EXPECT_EQ(findingOf(Mutation::to(Kind::Assume, "take", Kind::CompareExchange)), kTwice);
+    EXPECT_EQ(findingOf(Mutation::to(Kind::Assume, "claim", Kind::CompareExchange)), kTwice);
 }
 
 TEST(DequeModel, WithoutItsCompareAndSwapTwoThievesStealTheSame) {

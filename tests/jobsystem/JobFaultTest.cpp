@@ -80,5 +80,10 @@ TEST_P(JobFaultDeathTest, AnExceptionInAContinuationNamesIt) {
             "job \"upload\" threw \"no memory\"");
 }
 
+TEST_P(JobFaultDeathTest, AnExceptionInASuccessorNamesIt) {
+    EXPECT_DEATH(runNamed(GetParam(), [] { return next<"cloth">([] { throw std::runtime_error("torn"); }); }),
+                 "job \"cloth\" threw \"torn\"");
+}
+
 } // namespace
 } // namespace filament::jobs

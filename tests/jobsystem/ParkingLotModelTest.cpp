@@ -265,7 +265,7 @@ TEST(ParkingLotModel, TheSleepersCountMustBeInTheTotalOrder) {
 
 TEST(ParkingLotModel, TheLastLookForWorkMustBeInTheTotalOrder) {
     EXPECT_EQ(findingOf<Bits>(Mutation::weaken("isEmpty", Kind::Load, std::memory_order_acquire)), kLost);
-    EXPECT_EQ(findingOf<Deque>(Mutation::weaken("isEmpty", Kind::Load, std::memory_order_acquire)), kLost);
+    EXPECT_EQ(findingOf<Deque>(Mutation::weaken("extent", Kind::Load, std::memory_order_acquire)), kLost);
 }
 
 TEST(ParkingLotModel, AWakeUpMustChangeTheEpoch) {

@@ -2,6 +2,7 @@
 // The parts below the scheduler, each alone: deque, storage, parking lot.
 #include "jobsystem/JobStorage.h"
 #include "jobsystem/ParkingLot.h"
+#include "jobsystem/Patience.h"
 #include "jobsystem/WorkStealingDeque.h"
 
 #include <gtest/gtest.h>
@@ -63,6 +64,65 @@ TEST(WorkStealingDeque, UnderThievesEveryItemComesOutExactlyOnce) {
     second.join();
     for (int i = 0; i < kItems; ++i) ASSERT_EQ(items[i], 1) << "item " << i;
 }
+
+TEST(WorkStealingDeque, TellsTheExtentOfItsItems) {
+    WorkStealingDeque<int, 8> deque;
+    int items[3] = {};
+    EXPECT_TRUE(deque.extent().isEmpty());
+    for (int& item : items) ASSERT_TRUE(deque.push(&item));
+    const auto all = deque.extent();
+    EXPECT_EQ(all.end - all.oldest, 3);
+    ASSERT_NE(deque.steal(), nullptr);
+    EXPECT_EQ(deque.extent().oldest, all.oldest + 1);
+    ASSERT_NE(deque.take(), nullptr);
+    ASSERT_NE(deque.take(), nullptr); // the last item goes the way of a theft: its place is not used again
+    EXPECT_TRUE(deque.extent().isEmpty());
+    ASSERT_TRUE(deque.push(&items[0]));
+    EXPECT_GE(deque.extent().oldest, all.oldest + 2);
+}
+
+// ---------------------------------------------------------------------------------------------- patience
+
+TEST(Patience, TakesOnlyWhatWasThereAtTheLastLook) {
+    Patience patience;
+    int deque = 0, other = 0;
+    patience.begin(0);
+    ASSERT_TRUE(patience.isTimeToLook(0));
+    EXPECT_FALSE(patience.isStillThere(&deque, 5, 7));
+    EXPECT_TRUE(patience.looked(0)) << "it saw something";
+    EXPECT_FALSE(patience.isTimeToLook(Patience::kSecondLook - 1));
+    ASSERT_TRUE(patience.isTimeToLook(Patience::kSecondLook));
+    EXPECT_FALSE(patience.isStillThere(&other, 5, 7));
+    EXPECT_FALSE(patience.isStillThere(&deque, 7, 8)) << "what was there is gone, this is new";
+    EXPECT_TRUE(patience.isStillThere(&deque, 6, 9)) << "the second of two items that were there";
+}
+
+TEST(Patience, LooksEverMoreRarelyWhileThereIsNothing) {
+    Patience patience;
+    int64_t now = 0, last = 0;
+    std::vector<int64_t> intervals;
+    patience.begin(now);
+    while (intervals.size() < 8) {
+        while (!patience.isTimeToLook(now)) ++now;
+        intervals.push_back(now - last);
+        last = now;
+        EXPECT_FALSE(patience.looked(now));
+    }
+    EXPECT_EQ(intervals, (std::vector<int64_t>{ 0, 100, 200, 400, 800, 1000, 1000, 1000 }));
+}
+
+TEST(Patience, AfterATheftThatDidNotPayTheNextLookWaits) {
+    Patience patience;
+    patience.learn(Patience::kWorthStealing - 1);
+    patience.begin(0);
+    EXPECT_FALSE(patience.isTimeToLook(Patience::kLongestInterval - 1));
+    EXPECT_TRUE(patience.isTimeToLook(Patience::kLongestInterval));
+    patience.learn(Patience::kWorthStealing);
+    patience.begin(0);
+    EXPECT_TRUE(patience.isTimeToLook(0));
+}
+
+// ---------------------------------------------------------------------------------------------- storage, sleep
 
 TEST(JobStorage, GivesOutEveryJobOnceAndThenNull) {
     JobStorage storage(100); // not a multiple of the batch size

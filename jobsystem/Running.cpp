@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// What happens to a job once somebody has it: it is called, its memory goes back, its group is told.
+#include "jobsystem/FreshStack.h"
+#include "jobsystem/JobFault.h"
+#include "jobsystem/Scheduler.h"
+
+namespace filament::jobs {
+namespace {
+
+/// What the calling thread is doing while this lives.
+class RunningJob {
+public:
+    RunningJob(const char* name, Priority priority) : mOuterName(tAssertContext), mOuterPriority(tThread.priority) {
+        tAssertContext = name;
+        tThread.priority = priority;
+    }
+    ~RunningJob() {
+        tAssertContext = mOuterName;
+        tThread.priority = mOuterPriority;
+    }
+    RunningJob(RunningJob const&) = delete;
+    RunningJob& operator=(RunningJob const&) = delete;
+
+private:
+    const char* mOuterName;
+    Priority mOuterPriority;
+};
+
+/// Whether the successor of the job is to be called, too.
+bool callUntraced(Job& job, Priority priority) {
+    JobType const& type = *job.type;
+    const RunningJob running(type.name, priority);
+    try {
+        return type.call(job);
+    } catch (...) {
+        reportThrow(type.name);
+    }
+}
+
+template <class F>
+void onEnoughStack(F&& function) {
+    if (isStackLow()) [[unlikely]] {
+        callOnFreshStack(function);
+    } else {
+        function();
+    }
+}
+
+} // namespace
+
+namespace detail {
+
+void runInline(Scheduler& scheduler, const char* name, void (*function)(void*), void* argument) {
+    onEnoughStack([&] {
+        const RunningJob running(name, tThread.priority);
+        const int64_t begin = scheduler.trace() ? nanosecondsNow() : 0;
+        try {
+            function(argument);
+        } catch (...) {
+            reportThrow(tAssertContext);
+        }
+        if (scheduler.trace()) scheduler.record(tThread.seatOf(scheduler), name, begin, false);
+    });
+}
+
+} // namespace detail
+
+// One clock read for a stretch of jobs, not for each: it begins at the look that found the first.
+void Scheduler::work(Seat& seat, Found found, int64_t& now) {
+    const int64_t begin = now;
+    for (; found; found = takeOwn(&seat, Priority::Normal)) execute(&seat, found);
+    now = nanosecondsNow();
+    seat.busyNanoseconds.store(seat.busyNanoseconds.load(std::memory_order_relaxed) +
+                                       static_cast<uint64_t>(now - begin),
+                               std::memory_order_relaxed);
+    seat.patience.learn(now - begin);
+}
+
+void Scheduler::execute(Seat* seat, Found const& found) {
+    Job& job = *found.job;
+    Completion& completion = *job.completion;
+    while (call(seat, found)) {
+    }
+    mStorage.release(seat ? &seat->cache : nullptr, job);
+    finish(seat, completion, found.stolen);
+}
+
+void Scheduler::executeInline(Seat* seat, Job& job, Priority priority) {
+    onEnoughStack([&] { execute(seat, { &job, priority, false }); });
+}
+
+void Scheduler::executeBackground(Job& job) {
+    Completion& completion = *job.completion;
+    while (call(nullptr, { &job, Priority::Background, false })) {
+    }
+    delete &job;
+    finish(nullptr, completion, true);
+}
+
+bool Scheduler::call(Seat const* seat, Found const& found) {
+    if (!mTrace) [[likely]]
+        return callUntraced(*found.job, found.priority);
+    const char* name = found.job->type->name;
+    const int64_t begin = nanosecondsNow();
+    const bool again = callUntraced(*found.job, found.priority);
+    record(seat, name, begin, found.stolen); // before the group is done: whoever waited finds it in the trace
+    return again;
+}
+
+void Scheduler::record(Seat const* seat, const char* name, int64_t begin, bool stolen) {
+    const int64_t end = nanosecondsNow();
+    if (seat) {
+        mTrace->recordJob(mSeats.indexOf(*seat), name, begin, end, stolen);
+    } else {
+        mTrace->recordJobHere(name, begin, end, stolen);
+    }
+}
+
+// A thief leaves the owner's part of the count alone even if it is the owner: so it need not read the line before it
+// changes it, which would move it between the cores twice.
+void Scheduler::finish(Seat const* seat, Completion& completion, bool stolen) {
+    if (!stolen && seat && completion.finishLocal(seat->occupant)) return;
+    if (completion.finishShared()) close(completion);
+}
+
+void Scheduler::close(Completion& completion) {
+    const auto [continuation, sleeper] = completion.close(); // the memory may be gone
+    if (continuation) enqueue(tThread.seatOf(*this), *continuation, continuation->completion->priority());
+    if (sleeper) sleeper->wakeAll();
+}
+
+} // namespace filament::jobs
