@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// Many engines in one process: made and ended in parallel, rendering side by side, ended with frames in flight. On the
+// null backend, so that a thread sanitizer sees all of it. FILAMENT_STRESS=N makes it N times as long.
+#include "tests/filament_core/engine/RenderFixture.h"
+#include "tests/scenes/Sphere.h"
+
+#include "shaders/package/EngineMaterials.h"
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <latch>
+#include <thread>
+#include <vector>
+
+namespace filament {
+namespace {
+
+int scaled(int count) {
+    const char* text = std::getenv("FILAMENT_STRESS");
+    return count * std::max(1, text ? std::atoi(text) : 1);
+}
+
+void onThreads(int count, std::function<void(int)> const& body) {
+    std::latch start(count);
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < count; ++i) {
+        threads.emplace_back([&, i] {
+            start.arrive_and_wait();
+            body(i);
+        });
+    }
+}
+
+std::optional<Engine> makeNullEngine(int workers) {
+    auto engine = Engine::create({ .backend = Backend::Null, .workers = workers, .hashFrames = true });
+    if (engine) return std::move(*engine);
+    ADD_FAILURE() << engine.error().message;
+    return std::nullopt;
+}
+
+/// Enough spheres for several jobs a frame, and a target to draw them to.
+class Crowd {
+public:
+    static constexpr int kSide = 24;
+
+    explicit Crowd(Engine& engine) : mScene(engine), mRenderer(engine), mEngine(engine) {
+        const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere(6, 12));
+        mVertices = engine.own(sphere.vertices);
+        mIndices = engine.own(sphere.indices);
+        mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
+        mInstance = engine.own(engine.createInstance(mMaterial));
+        for (int i = 0; i < kSide * kSide; ++i) place({ 2.5 * (i % kSide - kSide / 2), 0, -2.5 * (i / kSide) });
+        mScene.add(SunLight{ .directionWorld = { -0.4f, -1, -0.6f } });
+        mView.camera = Camera::lookAt({ 0, 6, 8 }, { 0, 0, -10 }, { .verticalFovDegrees = 60 });
+        mView.size = { 64, 48 };
+        mTarget = engine.own(engine.create(SwapChainDesc{ .size = mView.size }));
+    }
+
+    void render(int frames) {
+        for (int i = 0; i < frames; ++i) mRenderer.render(mScene, mView, mTarget);
+    }
+
+    /// What the engine made of all frames so far: packets and streams.
+    std::vector<std::pair<uint64_t, uint64_t>> hashes() {
+        mEngine.waitIdle();
+        std::vector<std::pair<uint64_t, uint64_t>> hashes;
+        for (FrameTimings const& timings : mRenderer.takeTimings())
+            hashes.emplace_back(timings.packetHash, timings.streamHash);
+        return hashes;
+    }
+
+private:
+    void place(double3 at) {
+        double4x4 world(1);
+        world[3] = double4(at, 1);
+        mScene.add({ .vertices = mVertices,
+                     .indices = mIndices,
+                     .material = mInstance,
+                     .boundsMin = float3(-1),
+                     .boundsMax = float3(1),
+                     .worldFromObject = world });
+    }
+
+    Scene mScene;
+    View mView;
+    Renderer mRenderer;
+    Engine& mEngine;
+    Owned<VertexBuffer> mVertices;
+    Owned<IndexBuffer> mIndices;
+    Owned<Material> mMaterial;
+    Owned<MaterialInstance> mInstance;
+    Owned<SwapChain> mTarget;
+};
+
+std::vector<std::pair<uint64_t, uint64_t>> renderAlone(int workers, int frames) {
+    auto engine = makeNullEngine(workers);
+    if (!engine) return {};
+    Crowd crowd(*engine);
+    crowd.render(frames);
+    return crowd.hashes();
+}
+
+class EngineStorm : public testing::TestWithParam<int> {};
+INSTANTIATE_TEST_SUITE_P(Workers, EngineStorm, testing::Values(1, 2, 16),
+                         [](auto const& parameter) { return std::to_string(parameter.param); });
+
+TEST_P(EngineStorm, EnginesAreMadeAndEndedInParallel) {
+    const int rounds = scaled(8);
+    onThreads(4, [&](int thread) {
+        for (int round = 0; round < rounds; ++round) {
+            auto engine = makeNullEngine(GetParam());
+            ASSERT_TRUE(engine);
+            if ((thread + round) % 4 == 0) continue; // never used
+            Crowd crowd(*engine);
+            crowd.render(2);
+            EXPECT_EQ(crowd.hashes().size(), 2u);
+            test::expectNoErrors(*engine);
+        }
+    });
+}
+
+TEST_P(EngineStorm, TwoEnginesOnTwoThreadsMakeTheFramesThatEachMakesAlone) {
+    const int frames = scaled(40);
+    const auto reference = renderAlone(0, frames);
+    ASSERT_EQ(reference.size(), static_cast<size_t>(frames));
+    ASSERT_NE(reference[0].first, 0u);
+    std::vector<std::pair<uint64_t, uint64_t>> made[2];
+    onThreads(2, [&](int thread) { made[thread] = renderAlone(GetParam(), frames); });
+    EXPECT_EQ(made[0], reference);
+    EXPECT_EQ(made[1], reference);
+}
+
+TEST_P(EngineStorm, AnEngineMayEndWithFramesInFlight) {
+    for (int round = 0; round < scaled(20); ++round) {
+        auto engine = makeNullEngine(GetParam());
+        ASSERT_TRUE(engine);
+        Crowd crowd(*engine);
+        crowd.render(round % 4);
+    }
+}
+
+TEST_P(EngineStorm, AnEngineRendersOnWhicheverThreadHasItsTurn) {
+    const int turns = scaled(40);
+    auto engine = makeNullEngine(GetParam());
+    ASSERT_TRUE(engine);
+    Crowd crowd(*engine);
+    for (int turn = 0; turn < turns; ++turn) std::jthread([&] { crowd.render(1); }).join();
+    EXPECT_EQ(crowd.hashes(), renderAlone(0, turns));
+}
+
+} // namespace
+} // namespace filament
