@@ -58,19 +58,25 @@ public:
     }
 
     void render(int frames) {
-        for (int i = 0; i < frames; ++i) mRenderer.render(mScene, mView, mTarget);
+        for (int i = 0; i < frames; ++i) {
+            mRenderer.render(mScene, mView, mTarget);
+            takeHashes();
+        }
     }
 
-    /// What the engine made of all frames so far: packets and streams.
-    std::vector<std::pair<uint64_t, uint64_t>> hashes() {
+    /// What the engine made of all frames: packets and streams.
+    std::vector<std::pair<uint64_t, uint64_t>> const& hashes() {
         mEngine.waitIdle();
-        std::vector<std::pair<uint64_t, uint64_t>> hashes;
-        for (FrameTimings const& timings : mRenderer.takeTimings())
-            hashes.emplace_back(timings.packetHash, timings.streamHash);
-        return hashes;
+        takeHashes();
+        return mHashes;
     }
 
 private:
+    void takeHashes() {
+        for (FrameTimings const& timings : mRenderer.takeTimings())
+            mHashes.emplace_back(timings.packetHash, timings.streamHash);
+    }
+
     void place(double3 at) {
         double4x4 world(1);
         world[3] = double4(at, 1);
@@ -91,6 +97,7 @@ private:
     Owned<Material> mMaterial;
     Owned<MaterialInstance> mInstance;
     Owned<SwapChain> mTarget;
+    std::vector<std::pair<uint64_t, uint64_t>> mHashes;
 };
 
 std::vector<std::pair<uint64_t, uint64_t>> renderAlone(int workers, int frames) {
