@@ -38,7 +38,7 @@ public:
     static constexpr int64_t kFirstInterval = 100, kLongestInterval = 1000; // in nanoseconds, while there is nothing
     static constexpr int64_t kSecondLook = 250;                             // after the first look that saw something
     static constexpr int64_t kDisappointment = 2000; // longest interval while what was seen is gone at the second look
-    static constexpr int64_t kWorthStealing = 200;
+    static constexpr int64_t kWorthStealing = 400;   // a theft alone takes 200 to 300
 
     void begin(int64_t now) {
         mInterval = kFirstInterval;
@@ -70,8 +70,12 @@ public:
         return sawWork;
     }
 
-    /// How long the stolen job and what it forked kept this thread busy, the theft included.
-    void learn(int64_t nanoseconds) { mDelay = nanoseconds < kWorthStealing ? kLongestInterval : 0; }
+    /// How long the theft, the stolen job and what it forked took.
+    void learn(int64_t nanoseconds) {
+        if (nanoseconds >= kWorthStealing) return;
+        mDelay = kLongestInterval;
+        mSuspect = {};
+    }
 
 private:
     struct Sighting {

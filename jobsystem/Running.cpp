@@ -66,14 +66,13 @@ void runInline(Scheduler& scheduler, const char* name, void (*function)(void*), 
 } // namespace detail
 
 // One clock read for a stretch of jobs, not for each: it begins at the look that found the first.
-void Scheduler::work(Seat& seat, Found found, int64_t& now) {
-    const int64_t begin = now;
+void Scheduler::work(Seat& seat, Found found, Hunt& hunt) {
+    const int64_t begin = hunt.now;
     for (; found; found = takeOwn(&seat, Priority::Normal)) execute(&seat, found);
-    now = nanosecondsNow();
-    seat.busyNanoseconds.store(seat.busyNanoseconds.load(std::memory_order_relaxed) +
-                                       static_cast<uint64_t>(now - begin),
-                               std::memory_order_relaxed);
-    seat.patience.learn(now - begin);
+    hunt.now = nanosecondsNow();
+    const auto busy = static_cast<uint64_t>(hunt.now - begin);
+    seat.busyNanoseconds.store(seat.busyNanoseconds.load(std::memory_order_relaxed) + busy, std::memory_order_relaxed);
+    seat.patience.learn(hunt.now - begin);
 }
 
 void Scheduler::execute(Seat* seat, Found const& found) {

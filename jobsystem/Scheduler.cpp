@@ -70,30 +70,29 @@ void Scheduler::runWorker(uint32_t index, std::string const& name) {
     mPlacement.placeWorker(index);
     Seat& seat = mSeats[index];
     tThread.seat = &seat;
-    bool woken = false;
-    int64_t now = nanosecondsNow();
+    Hunt hunt{ .now = nanosecondsNow() };
     for (;;) {
-        if (const Found found = spin(&seat, Priority::Normal, nullptr, kWorkerSpinNanoseconds, now)) {
-            if (woken) passOnWakeUp();
-            woken = false;
-            work(seat, found, now);
+        if (const Found found = spin(&seat, Priority::Normal, nullptr, kWorkerSpinNanoseconds, hunt)) {
+            endHunt(hunt);
+            work(seat, found, hunt);
         } else if (mStopping.load(std::memory_order_seq_cst)) {
             return;
         } else {
-            sleepUntilWork();
-            now = nanosecondsNow();
-            woken = true;
+            sleepUntilWork(hunt);
         }
     }
 }
 
-void Scheduler::sleepUntilWork() {
+void Scheduler::sleepUntilWork(Hunt& hunt) {
+    stopWatching(hunt);
     const ParkingLot::Ticket ticket = mIdle.prepare();
     if (visibleWork(Priority::Normal) || mStopping.load(std::memory_order_seq_cst)) {
         mIdle.cancel();
     } else {
         mIdle.park(ticket);
     }
+    hunt.now = nanosecondsNow();
+    watch(hunt);
 }
 
 // ---------------------------------------------------------------------------------------------- submitting
@@ -129,6 +128,7 @@ void Scheduler::enqueue(Seat* seat, Job& job, Priority priority) {
 }
 
 void Scheduler::wakeSomebody(Priority priority) {
+    if (mWatched.load(std::memory_order_seq_cst)) return;
     if (mIdle.hasSleepers()) {
         mIdle.wakeOne();
     } else {

@@ -80,9 +80,17 @@ private:
         explicit operator bool() const { return job != nullptr; }
     };
 
+    /// How a thread looks for work.
+    struct Hunt {
+        int64_t now = 0; ///< the time it is, or a little earlier; 0: unknown. Reading a clock takes as long as a fork
+        bool watches = false; ///< pushes rely on this thread and wake nobody
+        bool passesOn =
+                false; ///< it answered for pushes that woke nobody: if it leaves work behind, somebody must come
+    };
+
     // Scheduler.cpp
     void runWorker(uint32_t index, std::string const& name);
-    void sleepUntilWork();
+    void sleepUntilWork(Hunt& hunt);
     void enqueue(Seat* seat, Job& job, Priority priority);
     void notifyWork(Priority priority) {
         const bool anybody = mIdle.hasSleepers() || mSleepingWaiters.load(std::memory_order_seq_cst) != 0;
@@ -93,7 +101,7 @@ private:
     void wakeAWaiter(Priority priority);
 
     // Running.cpp
-    void work(Seat& seat, Found found, int64_t& now);
+    void work(Seat& seat, Found found, Hunt& hunt);
     void execute(Seat* seat, Found const& found);
     void executeInline(Seat* seat, Job& job, Priority priority);
     bool call(Seat const* seat, Found const& found);
@@ -110,15 +118,15 @@ private:
     template <class Visit>
     Job* visitOthers(Seat* thief, Visit&& visit);
     std::optional<Priority> visibleWork(Priority least);
-    void passOnWakeUp();
-    /// Looks for work for so long; `now` is the time, before and after, because reading a clock takes as long as a
-    /// fork.
-    Found spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds, int64_t& now);
+    Found spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds, Hunt& hunt);
+    void watch(Hunt& hunt);
+    void stopWatching(Hunt& hunt);
+    void endHunt(Hunt& hunt);
 
     // Waiting.cpp
     void waitAt(Seat* seat, Completion& completion);
-    void runStolen(Seat* seat, Found const& found, int64_t& now);
-    void sleepInWait(Seat* seat, Priority least, Completion& completion);
+    void runStolen(Seat* seat, Found const& found, Hunt& hunt);
+    void sleepInWait(Seat* seat, Priority least, Completion& completion, Hunt& hunt);
 
     SeatTable mSeats;
     const WorkerPlacement mPlacement;
@@ -127,6 +135,7 @@ private:
     InjectionQueue mInjected[2]; // by priority
     alignas(kCacheLineBytes) ParkingLot mIdle;
     std::atomic<uint32_t> mSleepingWaiters{ 0 };
+    std::atomic<bool> mWatched{ false };               // some thread's Hunt::watches
     alignas(kCacheLineBytes) ParkingLot mUnseatedBell; // of threads that wait without a seat
     // Set by a push of a critical job; taken back by a search that finds none. So normal work costs one load to know.
     alignas(kCacheLineBytes) std::atomic<bool> mCriticalHint{ false };

@@ -85,25 +85,43 @@ std::optional<Priority> Scheduler::visibleWork(Priority least) {
     return least == Priority::FrameCritical ? std::nullopt : seen;
 }
 
-// A wake-up stands for any number of pushes: whoever answers it and leaves work behind wakes the next one.
-void Scheduler::passOnWakeUp() {
+// Without a thread that watches, a push after this wakes one; a push before this is seen by whoever looks afterwards,
+// as both the flag and the look are in the total order of seq_cst operations.
+void Scheduler::stopWatching(Hunt& hunt) {
+    if (hunt.watches) mWatched.store(false, std::memory_order_seq_cst);
+    hunt.watches = false;
+}
+
+void Scheduler::watch(Hunt& hunt) {
+    hunt.passesOn = true;
+    if (!hunt.watches && !mWatched.load(std::memory_order_relaxed))
+        hunt.watches = !mWatched.exchange(true, std::memory_order_seq_cst);
+}
+
+// A wake-up stands for any number of pushes: whoever answered it and leaves work behind wakes the next one.
+void Scheduler::endHunt(Hunt& hunt) {
+    stopWatching(hunt);
+    if (!hunt.passesOn) return;
+    hunt.passesOn = false;
     if (const std::optional<Priority> left = visibleWork(Priority::Normal)) notifyWork(*left);
 }
 
-// As long as there is something to see, even if it is gone at the second look, going to sleep would make the next push
-// pay for a wake-up.
-Scheduler::Found Scheduler::spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds,
-                                 int64_t& now) {
+// One thread stays awake as long as there is something to see, even if it is gone at the second look: going to sleep
+// would make the next push pay for a wake-up.
+Scheduler::Found Scheduler::spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds, Hunt& hunt) {
     constexpr int64_t kOftenFor = 2'000, kRarely = 250; // asking for the line of a completion delays who finishes there
     Patience own;
     Patience& patience = seat ? seat->patience : own;
-    const int64_t begin = now;
+    const int64_t begin = hunt.now;
     int64_t lastSeen = begin, nextQuestion = begin;
     patience.begin(begin);
-    for (; now - lastSeen < nanoseconds; now = nanosecondsNow()) {
+    for (; hunt.now - lastSeen < nanoseconds; hunt.now = nanosecondsNow()) {
+        const int64_t now = hunt.now;
         if (patience.isTimeToLook(now)) {
             if (const Found found = searchOthers(seat, least, patience)) return found;
-            if (patience.looked(now)) lastSeen = now;
+            const bool sawWork = patience.looked(now);
+            if (sawWork && least == Priority::Normal) watch(hunt);
+            if (sawWork && hunt.watches) lastSeen = now;
         }
         if (until && now >= nextQuestion) {
             if (until->isDone()) return {};

@@ -32,36 +32,33 @@ void Scheduler::wait(Completion& completion) {
 
 void Scheduler::waitAt(Seat* seat, Completion& completion) {
     const Priority least = std::min(completion.priority(), Priority::Normal);
-    bool woken = false;
-    int64_t now = 0; // 0: some time ago
+    Hunt hunt;
     while (!completion.isDone()) {
         if (const Found own = takeOwn(seat, least)) {
             execute(seat, own);
-            now = 0;
+            hunt.now = 0;
             continue;
         }
-        if (now == 0) now = nanosecondsNow();
-        if (const Found found = spin(seat, least, &completion, kWaiterSpinNanoseconds, now)) {
-            if (woken) passOnWakeUp();
-            woken = false;
-            runStolen(seat, found, now);
+        if (hunt.now == 0) hunt.now = nanosecondsNow();
+        if (const Found found = spin(seat, least, &completion, kWaiterSpinNanoseconds, hunt)) {
+            endHunt(hunt);
+            runStolen(seat, found, hunt);
         } else if (!completion.isDone()) {
-            sleepInWait(seat, least, completion);
-            woken = true;
-            now = 0;
+            sleepInWait(seat, least, completion, hunt);
         }
     }
-    if (woken) passOnWakeUp(); // one for new work may have been answered by this thread, which leaves
+    endHunt(hunt);
 }
 
-void Scheduler::runStolen(Seat* seat, Found const& found, int64_t& now) {
-    const int64_t begin = now;
+void Scheduler::runStolen(Seat* seat, Found const& found, Hunt& hunt) {
+    const int64_t begin = hunt.now;
     execute(seat, found);
-    now = nanosecondsNow();
-    if (seat) seat->patience.learn(now - begin);
+    hunt.now = nanosecondsNow();
+    if (seat) seat->patience.learn(hunt.now - begin);
 }
 
-void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion) {
+void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion, Hunt& hunt) {
+    stopWatching(hunt);
     ParkingLot& bell = seat ? seat->bell : mUnseatedBell;
     if (seat) {
         seat->waitsFor.store(static_cast<uint8_t>(least), std::memory_order_relaxed);
@@ -75,6 +72,8 @@ void Scheduler::sleepInWait(Seat* seat, Priority least, Completion& completion) 
     }
     completion.withdrawSleeper();
     if (seat) mSleepingWaiters.fetch_sub(1, std::memory_order_seq_cst);
+    hunt.now = 0;
+    hunt.passesOn = true;
 }
 
 } // namespace filament::jobs
