@@ -2,9 +2,13 @@
 #include "filament_core/engine/DefaultObjects.h"
 
 #include "filament_core/assets/DfgTable.h"
+#include "filament_core/base/Assert.h"
+#include "filament_core/base/Result.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <array>
+#include <map>
+#include <mutex>
 #include <numeric>
 
 namespace filament {
@@ -21,16 +25,33 @@ BufferHandle createInstanceIds(Engine::Impl& engine) {
     return handle;
 }
 
-Texture createDfg(Engine::Impl& engine) {
-    static const assets::Image table = assets::bakeDfgTable(engine.jobs); // the same for every engine of the process
+// The same for every engine of the process.
+assets::Image const& bakedDfg(Engine::Impl& engine, uint32_t size) {
+    static std::mutex mutex; // engines live on several threads
+    static std::map<uint32_t, assets::Image> tables;
+    const std::lock_guard lock(mutex);
+    const auto found = tables.find(size);
+    return found != tables.end() ? found->second
+                                 : tables.emplace(size, assets::bakeDfgTable(engine.jobs, size)).first->second;
+}
+
+Texture createDfg(Engine::Impl& engine, uint32_t size) {
+    assets::Image const& table = bakedDfg(engine, size);
     return engine.createTexture({ .format = table.format,
                                   .width = table.width,
                                   .height = table.height,
                                   .pixels = table.data,
-                                  .name = "dfg" });
+                                  .name = fmt::format("dfg {}", size) });
 }
 
 } // namespace
+
+Texture Engine::Impl::dfgTable(uint32_t size) {
+    FILAMENT_ASSERT(size >= 16 && size <= 256, "Quality::dfgTableSize is a number from 16 to 256");
+    Texture& table = defaults.dfg[size];
+    if (!table) table = createDfg(*this, size);
+    return table;
+}
 
 void createDefaultObjects(Engine::Impl& engine) {
     constexpr std::array<uint8_t, 4> white{ 255, 255, 255, 255 };
@@ -40,12 +61,14 @@ void createDefaultObjects(Engine::Impl& engine) {
                                                        .layers = 6,
                                                        .pixels = std::as_bytes(std::span(black)),
                                                        .name = "black cube" });
-    engine.defaults.dfg = createDfg(engine);
+    engine.dfgTable(Quality{}.dfgTableSize);
     engine.defaults.instanceIds = createInstanceIds(engine);
 }
 
 void destroyDefaultObjects(Engine::Impl& engine) {
-    for (Texture texture : { engine.defaults.white, engine.defaults.blackCube, engine.defaults.dfg }) {
+    std::vector<Texture> textures{ engine.defaults.white, engine.defaults.blackCube };
+    for (auto const& [size, table] : engine.defaults.dfg) textures.push_back(table);
+    for (const Texture texture : textures) {
         const TextureHandle handle = engine.textureHandle(texture);
         engine.pending.record(CmdDestroyTexture{ handle });
         engine.stream->free(handle);

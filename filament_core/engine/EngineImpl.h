@@ -69,7 +69,7 @@ struct SwapChainState {
 struct Defaults {
     Texture white;                     ///< 1x1 opaque white, for textures that a material leaves unset
     Texture blackCube;                 ///< 1x1, for scenes without an environment
-    Texture dfg;                       ///< split-sum table
+    std::map<uint32_t, Texture> dfg;   ///< split-sum tables by their size
     backend::BufferHandle instanceIds; ///< 0, 1, 2, ... kObjectsPerWindow - 1
 };
 
@@ -89,6 +89,8 @@ struct Engine::Impl {
     double secondsSinceStart(int64_t steadyNanoseconds) const;
 
     Texture createTexture(TextureDesc const& desc);
+    /// The split-sum table of a size in [16, 256]; baked when first asked for, then kept.
+    Texture dfgTable(uint32_t size);
     Result<Material> createMaterial(MaterialDesc const& desc);
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);

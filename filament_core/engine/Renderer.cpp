@@ -50,15 +50,17 @@ struct Renderer::Impl {
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext* context = arena.make<FrameContext>();
         context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(),
-                                                { view.camera, view.size, view.timeSeconds });
+                                                { view.camera, view.size, view.timeSeconds, view.quality });
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context->packet);
 
+        const uint32_t tableSize = view.quality.dfgTableSize;
+        engine.dfgTable(tableSize);                         // made before the frame, if this is the first that wants it
         CommandBuffer& commands = engine.stream->acquire(); // waits when two frames ahead
         stamps.acquired = clock();
         commands.record(CmdBeginFrame{ ++frame });
         engine.drainPending(commands);
-        upload(commands, *context);
+        upload(commands, *context, tableSize);
         describe(*context, view, target);
         plan = compile(graph, transients);
         framegraph::record(commands, plan, options.passTimers ? &timers : nullptr, &ranges);
@@ -71,12 +73,12 @@ struct Renderer::Impl {
         count(context->packet);
     }
 
-    void upload(CommandBuffer& commands, FrameContext& context) {
+    void upload(CommandBuffer& commands, FrameContext& context, uint32_t tableSize) {
         const auto sampler = [&](Sampler const& wanted) { return engine.samplers.get(wanted, commands); };
         const TextureHandle black = engine.textureHandle(engine.defaults.blackCube);
         data.upload(engine.jobs, commands, context.packet,
                     { .specular = context.packet.specular ? context.packet.specular : black,
-                      .dfg = engine.textureHandle(engine.defaults.dfg),
+                      .dfg = engine.textureHandle(engine.dfgTable(tableSize)),
                       .sky = context.packet.sky ? context.packet.sky : black,
                       .trilinear = sampler(kTrilinear),
                       .bilinear = sampler(kBilinear) });
@@ -89,7 +91,7 @@ struct Renderer::Impl {
     /// Which passes the frame has. A scene-linear target takes the colour pass as it is.
     void describe(FrameContext& context, View const& view, engine::TextureState const& target) {
         FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
-        context.settings = { view.size, view.samples, view.clearColor };
+        context.settings = { view.size, view.samples, view.clearColor, passes::shadingKey(view.quality) };
         context.arena = &arena;
         context.pipelines = &engine.pipelines;
         if (context.packet.sky) context.skybox = &engine.materials.get(engine.engineMaterial("skybox", {}));

@@ -20,7 +20,7 @@ struct ChosenPipelines {
 ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
     PipelineCache& pipelines = *context.pipelines;
     prepare::FramePacket const& packet = context.packet;
-    const uint32_t slot = pipelines.slot({ pass.passLayout(), pass.subpass() });
+    const uint32_t slot = pipelines.slot({ pass.passLayout(), pass.subpass(), context.settings.shading });
     ChosenPipelines chosen;
     chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, packet.opaque, packet.variant);
     chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, packet.blended, packet.variant);

@@ -16,6 +16,7 @@ struct PassSettings {
     uint2 size{ 1, 1 };
     uint8_t samples = 1;
     float4 clearColor{ 0, 0, 0, 1 };
+    ShadingKey shading = 0;
 };
 
 struct FrameContext {

@@ -13,20 +13,20 @@ using namespace backend;
 
 constexpr uint32_t kNoGeometry = 0xFFF;
 
-// always 1 | material 20 bits | geometry layout 12 | slot 8 | variant 4 | culling off 1 | mirrored 1
+// always 1 | material 20 bits | geometry layout 12 | slot 12 | variant 4 | culling off 1 | mirrored 1
 uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint8_t variant, bool cullingDisabled,
                  bool mirrored) {
-    FILAMENT_ASSERT(material < 1u << 20 && geometryLayout <= kNoGeometry && slot < 256,
-                    "at most 2^20 materials, 4095 vertex layouts and 256 pass layouts");
+    FILAMENT_ASSERT(material < 1u << 20 && geometryLayout <= kNoGeometry && slot < 4096,
+                    "at most 2^20 materials, 4095 vertex layouts and 4096 passes with their shading");
     return uint64_t{ 1 } << 63 | static_cast<uint64_t>(material) << 32 | static_cast<uint64_t>(geometryLayout) << 20 |
            static_cast<uint64_t>(slot) << 8 | static_cast<uint64_t>(variant) << 4 |
            static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
 }
 
-// Lights select nothing in an unlit material.
-uint8_t neededVariant(scene::Material const& material, uint8_t variant) {
-    return material.package.shading == shader::ShadingModel::Unlit ? 0 : variant;
-}
+// Lights and shading select nothing in an unlit material.
+bool isLit(scene::Material const& material) { return material.package.shading == shader::ShadingModel::Lit; }
+
+uint8_t neededVariant(scene::Material const& material, uint8_t variant) { return isLit(material) ? variant : 0; }
 
 uint64_t makeKey(uint32_t slot, scene::MaterialInstance const& instance, uint32_t geometryLayout, uint8_t variant,
                  bool mirrored) {
@@ -99,21 +99,34 @@ uint32_t PipelineCache::slot(PassSlot const& slot) {
     return static_cast<uint32_t>(mSlots.size() - 1);
 }
 
-ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& material, uint8_t variant) {
-    ProgramHandle& program = material.programs[variant];
-    if (program) return program;
+ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& material, uint8_t variant,
+                                        ShadingKey shading) {
+    const uint32_t key = static_cast<uint32_t>(shading) << 8 | variant;
+    for (scene::MaterialProgram const& program : material.programs) {
+        if (program.key == key) return program.handle;
+    }
     shader::Variant const* code = material.package.findVariant(variant);
     if (!code) {
         log(Severity::Warning, "material '{}' was compiled without variant {} (variantFilter): it is not drawn",
             material.name, variant);
         return {};
     }
+    const ProgramHandle program = createProgram(setup, material, *code, shading);
+    material.programs.push_back({ key, program });
+    return program;
+}
+
+ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material const& material,
+                                           shader::Variant const& code, ShadingKey shading) {
+    std::vector<ConstantValue> constants = material.constants;
+    if (shading != 0) { // else: the program's own defaults
+        for (ConstantValue const& constant : shadingConstants(shading)) constants.push_back(constant);
+    }
     const bool spirv = mStream.info().shaderLanguage == ShaderLanguage::SpirV;
-    ProgramDesc desc{ .constants = material.constants, .layout = material.package.layout, .debugName = material.name };
-    desc.vertex = spirv ? std::as_bytes(std::span(code->vertexSpirv)) : std::as_bytes(std::span(code->vertexEssl));
-    desc.fragment =
-            spirv ? std::as_bytes(std::span(code->fragmentSpirv)) : std::as_bytes(std::span(code->fragmentEssl));
-    program = mStream.allocateProgram();
+    ProgramDesc desc{ .constants = constants, .layout = material.package.layout, .debugName = material.name };
+    desc.vertex = spirv ? std::as_bytes(std::span(code.vertexSpirv)) : std::as_bytes(std::span(code.vertexEssl));
+    desc.fragment = spirv ? std::as_bytes(std::span(code.fragmentSpirv)) : std::as_bytes(std::span(code.fragmentEssl));
+    const ProgramHandle program = mStream.allocateProgram();
     setup.record(CmdCreateProgram{ program, desc });
     return program;
 }
@@ -160,7 +173,8 @@ PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, s
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
 
     scene::Material& material = *instance.material;
-    const ProgramHandle program = programFor(setup, material, neededVariant(material, variant));
+    const ShadingKey shading = isLit(material) ? mSlots[slot].shading : ShadingKey{ 0 };
+    const ProgramHandle program = programFor(setup, material, neededVariant(material, variant), shading);
     if (!program) {
         mPipelines.insert({ key, {}, material.id }); // warn once
         return {};
@@ -174,7 +188,7 @@ PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t 
     const uint64_t key = makeKey(material.id, kNoGeometry, slot, 0, true, false);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
     PipelineDesc desc = describe(mSlots[slot], material, true, kNoGeometry, false);
-    desc.program = programFor(setup, material, 0);
+    desc.program = programFor(setup, material, 0, 0);
     FILAMENT_ASSERT(desc.program, "a full-screen material has variant 0");
     return create(setup, key, desc, material.id);
 }
@@ -188,12 +202,11 @@ void PipelineCache::forget(CommandBuffer& commands, scene::Material& material) {
         }
         return true;
     });
-    for (ProgramHandle& program : material.programs) {
-        if (!program) continue;
-        commands.record(CmdDestroyProgram{ program });
-        mStream.free(program);
-        program = {};
+    for (scene::MaterialProgram const& program : material.programs) {
+        commands.record(CmdDestroyProgram{ program.handle });
+        mStream.free(program.handle);
     }
+    material.programs.clear();
 }
 
 } // namespace filament::passes

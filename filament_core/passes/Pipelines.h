@@ -8,6 +8,7 @@
 
 #include "backend/stream/CommandStream.h"
 #include "filament_core/passes/PipelineTable.h"
+#include "filament_core/passes/ShadingKey.h"
 #include "filament_core/scene/SceneData.h"
 
 #include <cstdint>
@@ -16,10 +17,11 @@
 
 namespace filament::passes {
 
-/// Where a pipeline draws.
+/// Where a pipeline draws, and how lit materials are shaded there.
 struct PassSlot {
     backend::PassLayout layout{};
     uint8_t subpass = 0;
+    ShadingKey shading = 0;
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 
@@ -49,7 +51,10 @@ public:
     size_t size() const { return mPipelines.size(); }
 
 private:
-    backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material& material, uint8_t variant);
+    backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material& material, uint8_t variant,
+                                      ShadingKey shading);
+    backend::ProgramHandle createProgram(backend::CommandBuffer& setup, scene::Material const& material,
+                                         shader::Variant const& code, ShadingKey shading);
     backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
                                    uint32_t geometryLayout, bool mirrored) const;
     backend::PipelineHandle create(backend::CommandBuffer& setup, uint64_t key, backend::PipelineDesc const& desc,

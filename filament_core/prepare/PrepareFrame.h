@@ -12,6 +12,7 @@
 #include "jobsystem/JobSystem.h"
 
 #include <filament/Camera.h>
+#include <filament/Quality.h>
 
 namespace filament::prepare {
 
@@ -19,6 +20,7 @@ struct ViewInput {
     Camera camera{};
     uint2 size{ 1, 1 };
     double timeSeconds = 0;
+    Quality quality{};
 };
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view);

@@ -40,7 +40,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
 
     scene::IndirectLightState const& light = scene.indirectLight;
     const float ambient = light.specular ? light.illuminance.value * space.exposure : 0.0f;
-    frame.ambient = float4(ambient, light.levelOfRoughnessOne, 3, 0);
+    frame.ambient = float4(ambient, light.levelOfRoughnessOne, view.quality.shBands, 0);
     frame.irradianceSh = light.irradianceSh;
     frame.worldFromEnvironment = rotationY(light.specular ? light.rotationRadians : scene.skybox.rotationRadians);
     frame.skyFactor = float4(float3(scene.skybox.illuminance.value * space.exposure), 0);

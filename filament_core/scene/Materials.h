@@ -7,21 +7,24 @@
 #include "backend/api/Handles.h"
 #include "shaders/package/Package.h"
 
-#include <array>
 #include <cstdint>
 #include <string>
 #include <vector>
 
 namespace filament::scene {
 
-inline constexpr uint32_t kVariantCount = 4; ///< combinations of shader::VariantBit
+/// A program of a material; the pipeline cache chooses the keys.
+struct MaterialProgram {
+    uint32_t key = 0;
+    backend::ProgramHandle handle;
+};
 
 struct Material {
     uint32_t id = 0; ///< small and dense: part of the sort key
     std::string name;
     shader::MaterialPackage package;
     std::vector<backend::ConstantValue> constants;
-    std::array<backend::ProgramHandle, kVariantCount> programs{}; ///< made when first needed
+    std::vector<MaterialProgram> programs; ///< made when first needed
     uint32_t instanceCount = 0;
 
     bool isBlended() const {

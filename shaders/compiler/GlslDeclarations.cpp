@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/GlslDeclarations.h"
 
+#include "shaders/interface/ShaderInterface.h"
+
 #include <fmt/core.h>
 
 #include <algorithm>
@@ -91,6 +93,11 @@ void declareConstants(StageText& out, MaterialDefinition const& definition) {
 }
 
 } // namespace
+
+void declareQuality(StageText& out) {
+    for (QualityConstant const& constant : kQualityConstants)
+        out.line(fmt::format("layout(constant_id = {}) const int quality_{} = 0;", constant.id, constant.name));
+}
 
 void declareInterface(StageText& out, MaterialDefinition const& definition) {
     declareBlock(out, definition);

@@ -10,6 +10,8 @@ namespace filament::shader {
 
 /// Uniform block `materialParams`, textures `materialParams_name`, constants `materialConstants_name` (and, as in the
 /// guide's text, `materialConstant_name`).
+/// The specialisation constants of <filament/Quality.h>: kQualityConstants of ShaderInterface.h.
+void declareQuality(StageText& out);
 void declareInterface(StageText& out, MaterialDefinition const& definition);
 
 /// `VARYING vec4 variable_name` from location 5 on; `VARYING` is defined by the stage.

@@ -123,8 +123,11 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     if (needs.luminance) done = out.include("shaders/lib/color.glsl");
     if (done) done = out.include("shaders/material/surface_fragment_api.glsl");
     if (done) done = out.block(definition.fragment);
-    if (done && isLit)
-        done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/lib/ibl.glsl", "shaders/lib/light.glsl" });
+    if (done && isLit) {
+        declareQuality(out);
+        done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl",
+                                 "shaders/lib/light.glsl", "shaders/material/surface_quality.glsl" });
+    }
     if (done && isLit && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
     if (done && isLit && needs.hasAmbientOcclusion) done = out.include("shaders/lib/ao.glsl");
     if (done) done = out.include("shaders/material/surface_output.glsl");

@@ -84,6 +84,31 @@ struct LightUniforms {
     std::array<LightData, kMaxPunctualLights> lights;
 };
 
+// ---- specialisation constants that the material compiler declares in every lit material, besides the author's own
+/// An int named quality_<name>; 0, its default, is the default of <filament/Quality.h>, whose enumerators it counts.
+struct QualityConstant {
+    const char* name;
+    uint32_t id;
+};
+
+enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
+    kQualitySpecularVisibility = 1000,
+    kQualityFresnel = 1001,
+    kQualityDiffuse = 1002,
+    kQualityWithoutEnergyCompensation = 1003, ///< 1: one bounce only
+    kQualitySplitSum = 1004,
+    kQualityDiffuseIrradiance = 1005,
+};
+
+inline constexpr std::array kQualityConstants{
+    QualityConstant{ "specularVisibility", kQualitySpecularVisibility },
+    QualityConstant{ "fresnel", kQualityFresnel },
+    QualityConstant{ "diffuse", kQualityDiffuse },
+    QualityConstant{ "withoutEnergyCompensation", kQualityWithoutEnergyCompensation },
+    QualityConstant{ "splitSum", kQualitySplitSum },
+    QualityConstant{ "diffuseIrradiance", kQualityDiffuseIrradiance },
+};
+
 // clang-format on
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(LightUniforms) == 16384);
 static_assert(sizeof(FrameUniforms) % 16 == 0);

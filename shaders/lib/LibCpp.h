@@ -47,6 +47,7 @@ namespace {
 #include "shaders/lib/ao.glsl"
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/color.glsl"
+#include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/ibl.glsl"
 #include "shaders/lib/light.glsl"
 #include "shaders/lib/sampling.glsl"

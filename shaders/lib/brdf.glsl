@@ -40,7 +40,7 @@ float ndfGgx(float noh, float alpha) {
 // good to a few ulp for any alpha. Costs a cross product more. n and h are unit vectors.
 float ndfGgxFromVectors(vec3 n, vec3 h, float alpha) {
     vec3 nxh = cross(n, h);
-    float a = saturate(dot(n, h)) * alpha;
+    float a = dot(n, h) * alpha;
     float k = alpha / (dot(nxh, nxh) + a * a);
     return k * k * kInversePi;
 }
@@ -61,11 +61,31 @@ float visibilitySmithGgxCorrelatedFast(float nov, float nol, float alpha) {
     return 0.5f / max(mix(2.0f * nol * nov, nol + nov, alpha), kMinVisibilityDenominator);
 }
 
+// Separable Smith masking and shadowing over 4 nol nov, as if the heights of the facets that hide from the light and
+// from the eye were unrelated. Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 23
+// and 34. Never brighter than visibilitySmithGgxCorrelated(). Same ranges.
+float visibilitySmithGgxUncorrelated(float nov, float nol, float alpha) {
+    float a2 = alpha * alpha;
+    float masking = nov + sqrt(nov * nov * (1.0f - a2) + a2);
+    float shadowing = nol + sqrt(nol * nol * (1.0f - a2) + a2);
+    return 1.0f / (masking * shadowing);
+}
+
 // Schlick 1994, "An Inexpensive BRDF Model for Physically-based Rendering", eq. 15. f0, f90 in [0, 1].
 vec3 fresnelSchlick(vec3 f0, float f90, float voh) { return f0 + (vec3(f90) - f0) * pow5(1.0f - voh); }
 
 // Lambert 1760: a diffuse reflector scatters equally into all directions. Returns 1/sr.
 float diffuseLambert() { return kInversePi; }
+
+// Burley 2012, "Physically Based Shading at Disney", section 5.3: darker edges on smooth surfaces, brighter ones on rough.
+// With the factors of Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.3,
+// which keep its albedo at or below 1. All in [0, 1], perceptual roughness. Returns 1/sr.
+float diffuseDisney(float nov, float nol, float voh, float perceptualRoughness) {
+    float grazing = perceptualRoughness * (0.5f + 2.0f * voh * voh) - 1.0f;
+    float in_ = 1.0f + grazing * pow5(1.0f - nol);
+    float out_ = 1.0f + grazing * pow5(1.0f - nov);
+    return kInversePi * in_ * out_ * mix(1.0f, 1.0f / 1.51f, perceptualRoughness);
+}
 
 // Reflectance at normal incidence of a dielectric, [0, 1] -> [0, 0.16]; 0.5 is the usual 4 %, 1 a gemstone.
 // Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
@@ -77,10 +97,11 @@ float f0FromIor(float ior) {
     return r * r;
 }
 
-// Inverse of f0FromIor for f0 in [0, 1). The result is at least 1.
+// Inverse of f0FromIor for f0 in [0, 1). The result is at least 1. (1 + r) / (1 - r) with r = sqrt(f0), written so that
+// what is subtracted from 1 is not rounded: 1 - r has no bits left for f0 close to 1.
 float iorFromF0(float f0) {
     float r = sqrt(f0);
-    return (1.0f + r) / (1.0f - r);
+    return (1.0f + r) * (1.0f + r) / (1.0f - f0);
 }
 
 // Metals reflect their base colour, dielectrics a grey given by reflectance. All in [0, 1].

@@ -6,6 +6,7 @@ struct Surface {
     vec3 diffuse;             // albedo of the diffuse lobe, times alpha if the material is transparent
     vec3 f0;
     float f90;
+    float metallic;
     float perceptualRoughness;
     float alpha;              // of the distribution: perceptualRoughness^2
     vec3 energyCompensation;
@@ -29,14 +30,15 @@ Surface surfaceOf(MaterialInputs material) {
 #endif
     Surface surface;
     surface.diffuse = diffuseColor(baseColor, material.metallic);
+    surface.metallic = material.metallic;
     surface.f0 = f0FromBaseColor(baseColor, material.metallic, material.reflectance);
     // Nothing real reflects less than 2 %; darker f0 means that the material wants no reflection at all. Lagarde and de
     // Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
     surface.f90 = saturate(dot(surface.f0, vec3(50.0 * 0.33)));
     surface.perceptualRoughness = materialPerceptualRoughness(material);
     surface.alpha = alphaFromPerceptual(surface.perceptualRoughness);
-    vec2 dfg = textureLod(viewDfg, vec2(shading_NoV, surface.perceptualRoughness), 0.0).xy;
-    surface.energyCompensation = energyCompensation(surface.f0, dfg);
+    vec2 dfg = splitSumTerm(shading_NoV, surface.perceptualRoughness);
+    surface.energyCompensation = energyCompensationTerm(surface.f0, dfg);
     surface.specularAlbedo = specularDfg(surface.f0, dfg) * surface.energyCompensation;
 #if defined(HAS_AMBIENT_OCCLUSION)
     surface.visibility = saturate(material.ambientOcclusion);
@@ -52,8 +54,7 @@ vec3 environmentFromWorld(vec3 direction) { return direction * mat3(frameUniform
 vec3 imageBasedLight(Surface surface) {
     vec3 light = vec3(0.0);
     if (frameUniforms.ambient.x > 0.0) { // else: no environment
-        vec3 irradiance = irradianceSh(frameUniforms.irradianceSh, environmentFromWorld(shading_normal),
-                int(frameUniforms.ambient.z));
+        vec3 irradiance = irradianceTerm(environmentFromWorld(shading_normal));
         vec3 diffuse = surface.diffuse * irradiance * (1.0 - surface.specularAlbedo) * surface.visibility;
 
         vec3 direction = dominantSpecularDirection(shading_normal, shading_reflected, surface.alpha);
@@ -79,9 +80,11 @@ vec3 directLight(Surface surface, vec3 light, vec3 illuminance) {
         float noh = saturate(dot(shading_normal, halfway));
         float voh = saturate(dot(shading_view, halfway));
         float d = ndfGgx(noh, surface.alpha);
-        float v = visibilitySmithGgxCorrelated(shading_NoV, nol, surface.alpha);
-        vec3 specular = (d * v) * fresnelSchlick(surface.f0, surface.f90, voh) * surface.energyCompensation;
-        reflected = (surface.diffuse * diffuseLambert() + specular) * illuminance * nol;
+        float v = visibilityTerm(shading_NoV, nol, surface.alpha);
+        vec3 f = fresnelTerm(surface.f0, surface.f90, surface.metallic, voh);
+        vec3 specular = (d * v) * f * surface.energyCompensation;
+        float diffuse = diffuseTerm(shading_NoV, nol, voh, surface.perceptualRoughness);
+        reflected = (surface.diffuse * diffuse + specular) * illuminance * nol;
     }
     return reflected;
 }

@@ -4,6 +4,7 @@
 
 #include <filament/Camera.h>
 #include <filament/Objects.h>
+#include <filament/Quality.h>
 
 #include <optional>
 #include <string_view>
@@ -28,6 +29,7 @@ struct View {
     Camera camera{};
     uint2 size{ 1280, 720 }; ///< pixels, >= 1
     ColorGrading colorGrading{};
+    Quality quality{};               ///< which approximations the shading makes
     float4 clearColor{ 0, 0, 0, 1 }; ///< scene-linear and pre-exposed: what is behind everything, without a skybox
     uint8_t samples = 1;             ///< MSAA: 1 or 4
     double timeSeconds = 0;          ///< handed to the materials

@@ -13,6 +13,7 @@
 #include <filament/Math.h>
 #include <filament/Node.h>
 #include <filament/Objects.h>
+#include <filament/Quality.h>
 #include <filament/Renderer.h>
 #include <filament/Result.h>
 #include <filament/Scene.h>

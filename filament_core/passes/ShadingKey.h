@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ShadingKey: the choices of <filament/Quality.h> that select a program, packed; and what they specialise it with.
+///   Bits    one field a specialisation constant of ShaderInterface.h. 0: all defaults, the program as it was compiled.
+///   Thread  pure functions. Memory: none. Fails: never.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "shaders/interface/ShaderInterface.h"
+
+#include <filament/Quality.h>
+
+#include <array>
+#include <cstdint>
+
+namespace filament::passes {
+
+using ShadingKey = uint16_t;
+
+ShadingKey shadingKey(Quality const& quality);
+
+/// Values for shader::kQualityConstants, in their order.
+std::array<backend::ConstantValue, shader::kQualityConstants.size()> shadingConstants(ShadingKey key);
+
+} // namespace filament::passes

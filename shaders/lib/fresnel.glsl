@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fresnel's equations, for whoever wants more than Schlick's term (brdf.glsl): dielectrics and metals in one formula.
+
+// Beyond it 1 - r has no digits left in fp32; also keeps n finite.
+const float kMaxExactF0 = 0.999f;
+
+// Unpolarised reflectance of a boundary between air and a medium of complex index n + ik, one component.
+// Born and Wolf, "Principles of Optics", section 14.2, in the real form of Lagarde 2013, "Memo on Fresnel Equations".
+// cosine in [0, 1] to the normal of the facet; n >= 0, k2 = k^2 >= 0. Returns [0, 1].
+float fresnelComplex(float cosine, float n, float k2) {
+    float c2 = cosine * cosine;
+    float s2 = 1.0f - c2;
+    float n2 = n * n;
+    float t0 = n2 - k2 - s2;
+    float a2b2 = sqrt(t0 * t0 + 4.0f * n2 * k2);
+    float t1 = a2b2 + c2;
+    float t2 = 2.0f * cosine * sqrt(max(0.5f * (a2b2 + t0), 0.0f));
+    float s = (t1 - t2) / max(t1 + t2, 1e-10f);
+    float t3 = c2 * a2b2 + s2 * s2;
+    float t4 = t2 * s2;
+    return clamp(0.5f * s * (1.0f + (t3 - t4) / max(t3 + t4, 1e-10f)), 0.0f, 1.0f);
+}
+
+// n and k from what an artist sets: the reflectance r at normal incidence and the edge tint. Gulbrandsen 2014, "Artist
+// Friendly Metallic Fresnel", eq. 5 to 7. A tint of 0 gives k = 0, which is a dielectric of reflectance r; 1 is a metal
+// with the brightest edge. Returns (n, k^2).
+vec2 complexIorFromTint(float f0, float edgeTint) {
+    float r = min(f0, kMaxExactF0);
+    float root = sqrt(r);
+    float n = mix((1.0f + root) / (1.0f - root), (1.0f - r) / (1.0f + r), edgeTint);
+    float k2 = (r * (n + 1.0f) * (n + 1.0f) - (n - 1.0f) * (n - 1.0f)) / (1.0f - r);
+    return vec2(n, max(k2, 0.0f));
+}
+
+float fresnelExact(float f0, float edgeTint, float voh) {
+    vec2 ior = complexIorFromTint(f0, edgeTint);
+    return fresnelComplex(voh, ior.x, ior.y);
+}
+
+// The exact counterpart of fresnelSchlick(). edgeTint: 0 for dielectrics, 1 for metals; all in [0, 1].
+vec3 fresnelExact(vec3 f0, float edgeTint, float voh) {
+    return vec3(fresnelExact(f0.x, edgeTint, voh), fresnelExact(f0.y, edgeTint, voh),
+            fresnelExact(f0.z, edgeTint, voh));
+}

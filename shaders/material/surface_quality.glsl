@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// The terms of lit materials that <filament/Quality.h> chooses. The choices are specialisation constants: what is not
+// chosen is not in the program. 0 is the default everywhere.
+
+const int kVisibilityFast = 1;
+const int kVisibilityUncorrelated = 2;
+const int kFresnelExact = 1;
+const int kDiffuseDisney = 1;
+const int kSplitSumAnalytic = 1;
+const int kIrradianceLastSpecularLevel = 1;
+
+float visibilityTerm(float nov, float nol, float alpha) {
+    float v;
+    if (quality_specularVisibility == kVisibilityFast) {
+        v = visibilitySmithGgxCorrelatedFast(nov, nol, alpha);
+    } else if (quality_specularVisibility == kVisibilityUncorrelated) {
+        v = visibilitySmithGgxUncorrelated(nov, nol, alpha);
+    } else {
+        v = visibilitySmithGgxCorrelated(nov, nol, alpha);
+    }
+    return v;
+}
+
+// f90 is below 1 only where the material wants no reflection (surfaceOf()): that goes for the exact term as well.
+vec3 fresnelTerm(vec3 f0, float f90, float metallic, float voh) {
+    vec3 f;
+    if (quality_fresnel == kFresnelExact) {
+        f = fresnelExact(f0, metallic, voh) * f90;
+    } else {
+        f = fresnelSchlick(f0, f90, voh);
+    }
+    return f;
+}
+
+float diffuseTerm(float nov, float nol, float voh, float perceptualRoughness) {
+    float d;
+    if (quality_diffuse == kDiffuseDisney) {
+        d = diffuseDisney(nov, nol, voh, perceptualRoughness);
+    } else {
+        d = diffuseLambert();
+    }
+    return d;
+}
+
+vec2 splitSumTerm(float nov, float perceptualRoughness) {
+    vec2 dfg;
+    if (quality_splitSum == kSplitSumAnalytic) {
+        dfg = dfgAnalytic(nov, perceptualRoughness);
+    } else {
+        dfg = textureLod(viewDfg, vec2(nov, perceptualRoughness), 0.0).xy;
+    }
+    return dfg;
+}
+
+vec3 energyCompensationTerm(vec3 f0, vec2 dfg) {
+    vec3 factor = vec3(1.0);
+    if (quality_withoutEnergyCompensation == 0) factor = energyCompensation(f0, dfg);
+    return factor;
+}
+
+// Irradiance / pi around a direction of the environment's space.
+vec3 irradianceTerm(vec3 normal) {
+    vec3 irradiance;
+    if (quality_diffuseIrradiance == kIrradianceLastSpecularLevel) {
+        irradiance = textureLod(viewSpecular, normal, frameUniforms.ambient.y).rgb;
+    } else {
+        irradiance = irradianceSh(frameUniforms.irradianceSh, normal, int(frameUniforms.ambient.z));
+    }
+    return irradiance;
+}

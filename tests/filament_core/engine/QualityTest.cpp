@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quality choices of the shading as pictures: each value draws the same bits on both APIs, and draws what its formula
+// says. The formulas are the shader library compiled as C++ (shaders/lib/LibCpp.h), which its own tests check.
+#include "filament_core/assets/DfgTable.h"
+#include "tests/filament_core/engine/QualityFixture.h"
+
+#include "shaders/lib/LibCpp.h"
+
+#include <algorithm>
+
+namespace filament {
+namespace {
+
+namespace lib = shader::lib;
+using test::Patch;
+
+constexpr double kViewDegrees = 60;
+constexpr float kRoughness = 0.5f;
+const float3 kTowardsSun = glm::normalize(float3(-0.6f, 0.3f, 0.5f));
+
+/// Cosines at the centre of a patch seen from kViewDegrees.
+struct Angles {
+    float nov, nol, noh, voh;
+};
+
+Angles angles() {
+    const float3 v(std::sin(glm::radians(60.0f)), 0, std::cos(glm::radians(60.0f)));
+    const float3 h = glm::normalize(v + kTowardsSun);
+    return { v.z, kTowardsSun.z, h.z, glm::dot(v, h) };
+}
+
+/// Radiance of the patch under the sun of Patch::addSun(), without energy compensation.
+float3 sunlit(float3 color, float metallic, float visibility, float3 fresnel, float diffuse) {
+    const Angles at = angles();
+    const float d = lib::ndfGgx(at.noh, lib::alphaFromPerceptual(kRoughness));
+    const float3 specular = d * visibility * fresnel;
+    return (lib::diffuseColor(color, metallic) * diffuse + specular) * std::numbers::pi_v<float> * at.nol;
+}
+
+float3 schlick(float3 color, float metallic) {
+    return lib::fresnelSchlick(lib::f0FromBaseColor(color, metallic, 0.5f), 1, angles().voh);
+}
+
+float correlated() {
+    return lib::visibilitySmithGgxCorrelated(angles().nov, angles().nol, lib::alphaFromPerceptual(kRoughness));
+}
+
+void expectNear(float3 actual, float3 expected) {
+    for (int c = 0; c < 3; ++c)
+        EXPECT_NEAR(actual[c], expected[c], 0.003f * expected[c] + 0.0005f) << "component " << c;
+}
+
+class QualityTest : public testing::TestWithParam<Backend> {
+protected:
+    /// The centre of a sunlit patch under `quality`, without energy compensation.
+    float3 sunlitPatch(float4 color, float metallic, Quality quality) {
+        auto engine = test::makeEngine(GetParam());
+        if (!engine) return {};
+        Patch patch(*engine, kViewDegrees);
+        patch.setSurface(color, metallic, kRoughness);
+        patch.addSun(kTowardsSun);
+        quality.energyCompensation = false;
+        patch.view.quality = quality;
+        const float3 center = patch.renderCenter();
+        test::expectNoErrors(*engine);
+        return center;
+    }
+
+    static constexpr float4 kCopper{ 0.95f, 0.64f, 0.54f, 1 };
+};
+
+TEST_P(QualityTest, EachVisibilityTermDrawsItsFormula) {
+    const std::pair<SpecularVisibility, float (*)(float, float, float)> terms[] = {
+        { SpecularVisibility::Correlated, lib::visibilitySmithGgxCorrelated },
+        { SpecularVisibility::Fast, lib::visibilitySmithGgxCorrelatedFast },
+        { SpecularVisibility::Uncorrelated, lib::visibilitySmithGgxUncorrelated },
+    };
+    const Angles at = angles();
+    for (auto const& [choice, formula] : terms) {
+        SCOPED_TRACE(toString(choice));
+        const float visibility = formula(at.nov, at.nol, lib::alphaFromPerceptual(kRoughness));
+        expectNear(sunlitPatch(kCopper, 1, { .specularVisibility = choice }),
+                   sunlit(float3(kCopper), 1, visibility, schlick(float3(kCopper), 1), 0));
+    }
+}
+
+TEST_P(QualityTest, TheExactFresnelTermIsThatOfMetalsAndDielectrics) {
+    const float3 color(0.95f, 0.64f, 0.54f);
+    for (const float metallic : { 0.0f, 1.0f }) {
+        SCOPED_TRACE(metallic);
+        const float3 f0 = lib::f0FromBaseColor(color, metallic, 0.5f);
+        const float3 exact = lib::fresnelExact(f0, metallic, angles().voh);
+        expectNear(sunlitPatch(kCopper, metallic, { .fresnel = FresnelTerm::Exact }),
+                   sunlit(color, metallic, correlated(), exact, lib::diffuseLambert()));
+    }
+}
+
+TEST_P(QualityTest, DisneysDiffuseLobeIsBurleys) {
+    const Angles at = angles();
+    const float diffuse = lib::diffuseDisney(at.nov, at.nol, at.voh, kRoughness);
+    const float3 color(kCopper);
+    expectNear(sunlitPatch(kCopper, 0, { .diffuse = DiffuseTerm::Disney }),
+               sunlit(color, 0, correlated(), schlick(color, 0), diffuse));
+}
+
+// In an environment of radiance 1, a white metal reflects the table's second entry, or all with compensation.
+TEST_P(QualityTest, WithoutEnergyCompensationARoughWhiteMetalLosesWhatTheTableSays) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    Patch patch(*engine);
+    patch.setSurface(float4(1), 1, 1);
+    patch.addEnvironment({ float4(1) }, 1);
+    EXPECT_NEAR(patch.renderCenter().x, 1.0f, 0.002f);
+    patch.view.quality.energyCompensation = false;
+    const float lastTexel = 1 - 0.5f / 64; // the table is clamped to its edge
+    EXPECT_NEAR(patch.renderCenter().x, assets::integrateDfg(lastTexel, lastTexel * lastTexel, 4096).y, 0.002f);
+    test::expectNoErrors(*engine);
+}
+
+TEST_P(QualityTest, TheAnalyticSplitSumIsKarissFitAndTableSizesAgreeToTheirTexels) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    Patch patch(*engine, kViewDegrees);
+    patch.setSurface(float4(1), 1, kRoughness);
+    patch.addEnvironment({ float4(1) }, 1);
+    patch.view.quality.energyCompensation = false;
+    patch.view.quality.splitSum = SplitSum::Analytic;
+    EXPECT_NEAR(patch.renderCenter().x, lib::dfgAnalytic(0.5f, kRoughness).y, 0.002f);
+    patch.view.quality.splitSum = SplitSum::Table;
+    const float exact = assets::integrateDfg(0.5f, kRoughness * kRoughness, 4096).y;
+    for (const uint16_t size : { uint16_t{ 16 }, uint16_t{ 64 }, uint16_t{ 256 } }) {
+        patch.view.quality.dfgTableSize = size;
+        EXPECT_NEAR(patch.renderCenter().x, exact, 0.02f) << "table of " << size;
+    }
+    test::expectNoErrors(*engine);
+}
+
+TEST_P(QualityTest, EachBandAddsItsTermsToTheDiffuseLight) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    Patch patch(*engine);
+    patch.setSurface(float4(1, 1, 1, 1), 0, 1);
+    std::array<float4, 9> sh{ float4(1) };
+    sh[2] = float4(0.5f);   // n.z = 1: adds 0.5
+    sh[6] = float4(0.125f); // 3 n.z^2 - 1 = 2: adds 0.25
+    patch.addEnvironment(sh);
+    std::array<float, 3> radiance{};
+    for (uint8_t bands = 1; bands <= 3; ++bands) {
+        patch.view.quality.shBands = bands;
+        radiance[bands - 1u] = patch.renderCenter().x;
+    }
+    const float perUnit = (radiance[1] - radiance[0]) / 0.5f; // what irradiance 1 adds to the picture
+    EXPECT_NEAR(radiance[2] - radiance[1], 0.25f * perUnit, 0.003f);
+    EXPECT_GT(perUnit, 0.9f);
+    patch.view.quality.diffuseIrradiance = DiffuseIrradiance::LastSpecularLevel;
+    EXPECT_NEAR(patch.renderCenter().x - radiance[0], (3.0f - 1.0f) * perUnit, 0.006f) << "level 2 holds radiance 3";
+    test::expectNoErrors(*engine);
+}
+
+INSTANTIATE_TEST_SUITE_P(BothApis, QualityTest, testing::ValuesIn(test::kBothApis),
+                         [](auto const& test) { return std::string(toString(test.param)); });
+
+std::vector<Image> renderEveryValue(Backend backend) {
+    std::vector<Image> images;
+    auto engine = test::makeEngine(backend);
+    if (!engine) return images;
+    Patch patch(*engine, kViewDegrees);
+    patch.setSurface({ 0.9f, 0.5f, 0.3f, 1 }, 0.5f, kRoughness);
+    patch.addSun(kTowardsSun);
+    patch.addEnvironment({ float4(0.5f), float4(0.1f), float4(0.2f), float4(0.05f), float4(0.04f), float4(0.03f),
+                           float4(0.02f), float4(0.01f), float4(0.03f) });
+    for (QualityChoice const& choice : qualityChoices()) {
+        for (const std::string_view value : choice.values) {
+            patch.view.quality = {};
+            EXPECT_TRUE(setQuality(patch.view.quality, choice.name, value));
+            images.push_back(patch.render());
+        }
+    }
+    test::expectNoErrors(*engine);
+    return images;
+}
+
+TEST(QualityBits, EveryValueOfEveryChoiceDrawsTheSameBitsOnBothApisAndAPictureOfItsOwn) {
+    const std::vector<Image> vulkan = renderEveryValue(Backend::Vulkan), gles = renderEveryValue(Backend::Gles);
+    ASSERT_EQ(vulkan.size(), gles.size());
+    size_t at = 0;
+    for (QualityChoice const& choice : qualityChoices()) {
+        std::vector<std::vector<std::byte>> different;
+        for (const std::string_view value : choice.values) {
+            EXPECT_EQ(vulkan[at].pixels, gles[at].pixels) << choice.name << '=' << value;
+            if (std::ranges::find(different, vulkan[at].pixels) == different.end())
+                different.push_back(vulkan[at].pixels);
+            ++at;
+        }
+        EXPECT_EQ(different.size(), choice.values.size()) << choice.name << ": two values draw the same picture";
+    }
+}
+
+} // namespace
+} // namespace filament

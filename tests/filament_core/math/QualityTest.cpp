@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// Names of quality choices: every one is read back as it was written, unknown ones say what would be right.
+#include <filament/Quality.h>
+
+#include <gtest/gtest.h>
+
+namespace filament {
+namespace {
+
+TEST(Quality, EveryValueOfEveryChoiceIsReadBackAsItWasSet) {
+    for (QualityChoice const& choice : qualityChoices()) {
+        for (const std::string_view value : choice.values) {
+            Quality quality;
+            ASSERT_TRUE(setQuality(quality, choice.name, value)) << choice.name << '=' << value;
+            EXPECT_EQ(qualityValue(quality, choice.name), value);
+        }
+    }
+}
+
+TEST(Quality, ValuesOfOneChoiceAreDifferentQualities) {
+    for (QualityChoice const& choice : qualityChoices()) {
+        for (size_t i = 0; i < choice.values.size(); ++i) {
+            for (size_t j = 0; j < i; ++j) {
+                Quality a, b;
+                ASSERT_TRUE(setQuality(a, choice.name, choice.values[i]) &&
+                            setQuality(b, choice.name, choice.values[j]));
+                EXPECT_NE(a, b) << choice.name << ": " << choice.values[i] << ", " << choice.values[j];
+            }
+        }
+    }
+}
+
+TEST(Quality, TheDefaultHasNothingToSayAndAChangeNamesItself) {
+    Quality quality;
+    EXPECT_EQ(toString(quality), "default");
+    quality.specularVisibility = SpecularVisibility::Fast;
+    quality.shBands = 2;
+    EXPECT_EQ(toString(quality), "specularVisibility=fast shBands=2");
+}
+
+TEST(Quality, AnUnknownNameSuggestsTheNearestOne) {
+    Quality quality;
+    const Result<void> result = setQuality(quality, "shBand", "2");
+    ASSERT_FALSE(result);
+    EXPECT_EQ(result.error().code, ErrorCode::NotFound);
+    EXPECT_NE(result.error().message.find("shBands"), std::string::npos) << result.error().message;
+    EXPECT_FALSE(qualityValue(quality, "shBand"));
+}
+
+TEST(Quality, AValueOutOfRangeChangesNothingAndNamesTheRange) {
+    for (const char* value : { "0", "4", "-1", "2x", "", "99999999999" }) {
+        Quality quality;
+        const Result<void> result = setQuality(quality, "shBands", value);
+        ASSERT_FALSE(result) << value;
+        EXPECT_EQ(result.error().code, ErrorCode::InvalidArgument);
+        EXPECT_NE(result.error().message.find("1, 2 or 3"), std::string::npos) << result.error().message;
+        EXPECT_EQ(quality, Quality{});
+    }
+    Quality quality;
+    const Result<void> result = setQuality(quality, "fresnel", "fresnel");
+    ASSERT_FALSE(result);
+    EXPECT_NE(result.error().message.find("schlick or exact"), std::string::npos) << result.error().message;
+}
+
+TEST(Quality, PresetsHaveNamesAndTheHighOneIsTheDefault) {
+    for (const char* name : { "low", "medium", "high", "reference" }) {
+        const std::optional<QualityPreset> preset = qualityPresetFromName(name);
+        ASSERT_TRUE(preset) << name;
+        EXPECT_STREQ(toString(*preset), name);
+    }
+    EXPECT_FALSE(qualityPresetFromName("ultra"));
+    EXPECT_EQ(qualityPreset(QualityPreset::High), Quality{});
+    EXPECT_NE(qualityPreset(QualityPreset::Low), qualityPreset(QualityPreset::Medium));
+}
+
+} // namespace
+} // namespace filament
