@@ -5,7 +5,7 @@
 ///           standard error of its mean. No clamping: the estimate is unbiased but for `maxBounces`.
 ///   Thread  render(): any, one call per TracedScene or many at once; works on the job system. The same bits for any
 ///           number of workers.
-///   Memory  96 bytes a pixel while it runs; the scene about 200 bytes a triangle and the models' images.
+///   Memory  72 bytes a pixel while it runs; the scene about 200 bytes a triangle and the models' images.
 ///   Fails   InvalidArgument in one line for settings outside of their ranges; OutOfMemory from Embree.
 ///   Cost    README.md
 #pragma once
