@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Picture: one frame twice, as scene-linear half floats and as display bytes, and what can be asked of it.
+///   Thread  pure functions of values. Fails: never; a missing image has no pixels.
+#pragma once
+
+#include <filament/Image.h>
+#include <filament/Math.h>
+
+#include <cstdint>
+#include <functional>
+#include <string>
+
+namespace filament::hard {
+
+/// Largest half float: brighter light is stored as this, because Mesa's conversion saturates.
+inline constexpr float kLargestStored = 65504;
+
+struct Picture {
+    Image linear;  ///< RGBA16F, before the tone mapper
+    Image display; ///< RGBA8
+    uint2 size() const { return { linear.width, linear.height }; }
+    float4 at(uint32_t x, uint32_t y) const; ///< scene-linear
+    uint32_t coveredCount() const;           ///< pixels with alpha 1
+};
+
+/// "3 of 4096 pixels are not finite, first at (5, 7): (nan, 0, 0, 1)"; empty if all are finite.
+std::string describeNotFinite(Image const& halfFloats);
+
+/// Where two display images differ by more than `tolerance` of 255.
+struct Difference {
+    uint32_t pixels = 0;
+    uint32_t largest = 0; ///< of 255
+};
+Difference compare(Image const& a, Image const& b, uint32_t tolerance);
+
+Image mirroredLeftRight(Image image);
+
+/// The four bytes of a display pixel: 0xAABBGGRR.
+uint32_t bytesAt(Image const& display, uint32_t x, uint32_t y);
+
+/// Calls for every pixel that a surface covers.
+void forEachCovered(Picture const& picture, std::function<void(uint32_t x, uint32_t y, float4 color)> const& visit);
+
+} // namespace filament::hard
