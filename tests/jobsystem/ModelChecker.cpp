@@ -486,6 +486,7 @@ void printExplored(std::string const& what, Report const& report) {
     std::printf("[ EXPLORED ] %s: %llu runs, %llu more given up as equal, %llu steps\n", what.c_str(),
                 static_cast<unsigned long long>(report.runs), static_cast<unsigned long long>(report.pruned),
                 static_cast<unsigned long long>(report.steps));
+    std::fflush(stdout);
 }
 
 Options boundedIfSanitized(Options options) {
