@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// BuiltModel: the model of a scene file that lists objects instead of naming a file, as a real .glb.
+///   In      { "objects": [ { "shape": "sphere", "at": [0, 1, 0], "material": { "color": [1, 0, 0, 1] } } ] }
+///   Out     the bytes of a binary glTF file: what is drawn has been through the loader. The same JSON, the same bytes.
+///   Fails   InvalidArgument with the field.
+///   Thread  any; pure.
+#pragma once
+
+#include "tools/conformance/JsonReader.h"
+
+#include <cstddef>
+
+namespace filament::conformance {
+
+Result<std::vector<std::byte>> buildModel(Json const& model, std::string const& name);
+
+} // namespace filament::conformance

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/Compare.h"
+
+#include "tools/conformance/Flip.h"
+#include "tools/conformance/ImageChecks.h"
+#include "tools/imgdiff/ImageCompare.h"
+
+#include <filament/Color.h>
+
+#include <glm/common.hpp>
+
+#include <cmath>
+
+namespace filament::conformance {
+namespace {
+
+bool isMesaCpu(DeviceDescription const& device) { return device.device.find("llvmpipe") != std::string::npos; }
+
+bool agrees(Comparison const& c, Comparator const& comparator) {
+    switch (comparator.kind) {
+    case ComparatorKind::Bits:
+        return c.differing == 0;
+    case ComparatorKind::Tolerance:
+        return c.maxDifference <= comparator.tolerance;
+    case ComparatorKind::Flip:
+        return c.flipMean <= comparator.flipMean && c.flipP99 <= comparator.flipP99;
+    }
+    return false;
+}
+
+} // namespace
+
+Comparator comparatorFor(Comparator const& asked, DeviceDescription const& a, DeviceDescription const& b) {
+    const bool sameDevice = a.backend == b.backend && a.device == b.device && a.driver == b.driver;
+    if (asked.kind != ComparatorKind::Bits || sameDevice || (isMesaCpu(a) && isMesaCpu(b))) return asked;
+    Comparator flips = asked;
+    flips.kind = ComparatorKind::Flip;
+    return flips;
+}
+
+Result<Comparison> comparePictures(Image const& reference, Image const& test, Comparator const& comparator) {
+    const Result<tools::ImageComparison> compared = tools::compareImages(reference, test);
+    if (!compared) return compared.error();
+    Comparison result{ .differing = compared->pixels - compared->identical, .maxDifference = compared->maxDifference };
+    if (result.differing > 0 || comparator.kind == ComparatorKind::Flip) {
+        const FlipError error = flip(reference, test);
+        result.flipMean = error.mean, result.flipP99 = error.p99;
+    }
+    if (const auto first = firstDifference(reference.format, reference.width, reference.pixels, test.pixels))
+        result.first =
+                fmt::format("pixel ({}, {}) is {} and {}", first->x, first->y, textOf(first->a), textOf(first->b));
+    result.passed = agrees(result, comparator);
+    return result;
+}
+
+Image displayed(Image const& image) {
+    if (image.format == Format::RGBA8) return image;
+    Image result{ .width = image.width, .height = image.height };
+    for (size_t i = 0; i < size_t{ image.width } * image.height; ++i) {
+        const auto value = texel(image.format, image.pixels, i);
+        const float3 codes =
+                color::srgbFromLinear(glm::clamp(float3(value[0], value[1], value[2]), float3(0.0f), float3(1.0f)));
+        for (int c = 0; c < 3; ++c) result.pixels.push_back(static_cast<std::byte>(std::lround(codes[c] * 255)));
+        result.pixels.push_back(std::byte{ 255 });
+    }
+    return result;
+}
+
+} // namespace filament::conformance

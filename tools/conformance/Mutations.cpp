@@ -1,0 +1,318 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/Mutations.h"
+
+#include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/EngineMaterials.h"
+#include "shaders/package/Package.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <deque>
+#include <map>
+#include <set>
+#include <string>
+
+namespace filament::conformance {
+namespace {
+
+using namespace backend;
+
+using Bytes = std::vector<std::byte>;
+
+float readFloat(Bytes const& bytes, size_t at) {
+    float value;
+    std::memcpy(&value, bytes.data() + at, sizeof(value));
+    return value;
+}
+void writeFloat(Bytes& bytes, size_t at, float value) { std::memcpy(bytes.data() + at, &value, sizeof(value)); }
+
+/// Memory for changed payloads, until the next stream.
+class PayloadEdit : public StreamEdit {
+public:
+    void inspect(CommandView) override { mPayloads.clear(); }
+
+protected:
+    Bytes& copy(std::span<const std::byte>& bytes) {
+        Bytes& own = mPayloads.emplace_back(bytes.begin(), bytes.end());
+        bytes = own;
+        return own;
+    }
+
+private:
+    std::deque<Bytes> mPayloads; // grows without moving what is there
+};
+
+/// The lit glTF materials: their parameter blocks and the layouts by which bind groups of them are known.
+std::vector<shader::MaterialPackage> const& litPackages() {
+    static const std::vector<shader::MaterialPackage> packages = [] {
+        std::vector<shader::MaterialPackage> read;
+        for (const char* name : { "gltf_lit_opaque", "gltf_lit_masked", "gltf_lit_blended" }) {
+            if (auto package = shader::readPackage(shader::engineMaterial(name))) read.push_back(std::move(*package));
+        }
+        return read;
+    }();
+    return packages;
+}
+
+/// Calls `found(package, entries)` for each bind group of a lit material.
+template <class Found>
+struct GroupFinder {
+    Found found;
+    template <class C>
+    void execute(C const&) {}
+    void execute(CmdCreateBindGroup const& command) {
+        for (shader::MaterialPackage const& package : litPackages()) {
+            if (!(command.desc.layout == package.layout[shader::kGroupMaterial])) continue;
+            found(package, command.desc.entries);
+        }
+    }
+};
+template <class Found>
+void findLitGroups(CommandView commands, Found found) {
+    GroupFinder<Found> finder{ std::move(found) };
+    replay(commands, finder);
+}
+
+/// Multiplies a parameter of every lit material.
+class ParameterEdit final : public PayloadEdit {
+public:
+    ParameterEdit(std::string_view parameter, uint32_t components, float factor)
+            : mParameter(parameter), mComponents(components), mFactor(factor) {}
+
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        mOffsets.clear();
+        std::map<BufferHandle, uint64_t> sizes;
+        findLitGroups(commands, [&](shader::MaterialPackage const& package, std::span<const BindGroupEntry> entries) {
+            shader::Parameter const* parameter = package.findParameter(mParameter);
+            for (BindGroupEntry const& entry : entries) {
+                if (parameter && entry.buffer && entry.size == package.uniformBytes)
+                    mOffsets[entry.buffer] = parameter->offset;
+            }
+        });
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUpdateBuffer& command) override {
+        const auto found = mOffsets.find(command.buffer);
+        if (found == mOffsets.end() || command.bytes.size() < found->second + 4 * mComponents) return;
+        Bytes& bytes = copy(command.bytes);
+        for (uint32_t i = 0; i < mComponents; ++i)
+            writeFloat(bytes, found->second + 4 * i, mFactor * readFloat(bytes, found->second + 4 * i));
+    }
+
+private:
+    const std::string_view mParameter;
+    const uint32_t mComponents;
+    const float mFactor;
+    std::map<BufferHandle, uint32_t> mOffsets; // of the parameter, in the blocks that this stream makes
+};
+
+/// Normal maps with green upside down: what a loader that takes DirectX's convention would show.
+class NormalYEdit final : public PayloadEdit {
+public:
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        mNormalMaps.clear();
+        findLitGroups(commands, [&](shader::MaterialPackage const& package, std::span<const BindGroupEntry> entries) {
+            shader::Parameter const* map = package.findParameter("normalMap");
+            for (BindGroupEntry const& entry : entries) {
+                if (map && entry.texture && entry.binding == map->binding) mNormalMaps.insert(entry.texture);
+            }
+        });
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUploadTexture& command) override {
+        if (!mNormalMaps.contains(command.texture)) return;
+        Bytes& texels = copy(command.bytes); // RGBA8: what the loader makes of every normal map
+        for (size_t i = 1; i < texels.size(); i += 4) texels[i] = ~texels[i];
+    }
+
+private:
+    std::set<TextureHandle> mNormalMaps;
+};
+
+/// Changes values in the uniform data of a frame.
+class FrameEdit : public PayloadEdit {
+public:
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        mHasLights = false;
+        replay(commands, *this);
+    }
+
+    template <class C>
+    void execute(C const&) {}
+    void execute(CmdCreateBuffer const& command) {
+        if (command.desc.debugName == "frame") mFrames.insert(command.handle);
+        if (command.desc.debugName == "lights") mLights.insert(command.handle);
+    }
+    void execute(CmdUpdateBuffer const& command) { mHasLights = mHasLights || mLights.contains(command.buffer); }
+
+    using PayloadEdit::edit;
+    void edit(CmdUpdateBuffer& command) override {
+        if (mFrames.contains(command.buffer)) changeFrame(command);
+        if (mLights.contains(command.buffer)) changeLights(command);
+    }
+
+protected:
+    virtual void changeFrame(CmdUpdateBuffer&) {}
+    virtual void changeLights(CmdUpdateBuffer&) {}
+    bool hasLights() const { return mHasLights; }
+
+private:
+    std::set<BufferHandle> mFrames, mLights;
+    bool mHasLights = false;
+};
+
+/// The first punctual light, or the sun where there is none.
+class LightOffEdit final : public FrameEdit {
+    void changeLights(CmdUpdateBuffer& command) override {
+        zeroColor(command, offsetof(shader::LightData, colorIntensity));
+    }
+    void changeFrame(CmdUpdateBuffer& command) override {
+        if (!hasLights()) zeroColor(command, offsetof(shader::FrameUniforms, sunIlluminance));
+    }
+    void zeroColor(CmdUpdateBuffer& command, size_t at) {
+        Bytes& bytes = copy(command.bytes);
+        for (size_t i = 0; i < 3; ++i) writeFloat(bytes, at + 4 * i, 0);
+    }
+};
+
+class IrradianceEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t begin = offsetof(shader::FrameUniforms, irradianceSh);
+        for (size_t at = begin; at < begin + sizeof(shader::FrameUniforms::irradianceSh); at += 4)
+            writeFloat(bytes, at, 1.01f * readFloat(bytes, at));
+    }
+};
+
+class SrgbDroppedEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreateTexture& command) override {
+        if (command.desc.format == Format::RGBA8Srgb) command.desc.format = Format::RGBA8;
+    }
+};
+
+class MipBiasEdit final : public PayloadEdit {
+public:
+    using PayloadEdit::edit;
+    void edit(CmdCreateProgram& command) override {
+        const std::span words(reinterpret_cast<const uint32_t*>(command.desc.fragment.data()),
+                              command.desc.fragment.size() / sizeof(uint32_t));
+        const std::vector<uint32_t> biased = withMipBias(words, 0.5f);
+        std::span<const std::byte> bytes = std::as_bytes(std::span(biased));
+        copy(bytes);
+        command.desc.fragment = bytes;
+    }
+};
+
+class DepthCompareEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        if (command.desc.depthStencil.depthWrite) command.desc.depthStencil.depthCompare = CompareOp::Always;
+    }
+};
+
+class CullFaceEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        if (command.desc.raster.cull == CullMode::Back) command.desc.raster.cull = CullMode::Front;
+    }
+};
+
+class BlendOffEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreatePipeline& command) override {
+        for (BlendState& blend : command.desc.blend) blend.enabled = false;
+    }
+};
+
+class WrapModeEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdCreateSampler& command) override {
+        for (WrapMode* wrap : { &command.desc.wrapU, &command.desc.wrapV }) {
+            if (*wrap == WrapMode::Repeat) *wrap = WrapMode::MirroredRepeat;
+        }
+    }
+};
+
+template <class E>
+std::unique_ptr<StreamEdit> make() {
+    return std::make_unique<E>();
+}
+std::unique_ptr<StreamEdit> roughness() { return std::make_unique<ParameterEdit>("roughnessFactor", 1, 1.01f); }
+std::unique_ptr<StreamEdit> metallic() { return std::make_unique<ParameterEdit>("metallicFactor", 1, 0.98f); }
+std::unique_ptr<StreamEdit> emissive() { return std::make_unique<ParameterEdit>("emissiveFactor", 3, 1.02f); }
+std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
+
+constexpr Mutation kMutations[] = {
+    { "none", "nothing: must not be noticed", make<StreamEdit> },
+    { "roughness", "roughness + 1 %", roughness },
+    { "normalY", "normal maps with y flipped", make<NormalYEdit> },
+    { "srgb", "sRGB decoding dropped", make<SrgbDroppedEdit> },
+    { "lightOff", "one light off", make<LightOffEdit> },
+    { "mipBias", "mip bias + 0.5", make<MipBiasEdit> },
+    { "depthCompare", "depth test always passes", make<DepthCompareEdit> },
+    { "cullFace", "front faces culled instead of back faces", make<CullFaceEdit> },
+    { "blendOff", "blending off", make<BlendOffEdit> },
+    { "wrapMode", "repeating textures mirrored", make<WrapModeEdit> },
+    { "irradiance", "irradiance + 1 %", make<IrradianceEdit> },
+    { "metallic", "metallic - 2 %", metallic },
+    { "emissive", "emission + 2 %", emissive },
+    { "cutoff", "alpha cutoff + 5 %", cutoff },
+};
+
+} // namespace
+
+std::span<const Mutation> mutations() { return kMutations; }
+
+Mutation const* findMutation(std::string_view name) {
+    const auto found = std::find_if(std::begin(kMutations), std::end(kMutations),
+                                    [&](Mutation const& mutation) { return mutation.name == name; });
+    return found == std::end(kMutations) ? nullptr : found;
+}
+
+std::vector<std::string_view> mutationNames() {
+    std::vector<std::string_view> names;
+    for (Mutation const& mutation : kMutations) names.push_back(mutation.name);
+    return names;
+}
+
+// SPIR-V 1.6 specification: 2.3 (instructions), 3.14 (image operands; Bias is bit 0 and so its operand comes first).
+std::vector<uint32_t> withMipBias(std::span<const uint32_t> module, float bias) {
+    constexpr uint32_t kHeader = 5, kOpTypeFloat = 22, kOpConstant = 43, kOpImageSampleImplicitLod = 87, kBias = 1;
+    std::vector<uint32_t> result(module.begin(), module.begin() + std::min<size_t>(kHeader, module.size()));
+    if (module.size() < kHeader) return result;
+    const uint32_t constant = result[3]++; // a new id below the bound
+    for (size_t at = kHeader; at < module.size();) {
+        const uint32_t words = module[at] >> 16, op = module[at] & 0xFFFF;
+        if (words == 0 || at + words > module.size()) break;
+        std::vector<uint32_t> instruction(module.begin() + at, module.begin() + at + words);
+        const bool hasMask = words > 5;
+        if (op == kOpImageSampleImplicitLod && !(hasMask && instruction[5] & kBias)) {
+            if (!hasMask) instruction.push_back(0);
+            instruction[5] |= kBias;
+            instruction.insert(instruction.begin() + 6, constant);
+            instruction[0] = static_cast<uint32_t>(instruction.size()) << 16 | op;
+        }
+        result.insert(result.end(), instruction.begin(), instruction.end());
+        if (op == kOpTypeFloat && words == 3 && instruction[2] == 32)
+            result.insert(result.end(),
+                          { 4u << 16 | kOpConstant, instruction[1], constant, std::bit_cast<uint32_t>(bias) });
+        at += words;
+    }
+    return result;
+}
+
+} // namespace filament::conformance

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/Options.h"
+
+#include "tools/common/CommandLine.h"
+#include "tools/conformance/Mutations.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdlib>
+
+namespace filament::conformance {
+namespace {
+
+using tools::invalidOption;
+
+std::string environmentValue(const char* name) {
+    const char* value = std::getenv(name);
+    return value ? value : "";
+}
+
+/// Slurm counts from SLURM_ARRAY_TASK_MIN, Kubernetes from 0.
+std::optional<std::pair<std::string, std::string>> shardOfScheduler() {
+    std::string index = environmentValue("SLURM_ARRAY_TASK_ID"), count = environmentValue("SLURM_ARRAY_TASK_COUNT");
+    if (!index.empty() && !count.empty()) {
+        const auto id = tools::wholeNumber(index, 0, UINT32_MAX);
+        const auto first = tools::wholeNumber(environmentValue("SLURM_ARRAY_TASK_MIN"), 0, UINT32_MAX);
+        if (id && first && *id >= *first) index = std::to_string(*id - *first);
+        return std::pair(index, count);
+    }
+    index = environmentValue("JOB_COMPLETION_INDEX"), count = environmentValue("JOB_COMPLETIONS");
+    if (!index.empty() && !count.empty()) return std::pair(index, count);
+    return std::nullopt;
+}
+
+struct Words {
+    std::string scenes = FILAMENT_SOURCE_DIR "/tests/conformance/scenes";
+    std::string baselines = FILAMENT_SOURCE_DIR "/tests/conformance/baselines.json";
+    std::string assets = FILAMENT_ASSET_DIR;
+    std::string out = "conformance", shard = "0/1", threads, mutations;
+    std::vector<std::string> backends, merge;
+};
+
+void declare(CLI::App& app, Words& words, Options& options) {
+    app.add_option("--scenes", words.scenes, "folder of scene files")->type_name("DIR");
+    app.add_option("--assets", words.assets, "where \"asset:\" paths of scenes begin")->type_name("DIR");
+    app.add_option("--baselines", words.baselines, "file of stored pictures")->type_name("FILE");
+    app.add_flag("--update-baselines", options.updateBaselines, "store the pictures of this run as baselines");
+    app.add_option("-o,--out", words.out, "folder of the report")->type_name("DIR");
+    app.add_option("--only", options.only, "cases whose names contain one of these")->type_name("TEXT...");
+    app.add_option("--shard", words.shard, "every N-th case beginning with case I; or auto, from the scheduler")
+            ->type_name("I/N");
+    app.add_option("--merge", words.merge, "do not run: join the results of shards")->type_name("DIR...");
+    app.add_option("--backends", words.backends, "vulkan gles, the first is the reference")->type_name("NAME...");
+    app.add_option("--require-device", options.requireDevice, "part of the device's name")->type_name("NAME");
+    app.add_option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies")
+            ->type_name("on|off");
+    app.add_option("--mutations", words.mutations, "check that defects are noticed")->type_name("on|off");
+    app.add_option("--build", options.build, "name of this build in the results")->type_name("NAME");
+    app.add_option("--bisect", options.bisect, "do not run: find the first draw of a case that differs")
+            ->type_name("CASE");
+    app.add_option("--mutate", options.mutate, "with --bisect: put this defect into the first backend")
+            ->type_name("MUTATION");
+    app.add_flag("--list", options.list, "print the cases and the mutations");
+}
+
+Result<void> convertBackends(std::vector<std::string> const& words, Options& options) {
+    if (words.empty()) return {};
+    options.backends.clear();
+    for (std::string const& word : words) {
+        if (word == "vulkan")
+            options.backends.push_back(Backend::Vulkan);
+        else if (word == "gles")
+            options.backends.push_back(Backend::Gles);
+        else
+            return invalidOption("--backends", word, "vulkan, gles or both");
+    }
+    return {};
+}
+
+Result<void> convert(Words const& words, Options& options) {
+    options.scenes = words.scenes, options.baselines = words.baselines, options.assets = words.assets;
+    options.out = words.out;
+    options.merge.assign(words.merge.begin(), words.merge.end());
+    if (auto done = convertBackends(words.backends, options); !done) return done;
+    if (auto done = tools::convertSwitch("--threads", words.threads, options.threads); !done) return done;
+    if (auto done = tools::convertSwitch("--mutations", words.mutations, options.mutations); !done) return done;
+    if (!options.mutate.empty() && !findMutation(options.mutate))
+        return invalidOption("--mutate", options.mutate, "one of those that --list prints");
+    if (!options.bisect.empty() && options.backends.size() < 2 && options.mutate.empty())
+        return fail(ErrorCode::InvalidArgument, "--bisect needs two backends, or one and --mutate");
+    Result<Shard> shard = parseShard(words.shard);
+    if (!shard) return shard.error();
+    options.shard = *shard;
+    return {};
+}
+
+} // namespace
+
+Result<Shard> parseShard(std::string const& word) {
+    const char* const cure = "I/N with 0 <= I < N, or auto in a Slurm array or an indexed Kubernetes job";
+    std::string index, count;
+    if (word == "auto") {
+        const auto scheduled = shardOfScheduler();
+        if (!scheduled) return invalidOption("--shard", word, cure);
+        std::tie(index, count) = *scheduled;
+    } else {
+        const size_t slash = word.find('/');
+        if (slash == std::string::npos) return invalidOption("--shard", word, cure);
+        index = word.substr(0, slash), count = word.substr(slash + 1);
+    }
+    const auto n = tools::wholeNumber(count, 1, 100'000);
+    const auto i = n ? tools::wholeNumber(index, 0, *n - 1) : std::nullopt;
+    if (!i) return invalidOption("--shard", index + "/" + count, cure);
+    return Shard{ *i, *n };
+}
+
+Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
+    CLI::App app("Draws every scene on every backend with every number of workers and compares the pictures.",
+                 "filament-conformance");
+    Words words;
+    Options options{ .build = FILAMENT_BUILD_NAME };
+    declare(app, words, options);
+    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    if (!parsed) return parsed.error();
+    if (!*parsed) return std::optional<Options>();
+    if (const Result<void> done = convert(words, options); !done) return done.error();
+    return std::optional(options);
+}
+
+} // namespace filament::conformance

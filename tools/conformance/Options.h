@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Options: what filament-conformance's command line asks for, checked.
+///   Fails   InvalidArgument in one line that names the option, the value and what would be right.
+#pragma once
+
+#include "filament_core/base/Result.h"
+
+#include <filament/Engine.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace filament::conformance {
+
+struct Shard {
+    uint32_t index = 0, count = 1;
+};
+
+struct Options {
+    std::filesystem::path scenes, baselines, assets;
+    std::filesystem::path out = "conformance";
+    std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles }; ///< the first is the reference
+    std::string requireDevice;
+    std::vector<std::string> only; ///< cases whose names contain one of these; empty: all
+    Shard shard{};
+    bool threads = true; ///< also 0, 2 and 8 workers, and the affinity policies
+    bool mutations = true;
+    bool updateBaselines = false;
+    std::string build;                        ///< name of this build in the results
+    std::string mutate;                       ///< with --bisect: the defect of the first backend; empty: none
+    std::string bisect;                       ///< the case to bisect; empty: run
+    std::vector<std::filesystem::path> merge; ///< folders of results; empty: run
+    bool list = false;
+};
+
+/// No value: the help text was asked for and is printed.
+Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
+
+/// "2/8", or "auto": SLURM_ARRAY_TASK_ID and ..._COUNT, or JOB_COMPLETION_INDEX and JOB_COMPLETIONS.
+Result<Shard> parseShard(std::string const& word);
+
+} // namespace filament::conformance

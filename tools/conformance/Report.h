@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Report: results for machines (JUnit XML) and for people (one HTML file with everything in it).
+///   In      results, and the folder in which their pictures are.
+///   Out     OUT/junit.xml, OUT/report.html: pictures, differences, both pictures in turn, the first differing pixel.
+///   Fails   Unreadable with the path. A picture that is not there is left out.
+///   Thread  any.
+#pragma once
+
+#include "tools/conformance/Results.h"
+
+namespace filament::conformance {
+
+std::string junitOf(Results const& results);
+std::string htmlOf(Results const& results, std::filesystem::path const& folder);
+
+/// results.json, times.json, junit.xml and report.html.
+Result<void> writeReport(std::filesystem::path const& folder, Results const& results);
+
+/// For the terminal: counts, kill rate, time.
+std::string summaryLine(Results const& results);
+
+} // namespace filament::conformance

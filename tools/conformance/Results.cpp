@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/Results.h"
+
+#include "filament_core/assets/EnvironmentFile.h"
+
+#include <algorithm>
+
+namespace filament::conformance {
+namespace {
+
+Json toJson(Comparison const& c) {
+    Json json{ { "configuration", c.configuration },
+               { "passed", c.passed },
+               { "differing", c.differing },
+               { "maxDifference", c.maxDifference } };
+    if (c.flipMean >= 0) json["flipMean"] = c.flipMean, json["flipP99"] = c.flipP99;
+    if (!c.first.empty()) json["first"] = c.first;
+    if (!c.image.empty()) json["image"] = c.image, json["difference"] = c.difference;
+    return json;
+}
+
+Json toJson(CaseResult const& result) {
+    Json json{ { "name", result.name }, { "status", toString(result.status) } };
+    if (!result.reasons.empty()) json["reasons"] = result.reasons;
+    if (result.status == Status::Skipped) return json;
+    json["hash"] = result.hash;
+    json["baseline"] = result.baseline;
+    json["image"] = result.image;
+    json["comparisons"] = Json::array();
+    for (Comparison const& comparison : result.comparisons) json["comparisons"].push_back(toJson(comparison));
+    json["kills"] = Json::array();
+    for (Kill const& kill : result.kills)
+        json["kills"].push_back(
+                { { "mutation", kill.mutation }, { "caught", kill.caught }, { "differing", kill.differing } });
+    return json;
+}
+
+Comparison comparisonFromJson(Json const& json) {
+    return { .configuration = json.at("configuration"),
+             .passed = json.at("passed"),
+             .differing = json.at("differing"),
+             .maxDifference = json.at("maxDifference"),
+             .flipMean = json.value("flipMean", -1.0),
+             .flipP99 = json.value("flipP99", -1.0),
+             .first = json.value("first", ""),
+             .image = json.value("image", ""),
+             .difference = json.value("difference", "") };
+}
+
+Status statusFromJson(std::string const& text) {
+    for (const Status status : { Status::Passed, Status::Skipped }) {
+        if (text == toString(status)) return status;
+    }
+    return Status::Failed;
+}
+
+CaseResult caseFromJson(Json const& json) {
+    CaseResult result{ .name = json.at("name"), .status = statusFromJson(json.at("status")) };
+    result.reasons = json.value("reasons", std::vector<std::string>());
+    result.hash = json.value("hash", "");
+    result.baseline = json.value("baseline", "");
+    result.image = json.value("image", "");
+    for (Json const& comparison : json.value("comparisons", Json::array()))
+        result.comparisons.push_back(comparisonFromJson(comparison));
+    for (Json const& kill : json.value("kills", Json::array()))
+        result.kills.push_back({ kill.at("mutation"), kill.at("caught"), kill.at("differing") });
+    return result;
+}
+
+Result<void> writeJson(std::filesystem::path const& path, Json const& json) {
+    const std::string text = json.dump(2) + '\n';
+    return assets::replaceFile(path, std::as_bytes(std::span(text)));
+}
+
+Result<Json> readJson(std::filesystem::path const& path) {
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
+    if (!bytes) return bytes.error();
+    const auto* text = reinterpret_cast<const char*>(bytes->data());
+    Json json = Json::parse(text, text + bytes->size(), nullptr, false);
+    if (json.is_discarded()) return fail(ErrorCode::Corrupt, "{}: not JSON", path.string());
+    return json;
+}
+
+} // namespace
+
+const char* toString(Status status) {
+    switch (status) {
+    case Status::Passed:
+        return "passed";
+    case Status::Failed:
+        return "failed";
+    case Status::Skipped:
+        return "skipped";
+    }
+    return "failed";
+}
+
+Summary summaryOf(Results const& results) {
+    Summary summary;
+    for (CaseResult const& result : results.cases) {
+        summary.passed += result.status == Status::Passed;
+        summary.failed += result.status == Status::Failed;
+        summary.skipped += result.status == Status::Skipped;
+        for (Kill const& kill : result.kills) {
+            if (kill.mutation == "none") continue; // the control
+            ++summary.mutants;
+            summary.caught += kill.caught;
+        }
+        for (Comparison const& comparison : result.comparisons) {
+            ++summary.comparisons;
+            summary.identical += comparison.differing == 0;
+        }
+    }
+    return summary;
+}
+
+Json toJson(Results const& results) {
+    const Summary summary = summaryOf(results);
+    Json json{ { "build", results.build }, { "reference", results.reference } };
+    for (auto const& [backend, device] : results.devices) json["devices"][backend] = device;
+    json["summary"] = { { "passed", summary.passed },       { "failed", summary.failed },
+                        { "skipped", summary.skipped },     { "comparisons", summary.comparisons },
+                        { "identical", summary.identical }, { "mutants", summary.mutants },
+                        { "caught", summary.caught } };
+    json["cases"] = Json::array();
+    for (CaseResult const& result : results.cases) json["cases"].push_back(toJson(result));
+    return json;
+}
+
+Result<void> writeResults(std::filesystem::path const& folder, Results const& results) {
+    if (Result<void> written = writeJson(folder / "results.json", toJson(results)); !written) return written;
+    return writeJson(folder / "times.json", Json(results.seconds));
+}
+
+Result<Results> readResults(std::filesystem::path const& folder) {
+    const Result<Json> json = readJson(folder / "results.json");
+    if (!json) return json.error();
+    const Result<Json> times = readJson(folder / "times.json");
+    if (!times) return times.error();
+    try {
+        Results results{ .build = json->at("build"), .reference = json->at("reference") };
+        results.devices = json->value("devices", std::map<std::string, std::string>());
+        for (Json const& one : json->at("cases")) results.cases.push_back(caseFromJson(one));
+        results.seconds = times->get<std::map<std::string, double>>();
+        return results;
+    } catch (Json::exception const& error) {
+        return fail(ErrorCode::Corrupt, "{}: {}", (folder / "results.json").string(), error.what());
+    }
+}
+
+Result<Results> merge(std::vector<Results> parts) {
+    Results all;
+    for (Results& part : parts) {
+        if (all.build.empty()) all.build = part.build, all.reference = part.reference;
+        if (part.build != all.build || part.reference != all.reference)
+            return fail(ErrorCode::InvalidArgument, "results of build '{}' ({}) do not merge with those of '{}' ({})",
+                        part.build, part.reference, all.build, all.reference);
+        for (auto const& [backend, device] : part.devices) {
+            const auto [known, isNew] = all.devices.emplace(backend, device);
+            if (!isNew && known->second != device)
+                return fail(ErrorCode::InvalidArgument, "results of '{}' do not merge with those of '{}'", device,
+                            known->second);
+        }
+        std::move(part.cases.begin(), part.cases.end(), std::back_inserter(all.cases));
+        all.seconds.merge(part.seconds);
+    }
+    std::sort(all.cases.begin(), all.cases.end(), [](auto const& a, auto const& b) { return a.name < b.name; });
+    const auto twice = std::adjacent_find(all.cases.begin(), all.cases.end(),
+                                          [](auto const& a, auto const& b) { return a.name == b.name; });
+    if (twice != all.cases.end())
+        return fail(ErrorCode::InvalidArgument, "case '{}' is in two of the results; merge each shard once",
+                    twice->name);
+    return all;
+}
+
+} // namespace filament::conformance

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Results: what a run found, as plain values, and as results.json. Shards of one run merge to the same file that the
+/// whole run would have written: nothing in it depends on when or in which order cases ran (times are beside it, in
+/// times.json).
+///   Fails   readResults: Unreadable or Corrupt with the path. merge: InvalidArgument if two runs do not belong
+///   together. Thread  any; pure but for files.
+#pragma once
+
+#include "tools/conformance/JsonReader.h"
+
+#include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
+
+namespace filament::conformance {
+
+enum class Status : uint8_t { Passed, Failed, Skipped };
+const char* toString(Status status);
+
+/// One picture of a case against the reference picture of that case.
+struct Comparison {
+    std::string configuration; ///< "gles", "vulkan workers 8"
+    bool passed = false;
+    uint64_t differing = 0;             ///< pixels that are not the same bits
+    uint32_t maxDifference = 0;         ///< in 1/255
+    double flipMean = -1, flipP99 = -1; ///< -1: not asked for
+    std::string first;                  ///< the first differing pixel, with its command-stream position; empty: none
+    std::string image, difference;      ///< files in the folder of the results; empty: equal
+};
+
+struct Kill {
+    std::string mutation;
+    bool caught = false;
+    uint64_t differing = 0; ///< pixels
+};
+
+struct CaseResult {
+    std::string name;
+    Status status = Status::Failed;
+    std::vector<std::string> reasons; ///< why it failed or was skipped
+    std::string hash;                 ///< of the reference picture
+    std::string baseline;             ///< what the comparison with the stored picture said
+    std::string image;                ///< of the reference configuration
+    std::vector<Comparison> comparisons;
+    std::vector<Kill> kills;
+};
+
+struct Results {
+    std::string build;                          ///< "Release"
+    std::string reference;                      ///< configuration that the others are compared with
+    std::map<std::string, std::string> devices; ///< backend -> device and driver
+    std::vector<CaseResult> cases;              ///< ascending by name
+    std::map<std::string, double> seconds;      ///< by case
+};
+
+struct Summary {
+    uint32_t passed = 0, failed = 0, skipped = 0;
+    uint32_t mutants = 0, caught = 0; ///< pairs of a case and a mutation that it must notice
+    uint64_t comparisons = 0, identical = 0;
+};
+Summary summaryOf(Results const& results);
+
+Json toJson(Results const& results);
+Result<void> writeResults(std::filesystem::path const& folder, Results const& results);
+Result<Results> readResults(std::filesystem::path const& folder);
+/// The cases of all; a case may be in one only.
+Result<Results> merge(std::vector<Results> parts);
+
+} // namespace filament::conformance

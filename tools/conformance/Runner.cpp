@@ -1,0 +1,271 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/Runner.h"
+
+#include "tools/common/Console.h"
+#include "tools/conformance/Compare.h"
+#include "tools/conformance/Mutations.h"
+#include "tools/imgdiff/ImageCompare.h"
+
+#include <algorithm>
+#include <chrono>
+
+namespace filament::conformance {
+namespace {
+
+std::string fileName(std::string name) {
+    std::replace_if(
+            name.begin(), name.end(), [](char c) { return c == '/' || c == ' '; }, '.');
+    return name;
+}
+
+/// One configuration and its engine.
+struct Actor {
+    Configuration configuration;
+    std::unique_ptr<Stage> stage;
+};
+
+/// Draws one case everywhere and fills its result.
+class CaseRun {
+public:
+    CaseRun(Options const& options, std::vector<Actor>& actors, SceneSpec const& spec)
+            : mOptions(options), mActors(actors), mSpec(spec) {
+        mResult.name = spec.name;
+    }
+
+    CaseResult run(Baselines& baselines) {
+        if (const std::string missing = missingFile(mSpec, mOptions.assets); !missing.empty()) {
+            mResult.status = Status::Skipped;
+            mResult.reasons.push_back(fmt::format("'{}' is not there; give its folder with --assets", missing));
+            return mResult;
+        }
+        if (drawReference()) {
+            checkBaseline(baselines);
+            for (size_t i = 1; i < mActors.size(); ++i) compareWith(mActors[i]);
+            if (mOptions.mutations) killMutants();
+        }
+        mResult.status = mResult.reasons.empty() ? Status::Passed : Status::Failed;
+        return mResult;
+    }
+
+private:
+    void blame(std::string who, std::string const& what) { mResult.reasons.push_back(std::move(who) + ": " + what); }
+
+    std::optional<Shot> draw(Stage& stage, std::string const& who, bool inside) {
+        const Result<void> set = stage.set(mSpec);
+        if (!set) return blame(who, set.error().message), std::nullopt;
+        std::optional<backend::CaptureRequest> request;
+        if (inside) request.emplace();
+        Result<Shot> shot = stage.shoot(request);
+        if (!shot) return blame(who, shot.error().message), std::nullopt;
+        for (std::string const& error : shot->errors) blame(who, error);
+        return std::move(*shot);
+    }
+
+    bool drawReference() {
+        Actor& actor = mActors[0];
+        std::optional<Shot> shot = draw(*actor.stage, actor.configuration.name, true);
+        if (!shot) return false;
+        lookInside(*shot, actor.configuration.name);
+        mReference = std::move(*shot);
+        mResult.hash = hashOf(mReference.image);
+        mResult.image = save(displayed(mReference.image), "");
+        return true;
+    }
+
+    void lookInside(Shot const& shot, std::string const& who) {
+        if (const std::string fault = faultOf(shot.image); !fault.empty()) blame(who, fault);
+        if (!shot.inside) return;
+        if (const std::string where = notFinite(*shot.inside); !where.empty()) blame(who, where);
+    }
+
+    void checkBaseline(Baselines& baselines) {
+        DeviceDescription const& device = mActors[0].stage->device();
+        const Machine machine = thisMachine(device.device, device.driver);
+        if (mOptions.updateBaselines) baselines.store(mSpec.name, mReference.image, machine);
+        const BaselineVerdict verdict = baselines.check(mSpec.name, mReference.image, machine);
+        mResult.baseline = verdict.text;
+        if (!verdict.passed) blame("baseline", verdict.text);
+    }
+
+    void compareWith(Actor& actor) {
+        const bool inside = actor.configuration.stage.capture;
+        const std::string& who = actor.configuration.name;
+        std::optional<Shot> shot = draw(*actor.stage, who, inside);
+        if (!shot) return;
+        lookInside(*shot, who);
+        const Comparator comparator =
+                comparatorFor(mSpec.comparator, mActors[0].stage->device(), actor.stage->device());
+        Result<Comparison> compared = comparePictures(mReference.image, shot->image, comparator);
+        if (!compared) return blame(who, compared.error().message);
+        compared->configuration = who;
+        if (compared->differing > 0) saveDifference(*compared, shot->image);
+        if (!compared->passed) blame(who, fmt::format("{} pixels differ, {}", compared->differing, compared->first));
+        if (inside && comparator.kind == ComparatorKind::Bits) compareInside(actor, *shot, *compared);
+        mResult.comparisons.push_back(std::move(*compared));
+    }
+
+    // Also what no picture shows: an intermediate attachment may differ where the next pass rounds it away.
+    void compareInside(Actor& actor, Shot const& shot, Comparison& comparison) {
+        if (!mReference.inside || !shot.inside) return blame(actor.configuration.name, "the frame was not captured");
+        auto differs = compareFrames(*mReference.inside, *shot.inside);
+        if (differs && !*differs) return;
+        if (differs) differs = bisect(*mActors[0].stage, *actor.stage);
+        const std::string where = !differs   ? differs.error().message
+                                  : *differs ? (*differs)->line()
+                                             : std::string("differs from frame to frame");
+        comparison.first = where;
+        comparison.passed = false;
+        blame(actor.configuration.name, where);
+    }
+
+    void killMutants() {
+        if (mSpec.kills.empty()) return;
+        tryMutant("none");
+        for (std::string const& name : mSpec.kills) tryMutant(name);
+    }
+
+    void tryMutant(std::string const& name) {
+        Mutation const* mutation = findMutation(name);
+        if (!mutation) return blame("kills", fmt::format("there is no mutation '{}'", name));
+        tools::showProgress(fmt::format("{}: mutant '{}'", mSpec.name, name));
+        auto stage = Stage::open(mActors[0].configuration.stage, mutation->make());
+        if (!stage) return blame(name, stage.error().message);
+        const std::optional<Shot> shot = draw(**stage, "mutant " + name, false);
+        if (!shot) return;
+        const Result<Comparison> compared = comparePictures(mReference.image, shot->image, mSpec.comparator);
+        if (!compared) return blame(name, compared.error().message);
+        const bool caught = !compared->passed;
+        mResult.kills.push_back({ name, caught, compared->differing });
+        if (name == "none" && caught) blame("mutations", "a stage that changes nothing draws something else");
+        if (name != "none" && !caught)
+            blame("mutations", fmt::format("'{}' ({}) was not noticed", name, mutation->what));
+    }
+
+    void saveDifference(Comparison& comparison, Image const& image) {
+        const std::string suffix = "." + comparison.configuration;
+        const Image a = displayed(mReference.image), b = displayed(image);
+        comparison.image = save(b, suffix);
+        comparison.difference = save(tools::differenceImage(a, b), suffix + ".difference");
+    }
+
+    std::string save(Image const& image, std::string const& suffix) {
+        const std::string file = "images/" + fileName(mSpec.name + suffix) + ".png";
+        if (const Result<void> saved = savePng(mOptions.out / file, image); !saved)
+            blame("report", saved.error().message);
+        return file;
+    }
+
+    Options const& mOptions;
+    std::vector<Actor>& mActors;
+    SceneSpec const& mSpec;
+    Shot mReference;
+    CaseResult mResult;
+};
+
+Result<std::vector<Actor>> openActors(std::vector<Configuration> const& configurations) {
+    std::vector<Actor> actors;
+    for (Configuration const& configuration : configurations) {
+        tools::showProgress("opening " + configuration.name);
+        Result<std::unique_ptr<Stage>> stage = Stage::open(configuration.stage);
+        if (!stage) return fail(stage.error().code, "{}: {}", configuration.name, stage.error().message);
+        actors.push_back({ configuration, std::move(*stage) });
+    }
+    return actors;
+}
+
+void showCase(size_t index, size_t count, std::string const& name) {
+    constexpr size_t kWidth = 30;
+    const size_t done = index * kWidth / count;
+    tools::showProgress(fmt::format("[{}{}] {}/{} {}", std::string(done, '#'), std::string(kWidth - done, ' '), index,
+                                    count, name));
+}
+
+Result<SceneSpec> findCase(std::vector<SceneSpec> const& cases, std::string const& name) {
+    for (SceneSpec const& spec : cases) {
+        if (spec.name == name) return spec;
+    }
+    return fail(ErrorCode::NotFound, "there is no case '{}'; --list prints all", name);
+}
+
+} // namespace
+
+std::vector<Configuration> configurationsOf(Options const& options) {
+    const std::filesystem::path work = options.out / "work";
+    const auto stage = [&](Backend backend, int workers, ThreadAffinity affinity, bool capture) {
+        return StageOptions{ backend, options.requireDevice, workers, affinity, capture, work, options.assets };
+    };
+    std::vector<Configuration> all;
+    for (const Backend backend : options.backends)
+        all.push_back({ toString(backend), stage(backend, 1, ThreadAffinity::None, true) });
+    if (!options.threads) return all;
+    for (const Backend backend : options.backends) {
+        for (const int workers : { 0, 2, 8 })
+            all.push_back({ fmt::format("{} workers {}", toString(backend), workers),
+                            stage(backend, workers, ThreadAffinity::None, false) });
+    }
+    const Backend first = options.backends.front();
+    all.push_back({ fmt::format("{} pinned", toString(first)), stage(first, 2, ThreadAffinity::Pin, false) });
+    all.push_back({ fmt::format("{} big cores", toString(first)), stage(first, 2, ThreadAffinity::BigCores, false) });
+    return all;
+}
+
+std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& options) {
+    const auto wanted = [&](SceneSpec const& spec) {
+        return options.only.empty() || std::any_of(options.only.begin(), options.only.end(), [&](auto const& part) {
+                   return spec.name.find(part) != std::string::npos;
+               });
+    };
+    std::vector<SceneSpec> chosen;
+    uint32_t index = 0;
+    for (SceneSpec& spec : all) {
+        if (wanted(spec) && index++ % options.shard.count == options.shard.index) chosen.push_back(std::move(spec));
+    }
+    return chosen;
+}
+
+Result<Results> runCases(Options const& options, std::vector<SceneSpec> const& cases) {
+    Result<Baselines> baselines = Baselines::read(options.baselines);
+    if (!baselines) return baselines.error();
+    Result<std::vector<Actor>> actors = openActors(configurationsOf(options));
+    if (!actors) return actors.error();
+    Results results{ .build = options.build, .reference = actors->front().configuration.name };
+    for (Actor const& actor : *actors)
+        results.devices[toString(actor.stage->device().backend)] =
+                actor.stage->device().device + ", " + actor.stage->device().driver;
+    for (size_t i = 0; i < cases.size(); ++i) {
+        showCase(i, cases.size(), cases[i].name);
+        const auto start = std::chrono::steady_clock::now();
+        results.cases.push_back(CaseRun(options, *actors, cases[i]).run(*baselines));
+        results.seconds[cases[i].name] =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        tools::clearProgress();
+        for (std::string const& reason : results.cases.back().reasons)
+            std::printf("%-8s %s: %s\n", toString(results.cases.back().status), cases[i].name.c_str(), reason.c_str());
+    }
+    if (options.updateBaselines) {
+        if (const Result<void> written = baselines->write(options.baselines); !written) return written.error();
+    }
+    return results;
+}
+
+Result<std::string> bisectCase(Options const& options, std::vector<SceneSpec> const& cases) {
+    const Result<SceneSpec> spec = findCase(cases, options.bisect);
+    if (!spec) return spec.error();
+    Options two = options;
+    two.threads = false;
+    std::vector<Configuration> configurations = configurationsOf(two);
+    if (configurations.size() == 1) configurations.push_back(configurations.front());
+    Mutation const* mutation = findMutation(options.mutate);
+    auto a = Stage::open(configurations[0].stage, mutation ? mutation->make() : nullptr);
+    if (!a) return a.error();
+    auto b = Stage::open(configurations[1].stage);
+    if (!b) return b.error();
+    for (Stage* stage : { a->get(), b->get() }) {
+        if (const Result<void> set = stage->set(*spec); !set) return set.error();
+    }
+    auto found = bisect(**a, **b);
+    if (!found) return found.error();
+    return *found ? (*found)->line() : std::string();
+}
+
+} // namespace filament::conformance

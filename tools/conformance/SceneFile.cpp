@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/SceneFile.h"
+
+#include "filament_core/assets/EnvironmentFile.h"
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+
+namespace filament::conformance {
+namespace {
+
+constexpr double kFar = 1e12, kBright = 1e9;
+
+void readSun(JsonReader& reader, SceneSpec& spec) {
+    SunLight sun;
+    reader.read("direction", sun.directionWorld);
+    reader.read("lux", sun.illuminance.value, 0, kBright);
+    reader.read("color", sun.color);
+    spec.lights.emplace_back(sun);
+}
+
+void readPoint(JsonReader& reader, SceneSpec& spec) {
+    PointLight light;
+    reader.read("at", light.positionWorld);
+    reader.read("candela", light.intensity.value, 0, kBright);
+    reader.read("color", light.color);
+    reader.read("range", light.rangeMeters, 0, kFar);
+    spec.lights.emplace_back(light);
+}
+
+void readSpot(JsonReader& reader, SceneSpec& spec) {
+    SpotLight light;
+    reader.read("at", light.positionWorld);
+    reader.read("direction", light.directionWorld);
+    reader.read("candela", light.intensity.value, 0, kBright);
+    reader.read("color", light.color);
+    reader.read("range", light.rangeMeters, 0, kFar);
+    double inner = 20, outer = 35;
+    reader.read("innerDegrees", inner, 0, 89);
+    reader.read("outerDegrees", outer, inner + 0.1, 90);
+    light.innerConeRadians = static_cast<float>(glm::radians(inner));
+    light.outerConeRadians = static_cast<float>(glm::radians(outer));
+    spec.lights.emplace_back(light);
+}
+
+void readCopy(JsonReader& reader, SceneSpec& spec) {
+    double3 at(0.0), scale(1.0), degrees(0.0);
+    reader.read("at", at);
+    reader.read("scale", scale);
+    reader.read("degrees", degrees);
+    double4x4 world = glm::translate(double4x4(1.0), at);
+    world = glm::rotate(world, glm::radians(degrees.y), double3(0, 1, 0));
+    world = glm::rotate(world, glm::radians(degrees.x), double3(1, 0, 0));
+    world = glm::rotate(world, glm::radians(degrees.z), double3(0, 0, 1));
+    spec.copies.push_back(glm::scale(world, scale));
+}
+
+void readEnvironment(JsonReader& reader, SceneSpec& spec) {
+    reader.read("file", spec.environment);
+    reader.read("lux", spec.environmentSettings.illuminance.value, 0, kBright);
+    double degrees = 0;
+    reader.read("degrees", degrees, -360, 360);
+    spec.environmentSettings.rotationRadians = static_cast<float>(glm::radians(degrees));
+    reader.read("skybox", spec.environmentSettings.skybox);
+}
+
+void readCamera(JsonReader& reader, SceneSpec& spec) {
+    double3 eye(0.0);
+    if (reader.has("eye")) {
+        reader.read("eye", eye);
+        spec.eye = eye;
+    }
+    reader.read("at", spec.at);
+    reader.read("fovDegrees", spec.lens.verticalFovDegrees, 0.01, 179);
+    reader.read("near", spec.lens.nearMeters, 1e-6, 1e6);
+}
+
+void readExposure(JsonReader& reader, Exposure& exposure) {
+    reader.read("aperture", exposure.aperture, 0.1, 100);
+    reader.read("shutter", exposure.shutterSeconds, 1e-6, 100);
+    reader.read("iso", exposure.iso, 1, 1e6);
+}
+
+void readView(JsonReader& reader, SceneSpec& spec) {
+    View& view = spec.view;
+    reader.read("size", view.size);
+    if (view.size.x < 1 || view.size.y < 1 || view.size.x > 4096 || view.size.y > 4096)
+        reader.complain("size", "expected 1 to 4096 pixels a side");
+    uint32_t samples = 1;
+    reader.read("samples", samples, 1, 4);
+    if (samples != 1 && samples != 4) reader.complain("samples", "expected 1 or 4");
+    view.samples = static_cast<uint8_t>(samples);
+    reader.choice("toneMapper", view.colorGrading.toneMapper, "linear, aces, filmic or mobile", toneMapperFromName);
+    reader.read("dither", view.colorGrading.dither);
+    reader.read("clear", view.clearColor);
+    reader.read("linear", spec.linear);
+    reader.read("frames", spec.frames, 1, 16);
+}
+
+std::optional<ComparatorKind> comparatorFromName(std::string_view name) {
+    if (name == "bits") return ComparatorKind::Bits;
+    if (name == "tolerance") return ComparatorKind::Tolerance;
+    if (name == "flip") return ComparatorKind::Flip;
+    return std::nullopt;
+}
+
+void readComparator(JsonReader& reader, Comparator& comparator) {
+    reader.choice("kind", comparator.kind, "bits, tolerance or flip", comparatorFromName);
+    reader.read("tolerance", comparator.tolerance, 0, 255);
+    reader.read("mean", comparator.flipMean, 0, 1);
+    reader.read("p99", comparator.flipP99, 0, 1);
+}
+
+Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, std::string name) {
+    SceneSpec spec{ .name = std::move(name), .folder = file.parent_path() };
+    spec.view.size = { 256, 256 };
+    JsonReader reader(json, fmt::format("{} ({})", file.filename().string(), spec.name));
+    reader.raw("description"); // for people
+    reader.raw("features");
+    if (Json const* model = reader.raw("model"))
+        spec.model = *model;
+    else
+        reader.complain("model", "a scene needs one: a path, \"asset:PATH\" or { \"objects\": [...] }");
+    reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
+    reader.objects("suns", [&](JsonReader& r) { readSun(r, spec); });
+    reader.objects("points", [&](JsonReader& r) { readPoint(r, spec); });
+    reader.objects("spots", [&](JsonReader& r) { readSpot(r, spec); });
+    reader.objects("copies", [&](JsonReader& r) { readCopy(r, spec); });
+    if (spec.copies.empty()) spec.copies.push_back(double4x4(1.0));
+    reader.read("origin", spec.origin);
+    reader.object("camera", [&](JsonReader& r) { readCamera(r, spec); });
+    reader.object("exposure", [&](JsonReader& r) { readExposure(r, spec.exposure); });
+    reader.object("view", [&](JsonReader& r) { readView(r, spec); });
+    reader.object("comparator", [&](JsonReader& r) { readComparator(r, spec.comparator); });
+    reader.read("kills", spec.kills);
+    if (const Result<void> done = reader.finish(); !done) return done.error();
+    return spec;
+}
+
+Result<Json> parseFile(std::filesystem::path const& file) {
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
+    if (!bytes) return bytes.error();
+    const auto* text = reinterpret_cast<const char*>(bytes->data());
+    try {
+        return Json::parse(text, text + bytes->size());
+    } catch (Json::parse_error const& error) {
+        return fail(ErrorCode::Corrupt, "{}: {}", file.string(), error.what());
+    }
+}
+
+} // namespace
+
+Result<std::vector<SceneSpec>> readSceneFile(std::filesystem::path const& file) {
+    const Result<Json> json = parseFile(file);
+    if (!json) return json.error();
+    const std::string name = file.stem().string();
+    std::vector<SceneSpec> cases;
+    Result<SceneSpec> plain = readCase(*json, file, name);
+    if (!plain) return plain.error();
+    cases.push_back(std::move(*plain));
+    const auto features = json->find("features");
+    if (features == json->end()) return cases;
+    if (!features->is_object()) return fail(ErrorCode::InvalidArgument, "{}: features: expected an object", name);
+    for (auto const& [feature, patch] : features->items()) {
+        Json changed = *json;
+        changed.erase("kills"); // a feature kills what it says itself
+        changed.merge_patch(patch);
+        Result<SceneSpec> one = readCase(changed, file, name + "/" + feature);
+        if (!one) return one.error();
+        cases.push_back(std::move(*one));
+    }
+    return cases;
+}
+
+Result<std::vector<SceneSpec>> readScenes(std::filesystem::path const& folder) {
+    std::error_code error;
+    std::vector<SceneSpec> all;
+    std::filesystem::directory_iterator files(folder, error);
+    if (error)
+        return fail(ErrorCode::NotFound, "scene folder '{}': {}; give one with --scenes", folder.string(),
+                    error.message());
+    for (auto const& entry : files) {
+        if (entry.path().extension() != ".json") continue;
+        Result<std::vector<SceneSpec>> cases = readSceneFile(entry.path());
+        if (!cases) return cases.error();
+        for (SceneSpec& spec : *cases) all.push_back(std::move(spec));
+    }
+    if (all.empty()) return fail(ErrorCode::NotFound, "scene folder '{}' has no .json", folder.string());
+    std::sort(all.begin(), all.end(), [](auto const& a, auto const& b) { return a.name < b.name; });
+    return all;
+}
+
+} // namespace filament::conformance

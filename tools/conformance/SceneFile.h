@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+/// SceneFile: one .json of tests/conformance/scenes as values: what stands there, under which light, from where, how it
+/// is finished, and how two pictures of it are compared. docs/conformance.md describes the fields.
+///   Features  a scene's "features" are named changes of the same file (RFC 7396 merge patches): each is a case of its
+///             own, "spheres/msaa" beside "spheres".
+///   Fails     InvalidArgument, Unreadable: file, field, what would be right.
+///   Thread    any; pure but for reading files.
+#pragma once
+
+#include "tools/conformance/JsonReader.h"
+
+#include <filament/Camera.h>
+#include <filament/Light.h>
+#include <filament/Scene.h>
+#include <filament/View.h>
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+namespace filament::conformance {
+
+enum class ComparatorKind : uint8_t { Bits, Tolerance, Flip };
+
+/// How two pictures of a case must agree.
+struct Comparator {
+    ComparatorKind kind = ComparatorKind::Bits;
+    uint32_t tolerance = 2;                ///< Tolerance: in 1/255, every component of every pixel
+    double flipMean = 0.01, flipP99 = 0.1; ///< Flip: upper bounds, [0, 1]
+};
+
+using LightSpec = std::variant<SunLight, PointLight, SpotLight>;
+
+struct SceneSpec {
+    std::string name;             ///< "spheres" or "spheres/msaa"
+    Json model;                   ///< a path, "asset:PATH" below the asset folder, or objects to build
+    std::filesystem::path folder; ///< where the scene file is: paths are relative to it
+    std::string environment;      ///< "sky", "asset:...", a path; empty: none
+    EnvironmentSettings environmentSettings{};
+    std::vector<LightSpec> lights;
+    std::vector<double4x4> copies; ///< where the model stands; never empty
+    double3 origin{ 0.0 };         ///< of everything: model, lights, camera
+    std::optional<double3> eye;    ///< none: where all of the model is seen
+    double3 at{ 0.0 };
+    Lens lens{ .verticalFovDegrees = 40 };
+    Exposure exposure{};
+    View view{};         ///< without its camera
+    bool linear = false; ///< scene-linear half floats: no tone mapping
+    uint32_t frames = 1; ///< drawn before the one that is compared, and with it
+    Comparator comparator{};
+    std::vector<std::string> kills; ///< mutations that this case must notice
+};
+
+/// The cases of one file: the scene itself, then its features in order.
+Result<std::vector<SceneSpec>> readSceneFile(std::filesystem::path const& file);
+
+/// All cases of all .json files of a folder (not of folders in it), ascending by name.
+Result<std::vector<SceneSpec>> readScenes(std::filesystem::path const& folder);
+
+} // namespace filament::conformance

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Stage: one engine on one backend that draws cases, one after the other.
+///   In      set(case), then shoot() as often as wanted.   Out: the pixels, the errors, what a frame did inside.
+///   Memory  the model and the environment of the last case stay: the features of a scene load nothing again.
+///   Thread  one stage a thread.
+///   Fails   what the loaders and the device say. An asset that is not there: see missingFile().
+#pragma once
+
+#include "backend/layers/Captured.h"
+#include "tools/conformance/SceneFile.h"
+
+#include <filament/Environment.h>
+#include <filament/Gltf.h>
+#include <filament/Renderer.h>
+
+#include <memory>
+
+namespace filament::conformance {
+
+struct StageOptions {
+    Backend backend = Backend::Vulkan;
+    std::string requireDevice;
+    int workers = 1;
+    ThreadAffinity affinity = ThreadAffinity::None;
+    bool capture = false;         ///< shoot() may ask what a frame did inside
+    std::filesystem::path work;   ///< built models, the sky, baked environments
+    std::filesystem::path assets; ///< where "asset:" begins; empty: nowhere
+};
+
+struct Shot {
+    Image image;
+    std::vector<std::string> errors; ///< of the device
+    std::optional<backend::CapturedFrame> inside;
+};
+
+/// The first file of a case that does not exist; empty: all are there.
+std::string missingFile(SceneSpec const& spec, std::filesystem::path const& assets);
+
+class Stage {
+public:
+    /// `edit` changes the stream of everything that this stage draws; it implies `capture`.
+    static Result<std::unique_ptr<Stage>> open(StageOptions const& options,
+                                               std::unique_ptr<backend::StreamEdit> edit = nullptr);
+
+    DeviceDescription const& device() const { return mEngine.device(); }
+    Result<void> set(SceneSpec const& spec);
+    /// Draws the case's frames; the last one is looked at.
+    Result<Shot> shoot(std::optional<backend::CaptureRequest> const& request = {});
+
+private:
+    Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture);
+
+    Result<void> loadModel(SceneSpec const& spec);
+    Result<void> loadSky(SceneSpec const& spec);
+    void addLights(SceneSpec const& spec);
+    void placeCamera(SceneSpec const& spec);
+
+    const StageOptions mOptions;
+    Engine mEngine;
+    std::shared_ptr<backend::FrameCapture> mCapture;
+    Renderer mRenderer;
+    std::string mModelKey, mEnvironmentKey;
+    std::optional<Model> mModel;
+    std::optional<Environment> mEnvironment;
+    std::optional<Scene> mScene; // ends before model and environment
+    Owned<SwapChain> mTarget;
+    View mView;
+    uint32_t mFrames = 1;
+};
+
+} // namespace filament::conformance

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// filament-conformance [options]: draws every scene on every backend with every number of workers and compares the
+// pictures. Exit status 0: no case failed. 1: some did, or the run could not be made. docs/conformance.md.
+#include "tools/common/Console.h"
+#include "tools/conformance/Mutations.h"
+#include "tools/conformance/Report.h"
+#include "tools/conformance/Runner.h"
+
+#include <cstdio>
+#include <exception>
+
+namespace filament::conformance {
+namespace {
+
+int failed(Error const& error) {
+    tools::printError(error.message);
+    return 1;
+}
+
+int finish(Options const& options, Results const& results) {
+    if (const Result<void> written = writeReport(options.out, results); !written) return failed(written.error());
+    std::printf("%s\n%s\n", summaryLine(results).c_str(), (options.out / "report.html").c_str());
+    return summaryOf(results).failed ? 1 : 0;
+}
+
+/// Reads the results of shards and takes their pictures along.
+int mergeShards(Options const& options) {
+    std::vector<Results> parts;
+    for (std::filesystem::path const& folder : options.merge) {
+        Result<Results> part = readResults(folder);
+        if (!part) return failed(part.error());
+        parts.push_back(std::move(*part));
+        std::error_code error;
+        std::filesystem::create_directories(options.out / "images", error);
+        std::filesystem::copy(folder / "images", options.out / "images",
+                              std::filesystem::copy_options::overwrite_existing, error);
+        if (error) return failed(fail(ErrorCode::Unreadable, "{}/images: {}", folder.string(), error.message()));
+    }
+    const Result<Results> merged = merge(std::move(parts));
+    return merged ? finish(options, *merged) : failed(merged.error());
+}
+
+int list(std::vector<SceneSpec> const& cases) {
+    for (SceneSpec const& spec : cases) std::printf("%s\n", spec.name.c_str());
+    for (Mutation const& mutation : mutations())
+        std::printf("mutation %s: %s\n", std::string(mutation.name).c_str(), std::string(mutation.what).c_str());
+    return 0;
+}
+
+int bisectAndPrint(Options const& options, std::vector<SceneSpec> const& cases) {
+    const Result<std::string> found = bisectCase(options, cases);
+    tools::clearProgress();
+    if (!found) return failed(found.error());
+    std::printf("%s\n", found->empty() ? "every attachment of every pass has the same bits" : found->c_str());
+    return found->empty() ? 0 : 1;
+}
+
+int run(Options const& options) {
+    if (!options.merge.empty()) return mergeShards(options);
+    Result<std::vector<SceneSpec>> scenes = readScenes(options.scenes);
+    if (!scenes) return failed(scenes.error());
+    if (!options.bisect.empty()) return bisectAndPrint(options, *scenes);
+    const std::vector<SceneSpec> cases = casesOf(std::move(*scenes), options);
+    if (options.list) return list(cases);
+    std::error_code error;
+    std::filesystem::remove_all(options.out / "images", error); // of an earlier run
+    const Result<Results> results = runCases(options, cases);
+    tools::clearProgress();
+    return results ? finish(options, *results) : failed(results.error());
+}
+
+} // namespace
+} // namespace filament::conformance
+
+int main(int argc, char** argv) {
+    using namespace filament;
+    tools::setProgramName("filament-conformance");
+    tools::routeLogToConsole();
+    try {
+        const auto options = conformance::parseOptions(argc, argv);
+        if (!options) return conformance::failed(options.error());
+        return *options ? conformance::run(**options) : 0;
+    } catch (std::exception const& error) {
+        tools::printError(fmt::format("out of resources ({})", error.what()));
+        return 1;
+    }
+}
