@@ -33,24 +33,6 @@ struct Step {
     const char* note;
 };
 
-bool entersKernel(Kind kind) { return kind == Kind::Wait || kind == Kind::NotifyOne || kind == Kind::NotifyAll; }
-bool onlyReads(Kind kind) { return kind == Kind::Load || kind == Kind::Wait; }
-bool touchesMemory(Kind kind) { return kind != Kind::NotifyOne && kind != Kind::NotifyAll; }
-
-// Two steps of different threads that lead to the same state in either order (Katz and Peled 1992, "Defining
-// conditional independence using collapses": it is enough that they do so from here).
-bool areIndependent(Operation const& a, Operation const& b, ModelMemory const& memory) {
-    if (a.kind == Kind::Pause) return onlyReads(b.kind) || b.kind == Kind::Pause;
-    if (b.kind == Kind::Pause) return onlyReads(a.kind);
-    if (a.location != b.location || a.location < 0) return true;
-    if (entersKernel(a.kind) && entersKernel(b.kind)) return false;
-    if (!touchesMemory(a.kind) || !touchesMemory(b.kind)) return true;
-    if (!onlyReads(a.kind) || !onlyReads(b.kind)) return false;
-    // Of two seq_cst loads the second reads nothing older than the first, unless the first has no choice anyway.
-    const bool ordered = a.order == std::memory_order_seq_cst && b.order == std::memory_order_seq_cst;
-    return !ordered || memory.isSettled(a.location);
-}
-
 class Checker {
 public:
     explicit Checker(Options const& options) : mOptions(options) {}
@@ -117,6 +99,7 @@ Report Checker::explore(std::function<std::unique_ptr<Scenario>()> const& make) 
         (mEnd == End::Pruned ? mReport.pruned : mReport.runs) += 1;
         if (mFailure.empty() && mReport.runs + mReport.pruned == mOptions.maxRuns) mFailure = "too many runs";
     } while (mFailure.empty() && mSearch.advance());
+    mReport.preemptions = mOptions.preemptions;
     mReport.failure = mFailure;
     return mReport;
 }
@@ -245,9 +228,10 @@ int Checker::branch(uint8_t ready) {
     if (mOptions.preemptions >= 0) return next; // a bound leaves runs out that the sleep sets would rely on
     uint8_t asleep = 0;
     for (size_t i = 0; i < mThreads.size(); ++i) {
-        const bool explored = mSearch.explored() >> i & 1;
-        if (explored && areIndependent(mThreads[i].next, mThreads[static_cast<size_t>(next)].next, mMemory))
-            asleep = static_cast<uint8_t>(asleep | 1 << i);
+        if (!(mSearch.explored() >> i & 1)) continue;
+        Operation const& made = mThreads[static_cast<size_t>(next)].next;
+        const bool settled = made.location >= 0 && mMemory.isSettled(made.location);
+        if (areIndependent(mThreads[i].next, made, settled)) asleep = static_cast<uint8_t>(asleep | 1 << i);
     }
     mSearch.setSleepSet(asleep);
     return next;
@@ -348,25 +332,12 @@ Outcome Checker::make(Operation const& operation) {
     return {};
 }
 
-uint64_t changed(Operation const& operation, uint64_t before) {
-    switch (operation.kind) {
-    case Kind::Add:
-        return (before + operation.operand) & operation.mask;
-    case Kind::And:
-        return before & operation.operand;
-    case Kind::Or:
-        return before | operation.operand;
-    default:
-        return operation.operand;
-    }
-}
-
 Outcome Checker::change(Operation const& operation) {
     const int at = operation.location;
     const uint8_t from = pick(mMemory.followable(mSelf, at, operation.order));
     const uint64_t before = mMemory.value(at, from);
     mSteps.back().before = before;
-    if (!mMemory.modify(mSelf, at, from, changed(operation, before), operation.order))
+    if (!mMemory.modify(mSelf, at, from, operation.result(before), operation.order))
         fail("the scenario stores too often");
     return { before };
 }
@@ -375,7 +346,7 @@ Outcome Checker::change(Operation const& operation) {
 Outcome Checker::performAlone(Operation const& operation) {
     const uint64_t before = mMemory.latest(operation.location);
     const bool fits = operation.kind != Kind::CompareExchange || before == operation.expected;
-    if (operation.kind != Kind::Load && fits) mMemory.replaceLatest(operation.location, changed(operation, before));
+    if (operation.kind != Kind::Load && fits) mMemory.replaceLatest(operation.location, operation.result(before));
     return { before, fits };
 }
 
@@ -483,7 +454,9 @@ void require(bool condition, const char* rule) {
 }
 
 void printExplored(std::string const& what, Report const& report) {
-    std::printf("[ EXPLORED ] %s: %llu runs, %llu more given up as equal, %llu steps\n", what.c_str(),
+    const std::string bound =
+            report.preemptions < 0 ? "" : " (at most " + std::to_string(report.preemptions) + " preemptions)";
+    std::printf("[ EXPLORED ] %s%s: %llu runs, %llu more given up as equal, %llu steps\n", what.c_str(), bound.c_str(),
                 static_cast<unsigned long long>(report.runs), static_cast<unsigned long long>(report.pruned),
                 static_cast<unsigned long long>(report.steps));
     std::fflush(stdout);

@@ -46,7 +46,8 @@ struct Report {
     uint64_t runs = 0;   ///< different to the end
     uint64_t pruned = 0; ///< given up: equal to an earlier one up to the order of independent steps
     uint64_t steps = 0;
-    std::string failure; ///< empty if all is well; the rule in the first line, then the steps
+    int preemptions = -1; ///< the bound, if there was one
+    std::string failure;  ///< empty if all is well; the rule in the first line, then the steps
 
     bool ok() const { return failure.empty(); }
 };

@@ -2,6 +2,13 @@
 #include "tests/jobsystem/ModelOperation.h"
 
 namespace filament::jobs::model {
+namespace {
+
+bool entersKernel(Kind kind) { return kind == Kind::Wait || kind == Kind::NotifyOne || kind == Kind::NotifyAll; }
+bool onlyReads(Kind kind) { return kind == Kind::Load || kind == Kind::Wait; }
+bool touchesMemory(Kind kind) { return kind != Kind::NotifyOne && kind != Kind::NotifyAll; }
+
+} // namespace
 
 // `function` is all of "bool filament::jobs::WorkStealingDeque<T, kSlots, Policy>::push(T*) [with T = ...]".
 std::string_view Operation::functionName() const {
@@ -15,6 +22,30 @@ std::string_view Operation::functionName() const {
 }
 
 bool Operation::isIn(const char* name) const { return functionName() == name; }
+
+uint64_t Operation::result(uint64_t before) const {
+    switch (kind) {
+    case Kind::Add:
+        return (before + operand) & mask;
+    case Kind::And:
+        return before & operand;
+    case Kind::Or:
+        return before | operand;
+    default:
+        return operand;
+    }
+}
+
+bool areIndependent(Operation const& a, Operation const& b, bool settled) {
+    if (a.kind == Kind::Pause) return onlyReads(b.kind) || b.kind == Kind::Pause;
+    if (b.kind == Kind::Pause) return onlyReads(a.kind);
+    if (a.location != b.location || a.location < 0) return true;
+    if (entersKernel(a.kind) && entersKernel(b.kind)) return false;
+    if (!touchesMemory(a.kind) || !touchesMemory(b.kind)) return true;
+    if (!onlyReads(a.kind) || !onlyReads(b.kind)) return false;
+    // Of two seq_cst loads the second reads nothing older than the first.
+    return settled || a.order != std::memory_order_seq_cst || b.order != std::memory_order_seq_cst;
+}
 
 const char* nameOf(Kind kind) {
     constexpr const char* kNames[] = { "resume",  "load",   "store", "exchange",  "add",       "and",  "or",

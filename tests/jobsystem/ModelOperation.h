@@ -42,7 +42,14 @@ struct Operation {
     bool isIn(const char* name) const;
     /// The name without its class, result and arguments.
     std::string_view functionName() const;
+    /// What a store or modification leaves behind.
+    uint64_t result(uint64_t before) const;
 };
+
+/// Two steps of different threads that lead to the same state in either order, from the state at hand on (Katz and
+/// Peled 1992, "Defining conditional independence using collapses"). `settled`: a seq_cst load of b's object has one
+/// choice.
+bool areIndependent(Operation const& a, Operation const& b, bool settled);
 
 const char* nameOf(Kind kind);
 const char* nameOf(std::memory_order order);
