@@ -94,6 +94,7 @@ void addJobWorkloads(WorkloadList& list, Settings const& settings) {
     list.push_back({ "tree_64k", [=] { return forkJoinTree(settings); } });
     list.push_back({ "chain_10k",
                      [=] { return chain(settings, "chain_10k", "continuations", &Runtime::chain, { notSlower }); } });
+    list.push_back({ "graph_10k", [=] { return chain(settings, "graph_10k", "groups", &Runtime::graph, {}); } });
     list.push_back({ "relay_10k", [=] { return chain(settings, "relay_10k", "jobs", &Runtime::relay, {}); } });
 }
 

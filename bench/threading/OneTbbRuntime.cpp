@@ -6,12 +6,14 @@
 
 #define TBB_PREVIEW_TASK_GROUP_EXTENSIONS 1 // a task may return the task to run next
 #include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/flow_graph.h>
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 #include <oneapi/tbb/task_group.h>
 #include <oneapi/tbb/task_scheduler_observer.h>
 
+#include <deque>
 #include <map>
 
 namespace filament::bench {
@@ -103,6 +105,22 @@ public:
             for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
                 group.run(Link{ group, links - 1 });
                 group.wait();
+            }
+        });
+    }
+
+    void graph(uint32_t links, uint64_t repeats) override {
+        using Node = tbb::flow::continue_node<tbb::flow::continue_msg>;
+        mArena.execute([&] {
+            tbb::flow::graph graph;
+            std::deque<Node> nodes;
+            for (uint32_t i = 0; i < links; ++i) {
+                nodes.emplace_back(graph, [](tbb::flow::continue_msg) {});
+                if (i > 0) tbb::flow::make_edge(nodes[i - 1], nodes[i]);
+            }
+            for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
+                nodes.front().try_put(tbb::flow::continue_msg());
+                graph.wait_for_all();
             }
         });
     }

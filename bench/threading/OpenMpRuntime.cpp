@@ -80,7 +80,9 @@ public:
         }
     }
 
-    void chain(uint32_t links, uint64_t repeats) override {
+    void chain(uint32_t links, uint64_t repeats) override { graph(links, repeats); }
+
+    void graph(uint32_t links, uint64_t repeats) override {
         [[maybe_unused]] char link = 0; // the address that the dependences name
 #pragma omp parallel num_threads(mThreads)
 #pragma omp single

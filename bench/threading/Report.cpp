@@ -43,6 +43,7 @@ bool isVersus(Measured const& measured) { return measured.find("ours") != nullpt
 std::vector<std::string> versusColumns(Measured const& measured) {
     if (measured.kind == "commands") return { "copy" };
     std::vector<std::string> columns{ "tbb", "openmp", "async", "serial" };
+    if (measured.kind == "wakeup") columns.back() = "futex";
     if (measured.kind == "uneven") columns.push_back(measured.find("ideal") ? "ideal" : "fair");
     return columns;
 }

@@ -41,9 +41,11 @@ public:
     virtual uint32_t tree(uint32_t depth) = 0;
     /// `count` items in one parallel loop, `repeats` times.
     virtual void loop(SpinWork const& work, uint64_t count, uint64_t repeats) = 0;
-    /// `links` empty jobs, each the continuation of the one before: it is said beforehand what follows what, or a job
-    /// hands its successor over when it ends; `repeats` times.
+    /// `links` empty jobs, each the continuation of the one before, which hands it over when it ends (where the runtime
+    /// knows such a thing; otherwise as graph()); `repeats` times.
     virtual void chain(uint32_t links, uint64_t repeats) = 0;
+    /// The same, but it is said beforehand what follows what.
+    virtual void graph(uint32_t links, uint64_t repeats) = 0;
     /// The same with jobs that start their successor themselves, as any other job.
     virtual void relay(uint32_t links, uint64_t repeats) = 0;
     /// One job per entry, which spins that many steps, in this order.

@@ -30,6 +30,8 @@ public:
 
     void chain(uint32_t links, uint64_t repeats) override { emptyJobs(links, repeats); }
 
+    void graph(uint32_t links, uint64_t repeats) override { emptyJobs(links, repeats); }
+
     void relay(uint32_t links, uint64_t repeats) override { emptyJobs(links, repeats); }
 
     void spinJobs(std::span<const uint32_t> steps) override {

@@ -52,7 +52,9 @@ public:
         }
     }
 
-    void chain(uint32_t links, uint64_t repeats) override {
+    void chain(uint32_t links, uint64_t repeats) override { graph(links, repeats); }
+
+    void graph(uint32_t links, uint64_t repeats) override {
         for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
             std::future<void> last = std::async(std::launch::async, [] {});
             for (uint32_t i = 1; i < links; ++i)

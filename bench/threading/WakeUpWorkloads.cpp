@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // How long a sleeping worker takes to start a job, after the app thread has computed for a while by itself.
 #include "bench/threading/Clock.h"
+#include "bench/threading/FutexSleeper.h"
+#include "bench/threading/Placement.h"
 #include "bench/threading/Workloads.h"
 
 #include <fmt/format.h>
+
+#include <optional>
 
 namespace filament::bench {
 namespace {
@@ -15,6 +19,20 @@ struct WakeUp {
     bool pinned;
 };
 
+/// What the operating system takes: a thread that sleeps on a futex, without any runtime.
+Contender futexContender(WakeUp const& what, int wakeUps) {
+    return { "futex",
+             [=](std::vector<double>& figures) {
+                 const std::optional<PinnedScope> pin =
+                         what.pinned ? std::optional<PinnedScope>(std::in_place, coreOfThread(0)) : std::nullopt;
+                 FutexSleeper sleeper(what.pinned);
+                 sleeper.wakeUp(1'000'000); // the thread exists
+                 for (int i = 0; i < wakeUps; ++i)
+                     figures.push_back(static_cast<double>(sleeper.wakeUp(what.idleNs)) * 1e-3);
+             },
+             "no runtime" };
+}
+
 Result<Workload> wakeUp(Settings const& settings, WakeUp const& what) {
     if (settings.threads < 2)
         return fail(ErrorCode::Unsupported, "{}: nobody to wake; run with --workers 1 or more", what.name);
@@ -22,6 +40,7 @@ Result<Workload> wakeUp(Settings const& settings, WakeUp const& what) {
         .name = what.name, .title = what.title, .unit = "us", .kind = "wakeup", .contenders = {}, .targets = {}
     };
     if (what.pinned) workload.targets = { { .limit = 50 }, { .figure = Figure::P99, .limit = 200 } };
+    workload.targets.push_back({ .figure = Figure::Ratio, .other = "futex", .limit = 1.5 });
     const int wakeUps = settings.quick ? 2 : 20; // a round
     for (const RuntimeKind kind :
          { RuntimeKind::Ours, RuntimeKind::OneTbb, RuntimeKind::OpenMp, RuntimeKind::StdAsync }) {
@@ -36,6 +55,7 @@ Result<Workload> wakeUp(Settings const& settings, WakeUp const& what) {
                                            runtime->leave();
                                        } });
     }
+    workload.contenders.push_back(futexContender(what, wakeUps));
     return workload;
 }
 

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FutexSleeper: a thread that does nothing but sleep on a futex: what the operating system itself takes to wake one.
+///   Use     the floor of the wake-up workloads: no runtime whose threads sleep can be faster.
+///   Thread  made, used and destroyed on one thread.
+#pragma once
+
+#include <atomic>
+#include <cstdint>
+#include <thread>
+
+namespace filament::bench {
+
+class FutexSleeper {
+public:
+    explicit FutexSleeper(bool pinned);
+    ~FutexSleeper();
+    FutexSleeper(FutexSleeper const&) = delete;
+    FutexSleeper& operator=(FutexSleeper const&) = delete;
+
+    /// After `idle` nanoseconds without work: nanoseconds from the wake-up until the thread runs.
+    int64_t wakeUp(int64_t idle);
+
+private:
+    void sleepAndAnswer(bool pinned);
+
+    std::atomic<uint32_t> mWord{ 0 }; ///< raised to wake; what the thread sleeps on
+    std::atomic<int64_t> mAwake{ 0 }; ///< when it ran, 0: not yet
+    std::atomic<bool> mStopping{ false };
+    std::thread mThread;
+};
+
+} // namespace filament::bench
