@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/Flip.h"
+#include "tools/conformance/ImageChecks.h"
+#include "tools/conformance/Mutations.h"
+#include "tools/conformance/Runner.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace filament::conformance {
+namespace {
+
+Image grey(uint8_t value, uint32_t side = 32) {
+    Image image{ .width = side, .height = side };
+    for (uint32_t i = 0; i < side * side; ++i) {
+        for (int c = 0; c < 3; ++c) image.pixels.push_back(std::byte{ value });
+        image.pixels.push_back(std::byte{ 255 });
+    }
+    return image;
+}
+
+Options optionsFor(std::string const& name) {
+    Options options;
+    options.scenes = FILAMENT_SOURCE_DIR "/tests/conformance/scenes";
+    options.baselines = FILAMENT_SOURCE_DIR "/tests/conformance/baselines.json";
+    options.assets = FILAMENT_ASSET_DIR;
+    options.out = std::filesystem::path(FILAMENT_BINARY_DIR) / "conformance-tests";
+    options.threads = false;
+    options.bisect = name;
+    options.build = "test";
+    return options;
+}
+
+std::vector<SceneSpec> allScenes() {
+    auto scenes = readScenes(FILAMENT_SOURCE_DIR "/tests/conformance/scenes");
+    EXPECT_TRUE(scenes.ok()) << (scenes.ok() ? "" : scenes.error().message);
+    return scenes.ok() ? std::move(*scenes) : std::vector<SceneSpec>();
+}
+
+TEST(Flip, OfAPictureAndItselfIsZeroAndOfBlackAndWhiteNearlyOne) {
+    EXPECT_EQ(flip(grey(77), grey(77)).mean, 0);
+    EXPECT_GT(flip(grey(0), grey(255)).mean, 0.9);
+    EXPECT_LE(flip(grey(0), grey(255)).mean, 1);
+}
+
+TEST(Flip, IsSymmetricAndGrowsWithTheDifference) {
+    EXPECT_DOUBLE_EQ(flip(grey(40), grey(90)).mean, flip(grey(90), grey(40)).mean);
+    EXPECT_LT(flip(grey(40), grey(50)).mean, flip(grey(40), grey(90)).mean);
+}
+
+TEST(ImageChecks, RefuseBlackAndEmptyPicturesAndAcceptOthers) {
+    EXPECT_NE(faultOf(grey(0)).find("black"), std::string::npos);
+    EXPECT_NE(faultOf(grey(9)).find("nothing was drawn"), std::string::npos);
+    Image drawn = grey(9);
+    drawn.pixels[40] = std::byte{ 10 };
+    EXPECT_EQ(faultOf(drawn), "");
+}
+
+TEST(ImageChecks, NameThePixelThatIsNotFinite) {
+    Image image{ .width = 2, .height = 1, .format = Format::RGBA16F };
+    image.pixels.resize(16);
+    image.pixels[9] = std::byte{ 0x7E }; // red of the second pixel: a half NaN
+    EXPECT_NE(faultOf(image).find("pixel (1, 0)"), std::string::npos) << faultOf(image);
+}
+
+TEST(Shards, TogetherHaveEveryCaseOnce) {
+    const std::vector<SceneSpec> all = allScenes();
+    std::multiset<std::string> names;
+    Options options;
+    for (options.shard = { 0, 3 }; options.shard.index < 3; ++options.shard.index) {
+        for (SceneSpec const& spec : casesOf(all, options)) names.insert(spec.name);
+    }
+    EXPECT_EQ(names.size(), all.size());
+    for (SceneSpec const& spec : all) EXPECT_EQ(names.count(spec.name), 1u) << spec.name;
+    EXPECT_FALSE(parseShard("3/3").ok());
+    EXPECT_FALSE(parseShard("one").ok());
+}
+
+TEST(Mutations, AreEachClaimedByAScene) {
+    std::set<std::string, std::less<>> claimed{ "none" };
+    for (SceneSpec const& spec : allScenes()) claimed.insert(spec.kills.begin(), spec.kills.end());
+    for (const std::string_view name : mutationNames()) EXPECT_TRUE(claimed.contains(name)) << name;
+}
+
+TEST(Bisect, NamesPassAndDrawOfABrokenDepthTest) {
+    Options options = optionsFor("intersecting");
+    options.mutate = "depthCompare";
+    const Result<std::string> found = bisectCase(options, allScenes());
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_NE(found->find("pass 'color"), std::string::npos) << *found;
+    EXPECT_NE(found->find("draw "), std::string::npos) << *found;
+    EXPECT_NE(found->find("pipeline 'gltf_lit_opaque'"), std::string::npos) << *found;
+}
+
+TEST(Bisect, FindsNothingWhereNothingDiffers) {
+    const Result<std::string> found = bisectCase(optionsFor("intersecting"), allScenes());
+    ASSERT_TRUE(found.ok()) << found.error().message;
+    EXPECT_EQ(*found, "");
+}
+
+TEST(Shards, MergeToTheResultsOfOneRun) {
+    Options options = optionsFor("");
+    options.only = { "unlit", "sun-only" };
+    options.assets = ""; // a skipped case merges as well
+    const auto run = [&](Shard shard) {
+        options.shard = shard;
+        auto results = runCases(options, casesOf(allScenes(), options));
+        EXPECT_TRUE(results.ok()) << (results.ok() ? "" : results.error().message);
+        return results.ok() ? std::move(*results) : Results();
+    };
+    const Result<Results> merged = merge({ run({ 1, 2 }), run({ 0, 2 }) });
+    ASSERT_TRUE(merged.ok()) << merged.error().message;
+    const Results whole = run({ 0, 1 });
+    EXPECT_EQ(toJson(*merged), toJson(whole));
+    EXPECT_EQ(summaryOf(whole).failed, 0u);
+    EXPECT_EQ(summaryOf(whole).caught, summaryOf(whole).mutants);
+    EXPECT_GE(summaryOf(whole).mutants, 4u);
+}
+
+} // namespace
+} // namespace filament::conformance
