@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdlib>
 #include <cstring>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -19,7 +20,22 @@ float4 halfPixel(Image const& image, uint32_t x, uint32_t y) {
     return { floatFromHalf(bits[0]), floatFromHalf(bits[1]), floatFromHalf(bits[2]), floatFromHalf(bits[3]) };
 }
 
-bool isFinite(float4 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z) && std::isfinite(v.w); }
+/// Exponent bits all set: inf or NaN, in the two layouts that attachments with floats have.
+template <class Word>
+uint32_t countNotFinite(std::span<const std::byte> bytes, Word exponent, size_t& first) {
+    uint32_t count = 0;
+    for (size_t i = 0; i + sizeof(Word) <= bytes.size(); i += sizeof(Word)) {
+        Word bits;
+        std::memcpy(&bits, &bytes[i], sizeof bits);
+        if ((bits & exponent) == exponent && count++ == 0) first = i;
+    }
+    return count;
+}
+
+uint32_t countNotFinite(backend::CapturedAttachment const& attachment, size_t& first) {
+    if (attachment.format == Format::RGBA16F) return countNotFinite<uint16_t>(attachment.bytes, 0x7C00, first);
+    return countNotFinite<uint32_t>(attachment.bytes, 0x7F800000, first);
+}
 
 } // namespace
 
@@ -31,19 +47,22 @@ uint32_t Picture::coveredCount() const {
     return count;
 }
 
-std::string describeNotFinite(Image const& image) {
-    uint32_t bad = 0;
-    std::string first;
-    for (uint32_t y = 0; y < image.height; ++y) {
-        for (uint32_t x = 0; x < image.width; ++x) {
-            const float4 color = halfPixel(image, x, y);
-            if (isFinite(color)) continue;
-            if (bad++ == 0) first = fmt::format("({}, {}): ({}, {}, {}, {})", x, y, color.x, color.y, color.z, color.w);
+std::string describeNotFinite(backend::CapturedFrame const& frame, uint32_t& scannedAttachments) {
+    std::string text;
+    for (backend::CapturedPass const& pass : frame.passes) {
+        for (backend::CapturedAttachment const& attachment : pass.attachments) {
+            const bool hasFloats = attachment.isDepth || attachment.format == Format::RGBA16F;
+            if (!hasFloats || attachment.bytes.empty()) continue;
+            ++scannedAttachments;
+            size_t first = 0;
+            const uint32_t bad = countNotFinite(attachment, first);
+            if (bad == 0) continue;
+            const size_t texel = first / (attachment.isDepth ? 4 : 8);
+            text += fmt::format("pass '{}', texture '{}': {} components are not finite, first at ({}, {})\n", pass.name,
+                                attachment.name, bad, texel % attachment.width, texel / attachment.width);
         }
     }
-    return bad == 0
-                   ? ""
-                   : fmt::format("{} of {} pixels are not finite, first at {}", bad, image.width * image.height, first);
+    return text;
 }
 
 Difference compare(Image const& a, Image const& b, uint32_t tolerance) {

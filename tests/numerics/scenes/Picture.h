@@ -3,6 +3,8 @@
 ///   Thread  pure functions of values. Fails: never; a missing image has no pixels.
 #pragma once
 
+#include "backend/layers/Captured.h"
+
 #include <filament/Image.h>
 #include <filament/Math.h>
 
@@ -16,15 +18,18 @@ namespace filament::hard {
 inline constexpr float kLargestStored = 65504;
 
 struct Picture {
-    Image linear;  ///< RGBA16F, before the tone mapper
-    Image display; ///< RGBA8
+    Image linear;            ///< RGBA16F, before the tone mapper
+    Image display;           ///< RGBA8
+    std::string notFinite{}; ///< of all attachments of both frames, those with an inf or a NaN; a line each
+    uint32_t scannedAttachments = 0;
     uint2 size() const { return { linear.width, linear.height }; }
     float4 at(uint32_t x, uint32_t y) const; ///< scene-linear
     uint32_t coveredCount() const;           ///< pixels with alpha 1
 };
 
-/// "3 of 4096 pixels are not finite, first at (5, 7): (nan, 0, 0, 1)"; empty if all are finite.
-std::string describeNotFinite(Image const& halfFloats);
+/// Looks for inf and NaN in every attachment that stores floats; a line for each that has some: "pass 'color', texture
+/// 'hdr': 3 components are not finite, first at (5, 7)". Counts what it looked at.
+std::string describeNotFinite(backend::CapturedFrame const& frame, uint32_t& scannedAttachments);
 
 /// Where two display images differ by more than `tolerance` of 255.
 struct Difference {

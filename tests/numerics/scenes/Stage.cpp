@@ -91,8 +91,9 @@ double4x4 scaling(double3 by) {
     return matrix;
 }
 
-Device::Device(Backend backend) {
-    auto engine = Engine::create({ .backend = backend, .workers = 1, .validation = true });
+Device::Device(Backend backend) : mCapture(std::make_shared<backend::FrameCapture>()) {
+    auto engine =
+            Engine::create({ .backend = backend, .workers = 1, .validation = true, .debug = { .capture = mCapture } });
     if (!engine) {
         ADD_FAILURE() << toString(backend) << ": " << engine.error().message;
         return;
@@ -172,12 +173,16 @@ Picture Stage::take() {
     for (Format format : { Format::RGBA16F, Format::RGBA8 }) {
         const Owned<SwapChain> target = engine().own(engine().create(
                 SwapChainDesc{ .size = view.size, .imageCount = 1, .format = format, .name = "hard case" }));
+        mDevice.capture().arm({});
         renderer.render(scene, view, target);
         auto image = renderer.waitPixels(renderer.readPixels(target));
         if (!image) {
             ADD_FAILURE() << image.error().message;
             continue;
         }
+        engine().waitIdle();
+        if (const auto frame = mDevice.capture().take())
+            picture.notFinite += describeNotFinite(*frame, picture.scannedAttachments);
         (format == Format::RGBA16F ? picture.linear : picture.display) = std::move(*image);
     }
     return picture;

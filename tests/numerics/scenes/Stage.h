@@ -52,8 +52,10 @@ public:
     explicit operator bool() const { return mEngine.has_value(); }
     Material material(Look const& look) const;
     Texture waves() const { return mWaves; }
+    backend::FrameCapture& capture() { return *mCapture; }
 
 private:
+    std::shared_ptr<backend::FrameCapture> mCapture;
     std::optional<Engine> mEngine;
     Owned<Material> mOpaque, mBlended, mBumpy;
     Owned<Texture> mWaves;

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is made and ended over and over leaves nothing behind: engines and swap chains, a thousand on the null backend,
+// some on the devices; FILAMENT_STRESS=1 makes it a thousand there, too.
+#include "shaders/package/EngineMaterials.h"
+#include "tests/scenes/Sphere.h"
+
+#include <filament/filament.h>
+
+#include <gtest/gtest.h>
+
+#include <cstdlib>
+#include <fstream>
+#include <malloc.h>
+#include <optional>
+#include <unistd.h>
+
+namespace filament::hard {
+namespace {
+
+int repetitions(Backend backend, int onDevices) {
+    const bool isStress = std::getenv("FILAMENT_STRESS") != nullptr;
+    return backend == Backend::Null || isStress ? 1000 : onDevices;
+}
+
+/// Pages of the process in memory, after the heap gave back what it holds for later.
+double residentMebibytes() {
+    malloc_trim(0);
+    std::ifstream file("/proc/self/statm");
+    double total = 0, resident = 0;
+    file >> total >> resident;
+    return resident * static_cast<double>(sysconf(_SC_PAGESIZE)) / (1024 * 1024);
+}
+
+std::optional<Engine> makeEngine(Backend backend) {
+    auto engine = Engine::create({ .backend = backend, .workers = 1 });
+    if (engine) return std::move(*engine);
+    ADD_FAILURE() << engine.error().message;
+    return std::nullopt;
+}
+
+/// One lit sphere.
+class Ball {
+public:
+    explicit Ball(Engine& engine) : scene(engine), mSphere(scenes::uploadSphere(engine, scenes::makeSphere(4, 8))) {
+        mVertices = engine.own(mSphere.vertices);
+        mIndices = engine.own(mSphere.indices);
+        mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
+        mInstance = engine.own(engine.createInstance(mMaterial));
+        scene.add({ .vertices = mVertices,
+                    .indices = mIndices,
+                    .material = mInstance,
+                    .boundsMin = float3(-1),
+                    .boundsMax = float3(1) });
+        scene.add(SunLight{});
+        view.camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 });
+        view.size = { 32, 32 };
+    }
+
+    Scene scene;
+    View view;
+
+private:
+    scenes::SphereBuffers mSphere;
+    Owned<VertexBuffer> mVertices;
+    Owned<IndexBuffer> mIndices;
+    Owned<Material> mMaterial;
+    Owned<MaterialInstance> mInstance;
+};
+
+void liveOnce(Backend backend) {
+    auto engine = makeEngine(backend);
+    ASSERT_TRUE(engine);
+    Ball ball(*engine);
+    Renderer renderer(*engine);
+    ASSERT_TRUE(renderer.renderToImage(ball.scene, ball.view).ok());
+    ASSERT_TRUE(engine->takeErrors().empty());
+}
+
+class Endless : public testing::TestWithParam<Backend> {};
+INSTANTIATE_TEST_SUITE_P(Backends, Endless, testing::Values(Backend::Null, Backend::Vulkan, Backend::Gles),
+                         [](auto const& test) { return std::string(toString(test.param)); });
+
+/// Growth a round that counts as flat: a forgotten object of any kind is more than that, a table that doubles is less.
+constexpr double kFlatKibibytes = 4;
+
+void expectFlat(double before, double after, int rounds) {
+    const double perRound = (after - before) * 1024 / rounds;
+    std::printf("%.1f MiB, %d rounds later %.1f MiB: %.2f KiB a round\n", before, rounds, after, perRound);
+    EXPECT_LE(perRound, kFlatKibibytes);
+}
+
+TEST_P(Endless, EnginesComeAndGoInTheSameMemory) {
+    const int count = repetitions(GetParam(), 25);
+    for (int i = 0; i < 10; ++i) liveOnce(GetParam()); // what drivers and the C library keep once
+    const double before = residentMebibytes();
+    for (int i = 0; i < count && !HasFatalFailure(); ++i) liveOnce(GetParam());
+    expectFlat(before, residentMebibytes(), count);
+}
+
+TEST_P(Endless, SwapChainsOfEverySizeComeAndGoInTheSameMemory) {
+    auto engine = makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    Ball ball(*engine);
+    Renderer renderer(*engine);
+    const int count = repetitions(GetParam(), 200);
+    double before = 0;
+    uint64_t bytesBefore = 0;
+    for (int i = -64; i < count; ++i) { // a period of sizes before: pools and tables then have theirs
+        const auto step = static_cast<uint32_t>(i + 64) % 32;
+        ball.view.size = { 16 + 7 * (step % 8), 16 + 11 * (step / 8) };
+        const Owned<SwapChain> target = engine->own(engine->create(SwapChainDesc{ .size = ball.view.size }));
+        renderer.render(ball.scene, ball.view, target);
+        if (i != -1) continue;
+        engine->waitIdle();
+        before = residentMebibytes();
+        bytesBefore = engine->statistics().deviceBytes;
+    }
+    engine->waitIdle();
+    expectFlat(before, residentMebibytes(), count);
+    EXPECT_LE(engine->statistics().deviceBytes, bytesBefore + (1u << 20)) << "one size more or less, not all of them";
+    EXPECT_TRUE(engine->takeErrors().empty());
+}
+
+} // namespace
+} // namespace filament::hard
