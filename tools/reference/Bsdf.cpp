@@ -51,32 +51,10 @@ double smithMasking(double cosine, double alpha) {
 
 } // namespace
 
-namespace terms {
-
-double visibilitySmithGgxUncorrelated(double nov, double nol, double alpha) {
-    const double a2 = alpha * alpha;
-    const auto half = [a2](double cosine) { return cosine + std::sqrt(a2 + (1 - a2) * cosine * cosine); };
-    return 1 / (half(nov) * half(nol));
-}
-
-double fresnelDielectric(double ior, double cosine) {
-    const double sineSquared = (1 - cosine * cosine) / (ior * ior);
-    const double inside = std::sqrt(std::max(0.0, 1 - sineSquared));
-    const double parallel = (ior * cosine - inside) / (ior * cosine + inside);
-    const double perpendicular = (cosine - ior * inside) / (cosine + ior * inside);
-    return (parallel * parallel + perpendicular * perpendicular) / 2;
-}
-
-double diffuseDisney(double nov, double nol, double voh, double perceptualRoughness) {
-    const double f90 = 0.5 + 2 * perceptualRoughness * voh * voh;
-    return (1 + (f90 - 1) * lib::pow5(1 - nol)) * (1 + (f90 - 1) * lib::pow5(1 - nov)) * lib::kInversePi;
-}
-
-} // namespace terms
-
 Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion)
         : mModel(model), mNormal(surface.normal), mRoughness(surface.perceptualRoughness),
-          mAlpha(lib::alphaFromPerceptual(mRoughness)), mF0(surface.f0), mF90(surface.f90), mDiffuse(surface.diffuse) {
+          mAlpha(lib::alphaFromPerceptual(mRoughness)), mF0(surface.f0), mF90(surface.f90), mMetallic(surface.metallic),
+          mDiffuse(surface.diffuse) {
     basisAround(mNormal, mTangent, mBitangent);
     mView = liftedAboveHorizon(toLocal(surface.view));
     mNov = mView.z;
@@ -101,11 +79,11 @@ Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusi
 
 double Bsdf::visibility(double nol) const {
     switch (mModel.visibility) {
-    case VisibilityTerm::CorrelatedFast:
+    case SpecularVisibility::Fast:
         return lib::visibilitySmithGgxCorrelatedFast(mNov, nol, mAlpha);
-    case VisibilityTerm::Uncorrelated:
-        return terms::visibilitySmithGgxUncorrelated(mNov, nol, mAlpha);
-    case VisibilityTerm::Correlated:
+    case SpecularVisibility::Uncorrelated:
+        return lib::visibilitySmithGgxUncorrelated(mNov, nol, mAlpha);
+    case SpecularVisibility::Correlated:
         break;
     }
     return lib::visibilitySmithGgxCorrelated(mNov, nol, mAlpha);
@@ -113,15 +91,12 @@ double Bsdf::visibility(double nol) const {
 
 double3 Bsdf::fresnel(double voh) const {
     if (mModel.fresnel == FresnelTerm::Schlick) return lib::fresnelSchlick(mF0, mF90, voh);
-    const auto exact = [voh](double f0) {
-        return terms::fresnelDielectric(lib::iorFromF0(std::min(f0, 0.999999)), voh);
-    };
-    return { exact(mF0.x), exact(mF0.y), exact(mF0.z) };
+    return lib::fresnelExact(mF0, mMetallic, voh) * mF90; // as shaders/material/surface_quality.glsl
 }
 
 double Bsdf::diffuseTerm(double nol, double voh) const {
     return mModel.diffuse == DiffuseTerm::Lambert ? lib::diffuseLambert()
-                                                  : terms::diffuseDisney(mNov, nol, voh, mRoughness);
+                                                  : lib::diffuseDisney(mNov, nol, voh, mRoughness);
 }
 
 double3 Bsdf::evaluate(double3 light, LightSource source) const {

@@ -53,6 +53,7 @@ private:
     double mNov, mRoughness, mAlpha;
     double3 mF0;
     double mF90;
+    double mMetallic;
     double3 mDiffuse;
     double3 mCompensation;
     double3 mCoupling;              // of the diffuse lobe, where it applies
@@ -60,17 +61,5 @@ private:
     double mAmbientSpecular = 1;    // occlusion
     double mSpecularChance = 0;
 };
-
-/// What Bsdf adds to shaders/lib to choose from.
-namespace terms {
-
-/// Masking times shadowing over 4 nol nov. Walter et al. 2007, eq. 23 and 34.
-double visibilitySmithGgxUncorrelated(double nov, double nol, double alpha);
-/// Unpolarised reflectance of the boundary from air to `ior`. Born and Wolf 1999, "Principles of Optics", 1.5.2.
-double fresnelDielectric(double ior, double cosine);
-/// Burley 2012, "Physically-Based Shading at Disney", section 5.3, per steradian and albedo.
-double diffuseDisney(double nov, double nol, double voh, double perceptualRoughness);
-
-} // namespace terms
 
 } // namespace filament::reference

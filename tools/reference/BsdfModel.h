@@ -1,27 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// BsdfModel: which formula stands for each term of the standard material. The defaults are the engine's; one changed
-/// value isolates one term, so that its error can be measured.
+/// value isolates one term, so that its error can be measured. Visibility, Fresnel and diffuse are the engine's own
+/// choices (<filament/Quality.h>), here for all light.
 #pragma once
+
+#include <filament/Quality.h>
 
 #include <cstdint>
 
 namespace filament::reference {
-
-enum class VisibilityTerm : uint8_t {
-    Correlated,     ///< visibilitySmithGgxCorrelated(): the engine's, exact for Smith's model
-    CorrelatedFast, ///< visibilitySmithGgxCorrelatedFast()
-    Uncorrelated,   ///< masking times shadowing: darker where both graze
-};
-
-enum class FresnelTerm : uint8_t {
-    Schlick, ///< the engine's
-    Exact,   ///< Fresnel's equations for the index of refraction that has this f0, component by component
-};
-
-enum class DiffuseTerm : uint8_t {
-    Lambert, ///< the engine's
-    Disney,  ///< Burley 2012: retro-reflection at grazing angles
-};
 
 /// What the specular lobe loses by reflecting once only.
 enum class EnergyTerm : uint8_t {
@@ -40,7 +27,7 @@ enum class CouplingTerm : uint8_t {
 enum class LobeChoice : uint8_t { Both, Diffuse, Specular };
 
 struct BsdfModel {
-    VisibilityTerm visibility = VisibilityTerm::Correlated;
+    SpecularVisibility visibility = SpecularVisibility::Correlated;
     FresnelTerm fresnel = FresnelTerm::Schlick;
     DiffuseTerm diffuse = DiffuseTerm::Lambert;
     EnergyTerm energy = EnergyTerm::Compensated;

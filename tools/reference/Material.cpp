@@ -56,6 +56,7 @@ void evaluateLit(Part const& part, Varyings const& varyings, double3 baseColor, 
         roughness *= texel.y;
         metallic *= texel.z;
     }
+    surface.metallic = metallic;
     surface.diffuse = lib::diffuseColor(baseColor, metallic);
     surface.f0 = lib::f0FromBaseColor(baseColor, metallic, kReflectance);
     surface.f90 = lib::saturate(lib::dot(surface.f0, double3(50.0 * 0.33))); // as surface_lit_main.glsl

@@ -61,9 +61,9 @@ Result<void> convertChoices(Words const& words, Options& options) {
 Result<void> convertMicrofacets(Words const& words, Options& options) {
     BsdfModel& bsdf = options.settings.bsdf;
     if (auto done = choose("--visibility", words.visibility,
-                           Names<VisibilityTerm, 3>{ { { "correlated", VisibilityTerm::Correlated },
-                                                       { "fast", VisibilityTerm::CorrelatedFast },
-                                                       { "uncorrelated", VisibilityTerm::Uncorrelated } } },
+                           Names<SpecularVisibility, 3>{ { { "correlated", SpecularVisibility::Correlated },
+                                                           { "fast", SpecularVisibility::Fast },
+                                                           { "uncorrelated", SpecularVisibility::Uncorrelated } } },
                            bsdf.visibility);
         !done) {
         return done;

@@ -21,6 +21,7 @@ struct SurfaceSample {
     double3 diffuse{ 0.0 }; ///< albedo of the diffuse lobe, times opacity if the material blends
     double3 f0{ 0.04 };
     double f90 = 1;
+    double metallic = 0;            ///< edge tint of the exact Fresnel term
     double perceptualRoughness = 1; ///< clamped to what the engine's fp32 shading takes, [0.045, 1]
     double occlusion = 1;           ///< of the material's map, [0, 1]
 

@@ -32,6 +32,7 @@ SurfaceSample surfaceOf(double roughness, double metallic, double3 baseColor, do
     surface.normal = surface.geometricNormal = kNormal;
     surface.view = inFrame(localView);
     surface.perceptualRoughness = lib::clampPerceptualRoughness(roughness);
+    surface.metallic = metallic;
     surface.diffuse = lib::diffuseColor(baseColor, metallic);
     surface.f0 = lib::f0FromBaseColor(baseColor, metallic, 0.5);
     return surface;
@@ -56,16 +57,16 @@ auto integrate(double viewCosine, F const& f, int polarSteps = 160, int azimuthS
 
 constexpr double kCosines[] = { 0.05, 0.3, 0.7, 1.0 };
 constexpr double kRoughnesses[] = { 0.2, 0.5, 1.0 };
-constexpr VisibilityTerm kVisibilities[] = { VisibilityTerm::Correlated, VisibilityTerm::CorrelatedFast,
-                                             VisibilityTerm::Uncorrelated };
+constexpr SpecularVisibility kVisibilities[] = { SpecularVisibility::Correlated, SpecularVisibility::Fast,
+                                                 SpecularVisibility::Uncorrelated };
 
 TEST(Bsdf, ReflectsTheSameInBothDirectionsWithoutTermsThatDependOnTheView) {
     const BsdfModel models[] = {
         { .energy = EnergyTerm::SingleScatter, .coupling = CouplingTerm::Never },
-        { .visibility = VisibilityTerm::CorrelatedFast,
+        { .visibility = SpecularVisibility::Fast,
           .energy = EnergyTerm::SingleScatter,
           .coupling = CouplingTerm::Never },
-        { .visibility = VisibilityTerm::Uncorrelated,
+        { .visibility = SpecularVisibility::Uncorrelated,
           .fresnel = FresnelTerm::Exact,
           .diffuse = DiffuseTerm::Disney,
           .energy = EnergyTerm::SingleScatter,
@@ -165,7 +166,8 @@ TEST(Bsdf, WithCouplingNoSurfaceReflectsMoreThanItGets) {
     for (const double cosine : kCosines) {
         for (const double roughness : kRoughnesses) {
             for (const double metallic : { 0.0, 0.5, 1.0 }) {
-                for (const VisibilityTerm visibility : { VisibilityTerm::Correlated, VisibilityTerm::Uncorrelated }) {
+                for (const SpecularVisibility visibility :
+                     { SpecularVisibility::Correlated, SpecularVisibility::Uncorrelated }) {
                     const BsdfModel model{ .visibility = visibility, .coupling = CouplingTerm::Always };
                     const Bsdf bsdf(surfaceOf(roughness, metallic, double3(1), directionAt(cosine, 0)), model, false);
                     const double3 albedo =
@@ -206,7 +208,7 @@ TEST(Bsdf, DiffuseAndSpecularAloneAddUpToBoth) {
 
 TEST(Bsdf, EverySampleHasTheWeightThatTheDensityPromises) {
     // The mean of value over density is the albedo; with visible normals single weights stay small.
-    for (const VisibilityTerm visibility : kVisibilities) {
+    for (const SpecularVisibility visibility : kVisibilities) {
         for (const double cosine : kCosines) {
             const Bsdf bsdf(surfaceOf(0.4, 1, double3(1), directionAt(cosine, 0)),
                             { .visibility = visibility, .energy = EnergyTerm::SingleScatter }, false);
@@ -228,21 +230,39 @@ TEST(Bsdf, EverySampleHasTheWeightThatTheDensityPromises) {
     }
 }
 
-TEST(Bsdf, TermsHaveTheirClosedForms) {
-    // Fresnel at normal incidence, at Brewster's angle (half of the perpendicular reflectance) and grazing.
-    const double ior = 1.5, brewster = std::atan(ior), r = (1 - ior * ior) / (1 + ior * ior);
-    EXPECT_NEAR(terms::fresnelDielectric(ior, 1), 0.04, 1e-15);
-    EXPECT_NEAR(terms::fresnelDielectric(ior, std::cos(brewster)), r * r / 2, 1e-15);
-    EXPECT_NEAR(terms::fresnelDielectric(ior, 0), 1, 1e-15);
-    // Masking is 1 and V = 1 / (4 nol nov) where alpha is 0; at alpha 1 and normal incidence G1 = 1.
-    EXPECT_NEAR(terms::visibilitySmithGgxUncorrelated(0.3, 0.7, 0), 1 / (4 * 0.3 * 0.7), 1e-12);
-    EXPECT_NEAR(terms::visibilitySmithGgxUncorrelated(1, 1, 1), 0.25, 1e-12);
-    // Correlated is never darker than uncorrelated: shadowed and masked areas overlap.
-    EXPECT_GT(shader::lib64::visibilitySmithGgxCorrelated(0.2, 0.3, 0.5),
-              terms::visibilitySmithGgxUncorrelated(0.2, 0.3, 0.5));
-    // Burley: 1 / pi from above at roughness 0.5 with voh = 1; half of it twice at grazing and roughness 0.
-    EXPECT_NEAR(terms::diffuseDisney(1, 1, 1, 0.5), 1 / kPiExact, 1e-12);
-    EXPECT_NEAR(terms::diffuseDisney(0, 0, 0, 0), 0.25 / kPiExact, 1e-12);
+// Every choice is the library's function of that name, and no other.
+TEST(Bsdf, EachChosenTermIsTheLibrarys) {
+    namespace lib = shader::lib64;
+    const double nov = 0.4, nol = 0.7, roughness = 0.5, alpha = 0.25, metallic = 0.6;
+    const double3 view = directionAt(nov, 0), light = directionAt(nol, 2), h = glm::normalize(view + light);
+    const double voh = glm::dot(view, h);
+    SurfaceSample surface = surfaceOf(roughness, metallic, double3(0.9, 0.6, 0.3), view);
+    surface.f90 = 0.8;
+    const auto reflected = [&](BsdfModel model) {
+        model.energy = EnergyTerm::SingleScatter;
+        model.coupling = CouplingTerm::Never;
+        return Bsdf(surface, model, false).evaluate(inFrame(light), LightSource::Direct);
+    };
+    const auto expected = [&](double visibility, double3 fresnel, double diffuse) {
+        return (surface.diffuse * diffuse + lib::ndfGgx(h.z, alpha) * visibility * fresnel) * nol;
+    };
+    const double correlated = lib::visibilitySmithGgxCorrelated(nov, nol, alpha), lambert = lib::diffuseLambert();
+    const double3 schlick = lib::fresnelSchlick(surface.f0, 0.8, voh);
+    const std::pair<BsdfModel, double3> cases[] = {
+        { {}, expected(correlated, schlick, lambert) },
+        { { .visibility = SpecularVisibility::Fast },
+          expected(lib::visibilitySmithGgxCorrelatedFast(nov, nol, alpha), schlick, lambert) },
+        { { .visibility = SpecularVisibility::Uncorrelated },
+          expected(lib::visibilitySmithGgxUncorrelated(nov, nol, alpha), schlick, lambert) },
+        { { .fresnel = FresnelTerm::Exact },
+          expected(correlated, lib::fresnelExact(surface.f0, metallic, voh) * 0.8, lambert) },
+        { { .diffuse = DiffuseTerm::Disney },
+          expected(correlated, schlick, lib::diffuseDisney(nov, nol, voh, roughness)) },
+    };
+    for (auto const& [model, value] : cases) {
+        EXPECT_LT(glm::distance(reflected(model), value), 1e-9 * glm::length(value));
+        EXPECT_EQ(model == BsdfModel{}, reflected(model) == reflected({})) << "the choice makes a difference";
+    }
 }
 
 TEST(Bsdf, TheOcclusionMapDimsAmbientLightOnly) {

@@ -86,7 +86,7 @@ TEST(Options, AreThoseOfFilamentRenderAndItsOwn) {
     EXPECT_EQ(settings.maxBounces, 3u);
     EXPECT_EQ(settings.filter, PixelFilter::Center);
     EXPECT_EQ(settings.occlusionMap, Switch::Off);
-    EXPECT_EQ(settings.bsdf, (BsdfModel{ VisibilityTerm::CorrelatedFast, FresnelTerm::Exact, DiffuseTerm::Disney,
+    EXPECT_EQ(settings.bsdf, (BsdfModel{ SpecularVisibility::Fast, FresnelTerm::Exact, DiffuseTerm::Disney,
                                          EnergyTerm::SingleScatter, CouplingTerm::Always, LobeChoice::Specular }));
     EXPECT_EQ(options.rotationDegrees, 90);
     EXPECT_EQ(options.workers, 1);
