@@ -22,8 +22,8 @@ Result<void> checkOptions(EnvironmentOptions const& options) {
     if (options.samples < 1 || options.samples > 65536) {
         return fail(ErrorCode::InvalidArgument, "{} environment samples are not in [1, 65536]", options.samples);
     }
-    if (options.format != backend::Format::RGBA16F && options.format != backend::Format::R11G11B10F) {
-        return fail(ErrorCode::InvalidArgument, "environment format {} is neither RGBA16F nor R11G11B10F",
+    if (!isEnvironmentFormat(options.format)) {
+        return fail(ErrorCode::InvalidArgument, "environment format {} is none of RGBA16F, R11G11B10F and RGB9E5",
                     backend::formatInfo(options.format).name);
     }
     return {};

@@ -31,7 +31,7 @@ struct EnvironmentOptions {
     bool useCache = true;
     uint32_t faceSize = 256; ///< texels of a specular face, power of two in [16, 2048]
     uint32_t samples = 512;  ///< pieces of the sky that each texel integrates, about; [1, 65536]
-    backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F
+    backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F, RGB9E5
     EnvironmentProgress progress{};
 };
 

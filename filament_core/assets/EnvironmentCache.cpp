@@ -45,7 +45,7 @@ CubeHeader headerOf(Image const& cube, EncodeLoss const& loss) {
 bool isPlausible(CubeHeader const& cube) {
     const auto format = static_cast<backend::Format>(cube.format);
     return cube.size >= 1 && cube.size <= kMaxFaceSize && cube.levels >= 1 && cube.levels <= kMaxLevels &&
-           (format == backend::Format::RGBA16F || format == backend::Format::R11G11B10F);
+           isEnvironmentFormat(format);
 }
 
 Image emptyImage(CubeHeader const& cube) {

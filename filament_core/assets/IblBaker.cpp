@@ -4,6 +4,7 @@
 #include "filament_core/assets/IblTree.h"
 #include "filament_core/base/Assert.h"
 #include "filament_core/math/Half.h"
+#include "filament_core/math/SharedExponent.h"
 #include "shaders/lib/LibCpp.h"
 
 #include <bit>
@@ -61,6 +62,7 @@ std::array<double, 9> shFactors() {
 
 float maximumOf(backend::Format format, int component) {
     if (format == backend::Format::RGBA16F) return kMaxHalf;
+    if (format == backend::Format::RGB9E5) return kMaxRgb9E5;
     return component < 2 ? kMaxFloat11 : kMaxFloat10;
 }
 
@@ -71,7 +73,7 @@ void encodeTexel(float3 color, backend::Format format, std::byte* out) {
                                               kOne };
         std::memcpy(out, halves.data(), sizeof(halves));
     } else {
-        const uint32_t packed = packR11G11B10F(color);
+        const uint32_t packed = format == backend::Format::RGB9E5 ? packRgb9E5(color) : packR11G11B10F(color);
         std::memcpy(out, &packed, sizeof(packed));
     }
 }
@@ -102,6 +104,11 @@ RowLoss encodeRow(IblCubeLevel const& level, std::span<const float> solidAngles,
 }
 
 } // namespace
+
+bool isEnvironmentFormat(backend::Format format) {
+    return format == backend::Format::RGBA16F || format == backend::Format::R11G11B10F ||
+           format == backend::Format::RGB9E5;
+}
 
 uint32_t specularLevelCount(uint32_t faceSize) {
     const uint32_t steps = faceSize > kSmallestSpecularFace ? std::bit_width(faceSize / kSmallestSpecularFace) : 1u;
@@ -150,8 +157,7 @@ std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& j
 }
 
 EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format format, jobs::JobSystem& jobs) {
-    FILAMENT_ASSERT(format == backend::Format::RGBA16F || format == backend::Format::R11G11B10F,
-                    "an environment is stored as RGBA16F or R11G11B10F");
+    FILAMENT_ASSERT(isEnvironmentFormat(format), "an environment is stored as RGBA16F, R11G11B10F or RGB9E5");
     FILAMENT_ASSERT(!levels.empty(), "a cube has at least one level");
     const uint32_t size = levels.front().size();
     EncodedCube result;

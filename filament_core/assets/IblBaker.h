@@ -45,7 +45,10 @@ struct EncodedCube {
     EncodeLoss loss;
 };
 
-/// `levels` each half the size of the one before; `format` is RGBA16F (alpha 1) or R11G11B10F. Clamps at the format's
+/// RGBA16F (alpha 1), R11G11B10F, and RGB9E5, which has 9 bits of the brightest component where R11G11B10F has 6.
+bool isEnvironmentFormat(backend::Format format);
+
+/// `levels` each half the size of the one before; `format` is one of those above. Clamps at the format's
 /// maximum: a sun never becomes infinite.
 EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format format, jobs::JobSystem& jobs);
 

@@ -13,6 +13,7 @@
 #include "jobsystem/JobSystem.h"
 
 #include <filament/Engine.h>
+#include <filament/Quality.h>
 
 #include <chrono>
 #include <map>
@@ -94,6 +95,7 @@ struct Engine::Impl {
     Result<Material> createMaterial(MaterialDesc const& desc);
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
+    void useTextureFilter(TextureFilter filter);
     void updateInstance(scene::MaterialInstance& instance, backend::CommandBuffer& commands);
     void markDirty(MaterialInstance instance);
     backend::TextureHandle textureHandle(Texture texture) const { return textures.get(texture).handle; }
@@ -125,6 +127,7 @@ struct Engine::Impl {
     engine::Defaults defaults;
     std::map<std::string, Material> engineMaterials; ///< by package and constants
     std::vector<MaterialInstance> dirtyInstances;
+    TextureFilter textureFilter = TextureFilter::AsAuthored; ///< of the frame recorded last
     uint32_t nextMaterialId = 0, nextInstanceId = 0;
 };
 

@@ -120,7 +120,26 @@ Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     return material;
 }
 
+Sampler filtered(Sampler sampler, TextureFilter filter) {
+    if (filter == TextureFilter::AsAuthored) return sampler;
+    sampler.magFilter = sampler.minFilter = Filter::Linear;
+    sampler.mipFilter = filter == TextureFilter::Bilinear ? MipFilter::Nearest : MipFilter::Linear;
+    sampler.anisotropy = filter == TextureFilter::Anisotropic ? 16 : 1;
+    return sampler;
+}
+
 } // namespace
+
+// Bind groups name their samplers: those of all instances are made anew, and only when the choice changes.
+void Engine::Impl::useTextureFilter(TextureFilter filter) {
+    if (filter == textureFilter) return;
+    textureFilter = filter;
+    instances.forEachHandle([&](MaterialInstance handle, scene::MaterialInstance& instance) {
+        if (instance.textures.empty()) return;
+        markDirty(handle);
+        instance.texturesDirty = true;
+    });
+}
 
 Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     auto loaded = loadMaterial(desc);
@@ -153,8 +172,7 @@ MaterialInstance Engine::createInstance(Material material, std::string name) {
     if (Parameter const* threshold = parent.package.findParameter("_maskThreshold")) {
         std::memcpy(instance.parameters.data() + threshold->offset, &parent.package.maskThreshold, sizeof(float));
     }
-    const scene::TextureBinding white{ mImpl->textureHandle(mImpl->defaults.white),
-                                       mImpl->samplers.get({}, mImpl->pending) };
+    const scene::TextureBinding white{ mImpl->textureHandle(mImpl->defaults.white), {} };
     for (Parameter const& parameter : parent.package.parameters) {
         if (shader::isTexture(parameter.type)) instance.textures.push_back(white);
     }
@@ -196,8 +214,7 @@ Result<void> Engine::set(MaterialInstance handle, std::string_view name, Texture
         return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is not a sampler", name,
                     instance.material->name);
     }
-    instance.textures[textureSlot(package, *parameter)] = { mImpl->textureHandle(texture),
-                                                            mImpl->samplers.get(sampler, mImpl->pending) };
+    instance.textures[textureSlot(package, *parameter)] = { mImpl->textureHandle(texture), sampler };
     mImpl->markDirty(handle);
     instance.texturesDirty = true;
     return {};
@@ -231,7 +248,9 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
         for (Parameter const& parameter : package.parameters) {
             if (!shader::isTexture(parameter.type)) continue;
             const scene::TextureBinding bound = instance.textures[slot++];
-            entries[count++] = { .binding = parameter.binding, .texture = bound.texture, .sampler = bound.sampler };
+            entries[count++] = { .binding = parameter.binding,
+                                 .texture = bound.texture,
+                                 .sampler = samplers.get(filtered(bound.sampler, textureFilter), commands) };
         }
         instance.group = stream->allocateBindGroup();
         commands.record(CmdCreateBindGroup{

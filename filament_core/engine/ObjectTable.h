@@ -20,6 +20,8 @@ public:
     Handle<Tag> add(Args&&... args) {
         const Handle<Tag> handle = mHandles.allocate();
         if (handle.index() >= mStates.size()) mStates.resize(handle.index() + 1);
+        mGiven.resize(mStates.size());
+        mGiven[handle.index()] = handle;
         mStates[handle.index()] = std::make_unique<State>(std::forward<Args>(args)...);
         return handle;
     }
@@ -44,9 +46,18 @@ public:
         }
     }
 
+    /// visit(handle, state) for every live object, in order of index.
+    template <class F>
+    void forEachHandle(F&& visit) {
+        for (size_t i = 0; i < mStates.size(); ++i) {
+            if (mStates[i]) visit(mGiven[i], *mStates[i]);
+        }
+    }
+
 private:
     HandleAllocator<Tag> mHandles;
     std::vector<std::unique_ptr<State>> mStates;
+    std::vector<Handle<Tag>> mGiven; // parallel to mStates: the handle given out last
 };
 
 } // namespace filament::engine

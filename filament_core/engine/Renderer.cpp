@@ -59,6 +59,7 @@ struct Renderer::Impl {
         CommandBuffer& commands = engine.stream->acquire(); // waits when two frames ahead
         stamps.acquired = clock();
         commands.record(CmdBeginFrame{ ++frame });
+        engine.useTextureFilter(view.quality.textureFilter);
         engine.drainPending(commands);
         upload(commands, *context, tableSize);
         describe(*context, view, target);
@@ -91,7 +92,8 @@ struct Renderer::Impl {
     /// Which passes the frame has. A scene-linear target takes the colour pass as it is.
     void describe(FrameContext& context, View const& view, engine::TextureState const& target) {
         FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
-        context.settings = { view.size, view.samples, view.clearColor, passes::shadingKey(view.quality) };
+        context.settings = { view.size, view.samples, view.clearColor, passes::shadingKey(view.quality),
+                             view.quality.depthRange };
         context.arena = &arena;
         context.pipelines = &engine.pipelines;
         if (context.packet.sky) context.skybox = &engine.materials.get(engine.engineMaterial("skybox", {}));

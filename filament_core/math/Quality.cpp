@@ -23,6 +23,8 @@ constexpr std::string_view kSplitSums[] = { "table", "analytic" };
 constexpr std::string_view kTableSizes[] = { "16", "32", "64", "128", "256" };
 constexpr std::string_view kIrradiances[] = { "sphericalHarmonics", "lastSpecularLevel" };
 constexpr std::string_view kBands[] = { "1", "2", "3" };
+constexpr std::string_view kTextureFilters[] = { "asAuthored", "bilinear", "trilinear", "anisotropic" };
+constexpr std::string_view kDepthRanges[] = { "reversed", "ordinary" };
 constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" };
 
 template <class E>
@@ -81,6 +83,9 @@ constexpr std::array kFields{
     numberField<&Quality::dfgTableSize, 16, 256>("dfgTableSize", kTableSizes, "a whole number from 16 to 256"),
     enumField<&Quality::diffuseIrradiance>("diffuseIrradiance", kIrradiances),
     numberField<&Quality::shBands, 1, 3>("shBands", kBands, "1, 2 or 3"),
+    enumField<&Quality::textureFilter>("textureFilter", kTextureFilters),
+    enumField<&Quality::depthRange>("depthRange", kDepthRanges),
+    enumField<&Quality::cameraRelative>("cameraRelative", kBooleans),
 };
 
 Field const* findField(std::string_view name) {
@@ -103,6 +108,7 @@ Quality lowPreset() {
     quality.energyCompensation = false;
     quality.splitSum = SplitSum::Analytic;
     quality.shBands = 2;
+    quality.textureFilter = TextureFilter::Bilinear;
     return quality;
 }
 
@@ -117,6 +123,7 @@ Quality referencePreset() {
     Quality quality;
     quality.fresnel = FresnelTerm::Exact;
     quality.dfgTableSize = 256;
+    quality.textureFilter = TextureFilter::Anisotropic;
     return quality;
 }
 
@@ -127,6 +134,8 @@ const char* toString(FresnelTerm value) { return wordOf(kFresnelTerms, value); }
 const char* toString(DiffuseTerm value) { return wordOf(kDiffuseTerms, value); }
 const char* toString(SplitSum value) { return wordOf(kSplitSums, value); }
 const char* toString(DiffuseIrradiance value) { return wordOf(kIrradiances, value); }
+const char* toString(TextureFilter value) { return wordOf(kTextureFilters, value); }
+const char* toString(DepthRange value) { return wordOf(kDepthRanges, value); }
 const char* toString(QualityPreset value) { return wordOf(kPresets, value); }
 
 std::optional<SpecularVisibility> specularVisibilityFromName(std::string_view name) {
@@ -142,6 +151,10 @@ std::optional<SplitSum> splitSumFromName(std::string_view name) { return valueOf
 std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name) {
     return valueOf<DiffuseIrradiance>(kIrradiances, name);
 }
+std::optional<TextureFilter> textureFilterFromName(std::string_view name) {
+    return valueOf<TextureFilter>(kTextureFilters, name);
+}
+std::optional<DepthRange> depthRangeFromName(std::string_view name) { return valueOf<DepthRange>(kDepthRanges, name); }
 std::optional<QualityPreset> qualityPresetFromName(std::string_view name) {
     return valueOf<QualityPreset>(kPresets, name);
 }

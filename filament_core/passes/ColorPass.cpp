@@ -20,7 +20,8 @@ struct ChosenPipelines {
 ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
     PipelineCache& pipelines = *context.pipelines;
     prepare::FramePacket const& packet = context.packet;
-    const uint32_t slot = pipelines.slot({ pass.passLayout(), pass.subpass(), context.settings.shading });
+    const uint32_t slot = pipelines.slot(
+            { pass.passLayout(), pass.subpass(), context.settings.shading, context.settings.depthRange });
     ChosenPipelines chosen;
     chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, packet.opaque, packet.variant);
     chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, packet.blended, packet.variant);
@@ -64,7 +65,7 @@ void addColorPass(FrameGraph& graph, FrameContext const* context, TextureId colo
                 pass.writeColor(0, samples,
                                 { .clear = std::array{ clear.x, clear.y, clear.z, clear.w },
                                   .resolve = settings.samples == 1 ? TextureId{} : color });
-                pass.writeDepth(depth, { .clear = 0.0f });
+                pass.writeDepth(depth, { .clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
             },
             [context](PassContext& pass) { return choose(pass, *context); },
             [context](PassContext& pass, ChosenPipelines const& chosen) { recordScene(pass, *context, chosen); });

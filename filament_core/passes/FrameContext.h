@@ -17,6 +17,7 @@ struct PassSettings {
     uint8_t samples = 1;
     float4 clearColor{ 0, 0, 0, 1 };
     ShadingKey shading = 0;
+    DepthRange depthRange = DepthRange::Reversed;
 };
 
 struct FrameContext {

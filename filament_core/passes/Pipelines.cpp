@@ -144,8 +144,9 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     }
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth && package.depthCulling) {
-        // Reversed depth. Equal passes too: the sky sits exactly at the far plane, decals exactly on their surface.
-        desc.depthStencil.depthCompare = CompareOp::GreaterEqual;
+        // Equal passes too: the sky sits exactly at the far plane, decals exactly on their surface.
+        desc.depthStencil.depthCompare =
+                slot.depthRange == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
         desc.depthStencil.depthWrite = package.depthWrite && !material.isBlended();
     }
     BlendState blend = blendState(package.blending);

@@ -22,6 +22,7 @@ struct PassSlot {
     backend::PassLayout layout{};
     uint8_t subpass = 0;
     ShadingKey shading = 0;
+    DepthRange depthRange = DepthRange::Reversed;
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 

@@ -39,7 +39,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     besideCulling.wait();
 
     packet.variant = variantFor(packet.counts);
-    packet.objects = { order, renderables.placement, space.cameraWorld };
+    packet.objects = { order, renderables.placement, view.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
     packet.specular = scene.indirectLight.specular;

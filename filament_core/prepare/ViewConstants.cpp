@@ -11,6 +11,12 @@ float4x4 rotationY(float radians) {
     return float4x4(float4(c, 0, -s, 0), float4(0, 1, 0, 0), float4(s, 0, c, 0), float4(0, 0, 0, 1));
 }
 
+// z' = w - z: the near plane at 0, infinity at 1.
+float4x4 withOrdinaryDepth(float4x4 clip) {
+    for (int column = 0; column < 4; ++column) clip[column][2] = clip[column][3] - clip[column][2];
+    return clip;
+}
+
 } // namespace
 
 ViewSpace makeViewSpace(ViewInput const& view) {
@@ -22,7 +28,11 @@ ViewSpace makeViewSpace(ViewInput const& view) {
     space.viewFromWorld = float4x4(double4x4(glm::transpose(worldFromView)));
     space.clipFromView = view.camera.clipFromView(static_cast<float>(view.size.x) / static_cast<float>(view.size.y));
     space.clipFromWorld = space.clipFromView * space.viewFromWorld;
-    space.frustum = frustumFromClip(space.clipFromWorld);
+    space.frustum = frustumFromClip(space.clipFromWorld); // the same planes whatever depth is stored
+    if (view.quality.depthRange == DepthRange::Ordinary) {
+        space.clipFromView = withOrdinaryDepth(space.clipFromView);
+        space.clipFromWorld = space.clipFromView * space.viewFromWorld;
+    }
     space.exposure = view.camera.exposure.factor();
     return space;
 }
@@ -34,9 +44,10 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.worldFromClip = float4x4(glm::inverse(double4x4(space.clipFromWorld)));
     frame.viewFromWorld = space.viewFromWorld;
     frame.clipFromView = space.clipFromView;
-    frame.cameraPosition = float4(float3(space.cameraWorld), 0);
+    frame.cameraPosition = float4(float3(space.cameraWorld), view.quality.cameraRelative ? 0.0f : 1.0f);
     frame.viewport = float4(width, height, 1 / width, 1 / height);
-    frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), static_cast<float>(view.timeSeconds), 0);
+    frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), static_cast<float>(view.timeSeconds),
+                            view.quality.depthRange == DepthRange::Ordinary ? 1.0f : 0.0f);
 
     scene::IndirectLightState const& light = scene.indirectLight;
     const float ambient = light.specular ? light.illuminance.value * space.exposure : 0.0f;

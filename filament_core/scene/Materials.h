@@ -7,6 +7,8 @@
 #include "backend/api/Handles.h"
 #include "shaders/package/Package.h"
 
+#include <filament/Sampler.h>
+
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -34,7 +36,7 @@ struct Material {
 
 struct TextureBinding {
     backend::TextureHandle texture;
-    backend::SamplerHandle sampler;
+    Sampler sampler{}; ///< as authored
 };
 
 struct MaterialInstance {

@@ -47,9 +47,9 @@ struct FrameUniforms {
     float4x4 worldFromClip;
     float4x4 viewFromWorld;
     float4x4 clipFromView;
-    float4 cameraPosition;       ///< xyz: absolute world position, for procedural materials only; w: unused
+    float4 cameraPosition;       ///< xyz: absolute world position, for procedural materials; w: 1 if objects are absolute, not relative to it
     float4 viewport;             ///< xy: pixels, zw: 1 / pixels
-    float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: time in seconds; w: unused
+    float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: time in seconds; w: depth of infinity
     float4 sunDirection;         ///< xyz: towards the sun, unit; w: 1 if there is a sun
     float4 sunIlluminance;       ///< rgb: pre-exposed linear colour x lux
     float4 ambient;              ///< x: pre-exposed IBL lux; y: level of roughness 1; z: SH bands; w: light count

@@ -4,7 +4,9 @@
 
 #if defined(FULL_SCREEN_TRIANGLE)
 // Covers the picture at the far plane, without attributes: (-1, -1), (3, -1), (-1, 3).
-vec3 meshPosition() { return vec3(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.0); }
+vec3 meshPosition() {
+    return vec3(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, frameUniforms.exposure.w);
+}
 #else
 layout(location = kAttributePosition) in vec3 mesh_position;
 vec3 meshPosition() { return mesh_position; }
@@ -31,9 +33,14 @@ int getEyeIndex() { return 0; }
 
 #if defined(VERTEX_DOMAIN_OBJECT)
 
+// The camera, where objects are not relative to it (Quality::cameraRelative); else 0, and x - 0 is x.
+vec3 objectOrigin() { return frameUniforms.cameraPosition.xyz * frameUniforms.cameraPosition.w; }
+
 mat4 getWorldFromModelMatrix() {
     ObjectRecord object = objectUniforms.objects[mesh_instance];
-    return transpose(mat4(object.row0, object.row1, object.row2, vec4(0.0, 0.0, 0.0, 1.0)));
+    mat4 m = transpose(mat4(object.row0, object.row1, object.row2, vec4(0.0, 0.0, 0.0, 1.0)));
+    m[3].xyz -= objectOrigin();
+    return m;
 }
 
 // The cofactor matrix: the inverse transpose times the determinant, which exists for singular matrices, too. Its sign
@@ -49,7 +56,8 @@ mat3 getWorldFromModelNormalMatrix() {
 vec4 worldPositionOfVertex() {
     ObjectRecord object = objectUniforms.objects[mesh_instance];
     vec4 p = getPosition();
-    return vec4(dot(object.row0, p), dot(object.row1, p), dot(object.row2, p), 1.0);
+    vec3 position = vec3(dot(object.row0, p), dot(object.row1, p), dot(object.row2, p));
+    return vec4(position - objectOrigin(), 1.0);
 }
 
 vec3 directionToWorld(vec3 d) {

@@ -89,6 +89,21 @@ Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
     return {};
 }
 
+Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
+    if (!words.quality.empty()) {
+        const auto preset = qualityPresetFromName(words.quality);
+        if (!preset) return invalidOption("--quality", words.quality, "low, medium, high or reference");
+        options.quality = qualityPreset(*preset);
+    }
+    for (std::string const& word : words.set) {
+        const size_t equals = word.find('=');
+        if (equals == std::string::npos) return invalidOption("--set", word, "NAME=VALUE, see docs/quality.md");
+        const Result<void> done = setQuality(options.quality, word.substr(0, equals), word.substr(equals + 1));
+        if (!done) return fail(done.error().code, "--set {}: {}", word, done.error().message);
+    }
+    return {};
+}
+
 } // namespace
 
 void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options) {
@@ -110,6 +125,11 @@ void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options
     app.add_option("--skybox", words.skybox, "on or off: the environment as background (on)");
     app.add_option("--tone-mapper", words.toneMapper, "linear, aces, filmic or mobile (aces)");
     app.add_option("--dither", words.dither, "on or off (off)");
+    app.add_option("--quality", words.quality, "low, medium, high or reference: the approximations (high)");
+    app.add_option("--set", words.set, "NAME=VALUE: one choice of docs/quality.md, after --quality; repeatable")
+            ->expected(1)
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--out", words.out, "folder for pictures and report.json (out)");
 }
 
@@ -117,7 +137,7 @@ Result<void> convertSceneOptions(SceneWords const& words, SceneOptions& options)
     options.model = words.model;
     options.environment = words.environment;
     options.out = words.out;
-    for (auto convert : { convertSize, convertPicture, convertCamera, convertLight }) {
+    for (auto convert : { convertSize, convertPicture, convertCamera, convertLight, convertQuality }) {
         if (Result<void> done = convert(words, options); !done) return done;
     }
     return {};

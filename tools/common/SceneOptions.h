@@ -34,6 +34,7 @@ struct SceneOptions {
     std::optional<SunLight> sun;
     bool skybox = true; ///< where there is an environment
     ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
+    Quality quality{};
     std::filesystem::path out = "out";
 };
 
@@ -42,6 +43,8 @@ struct SceneWords {
     std::string model, environment, size = "1280x720", fov = "40", iblIntensity = "30000", skybox, toneMapper = "aces",
                                     dither, out = "out";
     std::vector<std::string> eye, at, exposure, sun;
+    std::string quality;
+    std::vector<std::string> set; ///< name=value
 };
 
 void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options);

@@ -39,7 +39,10 @@ LoadProgress progressOf(Backend backend, const char* what) {
 }
 
 View viewOf(Options const& options) {
-    return { .camera = cameraOf(options), .size = options.size, .colorGrading = options.colorGrading };
+    return { .camera = cameraOf(options),
+             .size = options.size,
+             .colorGrading = options.colorGrading,
+             .quality = options.quality };
 }
 
 Result<Engine> createEngine(Options const& options, Backend backend) {

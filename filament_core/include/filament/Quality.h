@@ -50,6 +50,19 @@ enum class DiffuseIrradiance : uint8_t {
     LastSpecularLevel,  ///< roughness 1 of the specular environment: no coefficients, a GGX lobe instead of a cosine
 };
 
+/// Samplers of materials; those of the environment stay.
+enum class TextureFilter : uint8_t {
+    AsAuthored,  ///< as the material's textures were set
+    Bilinear,    ///< the nearest mip level
+    Trilinear,   ///< between mip levels
+    Anisotropic, ///< trilinear along up to 16 probes
+};
+
+enum class DepthRange : uint8_t {
+    Reversed, ///< near 1, infinity 0: a float's exponent makes up for the perspective
+    Ordinary, ///< near 0, infinity 1: the same compare the other way round, z-fights in the distance
+};
+
 enum class QualityPreset : uint8_t {
     Low,       ///< the cheapest of everything
     Medium,    ///< what a phone affords
@@ -66,6 +79,11 @@ struct Quality {
     uint16_t dfgTableSize = 64; ///< texels a side, [16, 256]
     DiffuseIrradiance diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;
     uint8_t shBands = 3; ///< [1, 3]: 1, 4 or 9 coefficients
+    TextureFilter textureFilter = TextureFilter::AsAuthored;
+    DepthRange depthRange = DepthRange::Reversed;
+    /// Positions reach the shaders relative to the camera, subtracted in double precision. Off: as absolute floats,
+    /// which the vertex shader subtracts, as engines with a float world do.
+    bool cameraRelative = true;
     friend bool operator==(Quality const&, Quality const&) = default;
 };
 
@@ -74,12 +92,16 @@ const char* toString(FresnelTerm value);
 const char* toString(DiffuseTerm value);
 const char* toString(SplitSum value);
 const char* toString(DiffuseIrradiance value);
+const char* toString(TextureFilter value);
+const char* toString(DepthRange value);
 const char* toString(QualityPreset value);
 std::optional<SpecularVisibility> specularVisibilityFromName(std::string_view name);
 std::optional<FresnelTerm> fresnelTermFromName(std::string_view name);
 std::optional<DiffuseTerm> diffuseTermFromName(std::string_view name);
 std::optional<SplitSum> splitSumFromName(std::string_view name);
 std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name);
+std::optional<TextureFilter> textureFilterFromName(std::string_view name);
+std::optional<DepthRange> depthRangeFromName(std::string_view name);
 std::optional<QualityPreset> qualityPresetFromName(std::string_view name);
 
 Quality qualityPreset(QualityPreset preset);

@@ -17,34 +17,48 @@ namespace filament::test {
 /// radiances. The sun and the environment are off until asked for.
 class Patch {
 public:
-    explicit Patch(Engine& engine, double viewDegrees = 0) : scene(engine), mEngine(engine) {
+    explicit Patch(Engine& engine, double viewDegrees = 0, MaterialDesc const& material = lit())
+            : scene(engine), mEngine(engine) {
         struct Vertex {
             float3 position;
+            float2 uv;
             float4 tangents{ 0, 0, 0, 1 }; // no rotation: the normal is +z
         };
-        const std::array<Vertex, 4> corners{
-            { { { -1, -1, 0 } }, { { 1, -1, 0 } }, { { -1, 1, 0 } }, { { 1, 1, 0 } } }
-        };
+        const std::array<Vertex, 4> corners{ { { { -1, -1, 0 }, { 0, 0 } },
+                                               { { 1, -1, 0 }, { 1, 0 } },
+                                               { { -1, 1, 0 }, { 0, 1 } },
+                                               { { 1, 1, 0 }, { 1, 1 } } } };
         const std::array<uint16_t, 6> indices{ 0, 1, 2, 2, 1, 3 };
         mVertices = engine.own(engine.create(VertexBufferDesc{
                 .vertexCount = 4,
                 .stride = sizeof(Vertex),
                 .attributes = { { Attribute::Position, VertexFormat::Float3, 0 },
+                                { Attribute::Uv0, VertexFormat::Float2, offsetof(Vertex, uv) },
                                 { Attribute::Tangents, VertexFormat::Float4, offsetof(Vertex, tangents) } },
                 .data = std::as_bytes(std::span(corners)) }));
         mIndices = engine.own(
                 engine.create(IndexBufferDesc{ .indexCount = 6, .data = std::as_bytes(std::span(indices)) }));
-        mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
+        mMaterial = engine.own(*engine.create(material));
         mInstance = engine.own(engine.createInstance(mMaterial, "patch"));
-        scene.add({ .vertices = mVertices,
-                    .indices = mIndices,
-                    .material = mInstance,
-                    .boundsMin = float3(-1),
-                    .boundsMax = float3(1) });
+        renderable = add(mInstance, double3(0));
         const double angle = viewDegrees * std::numbers::pi / 180;
         view.camera = Camera::lookAt({ 40 * std::sin(angle), 0, 40 * std::cos(angle) }, { 0, 0, 0 },
                                      { .verticalFovDegrees = 0.5f });
         view.size = { 16, 16 };
+    }
+
+    static MaterialDesc lit() { return { .package = shader::engineMaterial("gltf_lit_opaque") }; }
+
+    /// Another patch, with a centre and a material of its own.
+    Renderable add(MaterialInstance material, double3 center) {
+        double4x4 world(1.0);
+        world[3] = double4(center, 1);
+        return scene.add({ .vertices = mVertices,
+                           .indices = mIndices,
+                           .material = material,
+                           .boundsMin = float3(-1),
+                           .boundsMax = float3(1),
+                           .worldFromObject = world });
     }
 
     void setSurface(float4 baseColor, float metallic, float roughness) {
@@ -80,10 +94,12 @@ public:
     }
 
     Image render() { return renderLinear(mEngine, scene, view); }
+    MaterialInstance instance() const { return mInstance; }
     float3 renderCenter() { return float3(halfPixel(render(), 8, 8)); }
 
     Scene scene;
     View view;
+    Renderable renderable;
 
 private:
     Engine& mEngine;

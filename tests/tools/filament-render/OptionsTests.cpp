@@ -47,6 +47,30 @@ TEST(Options, WithoutArgumentsAreThoseOfTheManual) {
     EXPECT_EQ(options.out, "out");
 }
 
+TEST(Options, AQualityIsAPresetAndThenItsChangesInTheirOrder) {
+    EXPECT_EQ(parsed({}).quality, Quality{});
+    EXPECT_EQ(parsed({ "--quality", "low" }).quality, qualityPreset(QualityPreset::Low));
+    Quality expected = qualityPreset(QualityPreset::Low);
+    expected.shBands = 1;
+    expected.fresnel = FresnelTerm::Exact;
+    EXPECT_EQ(parsed({ "--set", "shBands=3", "--quality", "low", "--set", "fresnel=exact", "--set", "shBands=1" })
+                      .quality,
+              expected);
+}
+
+TEST(Options, AWrongQualityNamesWhatWouldBeRight) {
+    const auto messageOf = [](std::vector<const char*> words) {
+        words.insert(words.begin(), "filament-render");
+        const auto result = parseOptions(static_cast<int>(words.size()), words.data());
+        EXPECT_FALSE(result);
+        return result ? std::string() : result.error().message;
+    };
+    EXPECT_NE(messageOf({ "--quality", "ultra" }).find("low, medium, high or reference"), std::string::npos);
+    EXPECT_NE(messageOf({ "--set", "shBands" }).find("NAME=VALUE"), std::string::npos);
+    EXPECT_NE(messageOf({ "--set", "shBand=2" }).find("shBands"), std::string::npos);
+    EXPECT_NE(messageOf({ "--set", "fresnel=no" }).find("schlick or exact"), std::string::npos);
+}
+
 TEST(Options, AllReachTheirFields) {
     const Options options = parsed({ "a b.glb",
                                      "--environment",
