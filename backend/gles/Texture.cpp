@@ -82,6 +82,10 @@ void Textures::create(TextureHandle handle, TextureDesc const& desc) {
         mDevice.error(DriverErrorKind::Other,
                       "texture '{}': this device has no {}; see DeviceFeatures::blockCompression", desc.debugName,
                       formatInfo(desc.format).name);
+    } else if (const uint32_t most = mDevice.info.limits.maxTextureSize; std::max(desc.width, desc.height) > most) {
+        // Said here, because GL_INVALID_VALUE would name neither the size nor the limit.
+        mDevice.error(DriverErrorKind::Other, "texture '{}': {} x {} texels; this device has at most {} each way",
+                      desc.debugName, desc.width, desc.height, most);
     } else {
         mDevice.beginCreation();
         mDevice.gl.GenTextures(1, &texture.name);

@@ -225,6 +225,11 @@ Result<Image> Renderer::waitPixels(PixelTicket ticket) {
     mImpl->pixels.erase(entry);
     auto bytes = mImpl->engine.stream->waitReadback({ ticket.value });
     if (!bytes) return bytes.error();
+    // A read of an image that the device refused is answered without bytes, so that nobody waits for ever.
+    if (bytes->empty())
+        return fail(ErrorCode::DeviceUnavailable,
+                    "read pixels: the device has no image of {} x {} texels; Engine::takeErrors() names the cause",
+                    image.width, image.height);
     image.pixels = std::move(*bytes);
     return image;
 }
