@@ -93,7 +93,7 @@ private:
 };
 
 /// Jobs to be waited for together. A group may be reused after wait().
-class JobGroup {
+class alignas(kCacheLineBytes) JobGroup {
 public:
     /// Of the priority of the job that makes it; Normal outside of jobs.
     explicit JobGroup(JobSystem& jobs);

@@ -70,11 +70,12 @@ public:
         return sawWork;
     }
 
-    /// How long the theft, the stolen job and what it forked took.
-    void learn(int64_t nanoseconds) {
-        if (nanoseconds >= kWorthStealing) return;
+    /// How long the theft, the stolen job and what it forked took. False if the next look had better wait.
+    bool learn(int64_t nanoseconds) {
+        if (nanoseconds >= kWorthStealing) return true;
         mDelay = kLongestInterval;
         mSuspect = {};
+        return false;
     }
 
 private:

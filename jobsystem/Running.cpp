@@ -65,22 +65,63 @@ void runInline(Scheduler& scheduler, const char* name, void (*function)(void*), 
 
 } // namespace detail
 
-// One clock read for a stretch of jobs, not for each: it begins at the look that found the first.
+/// Jobs of one group that this thread has run and not yet reported. As long as it goes on with another one of the same
+/// group, which cannot be done before that, nobody needs to know: so a row of thefts moves the group's line only once.
+class Scheduler::Report {
+public:
+    Report(Scheduler& scheduler, Seat const& seat) : mScheduler(scheduler), mSeat(seat) {}
+
+    void add(Completion& completion, bool stolen) {
+        if (!stolen && completion.finishLocal(mSeat.occupant)) return;
+        mGroup = &completion;
+        ++mJobs;
+    }
+    void sendUnlessNextIs(Found const& next) {
+        if (!mGroup || (next && next.job->completion == mGroup)) return;
+        if (mGroup->finishShared(mJobs)) mScheduler.close(*mGroup);
+        mGroup = nullptr;
+        mJobs = 0;
+    }
+
+private:
+    Scheduler& mScheduler;
+    Seat const& mSeat;
+    Completion* mGroup = nullptr;
+    int64_t mJobs = 0;
+};
+
 void Scheduler::work(Seat& seat, Found found, Hunt& hunt) {
     const int64_t begin = hunt.now;
-    for (; found; found = takeOwn(&seat, Priority::Normal)) execute(&seat, found);
-    hunt.now = nanosecondsNow();
+    Report report(*this, seat);
+    while (found) {
+        Completion& completion = *found.job->completion;
+        const bool stolen = found.stolen;
+        run(&seat, found);
+        report.add(completion, stolen);
+        found = takeOwn(&seat, Priority::Normal);
+        if (!found) found = stealAgain(seat, hunt);
+        report.sendUnlessNextIs(found);
+    }
     const auto busy = static_cast<uint64_t>(hunt.now - begin);
     seat.busyNanoseconds.store(seat.busyNanoseconds.load(std::memory_order_relaxed) + busy, std::memory_order_relaxed);
-    seat.patience.learn(hunt.now - begin);
+}
+
+// One clock read for a stretch of jobs, not for each: it begins at the look that found the first.
+Scheduler::Found Scheduler::stealAgain(Seat& seat, Hunt& hunt) {
+    const int64_t begin = hunt.now;
+    hunt.now = nanosecondsNow();
+    return seat.patience.learn(hunt.now - begin) ? searchOthers(&seat, Priority::Normal, seat.patience) : Found{};
+}
+
+void Scheduler::run(Seat* seat, Found const& found) {
+    while (call(seat, found)) {
+    }
+    mStorage.release(seat ? &seat->cache : nullptr, *found.job);
 }
 
 void Scheduler::execute(Seat* seat, Found const& found) {
-    Job& job = *found.job;
-    Completion& completion = *job.completion;
-    while (call(seat, found)) {
-    }
-    mStorage.release(seat ? &seat->cache : nullptr, job);
+    Completion& completion = *found.job->completion;
+    run(seat, found);
     finish(seat, completion, found.stolen);
 }
 

@@ -101,6 +101,9 @@ private:
     void wakeAWaiter(Priority priority);
 
     // Running.cpp
+    class Report;
+    Found stealAgain(Seat& seat, Hunt& hunt);
+    void run(Seat* seat, Found const& found);
     void work(Seat& seat, Found found, Hunt& hunt);
     void execute(Seat* seat, Found const& found);
     void executeInline(Seat* seat, Job& job, Priority priority);
