@@ -7,7 +7,7 @@
 #pragma once
 
 #include "backend/layers/Captured.h"
-#include "tools/conformance/SceneFile.h"
+#include "tools/conformance/SceneAssets.h"
 
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
@@ -33,9 +33,6 @@ struct Shot {
     std::optional<backend::CapturedFrame> inside;
 };
 
-/// The first file of a case that does not exist; empty: all are there.
-std::string missingFile(SceneSpec const& spec, std::filesystem::path const& assets);
-
 class Stage {
 public:
     /// `edit` changes the stream of everything that this stage draws; it implies `capture`.
@@ -52,8 +49,6 @@ private:
 
     Result<void> loadModel(SceneSpec const& spec);
     Result<void> loadSky(SceneSpec const& spec);
-    void addLights(SceneSpec const& spec);
-    void placeCamera(SceneSpec const& spec);
 
     const StageOptions mOptions;
     Engine mEngine;

@@ -1,0 +1,144 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/SceneAssets.h"
+
+#include "filament_core/assets/AnalyticSky.h"
+#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/ImageWriter.h"
+#include "filament_core/base/Hash.h"
+#include "tools/conformance/BuiltModel.h"
+#include "tools/showcase/Showcase.h"
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+
+namespace filament::conformance {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kAsset = "asset:", kShowcase = "showcase", kSky = "sky", kWhite = "white";
+constexpr uint32_t kSkyHeight = 64; // smooth but for the horizon: enough for pictures of 256 pixels
+constexpr float kSkyUnit = 22;      // klx: radiance 1 of the sky's file, as the showcase has it
+
+fs::path resolve(std::string const& name, SceneSpec const& spec, fs::path const& assets) {
+    if (name.starts_with(kAsset)) return assets / name.substr(kAsset.size());
+    return spec.folder / name;
+}
+
+/// Made in a folder of this process and thread alone, then moved to its place in one step.
+Result<fs::path> writeOnce(fs::path const& path, std::function<Result<void>(fs::path const& own)> const& write) {
+    if (fs::exists(path)) return path;
+    const fs::path own =
+            path.parent_path() / fmt::format("{}-{}", static_cast<const void*>(&write), path.filename().string());
+    if (const Result<void> written = write(own); !written) return written.error();
+    std::error_code error;
+    fs::rename(own, path, error);
+    if (error) return fail(ErrorCode::Unreadable, "{}: {}", path.string(), error.message());
+    return path;
+}
+
+/// One file name for each content.
+Result<fs::path> writeBuiltModel(SceneSpec const& spec, fs::path const& work) {
+    const std::string name = spec.name.substr(0, spec.name.find('/'));
+    Result<std::vector<std::byte>> bytes = buildModel(spec.model, name);
+    if (!bytes) return bytes.error();
+    const fs::path path = work / "models" / fmt::format("{}-{:016x}.glb", name, hashBytes(*bytes));
+    if (fs::exists(path)) return path;
+    if (const Result<void> written = assets::replaceFile(path, *bytes); !written) return written.error();
+    return path;
+}
+
+Result<void> writeSky(fs::path const& path) {
+    jobs::JobSystem jobs({ .workers = 0 });
+    Result<assets::HdrImage> sky = assets::makeAnalyticSky(
+            { .height = kSkyHeight, .groundAlbedo = { 0.30f, 0.29f, 0.27f }, .sunDisc = false }, jobs);
+    if (!sky) return sky.error();
+    for (float3& pixel : sky->pixels) pixel /= kSkyUnit;
+    return assets::writeHdr(path, *sky);
+}
+
+Result<void> writeWhite(fs::path const& path) {
+    const assets::HdrImage white{
+        .width = 16, .height = 8, .pixels = std::vector<float3>(128, float3(1.0f)), .repairs = {}
+    };
+    return assets::writeHdr(path, white);
+}
+
+Result<showcase::Files> showcaseFiles(fs::path const& work) {
+    const fs::path folder = work / "showcase";
+    const showcase::Files files{ folder / "showcase.glb", folder / "showcase.hdr" };
+    if (fs::exists(files.model) && fs::exists(files.environment)) return files;
+    jobs::JobSystem jobs;
+    return showcase::writeFiles(folder, jobs);
+}
+
+bool isBuiltIn(std::string const& environment) {
+    return environment.empty() || environment == kSky || environment == kWhite || environment == kShowcase;
+}
+
+} // namespace
+
+std::string missingFile(SceneSpec const& spec, fs::path const& assets) {
+    const auto missing = [&](std::string const& name) {
+        return !fs::exists(resolve(name, spec, assets)) ? name : std::string();
+    };
+    if (spec.model.is_string() && spec.model != kShowcase) {
+        if (std::string name = missing(spec.model.get<std::string>()); !name.empty()) return name;
+    }
+    return isBuiltIn(spec.environment) ? std::string() : missing(spec.environment);
+}
+
+Result<fs::path> modelFile(SceneSpec const& spec, SceneFolders const& folders) {
+    if (!spec.model.is_string()) return writeBuiltModel(spec, folders.work);
+    if (spec.model != kShowcase) return resolve(spec.model.get<std::string>(), spec, folders.assets);
+    Result<showcase::Files> files = showcaseFiles(folders.work);
+    return files ? Result<fs::path>(files->model) : files.error();
+}
+
+Result<fs::path> environmentFile(SceneSpec const& spec, SceneFolders const& folders) {
+    if (spec.environment == kSky) return writeOnce(folders.work / "sky.hdr", writeSky);
+    if (spec.environment == kWhite) return writeOnce(folders.work / "white.hdr", writeWhite);
+    if (spec.environment == kShowcase) {
+        Result<showcase::Files> files = showcaseFiles(folders.work);
+        return files ? Result<fs::path>(files->environment) : files.error();
+    }
+    return spec.environment.empty() ? fs::path() : resolve(spec.environment, spec, folders.assets);
+}
+
+std::vector<LightSpec> placedLights(SceneSpec const& spec) {
+    std::vector<LightSpec> lights = spec.lights;
+    for (LightSpec& light : lights) {
+        std::visit(
+                [&](auto& placed) {
+                    if constexpr (requires { placed.positionWorld; }) placed.positionWorld += spec.origin;
+                },
+                light);
+    }
+    return lights;
+}
+
+std::vector<double4x4> placedCopies(SceneSpec const& spec) {
+    std::vector<double4x4> copies = spec.copies;
+    for (double4x4& copy : copies) copy = glm::translate(double4x4(1.0), spec.origin) * copy;
+    return copies;
+}
+
+// Where the scene does not say: from the front, a little from the right and above, all of the model in view.
+Camera cameraOf(SceneSpec const& spec, Box const& bounds) {
+    double3 eye, at;
+    if (spec.eye) {
+        eye = *spec.eye + spec.origin;
+        at = spec.at + spec.origin;
+    } else {
+        at = (bounds.min + bounds.max) * 0.5;
+        const double radius = std::max(1e-3, glm::length(bounds.max - bounds.min) * 0.5);
+        const double halfFov = glm::radians(static_cast<double>(spec.lens.verticalFovDegrees)) * 0.5;
+        eye = at + glm::normalize(double3(0.45, 0.35, 1.0)) * (0.8 * radius / std::sin(halfFov));
+    }
+    return Camera::lookAt(eye, at, spec.lens, spec.exposure);
+}
+
+} // namespace filament::conformance
