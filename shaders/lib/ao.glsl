@@ -10,10 +10,10 @@ float specularOcclusion(float nov, float visibility, float alpha) {
 
 // Light bounces inside of crevices: bright albedos are darkened less, and coloured. Cubic fit of Jimenez et al. 2016,
 // "Practical Realtime Strategies for Accurate Indirect Occlusion", section 5.
-// visibility and albedo in [0, 1]. Returns [visibility, 1].
+// visibility and albedo in [0, 1]. Returns [visibility, 1]: the fit itself reaches 1.0001 for white without occlusion.
 vec3 multiBounceAo(float visibility, vec3 albedo) {
     vec3 a = 2.0404f * albedo - 0.3324f;
     vec3 b = -4.7951f * albedo + 0.6417f;
     vec3 c = 2.7552f * albedo + 0.6903f;
-    return max(vec3(visibility), ((visibility * a + b) * visibility + c) * visibility);
+    return max(vec3(visibility), min(((visibility * a + b) * visibility + c) * visibility, 1.0f));
 }

@@ -40,7 +40,7 @@ float ndfGgx(float noh, float alpha) {
 // good to a few ulp for any alpha. Costs a cross product more. n and h are unit vectors.
 float ndfGgxFromVectors(vec3 n, vec3 h, float alpha) {
     vec3 nxh = cross(n, h);
-    float a = saturate(dot(n, h)) * alpha;
+    float a = dot(n, h) * alpha;
     float k = alpha / (dot(nxh, nxh) + a * a);
     return k * k * kInversePi;
 }
@@ -97,10 +97,11 @@ float f0FromIor(float ior) {
     return r * r;
 }
 
-// Inverse of f0FromIor for f0 in [0, 1). The result is at least 1.
+// Inverse of f0FromIor for f0 in [0, 1). The result is at least 1. (1 + r) / (1 - r) with r = sqrt(f0), written so that
+// what is subtracted from 1 is not rounded: 1 - r has no bits left for f0 close to 1.
 float iorFromF0(float f0) {
     float r = sqrt(f0);
-    return (1.0f + r) / (1.0f - r);
+    return (1.0f + r) * (1.0f + r) / (1.0f - f0);
 }
 
 // Metals reflect their base colour, dielectrics a grey given by reflectance. All in [0, 1].

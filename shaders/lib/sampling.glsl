@@ -24,9 +24,11 @@ vec3 directionFromAzimuth(float u, float cosTheta) {
 }
 
 // Half vector distributed as D(h) noh. Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces",
-// eq. 35. alpha in [0, 1].
+// eq. 35, with a denominator that is a sum of positive terms: the cosine stays below 1 for the smallest alpha.
+// alpha in [0, 1].
 vec3 importanceSampleGgx(vec2 u, float alpha) {
-    float cosTheta2 = (1.0f - u.y) / (1.0f + (alpha + 1.0f) * ((alpha - 1.0f) * u.y));
+    float rest = 1.0f - u.y;
+    float cosTheta2 = rest / (rest + alpha * alpha * u.y);
     return directionFromAzimuth(u.x, sqrt(cosTheta2));
 }
 

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/numerics/table/Call.h"
+
+namespace filament::shader::numerics {
+namespace {
+
+constexpr std::string_view kTransfer =
+        "pow() of an exponent above 1/3: the error of log2 and exp2, the constants rounded";
+constexpr std::string_view kCurve = "two polynomials, each cancels near its own zero, and a division";
+constexpr std::string_view kSceneReferred = "squares of scene-referred values overflow 16 bits";
+
+/// toneMap() with one of its mappers.
+Row toneMapRow(std::string_view part, Call call) {
+    return { .file = "color",
+             .function = "toneMap(vec3, int)",
+             .part = part,
+             .call = call,
+             .u = { .name = "color", .kind = Kind::Colour, .low = -3e38, .high = 3e38 },
+             .range = { 0, 1 },
+             .monotone = Monotone::Rising,
+             .limits = { .cpp = 1e-6, .gpu = 1e-6, .negligible = 1e-2, .why = kCurve },
+             .fp32Only = kSceneReferred };
+}
+
+std::vector<Row> toneMapRows() {
+    return {
+        { .file = "color",
+          .function = "toneMapAces(vec3)",
+          .call = NUMERICS_CALL(toneMapAces(u)),
+          .u = colour("x", 1e4),
+          .range = { -0.1, 1.1 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 1e-6, .gpu = 1e-6, .negligible = 1e-2, .why = kCurve },
+          .fp32Only = kSceneReferred },
+        { .file = "color",
+          .function = "toneMapFilmic(vec3)",
+          .call = NUMERICS_CALL(toneMapFilmic(u)),
+          .u = colour("x", 1e4),
+          .range = { 0, 1.04 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 1e-6, .gpu = 1e-6, .why = kCurve },
+          .fp32Only = kSceneReferred },
+        { .file = "color",
+          .function = "toneMapMobile(vec3)",
+          .call = NUMERICS_CALL(toneMapMobile(u)),
+          .u = { .name = "x", .kind = Kind::Colour, .low = 0, .high = 3e38, .halfHigh = 65504 },
+          .range = { 0, 1.02 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 1e-6, .gpu = 1e-6, .half = 1e-2, .why = "a sum and a division" },
+          .outside = Outside::Open,
+          .outsideWhy = "x = -0.155 divides by zero" },
+        { .file = "color",
+          .function = "toneMapIncludesTransfer(int)",
+          .call = NUMERICS_CALL(toneMapIncludesTransfer(int(s.x))),
+          .s = { integer("mapper", 0, 8) },
+          .range = { 0, 1 },
+          .limits = { .why = "exact" } },
+        toneMapRow("linear", NUMERICS_CALL(toneMap(u, kToneMapLinear))),
+        toneMapRow("ACES", NUMERICS_CALL(toneMap(u, kToneMapAces))),
+        toneMapRow("filmic", NUMERICS_CALL(toneMap(u, kToneMapFilmic))),
+        toneMapRow("mobile", NUMERICS_CALL(toneMap(u, kToneMapMobile))),
+    };
+}
+
+std::vector<Row> transferRows() {
+    const Limits transfer{ .cpp = 1e-6, .gpu = 1e-6, .half = 1e-2, .why = kTransfer };
+    return {
+        { .file = "color",
+          .function = "srgbFromLinear(float)",
+          .call = NUMERICS_CALL(srgbFromLinear(s.x)),
+          .s = { unit("x") },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = transfer },
+        { .file = "color",
+          .function = "srgbFromLinear(vec3)",
+          .call = NUMERICS_CALL(srgbFromLinear(u)),
+          .u = colour("x", 1),
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = transfer },
+        { .file = "color",
+          .function = "linearFromSrgb(float)",
+          .call = NUMERICS_CALL(linearFromSrgb(s.x)),
+          .s = { unit("x") },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = transfer },
+        { .file = "color",
+          .function = "linearFromSrgb(vec3)",
+          .call = NUMERICS_CALL(linearFromSrgb(u)),
+          .u = colour("x", 1),
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = transfer },
+    };
+}
+
+} // namespace
+
+std::vector<Row> colorRows() {
+    std::vector<Row> rows{
+        { .file = "color",
+          .function = "luminance(vec3)",
+          .call = NUMERICS_CALL(luminance(u)),
+          .u = { .name = "linear", .kind = Kind::Colour, .low = 0, .high = 3e38, .halfHigh = 65504 },
+          .range = { 0, kInfinity },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 3e-7,
+                      .gpu = 3e-7,
+                      .half = 2e-3,
+                      .halfNegligible = 1e-3,
+                      .why = "a sum of three products" } },
+        { .file = "color",
+          .function = "interleavedGradientNoise(vec2)",
+          .call = NUMERICS_CALL(interleavedGradientNoise(vec2(s.x, s.y))),
+          .s = { number("pixel.x", 0.5, 16384), number("pixel.y", 0.5, 16384) },
+          .range = { 0, 0x1.fffffep-1 },
+          .noError = "noise: 53 times the rounding of a sum up to 1200, which wraps",
+          .fp32Only = "16 bits do not count the pixels of a line" },
+    };
+    for (std::vector<Row> const& more : { toneMapRows(), transferRows() })
+        rows.insert(rows.end(), more.begin(), more.end());
+    return rows;
+}
+
+} // namespace filament::shader::numerics

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/numerics/table/Call.h"
+
+namespace filament::shader::numerics {
+namespace {
+
+Argument fraction(std::string_view name) { return { .name = name, .high = 1, .open = true }; }
+
+/// One axis of tangentFrame().
+Row frameRow(std::string_view part, Call call) {
+    return { .file = "tangent",
+             .function = "tangentFrame(vec4, OUT(vec3), OUT(vec3), OUT(vec3))",
+             .part = part,
+             .call = call,
+             .s = { Argument{ .name = "q", .kind = Kind::Rotation, .low = -1, .high = 1 } },
+             .range = { -1.005, 1.005 },
+             .limits = { .cpp = 1e-6,
+                         .gpu = 1e-6,
+                         .half = 1e-2,
+                         .negligible = 1,
+                         .halfNegligible = 1,
+                         .why = "a unit vector: the error is relative to its length" } };
+}
+
+/// A direction out of directionFromAzimuth().
+Row sampleRow(std::string_view function, Call call, std::array<Argument, 4> arguments) {
+    return { .file = "sampling",
+             .function = function,
+             .call = call,
+             .s = arguments,
+             .range = { -1.001, 1.001 },
+             .limits = { .cpp = 3e-4,
+                         .gpu = 3e-4,
+                         .half = 5e-2,
+                         .negligible = 1,
+                         .halfNegligible = 1,
+                         .why = "next to the pole the sine is the root of the rounding of the cosine, 2^-12" },
+             .outside = Outside::Open,
+             .outsideWhy = "the root of 1 - u.y for u.y above 1" };
+}
+
+std::vector<Row> lightRows() {
+    const std::string_view kSquaredMetres =
+            "squared metres overflow 16 bits at 256 m, and world positions are not half in any case";
+    return {
+        { .file = "light",
+          .function = "distanceAttenuation(vec3, float)",
+          .part = "without a range",
+          .call = NUMERICS_CALL(distanceAttenuation(u, s.x)),
+          .u = { .name = "toLight", .kind = Kind::Offset, .low = 0, .high = 1e9 },
+          .range = { 0, 10001 },
+          .limits = { .cpp = 4e-7, .gpu = 4e-7, .why = "a sum of squares and a division" },
+          .fp32Only = kSquaredMetres },
+        { .file = "light",
+          .function = "distanceAttenuation(vec3, float)",
+          .part = "times distance squared",
+          .call = NUMERICS_CALL(distanceAttenuation(u, s.x) * dot(u, u)),
+          .s = { number("inverseSquaredRange", 0, 1e8) },
+          .u = { .name = "toLight", .kind = Kind::Offset, .low = 0, .high = 1e9 },
+          .range = { 0, 1.000001 },
+          .monotone = Monotone::Falling,
+          .limits = { .cpp = 1e-6,
+                      .gpu = 1e-6,
+                      .negligible = 1,
+                      .why = "the window cancels at the range: the error is relative to the light without one" },
+          .fp32Only = kSquaredMetres },
+        { .file = "light",
+          .function = "spotAttenuation(vec3, vec3, float, float)",
+          .call = NUMERICS_CALL(spotAttenuation(u, v, s.x, -s.y * s.x)),
+          .s = { inHalf(number("scale", 1, 1e4), 1, 16), unit("cos(outer)") },
+          .u = direction("lightDirection"),
+          .v = direction("spotDirection"),
+          .range = { 0, 1 },
+          .limits = { .cpp = 3e-3,
+                      .gpu = 3e-3,
+                      .half = 3e-2,
+                      .negligible = 1,
+                      .halfNegligible = 1,
+                      .why = "absolute: scale, up to 10^4 here, times the rounding of the cosine" } },
+    };
+}
+
+std::vector<Row> sequenceRows() {
+    const std::string_view kIntegers = "indices and 2^-24 steps need 24 bits";
+    return {
+        { .file = "sampling",
+          .function = "radicalInverse(uint)",
+          .call = NUMERICS_CALL(radicalInverse(uint(s.x))),
+          .s = { integer("i", 0, 4294967040.0) },
+          .range = { 0, 0x1.fffffep-1 },
+          .limits = { .cpp = 1e-7, .gpu = 1e-7, .why = "the literal 2^-24 is rounded in its eighth digit" },
+          .fp32Only = kIntegers },
+        { .file = "sampling",
+          .function = "hammersley(uint, float)",
+          .call = NUMERICS_CALL(hammersley(uint(s.x * s.y), 1 / s.y)),
+          .s = { fraction("i / count"), integer("count", 1, 65536) },
+          .range = { 0, 1 },
+          .limits = { .cpp = 1e-6, .gpu = 1e-6, .why = "a product and a rounding of the index" },
+          .fp32Only = kIntegers },
+    };
+}
+
+} // namespace
+
+std::vector<Row> geometryRows() {
+    std::vector<Row> rows = lightRows();
+    const Argument alpha = unit("alpha");
+    const std::vector<Row> more{
+        sampleRow("directionFromAzimuth(float, float)", NUMERICS_CALL(directionFromAzimuth(s.x, s.y)),
+                  { fraction("u"), number("cosTheta", -1, 1) }),
+        sampleRow("importanceSampleGgx(vec2, float)", NUMERICS_CALL(importanceSampleGgx(vec2(s.x, s.y), s.z)),
+                  { fraction("u.x"), fraction("u.y"), alpha }),
+        sampleRow("hemisphereCosineSample(vec2)", NUMERICS_CALL(hemisphereCosineSample(vec2(s.x, s.y))),
+                  { fraction("u.x"), fraction("u.y") }),
+        sampleRow("hemisphereUniformSample(vec2)", NUMERICS_CALL(hemisphereUniformSample(vec2(s.x, s.y))),
+                  { fraction("u.x"), fraction("u.y") }),
+        frameRow("n", NUMERICS_CALL(tangentFrameNormal(s))),
+        frameRow("t", NUMERICS_CALL(tangentFrameTangent(s))),
+        frameRow("b", NUMERICS_CALL(tangentFrameBitangent(s))),
+    };
+    for (std::vector<Row> const& each : { sequenceRows(), more }) rows.insert(rows.end(), each.begin(), each.end());
+    return rows;
+}
+
+} // namespace filament::shader::numerics

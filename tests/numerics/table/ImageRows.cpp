@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/numerics/table/Call.h"
+
+namespace filament::shader::numerics {
+namespace {
+
+/// irradianceSh() of four coefficients in nine places (Wrappers.glsl).
+Row irradianceRow(std::string_view part, Call call) {
+    const Argument coefficient = number("sh", -100, 100);
+    return { .file = "ibl",
+             .function = "irradianceSh(vec4[9], vec3, int)",
+             .part = part,
+             .call = call,
+             .s = { coefficient, coefficient, coefficient, coefficient },
+             .u = direction("n"),
+             .range = { 0, kInfinity },
+             .limits = { .cpp = 1e-6,
+                         .gpu = 1e-6,
+                         .half = 1e-2,
+                         .negligible = 100,
+                         .halfNegligible = 100,
+                         .why = "a signed sum: the error is relative to the largest coefficient" } };
+}
+
+std::vector<Row> occlusionRows() {
+    return {
+        { .file = "aa",
+          .function = "filteredPerceptualRoughness(float, vec3, vec3, float, float)",
+          .call = NUMERICS_CALL(filteredPerceptualRoughness(s.x, u, v, s.y, s.z)),
+          .s = { unit("perceptualRoughness"), unit("variance"), unit("threshold") },
+          .u = { .name = "ddxNormal", .kind = Kind::Offset, .low = 0, .high = 10 },
+          .v = { .name = "ddyNormal", .kind = Kind::Offset, .low = 0, .high = 10 },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 5e-7,
+                      .gpu = 1e-6,
+                      .half = 1e-2,
+                      .negligible = 0.001,
+                      .halfNegligible = 0.089,
+                      .why = "the fourth root of a sum; roughness^4 below the least number is lost" } },
+        { .file = "ao",
+          .function = "specularOcclusion(float, float, float)",
+          .call = NUMERICS_CALL(specularOcclusion(s.x, s.y, s.z)),
+          .s = { unit("nov"), unit("visibility"), unit("alpha") },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 3e-7,
+                      .gpu = 1e-6,
+                      .half = 1e-2,
+                      .negligible = 1,
+                      .halfNegligible = 1,
+                      .why = "cancels where all is occluded: the error is absolute" },
+          .outside = Outside::Open,
+          .outsideWhy = "pow() of a negative sum" },
+        { .file = "ao",
+          .function = "multiBounceAo(float, vec3)",
+          .call = NUMERICS_CALL(multiBounceAo(s.x, u)),
+          .s = { unit("visibility") },
+          .u = colour("albedo", 1),
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 1e-6, .gpu = 1e-6, .half = 1e-2, .why = "sums of products of a few roundings" } },
+    };
+}
+
+} // namespace
+
+std::vector<Row> imageRows() {
+    const Argument levels = number("levelOfRoughnessOne", 1, 14);
+    std::vector<Row> rows = occlusionRows();
+    const std::vector<Row> ibl{
+        { .file = "ibl",
+          .function = "levelFromPerceptualRoughness(float, float)",
+          .call = NUMERICS_CALL(levelFromPerceptualRoughness(s.x, s.y)),
+          .s = { unit("perceptualRoughness"), levels },
+          .range = { 0, 14 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 3e-7, .gpu = 3e-7, .half = 2e-3, .halfNegligible = 1e-3, .why = "three roundings" } },
+        { .file = "ibl",
+          .function = "perceptualRoughnessFromLevel(float, float)",
+          .call = NUMERICS_CALL(perceptualRoughnessFromLevel(s.x * s.y, s.y)),
+          .s = { unit("level / levelOfRoughnessOne"), levels },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 3e-4,
+                      .gpu = 3e-4,
+                      .half = 3e-2,
+                      .negligible = 1,
+                      .halfNegligible = 1,
+                      .why = "absolute: the root of the rounding of level / levelOfRoughnessOne, next to 1" } },
+        { .file = "ibl",
+          .function = "dominantSpecularDirection(vec3, vec3, float)",
+          .call = NUMERICS_CALL(dominantSpecularDirection(u, v, s.x)),
+          .s = { unit("alpha") },
+          .u = direction("n"),
+          .v = direction("r"),
+          .range = { -1.001, 1.001 },
+          .limits = { .cpp = 3e-7,
+                      .gpu = 3e-7,
+                      .half = 2e-3,
+                      .negligible = 1,
+                      .halfNegligible = 1,
+                      .why = "two directions mixed: the error is relative to their length" } },
+        { .file = "ibl",
+          .function = "dfgAnalytic(float, float)",
+          .call = NUMERICS_CALL(dfgAnalytic(s.x, s.y)),
+          .s = { unit("nov"), unit("perceptualRoughness") },
+          .range = { 0, 1 },
+          .limits = { .cpp = 1e-6,
+                      .gpu = 1e-4,
+                      .half = 1e-2,
+                      .negligible = 1,
+                      .halfNegligible = 1,
+                      .why = "absolute: exp2(), and sums that cancel" },
+          .outside = Outside::Open,
+          .outsideWhy = "overflow, inf - inf" },
+        irradianceRow("1 band", NUMERICS_CALL(irradianceShOf(s, u, 1))),
+        irradianceRow("2 bands", NUMERICS_CALL(irradianceShOf(s, u, 2))),
+        irradianceRow("3 bands", NUMERICS_CALL(irradianceShOf(s, u, 3))),
+    };
+    rows.insert(rows.end(), ibl.begin(), ibl.end());
+    return rows;
+}
+
+} // namespace filament::shader::numerics

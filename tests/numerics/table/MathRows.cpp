@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/numerics/table/Call.h"
+
+namespace filament::shader::numerics {
+
+std::vector<Row> mathRows() {
+    const Argument any = inHalf(number("x", -3e38, 3e38), -65504, 65504);
+    const Argument anyVector{ .name = "x", .kind = Kind::Colour, .low = -100, .high = 100 };
+    return {
+        { .file = "math",
+          .function = "sq(float)",
+          .call = NUMERICS_CALL(sq(s.x)),
+          .s = { inHalf(number("x", -1e19, 1e19), -255, 255) },
+          .range = { 0, kInfinity },
+          .limits = { .cpp = 6e-8, .gpu = 6e-8, .half = 5e-4, .halfNegligible = 1e-4, .why = "one rounding" } },
+        { .file = "math",
+          .function = "pow5(float)",
+          .call = NUMERICS_CALL(pow5(s.x)),
+          .s = { unit("x") },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 3e-7,
+                      .gpu = 3e-7,
+                      .half = 3e-3,
+                      .halfNegligible = 1e-2,
+                      .why = "three roundings; in 16 bits x^4 becomes denormal below x = 0.09" } },
+        { .file = "math",
+          .function = "saturate(float)",
+          .call = NUMERICS_CALL(saturate(s.x)),
+          .s = { any },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = { .why = "exact" } },
+        { .file = "math",
+          .function = "saturate(vec3)",
+          .call = NUMERICS_CALL(saturate(u)),
+          .u = anyVector,
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = { .why = "exact" } },
+    };
+}
+
+} // namespace filament::shader::numerics

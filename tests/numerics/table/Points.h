@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// pointsOf: where a row is evaluated.
+///   Inside  lines: the first argument walks its whole grid, in order, while the others stand still; so one list serves
+///           the errors and the monotonicity. Grids are dense at the ends of the interval, at 0 and at 1, with
+///           denormals, one ulp, and one value per decade between. Other arguments: every combination of their grids,
+///           or, where that is more than kMaxLines, all corners and a deterministic choice.
+///   Outside values beyond each interval, the largest of the format, both infinities and NaN, one argument at a time.
+///   Half    every value is one that 16 bits hold, so that the truth sees the same inputs.
+///   Thread  any. Memory: at most kMaxLines * about 60 points of 44 B. Fails: never.
+#pragma once
+
+#include "tests/numerics/table/Row.h"
+
+namespace filament::shader::numerics {
+
+inline constexpr uint32_t kMaxLines = 96;
+
+enum class Format : uint8_t { Single, Half };
+
+enum class OutsideInput : uint8_t { Beyond, Huge, Infinite, NaN };
+inline constexpr size_t kOutsideInputs = 4;
+
+struct Point {
+    glm::vec4 s{ 0.0f };
+    glm::vec3 u{ 0.0f }, v{ 0.0f };
+};
+
+struct Points {
+    std::vector<Point> inside;
+    uint32_t lineLength = 0;    ///< inside[i * lineLength ..] is one line
+    uint32_t orderedLength = 0; ///< the first so many points of each line are ordered by the first argument
+    std::vector<Point> outside;
+    std::vector<OutsideInput> outsideInputs; ///< of the same index
+};
+
+Points pointsOf(Row const& row, Format format);
+
+/// The nearest value of 16 bits; a larger one becomes infinite.
+float halfRounded(float value);
+
+} // namespace filament::shader::numerics

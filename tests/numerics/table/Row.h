@@ -1,0 +1,119 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Row: what the numerics table says about one function of shaders/lib; adding a function is adding a row.
+///   Inputs  up to ten numbers: s.x .. s.w, then the vectors u and v. Each names the interval that the function's
+///           comment promises to handle; the grid (Points.h) is dense at its ends and goes beyond them.
+///   Call    one text that is valid in C++, in both precisions, and in GLSL: NUMERICS_CALL compiles it three times.
+///   Limits  the largest relative error against the double evaluation of the same, already rounded, inputs. A function
+///           that cannot work in 16 bits names the reason, and its comment in shaders/lib says "fp32 only".
+///   Thread  any; rows are constants. Memory: the table is built once and kept.
+#pragma once
+
+#include <glm/vec2.hpp>
+#include <glm/vec3.hpp>
+#include <glm/vec4.hpp>
+
+#include <array>
+#include <cstdint>
+#include <limits>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace filament::shader::numerics {
+
+inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+enum class Kind : uint8_t {
+    Number,    ///< anything in [low, high]
+    Integer,   ///< whole numbers in [low, high]
+    Direction, ///< unit vectors, many of them within a grazing angle of an axis
+    Colour,    ///< three components in [low, high]
+    Offset,    ///< vectors of any direction with lengths in [low, high]
+    Rotation,  ///< unit quaternions, in s
+};
+
+/// An argument and where it is defined. The half interval is what 16 bits are asked to handle.
+struct Argument {
+    std::string_view name = "unused";
+    Kind kind = Kind::Number;
+    double low = 0, high = 0;
+    double halfLow = low, halfHigh = high;
+    bool open = false; ///< high itself does not belong to the interval
+};
+
+struct Interval {
+    double low = -kInfinity, high = kInfinity;
+};
+
+enum class Monotone : uint8_t { No, Rising, Falling };
+
+/// What a call returned: as many of the numbers as `count` says.
+struct Packed {
+    glm::dvec4 value{ 0.0 };
+    uint32_t count = 1;
+};
+
+/// Largest relative error. The error of a result smaller than `negligible` is relative to that size instead.
+struct Limits {
+    double cpp = 0, gpu = 0, half = 0;
+    double negligible = 1e-30;
+    double halfNegligible = negligible;
+    double halfLargest = 65504; ///< results of 16 bits above it only have to be finite and in range
+    std::string_view why;
+};
+
+/// What happens to arguments somewhat outside of their intervals: a step, 0.1, 1, 100. The largest numbers, infinities
+/// and NaN promise nothing: they overflow, and GLSL leaves min, max and clamp of NaN open. What came out of all of them
+/// is in the table's last column.
+enum class Outside : uint8_t {
+    NoNaN, ///< the result may leave its range, or overflow, but it is a number
+    Open,  ///< anything; the row's `outsideWhy` says for which arguments
+};
+
+struct Call {
+    std::string_view text;
+    Packed (*single)(glm::vec4 s, glm::vec3 u, glm::vec3 v) = nullptr;
+    Packed (*truth)(glm::dvec4 s, glm::dvec3 u, glm::dvec3 v) = nullptr;
+};
+
+struct Row {
+    std::string_view file;     ///< without .glsl
+    std::string_view function; ///< name(types), as the source declares it
+    std::string_view part;     ///< which case or result of it, where it has several rows
+    Call call;
+    std::array<Argument, 4> s{};
+    Argument u{}, v{};
+    Interval range{};
+    Monotone monotone = Monotone::No; ///< in the first argument of s, or in the greys of u where s has none
+    Limits limits{};
+    std::string_view noError;  ///< the reason why a relative error says nothing
+    std::string_view fp32Only; ///< the reason why 16 bits are not enough
+    Outside outside = Outside::NoNaN;
+    std::string_view outsideWhy;
+};
+
+/// Every row, by file.
+std::span<const Row> rows();
+
+// The rows of one source each; rows() joins them.
+std::vector<Row> mathRows();
+std::vector<Row> brdfRows();
+std::vector<Row> colorRows();
+std::vector<Row> imageRows();    ///< aa, ao, ibl
+std::vector<Row> geometryRows(); ///< light, sampling, tangent
+
+/// An argument that the row does not name has an empty interval.
+inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }
+
+inline Argument number(std::string_view name, double low, double high) { return { name, Kind::Number, low, high }; }
+inline Argument inHalf(Argument argument, double low, double high) {
+    argument.halfLow = low;
+    argument.halfHigh = high;
+    return argument;
+}
+inline Argument unit(std::string_view name) { return number(name, 0, 1); }
+inline Argument integer(std::string_view name, double low, double high) { return { name, Kind::Integer, low, high }; }
+inline Argument direction(std::string_view name) { return { name, Kind::Direction, -1, 1 }; }
+inline Argument colour(std::string_view name, double high) { return { name, Kind::Colour, 0, high }; }
+
+} // namespace filament::shader::numerics

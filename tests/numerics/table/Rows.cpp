@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tests/numerics/table/Row.h"
+
+namespace filament::shader::numerics {
+
+std::span<const Row> rows() {
+    static const std::vector<Row> all = [] {
+        std::vector<Row> joined;
+        for (auto const& source : { mathRows(), brdfRows(), colorRows(), imageRows(), geometryRows() })
+            joined.insert(joined.end(), source.begin(), source.end());
+        return joined;
+    }();
+    return all;
+}
+
+} // namespace filament::shader::numerics
