@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Effect: one row of the accuracy table: a choice, its values, the truth that each is measured against, and what it
+/// costs. Rows are objects of effects.json; docs/accuracy.html begins with how to add one.
+///   Value    one word ("fast": CHOICE=fast) or settings separated by spaces ("diffuseIrradiance=sphericalHarmonics
+///            shBands=2"). Without "values": all that Settings.h knows of the choice.
+///   Fails    InvalidArgument, NotFound: row, field, what would be right. Every word of every value is tried.
+///   Thread   any; pure but for reading the file.
+#pragma once
+
+#include "filament_core/base/Result.h"
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+namespace filament::accuracy {
+
+struct Value {
+    std::string name;
+    std::vector<std::string> set; ///< NAME=VALUE
+};
+
+enum class ReferenceKind : uint8_t {
+    Setting,      ///< the engine with `set`: the finest that it offers
+    Scene,        ///< the engine in another scene, where the difficulty is absent
+    Supersampled, ///< the engine with `set` at `factor` times the resolution, averaged in linear light
+    Traced,       ///< tools/reference: one reflection of light that nothing blocks, terms as `set` has them
+    Furnace,      ///< a white furnace: what reflects everything looks like its environment
+    Integral,     ///< numbers instead of a picture: an integral in double precision, by name
+};
+
+struct Reference {
+    ReferenceKind kind = ReferenceKind::Setting;
+    std::vector<std::string> set;
+    std::string scene;     ///< Scene
+    std::string integral;  ///< Integral
+    uint32_t factor = 8;   ///< Supersampled, [2, 16]
+    uint32_t samples = 64; ///< Traced: per pixel
+};
+
+enum class Cost : uint8_t {
+    Frame,       ///< milliseconds of the device for a whole frame
+    Environment, ///< milliseconds to load the environment, from its file and without a cache
+    Model,       ///< milliseconds to load the model
+};
+
+struct Effect {
+    std::string name; ///< what --effect takes
+    std::string title;
+    std::string question;          ///< that the row answers, one sentence
+    std::string scene;             ///< scenes/NAME.json or NAME/FEATURE, in which the error is measured
+    std::vector<std::string> base; ///< settings of all values in that scene
+    std::vector<Value> values;
+    size_t standard = 0; ///< what the engine does unless told otherwise; times are ratios to it
+    size_t best = 0;     ///< whole frames are compared with this value's
+    Reference reference{};
+    Cost cost = Cost::Frame;
+    std::string frame = "frame"; ///< the scene in which the frame is timed
+};
+
+const char* toString(Cost cost);
+/// One sentence for the report.
+std::string describe(Reference const& reference);
+
+Result<std::vector<Effect>> readEffects(std::filesystem::path const& file);
+
+} // namespace filament::accuracy

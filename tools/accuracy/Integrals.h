@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Integrals: what a set of choices computes in place of an integral, against that integral in double precision: for
+/// terms whose error no picture isolates.
+///   directionalAlbedo  how much light from everywhere the specular lobe reflects: reflectance 0.04, 0.5 and 1 at
+///   normal
+///                      incidence, 24 roughnesses in [0.1, 1] and 24 cosines in [0.05, 1].
+///   Thread  any; works on the job system.
+///   Fails   NotFound with the nearest name.
+#pragma once
+
+#include "jobsystem/JobSystem.h"
+#include "tools/accuracy/Picture.h"
+#include "tools/accuracy/Settings.h"
+
+namespace filament::accuracy {
+
+/// rms and max relative; no FLIP: there is no picture.
+Result<ErrorFigures> integralError(std::string const& name, Settings const& settings, jobs::JobSystem& jobs);
+
+} // namespace filament::accuracy

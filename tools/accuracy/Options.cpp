@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/accuracy/Options.h"
+
+#include "tools/common/CommandLine.h"
+
+#include <CLI/CLI.hpp>
+
+namespace filament::accuracy {
+namespace {
+
+using tools::invalidOption;
+
+struct Words {
+    std::string effects = FILAMENT_SOURCE_DIR "/tools/accuracy/effects.json";
+    std::string scenes = FILAMENT_SOURCE_DIR "/tools/accuracy/scenes";
+    std::string assets = FILAMENT_ASSET_DIR;
+    std::string out = "accuracy", page, pictures, size, rounds, plots;
+    std::vector<std::string> backends, include;
+    bool quick = false;
+};
+
+void declare(CLI::App& app, Words& words, Options& options) {
+    app.add_option("--effect", options.effect, "only these rows")->type_name("NAME...");
+    app.add_flag("--list", options.list, "print the rows and their values");
+    app.add_option("--effects", words.effects, "the table of effects")->type_name("FILE");
+    app.add_option("--scenes", words.scenes, "folder of scene files")->type_name("DIR");
+    app.add_option("--assets", words.assets, "where \"asset:\" paths of scenes begin")->type_name("DIR");
+    app.add_option("-o,--out", words.out, "folder of results.json, results.csv and the plots")->type_name("DIR");
+    app.add_option("--page", words.page, "the report; default: accuracy.html in --out")->type_name("FILE");
+    app.add_option("--include", words.include, "HTML fragments with further sections of the report")
+            ->type_name("FILE...");
+    app.add_option("--backend", words.backends, "vulkan gles; errors are measured on the first")->type_name("NAME...");
+    app.add_option("--rounds", words.rounds, "turns that every value is timed, 1 to 1000; default 15")->type_name("N");
+    app.add_option("--size", words.size, "of frames that are timed; default 1280x720")->type_name("WxH");
+    app.add_option("--plots", words.plots, "draw them")->type_name("on|off");
+    app.add_option("--pictures", words.pictures, "also keep every picture that an error is of")->type_name("DIR");
+    app.add_flag("--quick", words.quick, "small frames, three rounds: to see that it works, not to quote");
+}
+
+Result<void> convertBackends(std::vector<std::string> const& words, std::vector<Backend>& backends) {
+    if (words.empty()) return {};
+    backends.clear();
+    for (std::string const& word : words) {
+        if (word == "vulkan")
+            backends.push_back(Backend::Vulkan);
+        else if (word == "gles")
+            backends.push_back(Backend::Gles);
+        else
+            return invalidOption("--backend", word, "vulkan, gles or both");
+    }
+    return {};
+}
+
+Result<void> convertSize(std::string const& word, uint2& size) {
+    if (word.empty()) return {};
+    const size_t x = word.find('x');
+    const auto width = tools::wholeNumber(word.substr(0, x), 1, 8192);
+    const auto height = x == std::string::npos ? std::nullopt : tools::wholeNumber(word.substr(x + 1), 1, 8192);
+    if (!width || !height) return invalidOption("--size", word, "WIDTHxHEIGHT, each from 1 to 8192");
+    size = { *width, *height };
+    return {};
+}
+
+Result<void> convert(Words const& words, Options& options) {
+    MeasureOptions& measure = options.measure;
+    if (words.quick) {
+        measure.size = measure.errorSize = { 160, 90 };
+        measure.rounds = 3, measure.loadRounds = 1, measure.mostTraced = 16;
+    }
+    options.effects = words.effects, options.scenes = words.scenes;
+    options.out = words.out, options.page = words.page, measure.pictures = words.pictures;
+    options.include.assign(words.include.begin(), words.include.end());
+    measure.folders = { options.out / "work", words.assets };
+    if (auto done = convertBackends(words.backends, measure.backends); !done) return done;
+    if (auto done = convertSize(words.size, measure.size); !done) return done;
+    if (auto done = tools::convertSwitch("--plots", words.plots, options.plots); !done) return done;
+    if (words.rounds.empty()) return {};
+    const auto rounds = tools::wholeNumber(words.rounds, 1, 1000);
+    if (!rounds) return invalidOption("--rounds", words.rounds, "a whole number from 1 to 1000");
+    measure.rounds = *rounds;
+    return {};
+}
+
+} // namespace
+
+Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
+    CLI::App app("Measures what each approximation of the engine costs, in error and in time.", "filament-accuracy");
+    Words words;
+    Options options;
+    declare(app, words, options);
+    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    if (!parsed) return parsed.error();
+    if (!*parsed) return std::optional<Options>();
+    if (const Result<void> done = convert(words, options); !done) return done.error();
+    return std::optional(options);
+}
+
+} // namespace filament::accuracy

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Options: what filament-accuracy's command line asks for, checked.
+///   Fails   InvalidArgument in one line that names the option, the value and what would be right.
+#pragma once
+
+#include "tools/accuracy/Measure.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace filament::accuracy {
+
+struct Options {
+    std::filesystem::path effects, scenes, out = "accuracy";
+    std::filesystem::path page;                 ///< docs/accuracy.html; empty: OUT/accuracy.html
+    std::vector<std::filesystem::path> include; ///< HTML fragments with further sections
+    std::vector<std::string> effect;            ///< names; empty: all
+    bool list = false, plots = true;
+    MeasureOptions measure{};
+};
+
+/// No value: the help text was asked for and is printed.
+Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
+
+} // namespace filament::accuracy

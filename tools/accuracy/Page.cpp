@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/accuracy/Page.h"
+
+#include "filament_core/assets/EnvironmentFile.h"
+#include "tools/common/Console.h"
+
+#include <fmt/ranges.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <span>
+
+namespace filament::accuracy {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kCommand = "build/release/bin/filament-accuracy";
+
+std::string escaped(std::string_view text) {
+    std::string result;
+    for (const char c : text) {
+        if (c == '&')
+            result += "&amp;";
+        else if (c == '<')
+            result += "&lt;";
+        else if (c == '>')
+            result += "&gt;";
+        else if (c == '"')
+            result += "&quot;";
+        else
+            result += c;
+    }
+    return result;
+}
+
+// RFC 4648, section 4.
+std::string base64(std::span<const std::byte> bytes) {
+    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+    std::string text;
+    for (size_t i = 0; i < bytes.size(); i += 3) {
+        uint32_t word = 0;
+        const size_t count = std::min<size_t>(3, bytes.size() - i);
+        for (size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? std::to_integer<uint32_t>(bytes[i + k]) : 0);
+        for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
+    }
+    return text;
+}
+
+constexpr const char* kHead =
+        R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><title>What accuracy costs</title><style>
+body{font:15px/1.5 system-ui,sans-serif;margin:2rem auto;max-width:68rem;padding:0 1rem;color:#222;background:#fff}
+table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:.15rem .7rem;text-align:right;
+border-bottom:1px solid #ddd;white-space:nowrap}td:first-child,th:first-child{text-align:left}section{border-top:1px solid
+#bbb;margin-top:1.6rem}h2{margin:.8rem 0 .2rem}code{background:#f3f3f3;padding:.1rem .3rem}img{max-width:100%;display:block}
+.small{color:#555;font-size:13px}.standard td:first-child{font-weight:bold}pre{background:#f3f3f3;padding:.6rem}
+nav{columns:3;font-size:14px}</style></head><body>
+)";
+
+std::string percent(double value) {
+    if (value == 0) return "0";
+    return value < 1e-5 ? fmt::format("{:.1e}", value) : fmt::format("{:.3g} %", value * 100);
+}
+
+std::string timeCell(Timing const& timing, bool isStandard) {
+    std::string cell = fmt::format("<td title=\"95 % interval {:.4g} to {:.4g} ms\">{:.4g} ms</td>",
+                                   timing.milliseconds.low, timing.milliseconds.high, timing.milliseconds.median);
+    if (isStandard) return cell + "<td>1</td>";
+    return cell + fmt::format("<td>{:.3f} <span class=\"small\">[{:.3f}, {:.3f}]</span></td>", timing.ratio.median,
+                              timing.ratio.low, timing.ratio.high);
+}
+
+std::string tableOf(EffectResult const& result) {
+    Effect const& effect = result.effect;
+    const bool hasFlip = effect.reference.kind != ReferenceKind::Integral;
+    std::string html = "<table><tr><th>value</th><th>error, RMS</th><th>largest</th>";
+    if (hasFlip) html += "<th>FLIP</th>";
+    html += "<th>whole frame</th>";
+    if (result.values.empty()) return {};
+    for (auto const& [backend, timing] : result.values.front().timings)
+        html += fmt::format("<th>{}</th><th>&times; {}</th>", escaped(backend),
+                            escaped(effect.values[effect.standard].name));
+    html += "</tr>";
+    for (size_t i = 0; i < result.values.size(); ++i) {
+        ValueResult const& value = result.values[i];
+        html += fmt::format("<tr{}><td title=\"{}\">{}</td><td>{}</td><td>{}</td>",
+                            i == effect.standard ? " class=\"standard\"" : "",
+                            escaped(fmt::format("{}", fmt::join(value.value.set, " "))), escaped(value.value.name),
+                            percent(value.own.rms), percent(value.own.max));
+        if (hasFlip) html += fmt::format("<td>{:.4f}</td>", value.own.flip);
+        html += fmt::format("<td>{}</td>", percent(value.frame.rms));
+        for (auto const& [backend, timing] : value.timings) html += timeCell(timing, i == effect.standard);
+        html += "</tr>";
+    }
+    return html + "</table>";
+}
+
+std::string imageTag(fs::path const& file, std::string const& title) {
+    const auto bytes = assets::readFileBytes(file);
+    if (!bytes) return {};
+    return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">", escaped(title), base64(*bytes));
+}
+
+std::string sectionOf(EffectResult const& result, fs::path const& plots) {
+    Effect const& effect = result.effect;
+    std::string reference = describe(effect.reference);
+    if (result.referenceError > 0) reference += fmt::format(" (standard error {})", percent(result.referenceError));
+    std::string html = fmt::format("<section id=\"{0}\"><h2>{1}</h2><p>{2}</p>", escaped(effect.name),
+                                   escaped(effect.title), escaped(effect.question));
+    html += imageTag(plots / (effect.name + ".svg"), effect.title);
+    html += tableOf(result);
+    html += fmt::format("<p class=\"small\">Reference: {}. ", escaped(reference));
+    if (!effect.scene.empty()) html += fmt::format("Scene: <code>{}</code>. ", escaped(effect.scene));
+    html += effect.cost == Cost::Frame
+                    ? fmt::format("Time: the device's, for a whole frame of <code>{}</code>. ", escaped(effect.frame))
+                    : fmt::format("Time: to load the {} of <code>{}</code> from its file. ", toString(effect.cost),
+                                  escaped(effect.frame));
+    html += fmt::format("Whole frame: <code>{}</code> against {}.<br><code>{}</code></p></section>",
+                        escaped(effect.frame), escaped(effect.values[effect.best].name), escaped(result.command));
+    return html;
+}
+
+std::string introduction(Results const& results) {
+    std::string html = fmt::format(
+            "<h1>What accuracy costs</h1><p>Every approximation of the engine that has an alternative, measured: how "
+            "far "
+            "each value is from the truth of its effect, and what it costs. {} effects. Commit {}, {}, on {}.</p><ul>",
+            results.effects.size(), escaped(results.commit), escaped(results.date), escaped(results.machine));
+    for (auto const& [backend, driver] : results.drivers)
+        html += fmt::format("<li>{}: {}</li>", escaped(backend), escaped(driver));
+    html += fmt::format(
+            "</ul><p>All of it again: <code>{} --page docs/accuracy.html</code>. Beside each row stands the command "
+            "for that "
+            "row.</p><p><b>Error</b> of a pixel: the difference to the reference over the reference plus 1 % of its "
+            "mean; "
+            "RMS and largest over all pixels that show something. FLIP (Andersson et al. 2020) is what a viewer sees "
+            "when "
+            "flipping between the pictures: 0 nothing, 1 everything. <b>Whole frame</b>: RMS of the showcase against "
+            "the "
+            "best value of the effect. <b>Time</b>: medians of {} turns at {} x {}, all values of an effect in turns; "
+            "the "
+            "ratio to the standard value (bold) is taken turn by turn, its 95 % interval by bootstrap. Errors are of "
+            "the first backend: the second one draws the same bits.</p>",
+            kCommand, results.rounds, results.size.x, results.size.y);
+    return html;
+}
+
+constexpr const char* kHowToAdd =
+        R"(<section><h2>Adding an effect</h2><p>An object in <code>tools/accuracy/effects.json</code>:</p><pre>{
+  "name": "specularVisibility", "title": "Masking of microfacets", "choice": "specularVisibility",
+  "question": "What do square roots in the visibility term buy?",
+  "scene": "sun-chart",
+  "reference": { "kind": "traced", "set": ["specularVisibility=correlated"] }
+}</pre><p><code>values</code> chooses among the values of the choice, or lists several settings each
+(<code>"diffuseIrradiance=sphericalHarmonics shBands=2"</code>); <code>standard</code> and <code>best</code> name values (the
+first one unless told otherwise); <code>base</code> are settings of all values; <code>cost</code> is <code>frame</code>,
+<code>environment</code> or <code>model</code>. References: <code>setting</code> (the engine with <code>set</code>),
+<code>scene</code>, <code>supersampled</code> (<code>factor</code>), <code>traced</code> (<code>samples</code>),
+<code>furnace</code>, <code>integral</code>. Scenes are files as in <a href="conformance.md">conformance.md</a>.</p></section>)";
+
+std::string skippedHtml(Results const& results) {
+    if (results.skipped.empty()) return {};
+    std::string html = "<section><h2>Not measured</h2><ul>";
+    for (Skipped const& one : results.skipped)
+        html += fmt::format("<li>{}: no {}</li>", escaped(one.name), escaped(one.reason));
+    return html + "</ul></section>";
+}
+
+Result<void> writeText(fs::path const& path, std::string const& text) {
+    return assets::replaceFile(path, std::as_bytes(std::span(text)));
+}
+
+/// One process for all plots: starting matplotlib costs more than drawing.
+void drawPlots(fs::path const& out) {
+    const std::string command =
+            fmt::format("'{}' '{}/tools/plot/plot.py' accuracy '{}' -o '{}'", FILAMENT_PLOT_PYTHON, FILAMENT_SOURCE_DIR,
+                        (out / "results.json").string(), (out / "plots").string());
+    if (std::system(command.c_str()) != 0) tools::printWarning("no plots: tools/plot/plot.py failed");
+}
+
+std::vector<std::string> sectionsOf(ReportPlaces const& places) {
+    std::vector<fs::path> files = places.include;
+    std::error_code error;
+    for (auto const& entry : fs::directory_iterator(places.out, error))
+        if (entry.path().string().ends_with(".fragment.html")) files.push_back(entry.path());
+    std::sort(files.begin() + static_cast<std::ptrdiff_t>(places.include.size()), files.end());
+    std::vector<std::string> sections;
+    for (fs::path const& file : files) {
+        const auto bytes = assets::readFileBytes(file);
+        if (bytes)
+            sections.emplace_back(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        else
+            tools::printWarning(bytes.error().message);
+    }
+    return sections;
+}
+
+} // namespace
+
+std::string htmlOf(Results const& results, fs::path const& plots, std::vector<std::string> const& sections) {
+    std::string html = kHead + introduction(results) + "<nav>";
+    for (EffectResult const& effect : results.effects)
+        html += fmt::format("<a href=\"#{}\">{}</a><br>", escaped(effect.effect.name), escaped(effect.effect.title));
+    html += "</nav>";
+    if (const std::string frames = imageTag(plots / "frames.svg", "Whole frames"); !frames.empty())
+        html += "<section><h2>Whole frames</h2><p>Every value of every effect alone, and the presets: time and error "
+                "of the "
+                "same frame, against a frame with the best value of everything.</p>" +
+                frames + "</section>";
+    for (EffectResult const& effect : results.effects) html += sectionOf(effect, plots);
+    for (std::string const& section : sections) html += section;
+    return html + skippedHtml(results) + kHowToAdd + "</body></html>\n";
+}
+
+Result<void> writeReport(Results const& results, ReportPlaces const& places) {
+    Results complete = results;
+    for (EffectResult& effect : complete.effects)
+        effect.command = fmt::format("{} --effect {}", kCommand, effect.effect.name);
+    if (auto done = writeText(places.out / "results.json", jsonOf(complete).dump(1) + "\n"); !done) return done;
+    if (auto done = writeText(places.out / "results.csv", csvOf(complete)); !done) return done;
+    if (places.plots) drawPlots(places.out);
+    return writeText(places.page, htmlOf(complete, places.out / "plots", sectionsOf(places)));
+}
+
+} // namespace filament::accuracy

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Page: the report as one HTML file with everything in it: plots, tables, the command beside every number.
+///   Out     OUT/results.json, OUT/results.csv, OUT/plots/NAME.svg, and the page.
+///   Plots   by tools/plot/plot.py; where it cannot run, a warning says why and the page has its tables only.
+///   Fails   Unreadable with the path.
+///   Thread  one.
+#pragma once
+
+#include "tools/accuracy/Results.h"
+
+#include <filesystem>
+
+namespace filament::accuracy {
+
+struct ReportPlaces {
+    std::filesystem::path out, page;
+    std::vector<std::filesystem::path> include; ///< fragments with further sections; OUT/*.fragment.html too
+    bool plots = true;
+};
+
+std::string htmlOf(Results const& results, std::filesystem::path const& plots,
+                   std::vector<std::string> const& sections);
+
+Result<void> writeReport(Results const& results, ReportPlaces const& places);
+
+} // namespace filament::accuracy

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// References: the picture that an effect's values are measured against.
+///   Thread  one at a time.
+///   Fails   what the scenes, the engine and tools/reference say.
+#pragma once
+
+#include "tools/accuracy/Effect.h"
+#include "tools/accuracy/Integrals.h"
+#include "tools/accuracy/SceneLibrary.h"
+#include "tools/accuracy/Studio.h"
+
+namespace filament::accuracy {
+
+/// Where references are made.
+struct ReferenceStage {
+    Studio& studio;
+    SceneLibrary const& scenes;
+    conformance::SceneFolders const& folders;
+    jobs::JobSystem& jobs;
+};
+
+struct Truth {
+    Picture picture;
+    Edges edges = Edges::Count;
+    double standardError = 0; ///< relative, of a traced picture
+};
+
+/// The scene's own settings, then `base`, then `set`.
+Result<Settings> settingsFor(conformance::SceneSpec const& scene, std::vector<std::string> const& base,
+                             std::vector<std::string> const& set);
+
+Result<Picture> shoot(Studio& studio, conformance::SceneSpec const& scene, Settings const& settings, uint2 size,
+                      bool linear);
+
+/// Not for ReferenceKind::Integral, which has no picture.
+Result<Truth> makeTruth(Reference const& reference, conformance::SceneSpec const& scene,
+                        std::vector<std::string> const& base, ReferenceStage const& stage);
+
+} // namespace filament::accuracy

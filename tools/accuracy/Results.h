@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Results: what was measured, as values, as JSON and as CSV. The JSON is the table that QualityBudget reads.
+///   JSON    { "program", "version", "machine", "driver", "commit", "date", "size", "rounds", "effects": [ { "name",
+///           "title", "question", "reference", "command", "cost", "standard", "values": [ { "value", "set", "error",
+///           "ownError", "ownMax", "ownFlip", "frameFlip", "totalError", "milliseconds", "interval", "ratio",
+///           "ratioInterval" } ] } ], "skipped" }. The last four are objects by backend.
+///   CSV     one line a value and backend.
+///   Thread  any; pure.
+#pragma once
+
+#include "tools/accuracy/Effect.h"
+#include "tools/accuracy/Picture.h"
+#include "tools/accuracy/Statistics.h"
+
+#include <nlohmann/json.hpp>
+
+#include <filament/Math.h>
+
+#include <map>
+#include <string>
+#include <vector>
+
+namespace filament::accuracy {
+
+struct Timing {
+    Estimate milliseconds;
+    Estimate ratio; ///< to the standard value, round by round
+};
+
+struct ValueResult {
+    Value value;
+    ErrorFigures own;                      ///< in the effect's scene, against its reference
+    ErrorFigures frame;                    ///< of the whole frame, against the best value of the effect
+    double total = 0;                      ///< rms of the whole frame against the best value of every effect
+    std::map<std::string, Timing> timings; ///< by backend
+};
+
+struct EffectResult {
+    Effect effect;
+    std::vector<ValueResult> values; ///< as effect.values
+    double referenceError = 0;       ///< standard error of a traced reference; 0: none
+    std::string command;             ///< that measures this row again
+};
+
+struct Skipped {
+    std::string name, reason;
+};
+
+struct Results {
+    std::string machine, commit, date;
+    std::map<std::string, std::string> drivers; ///< by backend
+    uint2 size{ 0, 0 };
+    uint32_t rounds = 0;
+    std::vector<EffectResult> effects;
+    std::vector<Skipped> skipped;
+};
+
+nlohmann::ordered_json jsonOf(Results const& results);
+std::string csvOf(Results const& results);
+
+} // namespace filament::accuracy

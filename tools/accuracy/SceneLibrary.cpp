@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/accuracy/SceneLibrary.h"
+
+#include "filament_core/base/Suggest.h"
+
+#include <algorithm>
+
+namespace filament::accuracy {
+
+Result<SceneLibrary> SceneLibrary::read(std::filesystem::path const& folder) {
+    Result<std::vector<conformance::SceneSpec>> scenes = conformance::readScenes(folder);
+    if (!scenes) return scenes.error();
+    SceneLibrary library;
+    library.mScenes = std::move(*scenes);
+    return library;
+}
+
+Result<conformance::SceneSpec const*> SceneLibrary::find(std::string const& name) const {
+    const auto found = std::ranges::find(mScenes, name, &conformance::SceneSpec::name);
+    if (found != mScenes.end()) return &*found;
+    std::vector<std::string_view> known;
+    for (conformance::SceneSpec const& scene : mScenes) known.push_back(scene.name);
+    return fail(ErrorCode::NotFound, "there is no scene '{}'{}", name, suggestion(name, known));
+}
+
+} // namespace filament::accuracy

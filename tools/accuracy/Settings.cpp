@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/accuracy/Settings.h"
+
+#include "filament_core/base/Suggest.h"
+#include "tools/common/CommandLine.h"
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <optional>
+
+namespace filament::accuracy {
+namespace {
+
+using Words = std::span<const std::string_view>;
+
+/// One setting beside those of Quality.
+struct Choice {
+    std::string_view name;
+    Words values; ///< those worth measuring
+    bool (*set)(Settings& settings, std::string const& value);
+    std::string_view range; ///< for the error
+};
+
+constexpr std::string_view kSamples[] = { "1", "4" };
+constexpr std::string_view kToneMappers[] = { "linear", "aces", "filmic", "mobile" };
+constexpr std::string_view kSwitch[] = { "off", "on" };
+constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" };
+constexpr std::string_view kEnvironmentSamples[] = { "16", "64", "256", "512", "1024", "4096" };
+constexpr std::string_view kFaceSizes[] = { "32", "64", "128", "256", "512" };
+constexpr std::string_view kFormats[] = { "RGBA16F", "R11G11B10F", "RGB9E5" };
+
+bool setSamples(Settings& settings, std::string const& value) {
+    if (value != "1" && value != "4") return false;
+    settings.samples = value == "4" ? 4 : 1;
+    return true;
+}
+
+bool setToneMapper(Settings& settings, std::string const& value) {
+    const std::optional<ToneMapper> mapper = toneMapperFromName(value);
+    if (mapper) settings.colorGrading.toneMapper = *mapper;
+    return mapper.has_value();
+}
+
+bool setDither(Settings& settings, std::string const& value) {
+    if (value != "on" && value != "off") return false;
+    settings.colorGrading.dither = value == "on";
+    return true;
+}
+
+bool setPreset(Settings& settings, std::string const& value) {
+    const std::optional<QualityPreset> preset = qualityPresetFromName(value);
+    if (preset) settings.quality = qualityPreset(*preset);
+    return preset.has_value();
+}
+
+bool setEnvironmentSamples(Settings& settings, std::string const& value) {
+    const auto number = tools::wholeNumber(value, 1, 65536);
+    if (number) settings.environment.samples = *number;
+    return number.has_value();
+}
+
+bool setFaceSize(Settings& settings, std::string const& value) {
+    const auto number = tools::wholeNumber(value, 16, 2048);
+    if (!number || !std::has_single_bit(*number)) return false;
+    settings.environment.faceSize = *number;
+    return true;
+}
+
+bool setFormat(Settings& settings, std::string const& value) {
+    constexpr Format kInOrder[] = { Format::RGBA16F, Format::R11G11B10F, Format::RGB9E5 };
+    const auto found = std::ranges::find(kFormats, std::string_view(value));
+    if (found == std::end(kFormats)) return false;
+    settings.environment.format = kInOrder[found - std::begin(kFormats)];
+    return true;
+}
+
+constexpr std::array kChoices{
+    Choice{ "samples", kSamples, setSamples, "1 or 4" },
+    Choice{ "toneMapper", kToneMappers, setToneMapper, "linear, aces, filmic or mobile" },
+    Choice{ "dither", kSwitch, setDither, "off or on" },
+    Choice{ "preset", kPresets, setPreset, "low, medium, high or reference" },
+    Choice{ "environment.samples", kEnvironmentSamples, setEnvironmentSamples, "a whole number from 1 to 65536" },
+    Choice{ "environment.faceSize", kFaceSizes, setFaceSize, "a power of two from 16 to 2048" },
+    Choice{ "environment.format", kFormats, setFormat, "RGBA16F, R11G11B10F or RGB9E5" },
+};
+
+Choice const* findChoice(std::string_view name) {
+    const auto found = std::ranges::find(kChoices, name, &Choice::name);
+    return found == kChoices.end() ? nullptr : &*found;
+}
+
+Error unknown(std::string_view name) {
+    std::vector<std::string_view> known;
+    for (Choice const& choice : kChoices) known.push_back(choice.name);
+    for (QualityChoice const& choice : qualityChoices()) known.push_back(choice.name);
+    return fail(ErrorCode::NotFound, "there is no setting '{}'{}", name, suggestion(name, known));
+}
+
+void remember(std::string& key, std::string_view word) { (key += ' ') += word; }
+
+} // namespace
+
+Result<void> change(Settings& settings, std::string_view word) {
+    const size_t equals = word.find('=');
+    if (equals == std::string_view::npos)
+        return fail(ErrorCode::InvalidArgument, "'{}' is no setting: write NAME=VALUE", word);
+    const std::string_view name = word.substr(0, equals);
+    const std::string value(word.substr(equals + 1));
+    Choice const* choice = findChoice(name);
+    if (!choice) {
+        Result<void> done = setQuality(settings.quality, name, value);
+        return !done && done.error().code == ErrorCode::NotFound ? Result<void>(unknown(name)) : done;
+    }
+    if (!choice->set(settings, value))
+        return fail(ErrorCode::InvalidArgument, "setting {}: '{}' is not {}", name, value, choice->range);
+    if (name.starts_with("environment.")) remember(settings.environmentKey, word);
+    if (name.starts_with("model.")) remember(settings.modelKey, word);
+    return {};
+}
+
+Result<void> change(Settings& settings, std::span<const std::string> words) {
+    for (std::string const& word : words) {
+        if (Result<void> done = change(settings, word); !done) return done;
+    }
+    return {};
+}
+
+std::vector<std::string> valuesOf(std::string_view choice) {
+    Words words;
+    if (Choice const* own = findChoice(choice)) words = own->values;
+    for (QualityChoice const& known : qualityChoices())
+        if (known.name == choice) words = known.values;
+    return { words.begin(), words.end() };
+}
+
+} // namespace filament::accuracy

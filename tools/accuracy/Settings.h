@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Settings: everything that a row of the accuracy table can change, by name: "specularVisibility=fast", "samples=4",
+/// "environment.faceSize=64".
+///   Names   those of <filament/Quality.h>; those of this file for the rest of View and for what is chosen when files
+///   are
+///           loaded, with the prefix of the loader.
+///   Fails   NotFound, InvalidArgument: the word, and what would be right.
+///   Thread  any.
+#pragma once
+
+#include "filament_core/base/Result.h"
+
+#include <filament/Environment.h>
+#include <filament/Gltf.h>
+#include <filament/View.h>
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament::accuracy {
+
+struct Settings {
+    Quality quality{};
+    uint8_t samples = 1;
+    ColorGrading colorGrading{};
+    EnvironmentLoadOptions environment{};
+    GltfLoadOptions model{};
+    /// The words that chose the options of loading, in order: equal texts load equal files.
+    std::string environmentKey{}, modelKey{};
+};
+
+Result<void> change(Settings& settings, std::string_view word);
+Result<void> change(Settings& settings, std::span<const std::string> words);
+
+/// All values of a choice worth measuring, or nothing for one that is not known.
+std::vector<std::string> valuesOf(std::string_view choice);
+
+} // namespace filament::accuracy

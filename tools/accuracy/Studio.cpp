@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/accuracy/Studio.h"
+
+#include <chrono>
+
+namespace filament::accuracy {
+namespace {
+
+namespace fs = std::filesystem;
+using conformance::SceneSpec;
+
+// Baked environments of loads that are timed go here, and are removed before each.
+fs::path cacheOf(conformance::SceneFolders const& folders) { return folders.work / "environments"; }
+
+double millisecondsSince(std::chrono::steady_clock::time_point begin) {
+    return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - begin).count();
+}
+
+} // namespace
+
+Settings settingsOf(SceneSpec const& spec) {
+    Settings settings;
+    settings.quality = spec.view.quality;
+    settings.samples = spec.view.samples;
+    settings.colorGrading = spec.view.colorGrading;
+    return settings;
+}
+
+Take::Take(Engine& engine, Renderer& renderer, TakeParts parts)
+        : mEngine(engine), mRenderer(renderer), mParts(std::move(parts)) {}
+
+Result<void> Take::checkDevice() {
+    const std::vector<std::string> errors = mEngine.takeErrors();
+    if (errors.empty()) return {};
+    return fail(ErrorCode::DeviceLost, "the device said: {}", errors.front());
+}
+
+Result<Picture> Take::shoot() {
+    mRenderer.render(mParts.scene, mParts.view, mParts.target);
+    const Result<Image> image = mRenderer.waitPixels(mRenderer.readPixels(mParts.target));
+    if (!image) return image.error();
+    if (const Result<void> fine = checkDevice(); !fine) return fine.error();
+    mRenderer.takeTimings();
+    return pictureOf(*image);
+}
+
+Result<double> Take::time() {
+    mRenderer.render(mParts.scene, mParts.view, mParts.target);
+    mEngine.waitIdle();
+    const std::vector<FrameTimings> timings = mRenderer.takeTimings();
+    if (const Result<void> fine = checkDevice(); !fine) return fine.error();
+    if (timings.empty() || !(timings.back().gpuMilliseconds > 0))
+        return fail(ErrorCode::Unsupported, "{}: the device does not time its passes", mEngine.device().device);
+    return timings.back().gpuMilliseconds;
+}
+
+Studio::Studio(Engine engine, conformance::SceneFolders const& folders)
+        : mFolders(folders), mEngine(std::move(engine)), mRenderer(mEngine, { .passTimers = true }) {}
+
+Result<std::unique_ptr<Studio>> Studio::open(Backend backend, conformance::SceneFolders const& folders) {
+    Result<Engine> engine = Engine::create({ .backend = backend, .cacheDirectory = cacheOf(folders) });
+    if (!engine) return engine.error();
+    return std::unique_ptr<Studio>(new Studio(std::move(*engine), folders));
+}
+
+Result<std::shared_ptr<Model>> Studio::model(SceneSpec const& spec, Settings const& settings) {
+    const Result<fs::path> file = conformance::modelFile(spec, mFolders);
+    if (!file) return file.error();
+    std::shared_ptr<Model>& known = mModels[file->string() + settings.modelKey];
+    if (!known) {
+        Result<Model> loaded = loadGltf(mEngine, *file, settings.model);
+        if (!loaded) return loaded.error();
+        known = std::make_shared<Model>(std::move(*loaded));
+    }
+    return known;
+}
+
+Result<std::shared_ptr<Environment>> Studio::environment(SceneSpec const& spec, Settings const& settings) {
+    const Result<fs::path> file = conformance::environmentFile(spec, mFolders);
+    if (!file) return file.error();
+    if (file->empty()) return std::shared_ptr<Environment>();
+    std::shared_ptr<Environment>& known = mEnvironments[file->string() + settings.environmentKey];
+    if (!known) {
+        Result<Environment> loaded = loadEnvironment(mEngine, *file, settings.environment);
+        if (!loaded) return loaded.error();
+        known = std::make_shared<Environment>(std::move(*loaded));
+    }
+    return known;
+}
+
+Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const& settings, uint2 size, bool linear) {
+    Result<std::shared_ptr<Model>> loaded = model(spec, settings);
+    if (!loaded) return loaded.error();
+    Result<std::shared_ptr<Environment>> sky = environment(spec, settings);
+    if (!sky) return sky.error();
+    Scene scene(mEngine);
+    for (double4x4 const& copy : placedCopies(spec)) scene.add(**loaded, copy);
+    for (conformance::LightSpec const& light : placedLights(spec))
+        std::visit([&](auto const& placed) { scene.add(placed); }, light);
+    if (*sky) scene.setEnvironment(**sky, spec.environmentSettings);
+    View view = spec.view;
+    view.size = size;
+    view.quality = settings.quality;
+    view.samples = settings.samples;
+    view.colorGrading = settings.colorGrading;
+    view.camera = cameraOf(spec, scene.bounds());
+    const SwapChain target = mEngine.create(SwapChainDesc{
+            .size = size, .imageCount = 1, .format = linear ? Format::RGBA16F : Format::RGBA8, .name = "accuracy" });
+    return std::make_unique<Take>(mEngine, mRenderer,
+                                  TakeParts{ *loaded, *sky, std::move(scene), view, mEngine.own(target) });
+}
+
+Result<double> Studio::timeEnvironment(SceneSpec const& spec, Settings const& settings) {
+    const Result<fs::path> file = conformance::environmentFile(spec, mFolders);
+    if (!file) return file.error();
+    std::error_code error;
+    fs::remove_all(cacheOf(mFolders), error);
+    const auto begin = std::chrono::steady_clock::now();
+    const Result<Environment> loaded = loadEnvironment(mEngine, *file, settings.environment);
+    if (!loaded) return loaded.error();
+    mEngine.waitIdle();
+    return millisecondsSince(begin);
+}
+
+Result<double> Studio::timeModel(SceneSpec const& spec, Settings const& settings) {
+    const Result<fs::path> file = conformance::modelFile(spec, mFolders);
+    if (!file) return file.error();
+    const auto begin = std::chrono::steady_clock::now();
+    const Result<Model> loaded = loadGltf(mEngine, *file, settings.model);
+    if (!loaded) return loaded.error();
+    mEngine.waitIdle();
+    return millisecondsSince(begin);
+}
+
+} // namespace filament::accuracy

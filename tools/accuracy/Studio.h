@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Studio: one engine on one backend; Take: one scene under one set of settings, ready to be drawn again and again.
+///   In      scene files and Settings.   Out: pictures, milliseconds.
+///   Memory  what a Take needs is loaded once a studio and shared; it stays until the studio ends. Takes end before it.
+///   Thread  one a studio.
+///   Fails   what loaders and device say, in one line.
+///   Cost    the first picture of a new combination compiles a pipeline: up to a second.
+#pragma once
+
+#include "tools/accuracy/Picture.h"
+#include "tools/accuracy/Settings.h"
+#include "tools/conformance/SceneAssets.h"
+
+#include <filament/Renderer.h>
+
+#include <map>
+#include <memory>
+#include <optional>
+
+namespace filament::accuracy {
+
+/// The scene's own view, as the settings to start from.
+Settings settingsOf(conformance::SceneSpec const& spec);
+
+/// What a take draws, and what that needs to stay.
+struct TakeParts {
+    std::shared_ptr<Model> model;
+    std::shared_ptr<Environment> environment; ///< may be none
+    Scene scene;                              ///< ends before model and environment
+    View view;
+    Owned<SwapChain> target;
+};
+
+class Take {
+public:
+    Take(Engine& engine, Renderer& renderer, TakeParts parts);
+    /// Draws and reads back.
+    Result<Picture> shoot();
+    /// Draws; milliseconds of the device, all passes.
+    Result<double> time();
+    View const& view() const { return mParts.view; }
+
+private:
+    Result<void> checkDevice();
+
+    Engine& mEngine;
+    Renderer& mRenderer;
+    TakeParts mParts;
+};
+
+class Studio {
+public:
+    static Result<std::unique_ptr<Studio>> open(Backend backend, conformance::SceneFolders const& folders);
+
+    DeviceDescription const& device() const { return mEngine.device(); }
+    /// `linear`: scene-linear half floats, without the tone mapper.
+    Result<std::unique_ptr<Take>> take(conformance::SceneSpec const& spec, Settings const& settings, uint2 size,
+                                       bool linear);
+    /// Milliseconds of loading one file again, its cache empty.
+    Result<double> timeEnvironment(conformance::SceneSpec const& spec, Settings const& settings);
+    Result<double> timeModel(conformance::SceneSpec const& spec, Settings const& settings);
+
+private:
+    Studio(Engine engine, conformance::SceneFolders const& folders);
+    Result<std::shared_ptr<Model>> model(conformance::SceneSpec const& spec, Settings const& settings);
+    Result<std::shared_ptr<Environment>> environment(conformance::SceneSpec const& spec, Settings const& settings);
+
+    const conformance::SceneFolders mFolders;
+    Engine mEngine;
+    Renderer mRenderer;
+    std::map<std::string, std::shared_ptr<Model>> mModels;
+    std::map<std::string, std::shared_ptr<Environment>> mEnvironments;
+};
+
+} // namespace filament::accuracy

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/accuracy/TracedPicture.h"
+
+#include "filament_core/assets/GltfLoader.h"
+#include "filament_core/assets/HdrReader.h"
+
+#include <type_traits>
+
+namespace filament::accuracy {
+namespace {
+
+using conformance::LightSpec;
+using conformance::SceneSpec;
+using reference::ReferenceScene;
+
+void add(ReferenceScene& scene, LightSpec const& light) {
+    std::visit(
+            [&](auto const& one) {
+                using L = std::remove_cvref_t<decltype(one)>;
+                if constexpr (std::is_same_v<L, SunLight>)
+                    scene.suns.push_back(one);
+                else if constexpr (std::is_same_v<L, PointLight>)
+                    scene.points.push_back(one);
+                else
+                    scene.spots.push_back(one);
+            },
+            light);
+}
+
+} // namespace
+
+Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, conformance::SceneFolders const& folders,
+                                        jobs::JobSystem& jobs) {
+    const Result<std::filesystem::path> modelPath = modelFile(spec, folders);
+    if (!modelPath) return modelPath.error();
+    Result<assets::ModelData> model = assets::loadGltf(*modelPath, jobs);
+    if (!model) return model.error();
+    const auto shared = std::make_shared<assets::ModelData>(std::move(*model));
+    ReferenceScene scene;
+    for (double4x4 const& copy : placedCopies(spec)) scene.models.push_back({ shared, copy });
+    for (LightSpec const& light : placedLights(spec)) add(scene, light);
+
+    const Result<std::filesystem::path> skyPath = environmentFile(spec, folders);
+    if (!skyPath) return skyPath.error();
+    if (skyPath->empty()) return scene;
+    Result<assets::HdrImage> sky = assets::readHdrImage(*skyPath);
+    if (!sky) return sky.error();
+    scene.environment = { .image = std::make_shared<assets::HdrImage>(std::move(*sky)),
+                          .illuminance = spec.environmentSettings.illuminance,
+                          .rotationRadians = spec.environmentSettings.rotationRadians,
+                          .skybox = spec.environmentSettings.skybox };
+    return scene;
+}
+
+reference::BsdfModel bsdfOf(Quality const& quality) {
+    return { .visibility = quality.specularVisibility,
+             .fresnel = quality.fresnel,
+             .diffuse = quality.diffuse,
+             .energy = quality.energyCompensation ? reference::EnergyTerm::Compensated
+                                                  : reference::EnergyTerm::SingleScatter };
+}
+
+Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint32_t samplesPerPixel,
+                            jobs::JobSystem& jobs) {
+    const reference::ReferenceSettings settings{ .integrator = reference::Integrator::Unoccluded,
+                                                 .samplesPerPixel = samplesPerPixel,
+                                                 .filter = reference::PixelFilter::Center,
+                                                 .bsdf = bsdfOf(view.quality) };
+    Result<reference::ReferenceImage> image =
+            reference::render(scene, { view.camera, view.size, view.clearColor }, settings, jobs);
+    if (!image) return image.error();
+    return TracedPicture{ { image->width, image->height, std::move(image->color) }, image->statistics.relativeError };
+}
+
+} // namespace filament::accuracy

@@ -1,0 +1,74 @@
+// SPDX-License-Identifier: Apache-2.0
+// filament-accuracy [options]: error and cost of every named choice, as JSON, CSV, plots and one page.
+// Exit status 0: measured and written.
+#include "tools/accuracy/Machine.h"
+#include "tools/accuracy/Options.h"
+#include "tools/accuracy/Page.h"
+#include "tools/common/Console.h"
+
+#include <chrono>
+#include <cstdio>
+#include <exception>
+
+namespace filament::accuracy {
+namespace {
+
+int failed(Error const& error) {
+    tools::printError(error.message);
+    return 1;
+}
+
+int list(std::vector<Effect> const& effects) {
+    for (Effect const& effect : effects) {
+        std::printf("%s: %s\n", effect.name.c_str(), effect.question.c_str());
+        for (Value const& value : effect.values) std::printf("    %s\n", value.name.c_str());
+    }
+    return 0;
+}
+
+MeasureProgress progressLine() {
+    return [begin = std::chrono::steady_clock::now()](std::string const& what, double done) {
+        constexpr size_t kWidth = 24;
+        const auto filled = static_cast<size_t>(done * kWidth);
+        const double seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+        const std::string left = done > 0.02 ? fmt::format(", {:.0f} s left", seconds * (1 - done) / done) : "";
+        tools::showProgress(fmt::format("[{}{}] {:3.0f} %{}  {}", std::string(filled, '#'),
+                                        std::string(kWidth - filled, '.'), done * 100, left, what));
+    };
+}
+
+int run(Options const& options) {
+    const Result<std::vector<Effect>> effects = readEffects(options.effects);
+    if (!effects) return failed(effects.error());
+    if (options.list) return list(*effects);
+    const Result<SceneLibrary> scenes = SceneLibrary::read(options.scenes);
+    if (!scenes) return failed(scenes.error());
+    Result<Results> results = measure(*effects, options.effect, *scenes, options.measure, progressLine());
+    tools::clearProgress();
+    if (!results) return failed(results.error());
+    describeMachine(*results);
+    const ReportPlaces places{ options.out, options.page.empty() ? options.out / "accuracy.html" : options.page,
+                               options.include, options.plots };
+    if (const Result<void> written = writeReport(*results, places); !written) return failed(written.error());
+    for (Skipped const& one : results->skipped)
+        tools::printWarning(fmt::format("effect {} skipped: no {}; give --assets", one.name, one.reason));
+    std::printf("%s\n%s\n", (options.out / "results.json").c_str(), places.page.c_str());
+    return 0;
+}
+
+} // namespace
+} // namespace filament::accuracy
+
+int main(int argc, char** argv) {
+    using namespace filament;
+    tools::setProgramName("filament-accuracy");
+    tools::routeLogToConsole();
+    try {
+        const auto options = accuracy::parseOptions(argc, argv);
+        if (!options) return accuracy::failed(options.error());
+        return *options ? accuracy::run(**options) : 0;
+    } catch (std::exception const& error) {
+        tools::printError(fmt::format("out of resources ({})", error.what()));
+        return 1;
+    }
+}
