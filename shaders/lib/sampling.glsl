@@ -16,9 +16,9 @@ float radicalInverse(uint i) {
 // Multivariable Problems".
 vec2 hammersley(uint i, float inverseCount) { return vec2(float(i) * inverseCount, radicalInverse(i)); }
 
-// A direction at azimuth 2 pi u around z with the given cosine.
-vec3 directionFromAzimuth(float u, float cosTheta) {
-    float sinTheta = sqrt(max(1.0f - cosTheta * cosTheta, 0.0f));
+// A direction at azimuth 2 pi u around z and the given angle to it. Both sine and cosine, because next to the pole a
+// sine made of the cosine is a multiple of 2^-12: coarser than the narrowest lobes.
+vec3 directionFromAngles(float u, float cosTheta, float sinTheta) {
     float phi = kTwoPi * u;
     return vec3(cos(phi) * sinTheta, sin(phi) * sinTheta, cosTheta);
 }
@@ -27,13 +27,14 @@ vec3 directionFromAzimuth(float u, float cosTheta) {
 // eq. 35, with a denominator that is a sum of positive terms: the cosine stays below 1 for the smallest alpha.
 // alpha in [0, 1].
 vec3 importanceSampleGgx(vec2 u, float alpha) {
-    float rest = 1.0f - u.y;
-    float cosTheta2 = rest / (rest + alpha * alpha * u.y);
-    return directionFromAzimuth(u.x, sqrt(cosTheta2));
+    float cosTheta2 = 1.0f - u.y;
+    float sinTheta2 = alpha * alpha * u.y;
+    float length2 = cosTheta2 + sinTheta2;
+    return directionFromAngles(u.x, sqrt(cosTheta2 / length2), sqrt(sinTheta2 / length2));
 }
 
 // Density cos / pi. Malley's method: Pharr et al. 2016, "Physically Based Rendering", section 13.6.3.
-vec3 hemisphereCosineSample(vec2 u) { return directionFromAzimuth(u.x, sqrt(1.0f - u.y)); }
+vec3 hemisphereCosineSample(vec2 u) { return directionFromAngles(u.x, sqrt(1.0f - u.y), sqrt(u.y)); }
 
 // Density 1 / (2 pi).
-vec3 hemisphereUniformSample(vec2 u) { return directionFromAzimuth(u.x, 1.0f - u.y); }
+vec3 hemisphereUniformSample(vec2 u) { return directionFromAngles(u.x, 1.0f - u.y, sqrt(u.y * (2.0f - u.y))); }

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// shaders/lib over edge grids: fp32 against fp64 of the same text, and a row for every function that the sources
-// define.
-#include "tests/numerics/table/Measure.h"
+// shaders/lib over edge grids: fp32 and fp16 against fp64 of the same text, and a row for every function that the
+// sources define.
+#include "tools/numerics/Study.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -51,7 +52,7 @@ TEST(NumericsTable, HasARowForEveryFunctionAndNoOther) {
     std::set<std::string> rowed;
     for (Row const& row : rows()) rowed.emplace(row.function);
     EXPECT_THAT(rowed, ::testing::ContainerEq(definedFunctions()))
-            << "add a row to tests/numerics/table/*Rows.cpp for a new function of shaders/lib";
+            << "add a row to tools/numerics/table/*Rows.cpp for a new function of shaders/lib";
 }
 
 TEST(NumericsTable, CallsTheFunctionThatARowNames) {
@@ -67,58 +68,125 @@ TEST(NumericsTable, JustifiesEveryLimit) {
                 << row.function << ": say why its error is so large";
 }
 
-class NumericsRow : public ::testing::TestWithParam<size_t> {
+/// Every row in every precision, once: the devices and their compilers are what takes the time.
+Result<Study> const& study() {
+    static const auto* const result = new Result<Study>(runStudy());
+    return *result;
+}
+
+class NumericsRow : public ::testing::TestWithParam<std::tuple<size_t, Column>> {
 protected:
-    Row const& row() const { return rows()[GetParam()]; }
-    Measurement cpp() const {
-        const Points points = pointsOf(row(), Format::Single);
-        return measure(row(), Column::Cpp, points, evaluateCpp(row(), points.inside),
-                       evaluateCpp(row(), points.outside));
+    void SetUp() override {
+        ASSERT_TRUE(study()) << study().error().message;
+        if (!isMeasured(row(), column())) GTEST_SKIP() << row().fp32Only;
+        if (!all().of(column())) GTEST_SKIP() << "no device: " << ::testing::PrintToString(study()->missing);
     }
+    Row const& row() const { return rows()[std::get<0>(GetParam())]; }
+    Column column() const { return std::get<1>(GetParam()); }
+    RowResult const& all() const { return study()->rows[std::get<0>(GetParam())]; }
+    Measurement const& result() const { return *all().of(column()); }
     std::string at(std::optional<Point> const& point) const { return point ? describe(row(), *point) : "nowhere"; }
 };
 
 TEST_P(NumericsRow, IsFiniteAndWithinItsRangeForInputsInRange) {
-    const Measurement result = cpp();
-    EXPECT_EQ(result.nan + result.infinite, 0u) << "first at " << at(result.firstNotFinite);
-    EXPECT_EQ(result.outOfRange, 0u) << "first at " << at(result.firstOutOfRange);
+    EXPECT_EQ(result().nan + result().infinite, 0u) << "first at " << at(result().firstNotFinite);
+    EXPECT_EQ(result().outOfRange, 0u) << "first at " << at(result().firstOutOfRange);
 }
 
 TEST_P(NumericsRow, IsAsCloseToDoublePrecisionAsItsLimit) {
     if (!row().noError.empty()) GTEST_SKIP() << row().noError;
-    const Measurement result = cpp();
-    EXPECT_LE(result.worst, row().limits.cpp)
-            << "at " << at(result.worstAt) << ": " << result.worstResult << " instead of " << result.worstTruth;
+    EXPECT_LE(result().worst, limitOf(row(), column()))
+            << "at " << at(result().worstAt) << ": " << result().worstResult << " instead of " << result().worstTruth;
 }
 
 TEST_P(NumericsRow, KeepsTheOrderOfItsArguments) {
-    const Measurement result = cpp();
-    EXPECT_EQ(result.notMonotone, 0u) << "first at " << at(result.firstNotMonotone);
+    EXPECT_EQ(result().notMonotone, 0u) << "first at " << at(result().firstNotMonotone);
 }
 
 TEST_P(NumericsRow, GivesANumberForInputsBeyondTheirIntervals) {
     if (row().outside == Outside::Open) GTEST_SKIP() << row().outsideWhy;
-    EXPECT_EQ(cpp().outside[static_cast<size_t>(OutsideInput::Beyond)].nan, 0u);
+    EXPECT_EQ(result().outside[static_cast<size_t>(OutsideInput::Beyond)].nan, 0u);
 }
 
-INSTANTIATE_TEST_SUITE_P(Of, NumericsRow, ::testing::Range(size_t{ 0 }, rows().size()), [](auto const& each) {
-    Row const& row = rows()[each.param];
-    std::string name = std::string(row.function) + "_" + std::string(row.part);
+std::string nameOf(Row const& row, Column column) {
+    std::string name = fmt::format("{}_{}_{}", row.function, row.part, toString(column));
     std::erase_if(name, [](char c) { return !std::isalnum(static_cast<unsigned char>(c)) && c != '_'; });
     return name;
-});
+}
 
-/// The mutation that proves the measurement: a result that is off by one part in a thousand, or NaN, is found.
-TEST(Measurement, FindsAWrongResultAndANaN) {
-    Row const& row =
-            *std::find_if(rows().begin(), rows().end(), [](Row const& r) { return r.function == "sq(float)"; });
+INSTANTIATE_TEST_SUITE_P(Of, NumericsRow,
+                         ::testing::Combine(::testing::Range(size_t{ 0 }, rows().size()),
+                                            ::testing::ValuesIn(kColumns)),
+                         [](auto const& each) {
+                             return nameOf(rows()[std::get<0>(each.param)], std::get<1>(each.param));
+                         });
+
+Row const& rowOf(std::string_view function) {
+    return *std::find_if(rows().begin(), rows().end(), [&](Row const& row) { return row.function == function; });
+}
+
+/// A column that computed in 32 bits would be far better than its limit, and say nothing about fp16.
+TEST(NumericsStudy, ReallyRoundsTo16BitsInTheHalfColumns) {
+    ASSERT_TRUE(study()) << study().error().message;
+    for (RowResult const& row : study()->rows) {
+        if (row.row->function != "pow5(float)") continue;
+        for (const Column column : { Column::VulkanHalf, Column::GlesHalf }) {
+            if (auto const& half = row.of(column); half) {
+                EXPECT_GT(half->worst, 1e-4) << toString(column);
+            }
+        }
+    }
+}
+
+TEST(NumericsStudy, HasTheSameBitsOnBothApisIn32Bits) {
+    ASSERT_TRUE(study()) << study().error().message;
+    if (!study()->missing.empty()) GTEST_SKIP() << "needs a Vulkan and an OpenGL ES device";
+    for (RowResult const& row : study()->rows)
+        EXPECT_EQ(row.differingBits, 0u) << row.row->function << " " << row.row->part;
+}
+
+TEST(NumericsStudy, SelectsRowsByTheirNames) {
+    const Result<Study> some = runStudy("visibilitySmith");
+    ASSERT_TRUE(some) << some.error().message;
+    EXPECT_EQ(some->rows.size(), 3u);
+}
+
+/// The mutations that prove the measurement: a result that is off by one part in a thousand, NaN, out of range, or in
+/// the wrong order is found.
+class MeasurementOf : public ::testing::Test {
+protected:
+    Row const& row = rowOf("pow5(float)");
     const Points points = pointsOf(row, Format::Single);
     Results inside = evaluateCpp(row, points.inside);
-    inside.back() *= 1.001f;
+    Measurement measured() const { return measure(row, Column::Cpp, points, inside, {}); }
+};
+
+TEST_F(MeasurementOf, RightResultsHasNothingToSay) {
+    EXPECT_THAT(violations(row, Column::Cpp, measured()), ::testing::IsEmpty());
+}
+
+TEST_F(MeasurementOf, AWrongResultNamesItsError) {
+    inside[inside.size() / 2] *= 1.001f;
+    EXPECT_NEAR(measured().worst, 1e-3, 1e-5);
+    EXPECT_EQ(violations(row, Column::Cpp, measured()).size(), 1u);
+}
+
+TEST_F(MeasurementOf, ANaNAndAnInfinityCountsThem) {
     inside.front().x = std::numeric_limits<float>::quiet_NaN();
-    const Measurement result = measure(row, Column::Cpp, points, inside, {});
-    EXPECT_NEAR(result.worst, 1e-3, 1e-5);
-    EXPECT_EQ(result.nan, 1u);
+    inside.back().x = std::numeric_limits<float>::infinity();
+    EXPECT_EQ(measured().nan, 1u);
+    EXPECT_EQ(measured().infinite, 1u);
+    EXPECT_THAT(violations(row, Column::Cpp, measured()), ::testing::Contains(::testing::HasSubstr("1 NaN and 1 inf")));
+}
+
+TEST_F(MeasurementOf, AResultAboveTheRangeCountsIt) {
+    inside.back().x = 1.0000001f;
+    EXPECT_EQ(measured().outOfRange, 1u);
+}
+
+TEST_F(MeasurementOf, AStepBackCountsIt) {
+    std::swap(inside[inside.size() - 2], inside[inside.size() - 20]);
+    EXPECT_GT(measured().notMonotone, 0u);
 }
 
 } // namespace

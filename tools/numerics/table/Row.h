@@ -12,6 +12,7 @@
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cstdint>
 #include <limits>
@@ -57,14 +58,14 @@ struct Packed {
 struct Limits {
     double cpp = 0, gpu = 0, half = 0;
     double negligible = 1e-30;
-    double halfNegligible = negligible;
+    double halfNegligible = std::max(negligible, 0x1p-14); ///< below the smallest normal number digits are lost
     double halfLargest = 65504; ///< results of 16 bits above it only have to be finite and in range
     std::string_view why;
 };
 
-/// What happens to arguments somewhat outside of their intervals: a step, 0.1, 1, 100. The largest numbers, infinities
-/// and NaN promise nothing: they overflow, and GLSL leaves min, max and clamp of NaN open. What came out of all of them
-/// is in the table's last column.
+/// What happens to arguments somewhat outside of their intervals: a step, 0.1, 1, 100 (4 in 16 bits). The largest
+/// numbers, infinities and NaN promise nothing: they overflow, and GLSL leaves min, max and clamp of NaN open. What
+/// came out of all of them is in the table's last column.
 enum class Outside : uint8_t {
     NoNaN, ///< the result may leave its range, or overflow, but it is a number
     Open,  ///< anything; the row's `outsideWhy` says for which arguments

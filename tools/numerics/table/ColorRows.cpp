@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/numerics/table/Call.h"
+#include "tools/numerics/table/Call.h"
 
 namespace filament::shader::numerics {
 namespace {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/numerics/table/Row.h"
+#include "tools/numerics/table/Row.h"
 
 namespace filament::shader::numerics {
 

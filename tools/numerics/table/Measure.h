@@ -6,7 +6,7 @@
 ///   Thread  any. Memory: one vector of errors while it runs. Fails: never.
 #pragma once
 
-#include "tests/numerics/table/Points.h"
+#include "tools/numerics/table/Points.h"
 
 #include <optional>
 #include <string>

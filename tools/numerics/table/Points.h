@@ -9,7 +9,7 @@
 ///   Thread  any. Memory: at most kMaxLines * about 60 points of 44 B. Fails: never.
 #pragma once
 
-#include "tests/numerics/table/Row.h"
+#include "tools/numerics/table/Row.h"
 
 namespace filament::shader::numerics {
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/numerics/table/Measure.h"
+#include "tools/numerics/table/Measure.h"
 
 #include <fmt/format.h>
 

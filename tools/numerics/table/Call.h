@@ -5,7 +5,7 @@
 
 #include "shaders/lib/LibCpp.h"
 #include "shaders/lib/LibCppDouble.h"
-#include "tests/numerics/table/Row.h"
+#include "tools/numerics/table/Row.h"
 
 namespace filament::shader {
 
@@ -13,12 +13,12 @@ namespace filament::shader {
 #pragma GCC diagnostic ignored "-Wunused-function"
 namespace lib {
 namespace {
-#include "tests/numerics/table/Wrappers.glsl"
+#include "tools/numerics/table/Wrappers.glsl"
 } // namespace
 } // namespace lib
 namespace lib64 {
 namespace {
-#include "tests/numerics/table/Wrappers.glsl"
+#include "tools/numerics/table/Wrappers.glsl"
 } // namespace
 } // namespace lib64
 #pragma GCC diagnostic pop

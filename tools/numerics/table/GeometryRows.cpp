@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/numerics/table/Call.h"
+#include "tools/numerics/table/Call.h"
 
 namespace filament::shader::numerics {
 namespace {
@@ -18,23 +18,21 @@ Row frameRow(std::string_view part, Call call) {
                          .gpu = 1e-6,
                          .half = 1e-2,
                          .negligible = 1,
-                         .halfNegligible = 1,
                          .why = "a unit vector: the error is relative to its length" } };
 }
 
-/// A direction out of directionFromAzimuth().
+/// A direction out of directionFromAngles().
 Row sampleRow(std::string_view function, Call call, std::array<Argument, 4> arguments) {
     return { .file = "sampling",
              .function = function,
              .call = call,
              .s = arguments,
              .range = { -1.001, 1.001 },
-             .limits = { .cpp = 3e-4,
-                         .gpu = 3e-4,
-                         .half = 5e-2,
+             .limits = { .cpp = 1e-6,
+                         .gpu = 1e-6,
+                         .half = 1e-2,
                          .negligible = 1,
-                         .halfNegligible = 1,
-                         .why = "next to the pole the sine is the root of the rounding of the cosine, 2^-12" },
+                         .why = "absolute: roots, and the sine and cosine of 2 pi u" },
              .outside = Outside::Open,
              .outsideWhy = "the root of 1 - u.y for u.y above 1" };
 }
@@ -75,7 +73,6 @@ std::vector<Row> lightRows() {
                       .gpu = 3e-3,
                       .half = 3e-2,
                       .negligible = 1,
-                      .halfNegligible = 1,
                       .why = "absolute: scale, up to 10^4 here, times the rounding of the cosine" } },
     };
 }
@@ -106,8 +103,8 @@ std::vector<Row> geometryRows() {
     std::vector<Row> rows = lightRows();
     const Argument alpha = unit("alpha");
     const std::vector<Row> more{
-        sampleRow("directionFromAzimuth(float, float)", NUMERICS_CALL(directionFromAzimuth(s.x, s.y)),
-                  { fraction("u"), number("cosTheta", -1, 1) }),
+        sampleRow("directionFromAngles(float, float, float)", NUMERICS_CALL(directionFromAngles(s.x, s.y, s.z)),
+                  { fraction("u"), number("cosTheta", -1, 1), number("sinTheta", 0, 1) }),
         sampleRow("importanceSampleGgx(vec2, float)", NUMERICS_CALL(importanceSampleGgx(vec2(s.x, s.y), s.z)),
                   { fraction("u.x"), fraction("u.y"), alpha }),
         sampleRow("hemisphereCosineSample(vec2)", NUMERICS_CALL(hemisphereCosineSample(vec2(s.x, s.y))),

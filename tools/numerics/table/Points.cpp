@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/numerics/table/Points.h"
+#include "tools/numerics/table/Points.h"
 
-#include "tests/numerics/table/Grid.h"
+#include "tools/numerics/table/Grid.h"
 
 #include <glm/gtc/packing.hpp>
 

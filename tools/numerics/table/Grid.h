@@ -3,7 +3,7 @@
 ///   Memory  vectors of at most about 80 values. Thread: any. Fails: never.
 #pragma once
 
-#include "tests/numerics/table/Points.h"
+#include "tools/numerics/table/Points.h"
 
 namespace filament::shader::numerics {
 

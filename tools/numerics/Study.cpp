@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/numerics/Study.h"
+
+#include "tools/numerics/gpu/GpuEvaluator.h"
+
+#include <fmt/format.h>
+
+#include <bit>
+
+namespace filament::shader::numerics {
+namespace {
+
+using backend::BackendType;
+
+/// The rows of a format with their points; a row's index here is its index in every list below.
+struct Work {
+    Format format{};
+    std::vector<size_t> indices; ///< into Study::rows
+    std::vector<Points> points;
+    std::vector<Task> tasks; ///< points inside, then outside
+};
+
+Work workOf(Study const& study, Format format) {
+    Work work{ .format = format };
+    for (size_t i = 0; i < study.rows.size(); ++i) {
+        Row const& row = *study.rows[i].row;
+        if (format == Format::Half && !row.fp32Only.empty()) continue;
+        Points points = pointsOf(row, format);
+        std::vector<Point> all = points.inside;
+        all.insert(all.end(), points.outside.begin(), points.outside.end());
+        work.indices.push_back(i);
+        work.points.push_back(std::move(points));
+        work.tasks.push_back({ &row, std::move(all) });
+    }
+    return work;
+}
+
+void measureAll(Study& study, Work const& work, Column column, std::vector<Results> const& results) {
+    for (size_t i = 0; i < work.tasks.size(); ++i) {
+        Points const& points = work.points[i];
+        const auto split = results[i].begin() + static_cast<std::ptrdiff_t>(points.inside.size());
+        const Results inside(results[i].begin(), split), outside(split, results[i].end());
+        RowResult& row = study.rows[work.indices[i]];
+        row.columns[static_cast<size_t>(column)] = measure(*row.row, column, points, inside, outside);
+    }
+}
+
+bool sameBits(float a, float b) {
+    return (std::isnan(a) && std::isnan(b)) || std::bit_cast<uint32_t>(a) == std::bit_cast<uint32_t>(b);
+}
+
+void countDifferences(Study& study, Work const& work, std::vector<Results> const& a, std::vector<Results> const& b) {
+    for (size_t i = 0; i < work.tasks.size(); ++i) {
+        for (size_t p = 0; p < work.points[i].inside.size(); ++p) {
+            bool same = true;
+            for (int c = 0; c < 4; ++c) same &= sameBits(a[i][p][c], b[i][p][c]);
+            study.rows[work.indices[i]].differingBits += !same;
+        }
+    }
+}
+
+void evaluateInCpp(Study& study, Work const& work) {
+    std::vector<Results> results;
+    for (Task const& task : work.tasks) results.push_back(evaluateCpp(*task.row, task.points));
+    measureAll(study, work, Column::Cpp, results);
+}
+
+/// The results in fp32 stay for the comparison of the APIs.
+Result<std::vector<Results>> evaluateOn(Study& study, BackendType type, Work const& single, Work const& half) {
+    const bool vulkan = type == BackendType::Vulkan;
+    auto device = GpuEvaluator::make(type);
+    if (!device) {
+        study.missing.push_back(device.error().message);
+        return std::vector<Results>{};
+    }
+    study.devices[vulkan ? 0 : 1] = (*device)->deviceName();
+    Result<std::vector<Results>> results = (*device)->evaluate(single.tasks, Format::Single);
+    if (!results) return results.error();
+    measureAll(study, single, vulkan ? Column::VulkanSingle : Column::GlesSingle, *results);
+    const Result<std::vector<Results>> halfResults = (*device)->evaluate(half.tasks, Format::Half);
+    if (!halfResults) return halfResults.error();
+    measureAll(study, half, vulkan ? Column::VulkanHalf : Column::GlesHalf, *halfResults);
+    return results;
+}
+
+} // namespace
+
+bool isMeasured(Row const& row, Column column) { return formatOf(column) == Format::Single || row.fp32Only.empty(); }
+
+Result<Study> runStudy(std::string_view only) {
+    Study study;
+    for (Row const& row : rows()) {
+        const bool wanted = row.function.find(only) != std::string_view::npos || row.file.find(only) == 0;
+        if (wanted) study.rows.push_back({ .row = &row });
+    }
+    const Work single = workOf(study, Format::Single), half = workOf(study, Format::Half);
+    evaluateInCpp(study, single);
+    const Result<std::vector<Results>> vulkan = evaluateOn(study, BackendType::Vulkan, single, half);
+    if (!vulkan) return vulkan.error();
+    const Result<std::vector<Results>> gles = evaluateOn(study, BackendType::Gles, single, half);
+    if (!gles) return gles.error();
+    if (!vulkan->empty() && !gles->empty()) countDifferences(study, single, *vulkan, *gles);
+    return study;
+}
+
+std::vector<std::string> violations(Row const& row, Column column, Measurement const& result) {
+    std::vector<std::string> found;
+    const auto say = [&](std::string text) { found.push_back(fmt::format("{}: {}", toString(column), text)); };
+    const auto at = [&](std::optional<Point> const& point) { return point ? describe(row, *point) : "nowhere"; };
+    if (result.nan + result.infinite > 0)
+        say(fmt::format("{} NaN and {} inf, first at {}", result.nan, result.infinite, at(result.firstNotFinite)));
+    if (result.outOfRange > 0)
+        say(fmt::format("{} results outside of [{}, {}], first at {}", result.outOfRange, row.range.low, row.range.high,
+                        at(result.firstOutOfRange)));
+    if (result.notMonotone > 0)
+        say(fmt::format("{} steps against the order, first at {}", result.notMonotone, at(result.firstNotMonotone)));
+    if (row.noError.empty() && !(result.worst <= limitOf(row, column)))
+        say(fmt::format("error {:.2g} above its limit {:.2g} at {}: {:.9g} instead of {:.9g}", result.worst,
+                        limitOf(row, column), at(result.worstAt), result.worstResult, result.worstTruth));
+    const uint32_t nan = result.outside[static_cast<size_t>(OutsideInput::Beyond)].nan;
+    if (row.outside == Outside::NoNaN && nan > 0) say(fmt::format("{} NaN for inputs beyond their intervals", nan));
+    return found;
+}
+
+} // namespace filament::shader::numerics

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GpuEvaluator: rows at points, in the fragment shaders of one device.
+///   In      any number of rows with their points; rows of one group of 8 share a program and a draw.
+///   Out     one list of results per row, as the device left them: infinities and NaN included.
+///   Thread  the one that made it. Memory: 64 B a point on the device while evaluate() runs.
+///   Fails   make(): the driver's reason. evaluate(): the compiler's or the device's.
+///   Cost    0.2 s a group for a driver that has not seen its program, milliseconds with MESA_SHADER_CACHE_DIR.
+#pragma once
+
+#include "backend/create/CreateDriver.h"
+#include "backend/stream/CommandStream.h"
+#include "tools/numerics/table/Measure.h"
+
+#include <memory>
+#include <vector>
+
+namespace filament::shader::numerics {
+
+struct Task {
+    Row const* row = nullptr;
+    std::vector<Point> points;
+};
+
+class GpuEvaluator {
+public:
+    static Result<std::unique_ptr<GpuEvaluator>> make(backend::BackendType type);
+
+    /// "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6"
+    std::string deviceName() const;
+    Result<std::vector<Results>> evaluate(std::span<const Task> tasks, Format format);
+
+private:
+    struct Group;
+
+    explicit GpuEvaluator(std::unique_ptr<backend::CommandStream> stream) : mStream(std::move(stream)) {}
+
+    Result<void> evaluateGroup(std::span<const Task> tasks, Format format, std::vector<Results>& results);
+    backend::TextureHandle createTexture(backend::CommandBuffer& commands, Group const& group,
+                                         std::span<const glm::vec4> texels);
+    void draw(backend::CommandBuffer& commands, Group const& group);
+    Result<std::vector<glm::vec4>> read(Group const& group);
+
+    std::unique_ptr<backend::CommandStream> mStream;
+    backend::SamplerHandle mNearest;
+};
+
+} // namespace filament::shader::numerics

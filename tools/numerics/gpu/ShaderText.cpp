@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/numerics/gpu/ShaderText.h"
+
+#include "shaders/compiler/HalfPrecision.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <sstream>
+
+namespace filament::shader::numerics {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::string_view kVertex = R"(#version 450
+void main() {
+    gl_Position = vec4(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, 0.5, 1.0);
+}
+)";
+
+constexpr std::string_view kInterface = R"(
+layout(set = 0, binding = 0) uniform highp sampler2D inputS;
+layout(set = 0, binding = 1) uniform highp sampler2D inputU;
+layout(set = 0, binding = 2) uniform highp sampler2D inputV;
+layout(location = 0) out highp vec4 result;
+)";
+constexpr std::string_view kEsslInterface = R"(
+precision highp int;
+layout(binding = 0) uniform highp sampler2D inputS;
+layout(binding = 1) uniform highp sampler2D inputU;
+layout(binding = 2) uniform highp sampler2D inputV;
+layout(location = 0) out highp vec4 result;
+)";
+
+/// Results of any type as four numbers. The names of the types become those of the precision.
+constexpr std::string_view kPack = R"(
+vec4 asVec4(bool x) { return vec4(x ? 1.0f : 0.0f, 0.0f, 0.0f, 0.0f); }
+vec4 asVec4(float x) { return vec4(x, 0.0f, 0.0f, 0.0f); }
+vec4 asVec4(vec2 x) { return vec4(x, 0.0f, 0.0f); }
+vec4 asVec4(vec3 x) { return vec4(x, 0.0f); }
+)";
+
+Result<std::string> textOf(fs::path const& path) {
+    std::ifstream file(path, std::ios::binary);
+    std::ostringstream text;
+    if (!(text << file.rdbuf()))
+        return fail(ErrorCode::NotFound, "{}: cannot be read; run where the project was built", path.string());
+    return text.str();
+}
+
+/// main(): every row is computed, the pixel's own is kept.
+std::string mainText(std::span<Row const* const> rows) {
+    std::string text = "void evaluate(int row, vec4 s, vec3 u, vec3 v, OUT(vec4) x) {\n    x = vec4(0.0f);\n";
+    for (size_t i = 0; i < rows.size(); ++i)
+        text += fmt::format("    if (row == {}) x = asVec4({});\n", i, rows[i]->call.text);
+    return text + "}\n";
+}
+
+constexpr std::string_view kMain = R"(
+void main() {
+    ivec2 at = ivec2(gl_FragCoord.xy);
+    highp vec4 s = texelFetch(inputS, at, 0);
+    highp vec4 u = texelFetch(inputU, at, 0);
+    highp vec4 v = texelFetch(inputV, at, 0);
+    VEC4 x;
+    evaluate(int(u.w), VEC4(s), VEC3(u.xyz), VEC3(v.xyz), x);
+    result = vec4(x);
+}
+)";
+
+Result<ProgramShaders> compile(std::string const& fragment, std::string_view name, bool exact) {
+    return compileProgram(kVertex, fragment,
+                          { .exact = exact, .dynamicUniformBuffers = std::vector<SetBinding>{}, .fragmentName = name });
+}
+
+Result<ProgramShaders> mediumProgram(std::string const& body) {
+    // the vertex shader, and a fragment shader of the same interface for the layout of its three textures
+    Result<ProgramShaders> shaders = compile(fmt::format("#version 450{}void main() {{ ivec2 at = ivec2(0); result = "
+                                                         "texelFetch(inputS, at, 0) + texelFetch(inputU, at, 0) + "
+                                                         "texelFetch(inputV, at, 0); }}\n",
+                                                         kInterface),
+                                             "layout", true);
+    if (!shaders) return shaders.error();
+    shaders->fragmentEssl = fmt::format("#version 310 es\n{}{}#define VEC4 vec4\n#define VEC3 vec3\n{}{}",
+                                        kMediumpPrelude, kEsslInterface, body, kMain);
+    return shaders;
+}
+
+} // namespace
+
+Result<std::string> libraryText() {
+    const fs::path folder = FILAMENT_SOURCE_DIR "/shaders/lib";
+    std::vector<fs::path> files;
+    std::error_code error;
+    for (fs::directory_iterator it(folder, error), end; it != end; it.increment(error)) {
+        if (it->path().extension() == ".glsl") files.push_back(it->path());
+    }
+    std::sort(files.begin(), files.end(), [](fs::path const& a, fs::path const& b) {
+        const bool mathA = a.stem() == "math", mathB = b.stem() == "math";
+        return mathA != mathB ? mathA : a < b;
+    });
+    files.emplace_back(FILAMENT_SOURCE_DIR "/tools/numerics/table/Wrappers.glsl");
+    std::string text;
+    for (fs::path const& file : files) {
+        const Result<std::string> one = textOf(file);
+        if (!one) return one.error();
+        text += *one;
+    }
+    return text;
+}
+
+Result<ProgramShaders> groupProgram(std::span<Row const* const> rows, Format format, backend::ShaderLanguage language) {
+    const Result<std::string> library = libraryText();
+    if (!library) return library.error();
+    const std::string body = *library + std::string(kPack) + mainText(rows);
+    if (format == Format::Half && language == backend::ShaderLanguage::Essl310) return mediumProgram(body);
+    if (format == Format::Half) {
+        // exact lowering knows 32-bit floats only, and no other device has to agree
+        return compile(fmt::format("#version 450\n{}{}#define VEC4 f16vec4\n#define VEC3 f16vec3\n{}{}",
+                                   kFloat16Prelude, kInterface, float16FromGlsl(body), kMain),
+                       "shaders/lib in 16 bits", false);
+    }
+    return compile(fmt::format("#version 450\n{}#define VEC4 vec4\n#define VEC3 vec3\n{}{}", kInterface, body, kMain),
+                   "shaders/lib", true);
+}
+
+} // namespace filament::shader::numerics
