@@ -77,6 +77,16 @@ VkResult createHandle(ResultSink* sink, uint32_t apiVersion, VkInstance& handle)
     return vkCreateInstance(&info, nullptr, &handle);
 }
 
+/// Keeps the drivers in memory until the process ends. The loader unloads them with the last instance, and what a
+/// driver holds in statics is then lost each time: lavapipe maps 10 MiB for its code and leaves 12 KiB of it resident
+/// (measured, tests/numerics/scenes/EndlessTest.cpp); loading all of them again also costs every further engine some
+/// milliseconds. A failure is no matter: the instance that is really wanted then fails, too, and says so.
+void keepDriversLoaded(uint32_t apiVersion) {
+    static std::once_flag once;
+    static VkInstance kept = VK_NULL_HANDLE;
+    std::call_once(once, [apiVersion] { createHandle(nullptr, apiVersion, kept); });
+}
+
 } // namespace
 
 Result<std::unique_ptr<Instance>> Instance::create(ResultSink* sink) {
@@ -97,7 +107,9 @@ Result<std::unique_ptr<Instance>> Instance::create(ResultSink* sink) {
     }
 
     std::unique_ptr<Instance> instance(new Instance);
-    const VkResult result = createHandle(sink, std::min(version, kNewestApi), instance->mHandle);
+    const uint32_t apiVersion = std::min(version, kNewestApi);
+    keepDriversLoaded(apiVersion);
+    const VkResult result = createHandle(sink, apiVersion, instance->mHandle);
     if (result != VK_SUCCESS) {
         instance->mHandle = VK_NULL_HANDLE;
         return fail(ErrorCode::DeviceUnavailable, "Vulkan: no driver could be loaded ({}); install mesa-vulkan-drivers",
