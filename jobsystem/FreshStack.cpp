@@ -14,9 +14,12 @@ constexpr size_t kStackBytes = size_t(8) << 20;
 
 // What a job may use between two looks at the stack, and what nested waits may use of a stack at most. Frames of
 // sanitized code are several times as large, and the thread sanitizer notes at most 65536 frames a thread.
-#if defined(__SANITIZE_THREAD__)
+#if !defined(__has_feature) // gcc has macros instead
+#define __has_feature(name) 0
+#endif
+#if defined(__SANITIZE_THREAD__) || __has_feature(thread_sanitizer)
 constexpr size_t kReserveBytes = size_t(1) << 20, kMostBytes = size_t(2) << 20;
-#elif defined(__SANITIZE_ADDRESS__)
+#elif defined(__SANITIZE_ADDRESS__) || __has_feature(address_sanitizer)
 constexpr size_t kReserveBytes = size_t(1) << 20, kMostBytes = kStackBytes;
 #else
 constexpr size_t kReserveBytes = size_t(256) << 10, kMostBytes = kStackBytes;

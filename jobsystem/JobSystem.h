@@ -5,10 +5,11 @@
 ///   Thread  any, also from inside jobs; several systems may coexist. wait(), isDone() and then() of a group belong to
 ///           the thread that made it. A thread that is no worker forks fast after AdoptedThread; without, its jobs go
 ///           through a shared queue.
-///   Memory  fixed after construction: about 500 KiB and 11 KiB a thread. Background jobs cost one heap block each.
+///   Memory  fixed after construction: about 550 KiB and 16 KiB a worker. Background jobs cost one heap block each.
 ///   Limits  a thread queues 1024 jobs (256 critical ones); beyond that, or with no workers, run() runs the job before
 ///           it returns. Waits nest as deep as the machine has memory for stacks.
-///   Fails   a job that throws or breaks a rule ends the process with a message that names the job.
+///   Fails   a job that throws or breaks a rule ends the process with a message that names the job. Workers that the
+///           operating system refuses are done without, with a warning.
 ///   Cost    bench/threading
 ///
 ///   AdoptedThread seat(jobs);

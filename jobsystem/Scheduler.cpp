@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/Scheduler.h"
 
+#include "filament_core/base/Log.h"
+
 #include <algorithm>
+#include <system_error>
 
 namespace filament::jobs {
 namespace {
@@ -28,11 +31,22 @@ Scheduler::Scheduler(JobSystemOptions const& options)
     const uint32_t workers = mSeats.workers();
     if (workers == 0) return;
     mBackground = std::make_unique<BackgroundThreads>(*this, std::max(1u, workers / 2), options.threadName + " bg");
+    startWorkers(options.threadName);
+}
+
+void Scheduler::startWorkers(std::string const& threadName) {
+    const uint32_t workers = mSeats.workers();
     mThreads.reserve(workers);
     for (uint32_t i = 0; i < workers; ++i) {
-        const std::string name = options.threadName + ' ' + std::to_string(i);
+        const std::string name = threadName + ' ' + std::to_string(i);
         if (mTrace) mTrace->nameSeat(i, name);
-        mThreads.emplace_back(&Scheduler::runWorker, this, i, name);
+        try {
+            mThreads.emplace_back(&Scheduler::runWorker, this, i, name);
+        } catch (std::system_error const& error) {
+            FILAMENT_ASSERT(i > 0, "a job system with workers needs one, and the system refuses every thread");
+            log(Severity::Warning, "{} has {} of {} workers: {}", threadName, i, workers, error.what());
+            return;
+        }
     }
 }
 

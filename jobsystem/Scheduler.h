@@ -89,6 +89,7 @@ private:
     };
 
     // Scheduler.cpp
+    void startWorkers(std::string const& threadName);
     void runWorker(uint32_t index, std::string const& name);
     void sleepUntilWork(Hunt& hunt);
     void enqueue(Seat* seat, Job& job, Priority priority);
