@@ -16,6 +16,8 @@
 namespace filament::tools {
 namespace {
 
+constexpr uint32_t kBudgetFrames = 7; // the median of so many says what a frame takes
+
 class StopWatch {
 public:
     double milliseconds() const {
@@ -82,6 +84,9 @@ public:
             : mEngine(engine), mOptions(options), mScene(engine), mRenderer(engine, { .passTimers = true }) {}
 
     Result<void> load(BackendRun& run, std::filesystem::path const& model, std::filesystem::path const& environment);
+    /// With --budget: measures frames of what was asked for, and goes on with what fits.
+    Result<void> fitBudget(BackendRun& run);
+    Result<void> measureCosts(BackendRun& run);
     void drawFirst(BackendRun& run);
     void drawOthers(BackendRun& run);
     Result<Image> readPixels() { return mRenderer.waitPixels(mRenderer.readPixels(mTarget)); }
@@ -129,6 +134,44 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
                                                       .name = "pixels" }));
     mTarget = mEngine.own(mEngine.create(RenderTargetDesc{ .color = mPixels, .name = "pixels" }));
     mView = viewOf(mOptions);
+    return {};
+}
+
+Result<void> Stage::fitBudget(BackendRun& run) {
+    if (!mOptions.budgetMilliseconds) return {};
+    Result<QualityCosts> costs = mOptions.costs.empty() ? defaultQualityCosts() : loadQualityCosts(mOptions.costs);
+    if (!costs) return costs.error();
+    showProgress(fmt::format("{}: frames to fit the budget", fileStem(run.backend)));
+    View view = mView;
+    view.quality = {}; // what the ratios of the table are to
+    for (uint32_t frame = 0; frame <= kBudgetFrames; ++frame) {
+        mRenderer.render(mScene, view, mTarget.get());
+        mEngine.waitIdle();
+    }
+    std::vector<double> milliseconds;
+    for (FrameTimings const& frame : mRenderer.takeTimings()) milliseconds.push_back(frame.gpuMilliseconds);
+    if (!milliseconds.empty()) milliseconds.erase(milliseconds.begin()); // compiled and uploaded
+    std::sort(milliseconds.begin(), milliseconds.end());
+    Result<QualityDecision> decision =
+            chooseQuality({ .gpuMilliseconds = *mOptions.budgetMilliseconds,
+                            .size = mOptions.size,
+                            .backend = run.backend,
+                            .frameMilliseconds = milliseconds.empty() ? 0 : milliseconds[milliseconds.size() / 2] },
+                          *costs, mOptions.quality);
+    if (!decision) return decision.error();
+    mView.quality = decision->quality;
+    run.decision = std::move(*decision);
+    return {};
+}
+
+Result<void> Stage::measureCosts(BackendRun& run) {
+    if (mOptions.measureCosts.empty()) return {};
+    showProgress(fmt::format("{}: measuring quality choices", fileStem(run.backend)));
+    View view = mView;
+    view.quality = {};
+    Result<QualityCosts> costs = measureQualityCosts(mEngine, mScene, view);
+    if (!costs) return costs.error();
+    run.costs = std::move(*costs);
     return {};
 }
 
@@ -185,6 +228,7 @@ Result<BackendRun> runBackend(Options const& options, Backend backend, std::file
 
     Stage stage(*engine, options);
     if (const Result<void> loaded = stage.load(run, model, environment); !loaded) return loaded.error();
+    if (const Result<void> fitted = stage.fitBudget(run); !fitted) return fitted.error();
     stage.drawFirst(run);
     run.start.startToFirstFrame = whole.milliseconds();
     stage.drawOthers(run);
@@ -195,6 +239,7 @@ Result<BackendRun> runBackend(Options const& options, Backend backend, std::file
     run.timings = stage.renderer().takeTimings();
     run.statistics = stage.renderer().statistics();
     run.explanation = stage.renderer().explain();
+    if (const Result<void> measured = stage.measureCosts(run); !measured) return measured.error();
     run.errors = engine->takeErrors();
     if (!options.traceJobs.empty()) {
         if (const Result<void> traced = engine->writeJobTrace(traceFileOf(options, backend)); !traced)

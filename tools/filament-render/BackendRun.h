@@ -10,6 +10,7 @@
 #include "filament_core/base/Result.h"
 #include "tools/filament-render/Options.h"
 
+#include <filament/QualityBudget.h>
 #include <filament/Renderer.h>
 
 #include <filesystem>
@@ -45,6 +46,8 @@ struct BackendRun {
     FrameStatistics statistics{};      ///< of the last frame
     EngineStatistics afterFirstFrame{}, atEnd{};
     std::string explanation;
+    std::optional<QualityDecision> decision; ///< with --budget
+    std::optional<QualityCosts> costs;       ///< with --measure-costs
 };
 
 /// Samples before this one belong to the warm-up. Three frames use every set of frame data once; the driver thread may

@@ -13,7 +13,7 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 /// The words of the options that only this program has.
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
-                affinity = "none", requireDevice;
+                affinity = "none", requireDevice, budget, costs, measureCosts;
 };
 
 Result<void> convertChoices(Words const& words, Options& options) {
@@ -61,6 +61,17 @@ Result<void> convertThreads(Words const& words, Options& options) {
     return {};
 }
 
+Result<void> convertBudget(Words const& words, Options& options) {
+    options.costs = words.costs;
+    options.measureCosts = words.measureCosts;
+    if (words.budget.empty()) return {};
+    const auto budget = finiteNumber(words.budget);
+    if (!budget || *budget <= 0 || *budget > 1e6)
+        return invalidOption("--budget", words.budget, "milliseconds above 0, up to 1e6");
+    options.budgetMilliseconds = *budget;
+    return {};
+}
+
 void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--backend", words.backend, "vulkan, gles or both (default)")->default_str("both");
     app.add_option("--frames", words.frames, "frames to draw; the last one is saved (1)");
@@ -74,6 +85,11 @@ void declare(CLI::App& app, Words& words, Options& options) {
                    "FILE: what every thread did when, for chrome://tracing or tools/plot/plot.py jobs");
     app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
     app.add_option("--affinity", words.affinity, "none, pin or big-cores: where the job threads run (none)");
+    app.add_option("--budget", words.budget,
+                   "MS: device time of a frame; chooses the quality with the least error in it and says why");
+    app.add_option("--costs", words.costs, "FILE: the cost table for --budget (the library's own)");
+    app.add_option("--measure-costs", words.measureCosts,
+                   "FILE: measure what every quality choice costs in this scene, for --costs");
     app.add_flag("--list-devices", options.listDevices, "print the devices of every backend");
     app.add_option("--require-device", words.requireDevice, "fail unless the device's name contains this");
 }
@@ -94,7 +110,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     options.requireDevice = words.requireDevice;
     options.traceJobs = words.traceJobs;
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert : { convertChoices, convertCounts, convertThreads }) {
+    for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

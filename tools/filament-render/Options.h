@@ -28,6 +28,9 @@ struct Options : SceneOptions {
     int workers = -1;                ///< as EngineOptions::workers
     ThreadAffinity affinity = ThreadAffinity::None;
     bool listDevices = false;
+    std::optional<double> budgetMilliseconds; ///< device time of a frame: the quality is chosen to fit
+    std::filesystem::path costs;              ///< table for that; empty: the library's
+    std::filesystem::path measureCosts;       ///< where to write such a table of this scene; empty: nowhere
 };
 
 /// No value: the help text was asked for and is printed.

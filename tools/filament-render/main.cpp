@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-render [MODEL] [options]: one command line, one or two backends, their pictures and the comparison of the
 // two. Exit status 0: everything asked for was drawn and, with two backends, all pixels are equal (within --tolerance).
+#include "filament_core/assets/EnvironmentFile.h"
 #include "tools/common/Console.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/filament-render/BackendRun.h"
@@ -13,6 +14,7 @@
 #include <algorithm>
 #include <cstdio>
 #include <exception>
+#include <span>
 
 namespace filament::tools {
 namespace {
@@ -44,8 +46,9 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
         if (std::find(errors.begin(), errors.end(), message) == errors.end()) errors.push_back(message);
     };
     std::vector<BackendRun> runs;
+    Options wanted = options;
     for (const Backend backend : options.backends) {
-        Result<BackendRun> run = runBackend(options, backend, files.model, files.environment);
+        Result<BackendRun> run = runBackend(wanted, backend, files.model, files.environment);
         clearProgress();
         if (!run) {
             note(run.error().message);
@@ -60,6 +63,11 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
             note(saved.error().message);
         else
             std::printf("%-7s %s: %s\n", fileStem(backend), run->device.device.c_str(), path.string().c_str());
+        if (run->decision) { // both APIs draw what the first one can afford, or there is nothing to compare
+            wanted.quality = run->decision->quality;
+            wanted.budgetMilliseconds.reset();
+            std::fputs(run->decision->explanation.c_str(), stdout);
+        }
         runs.push_back(std::move(*run));
     }
     return runs;
@@ -72,6 +80,21 @@ Result<ImageComparison> compareRuns(Options const& options, BackendRun const& a,
     const Result<void> saved = savePng(options.out / "diff.png", differenceImage(a.image, b.image));
     if (!saved) return saved.error();
     return comparison;
+}
+
+/// One table of the backends that were measured.
+Result<void> writeCosts(Options const& options, std::vector<BackendRun> const& runs) {
+    std::optional<QualityCosts> costs;
+    for (BackendRun const& run : runs) {
+        if (!run.costs) continue;
+        if (costs)
+            addBackend(*costs, *run.costs, run.backend);
+        else
+            costs = run.costs;
+    }
+    if (!costs) return {};
+    const std::string text = toJson(*costs);
+    return assets::replaceFile(options.measureCosts, std::as_bytes(std::span(text)));
 }
 
 int render(Options const& options) {
@@ -98,6 +121,7 @@ int render(Options const& options) {
                          : writeReport(options.out / "report.json",
                                        { options, files->model, files->environment, runs, comparison, errors });
     if (!reported) errors.push_back(reported.error().message);
+    if (const Result<void> written = writeCosts(options, runs); !written) errors.push_back(written.error().message);
 
     if (!errors.empty()) return failed(fail(ErrorCode::Internal, "{}", fmt::join(errors, "; ")));
     return comparison && !comparison->within(options.tolerance) ? 1 : 0;

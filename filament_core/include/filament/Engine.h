@@ -8,6 +8,7 @@
 ///             CPU drivers, for any number of workers.
 #pragma once
 
+#include <filament/Backend.h>
 #include <filament/Objects.h>
 #include <filament/Result.h>
 
@@ -22,9 +23,6 @@ namespace filament {
 namespace backend {
 class FrameCapture; // backend/layers/Captured.h
 }
-
-enum class Backend : uint8_t { Vulkan, Gles, Null };
-const char* toString(Backend backend);
 
 struct DeviceDescription {
     Backend backend = Backend::Null;

@@ -2,6 +2,7 @@
 /// The whole public API. Start at Engine.h; samples/hello is the shortest complete program.
 #pragma once
 
+#include <filament/Backend.h>
 #include <filament/Box.h>
 #include <filament/Camera.h>
 #include <filament/Color.h>
@@ -14,6 +15,8 @@
 #include <filament/Node.h>
 #include <filament/Objects.h>
 #include <filament/Quality.h>
+#include <filament/QualityBudget.h>
+#include <filament/QualityCosts.h>
 #include <filament/Renderer.h>
 #include <filament/Result.h>
 #include <filament/Scene.h>
