@@ -34,7 +34,8 @@ float alphaFromPerceptual(float perceptualRoughness) { return perceptualRoughnes
 // Surfaces", eq. 33, as (alpha / (1 - noh^2 + (alpha noh)^2))^2 / pi.
 // 1 - noh^2 is factored so that the subtraction is exact for noh >= 1/2: what remains is the rounding of noh itself,
 // at most 3 % of D at kMinAlpha (see ndfGgxFromVectors). Squaring last keeps alpha^4 out of the intermediate values.
-// noh in [0, 1], alpha in [kMinAlpha, 1]. Returns 1/sr in [0, 1 / (pi alpha^2)].
+// noh in [0, 1], alpha in [kMinAlpha, 1]. Returns 1/sr in [0, 1 / (pi alpha^2)]. fp32 only: in 16 bits 1 - noh has no
+// digits where the highlight is.
 float ndfGgx(float noh, float alpha) {
     float a = noh * alpha;
     float k = alpha / ((1.0f - noh) * (1.0f + noh) + a * a);
@@ -42,7 +43,7 @@ float ndfGgx(float noh, float alpha) {
 }
 
 // The same distribution from the vectors: 1 - noh^2 = |n x h|^2 (Lagrange's identity) has no cancellation, so D is
-// good to a few ulp for any alpha. Costs a cross product more. n and h are unit vectors.
+// good to a few ulp for any alpha and in 16 bits too. Costs a cross product more. n and h are unit vectors.
 float ndfGgxFromVectors(vec3 n, vec3 h, float alpha) {
     vec3 nxh = cross(n, h);
     float a = dot(n, h) * alpha;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // From scene-referred linear Rec. 709 to what a display takes: tone mappers, transfer functions, dither noise.
+// The tone mappers, except toneMapMobile(), square scene-referred values, which exceeds 16 bits: they are fp32 only.
 
 const int kToneMapLinear = 0; // clamps
 const int kToneMapAces = 1;   // the ACES rendering transforms, with their desaturation of highlights
@@ -59,7 +60,8 @@ vec3 srgbFromLinear(vec3 x) { return vec3(srgbFromLinear(x.x), srgbFromLinear(x.
 vec3 linearFromSrgb(vec3 x) { return vec3(linearFromSrgb(x.x), linearFromSrgb(x.y), linearFromSrgb(x.z)); }
 
 // Noise that is nearly uniform in every 3x3 block: for dithering and for rotating sample patterns. Jimenez 2014,
-// "Next Generation Post Processing in Call of Duty: Advanced Warfare". pixel: gl_FragCoord.xy. Returns [0, 1).
+// "Next Generation Post Processing in Call of Duty: Advanced Warfare". pixel: gl_FragCoord.xy. Returns [0, 1). fp32 only:
+// 16 bits do not count the pixels of a line.
 float interleavedGradientNoise(vec2 pixel) {
     return fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
 }

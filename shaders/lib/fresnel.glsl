@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fresnel's equations, for whoever wants more than Schlick's term (brdf.glsl): dielectrics and metals in one formula.
+// All fp32 only: n^2 k^2 of mirrors exceeds 16 bits.
 
 // 1 - 2^-10: keeps n and k^2 of a perfect mirror finite, and their squares within fp32.
 const float kMaxExactF0 = 0.9990234375f;

@@ -7,7 +7,8 @@ const float kMinLightDistanceSquared = 1e-4f;
 // Inverse square law, faded smoothly to zero at the range. Karis 2013, "Real Shading in Unreal Engine 4", eq. 9, with
 // the plain inverse square instead of 1 / (d^2 + 1).
 // toLight in metres, not normalised; inverseSquaredRange = 1 / range^2 in 1/m^2, 0: unlimited.
-// Returns 1/m^2 in [0, 1 / kMinLightDistanceSquared], also for a light at distance 0.
+// Returns 1/m^2 in [0, 1 / kMinLightDistanceSquared], also for a light at distance 0. fp32 only: 256 m squared exceeds
+// 16 bits.
 float distanceAttenuation(vec3 toLight, float inverseSquaredRange) {
     float distanceSquared = dot(toLight, toLight);
     float ratio = distanceSquared * inverseSquaredRange;

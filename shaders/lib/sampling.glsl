@@ -2,7 +2,7 @@
 // Low-discrepancy points and how they become directions. z is the normal; u in [0, 1)^2.
 
 // Van der Corput's sequence in base 2: the bits of i mirrored at the point. [0, 1); the low 8 bits, which a float could
-// not hold and would round up to 1, are cut.
+// not hold and would round up to 1, are cut. fp32 only, like hammersley(): indices and steps of 2^-24 need 24 bits.
 float radicalInverse(uint i) {
     uint bits = (i << 16u) | (i >> 16u);
     bits = ((bits & 0x55555555u) << 1u) | ((bits & 0xAAAAAAAAu) >> 1u);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // shaders/lib over edge grids: fp32 and fp16 against fp64 of the same text, and a row for every function that the
 // sources define.
-#include "tools/numerics/Study.h"
+#include "tools/numerics/Report.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -59,6 +59,25 @@ TEST(NumericsTable, CallsTheFunctionThatARowNames) {
     for (Row const& row : rows()) {
         const std::string_view name = row.function.substr(0, row.function.find('('));
         EXPECT_NE(row.call.text.find(name), std::string_view::npos) << row.function << " calls " << row.call.text;
+    }
+}
+
+TEST(NumericsTable, IsInTheDocumentRowByRow) {
+    std::set<std::string> documented, rowed;
+    std::ifstream document(FILAMENT_SOURCE_DIR "/docs/numerics.md");
+    for (std::string line; std::getline(document, line);) {
+        if (line.starts_with("| `")) documented.insert(line.substr(3, line.find('`', 3) - 3));
+    }
+    for (Row const& row : rows()) rowed.insert(titleOf(row));
+    EXPECT_THAT(documented, ::testing::ContainerEq(rowed)) << "run filament-numerics --write docs/numerics.md";
+}
+
+TEST(NumericsTable, AgreesWithTheSourcesWhere16BitsAreNotEnough) {
+    for (Row const& row : rows()) {
+        if (row.fp32Only.empty()) continue;
+        std::ostringstream text;
+        text << std::ifstream(fmt::format("{}/shaders/lib/{}.glsl", FILAMENT_SOURCE_DIR, row.file)).rdbuf();
+        EXPECT_THAT(text.str(), ::testing::HasSubstr("fp32 only")) << row.function;
     }
 }
 
@@ -149,6 +168,27 @@ TEST(NumericsStudy, SelectsRowsByTheirNames) {
     const Result<Study> some = runStudy("visibilitySmith");
     ASSERT_TRUE(some) << some.error().message;
     EXPECT_EQ(some->rows.size(), 3u);
+}
+
+TEST(NumericsReport, HasEveryCountOfEveryColumn) {
+    const Result<Study> study = runStudy("pow5");
+    ASSERT_TRUE(study) << study.error().message;
+    const std::string csv = csvOf(*study);
+    const auto lines = static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n'));
+    EXPECT_EQ(lines, 1 + kColumns.size() - 2 * study->missing.size());
+    EXPECT_THAT(csv, ::testing::HasSubstr("math,\"pow5(float)\",\"\",C++ fp32,"));
+    EXPECT_THAT(jsonOf(*study), ::testing::HasSubstr("\"function\": \"pow5(float)\""));
+    EXPECT_THAT(terminalTable(*study), ::testing::HasSubstr("pow5(float)"));
+}
+
+TEST(NumericsReport, NamesABrokenPromiseInEveryTable) {
+    Result<Study> study = runStudy("pow5");
+    ASSERT_TRUE(study) << study.error().message;
+    EXPECT_EQ(violationCount(*study), 0u);
+    study->rows[0].columns[0]->nan = 3;
+    EXPECT_EQ(violationCount(*study), 1u);
+    EXPECT_THAT(terminalTable(*study), ::testing::HasSubstr("! C++ fp32: 3 NaN"));
+    EXPECT_THAT(markdownOf(*study), ::testing::HasSubstr("**C++ fp32: 3 NaN"));
 }
 
 /// The mutations that prove the measurement: a result that is off by one part in a thousand, NaN, out of range, or in

@@ -65,6 +65,7 @@ void checkOrder(Row const& row, Column column, Points const& points, Results con
 }
 
 void countOutside(Row const& row, Points const& points, Results const& results, Measurement& sum) {
+    bool beyond = false; // whether the first input is somewhat outside, which says more than one that is huge
     for (size_t i = 0; i < results.size(); ++i) {
         OutsideCount& count = sum.outside[static_cast<size_t>(points.outsideInputs[i])];
         bool nan = false, infinite = false;
@@ -73,6 +74,11 @@ void countOutside(Row const& row, Points const& points, Results const& results, 
             infinite |= std::isinf(results[i][c]);
         }
         ++(nan ? count.nan : infinite ? count.infinite : count.number);
+        const OutsideInput input = points.outsideInputs[i];
+        if (!(nan || infinite) || input > OutsideInput::Huge) continue;
+        if (!beyond && input == OutsideInput::Beyond) sum.firstOutsideNotFinite.reset();
+        beyond |= input == OutsideInput::Beyond;
+        remember(sum.firstOutsideNotFinite, points.outside[i]);
     }
 }
 

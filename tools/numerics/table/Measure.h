@@ -34,6 +34,7 @@ struct Measurement {
     std::optional<Point> worstAt, firstNotFinite, firstOutOfRange, firstNotMonotone;
     double worstResult = 0, worstTruth = 0;
     std::array<OutsideCount, kOutsideInputs> outside{}; ///< by OutsideInput
+    std::optional<Point> firstOutsideNotFinite;         ///< among the finite inputs
 };
 
 Measurement measure(Row const& row, Column column, Points const& points, Results const& inside, Results const& outside);

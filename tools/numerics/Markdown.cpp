@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// markdownOf(): docs/numerics.md as a whole, words and tables.
+#include "tools/numerics/Report.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+namespace filament::shader::numerics {
+namespace {
+
+constexpr std::string_view kIntroduction = R"(# Numerics of the shader library
+
+Written by `filament-numerics --write docs/numerics.md`: change the rows in `tools/numerics/table`, not this file.
+
+Every function of `shaders/lib` is evaluated over a grid of edges (0, denormals, one unit in the last place beside 0 and 1,
+a value per decade, the ends of each interval; directions within 1e-7 of an axis) in five ways, and each result is compared
+with the double-precision evaluation of the same text for the same, already rounded, inputs.
+
+- **C++** is the library as the tests and the bakers compile it, **Vulkan** and **OpenGL ES** are fragment shaders in 32
+  bits; these two agree to the bit.
+- **fp16** is `float16_t` on Vulkan and `mediump` on OpenGL ES, both with real 16-bit arithmetic on the devices below.
+  Inputs are numbers of 16 bits, so that the error is that of the arithmetic alone. A function that 16 bits cannot carry
+  says "fp32 only" and why.
+- **Error** is |result - truth| / max(|truth|, size), the largest and, behind the point, the 99th percentile. The size is the
+  least that is told apart from 0: 1e-30, in 16 bits 6.1e-5, or what the row's reason says.
+- Within their intervals no input gives NaN, infinity, a result out of its range, or, where the function is monotone, a step
+  in the wrong direction beyond the rounding. Anything else, and an error above the limit, fails `numerics_tests`.
+
+A new function gets a row in `tools/numerics/table/*Rows.cpp`, without which a test fails: its inputs and their intervals, its
+range, its limits and the reason for them.
+
+)";
+
+constexpr std::string_view kOutside = R"(## Outside of the intervals
+
+What the functions give for inputs that their comments exclude: *beyond* is a step, 0.1, 1 and 100 (in 16 bits 4) outside of
+an interval, *huge* the largest number of the format, one argument at a time. Only "beyond" is tested, and only where no reason is given:
+it must give numbers. Where the columns differ, which is where GLSL leaves `min`, `max` and `clamp` of NaN open, the cell
+says whose result it is; GPU is both APIs in both precisions.
+
+| function | beyond | huge | infinite | NaN | first finite input with NaN or inf | reason |
+|---|---|---|---|---|---|---|
+)";
+
+std::string intervalOf(Argument const& argument) {
+    switch (argument.kind) {
+    case Kind::Direction:
+        return fmt::format("{} unit", argument.name);
+    case Kind::Rotation:
+        return fmt::format("{} unit quaternion", argument.name);
+    case Kind::Offset:
+        return fmt::format("|{}| {:.4g}..{:.4g}", argument.name, argument.low, argument.high);
+    default:
+        return fmt::format("{} {:.4g}..{}{:.4g}", argument.name, argument.low, argument.open ? "<" : "", argument.high);
+    }
+}
+
+std::string inputsOf(Row const& row) {
+    std::string text;
+    const auto add = [&](Argument const& argument) {
+        if (isUsed(argument)) text += (text.empty() ? "" : ", ") + intervalOf(argument);
+    };
+    for (Argument const& argument : row.s) add(argument);
+    add(row.u);
+    add(row.v);
+    return text.empty() ? "none" : text;
+}
+
+std::string shortError(double error) { return error == 0 ? "0" : fmt::format("{:.0e}", error); }
+
+std::string errorCell(RowResult const& row, Column column) {
+    if (!isMeasured(*row.row, column)) return "fp32 only";
+    if (!row.of(column)) return "no device";
+    Measurement const& m = *row.of(column);
+    std::string trouble;
+    for (std::string const& one : violations(*row.row, column, m)) trouble += fmt::format(" **{}**", one);
+    if (!row.row->noError.empty()) return "finite" + trouble;
+    return fmt::format("{} · {}{}", shortError(m.worst), shortError(m.percentile99), trouble);
+}
+
+std::string reasonOf(Row const& row) {
+    std::string reason(row.noError.empty() ? row.limits.why : row.noError);
+    if (!row.fp32Only.empty()) reason += fmt::format("; fp32 only: {}", row.fp32Only);
+    return reason;
+}
+
+std::string limitsOf(Row const& row) {
+    if (!row.noError.empty()) return "";
+    const std::string single = shortError(row.limits.gpu);
+    return row.fp32Only.empty() ? fmt::format("{}, {}", single, shortError(row.limits.half)) : single;
+}
+
+void appendErrors(std::string& text, RowResult const& row) {
+    text += fmt::format("| `{}` | {} |", titleOf(*row.row), inputsOf(*row.row));
+    for (const Column column : kColumns) text += fmt::format(" {} |", errorCell(row, column));
+    text += fmt::format(" {} | {} |\n", limitsOf(*row.row), reasonOf(*row.row));
+}
+
+/// "number", "number, inf": what came out at all.
+std::string outcomesOf(OutsideCount const& count) {
+    std::string text;
+    const auto add = [&](uint32_t n, std::string_view name) {
+        if (n > 0) text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+    };
+    add(count.number, "number");
+    add(count.infinite, "inf");
+    add(count.nan, "NaN");
+    return text;
+}
+
+/// "fp16" for both of its columns, and so on; the names of the columns where no word covers them.
+std::string nameOf(std::vector<Column> const& columns) {
+    const std::vector<Column> single{ Column::VulkanSingle, Column::GlesSingle };
+    const std::vector<Column> half{ Column::VulkanHalf, Column::GlesHalf };
+    std::vector<Column> gpu = single, fp32{ Column::Cpp, Column::VulkanSingle, Column::GlesSingle };
+    gpu.insert(gpu.end(), half.begin(), half.end());
+    if (columns == half) return "fp16";
+    if (columns == fp32) return "fp32";
+    if (columns == gpu) return "GPU";
+    if (columns == single) return "fp32 GPU";
+    std::string text;
+    for (const Column column : columns) text += fmt::format("{}{}", text.empty() ? "" : ", ", toString(column));
+    return text;
+}
+
+std::string outsideCell(RowResult const& row, size_t input) {
+    std::vector<std::pair<std::string, std::vector<Column>>> groups; // columns of equal outcomes
+    for (const Column column : kColumns) {
+        if (!row.of(column)) continue;
+        const std::string outcomes = outcomesOf(row.of(column)->outside[input]);
+        if (outcomes.empty()) continue; // the interval ends with the numbers of the format
+        auto known = std::find_if(groups.begin(), groups.end(), [&](auto const& g) { return g.first == outcomes; });
+        if (known == groups.end()) known = groups.insert(known, { outcomes, {} });
+        known->second.push_back(column);
+    }
+    if (groups.empty()) return "none";
+    if (groups.size() == 1) return groups[0].first;
+    std::string text;
+    for (auto const& [outcomes, columns] : groups)
+        text += fmt::format("{}{} ({})", text.empty() ? "" : "; ", outcomes, nameOf(columns));
+    return text;
+}
+
+std::string firstNotFinite(RowResult const& row) {
+    for (const Column column : kColumns) {
+        if (row.of(column) && row.of(column)->firstOutsideNotFinite)
+            return fmt::format("{} ({})", describe(*row.row, *row.of(column)->firstOutsideNotFinite), toString(column));
+    }
+    return "";
+}
+
+void appendOutside(std::string& text, RowResult const& row) {
+    text += fmt::format("| `{}` |", titleOf(*row.row));
+    for (size_t input = 0; input < kOutsideInputs; ++input) text += fmt::format(" {} |", outsideCell(row, input));
+    text += fmt::format(" {} | {} |\n", firstNotFinite(row), row.row->outsideWhy);
+}
+
+std::string summaryOf(Study const& study) {
+    size_t inputs = 0, notFinite = 0, columns = 0;
+    for (RowResult const& row : study.rows) {
+        for (const Column column : kColumns) {
+            if (!row.of(column)) continue;
+            inputs += row.of(column)->inputs;
+            notFinite += row.of(column)->nan + row.of(column)->infinite;
+            ++columns;
+        }
+    }
+    return fmt::format(
+            "This run: {} functions and cases, {} tables of results, {} evaluations of inputs in range, of which "
+            "**{} gave NaN or infinity**; {} broken promises in all. Vulkan on {}; OpenGL ES on {}.\n",
+            study.rows.size(), columns, inputs, notFinite, violationCount(study), study.devices[0], study.devices[1]);
+}
+
+} // namespace
+
+std::string markdownOf(Study const& study) {
+    std::string text = std::string(kIntroduction) + summaryOf(study);
+    std::string_view file;
+    for (RowResult const& row : study.rows) {
+        if (row.row->file != file) {
+            file = row.row->file;
+            text += fmt::format("\n## {}.glsl\n\n| function | inputs | C++ fp32 | Vulkan fp32 | ES fp32 | Vulkan fp16 "
+                                "| ES fp16 | limits fp32, fp16 | because |\n|---|---|---|---|---|---|---|---|---|\n",
+                                file);
+        }
+        appendErrors(text, row);
+    }
+    text += "\n" + std::string(kOutside);
+    for (RowResult const& row : study.rows) {
+        const bool constant = inputsOf(*row.row) == "none";
+        if (!constant) appendOutside(text, row);
+    }
+    return text;
+}
+
+} // namespace filament::shader::numerics

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// filament-numerics [--only TEXT] [--csv FILE] [--json FILE] [--write FILE]: every function of shaders/lib over edge
+// grids in fp32 and fp16 on the CPU and both APIs, against fp64. Exit status 0: every promise is kept. 1: some are not,
+// or the run could not be made. docs/numerics.md.
+#include "tools/common/CommandLine.h"
+#include "tools/common/Console.h"
+#include "tools/numerics/Report.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <fstream>
+
+namespace filament::shader::numerics {
+namespace {
+
+int failed(Error const& error) {
+    tools::printError(error.message);
+    return 1;
+}
+
+struct Options {
+    std::string only, csv, json, markdown;
+};
+
+void declare(CLI::App& app, Options& options) {
+    app.add_option("--only", options.only, "rows whose function contains this, or of this file")->type_name("TEXT");
+    app.add_option("--csv", options.csv, "write every count of every column")->type_name("FILE");
+    app.add_option("--json", options.json, "the same as JSON")->type_name("FILE");
+    app.add_option("--write", options.markdown, "write the tables of docs/numerics.md")->type_name("FILE");
+}
+
+Result<void> write(std::string const& path, std::string const& text) {
+    if (path.empty()) return {};
+    std::ofstream file(path, std::ios::binary);
+    if (!(file << text).flush())
+        return fail(ErrorCode::Unreadable, "{}: cannot be written; does its folder exist?", path);
+    return {};
+}
+
+int run(Options const& options) {
+    const Result<Study> study = runStudy(options.only);
+    if (!study) return failed(study.error());
+    if (study->rows.empty())
+        return failed(
+                tools::invalidOption("--only", options.only, "part of a function's name, or a file of shaders/lib"));
+    std::fputs(terminalTable(*study).c_str(), stdout);
+    if (const Result<void> done = write(options.csv, csvOf(*study)); !done) return failed(done.error());
+    if (const Result<void> done = write(options.json, jsonOf(*study)); !done) return failed(done.error());
+    if (const Result<void> done = write(options.markdown, markdownOf(*study)); !done) return failed(done.error());
+    const size_t broken = violationCount(*study);
+    std::printf("%zu functions and cases, %zu broken promises\n", study->rows.size(), broken);
+    return broken > 0 ? 1 : 0;
+}
+
+} // namespace
+} // namespace filament::shader::numerics
+
+int main(int argc, char** argv) {
+    using namespace filament;
+    tools::setProgramName("filament-numerics");
+    tools::routeLogToConsole();
+    CLI::App app("Evaluates every function of shaders/lib over edge grids in every precision.", "filament-numerics");
+    shader::numerics::Options options;
+    shader::numerics::declare(app, options);
+    const Result<bool> parsed = tools::parseWords(app, argc, argv);
+    if (!parsed) return shader::numerics::failed(parsed.error());
+    return *parsed ? shader::numerics::run(options) : 0;
+}
