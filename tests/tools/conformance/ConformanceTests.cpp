@@ -1,6 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tools/conformance/Flip.h"
-#include "tools/conformance/ImageChecks.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Runner.h"
 
@@ -10,15 +8,6 @@
 
 namespace filament::conformance {
 namespace {
-
-Image grey(uint8_t value, uint32_t side = 32) {
-    Image image{ .width = side, .height = side };
-    for (uint32_t i = 0; i < side * side; ++i) {
-        for (int c = 0; c < 3; ++c) image.pixels.push_back(std::byte{ value });
-        image.pixels.push_back(std::byte{ 255 });
-    }
-    return image;
-}
 
 Options optionsFor(std::string const& name) {
     Options options;
@@ -36,32 +25,6 @@ std::vector<SceneSpec> allScenes() {
     auto scenes = readScenes(FILAMENT_SOURCE_DIR "/tests/conformance/scenes");
     EXPECT_TRUE(scenes.ok()) << (scenes.ok() ? "" : scenes.error().message);
     return scenes.ok() ? std::move(*scenes) : std::vector<SceneSpec>();
-}
-
-TEST(Flip, OfAPictureAndItselfIsZeroAndOfBlackAndWhiteNearlyOne) {
-    EXPECT_EQ(flip(grey(77), grey(77)).mean, 0);
-    EXPECT_GT(flip(grey(0), grey(255)).mean, 0.9);
-    EXPECT_LE(flip(grey(0), grey(255)).mean, 1);
-}
-
-TEST(Flip, IsSymmetricAndGrowsWithTheDifference) {
-    EXPECT_DOUBLE_EQ(flip(grey(40), grey(90)).mean, flip(grey(90), grey(40)).mean);
-    EXPECT_LT(flip(grey(40), grey(50)).mean, flip(grey(40), grey(90)).mean);
-}
-
-TEST(ImageChecks, RefuseBlackAndEmptyPicturesAndAcceptOthers) {
-    EXPECT_NE(faultOf(grey(0)).find("black"), std::string::npos);
-    EXPECT_NE(faultOf(grey(9)).find("nothing was drawn"), std::string::npos);
-    Image drawn = grey(9);
-    drawn.pixels[40] = std::byte{ 10 };
-    EXPECT_EQ(faultOf(drawn), "");
-}
-
-TEST(ImageChecks, NameThePixelThatIsNotFinite) {
-    Image image{ .width = 2, .height = 1, .format = Format::RGBA16F };
-    image.pixels.resize(16);
-    image.pixels[9] = std::byte{ 0x7E }; // red of the second pixel: a half NaN
-    EXPECT_NE(faultOf(image).find("pixel (1, 0)"), std::string::npos) << faultOf(image);
 }
 
 TEST(Shards, TogetherHaveEveryCaseOnce) {

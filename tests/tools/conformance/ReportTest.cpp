@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/Report.h"
+#include "tests/tools/conformance/Pictures.h"
+#include "tools/conformance/Baselines.h"
+
+#include <gtest/gtest.h>
+
+#include <fstream>
+
+namespace filament::conformance {
+namespace {
+
+using Path = std::filesystem::path;
+
+Path freshFolder(const char* name) {
+    const Path folder = Path(FILAMENT_BINARY_DIR) / "conformance-report-tests" / name;
+    std::filesystem::remove_all(folder);
+    std::filesystem::create_directories(folder);
+    return folder;
+}
+
+std::string textOfFile(Path const& path) {
+    std::ifstream file(path, std::ios::binary);
+    return { std::istreambuf_iterator<char>(file), {} };
+}
+
+size_t countOf(std::string const& text, std::string_view part) {
+    size_t count = 0;
+    for (size_t at = text.find(part); at != std::string::npos; at = text.find(part, at + 1)) ++count;
+    return count;
+}
+
+/// One case of each status; the failed one differs in a picture and let a mutant pass.
+Results mixedResults() {
+    const Comparison equal{ .configuration = "gles", .passed = true };
+    const Comparison differs{ .configuration = "gles",
+                              .differing = 3,
+                              .maxDifference = 12,
+                              .first = "pixel (1, 2) <after draw 7>",
+                              .image = "test.png",
+                              .difference = "difference.png" };
+    return { .build = "Release & more",
+             .reference = "vulkan",
+             .devices = { { "vulkan", "llvmpipe" } },
+             .cases = { { .name = "a", .status = Status::Passed, .comparisons = { equal, equal } },
+                        { .name = "b\"c",
+                          .status = Status::Failed,
+                          .reasons = { "gles differs", "a mutant was not noticed" },
+                          .image = "reference.png",
+                          .comparisons = { differs },
+                          .kills = { { "oneLightOff", false, 0 }, { "depthCompare", true, 5 } } },
+                        { .name = "d", .status = Status::Skipped, .reasons = { "no asset" } } },
+             .seconds = { { "a", 1.5 }, { "b\"c", 0.25 } } };
+}
+
+TEST(JUnit, HasEachCaseItsTimeAndWhyItFailedWithNothingUnescaped) {
+    EXPECT_EQ(junitOf(mixedResults()), R"(<?xml version="1.0" encoding="UTF-8"?>
+<testsuites><testsuite name="conformance" tests="3" failures="1" skipped="1" errors="0" time="1.750">
+<testcase classname="conformance.Release &amp; more" name="a" time="1.500"></testcase>
+<testcase classname="conformance.Release &amp; more" name="b&quot;c" time="0.250"><failure message="gles differs">gles differs
+a mutant was not noticed</failure></testcase>
+<testcase classname="conformance.Release &amp; more" name="d" time="0.000"><skipped message="no asset"/></testcase>
+</testsuite></testsuites>
+)");
+}
+
+TEST(Html, HoldsItsPicturesAndNeedsNothingElse) {
+    const Path folder = freshFolder("html");
+    for (const char* name : { "reference.png", "test.png", "difference.png" })
+        ASSERT_TRUE(savePng(folder / name, grey(100, 4)).ok());
+    const std::string html = htmlOf(mixedResults(), folder);
+    // Reference, test and difference, and both pictures in turn.
+    EXPECT_EQ(countOf(html, "<img "), 5u);
+    EXPECT_EQ(countOf(html, "src=\"data:image/png;base64,iVBORw0KGgo"), 5u) << "every picture is a PNG in the page";
+    EXPECT_EQ(html.find("http"), std::string::npos);
+    EXPECT_EQ(html.find("<link"), std::string::npos);
+    EXPECT_EQ(countOf(html, "class=\"blink\""), 1u);
+    EXPECT_NE(html.find("first: pixel (1, 2) &lt;after draw 7&gt;"), std::string::npos);
+    EXPECT_LT(html.find("b&quot;c"), html.find("<h3>a")) << "what failed comes first";
+    EXPECT_NE(html.find("1 of 2 noticed"), std::string::npos);
+    EXPECT_NE(html.find("2 configurations: the same bits"), std::string::npos);
+}
+
+TEST(Html, LeavesAPictureOutThatIsNotThere) {
+    EXPECT_EQ(countOf(htmlOf(mixedResults(), freshFolder("empty")), "<img "), 0u);
+}
+
+TEST(Report, IsReadBackAsItWasWritten) {
+    const Path folder = freshFolder("round-trip");
+    const Results results = mixedResults();
+    ASSERT_TRUE(writeReport(folder, results).ok());
+    const Result<Results> again = readResults(folder);
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    EXPECT_EQ(toJson(*again), toJson(results));
+    EXPECT_EQ(again->seconds, results.seconds);
+    EXPECT_EQ(textOfFile(folder / "junit.xml"), junitOf(results));
+    EXPECT_EQ(textOfFile(folder / "report.html"), htmlOf(results, folder));
+}
+
+TEST(Report, ThatIsDamagedOrMissingIsAnErrorWithItsPath) {
+    const Path folder = freshFolder("damaged");
+    EXPECT_NE(readResults(folder).error().message.find(folder.string()), std::string::npos);
+    std::ofstream(folder / "times.json") << "{}";
+    std::ofstream(folder / "results.json") << R"({ "cases": 7 })";
+    EXPECT_EQ(readResults(folder).error().code, ErrorCode::Corrupt);
+    EXPECT_NE(readResults(folder).error().message.find(folder.string()), std::string::npos);
+}
+
+TEST(Merge, RefusesACaseThatTwoShardsHave) {
+    const Result<Results> merged = merge({ mixedResults(), mixedResults() });
+    ASSERT_FALSE(merged.ok());
+    EXPECT_NE(merged.error().message.find("'a'"), std::string::npos) << merged.error().message;
+}
+
+const Machine kHere{ .device = "llvmpipe", .driver = "Mesa 22.3.6", .cpuFeatures = "avx avx2" };
+const Machine kThere{ .device = "llvmpipe", .driver = "Mesa 24.0", .cpuFeatures = "avx512f" };
+
+Baselines stored(Image const& image) {
+    Baselines baselines;
+    baselines.store("case", image, kHere);
+    return baselines;
+}
+
+TEST(Baselines, FailACaseThatTheyDoNotHave) {
+    const BaselineVerdict verdict = Baselines().check("case", grey(1), kHere);
+    EXPECT_FALSE(verdict.passed);
+    EXPECT_NE(verdict.text.find("missing"), std::string::npos);
+}
+
+TEST(Baselines, DemandTheSameBitsOnTheSameMachine) {
+    Image image = grey(100);
+    EXPECT_TRUE(stored(image).check("case", image, kHere).passed);
+    const Baselines baselines = stored(image);
+    image.pixels[5] ^= std::byte{ 1 };
+    EXPECT_FALSE(baselines.check("case", image, kHere).passed);
+}
+
+TEST(Baselines, GoByTheThumbnailOnAnotherMachineAndSaySo) {
+    Image image = grey(100);
+    const Baselines baselines = stored(image);
+    image.pixels[5] ^= std::byte{ 1 };
+    const BaselineVerdict close = baselines.check("case", image, kThere);
+    EXPECT_TRUE(close.passed);
+    EXPECT_NE(close.text.find("made on llvmpipe, Mesa 22.3.6"), std::string::npos) << close.text;
+    EXPECT_FALSE(baselines.check("case", grey(110), kThere).passed);
+}
+
+TEST(Baselines, OfAnotherMachineAreForgottenWhenOneIsStored) {
+    Baselines baselines = stored(grey(100));
+    baselines.store("other", grey(50), kThere);
+    EXPECT_FALSE(baselines.check("case", grey(100), kThere).passed);
+    EXPECT_TRUE(baselines.check("other", grey(50), kThere).passed);
+}
+
+TEST(Baselines, AreReadBackAsTheyWereWritten) {
+    const Path file = freshFolder("baselines") / "baselines.json";
+    ASSERT_TRUE(stored(grey(100)).write(file).ok());
+    const Result<Baselines> again = Baselines::read(file);
+    ASSERT_TRUE(again.ok()) << again.error().message;
+    EXPECT_TRUE(again->check("case", grey(100), kHere).passed);
+    EXPECT_TRUE(again->check("case", grey(100), kThere).passed) << "the thumbnail came back, too";
+    std::ofstream(file) << "{ \"machine\": 3 }";
+    EXPECT_EQ(Baselines::read(file).error().code, ErrorCode::Corrupt);
+}
+
+TEST(Baselines, HaveThumbnailsOfTheMeanColour) {
+    Image image = grey(0, 64);
+    for (uint32_t y = 0; y < 64; ++y) {
+        for (uint32_t x = y % 2; x < 64; x += 2) image.pixels[(y * 64 + x) * 4] = std::byte{ 200 }; // half of the red
+    }
+    const Image small = thumbnailOf(image);
+    ASSERT_EQ(small.pixels.size(), kThumbnail * kThumbnail * 4);
+    for (size_t i = 0; i < small.pixels.size(); i += 4) EXPECT_EQ(small.pixels[i], std::byte{ 100 });
+}
+
+} // namespace
+} // namespace filament::conformance
