@@ -11,7 +11,7 @@ const float kMinPerceptualRoughnessMedium = 0.089f;
 const float kMinAlpha = 0.002025f; // kMinPerceptualRoughness^2
 // Keeps 0.5 / 0 finite where both view and light graze; four decades below the least sum of visible directions. In 16
 // bits, where that is 0, the smallest normal number: V ends at 8192.
-#ifdef MEDIUM_PRECISION
+#ifdef HALF_PRECISION
 const float kMinVisibilityDenominator = 6.103515625e-5f;
 #else
 const float kMinVisibilityDenominator = 1e-10f;
