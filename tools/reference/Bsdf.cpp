@@ -73,8 +73,20 @@ Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusi
     const double specular = model.lobes == LobeChoice::Diffuse ? 0 : lib::luminance(specularAlbedo);
     const double diffuse = lib::luminance(mDiffuse * mCoupling);
     // A tenth at least for each lobe that is there.
-    mSpecularChance = diffuse > 0 ? std::clamp(specular / (specular + diffuse), 0.1, 0.9) : 1;
+    const bool samplesDiffuse = diffuse > 0 && model.diffuseLight == DiffuseLight::Integral;
+    mSpecularChance = samplesDiffuse ? std::clamp(specular / (specular + diffuse), 0.1, 0.9) : 1;
     if (model.lobes == LobeChoice::Diffuse) mSpecularChance = 0;
+    if (model.specularLight == SpecularLight::SplitSum && model.lobes != LobeChoice::Diffuse) {
+        mLobe.emplace(mAlpha);
+        mLobeAlbedo = lib::specularDfg(mF0, dfg) * mCompensation * mAmbientSpecular;
+        const double3 mirrored(-mView.x, -mView.y, mView.z);
+        mLobeAxis = glm::normalize(lib::dominantSpecularDirection({ 0, 0, 1 }, mirrored, mAlpha));
+        basisAround(mLobeAxis, mLobeTangent, mLobeBitangent);
+    }
+}
+
+double3 Bsdf::harmonicAlbedo() const {
+    return mModel.diffuseLight == DiffuseLight::Harmonics ? mDiffuse * mCoupling * mAmbientDiffuse : double3(0.0);
 }
 
 double Bsdf::visibility(double nol) const {
@@ -101,46 +113,59 @@ double Bsdf::diffuseTerm(double nol, double voh) const {
 
 double3 Bsdf::evaluate(double3 light, LightSource source) const {
     const double nol = std::min(glm::dot(mNormal, light), 1.0);
-    if (nol <= 0) return double3(0.0);
     const double3 local = toLocal(light);
+    double3 sum = nol > 0 ? lobesAt(local, nol, source) * nol : double3(0.0);
+    if (mLobe && source == LightSource::Ambient) sum += mLobeAlbedo * mLobe->value(toLobe(local));
+    return sum;
+}
+
+// Without what is pre-filtered.
+double3 Bsdf::lobesAt(double3 local, double nol, LightSource source) const {
     const double3 sum = mView + local;
     const double length = glm::length(sum);
     if (length < 1e-12) return double3(0.0);
     const double3 halfway = sum / length;
     const double voh = lib::saturate(glm::dot(mView, halfway));
-    const double d = lib::ndfGgxFromVectors({ 0, 0, 1 }, halfway, mAlpha);
-    double3 specular = (d * visibility(nol)) * fresnel(voh) * mCompensation;
-    double3 diffuse = mDiffuse * diffuseTerm(nol, voh);
-    if (mModel.coupling != CouplingTerm::Engine || source != LightSource::Direct) diffuse *= mCoupling;
-    if (source == LightSource::Ambient) {
-        diffuse *= mAmbientDiffuse;
-        specular *= mAmbientSpecular;
+    const bool isAmbient = source == LightSource::Ambient;
+    double3 specular(0.0), diffuse(0.0);
+    if (!mLobe || !isAmbient) {
+        const double d = lib::ndfGgxFromVectors({ 0, 0, 1 }, halfway, mAlpha);
+        specular = (d * visibility(nol)) * fresnel(voh) * mCompensation;
     }
-    return (diffuse + specular) * nol;
+    if (mModel.diffuseLight == DiffuseLight::Integral || !isAmbient) {
+        diffuse = mDiffuse * diffuseTerm(nol, voh);
+        if (mModel.coupling != CouplingTerm::Engine || isAmbient) diffuse *= mCoupling;
+    }
+    return isAmbient ? diffuse * mAmbientDiffuse + specular * mAmbientSpecular : diffuse + specular;
 }
 
 BsdfSample Bsdf::sample(double2 u, double choice) const {
-    double3 local;
-    if (choice < mSpecularChance) {
-        const double3 halfway = sampleVisibleNormal(mView, mAlpha, u);
-        local = 2 * glm::dot(mView, halfway) * halfway - mView;
-    } else {
-        local = lib::hemisphereCosineSample(u);
-    }
-    if (local.z <= 0) return {};
+    if (mModel.diffuseLight == DiffuseLight::Harmonics && mModel.lobes == LobeChoice::Diffuse) return {};
+    const double3 local = choice < mSpecularChance ? sampleSpecular(u) : lib::hemisphereCosineSample(u);
+    if (local.z <= 0 && !mLobe) return {};
     const double3 direction = glm::normalize(toWorld(local));
     return { direction, pdf(direction) };
 }
 
+double3 Bsdf::sampleSpecular(double2 u) const {
+    if (mLobe) {
+        const double3 lobe = mLobe->sample(u);
+        return mLobeTangent * lobe.x + mLobeBitangent * lobe.y + mLobeAxis * lobe.z;
+    }
+    const double3 halfway = sampleVisibleNormal(mView, mAlpha, u);
+    return 2 * glm::dot(mView, halfway) * halfway - mView;
+}
+
 double Bsdf::pdf(double3 light) const {
     const double3 local = toLocal(light);
-    if (local.z <= 0) return 0;
-    double density = (1 - mSpecularChance) * local.z * lib::kInversePi;
+    if (local.z <= 0 && !mLobe) return 0;
+    double density = (1 - mSpecularChance) * std::max(local.z, 0.0) * lib::kInversePi;
     if (mSpecularChance > 0) density += mSpecularChance * specularPdf(local);
     return density;
 }
 
 double Bsdf::specularPdf(double3 light) const {
+    if (mLobe) return mLobe->pdf(toLobe(light));
     const double3 sum = mView + light;
     const double length = glm::length(sum);
     if (length < 1e-12) return 0;

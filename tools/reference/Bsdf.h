@@ -10,7 +10,10 @@
 #pragma once
 
 #include "tools/reference/BsdfModel.h"
+#include "tools/reference/Prefiltered.h"
 #include "tools/reference/Surface.h"
+
+#include <optional>
 
 namespace filament::reference {
 
@@ -30,12 +33,15 @@ public:
     /// `useOcclusion`: the occlusion map dims ambient light as it does in the engine.
     Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion);
 
-    /// f * cos(light, normal), zero below the horizon. `light`: world, unit.
+    /// f * cos(light, normal), zero below the horizon. `light`: world, unit. The lobe of the split sum stands in for
+    /// the specular one and may reach below the horizon, as the engine's does.
     double3 evaluate(double3 light, LightSource source) const;
     /// u and choice in (0, 1).
     BsdfSample sample(double2 u, double choice) const;
     /// Of sample(), per steradian.
     double pdf(double3 light) const;
+    /// What DiffuseLight::Harmonics multiplies irradiance / pi around the normal by; 0 with an integral.
+    double3 harmonicAlbedo() const;
 
 private:
     double3 toLocal(double3 v) const {
@@ -45,7 +51,12 @@ private:
     double visibility(double nol) const;
     double3 fresnel(double voh) const;
     double diffuseTerm(double nol, double voh) const;
+    double3 lobesAt(double3 local, double nol, LightSource source) const;
+    double3 sampleSpecular(double2 u) const; ///< local
     double specularPdf(double3 light) const;
+    double3 toLobe(double3 local) const {
+        return { glm::dot(local, mLobeTangent), glm::dot(local, mLobeBitangent), glm::dot(local, mLobeAxis) };
+    }
 
     BsdfModel mModel;
     double3 mNormal, mTangent, mBitangent;
@@ -60,6 +71,9 @@ private:
     double3 mAmbientDiffuse{ 1.0 }; // occlusion
     double mAmbientSpecular = 1;    // occlusion
     double mSpecularChance = 0;
+    std::optional<PrefilteredLobe> mLobe;                                             // SpecularLight::SplitSum
+    double3 mLobeAxis{ 0, 0, 1 }, mLobeTangent{ 1, 0, 0 }, mLobeBitangent{ 0, 1, 0 }; // local
+    double3 mLobeAlbedo{ 0.0 };
 };
 
 } // namespace filament::reference

@@ -26,6 +26,18 @@ enum class CouplingTerm : uint8_t {
 /// Which lobes reflect. The two alone add up to both.
 enum class LobeChoice : uint8_t { Both, Diffuse, Specular };
 
+/// How the specular lobe gathers the environment. SplitSum, with Integrator::Unoccluded only.
+enum class SpecularLight : uint8_t {
+    Integral,
+    SplitSum, ///< the engine's: pre-filtered as seen along the normal, times the lobe's albedo (Prefiltered.h)
+};
+
+/// How the diffuse lobe gathers the environment. Harmonics, with Integrator::Unoccluded and a Lambert lobe only.
+enum class DiffuseLight : uint8_t {
+    Integral,
+    Harmonics, ///< the engine's: three bands (Prefiltered.h)
+};
+
 struct BsdfModel {
     SpecularVisibility visibility = SpecularVisibility::Correlated;
     FresnelTerm fresnel = FresnelTerm::Schlick;
@@ -33,6 +45,8 @@ struct BsdfModel {
     EnergyTerm energy = EnergyTerm::Compensated;
     CouplingTerm coupling = CouplingTerm::Engine;
     LobeChoice lobes = LobeChoice::Both;
+    SpecularLight specularLight = SpecularLight::Integral;
+    DiffuseLight diffuseLight = DiffuseLight::Integral;
     friend bool operator==(BsdfModel const&, BsdfModel const&) = default;
 };
 

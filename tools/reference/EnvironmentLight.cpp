@@ -34,6 +34,7 @@ EnvironmentLight::EnvironmentLight(std::shared_ptr<const assets::HdrImage> image
         mColumnChoice.emplace_back(columns);
     }
     mRowChoice = Distribution(rows);
+    mHarmonics = SkyHarmonics(*mImage);
 }
 
 double3 EnvironmentLight::texel(int x, int y) const {
@@ -72,10 +73,14 @@ double EnvironmentLight::cellSolidAngle(uint32_t row) const {
     return 2 * kPi / mColumns * (cosTop - cosBottom);
 }
 
-double2 EnvironmentLight::pictureFromWorld(double3 d) const {
-    // The inverse rotation, then the mapping of <filament/Environment.h>.
-    const double x = mCosine * d.x - mSine * d.z, z = mSine * d.x + mCosine * d.z;
-    const double u = 0.5 - std::atan2(x, z) / (2 * kPi);
+double3 EnvironmentLight::skyFromWorld(double3 d) const {
+    return { mCosine * d.x - mSine * d.z, d.y, mSine * d.x + mCosine * d.z };
+}
+
+// As <filament/Environment.h> says.
+double2 EnvironmentLight::pictureFromWorld(double3 direction) const {
+    const double3 d = skyFromWorld(direction);
+    const double u = 0.5 - std::atan2(d.x, d.z) / (2 * kPi);
     return { u - std::floor(u), std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi };
 }
 
@@ -101,6 +106,10 @@ EnvironmentSample EnvironmentLight::sample(double2 u) const {
     const double x = std::sin(azimuth) * radius, z = std::cos(azimuth) * radius;
     const double3 direction(mCosine * x + mSine * z, y, -mSine * x + mCosine * z);
     return { direction, radiance(direction), row.probability * column.probability / cellSolidAngle(row.index) };
+}
+
+double3 EnvironmentLight::harmonicIrradiance(double3 normal) const {
+    return mHarmonics.irradiance(skyFromWorld(normal)) * mFactor;
 }
 
 double EnvironmentLight::pdf(double3 direction) const {

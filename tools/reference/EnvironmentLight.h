@@ -12,6 +12,7 @@
 #include "filament_core/assets/HdrImage.h"
 #include "filament_core/math/Math.h"
 #include "tools/reference/Distribution.h"
+#include "tools/reference/Prefiltered.h"
 
 #include <memory>
 
@@ -35,8 +36,11 @@ public:
     EnvironmentSample sample(double2 u) const;
     /// Of sample(), per steradian.
     double pdf(double3 direction) const;
+    /// Irradiance / pi around a unit vector of the world, by three bands of harmonics.
+    double3 harmonicIrradiance(double3 normal) const;
 
 private:
+    double3 skyFromWorld(double3 direction) const;     ///< the inverse rotation
     double2 pictureFromWorld(double3 direction) const; ///< (u, v) in [0, 1)^2
     double3 texel(int x, int y) const;
     double cellWeight(uint32_t column, uint32_t row) const;
@@ -48,6 +52,7 @@ private:
     uint32_t mColumns = 0, mRows = 0;
     Distribution mRowChoice;
     std::vector<Distribution> mColumnChoice; // by row
+    SkyHarmonics mHarmonics;                 // without the factor
 };
 
 } // namespace filament::reference

@@ -18,7 +18,8 @@ using tools::wholeNumber;
 struct Words {
     std::string integrator = "path", samples = "256", error, maxBounces = "64", seed = "1", filter = "box",
                 occlusion = "auto", visibility = "correlated", fresnel = "schlick", diffuse = "lambert",
-                energy = "compensated", coupling = "engine", lobes = "both", rotation = "0", threads;
+                energy = "compensated", coupling = "engine", lobes = "both", rotation = "0", threads,
+                specularLight = "integral", diffuseLight = "integral";
 };
 
 template <class T, size_t N>
@@ -105,6 +106,21 @@ Result<void> convertLobes(Words const& words, Options& options) {
                   bsdf.lobes);
 }
 
+Result<void> convertPrefiltered(Words const& words, Options& options) {
+    BsdfModel& bsdf = options.settings.bsdf;
+    if (auto done = choose("--specular-light", words.specularLight,
+                           Names<SpecularLight, 2>{ { { "integral", SpecularLight::Integral },
+                                                      { "split-sum", SpecularLight::SplitSum } } },
+                           bsdf.specularLight);
+        !done) {
+        return done;
+    }
+    return choose("--diffuse-light", words.diffuseLight,
+                  Names<DiffuseLight, 2>{
+                          { { "integral", DiffuseLight::Integral }, { "harmonics", DiffuseLight::Harmonics } } },
+                  bsdf.diffuseLight);
+}
+
 Result<void> convertNumbers(Words const& words, Options& options) {
     const auto samples = wholeNumber(words.samples, 1, 1u << 20);
     if (!samples) return invalidOption("--spp", words.samples, "a whole number from 1 to 1048576");
@@ -151,6 +167,9 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--energy", words.energy, "compensated or single-scatter (compensated)");
     app.add_option("--coupling", words.coupling, "engine, always or never: what the coat takes from the diffuse lobe");
     app.add_option("--lobes", words.lobes, "both, diffuse or specular (both)");
+    app.add_option("--specular-light", words.specularLight,
+                   "integral or split-sum: how the environment is gathered (integral)");
+    app.add_option("--diffuse-light", words.diffuseLight, "integral or harmonics: the same, diffuse (integral)");
     app.add_option("--ibl-rotation", words.rotation, "degrees that the environment is turned around +Y (0)");
     app.add_option("--threads", words.threads, "threads that trace (one per core)");
     app.add_flag("--error-image", options.writesErrors, "write DIR/error.exr: the standard error of every pixel");
@@ -170,7 +189,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>{};
     if (const Result<void> done = tools::convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert : { convertChoices, convertMicrofacets, convertLobes, convertNumbers }) {
+    for (auto convert : { convertChoices, convertMicrofacets, convertLobes, convertPrefiltered, convertNumbers }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

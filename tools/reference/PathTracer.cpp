@@ -104,6 +104,7 @@ double3 PathTracer::lightAt(Path& path, SurfaceSample const& surface, Bsdf const
     if (!mScene.environment().isBlack()) {
         if (mSettings.sampling != Sampling::Bsdf) sum += environmentSample(path, surface, bsdf);
         if (mSettings.integrator == Integrator::Unoccluded) sum += unoccludedBsdfSample(path, bsdf);
+        sum += bsdf.harmonicAlbedo() * mScene.environment().harmonicIrradiance(surface.normal);
     }
     if (!mScene.directLights().empty()) sum += directSample(path, surface, bsdf);
     return sum * mExposure;

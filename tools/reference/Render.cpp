@@ -33,6 +33,13 @@ Result<void> check(ReferenceView const& view, ReferenceSettings const& settings)
     if (!(settings.relativeError >= 0) || settings.relativeError > 1) {
         return refuse("relative error", settings.relativeError, "a number from 0 to 1");
     }
+    BsdfModel const& bsdf = settings.bsdf;
+    const bool isPrefiltered =
+            bsdf.specularLight == SpecularLight::SplitSum || bsdf.diffuseLight == DiffuseLight::Harmonics;
+    if (isPrefiltered && settings.integrator == Integrator::Path)
+        return refuse("pre-filtered light", "under shadows", "the integrator unoccluded");
+    if (bsdf.diffuseLight == DiffuseLight::Harmonics && bsdf.diffuse != DiffuseTerm::Lambert)
+        return refuse("harmonics", "for a diffuse lobe of Disney", "Lambert's");
     const float fov = view.camera.lens.verticalFovDegrees, factor = view.camera.exposure.factor();
     if (!(fov > 0 && fov < 180)) return refuse("vertical field of view", fov, "degrees between 0 and 180");
     if (!(factor > 0) || !std::isfinite(factor)) return refuse("exposure factor", factor, "a usable exposure");

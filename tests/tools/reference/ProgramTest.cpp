@@ -102,6 +102,8 @@ TEST(Options, EveryRefusalNamesTheOptionTheValueAndTheCure) {
                              { { "--error", "0" }, "--error", "1e-6" },
                              { { "--integrator", "photon" }, "--integrator", "path or unoccluded" },
                              { { "--visibility", "none" }, "--visibility", "correlated, fast or uncorrelated" },
+                             { { "--specular-light", "sum" }, "--specular-light", "integral or split-sum" },
+                             { { "--diffuse-light", "sh" }, "--diffuse-light", "integral or harmonics" },
                              { { "--max-bounces", "1e3" }, "--max-bounces", "4096" },
                              { { "--threads", "0" }, "--threads", "from 1" },
                              { { "--ibl-rotation", "nan" }, "--ibl-rotation", "degrees" },

@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What the engine looks up instead of integrating: the lobe of the split sum and the harmonics of the sky, without the
+/// texels and levels that the engine stores them in. They replace the exact integrals one at a time (BsdfModel.h).
+///   Source  Karis 2013, "Real Shading in Unreal Engine 4": the sky weighted by D and n.l, as if seen along the normal;
+///           Ramamoorthi and Hanrahan 2001, "An Efficient Representation for Irradiance Environment Maps".
+///   Thread  values. Memory: none.
+#pragma once
+
+#include "filament_core/assets/HdrImage.h"
+#include "filament_core/math/Math.h"
+
+#include <array>
+
+namespace filament::reference {
+
+/// A GGX lobe around an axis (0, 0, 1), viewed along it; its integral over the sphere is 1.
+class PrefilteredLobe {
+public:
+    explicit PrefilteredLobe(double alpha);
+
+    /// Per steradian; 0 behind the axis.
+    double value(double3 light) const;
+    /// Half vectors by D; the direction may lie behind the axis, where value() and pdf() are 0. u in (0, 1)^2.
+    double3 sample(double2 u) const;
+    double pdf(double3 light) const;
+
+private:
+    double density(double cosine) const; ///< of sample(), for the cosine of light and axis
+
+    double mAlpha;
+    double mInverseWeight;
+};
+
+/// The mean of n.l over PrefilteredLobe::sample(), 0 for directions behind the axis.
+double meanCosineOfLobe(double alpha);
+
+/// Irradiance / pi of a sky with three bands of harmonics: not below 0.
+class SkyHarmonics {
+public:
+    SkyHarmonics() = default;
+    explicit SkyHarmonics(assets::HdrImage const& image);
+
+    /// `normal` is a unit vector of the picture's space.
+    double3 irradiance(double3 normal) const;
+
+private:
+    std::array<double3, 9> mCoefficients{};
+};
+
+} // namespace filament::reference
