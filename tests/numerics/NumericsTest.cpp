@@ -191,6 +191,75 @@ TEST(NumericsReport, NamesABrokenPromiseInEveryTable) {
     EXPECT_THAT(markdownOf(*study), ::testing::HasSubstr("**C++ fp32: 3 NaN"));
 }
 
+/// Defects that people make, some of which this table found when it was new.
+struct Defect {
+    const char* name;
+    const char* function;
+    Mutation mutation;
+};
+
+class NumericsMutation : public ::testing::TestWithParam<Defect> {};
+
+TEST_P(NumericsMutation, IsNoticedOnEveryDevice) {
+    const Result<Study> mutant = runStudy(GetParam().function, GetParam().mutation);
+    ASSERT_TRUE(mutant) << mutant.error().message;
+    ASSERT_FALSE(mutant->rows.empty());
+    std::array<size_t, kColumns.size()> found{};
+    for (RowResult const& row : mutant->rows) {
+        for (const Column column : kColumns) {
+            if (row.of(column))
+                found[static_cast<size_t>(column)] += violations(*row.row, column, *row.of(column)).size();
+        }
+    }
+    const auto of = [&](Column column) { return found[static_cast<size_t>(column)]; };
+    EXPECT_EQ(of(Column::Cpp), 0u) << "C++ is not mutated";
+    if (!mutant->devices[0].empty()) {
+        EXPECT_GT(of(Column::VulkanSingle) + of(Column::VulkanHalf), 0u);
+    }
+    if (!mutant->devices[1].empty()) {
+        EXPECT_GT(of(Column::GlesSingle) + of(Column::GlesHalf), 0u);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(
+        Of, NumericsMutation,
+        ::testing::Values(
+                Defect{ "GrazingDivisionByZero",
+                        "visibilitySmithGgxCorrelatedFast",
+                        { "nol + nov, alpha), kMinVisibilityDenominator)", "nol + nov, alpha), 0.0f)" } },
+                Defect{ "DenominatorThat16BitsRoundToZero", "visibilitySmith", { "6.103515625e-5f", "1e-10f" } },
+                Defect{ "HalfVectorBehindTheSurface",
+                        "ndfGgxFromVectors",
+                        { "dot(n, h) * alpha", "saturate(dot(n, h)) * alpha" } },
+                Defect{ "CancellationAtTheHighlight",
+                        "ndfGgx(",
+                        { "(1.0f - noh) * (1.0f + noh)", "1.0f - noh * noh" } },
+                Defect{ "CancellationNextToAMirror",
+                        "iorFromF0",
+                        { "(1.0f + r) * (1.0f + r) / (1.0f - f0)", "(1.0f + r) / (1.0f - r)" } },
+                Defect{ "CosineAboveOne",
+                        "importanceSampleGgx",
+                        { "float length2 = cosTheta2 + sinTheta2;",
+                          "float length2 = 1.0f + (alpha + 1.0f) * ((alpha - 1.0f) * u.y);" } },
+                Defect{ "FitAboveItsRange",
+                        "multiBounceAo",
+                        { "min(((visibility * a + b) * visibility + c) * visibility, 1.0f)",
+                          "((visibility * a + b) * visibility + c) * visibility" } },
+                Defect{ "OverflowOfBrightLight", "toneMap(", { "clamp(color, 0.0f, 1e4f)", "max(color, 0.0f)" } },
+                Defect{ "MisplacedJoint", "srgbFromLinear", { "x <= 0.0031308f", "x <= 0.031308f" } },
+                Defect{ "NegativeIrradiance", "irradianceSh", { "return max(e, vec3(0.0f));", "return e;" } },
+                Defect{ "ThresholdForgotten",
+                        "filteredPerceptualRoughness",
+                        { "min(2.0f * kernel, threshold)", "2.0f * kernel" } },
+                Defect{ "WrongOrderOfTheWindow", "distanceAttenuation", { "1.0f - ratio * ratio", "1.0f - ratio" } }),
+        [](auto const& each) { return std::string(each.param.name); });
+
+TEST(NumericsStudy, FailsForAMutationWithoutItsText) {
+    const Result<Study> mutant = runStudy("pow5", Mutation{ "no such text", "" });
+    ASSERT_FALSE(mutant);
+    EXPECT_EQ(mutant.error().code, ErrorCode::NotFound);
+}
+
 /// The mutations that prove the measurement: a result that is off by one part in a thousand, NaN, out of range, or in
 /// the wrong order is found.
 class MeasurementOf : public ::testing::Test {

@@ -26,7 +26,8 @@ with the double-precision evaluation of the same text for the same, already roun
 - **Error** is |result - truth| / max(|truth|, size), the largest and, behind the point, the 99th percentile. The size is the
   least that is told apart from 0: 1e-30, in 16 bits 6.1e-5, or what the row's reason says.
 - Within their intervals no input gives NaN, infinity, a result out of its range, or, where the function is monotone, a step
-  in the wrong direction beyond the rounding. Anything else, and an error above the limit, fails `numerics_tests`.
+  in the wrong direction beyond the rounding. Anything else, and an error above the limit, fails `numerics_tests`, which also
+  puts defects into the text that the devices compile and expects each to be noticed.
 
 A new function gets a row in `tools/numerics/table/*Rows.cpp`, without which a test fails: its inputs and their intervals, its
 range, its limits and the reason for them.
@@ -36,31 +37,33 @@ range, its limits and the reason for them.
 constexpr std::string_view kOutside = R"(## Outside of the intervals
 
 What the functions give for inputs that their comments exclude: *beyond* is a step, 0.1, 1 and 100 (in 16 bits 4) outside of
-an interval, *huge* the largest number of the format, one argument at a time. Only "beyond" is tested, and only where no reason is given:
-it must give numbers. Where the columns differ, which is where GLSL leaves `min`, `max` and `clamp` of NaN open, the cell
+an interval, *huge* the largest number of the format, one argument at a time. Only "beyond" is tested, and only where no
+reason is given: it must give numbers. Where the columns differ, which is where GLSL leaves `min`, `max` and `clamp` of NaN open, the cell
 says whose result it is; GPU is both APIs in both precisions.
 
 | function | beyond | huge | infinite | NaN | first finite input with NaN or inf | reason |
 |---|---|---|---|---|---|---|
 )";
 
-std::string intervalOf(Argument const& argument) {
-    switch (argument.kind) {
-    case Kind::Direction:
-        return fmt::format("{} unit", argument.name);
-    case Kind::Rotation:
-        return fmt::format("{} unit quaternion", argument.name);
-    case Kind::Offset:
-        return fmt::format("|{}| {:.4g}..{:.4g}", argument.name, argument.low, argument.high);
-    default:
-        return fmt::format("{} {:.4g}..{}{:.4g}", argument.name, argument.low, argument.open ? "<" : "", argument.high);
-    }
+std::string boundsOf(double low, double high, bool open) {
+    return fmt::format("{:.4g}..{}{:.4g}", low, open ? "<" : "", high);
+}
+
+std::string intervalOf(Argument const& argument, bool half) {
+    if (argument.kind == Kind::Direction) return fmt::format("{} unit", argument.name);
+    if (argument.kind == Kind::Rotation) return fmt::format("{} unit quaternion", argument.name);
+    std::string text =
+            argument.kind == Kind::Offset ? fmt::format("\\|{}\\|", argument.name) : std::string(argument.name);
+    text += " " + boundsOf(argument.low, argument.high, argument.open);
+    const bool other = argument.halfLow != argument.low || argument.halfHigh != argument.high;
+    if (half && other) text += fmt::format(" (fp16 {})", boundsOf(argument.halfLow, argument.halfHigh, argument.open));
+    return text;
 }
 
 std::string inputsOf(Row const& row) {
     std::string text;
     const auto add = [&](Argument const& argument) {
-        if (isUsed(argument)) text += (text.empty() ? "" : ", ") + intervalOf(argument);
+        if (isUsed(argument)) text += (text.empty() ? "" : ", ") + intervalOf(argument, row.fp32Only.empty());
     };
     for (Argument const& argument : row.s) add(argument);
     add(row.u);

@@ -2,6 +2,7 @@
 #include "tools/numerics/Study.h"
 
 #include "tools/numerics/gpu/GpuEvaluator.h"
+#include "tools/numerics/gpu/ShaderText.h"
 
 #include <fmt/format.h>
 
@@ -66,9 +67,10 @@ void evaluateInCpp(Study& study, Work const& work) {
 }
 
 /// The results in fp32 stay for the comparison of the APIs.
-Result<std::vector<Results>> evaluateOn(Study& study, BackendType type, Work const& single, Work const& half) {
+Result<std::vector<Results>> evaluateOn(Study& study, BackendType type, std::string const& library, Work const& single,
+                                        Work const& half) {
     const bool vulkan = type == BackendType::Vulkan;
-    auto device = GpuEvaluator::make(type);
+    auto device = GpuEvaluator::make(type, library);
     if (!device) {
         study.missing.push_back(device.error().message);
         return std::vector<Results>{};
@@ -83,11 +85,23 @@ Result<std::vector<Results>> evaluateOn(Study& study, BackendType type, Work con
     return results;
 }
 
+Result<std::string> mutatedLibrary(std::optional<Mutation> const& mutation) {
+    Result<std::string> library = libraryText();
+    if (!library || !mutation) return library;
+    const size_t at = library->find(mutation->from);
+    if (at == std::string::npos)
+        return fail(ErrorCode::NotFound, "shaders/lib has no \"{}\" to mutate", mutation->from);
+    library->replace(at, mutation->from.size(), mutation->to);
+    return library;
+}
+
 } // namespace
 
 bool isMeasured(Row const& row, Column column) { return formatOf(column) == Format::Single || row.fp32Only.empty(); }
 
-Result<Study> runStudy(std::string_view only) {
+Result<Study> runStudy(std::string_view only, std::optional<Mutation> mutation) {
+    const Result<std::string> library = mutatedLibrary(mutation);
+    if (!library) return library.error();
     Study study;
     for (Row const& row : rows()) {
         const bool wanted = row.function.find(only) != std::string_view::npos || row.file.find(only) == 0;
@@ -95,9 +109,9 @@ Result<Study> runStudy(std::string_view only) {
     }
     const Work single = workOf(study, Format::Single), half = workOf(study, Format::Half);
     evaluateInCpp(study, single);
-    const Result<std::vector<Results>> vulkan = evaluateOn(study, BackendType::Vulkan, single, half);
+    const Result<std::vector<Results>> vulkan = evaluateOn(study, BackendType::Vulkan, *library, single, half);
     if (!vulkan) return vulkan.error();
-    const Result<std::vector<Results>> gles = evaluateOn(study, BackendType::Gles, single, half);
+    const Result<std::vector<Results>> gles = evaluateOn(study, BackendType::Gles, *library, single, half);
     if (!gles) return gles.error();
     if (!vulkan->empty() && !gles->empty()) countDifferences(study, single, *vulkan, *gles);
     return study;

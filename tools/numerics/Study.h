@@ -31,8 +31,13 @@ struct Study {
     std::vector<RowResult> rows;
 };
 
-/// Rows whose function or file contains `only`; all for "".
-Result<Study> runStudy(std::string_view only = "");
+/// A defect for the tests: the first `from` in the text that the devices compile becomes `to`. C++ is not changed.
+struct Mutation {
+    std::string_view from, to;
+};
+
+/// Rows whose function or file contains `only`; all for "". Fails also if the mutation finds nothing to change.
+Result<Study> runStudy(std::string_view only = "", std::optional<Mutation> mutation = std::nullopt);
 
 /// Whether the row has something to say in this column.
 bool isMeasured(Row const& row, Column column);

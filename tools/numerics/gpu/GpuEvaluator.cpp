@@ -53,10 +53,10 @@ struct GpuEvaluator::Group {
     BindGroupHandle bindings;
 };
 
-Result<std::unique_ptr<GpuEvaluator>> GpuEvaluator::make(BackendType type) {
+Result<std::unique_ptr<GpuEvaluator>> GpuEvaluator::make(BackendType type, std::string library) {
     auto stream = CommandStream::start([type](ResultSink& sink) { return createDriver(type, {}, sink); });
     if (!stream) return stream.error();
-    std::unique_ptr<GpuEvaluator> evaluator(new GpuEvaluator(std::move(*stream)));
+    std::unique_ptr<GpuEvaluator> evaluator(new GpuEvaluator(std::move(*stream), std::move(library)));
     CommandBuffer& commands = evaluator->mStream->acquire();
     evaluator->mNearest = evaluator->mStream->allocateSampler();
     commands.record(CmdCreateSampler{ evaluator->mNearest, {} });
@@ -140,7 +140,7 @@ Result<void> GpuEvaluator::evaluateGroup(std::span<const Task> tasks, numerics::
     std::vector<Row const*> rows;
     for (Task const& task : tasks) rows.push_back(task.row);
     const ShaderLanguage language = mStream->info().shaderLanguage;
-    const Result<ProgramShaders> shaders = groupProgram(rows, format, language);
+    const Result<ProgramShaders> shaders = groupProgram(mLibrary, rows, format, language);
     if (!shaders) return shaders.error();
 
     const Texels texels = texelsOf(tasks);

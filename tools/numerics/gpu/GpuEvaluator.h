@@ -23,7 +23,8 @@ struct Task {
 
 class GpuEvaluator {
 public:
-    static Result<std::unique_ptr<GpuEvaluator>> make(backend::BackendType type);
+    /// `library`: the text of shaders/lib (ShaderText.h).
+    static Result<std::unique_ptr<GpuEvaluator>> make(backend::BackendType type, std::string library);
 
     /// "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6"
     std::string deviceName() const;
@@ -32,7 +33,8 @@ public:
 private:
     struct Group;
 
-    explicit GpuEvaluator(std::unique_ptr<backend::CommandStream> stream) : mStream(std::move(stream)) {}
+    GpuEvaluator(std::unique_ptr<backend::CommandStream> stream, std::string library)
+            : mStream(std::move(stream)), mLibrary(std::move(library)) {}
 
     Result<void> evaluateGroup(std::span<const Task> tasks, Format format, std::vector<Results>& results);
     backend::TextureHandle createTexture(backend::CommandBuffer& commands, Group const& group,
@@ -41,6 +43,7 @@ private:
     Result<std::vector<glm::vec4>> read(Group const& group);
 
     std::unique_ptr<backend::CommandStream> mStream;
+    std::string mLibrary;
     backend::SamplerHandle mNearest;
 };
 

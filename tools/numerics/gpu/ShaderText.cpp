@@ -112,10 +112,9 @@ Result<std::string> libraryText() {
     return text;
 }
 
-Result<ProgramShaders> groupProgram(std::span<Row const* const> rows, Format format, backend::ShaderLanguage language) {
-    const Result<std::string> library = libraryText();
-    if (!library) return library.error();
-    const std::string body = *library + std::string(kPack) + mainText(rows);
+Result<ProgramShaders> groupProgram(std::string const& library, std::span<Row const* const> rows, Format format,
+                                    backend::ShaderLanguage language) {
+    const std::string body = library + std::string(kPack) + mainText(rows);
     if (format == Format::Half && language == backend::ShaderLanguage::Essl310) return mediumProgram(body);
     if (format == Format::Half) {
         // exact lowering knows 32-bit floats only, and no other device has to agree

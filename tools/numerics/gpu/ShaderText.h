@@ -14,9 +14,11 @@
 
 namespace filament::shader::numerics {
 
-Result<ProgramShaders> groupProgram(std::span<Row const* const> rows, Format format, backend::ShaderLanguage language);
+/// `library`: what libraryText() returned, or a mutant of it.
+Result<ProgramShaders> groupProgram(std::string const& library, std::span<Row const* const> rows, Format format,
+                                    backend::ShaderLanguage language);
 
-/// The text of shaders/lib with math.glsl first.
+/// The text of shaders/lib with math.glsl first, and the rows' own wrappers.
 Result<std::string> libraryText();
 
 } // namespace filament::shader::numerics
