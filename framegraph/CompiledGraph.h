@@ -3,7 +3,8 @@
 /// that tells what was decided and why; Explain.h prints it.
 ///   Thread  one at a time, for each pool.
 ///   Memory  the plan lives in the graph's arena and refers to graph and pool; valid until one of them is reset.
-///   Fails   compile() asserts on a graph that breaks a rule, naming pass and texture (see Check.cpp). record(): never.
+///   Fails   compile() asserts on a graph that breaks a rule, naming pass and texture (see Check.cpp).
+///           std::bad_alloc leaves record() between two passes: what is recorded can be submitted.
 ///   Cost    declare 0.06, compile 1.1, record 0.06 us a pass, for 20 passes; compile() is quadratic in them.
 #pragma once
 

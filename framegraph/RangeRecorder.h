@@ -7,7 +7,7 @@
 ///   Thread  record(): one at a time, the thread whose buffer it is; it works along. body: any, at the same time.
 ///   Memory  a buffer for each range of the longest list so far. append() swaps blocks, so a steady frame allocates
 ///           nothing.
-///   Fails   never.
+///   Fails   std::bad_alloc: `commands` then ends somewhere in the list.
 ///   Cost    bench/filament_core/passes; joining takes about 50 ns a range. One range, or no workers: straight into
 ///           `commands`.
 #pragma once
@@ -42,6 +42,7 @@ public:
         FILAMENT_ASSERT(grain > 0, "recordRanges: a range holds at least one item");
         const size_t ranges = (count - 1) / grain + 1;
         if (ranges > mLanes.size()) mLanes.resize(ranges);
+        const EmptyLanes atEnd{ mLanes };
         jobs::parallelFor<"record">(mJobs, ranges, 1, [&](size_t first, size_t last) {
             for (size_t range = first; range < last; ++range) {
                 const size_t begin = range * grain;
@@ -57,6 +58,16 @@ private:
     /// On cache lines of its own: neighbours are written by different threads.
     struct alignas(64) Lane {
         backend::CommandBuffer commands;
+    };
+
+    /// What a list that failed leaves behind is not joined to the next one.
+    struct EmptyLanes {
+        std::vector<Lane>& lanes;
+        ~EmptyLanes() {
+            for (Lane& lane : lanes) {
+                if (lane.commands.commandCount() > 0) lane.commands.reset();
+            }
+        }
     };
 
     jobs::JobSystem& mJobs;

@@ -2,6 +2,7 @@
 #include "framegraph/CompiledGraph.h"
 
 #include "backend/stream/CommandStream.h"
+#include "backend/stream/RecordingGuards.h"
 
 namespace filament::framegraph {
 namespace {
@@ -32,9 +33,9 @@ void executePass(CommandBuffer& commands, CompiledGraph const& plan, PassContext
                  bool insidePass) {
     Pass const& of = plan.graph->passes()[pass];
     commands.record(CmdPushGroup{ of.name });
+    const InReserve<CmdPopGroup> pop{ commands, {} };
     context.enter(pass, insidePass);
     of.code.execute(of.code.object, context);
-    commands.record(CmdPopGroup{});
 }
 
 void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup const& group, RangeRecorder* ranges) {
@@ -49,12 +50,14 @@ void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup c
         executePass(commands, plan, context, passes[0], false);
         return;
     }
+    AllOrNothing wholePass(commands);
     commands.record(CmdBeginPass{ passDescOf(plan, group) });
     for (size_t subpass = 0; subpass < passes.size(); ++subpass) {
         if (subpass > 0) commands.record(CmdNextSubpass{});
         executePass(commands, plan, context, passes[subpass], true);
     }
     commands.record(CmdEndPass{});
+    wholePass.complete();
 }
 
 } // namespace
@@ -63,13 +66,15 @@ void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<Pass
     plan.pool->recordCreations(commands);
     if (timers) timers->clear();
     for (PassGroup const& group : plan.groups) {
-        const Ticket ticket = timers ? plan.pool->stream().nextTicket() : Ticket{};
-        if (timers) {
-            timers->push_back({ group.name, ticket });
-            commands.record(CmdBeginTimer{ ticket });
+        if (!timers) {
+            recordGroup(commands, plan, group, ranges);
+            continue;
         }
+        const Ticket ticket = plan.pool->stream().nextTicket();
+        timers->push_back({ group.name, ticket });
+        commands.record(CmdBeginTimer{ ticket });
+        const InReserve<CmdEndTimer> end{ commands, { ticket } };
         recordGroup(commands, plan, group, ranges);
-        if (timers) commands.record(CmdEndTimer{ ticket });
     }
     plan.pool->recordEvictions(commands);
 }

@@ -39,9 +39,12 @@ backend::TextureHandle TransientPool::acquire(backend::TextureDesc const& desc, 
     };
     auto found = std::find_if(mTextures.begin(), mTextures.end(), isFree);
     if (found == mTextures.end()) {
-        mTextures.push_back({ .desc = desc, .handle = mStream.allocateTexture() });
+        backend::NewHandle handle(mStream, mStream.allocateTexture());
+        mTextures.push_back({ .handle = handle });
+        handle.keep();
         found = mTextures.end() - 1;
     }
+    if (!found->isCreated) found->desc = desc; // its name is of this graph
     found->lastGraph = mGraph;
     found->busyUntil = last;
     return found->handle;
@@ -60,19 +63,24 @@ backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& comman
         found->lastGraph = mGraph;
         return found->handle;
     }
-    PooledBindGroup made{ .layout = desc.layout,
-                          .count = static_cast<uint8_t>(desc.entries.size()),
-                          .handle = mStream.allocateBindGroup(),
-                          .lastGraph = mGraph };
+    backend::NewHandle handle(mStream, mStream.allocateBindGroup());
+    PooledBindGroup made{
+        .layout = desc.layout, .count = static_cast<uint8_t>(desc.entries.size()), .handle = handle, .lastGraph = mGraph
+    };
     std::copy(desc.entries.begin(), desc.entries.end(), made.entries.begin());
     mBindGroups.push_back(made);
-    commands.record(backend::CmdCreateBindGroup{ made.handle, desc });
-    return made.handle;
+    try {
+        commands.record(backend::CmdCreateBindGroup{ made.handle, desc });
+    } catch (...) {
+        mBindGroups.pop_back(); // in the pool is what the driver has
+        throw;
+    }
+    return handle.keep();
 }
 
 void TransientPool::recordCreations(backend::CommandBuffer& commands) {
     for (PooledTexture& pooled : mTextures) {
-        if (pooled.isCreated) continue;
+        if (pooled.isCreated || pooled.lastGraph != mGraph) continue; // of a graph that was never recorded
         commands.record(backend::CmdCreateTexture{ pooled.handle, pooled.desc });
         pooled.isCreated = true;
         pooled.desc.debugName = {}; // lives no longer than the graph
@@ -83,14 +91,12 @@ void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
     const auto isStale = [&](auto const& pooled) { return pooled.lastGraph + mKeepFrames < mGraph; };
     std::erase_if(mBindGroups, [&](PooledBindGroup const& pooled) {
         if (!isStale(pooled)) return false;
-        commands.record(backend::CmdDestroyBindGroup{ pooled.handle });
-        mStream.free(pooled.handle);
+        mStream.destroy(commands, pooled.handle);
         return true;
     });
     std::erase_if(mTextures, [&](PooledTexture const& pooled) {
         if (!isStale(pooled)) return false;
-        if (pooled.isCreated) commands.record(backend::CmdDestroyTexture{ pooled.handle });
-        mStream.free(pooled.handle);
+        pooled.isCreated ? mStream.destroy(commands, pooled.handle) : mStream.free(pooled.handle);
         return true;
     });
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/BackgroundThreads.h"
 
-#include "filament_core/base/Assert.h"
 #include "jobsystem/Affinity.h"
 #include "jobsystem/Scheduler.h"
 
@@ -9,6 +8,7 @@
 #include <unistd.h>
 
 #include <algorithm>
+#include <new>
 #include <system_error>
 
 namespace filament::jobs {
@@ -33,28 +33,48 @@ uint32_t BackgroundThreads::startedThreads() {
     return static_cast<uint32_t>(mThreads.size());
 }
 
-void BackgroundThreads::push(Job& job) {
-    mFree.fetch_sub(1, std::memory_order_relaxed);
+bool BackgroundThreads::push(Job& job) {
     {
         const std::lock_guard lock(mMutex);
-        mQueue.push_back(&job);
-        if (mIdle < mQueue.size() && mThreads.size() < mLimit) startThread();
+        try {
+            mQueue.push_back(&job);
+        } catch (std::bad_alloc const&) {
+            return false;
+        }
+        const bool wantsThread = mIdle < mQueue.size() && mThreads.size() < mLimit;
+        if (wantsThread && !startThread() && mThreads.empty()) {
+            mQueue.pop_back();
+            return false;
+        }
+        mFree.fetch_sub(1, std::memory_order_relaxed);
     }
     mPushed.notify_one();
     for (uint32_t i = 0; i < mLimit; ++i) mBells[i].wakeAll();
+    return true;
 }
 
-void BackgroundThreads::startThread() {
+bool BackgroundThreads::startThread() {
     const auto index = static_cast<uint32_t>(mThreads.size());
     try {
         mThreads.emplace_back(&BackgroundThreads::runThread, this, std::ref(mBells[index]), index);
+        return true;
     } catch (std::system_error const&) {
-        FILAMENT_ASSERT(!mThreads.empty(), "background jobs need a thread, and the system refuses it");
+        return false;
+    } catch (std::bad_alloc const&) {
+        return false;
+    }
+}
+
+std::string BackgroundThreads::nameOf(uint32_t index) const {
+    try {
+        return mName + ' ' + std::to_string(index);
+    } catch (std::bad_alloc const&) {
+        return {}; // what debuggers show is not worth a process
     }
 }
 
 void BackgroundThreads::runThread(ParkingLot& bell, uint32_t index) {
-    nameThisThread(mName + ' ' + std::to_string(index));
+    nameThisThread(nameOf(index));
     mScheduler.placement().placeBackgroundThread();
     setpriority(PRIO_PROCESS, static_cast<id_t>(gettid()), kNiceness);
     tThread.background = this;

@@ -7,9 +7,10 @@
 ///   Order   first in, first out; but a background thread that waits for a group takes jobs of this group only, so a
 ///           wait never grows by a stranger's work.
 ///   Memory  a queue that grows with the jobs in it.
-///   Fails   when the operating system refuses the first thread, push() ends the process; further ones are done
-///   without. Cost    a lock and at most one wake-up a job: 1 us and up. The work is meant to last a thousand times
-///   longer.
+///   Fails   push() refuses the job if there is no memory for its place in the queue, or no thread at all for it;
+///   further
+///           threads that the operating system refuses are done without.
+///   Cost    a lock and at most one wake-up a job: 1 us and up. The work is meant to last a thousand times longer.
 #pragma once
 
 #include "jobsystem/Job.h"
@@ -42,15 +43,17 @@ public:
     /// Runs what is queued and what that queues, then ends the threads. Once.
     void stop();
 
-    void push(Job& job);
+    /// False: the caller runs it.
+    [[nodiscard]] bool push(Job& job);
     /// A thread would take another job at once.
     bool wantsMore() const { return mFree.load(std::memory_order_relaxed) > 0; }
     /// Runs jobs of this group until it is done.
     void waitFor(Completion& completion);
 
 private:
-    void startThread();
+    bool startThread();
     uint32_t startedThreads();
+    std::string nameOf(uint32_t index) const;
     void runThread(ParkingLot& bell, uint32_t index);
     void run(Job& job);
     Job* popOf(Completion const& completion);

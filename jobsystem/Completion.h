@@ -10,6 +10,7 @@
 ///           sleeper out, then returns the unit. So the memory cannot go while it still looks at it.
 ///   Thread  isDone(), announceSleeper(), withdrawSleeper(), setContinuation(), reclaim(): the thread that made the
 ///           group. add(), finish...(), close(): any.
+///   Missing whether a job of the group ran out of memory before it was done; said before the job counts as finished.
 ///   Memory  48 bytes.   Fails: never.
 #pragma once
 
@@ -99,6 +100,15 @@ public:
     }
     bool hasContinuation() const { return (mShared.load(std::memory_order_relaxed) & kHasContinuation) != 0; }
 
+    void markOutOfMemory() { mIsOutOfMemory.store(true, std::memory_order_relaxed); }
+    bool isOutOfMemory() const { return mIsOutOfMemory.load(std::memory_order_relaxed); }
+    /// After isDone(): once.
+    bool takeOutOfMemory() {
+        if (!isOutOfMemory()) return false;
+        mIsOutOfMemory.store(false, std::memory_order_relaxed);
+        return true;
+    }
+
     /// Makes `owner` the owner again, after isDone().
     void reclaim(Occupant owner) { mOwner.store(owner, std::memory_order_relaxed); }
 
@@ -134,6 +144,7 @@ private:
     Atomic<Bell*> mSleeper{ nullptr };
     Atomic<Job*> mContinuation{ nullptr };
     const Priority mPriority;
+    Atomic<bool> mIsOutOfMemory{ false }; // ordered by the count
 };
 
 using Completion = BasicCompletion<StdAtomics>;

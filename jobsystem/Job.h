@@ -3,7 +3,8 @@
 /// JobType: what all jobs of one call site have in common: how to call them, and their name.
 ///   Thread  a Job belongs to one thread at a time; the queues hand it over. A JobType is a constant.
 ///   Memory  captures live in the job (48 bytes); a larger capture does not compile. A name costs nothing at run time.
-///   Fails   a job that throws ends the process with a message that names it (JobFault.h).
+///   Fails   std::bad_alloc goes to whoever waits for the job's group. A job that throws anything else ends the process
+///           with a message that names it (JobFault.h).
 #pragma once
 
 #include <algorithm>
@@ -89,16 +90,32 @@ bool follow(Job& job, std::optional<Next>&& successor) {
     return successor && follow<kName>(job, *std::move(successor));
 }
 
+/// Ends the life of a callable, after its call or in the middle of it.
+template <class Callable>
+class Destroyed {
+public:
+    explicit Destroyed(Callable& callable) : mCallable(&callable) {}
+    ~Destroyed() { now(); }
+    Destroyed(Destroyed const&) = delete;
+    Destroyed& operator=(Destroyed const&) = delete;
+    void now() {
+        if (Callable* callable = std::exchange(mCallable, nullptr)) callable->~Callable();
+    }
+
+private:
+    Callable* mCallable;
+};
+
 template <class Callable, JobName kName>
 bool callAndDestroy(Job& job) {
     Callable& callable = *std::launder(reinterpret_cast<Callable*>(job.captures));
+    Destroyed destroyed(callable);
     if constexpr (std::is_void_v<std::invoke_result_t<Callable&>>) {
         callable();
-        callable.~Callable();
         return false;
     } else {
         auto result = callable();
-        callable.~Callable();
+        destroyed.now(); // its place is the successor's
         return follow<kName>(job, std::move(result));
     }
 }

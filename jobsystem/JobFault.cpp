@@ -7,12 +7,17 @@
 
 namespace filament::jobs {
 
+void reportThrow(const char* jobName, std::exception const& thrown) {
+    std::fprintf(stderr, "job \"%s\" threw \"%s\": a job handles its exceptions itself\n", jobName, thrown.what());
+    std::fflush(stderr);
+    std::abort();
+}
+
 void reportThrow(const char* jobName) {
     try {
         throw;
     } catch (std::exception const& exception) {
-        std::fprintf(stderr, "job \"%s\" threw \"%s\": a job handles its exceptions itself\n", jobName,
-                     exception.what());
+        reportThrow(jobName, exception);
     } catch (...) {
         std::fprintf(stderr, "job \"%s\" threw what is no std::exception: a job handles its exceptions itself\n",
                      jobName);

@@ -6,9 +6,12 @@
 
 #include "jobsystem/Job.h"
 
+#include <exception>
+
 namespace filament::jobs {
 
 /// Inside a catch block: tells what was thrown.
 [[noreturn]] void reportThrow(const char* jobName);
+[[noreturn]] void reportThrow(const char* jobName, std::exception const& thrown);
 
 } // namespace filament::jobs

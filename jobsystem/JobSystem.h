@@ -93,13 +93,18 @@ private:
     Seat* mSeat; // null: the thread sits already, or there was no place
 };
 
+namespace detail {
+[[noreturn]] void throwOutOfMemory();
+}
+
 /// Jobs to be waited for together. A group may be reused after wait().
 class alignas(kCacheLineBytes) JobGroup {
 public:
     /// Of the priority of the job that makes it; Normal outside of jobs.
     explicit JobGroup(JobSystem& jobs);
     JobGroup(JobSystem& jobs, Priority priority);
-    ~JobGroup() { wait(); }
+    /// Waits; what its jobs ran out of is not told.
+    ~JobGroup() { waitForEnd(); }
     JobGroup(JobGroup const&) = delete;
     JobGroup& operator=(JobGroup const&) = delete;
 
@@ -128,11 +133,18 @@ public:
     bool isDone() const { return mCompletion.isDone(); }
 
     /// Runs jobs, of this group or of others, but none that is less urgent than this group, until all of it is done.
+    /// Throws std::bad_alloc if one of its jobs did, or one of a group that it continues: what they wrote is
+    /// incomplete.
     void wait() {
-        if (!mCompletion.isDone()) waitInside();
+        waitForEnd();
+        if (mCompletion.takeOutOfMemory()) [[unlikely]]
+            detail::throwOutOfMemory();
     }
 
 private:
+    void waitForEnd() {
+        if (!mCompletion.isDone()) waitInside();
+    }
     void waitInside();
 
     Scheduler& mScheduler;
@@ -141,7 +153,8 @@ private:
 
 /// Calls body(begin, end) once for each of the ranges [0, grain), [grain, 2 grain), ..., the last one ends at `count`.
 /// The ranges do not depend on the workers, so a body that reduces over its range gives the same bits everywhere.
-/// Pick the grain so that one range takes 1 to 50 microseconds. Returns when all are done.
+/// Pick the grain so that one range takes 1 to 50 microseconds. Returns when all are done; throws std::bad_alloc if a
+/// range did, and then not every index has been visited.
 template <JobName kName = "loop", class Body>
 void parallelFor(JobSystem& jobs, size_t count, size_t grain, Body&& body);
 template <JobName kName = "loop", class Body>

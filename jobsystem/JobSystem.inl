@@ -16,20 +16,23 @@ void continueWith(Scheduler& scheduler, Completion& before, Job& job);
 Seat* seatHere(Scheduler& scheduler);
 Priority inheritedPriority();
 bool isHungry(Scheduler& scheduler, Seat* seat, Priority priority); // a thief would find nothing at the calling thread
-void runInline(Scheduler& scheduler, const char* name, void (*call)(void*), void* function);
+// False: it ran out of memory.
+bool runInline(Scheduler& scheduler, const char* name, void (*call)(void*), void* function);
+[[noreturn]] void endUnattended(const char* name); // out of memory, and nobody waits for the job
 
 template <JobName kName, class F>
-void runInline(Scheduler& scheduler, F& function) {
-    runInline(
+[[nodiscard]] bool runInline(Scheduler& scheduler, F& function) {
+    return runInline(
             scheduler, kName.text, [](void* erased) { (*static_cast<F*>(erased))(); },
             const_cast<void*>(static_cast<const void*>(std::addressof(function))));
 }
 
 /// What there is no room or nobody for, successors included.
 template <JobName kName, class F>
-void runAtOnce(Scheduler& scheduler, F&& function) {
+void runAtOnce(Scheduler& scheduler, Completion& completion, F&& function) {
+    bool isComplete = true;
     if constexpr (std::is_void_v<std::invoke_result_t<F&>>) {
-        runInline<kName>(scheduler, function);
+        isComplete = runInline<kName>(scheduler, function);
     } else {
         Job job;
         job.set<kName>(std::forward<F>(function));
@@ -37,14 +40,17 @@ void runAtOnce(Scheduler& scheduler, F&& function) {
             do tAssertContext = job.type->name;
             while (job.type->call(job));
         };
-        runInline<kName>(scheduler, run);
+        isComplete = runInline<kName>(scheduler, run);
     }
+    if (isComplete) return;
+    if (&completion == &backgroundCompletion(scheduler)) endUnattended(kName.text);
+    completion.markOutOfMemory();
 }
 
 template <JobName kName, class F>
 void runBackground(Scheduler& scheduler, Completion& completion, F&& function) {
     Job* job = allocateBackground(scheduler);
-    if (!job) return runAtOnce<kName>(scheduler, std::forward<F>(function));
+    if (!job) return runAtOnce<kName>(scheduler, completion, std::forward<F>(function));
     job->set<kName>(std::forward<F>(function));
     job->completion = &completion;
     submitBackground(scheduler, *job);
@@ -82,7 +88,7 @@ void JobGroup::runBackground(Cancellation const& cancellation, F&& function) {
 template <JobName kName, class F>
 void JobGroup::run(F&& function) {
     Job* job = detail::allocate(mScheduler, mCompletion.priority());
-    if (!job) return detail::runAtOnce<kName>(mScheduler, std::forward<F>(function));
+    if (!job) return detail::runAtOnce<kName>(mScheduler, mCompletion, std::forward<F>(function));
     job->set<kName>(std::forward<F>(function));
     job->completion = &mCompletion;
     detail::submit(mScheduler, *job);
@@ -95,8 +101,9 @@ void JobGroup::then(JobGroup& next, F&& function) {
                     "JobGroup::then: what comes next is not more urgent than what it waits for");
     Job* job = detail::allocate(next.mScheduler, next.mCompletion.priority());
     if (!job) {
-        wait();
-        return detail::runAtOnce<kName>(mScheduler, std::forward<F>(function));
+        waitForEnd();
+        if (mCompletion.isOutOfMemory()) next.mCompletion.markOutOfMemory();
+        return detail::runAtOnce<kName>(mScheduler, next.mCompletion, std::forward<F>(function));
     }
     job->set<kName>(std::forward<F>(function));
     job->completion = &next.mCompletion;
@@ -151,8 +158,10 @@ void parallelFor(JobSystem& jobs, Priority priority, size_t count, size_t grain,
     Loop loop{ jobs.scheduler(), count, grain, body, priority, JobGroup(jobs, priority) };
     const bool alone = chunks == 1 || jobs.workerCount() == 0;
     auto run = [&loop, chunks, alone] { alone ? loop.runSerially(chunks) : loop.runChunks(0, chunks); };
-    detail::runInline<kName>(jobs.scheduler(), run);
+    const bool isComplete = detail::runInline<kName>(jobs.scheduler(), run);
     loop.group.wait();
+    if (!isComplete) [[unlikely]]
+        detail::throwOutOfMemory();
 }
 
 template <JobName kName, class Body>

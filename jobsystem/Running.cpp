@@ -4,6 +4,8 @@
 #include "jobsystem/JobFault.h"
 #include "jobsystem/Scheduler.h"
 
+#include <new>
+
 namespace filament::jobs {
 namespace {
 
@@ -26,17 +28,6 @@ private:
     Priority mOuterPriority;
 };
 
-/// Whether the successor of the job is to be called, too.
-bool callUntraced(Job& job, Priority priority) {
-    JobType const& type = *job.type;
-    const RunningJob running(type.name, priority);
-    try {
-        return type.call(job);
-    } catch (...) {
-        reportThrow(type.name);
-    }
-}
-
 template <class F>
 void onEnoughStack(F&& function) {
     if (isStackLow()) [[unlikely]] {
@@ -50,17 +41,28 @@ void onEnoughStack(F&& function) {
 
 namespace detail {
 
-void runInline(Scheduler& scheduler, const char* name, void (*function)(void*), void* argument) {
-    onEnoughStack([&] {
+bool runInline(Scheduler& scheduler, const char* name, void (*function)(void*), void* argument) {
+    bool isComplete = true;
+    onEnoughStack([&] { // perhaps on another thread: nothing is thrown past it
         const RunningJob running(name, tThread.priority);
         const int64_t begin = scheduler.trace() ? nanosecondsNow() : 0;
         try {
             function(argument);
+        } catch (std::bad_alloc const&) {
+            isComplete = false;
         } catch (...) {
             reportThrow(tAssertContext);
         }
         if (scheduler.trace()) scheduler.record(tThread.seatOf(scheduler), name, begin, false);
     });
+    return isComplete;
+}
+
+void throwOutOfMemory() { throw std::bad_alloc(); }
+
+void endUnattended(const char* name) {
+    const std::bad_alloc nobodyWaits;
+    reportThrow(name, nobodyWaits);
 }
 
 } // namespace detail
@@ -137,6 +139,21 @@ void Scheduler::executeBackground(Job& job) {
     finish(nullptr, completion, true);
 }
 
+/// Whether the successor of the job is to be called, too.
+bool Scheduler::callUntraced(Job& job, Priority priority) {
+    JobType const& type = *job.type;
+    const RunningJob running(type.name, priority);
+    try {
+        return type.call(job);
+    } catch (std::bad_alloc const& exception) {
+        if (job.completion == &mBackgroundCompletion) reportThrow(type.name, exception); // nobody waits for it
+        job.completion->markOutOfMemory();
+        return false;
+    } catch (...) {
+        reportThrow(type.name);
+    }
+}
+
 bool Scheduler::call(Seat const* seat, Found const& found) {
     if (!mTrace) [[likely]]
         return callUntraced(*found.job, found.priority);
@@ -164,7 +181,9 @@ void Scheduler::finish(Seat const* seat, Completion& completion, bool stolen) {
 }
 
 void Scheduler::close(Completion& completion) {
+    const bool isOutOfMemory = completion.isOutOfMemory();
     const auto [continuation, sleeper] = completion.close(); // the memory may be gone
+    if (continuation && isOutOfMemory) continuation->completion->markOutOfMemory();
     if (continuation) enqueue(tThread.seatOf(*this), *continuation, continuation->completion->priority());
     if (sleeper) sleeper->wakeAll();
 }

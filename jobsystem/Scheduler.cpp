@@ -50,7 +50,7 @@ void Scheduler::startWorkers(std::string const& threadName) {
     }
 }
 
-Scheduler::~Scheduler() {
+void Scheduler::endThreads() {
     if (mBackground) mBackground->stop(); // its jobs may still need workers, and the system as it is
     mStopping.store(true, std::memory_order_seq_cst);
     mIdle.wakeAll();
@@ -132,7 +132,7 @@ void Scheduler::enqueue(Seat* seat, Job& job, Priority priority) {
         if (!seat->normal.push(&job)) [[unlikely]]
             return executeInline(seat, job, priority);
     } else if (priority == Priority::Background) {
-        return mBackground->push(job);
+        return pushBackground(job);
     } else if (seat ? !seat->critical.push(&job) : !mInjected[static_cast<int>(priority)].push(job)) {
         return executeInline(seat, job, priority);
     }
@@ -160,12 +160,17 @@ void Scheduler::wakeAWaiter(Priority priority) {
     }
 }
 
-Job* Scheduler::allocateBackground() { return mBackground ? new Job : nullptr; }
+Job* Scheduler::allocateBackground() { return mBackground ? new (std::nothrow) Job : nullptr; }
 
 void Scheduler::submitBackground(Job& job) {
     Seat* seat = tThread.seatOf(*this);
     job.completion->add(seat ? seat->occupant : 0);
-    mBackground->push(job);
+    pushBackground(job);
+}
+
+// Without a thread or memory for it the job runs here.
+void Scheduler::pushBackground(Job& job) {
+    if (!mBackground->push(job)) executeBackground(job);
 }
 
 bool Scheduler::isHungry(Seat* seat, Priority priority) const {
@@ -184,7 +189,9 @@ void Scheduler::continueWith(Completion& before, Job& job) {
     FILAMENT_ASSERT(!before.hasContinuation(), "JobGroup::then: a group has one continuation until it is done");
     Seat* seat = tThread.seatOf(*this);
     job.completion->add(seat ? seat->occupant : 0);
-    if (!before.setContinuation(job)) enqueue(seat, job, job.completion->priority());
+    if (before.setContinuation(job)) return;
+    if (before.isOutOfMemory()) job.completion->markOutOfMemory();
+    enqueue(seat, job, job.completion->priority());
 }
 
 // ---------------------------------------------------------------------------------------------- the templates' doors

@@ -36,7 +36,7 @@ public:
     static constexpr uint32_t kMaxWorkers = 256;
 
     explicit Scheduler(JobSystemOptions const& options);
-    ~Scheduler();
+    ~Scheduler() = default;
     Scheduler(Scheduler const&) = delete;
     Scheduler& operator=(Scheduler const&) = delete;
 
@@ -98,6 +98,8 @@ private:
         if (anybody) [[unlikely]]
             wakeSomebody(priority);
     }
+    void pushBackground(Job& job);
+    void endThreads();
     void wakeSomebody(Priority priority);
     void wakeAWaiter(Priority priority);
 
@@ -109,6 +111,7 @@ private:
     void execute(Seat* seat, Found const& found);
     void executeInline(Seat* seat, Job& job, Priority priority);
     bool call(Seat const* seat, Found const& found);
+    bool callUntraced(Job& job, Priority priority);
     void finish(Seat const* seat, Completion& completion, bool stolen);
     void close(Completion& completion);
 
@@ -147,6 +150,11 @@ private:
     Completion mBackgroundCompletion{ 0, Priority::Background };
     std::unique_ptr<BackgroundThreads> mBackground; // null without workers
     std::vector<std::thread> mThreads;
+    // The last member: ends the threads that run, also of a scheduler whose constructor did not get all of them.
+    struct ThreadEnd {
+        Scheduler& scheduler;
+        ~ThreadEnd() { scheduler.endThreads(); }
+    } mThreadEnd{ *this };
 };
 
 } // namespace filament::jobs

@@ -6,8 +6,19 @@
 #include <algorithm>
 #include <iterator>
 #include <utility>
+#include <vector>
 
 namespace filament::backend {
+namespace {
+
+/// Room for `extra` more elements, so that adding them cannot fail; grows like push_back().
+template <class T>
+void reserveMore(std::vector<T>& vector, size_t extra) {
+    const size_t needed = vector.size() + extra;
+    if (needed > vector.capacity()) vector.reserve(std::max(needed, 2 * vector.capacity()));
+}
+
+} // namespace
 
 CommandBuffer::CommandBuffer() = default;
 CommandBuffer::~CommandBuffer() = default;
@@ -16,6 +27,7 @@ CommandBuffer::CommandBuffer(CommandBuffer&& other) noexcept { *this = std::move
 
 CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
     mCommands = std::exchange(other.mCommands, {});
+    mReserve = std::exchange(other.mReserve, 0);
     mPayload = std::exchange(other.mPayload, {});
     mChunks = std::exchange(other.mChunks, {});
     mUsed = std::exchange(other.mUsed, {});
@@ -26,8 +38,11 @@ CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
     return *this;
 }
 
-// The smallest spare block that is large enough, or a new one: large blocks stay for large payloads.
+// The smallest spare block that is large enough, or a new one: large blocks stay for large payloads. Whatever may fail
+// comes first; mSpare can always take every block back.
 CommandBuffer::Block& CommandBuffer::takeBlock(size_t bytes) {
+    reserveMore(mUsed, 1);
+    reserveMore(mSpare, mUsed.size() + 1);
     const size_t size = std::max(bytes, kBlockBytes);
     size_t best = mSpare.size();
     for (size_t i = mSpare.size(); i-- > 0;) {
@@ -48,24 +63,31 @@ CommandBuffer::Block CommandBuffer::takeSpare(size_t index) {
 
 void CommandBuffer::startChunk(size_t bytes) {
     seal();
-    Block const& block = takeBlock(bytes);
-    mCommands = { block.data.get(), block.data.get() + block.size };
+    reserveMore(mChunks, 1);
+    Block const& block = takeBlock(bytes + kReservedBytes);
+    useForCommands(block, block.data.get());
     mChunks.push_back({ block.data.get(), 0 });
+}
+
+void CommandBuffer::useForCommands(Block const& block, std::byte* from) {
+    mCommands = { from, block.data.get() + block.size - kReservedBytes };
+    mReserve = kReservedBytes;
 }
 
 std::span<std::byte> CommandBuffer::allocate(size_t bytes, size_t alignment) {
     FILAMENT_ASSERT(alignment > 0 && alignment <= kBlockAlignment && (alignment & (alignment - 1)) == 0,
                     "payload alignment is a power of two up to 64");
-    mPayloadBytes += bytes;
     const size_t padding = (0 - reinterpret_cast<uintptr_t>(mPayload.at)) & (alignment - 1);
     if (bytes <= mPayload.left() && padding <= mPayload.left() - bytes) {
         std::byte* data = mPayload.at + padding;
         mPayload.at = data + bytes;
+        mPayloadBytes += bytes;
         return { data, bytes };
     }
     Block const& block = takeBlock(bytes);
     const Range rest{ block.data.get() + bytes, block.data.get() + block.size };
     if (rest.left() >= mPayload.left()) mPayload = rest;
+    mPayloadBytes += bytes;
     return { block.data.get(), bytes };
 }
 
@@ -81,11 +103,16 @@ void CommandBuffer::returnEqualBlock(size_t size, CommandBuffer& tail) {
 
 void CommandBuffer::append(CommandBuffer&& tail) {
     FILAMENT_ASSERT(&tail != this, "a command buffer cannot be appended to itself");
+    reserveMore(mChunks, tail.mChunks.size());
+    reserveMore(mUsed, tail.mUsed.size());
+    reserveMore(mSpare, mUsed.size() + tail.mUsed.size());
+    reserveMore(tail.mSpare, tail.mUsed.size()); // nothing below allocates
     if (!tail.mChunks.empty()) {
         seal();
         tail.seal();
         mChunks.insert(mChunks.end(), tail.mChunks.begin(), tail.mChunks.end());
         mCommands = tail.mCommands;
+        mReserve = tail.mReserve;
     }
     if (tail.mPayload.left() > mPayload.left()) mPayload = tail.mPayload;
     mCommandCount += tail.mCommandCount;
@@ -99,7 +126,20 @@ void CommandBuffer::append(CommandBuffer&& tail) {
     tail.mUsed.clear();
     tail.mChunks.clear();
     tail.mCommands = tail.mPayload = {};
-    tail.mCommandCount = tail.mPayloadBytes = tail.mKinds = 0;
+    tail.mCommandCount = tail.mPayloadBytes = tail.mReserve = tail.mKinds = 0;
+}
+
+void CommandBuffer::rollBack(Mark const& mark) {
+    mChunks.resize(mark.chunks);
+    mCommandCount = mark.commandCount;
+    mCommands = {};
+    mReserve = 0;
+    if (mark.chunks == 0) return;
+    const std::byte* const chunk = mChunks.back().data;
+    const auto block = std::ranges::find_if(mUsed, [&](Block const& used) { return used.data.get() == chunk; });
+    FILAMENT_ASSERT(block != mUsed.end(), "a mark belongs to the buffer that gave it, until its reset()");
+    useForCommands(*block, mark.commands);
+    seal();
 }
 
 void CommandBuffer::reset() {
@@ -108,7 +148,7 @@ void CommandBuffer::reset() {
     mUsed.clear();
     mChunks.clear();
     mCommands = mPayload = {};
-    mCommandCount = mPayloadBytes = mKinds = 0;
+    mCommandCount = mPayloadBytes = mReserve = mKinds = 0;
 }
 
 size_t CommandBuffer::commandCount() const { return mCommandCount; }

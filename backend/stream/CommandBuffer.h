@@ -4,6 +4,8 @@
 ///   Memory  chunks of 64 KiB, larger for larger payloads; grows without limit, never aborts, never overruns.
 ///           reset() keeps the chunks, so a steady frame allocates nothing; an oversized chunk that one whole frame
 ///           did not need is freed.
+///   Fails   record(), allocate(), append(): std::bad_alloc, and everything is as before. reset(), rollBack() and
+///           recordInReserve() never: whoever runs out of memory in the middle can still end what it began.
 ///   Names   every span and string_view given to record() inside a command is copied into the buffer.
 #pragma once
 
@@ -41,6 +43,32 @@ public:
         append(command);
     }
 
+    /// record() without failure for a command without payload, into room that every buffer with a command keeps: for
+    /// the ends of a frame, a timer and a group, once each. False if there is not even that: nothing was ever recorded.
+    template <class C>
+    bool recordInReserve(C const& command) {
+        static_assert(!kHasPayload<C>, "payloads need memory of their own");
+        constexpr size_t kBytes = bytesOf<C>();
+        static_assert(kBytes <= kReservedBytes);
+        if (kBytes > mCommands.left() && mReserve >= kBytes) {
+            mCommands.end += mReserve;
+            mReserve = 0;
+        }
+        if (kBytes > mCommands.left()) return false;
+        append(command);
+        return true;
+    }
+
+    /// A place in the stream, until the next reset() or append() of this buffer to another.
+    struct Mark {
+        std::byte* commands = nullptr;
+        size_t chunks = 0, commandCount = 0;
+    };
+    Mark mark() const { return { mCommands.at, mChunks.size(), mCommandCount }; }
+    /// Forgets the commands since mark(); their payloads stay until reset(). contains() may still say that they are
+    /// there.
+    void rollBack(Mark const& mark);
+
     /// Moves all commands of `tail` behind the ones here; `tail` is left empty.
     void append(CommandBuffer&& tail);
 
@@ -74,6 +102,7 @@ private:
     };
     static constexpr size_t kBlockBytes = 64 * 1024;
     static constexpr size_t kBlockAlignment = 64;
+    static constexpr size_t kReservedBytes = 64; // at the end of every block of commands
 
     template <class C>
     void adopt(C& command) {
@@ -81,10 +110,15 @@ private:
     }
 
     template <class C>
+    static constexpr size_t bytesOf() {
+        return (2 * kCommandAlignment - 1 + sizeof(C)) & ~(kCommandAlignment - 1);
+    }
+
+    template <class C>
     void append(C const& command) {
         static_assert(Commands::kCount <= 64, "mKinds has a bit for each command");
         static_assert(alignof(C) <= kCommandAlignment && std::is_trivially_copyable_v<C>, "a command is plain data");
-        constexpr size_t kBytes = (2 * kCommandAlignment - 1 + sizeof(C)) & ~(kCommandAlignment - 1);
+        constexpr size_t kBytes = bytesOf<C>();
         if (kBytes > mCommands.left()) [[unlikely]]
             startChunk(kBytes);
         std::byte* const at = mCommands.at;
@@ -105,10 +139,12 @@ private:
     }
     Block& takeBlock(size_t bytes);
     Block takeSpare(size_t index);
+    void useForCommands(Block const& block, std::byte* from);
     void returnEqualBlock(size_t size, CommandBuffer& tail);
     void startChunk(size_t bytes);
 
     Range mCommands, mPayload;                 // what is left of the newest block of each kind
+    size_t mReserve = 0;                       // bytes behind mCommands for recordInReserve()
     mutable std::vector<CommandChunk> mChunks; // command blocks in order
     std::vector<Block> mUsed;                  // owns the memory of commands and payloads
     std::vector<Block> mSpare;                 // kept for the next frame

@@ -3,6 +3,7 @@
 
 #include "backend/stream/DriverThread.h"
 #include "backend/stream/ResultMailbox.h"
+#include "filament_core/base/OutOfMemory.h"
 
 #include <algorithm>
 #include <atomic>
@@ -42,10 +43,12 @@ CommandStream::CommandStream() = default;
 CommandStream::~CommandStream() = default;
 
 Result<std::unique_ptr<CommandStream>> CommandStream::start(DriverFactory factory, CommandStreamOptions options) {
-    std::unique_ptr<CommandStream> stream(new CommandStream);
-    stream->mState = std::make_unique<State>(options);
-    if (Result<void> started = stream->mState->driver.start(std::move(factory)); !started) return started.error();
-    return stream;
+    return orOutOfMemory("driver thread", {}, [&]() -> Result<std::unique_ptr<CommandStream>> {
+        std::unique_ptr<CommandStream> stream(new CommandStream);
+        stream->mState = std::make_unique<State>(options);
+        if (Result<void> started = stream->mState->driver.start(std::move(factory)); !started) return started.error();
+        return stream;
+    });
 }
 
 DeviceInfo const& CommandStream::info() const { return mState->driver.info(); }
@@ -109,6 +112,7 @@ Result<std::vector<std::byte>> CommandStream::waitReadback(Ticket ticket, std::c
                 ticket.value);
 }
 
+bool CommandStream::isDeviceLost() const { return mState->mailbox.deviceLost(); }
 std::optional<uint64_t> CommandStream::takeTimer(Ticket ticket) { return mState->mailbox.takeTimer(ticket); }
 std::vector<DriverError> CommandStream::takeErrors() { return mState->mailbox.takeErrors(); }
 

@@ -2,7 +2,10 @@
 /// CommandStream: the app's end of the driver. Gives out handles and command buffers, owns the driver thread.
 ///   Thread  handles and tickets: any. acquire()/submit(): one app thread. Results: any.
 ///   Memory  three command buffers, reused; acquire() waits while two submitted frames are still unreplayed.
-///   Fails   start() if no driver can be made. Afterwards never; device errors come out of takeErrors().
+///   Fails   start() if no driver can be made. Afterwards device errors come out of takeErrors(). Where the app's
+///   thread
+///           runs out of memory, std::bad_alloc leaves the function that allocates and nothing has changed; submit(),
+///           destroy() and free() never fail. Where the driver thread does, the device is lost, and says so.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -14,6 +17,7 @@
 #include <memory>
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace filament::backend {
@@ -87,6 +91,10 @@ public:
     void free(ProgramHandle handle);
     void free(PipelineHandle handle);
     void free(BindGroupHandle handle);
+    /// Records the destruction and returns the name. Never fails: if there is no memory to record it, object and name
+    /// stay until the driver ends.
+    template <class Tag>
+    void destroy(CommandBuffer& commands, Handle<Tag> handle) noexcept;
     /// Live handles of all types: zero when everything was destroyed.
     uint32_t liveHandles() const;
     Ticket nextTicket();
@@ -104,6 +112,8 @@ public:
     LatencyStatistics latency() const;
 
     // ---- answers
+    /// Whether the device is gone for good: nothing that was submitted is answered any more.
+    bool isDeviceLost() const;
     /// The bytes of a read-back, once; nothing while it is under way.
     std::optional<std::vector<std::byte>> takeReadback(Ticket ticket);
     /// The blocking form, for read-backs that were submitted. Timeout if it takes longer (it says which command the
@@ -119,6 +129,61 @@ private:
     CommandStream();
     struct State;
     std::unique_ptr<State> mState;
+};
+
+namespace detail {
+inline CmdDestroyBuffer destruction(BufferHandle handle) { return { handle }; }
+inline CmdDestroyTexture destruction(TextureHandle handle) { return { handle }; }
+inline CmdDestroySampler destruction(SamplerHandle handle) { return { handle }; }
+inline CmdDestroyProgram destruction(ProgramHandle handle) { return { handle }; }
+inline CmdDestroyPipeline destruction(PipelineHandle handle) { return { handle }; }
+inline CmdDestroyBindGroup destruction(BindGroupHandle handle) { return { handle }; }
+} // namespace detail
+
+template <class Tag>
+void CommandStream::destroy(CommandBuffer& commands, Handle<Tag> handle) noexcept {
+    try {
+        commands.record(detail::destruction(handle));
+    } catch (std::bad_alloc const&) {
+        return;
+    }
+    free(handle);
+}
+
+/// A handle whose creation is not recorded yet: goes back unless it is kept.
+template <class Tag>
+class NewHandle {
+public:
+    NewHandle(CommandStream& stream, Handle<Tag> handle) : mStream(stream), mHandle(handle) {}
+    ~NewHandle() {
+        if (mHandle) mStream.free(mHandle);
+    }
+    NewHandle(NewHandle const&) = delete;
+    NewHandle& operator=(NewHandle const&) = delete;
+
+    operator Handle<Tag>() const { return mHandle; }
+    Handle<Tag> keep() { return std::exchange(mHandle, {}); }
+
+private:
+    CommandStream& mStream;
+    Handle<Tag> mHandle;
+};
+
+/// The buffer that acquire() gives, submitted at the end of the scope, whatever happens before: what is recorded has
+/// been promised to those who remember the objects.
+class FrameCommands {
+public:
+    explicit FrameCommands(CommandStream& stream) : mStream(stream), mCommands(stream.acquire()) {}
+    ~FrameCommands() { mStream.submit(mCommands); }
+    FrameCommands(FrameCommands const&) = delete;
+    FrameCommands& operator=(FrameCommands const&) = delete;
+
+    CommandBuffer& operator*() { return mCommands; }
+    CommandBuffer* operator->() { return &mCommands; }
+
+private:
+    CommandStream& mStream;
+    CommandBuffer& mCommands;
 };
 
 } // namespace filament::backend

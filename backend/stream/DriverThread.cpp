@@ -4,9 +4,11 @@
 #include "backend/stream/StreamHash.h"
 #include "filament_core/base/Assert.h"
 #include "filament_core/base/Log.h"
+#include "filament_core/base/OutOfMemory.h"
 
 #include <algorithm>
 #include <chrono>
+#include <system_error>
 
 #if defined(__linux__)
 #include <pthread.h>
@@ -64,16 +66,21 @@ DriverThread::~DriverThread() {
         waitForProgress(lock, [&] { return mEnded; });
         lock.unlock();
         mThread.join();
-    } else if (mDriver && !mMailbox.deviceLost()) {
-        mDriver->waitIdle();
+    } else if (mDriver) {
+        endDriver();
     }
 }
 
 Result<void> DriverThread::start(DriverFactory factory) {
     if (!mOptions.ownThread) return makeDriver(factory);
     Result<void> outcome;
-    mThread =
-            std::thread([this, &outcome, factory = std::move(factory)]() mutable { run(std::move(factory), outcome); });
+    try {
+        mThread = std::thread(
+                [this, &outcome, factory = std::move(factory)]() mutable { run(std::move(factory), outcome); });
+    } catch (std::system_error const& error) {
+        return fail(ErrorCode::OutOfMemory, "driver thread: the operating system refuses it ({}); end other threads",
+                    error.what());
+    }
     std::unique_lock lock(mMutex);
     waitForProgress(lock, [&] { return mStarted; });
     return outcome;
@@ -81,12 +88,34 @@ Result<void> DriverThread::start(DriverFactory factory) {
 
 Result<void> DriverThread::makeDriver(DriverFactory const& factory) {
     mWatch.beginMakingDriver();
-    Result<std::unique_ptr<Driver>> driver = factory(mMailbox);
+    auto driver = orOutOfMemory("driver", {}, [&]() -> Result<std::unique_ptr<Driver>> {
+        Result<std::unique_ptr<Driver>> made = factory(mMailbox);
+        if (made) mInfo = (*made)->info();
+        return made;
+    });
     mWatch.end();
     if (!driver) return driver.error();
     mDriver = std::move(*driver);
-    mInfo = mDriver->info();
     return {};
+}
+
+template <class F>
+void DriverThread::guarded(const char* doing, F&& step) noexcept {
+    try {
+        step();
+    } catch (std::bad_alloc const&) {
+        mMailbox.onOutOfMemory(doing);
+    } catch (std::length_error const&) { // a size that no memory can have
+        mMailbox.onOutOfMemory(doing);
+    }
+    mWatch.end();
+}
+
+void DriverThread::endDriver() {
+    mWatch.beginEndingDriver();
+    if (!mMailbox.deviceLost()) guarded("ending the driver", [&] { mDriver->waitIdle(); });
+    mDriver.reset();
+    mWatch.end();
 }
 
 // The driver thread from the first to the last instruction.
@@ -103,10 +132,7 @@ void DriverThread::run(DriverFactory factory, Result<void>& outcome) {
     mProgress.notify_all();
     if (!usable) return;
     serve();
-    mWatch.beginEndingDriver();
-    if (!mMailbox.deviceLost()) mDriver->waitIdle();
-    mDriver.reset();
-    mWatch.end();
+    endDriver();
     const std::lock_guard lock(mMutex);
     mEnded = true;
     mProgress.notify_all();
@@ -142,7 +168,7 @@ void DriverThread::replaySlot(uint64_t submission) {
                         .replayBegin = now(),
                         .backPressure = slot.backPressure,
                         .isFrame = slot.commands.contains<CmdBeginFrame>() };
-    if (mOptions.hashStreams) timing.hash = hashStream(slot.commands.view());
+    if (mOptions.hashStreams) guarded("hashing a stream", [&] { timing.hash = hashStream(slot.commands.view()); });
     const bool reachesDevice = !mMailbox.deviceLost();
     if (reachesDevice) execute(slot, timing.frame);
     slot.commands.reset();
@@ -154,19 +180,17 @@ void DriverThread::replaySlot(uint64_t submission) {
 }
 
 void DriverThread::execute(Slot const& slot, uint64_t frame) {
-    mWatch.beginReplay(slot.commands, frame);
-    {
+    guarded("replaying commands", [&] {
+        mWatch.beginReplay(slot.commands, frame);
         const WatchedReplay watched(mWatch.progress());
         mDriver->execute(slot.commands.view());
-    }
-    mWatch.end();
+    });
 }
 
 void DriverThread::settle(uint64_t submission) {
     if (!mMailbox.deviceLost()) {
         mWatch.beginSettling();
-        mDriver->waitIdle();
-        mWatch.end();
+        guarded("waiting for the device", [&] { mDriver->waitIdle(); });
     }
     mMailbox.onIdle(submission);
 }

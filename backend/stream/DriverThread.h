@@ -5,7 +5,8 @@
 ///           lives.
 ///   Memory  maxFramesAhead + 1 command buffers, reused in turn. A steady frame allocates nothing.
 ///   Stuck   whoever waits here looks at the driver thread from time to time, and reports in which command it is stuck.
-///   Fails   start() with the factory's error. After DeviceLost buffers come and go, but are no longer replayed.
+///   Fails   start() with the factory's error, or OutOfMemory. After DeviceLost buffers come and go, but are no longer
+///           replayed. A driver that throws std::bad_alloc has done half of something: that loses the device, too.
 ///   Cost    a submit is one lock and one wake-up; the threads block, nobody spins.
 #pragma once
 
@@ -59,6 +60,9 @@ private:
     void replaySlot(uint64_t submission);
     void execute(Slot const& slot, uint64_t frame);
     void settle(uint64_t submission);
+    void endDriver();
+    template <class F>
+    void guarded(const char* doing, F&& step) noexcept;
     template <class Predicate>
     void waitForProgress(std::unique_lock<std::mutex>& lock, Predicate isReached);
     Slot& slotOf(uint64_t submission) { return mSlots[submission % mSlots.size()]; }

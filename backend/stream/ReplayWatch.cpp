@@ -7,6 +7,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <new>
 #include <string_view>
 #include <vector>
 
@@ -16,7 +17,12 @@ namespace {
 /// Keeps `names` as the pipelines of a stream come and go.
 struct PipelineNameKeeper {
     ReplayWatch::PipelineNames& names;
-    void execute(CmdCreatePipeline const& command) { names[command.handle] = command.desc.debugName; }
+    void execute(CmdCreatePipeline const& command) {
+        try {
+            names[command.handle] = command.desc.debugName;
+        } catch (std::bad_alloc const&) { // a message will call it unknown
+        }
+    }
     void execute(CmdDestroyPipeline const& command) { names.erase(command.handle); }
     void execute(auto const&) {}
 };
@@ -144,7 +150,11 @@ void ReplayWatch::check() {
         look(now);
         if (!warns() || mActivity == Activity::None || mHasWarned || now - mSince < mLimit) return;
         mHasWarned = true;
-        text = describe(now);
+        try {
+            text = describe(now);
+        } catch (std::bad_alloc const&) {
+            text = "is stuck";
+        }
     }
     log(Severity::Warning, "driver thread: {}; until it goes on nothing is drawn or answered", text);
 }

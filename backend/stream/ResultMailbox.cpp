@@ -7,14 +7,32 @@
 #include <utility>
 
 namespace filament::backend {
+namespace {
+
+// In fewer words where there is no memory for all of them: so few lie in the string itself.
+std::string copyOf(std::string_view message) {
+    try {
+        return std::string(message);
+    } catch (std::bad_alloc const&) {
+        return "out of memory";
+    }
+}
+
+} // namespace
 
 ResultMailbox::ResultMailbox() {
     mTimers.reserve(kMaxTimers);
     mTimings.reserve(kMaxTimings);
+    mErrors.reserve(kMaxErrors);
 }
 
 void ResultMailbox::onReadback(Ticket ticket, std::span<const std::byte> bytes) {
-    std::vector<std::byte> copy(bytes.begin(), bytes.end()); // outside of the lock: it may be large
+    std::vector<std::byte> copy;
+    try {
+        copy.assign(bytes.begin(), bytes.end()); // outside of the lock: it may be large
+    } catch (std::bad_alloc const&) {
+        onError(DriverErrorKind::OutOfMemory, "a read-back: out of host memory, it has no pixels; free some");
+    }
     {
         const std::lock_guard lock(mMutex);
         mReadbacks.insert_or_assign(ticket, std::move(copy));
@@ -32,12 +50,21 @@ void ResultMailbox::onError(DriverErrorKind kind, std::string_view message) {
     {
         const std::lock_guard lock(mMutex);
         mDeviceLost |= kind == DriverErrorKind::DeviceLost;
-        if (mErrors.size() < kMaxErrors)
-            mErrors.push_back({ kind, std::string(message) });
+        if (mErrors.size() < mErrors.capacity())
+            mErrors.push_back({ kind, copyOf(message) });
         else
             ++mDroppedErrors;
     }
     if (kind == DriverErrorKind::DeviceLost) mAnswered.notify_all();
+}
+
+void ResultMailbox::onOutOfMemory(const char* doing) noexcept {
+    {
+        const std::lock_guard lock(mMutex);
+        mOutOfMemory = doing;
+        mDeviceLost = true;
+    }
+    mAnswered.notify_all();
 }
 
 void ResultMailbox::onReplayed(FrameTiming const& timing) {
@@ -83,11 +110,22 @@ std::optional<uint64_t> ResultMailbox::takeTimer(Ticket ticket) {
 
 std::vector<DriverError> ResultMailbox::takeErrors() {
     const std::lock_guard lock(mMutex);
-    if (const size_t dropped = std::exchange(mDroppedErrors, 0)) {
-        mErrors.push_back(
-                { DriverErrorKind::Other, fmt::format("{} more errors were dropped: take them every frame", dropped) });
+    if (mErrors.empty() && mDroppedErrors == 0 && !mOutOfMemory) return {};
+    std::vector<DriverError> next; // whatever fails fails before anything is taken
+    next.reserve(kMaxErrors);
+    mErrors.reserve(mErrors.size() + 2);
+    DriverError dropped{ DriverErrorKind::Other, {} }, lost{ DriverErrorKind::DeviceLost, {} };
+    if (mDroppedErrors > 0)
+        dropped.message = fmt::format("{} more errors were dropped: take them every frame", mDroppedErrors);
+    if (mOutOfMemory)
+        lost.message = fmt::format("driver thread: out of host memory while {}; the device is lost, make a new engine",
+                                   mOutOfMemory);
+    for (DriverError* error : { &dropped, &lost }) {
+        if (!error->message.empty()) mErrors.push_back(std::move(*error));
     }
-    return std::exchange(mErrors, {});
+    mDroppedErrors = 0;
+    mOutOfMemory = nullptr;
+    return std::exchange(mErrors, std::move(next));
 }
 
 std::vector<FrameTiming> ResultMailbox::takeTimings() {

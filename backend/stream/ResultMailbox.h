@@ -3,6 +3,7 @@
 ///   Thread  any; one short lock a call. The on...() half is called on the driver thread.
 ///   Memory  read-backs wait until they are taken. Timers, frame timings and errors are bounded: of what nobody takes,
 ///           the oldest timers and timings and the newest errors are dropped (how many errors is told).
+///   Fails   never for lack of memory: a read-back then is answered without bytes, an error in fewer words.
 ///   Cost    a read-back is one vector and one copy; the rest allocates nothing after the first frames.
 #pragma once
 
@@ -29,6 +30,8 @@ public:
     void onReadback(Ticket ticket, std::span<const std::byte> bytes) override;
     void onTimer(Ticket ticket, uint64_t nanoseconds) override;
     void onError(DriverErrorKind kind, std::string_view message) override;
+    /// The driver ran out of host memory in `doing` (a literal) and cannot go on: the device counts as lost.
+    void onOutOfMemory(const char* doing) noexcept;
     void onReplayed(FrameTiming const& timing);
     /// The driver has answered everything up to this submission: wakes those who wait in vain.
     void onIdle(uint64_t submission);
@@ -52,9 +55,10 @@ private:
     mutable std::mutex mMutex;
     std::condition_variable mAnswered;
     std::unordered_map<Ticket, std::vector<std::byte>> mReadbacks;
-    std::vector<Timer> mTimers;        // oldest first
-    std::vector<FrameTiming> mTimings; // oldest first
-    std::vector<DriverError> mErrors;  // oldest first
+    std::vector<Timer> mTimers;         // oldest first
+    std::vector<FrameTiming> mTimings;  // oldest first
+    std::vector<DriverError> mErrors;   // oldest first
+    const char* mOutOfMemory = nullptr; // doing what; told once
     size_t mDroppedErrors = 0;
     uint64_t mIdleSubmission = 0;
     bool mDeviceLost = false;

@@ -133,10 +133,62 @@ void JsonNode::refuse(std::string_view expected) const {
                          found);
 }
 
-JsonTree::JsonTree(std::span<const std::byte> text, GltfDiagnostics& diagnostics) : mValue(std::make_unique<json>()) {
+namespace {
+
+/// Builds a tree from what the parser finds, down to kMaxDepth.
+class ShallowBuilder {
+public:
+    static constexpr size_t kMaxDepth = 64; // glTF's own fields end at 10
+
+    explicit ShallowBuilder(json& root) : mTree(root) {}
+
+    bool null() { return isTooDeep() || mTree.null(); }
+    bool boolean(bool value) { return isTooDeep() || mTree.boolean(value); }
+    bool number_integer(json::number_integer_t value) { return isTooDeep() || mTree.number_integer(value); }
+    bool number_unsigned(json::number_unsigned_t value) { return isTooDeep() || mTree.number_unsigned(value); }
+    bool number_float(json::number_float_t value, json::string_t const& text) {
+        return isTooDeep() || mTree.number_float(value, text);
+    }
+    bool string(json::string_t& value) { return isTooDeep() || mTree.string(value); }
+    bool binary(json::binary_t& value) { return isTooDeep() || mTree.binary(value); }
+    bool key(json::string_t& value) { return isTooDeep() || mTree.key(value); }
+    bool start_object(size_t count) { return ++mDepth <= kMaxDepth ? mTree.start_object(count) : nullOnce(); }
+    bool start_array(size_t count) { return ++mDepth <= kMaxDepth ? mTree.start_array(count) : nullOnce(); }
+    bool end_object() { return mDepth-- > kMaxDepth || mTree.end_object(); }
+    bool end_array() { return mDepth-- > kMaxDepth || mTree.end_array(); }
+    template <class Exception>
+    bool parse_error(size_t byte, std::string const& token, Exception const& exception) {
+        return mTree.parse_error(byte, token, exception);
+    }
+
+private:
+    bool isTooDeep() const { return mDepth > kMaxDepth; }
+    bool nullOnce() { return mDepth > kMaxDepth + 1 || mTree.null(); }
+
+    nlohmann::detail::json_sax_dom_parser<json> mTree;
+    size_t mDepth = 0;
+};
+
+// The library's destructor allocates as long as there are elements, and ends the process where it cannot.
+void takeApart(json& value) {
+    if (value.is_structured()) {
+        for (json& child : value) takeApart(child);
+        value.clear();
+    }
+}
+
+} // namespace
+
+void JsonTree::TakeApart::operator()(json* value) const {
+    takeApart(*value);
+    delete value;
+}
+
+JsonTree::JsonTree(std::span<const std::byte> text, GltfDiagnostics& diagnostics) : mValue(new json) {
     auto const* first = reinterpret_cast<const char*>(text.data());
     try {
-        *mValue = json::parse(first, first + text.size());
+        ShallowBuilder builder(*mValue);
+        json::sax_parse(first, first + text.size(), &builder);
     } catch (json::parse_error const& error) {
         diagnostics.refuse(ErrorCode::Corrupt, "the JSON is broken at byte {}", error.byte);
     } catch (json::exception const&) { // a number beyond double
@@ -144,8 +196,6 @@ JsonTree::JsonTree(std::span<const std::byte> text, GltfDiagnostics& diagnostics
     }
     if (!mValue->is_object()) diagnostics.refuse(ErrorCode::Corrupt, "the JSON is not an object");
 }
-
-JsonTree::~JsonTree() = default;
 
 JsonNode JsonTree::root(GltfDiagnostics& diagnostics) const { return { mValue.get(), {}, diagnostics }; }
 

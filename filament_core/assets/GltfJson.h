@@ -4,8 +4,8 @@
 ///   gives another missing node, asking it for a value gives the fallback. A value of the wrong kind is refused with
 ///   its path.
 ///   Thread  read-only after parse; the diagnostics belong to one thread.
-///   Limits  integers up to 2^53 (what a JSON double holds exactly).
-///   Only GltfJson.cpp sees the JSON library.
+///   Limits  integers up to 2^53 (what a JSON double holds exactly). What is nested deeper than any field of glTF is
+///   null. Only GltfJson.cpp sees the JSON library.
 #pragma once
 
 #include "filament_core/assets/GltfDiagnostics.h"
@@ -72,11 +72,13 @@ class JsonTree {
 public:
     /// Refuses text that is not a JSON object, naming the byte.
     JsonTree(std::span<const std::byte> text, GltfDiagnostics& diagnostics);
-    ~JsonTree();
     JsonNode root(GltfDiagnostics& diagnostics) const;
 
 private:
-    std::unique_ptr<nlohmann::json> mValue;
+    struct TakeApart {
+        void operator()(nlohmann::json* value) const;
+    };
+    std::unique_ptr<nlohmann::json, TakeApart> mValue;
 };
 
 } // namespace filament::assets

@@ -7,6 +7,7 @@
 #include "filament_core/assets/GltfParse.h"
 #include "filament_core/assets/GltfTextures.h"
 #include "filament_core/assets/GltfUri.h"
+#include "filament_core/base/OutOfMemory.h"
 
 #include <exception>
 #include <mutex>
@@ -134,6 +135,8 @@ Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& j
         const Result<std::vector<std::byte>> file = readGltfFile(path);
         if (!file) return file.error();
         return loadGltfFromMemory(*file, path.parent_path(), jobs, options);
+    } catch (std::bad_alloc const&) {
+        return outOfMemory("glTF", options.name);
     } catch (std::exception const& exception) {
         return fail(ErrorCode::OutOfMemory, "{}: {}", options.name, exception.what());
     }
@@ -147,6 +150,8 @@ Result<ModelData> loadGltfFromMemory(std::span<const std::byte> file, std::files
         if (!diagnostics.ok())
             return fail(diagnostics.error().code, "{}: {}", options.name, diagnostics.error().message);
         return model;
+    } catch (std::bad_alloc const&) {
+        return outOfMemory("glTF", options.name);
     } catch (std::exception const& exception) {
         return fail(ErrorCode::OutOfMemory, "{}: {}", options.name, exception.what());
     }

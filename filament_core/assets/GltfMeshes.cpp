@@ -68,6 +68,8 @@ void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GltfPr
     GltfPrimitive const& primitive = document.meshes[request.mesh].primitives[job.primitive];
     try {
         job.data = build(document, request, primitive, path, job.diagnostics);
+    } catch (std::bad_alloc const&) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "{}: out of memory; free some and try again", path);
     } catch (std::exception const& exception) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "{}: {}", path, exception.what());
     }

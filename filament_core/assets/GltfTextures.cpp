@@ -103,6 +103,8 @@ void decodeImageJob(GltfDocument const& document, std::filesystem::path const& b
         if (isBoth) job.data = withMipMaps(*image, false, maxSize);
         (job.colorTexture != kNone ? job.color : job.data) =
                 withMipMaps(std::move(*image), job.colorTexture != kNone, maxSize);
+    } catch (std::bad_alloc const&) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again", job.image);
     } catch (std::exception const& exception) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", job.image, exception.what());
     }

@@ -2,12 +2,14 @@
 /// HandleAllocator: gives handles out and takes them back.
 ///   Thread  any; one short lock per call. Never waits for a driver or a device.
 ///   Limits  2^20 live handles; beyond it allocate() asserts, naming the type's limit.
+///   Fails   allocate() throws std::bad_alloc and changes nothing; free() never fails.
 #pragma once
 
 #include "filament_core/base/Assert.h"
 
 #include <filament/Handle.h>
 
+#include <algorithm>
 #include <cstdint>
 #include <mutex>
 #include <vector>
@@ -21,6 +23,7 @@ public:
         const std::lock_guard lock(mMutex);
         if (mFree.empty()) {
             FILAMENT_ASSERT(mGenerations.size() <= Handle<Tag>::kIndexMask, "at most 2^20 handles of one type");
+            reserveFree(mGenerations.size() + 1);
             mGenerations.push_back(1);
             return Handle<Tag>::make(static_cast<uint32_t>(mGenerations.size() - 1), 1);
         }
@@ -51,6 +54,11 @@ public:
 private:
     bool isLiveLocked(Handle<Tag> handle) const {
         return handle && handle.index() < mGenerations.size() && mGenerations[handle.index()] == handle.generation();
+    }
+
+    // Room for every handle to come back.
+    void reserveFree(size_t count) {
+        if (mFree.capacity() < count) mFree.reserve(std::max(count, 2 * mFree.capacity()));
     }
 
     mutable std::mutex mMutex;

@@ -47,4 +47,6 @@ void logLine(Severity severity, std::string_view line) {
     std::fprintf(stderr, "%s%.*s\n", prefix(severity), static_cast<int>(line.size()), line.data());
 }
 
+void logLineIsMissing() noexcept { std::fputs("error: out of memory, a line of the log is missing\n", stderr); }
+
 } // namespace filament

@@ -2,12 +2,14 @@
 /// Log: one line of text to whoever listens.
 ///   Thread  any; lines never interleave.
 ///   Sink    standard error by default; setLogSink replaces it (tests collect, tools prefix).
+///   Fails   a line for which there is no memory is left out, which takes its place as a line.
 ///   Cost    formats only when the severity is at or above the threshold.
 #pragma once
 
 #include <fmt/core.h>
 
 #include <functional>
+#include <new>
 #include <string_view>
 
 namespace filament {
@@ -24,10 +26,17 @@ void setLogThreshold(Severity severity);
 bool logs(Severity severity);
 
 void logLine(Severity severity, std::string_view line);
+/// On standard error: the sink may be what ran out of memory.
+void logLineIsMissing() noexcept;
 
 template <class... Args>
 void log(Severity severity, fmt::format_string<Args...> format, Args&&... args) {
-    if (logs(severity)) logLine(severity, fmt::vformat(format, fmt::make_format_args(args...)));
+    if (!logs(severity)) return;
+    try {
+        logLine(severity, fmt::vformat(format, fmt::make_format_args(args...)));
+    } catch (std::bad_alloc const&) {
+        logLineIsMissing();
+    }
 }
 
 } // namespace filament

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/DefaultObjects.h"
 
+#include "backend/stream/RecordingGuards.h"
 #include "filament_core/assets/DfgTable.h"
 #include "filament_core/base/Assert.h"
 #include "filament_core/base/Result.h"
@@ -19,10 +20,12 @@ using namespace backend;
 BufferHandle createInstanceIds(Engine::Impl& engine) {
     std::array<uint32_t, shader::kObjectsPerWindow> ids{};
     std::iota(ids.begin(), ids.end(), 0u);
-    const BufferHandle handle = engine.stream->allocateBuffer();
+    NewHandle handle(*engine.stream, engine.stream->allocateBuffer());
+    AllOrNothing both(engine.pending);
     engine.pending.record(CmdCreateBuffer{ handle, { sizeof(ids), BufferUsage::Vertex, "instance ids" } });
     engine.pending.record(CmdUpdateBuffer{ handle, 0, std::as_bytes(std::span(ids)) });
-    return handle;
+    both.complete();
+    return handle.keep();
 }
 
 // The same for every engine of the process.
@@ -66,16 +69,12 @@ void createDefaultObjects(Engine::Impl& engine) {
 }
 
 void destroyDefaultObjects(Engine::Impl& engine) {
-    std::vector<Texture> textures{ engine.defaults.white, engine.defaults.blackCube };
-    for (auto const& [size, table] : engine.defaults.dfg) textures.push_back(table);
-    for (const Texture texture : textures) {
-        const TextureHandle handle = engine.textureHandle(texture);
-        engine.pending.record(CmdDestroyTexture{ handle });
-        engine.stream->free(handle);
-        engine.textures.remove(texture);
+    engine.destroy(engine.defaults.white);
+    engine.destroy(engine.defaults.blackCube);
+    for (auto const& [size, table] : engine.defaults.dfg) {
+        if (table) engine.destroy(table); // none: there was no memory for it
     }
-    engine.pending.record(CmdDestroyBuffer{ engine.defaults.instanceIds });
-    engine.stream->free(engine.defaults.instanceIds);
+    engine.stream->destroy(engine.pending, engine.defaults.instanceIds);
     for (auto const& [key, material] : engine.engineMaterials) {
         engine.pipelines.forget(engine.pending, engine.materials.get(material));
         engine.materials.remove(material);

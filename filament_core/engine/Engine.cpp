@@ -3,9 +3,11 @@
 
 #include "backend/create/CreateDriver.h"
 #include "backend/layers/Captured.h"
+#include "backend/layers/Faulty.h"
 #include "backend/layers/Traced.h"
 #include "backend/layers/Validated.h"
 #include "filament_core/base/Log.h"
+#include "filament_core/base/OutOfMemory.h"
 #include "filament_core/base/Result.h"
 #include "filament_core/engine/DefaultObjects.h"
 #include "filament_core/engine/EngineImpl.h"
@@ -56,7 +58,9 @@ DriverFactory driverFactory(EngineOptions const& options) {
     return [options](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
         const auto innermost = [&options](ResultSink& results) {
             const DriverOptions driverOptions{ options.requireDevice, options.validation };
-            return createDriver(backendType(options.backend), driverOptions, results);
+            auto device = createDriver(backendType(options.backend), driverOptions, results);
+            if (device && options.debug.faults) device = faulty(std::move(*device), options.debug.faults, results);
+            return device;
         };
         auto driver = options.debug.capture ? captured(options.debug.capture, sink, innermost) : innermost(sink);
         if (!driver) return driver.error();
@@ -141,15 +145,17 @@ Engine::Impl::~Impl() {
     reportLeaks(indexBuffers, "index buffer");
     reportLeaks(textures, "texture");
     samplers.destroyAll(pending);
-    flush(); // the driver frees what is left when it ends
+    try {
+        flush();
+    } catch (std::bad_alloc const&) { // the driver frees what is left when it ends
+    }
     collectErrors();
     for (std::string const& error : errors) log(Severity::Error, "{}", error);
 }
 
 void Engine::Impl::flush() {
-    CommandBuffer& commands = stream->acquire();
-    drainPending(commands);
-    stream->submit(commands);
+    FrameCommands commands(*stream);
+    drainPending(*commands);
 }
 
 void Engine::Impl::drainPending(CommandBuffer& commands) {
@@ -159,7 +165,28 @@ void Engine::Impl::drainPending(CommandBuffer& commands) {
 }
 
 void Engine::Impl::collectErrors() {
-    for (DriverError& error : stream->takeErrors()) errors.push_back(std::move(error.message));
+    std::vector<DriverError> taken;
+    try {
+        taken = stream->takeErrors();
+        errors.reserve(errors.size() + taken.size() + 1);
+        if (untoldErrors > 0) errors.push_back(fmt::format("out of memory, {} more times", untoldErrors));
+        untoldErrors = 0;
+        for (DriverError& error : taken) errors.push_back(std::move(error.message));
+    } catch (std::bad_alloc const&) { // next time
+        untoldErrors += static_cast<uint32_t>(taken.size());
+    }
+}
+
+void Engine::Impl::report(std::string_view line) noexcept {
+    try {
+        errors.emplace_back(line);
+    } catch (std::bad_alloc const&) {
+        ++untoldErrors;
+    }
+}
+
+void Engine::Impl::reportOutOfMemory(std::string_view doing, std::string_view object) noexcept {
+    report(outOfMemory(doing, object).message);
 }
 
 double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {
@@ -168,11 +195,13 @@ double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {
 }
 
 Result<Engine> Engine::create(EngineOptions const& options) {
-    if (Result<void> cores = checkCores(options); !cores) return cores.error();
-    auto stream = CommandStream::start(driverFactory(options),
-                                       { .driverCore = options.driverCore, .hashStreams = options.hashFrames });
-    if (!stream) return stream.error();
-    return Engine(std::make_unique<Impl>(options, std::move(*stream)));
+    return orOutOfMemory("engine on", toString(options.backend), [&]() -> Result<Engine> {
+        if (Result<void> cores = checkCores(options); !cores) return cores.error();
+        auto stream = CommandStream::start(driverFactory(options),
+                                           { .driverCore = options.driverCore, .hashStreams = options.hashFrames });
+        if (!stream) return stream.error();
+        return Engine(std::make_unique<Impl>(options, std::move(*stream)));
+    });
 }
 
 Engine::Engine(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) { mImpl->self = this; }
@@ -204,13 +233,19 @@ std::vector<std::string> Engine::takeErrors() {
 }
 
 Result<void> Engine::writeJobTrace(std::filesystem::path const& file) const {
-    if (jobs::JobTrace const* timeline = mImpl->jobs.trace()) return writeChromeTrace(timeline->snapshot(), file);
-    return fail(ErrorCode::InvalidArgument, "job trace '{}': make the engine with EngineOptions::traceJobs",
-                file.string());
+    return orOutOfMemory("job trace", file.native(), [&]() -> Result<void> {
+        if (jobs::JobTrace const* timeline = mImpl->jobs.trace()) return writeChromeTrace(timeline->snapshot(), file);
+        return fail(ErrorCode::InvalidArgument, "job trace '{}': make the engine with EngineOptions::traceJobs",
+                    file.string());
+    });
 }
 
 void Engine::waitIdle() {
-    mImpl->flush();
+    try {
+        mImpl->flush();
+    } catch (std::bad_alloc const&) {
+        mImpl->reportOutOfMemory("engine: what was not submitted yet waits for the next frame");
+    }
     mImpl->stream->waitIdle();
 }
 

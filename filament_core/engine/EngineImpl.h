@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Engine::Impl: the rooms of one engine, wired together, and the tables behind the public handles.
 ///   Thread  the app thread.
+///   Fails   create...() and set() throw std::bad_alloc and change nothing; Engine's functions of the same names turn
+///   it
+///           into an error. What ends or destroys something never fails.
 ///   Stream  creations are recorded into `pending` and travel with the next frame or the next flush(): nothing waits.
 #pragma once
 
@@ -19,14 +22,15 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <type_traits>
 #include <vector>
 
 namespace filament {
 namespace engine {
 
 struct TextureState {
-    backend::TextureHandle handle;
-    backend::TextureDesc desc{}; ///< debugName is empty: see `name`
+    backend::TextureHandle handle; ///< none: refused, see createTexture()
+    backend::TextureDesc desc{};   ///< debugName is empty: see `name`
     std::string name;
 };
 
@@ -87,9 +91,23 @@ struct Engine::Impl {
     /// Moves everything pending, dirty parameters included, in front of a frame.
     void drainPending(backend::CommandBuffer& commands);
     void collectErrors();
+    /// A line for takeErrors(), as long as there is memory for it.
+    void report(std::string_view line) noexcept;
+    void reportOutOfMemory(std::string_view doing, std::string_view object = {}) noexcept;
+    /// What `make` returns; none and a line for takeErrors() if there is no memory for it.
+    template <class F>
+    auto orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&>;
     double secondsSinceStart(int64_t steadyNanoseconds) const;
 
     Texture createTexture(TextureDesc const& desc);
+    VertexBuffer createVertexBuffer(VertexBufferDesc const& desc);
+    IndexBuffer createIndexBuffer(IndexBufferDesc const& desc);
+    SwapChain createSwapChain(SwapChainDesc const& desc);
+    MaterialInstance createInstance(Material material, std::string name);
+    Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
+    Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler);
+    void destroy(Texture texture);
+    void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked when first asked for, then kept.
     Texture dfgTable(uint32_t size);
     Result<Material> createMaterial(MaterialDesc const& desc);
@@ -98,6 +116,7 @@ struct Engine::Impl {
     void useTextureFilter(TextureFilter filter);
     void updateInstance(scene::MaterialInstance& instance, backend::CommandBuffer& commands);
     void markDirty(MaterialInstance instance);
+    /// None: the texture is larger than the device allows.
     backend::TextureHandle textureHandle(Texture texture) const { return textures.get(texture).handle; }
 
     Engine* self = nullptr; ///< follows moves of the Engine
@@ -109,6 +128,7 @@ struct Engine::Impl {
     DeviceDescription device;
     backend::CommandBuffer pending;
     std::vector<std::string> errors;
+    uint32_t untoldErrors = 0; ///< there was no memory for their lines
 
     scene::GeometryLayouts layouts;
     passes::PipelineCache pipelines;
@@ -130,5 +150,15 @@ struct Engine::Impl {
     TextureFilter textureFilter = TextureFilter::AsAuthored; ///< of the frame recorded last
     uint32_t nextMaterialId = 0, nextInstanceId = 0;
 };
+
+template <class F>
+auto Engine::Impl::orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&> {
+    try {
+        return make();
+    } catch (std::bad_alloc const&) {
+        reportOutOfMemory(doing, object);
+        return {};
+    }
+}
 
 } // namespace filament

@@ -92,19 +92,20 @@ Material GltfMaterials::materialFor(MaterialData const& material, bool hasVertex
     std::vector<MaterialConstant> constants = constantsOf(material, hasVertexColor);
     Material& shared = mMaterials[keyOf(package, constants)];
     if (!shared) {
-        auto created = mEngine.create(MaterialDesc{ shader::engineMaterial(package), std::move(constants), package });
+        mModel.materials.push_back({}); // whoever makes something here has already a place for it
+        auto created = mEngine.createMaterial({ shader::engineMaterial(package), std::move(constants), package });
         if (!created) log(Severity::Error, "{}", created.error().message);
         FILAMENT_ASSERT(created.ok(), "the glTF materials have the constants that GltfMaterials sets");
-        shared = *created;
-        mModel.materials.push_back(shared);
+        shared = mModel.materials.back() = *created;
     }
     return shared;
 }
 
 MaterialInstance GltfMaterials::instanceFor(MaterialData const& material, bool hasVertexColor) {
-    const MaterialInstance instance = mEngine.createInstance(materialFor(material, hasVertexColor), material.name);
-    mModel.instances.push_back(instance);
-    mEngine.setCullingDisabled(instance, material.doubleSided);
+    const Material parent = materialFor(material, hasVertexColor);
+    mModel.instances.push_back({});
+    const MaterialInstance instance = mModel.instances.back() = mEngine.createInstance(parent, material.name);
+    mEngine.instances.get(instance).cullingDisabled = material.doubleSided;
     setParameters(instance, material);
     return instance;
 }

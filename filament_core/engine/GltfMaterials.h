@@ -14,7 +14,7 @@ namespace filament {
 class GltfMaterials {
 public:
     /// `textures[i]` is images[i] of the model.
-    GltfMaterials(Engine& engine, Model::Impl& model, std::span<const Texture> textures)
+    GltfMaterials(Engine::Impl& engine, Model::Impl& model, std::span<const Texture> textures)
             : mEngine(engine), mModel(model), mTextures(textures) {}
 
     MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor);
@@ -23,7 +23,7 @@ private:
     Material materialFor(assets::MaterialData const& material, bool hasVertexColor);
     void setParameters(MaterialInstance instance, assets::MaterialData const& material);
 
-    Engine& mEngine;
+    Engine::Impl& mEngine;
     Model::Impl& mModel;
     std::span<const Texture> mTextures;
     std::map<std::string, Material> mMaterials; ///< by package and constants

@@ -2,36 +2,44 @@
 #include <filament/Environment.h>
 
 #include "filament_core/assets/Environment.h"
+#include "filament_core/base/OutOfMemory.h"
 #include "filament_core/engine/EngineImpl.h"
+
+#include <new>
 
 namespace filament {
 
 struct Environment::Impl {
     Engine::Impl& engine;
-    Texture specular, sky;
-    IndirectLight indirectLight;
-    Skybox skybox;
+    Texture specular{}, sky{};
+    IndirectLight indirectLight{};
+    Skybox skybox{};
 
     ~Impl() {
         Engine& owner = Engine::of(engine);
-        owner.destroy(skybox);
-        owner.destroy(indirectLight);
-        owner.destroy(sky);
-        owner.destroy(specular);
+        if (skybox) owner.destroy(skybox); // none: memory ran out while the environment was loaded
+        if (indirectLight) owner.destroy(indirectLight);
+        if (sky) engine.destroy(sky);
+        if (specular) engine.destroy(specular);
     }
 };
 
 namespace {
 
-Texture uploadCube(Engine& engine, assets::Image const& image, std::string name) {
-    return engine.create(TextureDesc{ .kind = TextureKind::Cube,
-                                      .format = image.format,
-                                      .width = image.width,
-                                      .height = image.height,
-                                      .layers = 6,
-                                      .levels = image.levels,
-                                      .pixels = image.data,
-                                      .name = std::move(name) });
+template <class Handle>
+Handle orBadAlloc(Handle handle) {
+    return handle ? handle : throw std::bad_alloc();
+}
+
+Texture uploadCube(Engine::Impl& engine, assets::Image const& image, std::string name) {
+    return engine.createTexture({ .kind = TextureKind::Cube,
+                                  .format = image.format,
+                                  .width = image.width,
+                                  .height = image.height,
+                                  .layers = 6,
+                                  .levels = image.levels,
+                                  .pixels = image.data,
+                                  .name = std::move(name) });
 }
 
 } // namespace
@@ -46,25 +54,31 @@ Skybox Environment::skybox() const { return mImpl->skybox; }
 
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
                                     EnvironmentLoadOptions const& options) {
-    Engine::Impl& impl = engine.impl();
-    auto data = assets::loadEnvironment(path, impl.jobs,
-                                        { .cacheDirectory = impl.options.cacheDirectory,
-                                          .faceSize = options.faceSize,
-                                          .samples = options.samples,
-                                          .format = options.format,
-                                          .progress = options.progress });
-    if (!data) return data.error();
+    using Made = Result<std::unique_ptr<Environment::Impl>>;
+    auto made = orOutOfMemory("environment", path.native(), [&]() -> Made {
+        Engine::Impl& impl = engine.impl();
+        auto data = assets::loadEnvironment(path, impl.jobs,
+                                            { .cacheDirectory = impl.options.cacheDirectory,
+                                              .faceSize = options.faceSize,
+                                              .samples = options.samples,
+                                              .format = options.format,
+                                              .progress = options.progress });
+        if (!data) return data.error();
 
-    const std::string name = path.filename().string();
-    const Texture specular = uploadCube(engine, data->specular, name);
-    const Texture sky = uploadCube(engine, data->sky, name + " sky");
-    const IndirectLight light = engine.create(IndirectLightDesc{ .specular = specular,
-                                                                 .specularLevels = data->specular.levels,
-                                                                 .irradianceSh = data->irradianceSh,
-                                                                 .name = name });
-    const Skybox skybox = engine.create(SkyboxDesc{ .cube = sky, .name = name });
-    impl.flush(); // the driver thread uploads while the caller goes on
-    return Environment(std::unique_ptr<Environment::Impl>(new Environment::Impl{ impl, specular, sky, light, skybox }));
+        const std::string name = path.filename().string();
+        std::unique_ptr<Environment::Impl> parts(new Environment::Impl{ impl });
+        parts->specular = uploadCube(impl, data->specular, name);
+        parts->sky = uploadCube(impl, data->sky, name + " sky");
+        parts->indirectLight = orBadAlloc(engine.create(IndirectLightDesc{ .specular = parts->specular,
+                                                                           .specularLevels = data->specular.levels,
+                                                                           .irradianceSh = data->irradianceSh,
+                                                                           .name = name }));
+        parts->skybox = orBadAlloc(engine.create(SkyboxDesc{ .cube = parts->sky, .name = name }));
+        impl.flush(); // the driver thread uploads while the caller goes on
+        return parts;
+    });
+    if (!made) return made.error();
+    return Environment(std::move(*made));
 }
 
 } // namespace filament

@@ -2,6 +2,7 @@
 #include <filament/Gltf.h>
 
 #include "filament_core/assets/GltfLoader.h"
+#include "filament_core/base/OutOfMemory.h"
 #include "filament_core/engine/GltfMaterials.h"
 #include "filament_core/engine/ModelImpl.h"
 
@@ -36,7 +37,7 @@ PrimitiveType primitiveType(backend::Topology topology) {
 class ModelBuilder {
 public:
     ModelBuilder(Engine& engine, ModelData const& data)
-            : mEngine(engine), mData(data), mModel(std::make_unique<Model::Impl>(engine)) {}
+            : mEngine(engine.impl()), mData(data), mModel(std::make_unique<Model::Impl>(engine)) {}
 
     std::unique_ptr<Model::Impl> build() {
         mModel->name = mData.name;
@@ -50,12 +51,13 @@ public:
 private:
     void uploadImages() {
         for (assets::Image const& image : mData.images) {
-            mModel->textures.push_back(mEngine.create(TextureDesc{ .format = image.format,
-                                                                   .width = image.width,
-                                                                   .height = image.height,
-                                                                   .levels = image.levels,
-                                                                   .pixels = image.data,
-                                                                   .name = mData.name }));
+            mModel->textures.push_back({}); // whoever makes something here has already a place for it
+            mModel->textures.back() = mEngine.createTexture({ .format = image.format,
+                                                              .width = image.width,
+                                                              .height = image.height,
+                                                              .levels = image.levels,
+                                                              .pixels = image.data,
+                                                              .name = mData.name });
         }
     }
 
@@ -88,20 +90,21 @@ private:
                     { static_cast<Attribute>(attribute.location), attribute.format, attribute.offset });
         }
         const bool wide = primitive.indexType == backend::IndexType::UInt32;
-        RenderableDesc part{ .vertices = mEngine.create(vertices),
-                             .indices = mEngine.create(
-                                     IndexBufferDesc{ .indexCount = primitive.indexCount,
-                                                      .format = wide ? IndexFormat::UInt32 : IndexFormat::UInt16,
-                                                      .data = primitive.indices,
-                                                      .name = name }),
-                             .material = instance,
-                             .primitive = primitiveType(primitive.topology),
-                             .boundsMin = primitive.boundsMin,
-                             .boundsMax = primitive.boundsMax,
-                             .name = name };
-        mModel->vertexBuffers.push_back(part.vertices);
-        mModel->indexBuffers.push_back(part.indices);
-        return part;
+        mModel->vertexBuffers.push_back({});
+        mModel->indexBuffers.push_back({});
+        mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices);
+        mModel->indexBuffers.back() =
+                mEngine.createIndexBuffer({ .indexCount = primitive.indexCount,
+                                            .format = wide ? IndexFormat::UInt32 : IndexFormat::UInt16,
+                                            .data = primitive.indices,
+                                            .name = name });
+        return { .vertices = mModel->vertexBuffers.back(),
+                 .indices = mModel->indexBuffers.back(),
+                 .material = instance,
+                 .primitive = primitiveType(primitive.topology),
+                 .boundsMin = primitive.boundsMin,
+                 .boundsMax = primitive.boundsMax,
+                 .name = name };
     }
 
     void placeNodes() {
@@ -148,7 +151,7 @@ private:
                           light.outerConeRadians };
     }
 
-    Engine& mEngine;
+    Engine::Impl& mEngine;
     ModelData const& mData;
     std::unique_ptr<Model::Impl> mModel;
     std::vector<std::vector<RenderableDesc>> mMeshes; // by mesh of the file, one an own primitive
@@ -158,11 +161,16 @@ private:
 
 Model::Impl::~Impl() {
     Engine& owner = Engine::of(engine);
-    for (MaterialInstance instance : instances) owner.destroy(instance);
-    for (Material material : materials) owner.destroy(material);
-    for (VertexBuffer buffer : vertexBuffers) owner.destroy(buffer);
-    for (IndexBuffer buffer : indexBuffers) owner.destroy(buffer);
-    for (Texture texture : textures) owner.destroy(texture);
+    const auto destroyAll = [&](auto const& objects) {
+        for (auto object : objects) {
+            if (object) owner.destroy(object); // none: memory ran out while the model was loaded
+        }
+    };
+    destroyAll(instances);
+    destroyAll(materials);
+    destroyAll(vertexBuffers);
+    destroyAll(indexBuffers);
+    destroyAll(textures);
 }
 
 Model::Model(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
@@ -175,7 +183,10 @@ Box Model::bounds() const { return mImpl->bounds; }
 size_t Model::renderableCount() const { return mImpl->renderables.size(); }
 std::vector<std::string> const& Model::warnings() const { return mImpl->warnings; }
 
-Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
+namespace {
+
+Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path const& path,
+                                          GltfLoadOptions const& options) {
     assets::GltfOptions loaderOptions;
     if (options.progress) {
         loaderOptions.progress = [&](assets::GltfStage stage, size_t done, size_t total) {
@@ -186,7 +197,15 @@ Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLo
     if (!data) return data.error();
     std::unique_ptr<Model::Impl> model = ModelBuilder(engine, *data).build();
     engine.impl().flush(); // the driver thread uploads while the caller goes on
-    return Model(std::move(model));
+    return model;
+}
+
+} // namespace
+
+Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
+    auto model = orOutOfMemory("glTF", path.native(), [&] { return load(engine, path, options); });
+    if (!model) return model.error();
+    return Model(std::move(*model));
 }
 
 } // namespace filament

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials and their instances: packages -> programs, named parameters -> uniform blocks and bind groups.
+#include "filament_core/base/OutOfMemory.h"
 #include "filament_core/base/Result.h"
 #include "filament_core/base/Suggest.h"
 #include "filament_core/engine/EngineImpl.h"
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <bit>
 #include <cstring>
+#include <utility>
 
 namespace filament {
 namespace {
@@ -133,12 +135,12 @@ Sampler filtered(Sampler sampler, TextureFilter filter) {
 // Bind groups name their samplers: those of all instances are made anew, and only when the choice changes.
 void Engine::Impl::useTextureFilter(TextureFilter filter) {
     if (filter == textureFilter) return;
-    textureFilter = filter;
     instances.forEachHandle([&](MaterialInstance handle, scene::MaterialInstance& instance) {
         if (instance.textures.empty()) return;
         markDirty(handle);
         instance.texturesDirty = true;
     });
+    textureFilter = filter;
 }
 
 Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
@@ -154,17 +156,19 @@ Material Engine::Impl::engineMaterial(std::string_view package, std::vector<Mate
     if (const auto found = engineMaterials.find(key); found != engineMaterials.end()) return found->second;
     auto material = createMaterial({ shader::engineMaterial(package), std::move(constants), key });
     FILAMENT_ASSERT(material.ok(), "the engine's own materials are well formed");
-    engineMaterials.emplace(key, *material);
+    try {
+        engineMaterials.emplace(key, *material);
+    } catch (...) {
+        materials.remove(*material);
+        throw;
+    }
     return *material;
 }
 
-Result<Material> Engine::create(MaterialDesc const& desc) { return mImpl->createMaterial(desc); }
-
-MaterialInstance Engine::createInstance(Material material, std::string name) {
-    scene::Material& parent = mImpl->materials.get(material);
-    const MaterialInstance handle = mImpl->instances.add();
-    scene::MaterialInstance& instance = mImpl->instances.get(handle);
-    instance.id = mImpl->nextInstanceId++;
+MaterialInstance Engine::Impl::createInstance(Material material, std::string name) {
+    scene::Material& parent = materials.get(material);
+    engine::Draft draft(instances);
+    scene::MaterialInstance& instance = draft.state();
     instance.material = &parent;
     instance.name = name.empty() ? parent.name : std::move(name);
     instance.parameters.resize(parent.package.uniformBytes);
@@ -172,13 +176,14 @@ MaterialInstance Engine::createInstance(Material material, std::string name) {
     if (Parameter const* threshold = parent.package.findParameter("_maskThreshold")) {
         std::memcpy(instance.parameters.data() + threshold->offset, &parent.package.maskThreshold, sizeof(float));
     }
-    const scene::TextureBinding white{ mImpl->textureHandle(mImpl->defaults.white), {} };
+    const scene::TextureBinding white{ textureHandle(defaults.white), {} };
     for (Parameter const& parameter : parent.package.parameters) {
         if (shader::isTexture(parameter.type)) instance.textures.push_back(white);
     }
+    dirtyInstances.push_back(draft.handle()); // the last that may fail
+    instance.id = nextInstanceId++;
     ++parent.instanceCount;
-    mImpl->dirtyInstances.push_back(handle);
-    return handle;
+    return draft.keep();
 }
 
 void Engine::Impl::markDirty(MaterialInstance handle) {
@@ -186,8 +191,8 @@ void Engine::Impl::markDirty(MaterialInstance handle) {
     if (!instance.parametersDirty && !instance.texturesDirty) dirtyInstances.push_back(handle);
 }
 
-Result<void> Engine::set(MaterialInstance handle, std::string_view name, ParameterValue const& value) {
-    scene::MaterialInstance& instance = mImpl->instances.get(handle);
+Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, ParameterValue const& value) {
+    scene::MaterialInstance& instance = instances.get(handle);
     Parameter const* parameter = instance.material->package.findParameter(name);
     if (!parameter) return unknownParameter(*instance.material, name);
     uint32_t boolStorage = 0;
@@ -196,17 +201,17 @@ Result<void> Engine::set(MaterialInstance handle, std::string_view name, Paramet
         return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' was given a value of another type",
                     name, instance.material->name);
     }
+    markDirty(handle);
     for (uint32_t column = 0; column < raw.columns; ++column) {
         std::memcpy(instance.parameters.data() + parameter->offset + column * 16,
                     static_cast<const std::byte*>(raw.data) + column * raw.columnBytes, raw.columnBytes);
     }
-    mImpl->markDirty(handle);
     instance.parametersDirty = true;
     return {};
 }
 
-Result<void> Engine::set(MaterialInstance handle, std::string_view name, Texture texture, Sampler sampler) {
-    scene::MaterialInstance& instance = mImpl->instances.get(handle);
+Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, Texture texture, Sampler sampler) {
+    scene::MaterialInstance& instance = instances.get(handle);
     shader::MaterialPackage const& package = instance.material->package;
     Parameter const* parameter = package.findParameter(name);
     if (!parameter) return unknownParameter(*instance.material, name);
@@ -214,10 +219,29 @@ Result<void> Engine::set(MaterialInstance handle, std::string_view name, Texture
         return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is not a sampler", name,
                     instance.material->name);
     }
-    instance.textures[textureSlot(package, *parameter)] = { mImpl->textureHandle(texture), sampler };
-    mImpl->markDirty(handle);
+    const Texture standIn = parameter->type == ParameterType::SamplerCube ? defaults.blackCube : defaults.white;
+    const TextureHandle handleOrNone = textureHandle(texture);
+    markDirty(handle);
+    instance.textures[textureSlot(package, *parameter)] = { handleOrNone ? handleOrNone : textureHandle(standIn),
+                                                            sampler };
     instance.texturesDirty = true;
     return {};
+}
+
+Result<Material> Engine::create(MaterialDesc const& desc) {
+    return orOutOfMemory("material", desc.name, [&] { return mImpl->createMaterial(desc); });
+}
+
+MaterialInstance Engine::createInstance(Material material, std::string name) {
+    return mImpl->orNone("material instance", {}, [&] { return mImpl->createInstance(material, std::move(name)); });
+}
+
+Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value) {
+    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, value); });
+}
+
+Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler) {
+    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, texture, sampler); });
 }
 
 void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {
@@ -227,18 +251,15 @@ void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {
 void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuffer& commands) {
     shader::MaterialPackage const& package = instance.material->package;
     if (package.uniformBytes > 0 && !instance.buffer) {
-        instance.buffer = stream->allocateBuffer();
-        commands.record(
-                CmdCreateBuffer{ instance.buffer, { package.uniformBytes, BufferUsage::Uniform, instance.name } });
+        NewHandle buffer(*stream, stream->allocateBuffer());
+        commands.record(CmdCreateBuffer{ buffer, { package.uniformBytes, BufferUsage::Uniform, instance.name } });
+        instance.buffer = buffer.keep();
     }
     if (package.uniformBytes > 0 && instance.parametersDirty) {
         commands.record(CmdUpdateBuffer{ instance.buffer, 0, instance.parameters });
     }
     if (instance.texturesDirty) {
-        if (instance.group) {
-            commands.record(CmdDestroyBindGroup{ instance.group });
-            stream->free(instance.group);
-        }
+        if (instance.group) stream->destroy(commands, std::exchange(instance.group, {}));
         std::array<BindGroupEntry, kMaxBindings> entries{};
         uint32_t count = 0;
         if (package.uniformBytes > 0) {
@@ -252,10 +273,10 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
                                  .texture = bound.texture,
                                  .sampler = samplers.get(filtered(bound.sampler, textureFilter), commands) };
         }
-        instance.group = stream->allocateBindGroup();
+        NewHandle group(*stream, stream->allocateBindGroup());
         commands.record(CmdCreateBindGroup{
-                instance.group,
-                { package.layout[shader::kGroupMaterial], std::span(entries).first(count), instance.name } });
+                group, { package.layout[shader::kGroupMaterial], std::span(entries).first(count), instance.name } });
+        instance.group = group.keep();
     }
     instance.parametersDirty = instance.texturesDirty = false;
 }
@@ -270,14 +291,8 @@ void Engine::destroy(Material material) {
 void Engine::destroy(MaterialInstance handle) {
     scene::MaterialInstance& instance = mImpl->instances.get(handle);
     std::erase(mImpl->dirtyInstances, handle);
-    if (instance.group) {
-        mImpl->pending.record(CmdDestroyBindGroup{ instance.group });
-        mImpl->stream->free(instance.group);
-    }
-    if (instance.buffer) {
-        mImpl->pending.record(CmdDestroyBuffer{ instance.buffer });
-        mImpl->stream->free(instance.buffer);
-    }
+    if (instance.group) mImpl->stream->destroy(mImpl->pending, instance.group);
+    if (instance.buffer) mImpl->stream->destroy(mImpl->pending, instance.buffer);
     --instance.material->instanceCount;
     mImpl->instances.remove(handle);
 }

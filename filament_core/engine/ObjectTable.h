@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ObjectTable: the objects of one type behind their handles. Addresses are stable.
 ///   Thread  the app thread.
-///   Fails   a handle that was destroyed or never made asserts, naming the type.
+///   Fails   add(): std::bad_alloc, and the table is as before.
+///           a handle that was destroyed or never made asserts, naming the type.
 #pragma once
 
 #include "filament_core/base/Handle.h"
 
+#include <algorithm>
 #include <memory>
 #include <string>
 #include <utility>
@@ -18,11 +20,13 @@ class ObjectTable {
 public:
     template <class... Args>
     Handle<Tag> add(Args&&... args) {
-        const Handle<Tag> handle = mHandles.allocate();
+        auto state = std::make_unique<State>(std::forward<Args>(args)...);
+        reserveOne();
+        const Handle<Tag> handle = mHandles.allocate(); // nothing fails from here on
         if (handle.index() >= mStates.size()) mStates.resize(handle.index() + 1);
         mGiven.resize(mStates.size());
         mGiven[handle.index()] = handle;
-        mStates[handle.index()] = std::make_unique<State>(std::forward<Args>(args)...);
+        mStates[handle.index()] = std::move(state);
         return handle;
     }
 
@@ -55,9 +59,36 @@ public:
     }
 
 private:
+    void reserveOne() {
+        if (mStates.size() < mStates.capacity() && mStates.size() < mGiven.capacity()) return;
+        const size_t capacity = std::max<size_t>(16, 2 * mStates.size());
+        mStates.reserve(capacity);
+        mGiven.reserve(capacity);
+    }
+
     HandleAllocator<Tag> mHandles;
     std::vector<std::unique_ptr<State>> mStates;
     std::vector<Handle<Tag>> mGiven; // parallel to mStates: the handle given out last
+};
+
+/// An object that is not complete yet: removed from its table at the end of the scope unless it is kept.
+template <class Tag, class State>
+class Draft {
+public:
+    explicit Draft(ObjectTable<Tag, State>& table) : mTable(table), mHandle(table.add()) {}
+    ~Draft() {
+        if (mHandle) mTable.remove(mHandle);
+    }
+    Draft(Draft const&) = delete;
+    Draft& operator=(Draft const&) = delete;
+
+    State& state() { return mTable.get(mHandle); }
+    Handle<Tag> handle() const { return mHandle; }
+    Handle<Tag> keep() { return std::exchange(mHandle, {}); }
+
+private:
+    ObjectTable<Tag, State>& mTable;
+    Handle<Tag> mHandle;
 };
 
 } // namespace filament::engine

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/Renderer.h>
 
+#include "backend/stream/RecordingGuards.h"
+#include "filament_core/base/OutOfMemory.h"
 #include "filament_core/base/Result.h"
 #include "filament_core/engine/FrameTimingLog.h"
 #include "filament_core/engine/SceneImpl.h"
@@ -10,7 +12,9 @@
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
+#include <algorithm>
 #include <map>
+#include <utility>
 
 namespace filament {
 namespace {
@@ -37,14 +41,35 @@ struct Renderer::Impl {
     ~Impl() {
         data.destroy(engine.pending);
         transients.destroyAll(engine.pending);
-        if (imageTarget) Engine::of(engine).destroy(imageTarget);
+        if (imageTarget) engine.destroy(imageTarget);
+    }
+
+    /// An error: the frame was left out, for lack of memory or of a target. What it made on the way serves the next
+    /// one.
+    Result<void> render(Scene const& scene, View const& view, engine::TextureState const& target) {
+        if (!target.handle) return noImage(target.desc.width, target.desc.height);
+        try {
+            renderFrame(scene, view, target);
+            return {};
+        } catch (std::bad_alloc const&) {
+            plan = {};
+            Error error = outOfMemory("a frame is left out");
+            engine.report(error.message);
+            return error;
+        }
+    }
+
+    static Error noImage(uint32_t width, uint32_t height) {
+        return fail(ErrorCode::DeviceUnavailable,
+                    "the device has no image of {} x {} texels; Engine::takeErrors() names the cause", width, height);
     }
 
     /// The six-line frame of docs/architecture.md, with its measurements.
-    void render(Scene const& scene, View const& view, engine::TextureState const& target) {
+    void renderFrame(Scene const& scene, View const& view, engine::TextureState const& target) {
         const jobs::AdoptedThread seat(engine.jobs); // the app thread works along
         arena.reset();
         graph.reset();
+        plan = {};
         timers.clear();
         engine::FrameTimingLog::Stamps stamps{ .begin = clock() };
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
@@ -55,18 +80,19 @@ struct Renderer::Impl {
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context->packet);
 
         const uint32_t tableSize = view.quality.dfgTableSize;
-        engine.dfgTable(tableSize);                         // made before the frame, if this is the first that wants it
-        CommandBuffer& commands = engine.stream->acquire(); // waits when two frames ahead
-        stamps.acquired = clock();
-        commands.record(CmdBeginFrame{ ++frame });
-        engine.useTextureFilter(view.quality.textureFilter);
-        engine.drainPending(commands);
-        upload(commands, *context, tableSize);
-        describe(*context, view, target);
-        plan = compile(graph, transients);
-        framegraph::record(commands, plan, options.passTimers ? &timers : nullptr, &ranges);
-        commands.record(CmdEndFrame{ frame });
-        engine.stream->submit(commands);
+        engine.dfgTable(tableSize); // made before the frame, if this is the first that wants it
+        {
+            FrameCommands commands(*engine.stream); // waits when two frames ahead; submits at the end of this block
+            stamps.acquired = clock();
+            commands->record(CmdBeginFrame{ ++frame });
+            const InReserve<CmdEndFrame> end{ *commands, { frame } };
+            engine.useTextureFilter(view.quality.textureFilter);
+            engine.drainPending(*commands);
+            upload(*commands, *context, tableSize);
+            describe(*context, view, target);
+            plan = compile(graph, transients);
+            framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
+        }
 
         stamps.recorded = clock();
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
@@ -115,8 +141,8 @@ struct Renderer::Impl {
     }
 
     passes::ToneMapMaterials toneMapMaterials(ColorGrading grading) {
-        const auto [entry, isNew] = toneMaps.try_emplace({ grading.toneMapper, grading.dither });
-        if (isNew) {
+        const auto entry = toneMaps.try_emplace({ grading.toneMapper, grading.dither }).first;
+        if (!entry->second.merged || !entry->second.sampled) {
             const std::vector<MaterialConstant> constants{ { "toneMapper", static_cast<int32_t>(grading.toneMapper) },
                                                            { "dither", grading.dither } };
             entry->second.merged = &engine.materials.get(engine.engineMaterial("tonemap", constants));
@@ -141,22 +167,46 @@ struct Renderer::Impl {
     }
 
     PixelTicket read(engine::TextureState const& texture) {
-        const Ticket ticket = engine.stream->nextTicket();
-        engine.pending.record(
-                CmdReadTexture{ texture.handle, 0, 0, { 0, 0, texture.desc.width, texture.desc.height }, ticket });
-        engine.flush();
-        pixels[ticket.value] = { .width = texture.desc.width,
-                                 .height = texture.desc.height,
-                                 .format = texture.desc.format };
-        return { ticket.value };
+        return engine.orNone("reading pixels", texture.name, [&]() -> PixelTicket {
+            const Ticket ticket = engine.stream->nextTicket();
+            const Rect all{ 0, 0, texture.desc.width, texture.desc.height };
+            pixels[ticket.value] = { .width = all.width, .height = all.height, .format = texture.desc.format };
+            if (!texture.handle) return { ticket.value }; // never answered, see isRefused()
+            ask(ticket, texture.handle, all);
+            return { ticket.value };
+        });
+    }
+
+    /// Either the request is on its way, or nothing of it is left.
+    void ask(Ticket ticket, TextureHandle texture, Rect const& all) {
+        try {
+            FrameCommands commands(*engine.stream);
+            engine.drainPending(*commands);
+            commands->record(CmdReadTexture{ texture, 0, 0, all, ticket });
+        } catch (std::bad_alloc const&) {
+            pixels.erase(ticket.value);
+            throw;
+        }
+    }
+
+    /// Of an image that the engine did not make: there is nothing to wait for.
+    bool isRefused(Image const& image) const {
+        return std::max(image.width, image.height) > engine.device.maxTextureSize;
     }
 
     SwapChain imageTargetOf(uint2 size) {
         if (imageTarget && engine.swapChains.get(imageTarget).size == size) return imageTarget;
-        Engine& owner = Engine::of(engine);
-        if (imageTarget) owner.destroy(imageTarget);
-        imageTarget = owner.create(SwapChainDesc{ .size = size, .imageCount = 1, .name = "renderToImage" });
+        if (imageTarget) engine.destroy(std::exchange(imageTarget, {}));
+        imageTarget = engine.createSwapChain({ .size = size, .imageCount = 1, .name = "renderToImage" });
         return imageTarget;
+    }
+
+    /// The next image becomes the current one when it is drawn.
+    Result<void> renderInto(engine::SwapChainState& chain, Scene const& scene, View const& view) {
+        const uint32_t next = (chain.current + 1) % static_cast<uint32_t>(chain.images.size());
+        Result<void> drawn = render(scene, view, engine.textures.get(chain.images[next]));
+        if (drawn) chain.current = next;
+        return drawn;
     }
 
     static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
@@ -187,15 +237,14 @@ Renderer::~Renderer() = default;
 void Renderer::render(Scene const& scene, View const& view, SwapChain swapChain) {
     engine::SwapChainState& state = mImpl->engine.swapChains.get(swapChain);
     FILAMENT_ASSERT(state.size == view.size, "a view has the size of its swap chain");
-    state.current = (state.current + 1) % static_cast<uint32_t>(state.images.size());
-    mImpl->render(scene, view, mImpl->engine.textures.get(state.images[state.current]));
+    (void)mImpl->renderInto(state, scene, view); // takeErrors() says why it may not be there
 }
 
 void Renderer::render(Scene const& scene, View const& view, RenderTarget target) {
     engine::TextureState const& color = mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color);
     FILAMENT_ASSERT(color.desc.width == view.size.x && color.desc.height == view.size.y,
                     "a view has the size of its render target");
-    mImpl->render(scene, view, color);
+    (void)mImpl->render(scene, view, color);
 }
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {
@@ -208,36 +257,42 @@ PixelTicket Renderer::readPixels(RenderTarget target) {
 }
 
 std::optional<Image> Renderer::takePixels(PixelTicket ticket) {
+    if (!ticket) return Image{}; // there was no memory to ask
     const auto entry = mImpl->pixels.find(ticket.value);
     FILAMENT_ASSERT(entry != mImpl->pixels.end(), "a ticket is taken once, from the renderer that gave it");
     auto bytes = mImpl->engine.stream->takeReadback({ ticket.value });
-    if (!bytes) return std::nullopt;
+    const bool neverComes = mImpl->isRefused(entry->second) || mImpl->engine.stream->isDeviceLost();
+    if (!bytes && !neverComes) return std::nullopt;
     Image image = std::move(entry->second);
-    image.pixels = std::move(*bytes);
+    if (bytes) image.pixels = std::move(*bytes);
     mImpl->pixels.erase(entry);
     return image;
 }
 
 Result<Image> Renderer::waitPixels(PixelTicket ticket) {
+    if (!ticket) return outOfMemory("read pixels: not asked");
     const auto entry = mImpl->pixels.find(ticket.value);
     FILAMENT_ASSERT(entry != mImpl->pixels.end(), "a ticket is taken once, from the renderer that gave it");
     Image image = std::move(entry->second);
     mImpl->pixels.erase(entry);
-    auto bytes = mImpl->engine.stream->waitReadback({ ticket.value });
-    if (!bytes) return bytes.error();
-    // A read of an image that the device refused is answered without bytes, so that nobody waits for ever.
-    if (bytes->empty())
-        return fail(ErrorCode::DeviceUnavailable,
-                    "read pixels: the device has no image of {} x {} texels; Engine::takeErrors() names the cause",
-                    image.width, image.height);
-    image.pixels = std::move(*bytes);
-    return image;
+    return orOutOfMemory("read pixels", {}, [&]() -> Result<Image> {
+        if (!mImpl->isRefused(image)) {
+            auto bytes = mImpl->engine.stream->waitReadback({ ticket.value });
+            if (!bytes) return bytes.error();
+            image.pixels = std::move(*bytes);
+        }
+        // A read of an image that the device refused is answered without bytes, so that nobody waits for ever.
+        if (image.pixels.empty()) return Impl::noImage(image.width, image.height);
+        return std::move(image);
+    });
 }
 
 Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
-    const SwapChain target = mImpl->imageTargetOf(view.size);
-    render(scene, view, target);
-    return waitPixels(readPixels(target));
+    return orOutOfMemory("render to image", {}, [&]() -> Result<Image> {
+        engine::SwapChainState& target = mImpl->engine.swapChains.get(mImpl->imageTargetOf(view.size));
+        if (Result<void> drawn = mImpl->renderInto(target, scene, view); !drawn) return drawn.error();
+        return waitPixels(mImpl->read(mImpl->engine.textures.get(target.images[target.current])));
+    });
 }
 
 FrameStatistics Renderer::statistics() const { return mImpl->statistics; }

@@ -17,17 +17,19 @@ public:
         for (auto const& [known, handle] : mSamplers) {
             if (known == sampler) return handle;
         }
-        const backend::SamplerHandle handle = mStream.allocateSampler();
-        commands.record(backend::CmdCreateSampler{ handle, sampler });
-        mSamplers.emplace_back(sampler, handle);
-        return handle;
+        mSamplers.emplace_back(sampler, backend::SamplerHandle{});
+        try {
+            backend::NewHandle handle(mStream, mStream.allocateSampler());
+            commands.record(backend::CmdCreateSampler{ handle, sampler });
+            return mSamplers.back().second = handle.keep();
+        } catch (...) {
+            mSamplers.pop_back(); // known is what is recorded
+            throw;
+        }
     }
 
     void destroyAll(backend::CommandBuffer& commands) {
-        for (auto const& [known, handle] : mSamplers) {
-            commands.record(backend::CmdDestroySampler{ handle });
-            mStream.free(handle);
-        }
+        for (auto const& [known, handle] : mSamplers) mStream.destroy(commands, handle);
         mSamplers.clear();
     }
 

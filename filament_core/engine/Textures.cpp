@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures, buffers, targets: public descriptions -> commands.
+#include "backend/stream/RecordingGuards.h"
 #include "filament_core/base/Log.h"
 #include "filament_core/engine/EngineImpl.h"
 
@@ -60,43 +61,53 @@ void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::Textu
 
 BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<const std::byte> data,
                           std::string const& name) {
-    const BufferHandle handle = engine.stream->allocateBuffer();
+    NewHandle handle(*engine.stream, engine.stream->allocateBuffer());
+    AllOrNothing both(engine.pending);
     engine.pending.record(CmdCreateBuffer{ handle, { data.size(), usage, name } });
     engine.pending.record(CmdUpdateBuffer{ handle, 0, data });
-    return handle;
+    both.complete();
+    return handle.keep();
 }
 
-void destroyBuffer(Engine::Impl& engine, BufferHandle handle) {
-    engine.pending.record(CmdDestroyBuffer{ handle });
-    engine.stream->free(handle);
+// The driver would refuse it, too, but only after everything that uses it is recorded.
+bool fitsDevice(Engine::Impl& engine, filament::TextureDesc const& desc) {
+    const uint32_t most = engine.device.maxTextureSize;
+    if (std::max(desc.width, desc.height) <= most) return true;
+    engine.report(
+            fmt::format("texture '{}': {} x {} texels; this device has at most {} each way: it has no texels, and "
+                        "what is drawn to it or read from it is left out",
+                        desc.name, desc.width, desc.height, most));
+    return false;
 }
 
 } // namespace
 
 Texture Engine::Impl::createTexture(filament::TextureDesc const& desc) {
-    const Texture texture = textures.add();
-    engine::TextureState& state = textures.get(texture);
-    state.handle = stream->allocateTexture();
+    engine::Draft draft(textures);
+    engine::TextureState& state = draft.state();
     state.desc = backendDesc(desc);
     state.name = desc.name;
+    if (!fitsDevice(*this, desc)) return draft.keep();
     backend::TextureDesc created = state.desc;
     created.debugName = state.name;
-    pending.record(CmdCreateTexture{ state.handle, created });
-    if (!desc.pixels.empty()) uploadLevels(pending, state.handle, desc);
-    if (desc.generateMips && !desc.pixels.empty()) pending.record(CmdGenerateMips{ state.handle });
-    return texture;
+    NewHandle handle(*stream, stream->allocateTexture());
+    AllOrNothing all(pending);
+    pending.record(CmdCreateTexture{ handle, created });
+    if (!desc.pixels.empty()) uploadLevels(pending, handle, desc);
+    if (desc.generateMips && !desc.pixels.empty()) pending.record(CmdGenerateMips{ handle });
+    all.complete();
+    state.handle = handle.keep();
+    return draft.keep();
 }
 
-Texture Engine::create(filament::TextureDesc const& desc) { return mImpl->createTexture(desc); }
-
-VertexBuffer Engine::create(VertexBufferDesc const& desc) {
+VertexBuffer Engine::Impl::createVertexBuffer(VertexBufferDesc const& desc) {
     FILAMENT_ASSERT(desc.vertexCount > 0 && desc.stride > 0 && desc.stride % 4 == 0,
                     "a vertex buffer has vertices and a stride that is a multiple of 4");
     FILAMENT_ASSERT(desc.data.size() == static_cast<size_t>(desc.vertexCount) * desc.stride,
                     "`data` holds vertexCount * stride bytes");
     FILAMENT_ASSERT(desc.attributes.size() < kMaxVertexAttributes, "at most 15 vertex attributes");
-    const VertexBuffer handle = mImpl->vertexBuffers.add();
-    engine::VertexBufferState& state = mImpl->vertexBuffers.get(handle);
+    engine::Draft draft(vertexBuffers);
+    engine::VertexBufferState& state = draft.state();
     for (AttributeDesc const& attribute : desc.attributes) {
         FILAMENT_ASSERT(attribute.offset + vertexFormatInfo(attribute.format).bytes <= desc.stride,
                         "an attribute lies inside of the stride");
@@ -108,77 +119,112 @@ VertexBuffer Engine::create(VertexBufferDesc const& desc) {
     state.layout.bufferCount = 1;
     state.vertexCount = desc.vertexCount;
     state.name = desc.name;
-    state.handle = createBuffer(*mImpl, BufferUsage::Vertex, desc.data, desc.name);
-    return handle;
+    state.handle = createBuffer(*this, BufferUsage::Vertex, desc.data, desc.name);
+    return draft.keep();
 }
 
-IndexBuffer Engine::create(IndexBufferDesc const& desc) {
+IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc) {
     const size_t bytes = static_cast<size_t>(desc.indexCount) * (desc.format == IndexFormat::UInt16 ? 2 : 4);
     FILAMENT_ASSERT(desc.indexCount > 0 && desc.data.size() == bytes, "`data` holds indexCount indices, at least one");
-    const IndexBuffer handle = mImpl->indexBuffers.add();
-    engine::IndexBufferState& state = mImpl->indexBuffers.get(handle);
+    engine::Draft draft(indexBuffers);
+    engine::IndexBufferState& state = draft.state();
     state.type = desc.format == IndexFormat::UInt16 ? IndexType::UInt16 : IndexType::UInt32;
     state.indexCount = desc.indexCount;
     state.name = desc.name;
-    state.handle = createBuffer(*mImpl, BufferUsage::Index, desc.data, desc.name);
-    return handle;
+    state.handle = createBuffer(*this, BufferUsage::Index, desc.data, desc.name);
+    return draft.keep();
+}
+
+SwapChain Engine::Impl::createSwapChain(SwapChainDesc const& desc) {
+    FILAMENT_ASSERT(desc.size.x > 0 && desc.size.y > 0, "a swap chain has at least one pixel");
+    FILAMENT_ASSERT(desc.imageCount >= 1 && desc.imageCount <= 4, "a swap chain has 1 to 4 images");
+    engine::Draft draft(swapChains);
+    engine::SwapChainState& state = draft.state();
+    state.size = desc.size;
+    state.name = desc.name;
+    state.images.reserve(desc.imageCount);
+    try {
+        for (uint32_t i = 0; i < desc.imageCount; ++i) {
+            state.images.push_back(createTexture({ .format = desc.format,
+                                                   .width = desc.size.x,
+                                                   .height = desc.size.y,
+                                                   .renderable = true,
+                                                   .name = desc.name }));
+        }
+    } catch (...) {
+        for (Texture image : state.images) destroy(image);
+        throw;
+    }
+    return draft.keep();
+}
+
+void Engine::Impl::destroy(Texture texture) {
+    if (const TextureHandle handle = textureHandle(texture)) stream->destroy(pending, handle);
+    textures.remove(texture);
+}
+
+void Engine::Impl::destroy(SwapChain swapChain) {
+    for (Texture image : swapChains.get(swapChain).images) destroy(image);
+    swapChains.remove(swapChain);
+}
+
+// ---------------------------------------------------------------------------------------------- the public functions
+
+Texture Engine::create(filament::TextureDesc const& desc) {
+    return mImpl->orNone("texture", desc.name, [&] { return mImpl->createTexture(desc); });
+}
+
+VertexBuffer Engine::create(VertexBufferDesc const& desc) {
+    return mImpl->orNone("vertex buffer", desc.name, [&] { return mImpl->createVertexBuffer(desc); });
+}
+
+IndexBuffer Engine::create(IndexBufferDesc const& desc) {
+    return mImpl->orNone("index buffer", desc.name, [&] { return mImpl->createIndexBuffer(desc); });
 }
 
 IndirectLight Engine::create(IndirectLightDesc const& desc) {
-    const IndirectLight handle = mImpl->indirectLights.add();
-    engine::IndirectLightState& state = mImpl->indirectLights.get(handle);
-    state.light.specular = mImpl->textureHandle(desc.specular);
-    state.light.levelOfRoughnessOne = static_cast<float>(desc.specularLevels - 1);
-    state.light.irradianceSh = desc.irradianceSh;
-    state.name = desc.name;
-    return handle;
+    return mImpl->orNone("indirect light", desc.name, [&] {
+        engine::Draft draft(mImpl->indirectLights);
+        engine::IndirectLightState& state = draft.state();
+        state.light.specular = mImpl->textureHandle(desc.specular);
+        state.light.levelOfRoughnessOne = static_cast<float>(desc.specularLevels - 1);
+        state.light.irradianceSh = desc.irradianceSh;
+        state.name = desc.name;
+        return draft.keep();
+    });
 }
 
 Skybox Engine::create(SkyboxDesc const& desc) {
-    const Skybox handle = mImpl->skyboxes.add();
-    mImpl->skyboxes.get(handle) = { mImpl->textureHandle(desc.cube), desc.name };
-    return handle;
+    return mImpl->orNone("skybox", desc.name, [&] {
+        engine::Draft draft(mImpl->skyboxes);
+        draft.state() = { mImpl->textureHandle(desc.cube), desc.name };
+        return draft.keep();
+    });
 }
 
 RenderTarget Engine::create(RenderTargetDesc const& desc) {
     FILAMENT_ASSERT(has(mImpl->textures.get(desc.color).desc.usage, TextureUsage::ColorAttachment),
                     "the colour of a render target is a renderable texture");
-    const RenderTarget handle = mImpl->renderTargets.add();
-    mImpl->renderTargets.get(handle) = { desc.color, desc.name };
-    return handle;
+    return mImpl->orNone("render target", desc.name, [&] {
+        engine::Draft draft(mImpl->renderTargets);
+        draft.state() = { desc.color, desc.name };
+        return draft.keep();
+    });
 }
 
 SwapChain Engine::create(SwapChainDesc const& desc) {
-    FILAMENT_ASSERT(desc.size.x > 0 && desc.size.y > 0, "a swap chain has at least one pixel");
-    FILAMENT_ASSERT(desc.imageCount >= 1 && desc.imageCount <= 4, "a swap chain has 1 to 4 images");
-    const SwapChain handle = mImpl->swapChains.add();
-    engine::SwapChainState& state = mImpl->swapChains.get(handle);
-    state.size = desc.size;
-    state.name = desc.name;
-    for (uint32_t i = 0; i < desc.imageCount; ++i) {
-        state.images.push_back(create(filament::TextureDesc{ .format = desc.format,
-                                                             .width = desc.size.x,
-                                                             .height = desc.size.y,
-                                                             .renderable = true,
-                                                             .name = desc.name }));
-    }
-    return handle;
+    return mImpl->orNone("swap chain", desc.name, [&] { return mImpl->createSwapChain(desc); });
 }
 
-void Engine::destroy(Texture texture) {
-    const TextureHandle handle = mImpl->textureHandle(texture);
-    mImpl->pending.record(CmdDestroyTexture{ handle });
-    mImpl->stream->free(handle);
-    mImpl->textures.remove(texture);
-}
+void Engine::destroy(Texture texture) { mImpl->destroy(texture); }
 
 void Engine::destroy(VertexBuffer buffer) {
-    destroyBuffer(*mImpl, mImpl->vertexBuffers.get(buffer).handle);
+    mImpl->stream->destroy(mImpl->pending, mImpl->vertexBuffers.get(buffer).handle);
     mImpl->vertexBuffers.remove(buffer);
 }
 
 void Engine::destroy(IndexBuffer buffer) {
-    destroyBuffer(*mImpl, mImpl->indexBuffers.get(buffer).handle);
+    mImpl->stream->destroy(mImpl->pending, mImpl->indexBuffers.get(buffer).handle);
     mImpl->indexBuffers.remove(buffer);
 }
 
@@ -186,9 +232,6 @@ void Engine::destroy(IndirectLight light) { mImpl->indirectLights.remove(light);
 void Engine::destroy(Skybox skybox) { mImpl->skyboxes.remove(skybox); }
 void Engine::destroy(RenderTarget target) { mImpl->renderTargets.remove(target); }
 
-void Engine::destroy(SwapChain swapChain) {
-    for (Texture image : mImpl->swapChains.get(swapChain).images) destroy(image);
-    mImpl->swapChains.remove(swapChain);
-}
+void Engine::destroy(SwapChain swapChain) { mImpl->destroy(swapChain); }
 
 } // namespace filament

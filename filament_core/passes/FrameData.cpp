@@ -5,6 +5,7 @@
 #include "shaders/package/ViewLayout.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace filament::passes {
 namespace {
@@ -24,37 +25,39 @@ std::span<const std::byte> bytesOf(T const& value) {
 } // namespace
 
 BufferHandle FrameData::createBuffer(CommandBuffer& commands, uint64_t bytes, const char* name) {
-    const BufferHandle handle = mStream.allocateBuffer();
+    NewHandle handle(mStream, mStream.allocateBuffer());
     commands.record(CmdCreateBuffer{ handle, { bytes, BufferUsage::Uniform, name } });
-    return handle;
+    return handle.keep();
 }
 
 void FrameData::release(CommandBuffer& commands, BindGroupHandle& group) {
-    if (!group) return;
-    commands.record(CmdDestroyBindGroup{ group });
-    mStream.free(group);
-    group = {};
+    if (group) mStream.destroy(commands, std::exchange(group, {}));
 }
 
 void FrameData::release(CommandBuffer& commands, BufferHandle& buffer) {
-    if (!buffer) return;
-    commands.record(CmdDestroyBuffer{ buffer });
-    mStream.free(buffer);
-    buffer = {};
+    if (buffer) mStream.destroy(commands, std::exchange(buffer, {}));
 }
 
-void FrameData::grow(CommandBuffer& commands, Set& set, uint32_t windows) {
+// Each step is remembered when it is recorded: a frame that runs out of memory here is left out, and the next one makes
+// what is missing.
+void FrameData::makeObjects(CommandBuffer& commands, Set& set, uint32_t windows) {
     release(commands, set.view);
     release(commands, set.objects);
-    set.windows = std::max(windows, set.windows * 2);
-    set.objects = createBuffer(commands, static_cast<uint64_t>(set.windows) * kWindowBytes, "objects");
-    if (set.frame) return;
-    set.frame = createBuffer(commands, sizeof(FrameUniforms), "frame");
-    set.lights = createBuffer(commands, sizeof(shader::LightUniforms), "lights");
+    const uint32_t grown = std::max(windows, set.windows * 2);
+    set.windows = 0;
+    set.objects = createBuffer(commands, static_cast<uint64_t>(grown) * kWindowBytes, "objects");
+    set.windows = grown;
+}
+
+void FrameData::makeFixed(CommandBuffer& commands, Set& set) {
+    if (!set.frame) set.frame = createBuffer(commands, sizeof(FrameUniforms), "frame");
+    if (!set.lights) set.lights = createBuffer(commands, sizeof(shader::LightUniforms), "lights");
+    if (set.post) return;
     const BindGroupEntry entry{ .binding = shader::kBindingFrame, .buffer = set.frame, .size = sizeof(FrameUniforms) };
-    set.post = mStream.allocateBindGroup();
+    NewHandle post(mStream, mStream.allocateBindGroup());
     commands.record(CmdCreateBindGroup{
-            set.post, { shader::viewGroupLayout(shader::MaterialDomain::PostProcess), std::span(&entry, 1), "post" } });
+            post, { shader::viewGroupLayout(shader::MaterialDomain::PostProcess), std::span(&entry, 1), "post" } });
+    set.post = post.keep();
 }
 
 void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& textures) {
@@ -68,8 +71,9 @@ void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& text
             { .binding = shader::kBindingDfg, .texture = textures.dfg, .sampler = textures.bilinear },
             { .binding = shader::kBindingSky, .texture = textures.sky, .sampler = textures.bilinear },
     } };
-    set.view = mStream.allocateBindGroup();
-    commands.record(CmdCreateBindGroup{ set.view, { shader::viewGroupLayout(), entries, "view" } });
+    NewHandle view(mStream, mStream.allocateBindGroup());
+    commands.record(CmdCreateBindGroup{ view, { shader::viewGroupLayout(), entries, "view" } });
+    set.view = view.keep();
 }
 
 // A whole set's worth of memory whatever the number of objects, so that the buffer finds the block of an earlier frame
@@ -89,7 +93,8 @@ void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::
     Set& set = mSets[mCurrent];
     const auto objects = static_cast<uint32_t>(packet.objects.size());
     const uint32_t windows = std::max(1u, (objects + kObjectsPerWindow - 1) / kObjectsPerWindow);
-    if (windows > set.windows) grow(commands, set, windows);
+    if (windows > set.windows) makeObjects(commands, set, windows);
+    makeFixed(commands, set);
     if (!set.view || set.textures != textures) bind(commands, set, textures);
 
     commands.record(CmdUpdateBuffer{ set.frame, 0, bytesOf(packet.frame) });

@@ -3,6 +3,7 @@
 ///   In      a FramePacket.   Out: a bind group for kGroupView and offsets into it.
 ///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They
 ///           grow to the largest frame and stay. Objects are written straight into the memory of the command buffer.
+///   Fails   std::bad_alloc; what is recorded then fits what is remembered.
 ///   Thread  the app thread, with the workers for the objects. Records outside of passes.
 #pragma once
 
@@ -48,7 +49,8 @@ private:
     backend::BufferHandle createBuffer(backend::CommandBuffer& commands, uint64_t bytes, const char* name);
     void release(backend::CommandBuffer& commands, backend::BindGroupHandle& group);
     void release(backend::CommandBuffer& commands, backend::BufferHandle& buffer);
-    void grow(backend::CommandBuffer& commands, Set& set, uint32_t windows);
+    void makeObjects(backend::CommandBuffer& commands, Set& set, uint32_t windows);
+    void makeFixed(backend::CommandBuffer& commands, Set& set);
     void bind(backend::CommandBuffer& commands, Set& set, ViewTextures const& textures);
     static void uploadObjects(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Set const& set,
                               prepare::ObjectList const& list);

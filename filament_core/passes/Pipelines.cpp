@@ -111,9 +111,14 @@ ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& m
             material.name, variant);
         return {};
     }
-    const ProgramHandle program = createProgram(setup, material, *code, shading);
-    material.programs.push_back({ key, program });
-    return program;
+    material.programs.push_back({ key, {} });
+    try {
+        material.programs.back().handle = createProgram(setup, material, *code, shading);
+    } catch (...) {
+        material.programs.pop_back(); // known is what is recorded
+        throw;
+    }
+    return material.programs.back().handle;
 }
 
 ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material const& material,
@@ -126,9 +131,9 @@ ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material
     ProgramDesc desc{ .constants = constants, .layout = material.package.layout, .debugName = material.name };
     desc.vertex = spirv ? std::as_bytes(std::span(code.vertexSpirv)) : std::as_bytes(std::span(code.vertexEssl));
     desc.fragment = spirv ? std::as_bytes(std::span(code.fragmentSpirv)) : std::as_bytes(std::span(code.fragmentEssl));
-    const ProgramHandle program = mStream.allocateProgram();
+    NewHandle program(mStream, mStream.allocateProgram());
     setup.record(CmdCreateProgram{ program, desc });
-    return program;
+    return program.keep();
 }
 
 PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
@@ -156,10 +161,11 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
 }
 
 PipelineHandle PipelineCache::create(CommandBuffer& setup, uint64_t key, PipelineDesc const& desc, uint32_t material) {
-    const PipelineHandle handle = mStream.allocatePipeline();
+    mPipelines.reserveOne(); // known is what is recorded
+    NewHandle handle(mStream, mStream.allocatePipeline());
     setup.record(CmdCreatePipeline{ handle, desc });
     mPipelines.insert({ key, handle, material });
-    return handle;
+    return handle.keep();
 }
 
 std::optional<PipelineHandle> PipelineCache::find(uint32_t slot, scene::MaterialInstance const& instance,
@@ -198,15 +204,11 @@ void PipelineCache::forget(CommandBuffer& commands, scene::Material& material) {
     mPipelines.eraseIf([&](PipelineTable::Entry const& entry) {
         if (entry.material != material.id) return false;
         if (entry.handle) {
-            commands.record(CmdDestroyPipeline{ entry.handle });
-            mStream.free(entry.handle);
+            mStream.destroy(commands, entry.handle);
         }
         return true;
     });
-    for (scene::MaterialProgram const& program : material.programs) {
-        commands.record(CmdDestroyProgram{ program.handle });
-        mStream.free(program.handle);
-    }
+    for (scene::MaterialProgram const& program : material.programs) mStream.destroy(commands, program.handle);
     material.programs.clear();
 }
 

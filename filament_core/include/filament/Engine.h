@@ -4,6 +4,8 @@
 ///   Wait      creating never waits for the driver thread. create() and the destructor do.
 ///   Errors    create() says why there is no device and what to install. Later the device's own errors (out of memory,
 ///             a shader it rejects) come out of takeErrors(), one line each; what depends on them is not drawn.
+///   Memory    when the host's runs out, what returns a Result returns OutOfMemory, what returns a handle returns none,
+///             with a line in takeErrors(), and nothing else has changed. Destroying always works.
 ///   Bits      with the default options the same calls give the same image bits on Vulkan and OpenGL ES of Mesa's
 ///             CPU drivers, for any number of workers.
 #pragma once
@@ -21,8 +23,9 @@
 
 namespace filament {
 namespace backend {
-class FrameCapture; // backend/layers/Captured.h
-}
+class FrameCapture;  // backend/layers/Captured.h
+class FaultInjector; // backend/layers/Faulty.h
+} // namespace backend
 
 struct DeviceDescription {
     Backend backend = Backend::Null;
@@ -45,6 +48,7 @@ enum class ThreadAffinity : uint8_t {
 /// Instruments for tools that look inside of a frame; none of them costs anything when it is not there.
 struct EngineDebug {
     std::shared_ptr<backend::FrameCapture> capture{}; ///< shows every attachment of a frame, cuts it off after a draw
+    std::shared_ptr<backend::FaultInjector> faults{}; ///< loses the device, refuses objects, slows the driver down
 };
 
 struct EngineOptions {

@@ -4,6 +4,8 @@
 ///   Wait    render() returns when the scene has been read and the frame is submitted; it waits only when the driver
 ///           thread is two frames behind. The blocking forms wait for the pixels.
 ///   Memory  after warm-up a frame allocates nothing from the heap.
+///   Fails   a frame for which memory runs out is left out: takeErrors() says so, its target keeps the picture it had,
+///           and the next frame is drawn as if it had not been tried. On a lost device everything returns at once.
 #pragma once
 
 #include <filament/Engine.h>
@@ -69,7 +71,8 @@ public:
     void render(Scene const& scene, View const& view, SwapChain swapChain);
     void render(Scene const& scene, View const& view, RenderTarget target);
 
-    /// Asks for the pixels rendered last; poll takePixels().
+    /// Asks for the pixels rendered last; poll takePixels(). A ticket of 0: out of memory. Pixels that never come, of
+    /// an image that the device refused or on a lost device, are an image without bytes, or the error of waitPixels().
     PixelTicket readPixels(SwapChain swapChain);
     PixelTicket readPixels(RenderTarget target);
     std::optional<Image> takePixels(PixelTicket ticket);

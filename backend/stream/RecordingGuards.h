@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What keeps a recording in order when memory runs out in the middle of it: creations that are recorded stay recorded,
+/// because somebody remembers the objects; everything else is recorded in full or not at all.
+///   Thread  as the command buffer.   Fails: never.
+#pragma once
+
+#include "backend/stream/CommandBuffer.h"
+
+namespace filament::backend {
+
+/// Records a command at the end of the scope, whatever happened in it.
+template <class C>
+struct InReserve {
+    CommandBuffer& commands;
+    C command;
+    ~InReserve() { commands.recordInReserve(command); }
+};
+
+/// Forgets the commands of the scope unless they are complete.
+class AllOrNothing {
+public:
+    explicit AllOrNothing(CommandBuffer& commands) : mCommands(commands), mBefore(commands.mark()) {}
+    ~AllOrNothing() {
+        if (!mIsComplete) mCommands.rollBack(mBefore);
+    }
+    AllOrNothing(AllOrNothing const&) = delete;
+    AllOrNothing& operator=(AllOrNothing const&) = delete;
+    void complete() { mIsComplete = true; }
+
+private:
+    CommandBuffer& mCommands;
+    const CommandBuffer::Mark mBefore;
+    bool mIsComplete = false;
+};
+
+} // namespace filament::backend

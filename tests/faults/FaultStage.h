@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FaultStage: an engine with a small scene, to break in every place.
+///   In      a backend, workers, and the injector of backend/layers/Faulty.   Out: pictures, or errors.
+///   Thread  the app thread.
+#pragma once
+
+#include "backend/layers/Faulty.h"
+#include "shaders/package/EngineMaterials.h"
+#include "tests/scenes/Sphere.h"
+
+#include <filament/filament.h>
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cstdlib>
+#include <memory>
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace filament::test {
+
+/// FILAMENT_STRESS: every place instead of some.
+inline bool isStress() { return std::getenv("FILAMENT_STRESS") != nullptr; }
+
+struct StageOptions {
+    Backend backend = Backend::Null;
+    int workers = 0;
+    int spheres = 3;
+    bool validation = true;
+};
+
+inline Result<Engine> makeEngine(StageOptions const& options, std::shared_ptr<backend::FaultInjector> faults = {}) {
+    return Engine::create({ .backend = options.backend,
+                            .workers = options.workers,
+                            .validation = options.validation,
+                            .hashFrames = true,
+                            .debug = { .faults = std::move(faults) } });
+}
+
+/// Spheres in a row, a sun, a swap chain of 32 x 32 pixels.
+class FaultStage {
+public:
+    explicit FaultStage(Engine& engine, int spheres = 3) : mEngine(engine), mScene(engine) {
+        const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere(4, 8));
+        mVertices = engine.own(sphere.vertices);
+        mIndices = engine.own(sphere.indices);
+        mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
+        mInstance = engine.own(engine.createInstance(mMaterial));
+        EXPECT_TRUE(engine.set(mInstance, "baseColorFactor", float4(0.8f, 0.4f, 0.2f, 1)).ok());
+        EXPECT_TRUE(engine.set(mInstance, "roughnessFactor", 0.5f).ok());
+        for (int i = 0; i < spheres; ++i) place({ 0.4 * (i % 3 - 1), 0, -0.5 * (i / 3) });
+        mScene.add(SunLight{ .directionWorld = { -0.4f, -1, -0.6f } });
+        mView.camera = Camera::lookAt({ 0, 0.5, 4 }, { 0, 0, 0 });
+        mView.size = { 32, 32 };
+        mRenderer.emplace(engine);
+    }
+
+    /// One frame, waited for.
+    Result<Image> draw() { return mRenderer->renderToImage(mScene, mView); }
+    Renderer& renderer() { return *mRenderer; }
+    Scene& scene() { return mScene; }
+    View& view() { return mView; }
+    /// What the frame rendered last was made of; 0 if it was left out.
+    uint64_t packetHash() {
+        mEngine.waitIdle();
+        uint64_t newest = 0;
+        for (FrameTimings const& timings : mRenderer->takeTimings()) newest = timings.packetHash;
+        return newest;
+    }
+
+private:
+    void place(double3 at) {
+        double4x4 world(1);
+        world[3] = double4(at, 1);
+        mScene.add({ .vertices = mVertices,
+                     .indices = mIndices,
+                     .material = mInstance,
+                     .boundsMin = float3(-1),
+                     .boundsMax = float3(1),
+                     .worldFromObject = world });
+    }
+
+    Engine& mEngine;
+    Scene mScene;
+    View mView;
+    Owned<VertexBuffer> mVertices;
+    Owned<IndexBuffer> mIndices;
+    Owned<Material> mMaterial;
+    Owned<MaterialInstance> mInstance;
+    std::optional<Renderer> mRenderer; // ends before what it draws
+};
+
+inline bool contains(std::string const& text, const char* part) { return text.find(part) != std::string::npos; }
+
+} // namespace filament::test
