@@ -24,10 +24,14 @@ struct Options {
 };
 
 void declare(CLI::App& app, Options& options) {
-    app.add_option("--only", options.only, "rows whose function contains this, or of this file")->type_name("TEXT");
+    CLI::Option* const only =
+            app.add_option("--only", options.only, "rows whose function contains this, or of this file")
+                    ->type_name("TEXT");
     app.add_option("--csv", options.csv, "write every count of every column")->type_name("FILE");
     app.add_option("--json", options.json, "the same as JSON")->type_name("FILE");
-    app.add_option("--write", options.markdown, "write the tables of docs/numerics.md")->type_name("FILE");
+    app.add_option("--write", options.markdown, "write the tables of docs/numerics.md")
+            ->type_name("FILE")
+            ->excludes(only);
 }
 
 Result<void> write(std::string const& path, std::string const& text) {
