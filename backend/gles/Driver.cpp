@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cctype>
+#include <new>
 #include <string_view>
 
 namespace filament::backend {
@@ -45,7 +46,10 @@ GlesDriver::GlesDriver(OpenDevice device, DriverOptions const& options, ResultSi
           mCommands(mDevice) {}
 
 GlesDriver::~GlesDriver() {
-    waitIdle(); // every ticket that can be answered is
+    try {
+        waitIdle();                   // every ticket that can be answered is
+    } catch (std::bad_alloc const&) { // then not
+    }
     mContext.makeCurrent();
 }
 

@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cstring>
+#include <new>
 
 namespace filament::backend::vulkan {
 namespace {
@@ -72,9 +73,16 @@ Result<void> Executor::initialize() {
 }
 
 Executor::~Executor() {
-    if (!mIsLost) submit();
+    if (!mIsLost && !mPass) submitAtEnd();
     mDevice->fn().vkDeviceWaitIdle(mDevice->handle()); // fails at once if the device is lost
     mDevice->fn().vkDestroyPipelineCache(mDevice->handle(), mPipelineCache, nullptr);
+}
+
+void Executor::submitAtEnd() {
+    try {
+        submit();
+    } catch (std::bad_alloc const&) { // then not
+    }
 }
 
 DriverStatistics Executor::statistics() const {
@@ -95,8 +103,13 @@ void Executor::execute(CommandView commands) {
     if (mIsLost) return;
     if (check(mSubmissions->poll(), "poll")) answer();
     Dispatch dispatch{ *this, mStatistics.commands, mIsLost };
-    replay(commands, dispatch);
-    if (!mIsLost && !mPass) submit();
+    try {
+        replay(commands, dispatch);
+        if (!mIsLost && !mPass) submit();
+    } catch (std::bad_alloc const&) {
+        mIsLost = true; // in the middle of something: what is recorded is never submitted
+        throw;
+    }
     publishStatistics();
 }
 

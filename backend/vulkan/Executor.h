@@ -106,6 +106,7 @@ private:
     // frames
     VkCommandBuffer commands(); ///< opened on first use
     void submit();
+    void submitAtEnd();
     void answer();
     /// A submission that fails leaves nothing to go on with: the device counts as lost.
     bool check(VkResult result, std::string_view what);

@@ -2,6 +2,7 @@
 #include "backend/vulkan/Submissions.h"
 
 #include <limits>
+#include <new>
 
 namespace filament::backend::vulkan {
 
@@ -105,7 +106,14 @@ VkResult Submissions::wait(uint64_t serial) {
 void Submissions::keep(std::unique_ptr<DeviceObject> object) {
     if (!object) return;
     const uint64_t serial = mIsOpen ? recordingSerial() : mSubmitted;
-    if (serial > mFinished) mKept.push_back({ serial, std::move(object) });
+    if (serial <= mFinished) return;
+    try {
+        mKept.emplace_back();
+    } catch (std::bad_alloc const&) {
+        mDevice.fn().vkDeviceWaitIdle(mDevice.handle()); // the object ends here, while nothing uses it
+        throw;
+    }
+    mKept.back() = { serial, std::move(object) };
 }
 
 void Submissions::finish(uint64_t serial) {

@@ -29,7 +29,8 @@ struct Sweep {
     std::string name;
     Whose whose = Whose::App;
     Lasting lasting = Lasting::Once;
-    uint64_t stride = 1; ///< every so many allocations; with FILAMENT_STRESS all
+    Callers callers = Callers::All; ///< ThisProgram: blocks are not counted either, as those libraries keep some
+    uint64_t stride = 1;            ///< every so many allocations; with FILAMENT_STRESS all
 };
 
 /// Returns how many allocations were failed.

@@ -46,7 +46,7 @@ void expectSoundFrames(Engine& engine, FaultStage& stage, uint64_t expectedPacke
 
 uint64_t undisturbedPacket(StageOptions const& options) {
     auto engine = makeEngine(options);
-    FaultStage stage(*engine, options.spheres);
+    FaultStage stage(*engine, options);
     EXPECT_TRUE(stage.draw().ok());
     return stage.packetHash();
 }
@@ -68,7 +68,7 @@ public:
             EXPECT_TRUE(contains(outcome.error().message, "memory")) << outcome.error().message;
             return;
         }
-        FaultStage stage(*mEngine, mOptions.spheres);
+        FaultStage stage(*mEngine, mOptions);
         expectSoundFrames(*mEngine, stage, mPacket, outcome);
     }
 
@@ -82,7 +82,7 @@ private:
 class Draws final : public Scenario {
 public:
     Draws(StageOptions const& options, uint64_t packet, int framesBefore)
-            : mPacket(packet), mEngine(makeEngine(options)), mStage(*mEngine, options.spheres) {
+            : mPacket(packet), mEngine(makeEngine(options)), mStage(*mEngine, options) {
         for (int i = 0; i < framesBefore; ++i) EXPECT_TRUE(mStage.draw().ok());
     }
 
@@ -103,7 +103,7 @@ private:
 class Ends final : public Scenario {
 public:
     explicit Ends(StageOptions const& options) : mEngine(std::move(*makeEngine(options))) {
-        mStage.emplace(*mEngine, options.spheres);
+        mStage.emplace(*mEngine, options);
         EXPECT_TRUE(mStage->draw().ok());
     }
     Result<void> act() override {
@@ -200,12 +200,15 @@ struct Sweeper {
     Lasting lasting = Lasting::Once;
     uint64_t stride = 1;
 
-    Sweep of(const char* scenario) const { return { fmt::format("{} {}", scenario, name), whose, lasting, stride }; }
+    Sweep of(const char* scenario) const {
+        return { fmt::format("{} {}", scenario, name), whose, lasting, Callers::All, stride };
+    }
 };
 
 void PrintTo(Sweeper const& sweeper, std::ostream* stream) { *stream << sweeper.name; }
 
-const StageOptions kAlone{}, kPlain{ .validation = false }, kCrowd{ .workers = 2, .spheres = 300 };
+const StageOptions kAlone{}, kPlain{ .validation = false },
+        kCrowd{ .workers = 2, .spheres = 2200, .materials = 2200 }; // more draws than one job records
 
 class OutOfMemory : public testing::TestWithParam<Sweeper> {};
 INSTANTIATE_TEST_SUITE_P(Sweeps, OutOfMemory,
@@ -214,8 +217,8 @@ INSTANTIATE_TEST_SUITE_P(Sweeps, OutOfMemory,
                                          Sweeper{ "plain_driver", kPlain, Whose::Driver },
                                          Sweeper{ "app_onwards", kAlone, Whose::App, Lasting::Onwards },
                                          Sweeper{ "driver_onwards", kAlone, Whose::Driver, Lasting::Onwards },
-                                         Sweeper{ "app_with_workers", kCrowd, Whose::App, Lasting::Once, 7 },
-                                         Sweeper{ "workers", kCrowd, Whose::Jobs, Lasting::Once }),
+                                         Sweeper{ "app_with_workers", kCrowd, Whose::App, Lasting::Once, 211 },
+                                         Sweeper{ "jobs", kCrowd, Whose::Jobs }),
                          [](auto const& test) { return std::string(test.param.name); });
 
 TEST_P(OutOfMemory, AnEngineIsMadeOrRefused) {

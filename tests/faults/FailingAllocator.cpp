@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/faults/FailingAllocator.h"
 
+#include "filament_core/base/Assert.h"
+
 #include <cxxabi.h>
+#include <dlfcn.h>
 #include <execinfo.h>
 #include <pthread.h>
 
@@ -11,6 +14,9 @@
 #include <cstring>
 #include <memory>
 #include <new>
+#include <string_view>
+
+extern "C" const char __executable_start, etext; // of the linker
 
 namespace filament::test {
 namespace {
@@ -23,6 +29,7 @@ std::atomic<bool> gHasStruck{ false };
 std::atomic<int64_t> gLive{ 0 };
 std::atomic<Whose> gWhose{ Whose::App };
 std::atomic<Lasting> gLasting{ Lasting::Once };
+std::atomic<Callers> gCallers{ Callers::All };
 std::array<void*, kFrames> gStack{}; // of the first failure, by whoever set gHasStruck
 int gStackDepth = 0;
 
@@ -35,13 +42,44 @@ bool isDriverThread() {
     return std::strcmp(name, "driver") == 0;
 }
 
-Whose whoseThread() {
-    if (tIsApp) return Whose::App;
-    return isDriverThread() ? Whose::Driver : Whose::Jobs;
+bool isMeant() {
+    switch (gWhose.load(std::memory_order_relaxed)) {
+    case Whose::App:
+        return tIsApp;
+    case Whose::Driver:
+        return !tIsApp && isDriverThread();
+    case Whose::Jobs:
+        return tAssertContext != nullptr; // the name of the job
+    }
+    return false;
 }
 
-bool failsNow() {
-    if (!gArmed.load(std::memory_order_acquire) || tIsInside || whoseThread() != gWhose) return false;
+bool isOfThisProgram(const void* caller) {
+    return caller >= static_cast<const void*>(&__executable_start) && caller < static_cast<const void*>(&etext);
+}
+
+// A device's library calls back into templates of the standard library that live in this program: so the whole stack
+// counts.
+bool isCalledByThisProgramOnly(const void* caller) {
+    if (!isOfThisProgram(caller)) return false; // most calls, and quick
+    tIsInside = true;
+    std::array<void*, kFrames> stack{};
+    const int depth = backtrace(stack.data(), kFrames);
+    bool isOurs = true;
+    for (int i = 0; i < depth && isOurs; ++i) {
+        Dl_info place{};
+        if (isOfThisProgram(stack[static_cast<size_t>(i)])) continue;
+        if (dladdr(stack[static_cast<size_t>(i)], &place) == 0 || !place.dli_fname) continue;
+        const std::string_view library(place.dli_fname);
+        isOurs = library.find("libstdc++") != library.npos || library.find("libc.so") != library.npos;
+    }
+    tIsInside = false;
+    return isOurs;
+}
+
+bool failsNow(const void* caller) {
+    if (!gArmed.load(std::memory_order_acquire) || tIsInside || !isMeant()) return false;
+    if (gCallers == Callers::ThisProgram && !isCalledByThisProgramOnly(caller)) return false;
     const int64_t left = gUntilFailure.fetch_sub(1, std::memory_order_relaxed) - 1;
     if (left > 0 || (left < 0 && gLasting == Lasting::Once)) return false;
     if (left == 0) {
@@ -89,16 +127,17 @@ const char* toString(Whose whose) {
     case Whose::Driver:
         return "driver thread";
     case Whose::Jobs:
-        return "workers";
+        return "jobs";
     }
     return "?";
 }
 
-AllocationFailure::AllocationFailure(Whose whose, uint64_t at, Lasting lasting) {
+AllocationFailure::AllocationFailure(Whose whose, uint64_t at, Lasting lasting, Callers callers) {
     backtrace(gStack.data(), 1); // loads what it needs now, not inside of operator new
     tIsApp = true;
     gWhose = whose;
     gLasting = lasting;
+    gCallers = callers;
     gUntilFailure.store(static_cast<int64_t>(at), std::memory_order_relaxed);
     gHasStruck.store(false, std::memory_order_relaxed);
     gStackDepth = 0;
@@ -133,11 +172,11 @@ int64_t liveBlocks() { return gLive.load(std::memory_order_relaxed); }
 
 // The array and nothrow forms call these.
 void* operator new(size_t bytes) {
-    if (filament::test::failsNow()) throw std::bad_alloc();
+    if (filament::test::failsNow(__builtin_return_address(0))) throw std::bad_alloc();
     return filament::test::counted(std::malloc(bytes));
 }
 void* operator new(size_t bytes, std::align_val_t alignment) {
-    if (filament::test::failsNow()) throw std::bad_alloc();
+    if (filament::test::failsNow(__builtin_return_address(0))) throw std::bad_alloc();
     const auto align = static_cast<size_t>(alignment);
     return filament::test::counted(std::aligned_alloc(align, (bytes + align - 1) / align * align));
 }

@@ -15,9 +15,14 @@ namespace filament::test {
 enum class Whose : uint8_t {
     App,    ///< the thread that asks for the failure
     Driver, ///< a driver thread
-    Jobs,   ///< every other thread
+    Jobs,   ///< any thread, inside of a job
 };
 const char* toString(Whose whose);
+
+enum class Callers : uint8_t {
+    All,
+    ThisProgram, ///< not the libraries of a device, who have their own ways with exhausted memory
+};
 
 enum class Lasting : uint8_t {
     Once,    ///< this allocation fails, the next one succeeds
@@ -27,7 +32,7 @@ enum class Lasting : uint8_t {
 class AllocationFailure {
 public:
     /// The `at`-th allocation of that thread from now on throws std::bad_alloc; from 1.
-    AllocationFailure(Whose whose, uint64_t at, Lasting lasting = Lasting::Once);
+    AllocationFailure(Whose whose, uint64_t at, Lasting lasting = Lasting::Once, Callers callers = Callers::All);
     ~AllocationFailure();
     AllocationFailure(AllocationFailure const&) = delete;
     AllocationFailure& operator=(AllocationFailure const&) = delete;

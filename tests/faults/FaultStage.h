@@ -28,6 +28,7 @@ struct StageOptions {
     Backend backend = Backend::Null;
     int workers = 0;
     int spheres = 3;
+    int materials = 1; ///< spheres take them in turn; equal neighbours are drawn together
     bool validation = true;
 };
 
@@ -42,15 +43,18 @@ inline Result<Engine> makeEngine(StageOptions const& options, std::shared_ptr<ba
 /// Spheres in a row, a sun, a swap chain of 32 x 32 pixels.
 class FaultStage {
 public:
-    explicit FaultStage(Engine& engine, int spheres = 3) : mEngine(engine), mScene(engine) {
+    explicit FaultStage(Engine& engine, StageOptions const& options = {}) : mEngine(engine), mScene(engine) {
         const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere(4, 8));
         mVertices = engine.own(sphere.vertices);
         mIndices = engine.own(sphere.indices);
         mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
-        mInstance = engine.own(engine.createInstance(mMaterial));
-        EXPECT_TRUE(engine.set(mInstance, "baseColorFactor", float4(0.8f, 0.4f, 0.2f, 1)).ok());
-        EXPECT_TRUE(engine.set(mInstance, "roughnessFactor", 0.5f).ok());
-        for (int i = 0; i < spheres; ++i) place({ 0.4 * (i % 3 - 1), 0, -0.5 * (i / 3) });
+        for (int i = 0; i < options.materials; ++i) {
+            mInstances.push_back(engine.own(engine.createInstance(mMaterial)));
+            EXPECT_TRUE(engine.set(mInstances.back(), "baseColorFactor", float4(0.8f, 0.4f, 0.2f, 1)).ok());
+            EXPECT_TRUE(engine.set(mInstances.back(), "roughnessFactor", 0.5f).ok());
+        }
+        for (int i = 0; i < options.spheres; ++i)
+            place({ 0.4 * (i % 3 - 1), 0, -0.5 * (i / 3) }, mInstances[static_cast<size_t>(i % options.materials)]);
         mScene.add(SunLight{ .directionWorld = { -0.4f, -1, -0.6f } });
         mView.camera = Camera::lookAt({ 0, 0.5, 4 }, { 0, 0, 0 });
         mView.size = { 32, 32 };
@@ -71,12 +75,12 @@ public:
     }
 
 private:
-    void place(double3 at) {
+    void place(double3 at, MaterialInstance material) {
         double4x4 world(1);
         world[3] = double4(at, 1);
         mScene.add({ .vertices = mVertices,
                      .indices = mIndices,
-                     .material = mInstance,
+                     .material = material,
                      .boundsMin = float3(-1),
                      .boundsMax = float3(1),
                      .worldFromObject = world });
@@ -88,7 +92,7 @@ private:
     Owned<VertexBuffer> mVertices;
     Owned<IndexBuffer> mIndices;
     Owned<Material> mMaterial;
-    Owned<MaterialInstance> mInstance;
+    std::vector<Owned<MaterialInstance>> mInstances;
     std::optional<Renderer> mRenderer; // ends before what it draws
 };
 

@@ -141,7 +141,7 @@ TEST(LargePayload, IsGivenBackWhenFramesAreSmallAgain) {
 
 TEST(LargePayload, MoreDrawsThanABufferHoldsAreAllDrawn) {
     auto engine = makeEngine({ .workers = 2 });
-    FaultStage stage(*engine, 6000);
+    FaultStage stage(*engine, { .spheres = 6000 });
     ASSERT_TRUE(stage.draw().ok());
     engine->waitIdle();
     EXPECT_EQ(stage.renderer().statistics().renderables, 6000u);

@@ -243,6 +243,58 @@ TEST(CommandBuffer, MovingLeavesAnEmptyBufferThatWorks) {
     EXPECT_EQ(listen(from).draws.at(0).vertexCount, 2u);
 }
 
+TEST(CommandBuffer, RollingBackForgetsExactlyTheCommandsSinceTheMark) {
+    for (const uint32_t before : { 0u, 1u, 1000u, 5000u }) { // in an empty buffer, in the first block, in later ones
+        for (const uint32_t after : { 1u, 10'000u }) {
+            CommandBuffer commands;
+            for (uint32_t i = 0; i < before; ++i) commands.record(CmdDraw{ .vertexCount = i });
+            const CommandBuffer::Mark mark = commands.mark();
+            for (uint32_t i = 0; i < after; ++i) commands.record(CmdDraw{ .vertexCount = 77 });
+            commands.rollBack(mark);
+            EXPECT_EQ(commands.commandCount(), before);
+            commands.record(CmdDraw{ .vertexCount = before });
+            const Listener heard = listen(commands);
+            ASSERT_EQ(heard.draws.size(), before + 1);
+            for (uint32_t i = 0; i <= before; ++i) ASSERT_EQ(heard.draws[i].vertexCount, i);
+        }
+    }
+}
+
+TEST(CommandBuffer, RollingBackReachesBehindAJoinedTail) {
+    CommandBuffer head, tail;
+    head.record(CmdDraw{ .vertexCount = 1 });
+    const CommandBuffer::Mark mark = head.mark();
+    for (int i = 0; i < 5000; ++i) tail.record(CmdDraw{ .vertexCount = 2 });
+    head.append(std::move(tail));
+    head.rollBack(mark);
+    head.record(CmdDraw{ .vertexCount = 3 });
+    const Listener heard = listen(head);
+    ASSERT_EQ(heard.draws.size(), 2u);
+    EXPECT_EQ(heard.draws[1].vertexCount, 3u);
+}
+
+TEST(CommandBuffer, TheReserveTakesTheEndsOfAFrameWhereverItsBlockEnds) {
+    for (uint32_t draws = 1; draws < 6000; draws += 7) {
+        CommandBuffer commands;
+        for (uint32_t i = 0; i < draws; ++i) commands.record(CmdDraw{ .vertexCount = i });
+        const size_t reserved = commands.bytesReserved();
+        ASSERT_TRUE(commands.recordInReserve(CmdPopGroup{}));
+        ASSERT_TRUE(commands.recordInReserve(CmdEndTimer{}));
+        ASSERT_TRUE(commands.recordInReserve(CmdEndFrame{}));
+        ASSERT_EQ(commands.bytesReserved(), reserved) << "it allocated";
+        const Listener heard = listen(commands);
+        ASSERT_EQ(heard.draws.size(), draws);
+        ASSERT_EQ(heard.ids.size(), draws + 3);
+        ASSERT_EQ(heard.ids.back(), kCommandId<CmdEndFrame>);
+    }
+}
+
+TEST(CommandBuffer, AnEmptyBufferHasNoReserve) {
+    CommandBuffer commands;
+    EXPECT_FALSE(commands.recordInReserve(CmdEndFrame{}));
+    EXPECT_EQ(commands.commandCount(), 0u);
+}
+
 TEST(CommandBuffer, SurvivesRandomMixesOfRecordingJoiningAndResetting) {
     std::mt19937 random(1);
     CommandBuffer head, tail;
