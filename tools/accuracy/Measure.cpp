@@ -136,7 +136,7 @@ private:
         if (!frame) return frame.error();
         const Result<SceneSpec const*> own = effect.scene.empty() ? *frame : mScenes.find(effect.scene);
         if (!own) return own.error();
-        const bool linear = (*own)->linear || effect.scene.empty();
+        const bool linear = result.linear = (*own)->linear || effect.scene.empty();
         const auto draw = [&](std::vector<std::string> const& words) -> Result<Picture> {
             Result<Settings> settings = settingsFor(**frame, {}, words);
             if (!settings) return settings.error();

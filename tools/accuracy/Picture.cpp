@@ -116,8 +116,9 @@ ErrorFigures compare(Picture const& reference, Picture const& test, Edges edges)
             const size_t i = size_t(y) * reference.width + x;
             if (isBackground(reference.pixels[i]) && isBackground(test.pixels[i])) continue;
             if (edges == Edges::Skip && (touchesBackground(reference, x, y) || touchesBackground(test, x, y))) continue;
-            const double error = glm::length(double3(test.pixels[i]) - double3(reference.pixels[i])) /
-                                 (lengthOf(reference.pixels[i]) + floor);
+            const double3 truth(reference.pixels[i]), found(test.pixels[i]);
+            const double error =
+                    glm::length(found - truth) / (std::max(glm::length(truth), glm::length(found)) + floor);
             sum += error * error;
             figures.max = std::max(figures.max, error);
             ++count;

@@ -31,9 +31,9 @@ Json jsonOf(ValueResult const& value) {
                { "totalError", rounded(value.total) } };
     for (auto const& [backend, timing] : value.timings) {
         json["milliseconds"][backend] = rounded(timing.milliseconds.median);
-        json["interval"][backend] = intervalOf(timing.milliseconds);
+        json["millisecondsInterval"][backend] = intervalOf(timing.milliseconds);
         json["ratio"][backend] = rounded(timing.ratio.median);
-        json["ratioInterval"][backend] = intervalOf(timing.ratio);
+        json["interval"][backend] = intervalOf(timing.ratio);
     }
     return json;
 }
@@ -48,6 +48,8 @@ Json jsonOf(EffectResult const& result) {
                { "scene", effect.scene },
                { "command", result.command },
                { "cost", toString(effect.cost) },
+               { "frame", effect.frame },
+               { "linear", result.linear },
                { "standard", effect.values[effect.standard].name },
                { "best", effect.values[effect.best].name },
                { "values", Json::array() } };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Results: what was measured, as values, as JSON and as CSV. The JSON is the table that QualityBudget reads.
 ///   JSON    { "program", "version", "machine", "driver", "commit", "date", "size", "rounds", "effects": [ { "name",
-///           "title", "question", "reference", "command", "cost", "standard", "values": [ { "value", "set", "error",
-///           "ownError", "ownMax", "ownFlip", "frameFlip", "totalError", "milliseconds", "interval", "ratio",
-///           "ratioInterval" } ] } ], "skipped" }. The last four are objects by backend.
+///           "title", "question", "reference", "command", "cost", "frame", "linear", "standard", "best", "values": [ {
+///           "value", "set", "error" (whole frame), "ownError", "ownMax", "ownFlip", "frameFlip", "totalError",
+///           "milliseconds", "millisecondsInterval", "ratio", "interval" (of the ratio) } ] } ], "skipped" }. The last
+///           four of a value are objects by backend.
 ///   CSV     one line a value and backend.
 ///   Thread  any; pure.
 #pragma once
@@ -38,6 +39,7 @@ struct ValueResult {
 struct EffectResult {
     Effect effect;
     std::vector<ValueResult> values; ///< as effect.values
+    bool linear = true;              ///< pictures are scene-linear, not display-referred
     double referenceError = 0;       ///< standard error of a traced reference; 0: none
     std::string command;             ///< that measures this row again
 };

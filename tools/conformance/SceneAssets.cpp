@@ -19,7 +19,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr std::string_view kAsset = "asset:", kShowcase = "showcase", kSky = "sky", kWhite = "white";
+constexpr std::string_view kAsset = "asset:", kShowcase = "showcase", kSky = "sky", kWhite = "white",
+                           kStudio = "studio";
 constexpr uint32_t kSkyHeight = 64; // smooth but for the horizon: enough for pictures of 256 pixels
 constexpr float kSkyUnit = 22;      // klx: radiance 1 of the sky's file, as the showcase has it
 
@@ -67,6 +68,32 @@ Result<void> writeWhite(fs::path const& path) {
     return assets::writeHdr(path, white);
 }
 
+/// Soft boxes on walls that are nearly dark, as photographers have them: hard edges, high contrast, all light from
+/// little of the sphere.
+Result<void> writeStudio(fs::path const& path) {
+    constexpr uint32_t kWidth = 1024, kHeight = 512;
+    struct Lamp {
+        float left, top, right, bottom; ///< of the picture, in [0, 1]
+        float3 radiance;
+    };
+    constexpr Lamp kLamps[] = { { 0.10f, 0.18f, 0.20f, 0.42f, { 24, 21, 17 } },
+                                { 0.42f, 0.25f, 0.58f, 0.40f, { 5, 6, 8 } },
+                                { 0.78f, 0.30f, 0.80f, 0.55f, { 30, 30, 30 } },
+                                { 0.00f, 0.02f, 1.00f, 0.06f, { 10, 10, 10 } } };
+    assets::HdrImage studio{ .width = kWidth, .height = kHeight, .pixels = {}, .repairs = {} };
+    studio.pixels.resize(size_t(kWidth) * kHeight);
+    for (uint32_t y = 0; y < kHeight; ++y) {
+        for (uint32_t x = 0; x < kWidth; ++x) {
+            const float u = (static_cast<float>(x) + 0.5f) / kWidth, v = (static_cast<float>(y) + 0.5f) / kHeight;
+            float3 radiance = v < 0.5f ? float3(0.10f, 0.11f, 0.13f) : float3(0.16f, 0.13f, 0.10f) * (1.5f - v);
+            for (Lamp const& lamp : kLamps)
+                if (u > lamp.left && u < lamp.right && v > lamp.top && v < lamp.bottom) radiance = lamp.radiance;
+            studio.at(x, y) = radiance;
+        }
+    }
+    return assets::writeHdr(path, studio);
+}
+
 Result<showcase::Files> showcaseFiles(fs::path const& work) {
     const fs::path folder = work / "showcase";
     const showcase::Files files{ folder / "showcase.glb", folder / "showcase.hdr" };
@@ -76,7 +103,8 @@ Result<showcase::Files> showcaseFiles(fs::path const& work) {
 }
 
 bool isBuiltIn(std::string const& environment) {
-    return environment.empty() || environment == kSky || environment == kWhite || environment == kShowcase;
+    return environment.empty() || environment == kSky || environment == kWhite || environment == kStudio ||
+           environment == kShowcase;
 }
 
 } // namespace
@@ -101,6 +129,7 @@ Result<fs::path> modelFile(SceneSpec const& spec, SceneFolders const& folders) {
 Result<fs::path> environmentFile(SceneSpec const& spec, SceneFolders const& folders) {
     if (spec.environment == kSky) return writeOnce(folders.work / "sky.hdr", writeSky);
     if (spec.environment == kWhite) return writeOnce(folders.work / "white.hdr", writeWhite);
+    if (spec.environment == kStudio) return writeOnce(folders.work / "studio.hdr", writeStudio);
     if (spec.environment == kShowcase) {
         Result<showcase::Files> files = showcaseFiles(folders.work);
         return files ? Result<fs::path>(files->environment) : files.error();

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SceneAssets: from the words of a scene file to files, lights and a camera: for every program that draws such scenes.
 ///   Model        objects to build, "showcase", "asset:PATH", or a path beside the scene file.
-///   Environment  "sky" (analytic, without its sun), "white" (radiance 1 everywhere), "showcase", or a path as above.
+///   Environment  "sky" (analytic, without its sun), "white" (radiance 1 everywhere), "studio" (dim, with four
+///                lamps of up to 300 times its radiance), "showcase", or a path as above.
 ///   Memory       what is built is written once into the folder `work`; several processes may do so at once.
 ///   Thread       any.
 ///   Fails        what the builders and the file system say. An asset that is not there: see missingFile().

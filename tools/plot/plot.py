@@ -5,6 +5,7 @@
   plot.py bench   FILE.json  -o OUT   all figures of threading_bench --json: costs, wake-ups, scaling, frames
   plot.py scaling FILE.json  -o OUT   only how they grow with workers and with renderables
   plot.py jobs    TRACE.json -o OUT   who ran what when: a Chrome trace-event file, as --trace-jobs writes it
+  plot.py accuracy FILE.json -o DIR   results.json of filament-accuracy: one picture an effect, and frames; --format
 
 OUT ends in .png, .svg or .pdf. A file that cannot be drawn is refused with one line on standard error and exit status 2.
 Needs matplotlib (Debian: python3-matplotlib, which belongs to /usr/bin/python3).
@@ -20,6 +21,7 @@ except ImportError:
 matplotlib.use("Agg")  # no display
 import matplotlib.pyplot as plt
 
+import accuracy_plot
 import bench_plot
 import jobs_plot
 from style import BadInput, apply_style
@@ -59,7 +61,23 @@ def parse_arguments(words):
                                  help="first millisecond to show")
             command.add_argument("--to", dest="end", type=milliseconds, default=None, metavar="MS",
                                  help="last millisecond to show")
+    accuracy = commands.add_parser("accuracy", help="error over time of every effect")
+    accuracy.add_argument("input", type=pathlib.Path, metavar="FILE.json")
+    accuracy.add_argument("-o", "--output", type=pathlib.Path, required=True, metavar="DIR")
+    accuracy.add_argument("--format", choices=[suffix[1:] for suffix in FORMATS], default="svg")
     return parser.parse_args(words)
+
+
+def save(figure, path):
+    # no date: the same figures, the same bytes
+    figure.savefig(path, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
+    plt.close(figure)
+
+
+def draw_folder(arguments):
+    arguments.output.mkdir(parents=True, exist_ok=True)
+    for name, figure in accuracy_plot.draw_all(arguments.input):
+        save(figure, arguments.output / f"{name}.{arguments.format}")
 
 
 def draw(arguments):
@@ -73,9 +91,10 @@ def main(words):
     try:
         with matplotlib.rc_context():
             apply_style()
-            figure = draw(arguments)
-            figure.savefig(arguments.output)
-            plt.close(figure)
+            if arguments.command == "accuracy":
+                draw_folder(arguments)
+            else:
+                save(draw(arguments), arguments.output)
     except BadInput as error:
         print(f"plot.py: error: {error}", file=sys.stderr)
         return 2

@@ -1,0 +1,247 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The figures of filament-accuracy: error over time for every effect, and for whole frames."""
+import dataclasses
+import math
+
+import matplotlib.pyplot as plt
+from matplotlib.ticker import FuncFormatter, LogLocator, NullFormatter
+
+from style import BLUE, GREEN, GREY, ORANGE, PINK, RED, SKY, YELLOW, BadInput, field, finite, load_json
+
+BACKEND_COLORS = {"vulkan": BLUE, "gles": ORANGE}
+BACKEND_TITLES = {"vulkan": "Vulkan", "gles": "OpenGL ES"}
+EFFECT_COLORS = (BLUE, ORANGE, GREEN, PINK, RED, SKY, YELLOW, "#332288", "#117733", "#882255", "#44aa99", "#999933")
+LEAST_SPAN = 0.16  # of the median: what differs by less is drawn close together, for it is
+LABEL_HEIGHT = 11  # pixels between labels at 100 dpi
+
+
+@dataclasses.dataclass
+class Point:
+    label: str
+    error: float
+    total: float
+    times: dict      # backend: (median, low, high), milliseconds
+    ratios: dict     # backend: (median, low, high), to the standard value
+    standard: bool
+
+
+@dataclasses.dataclass
+class Effect:
+    name: str
+    title: str
+    cost: str
+    frame: str
+    linear: bool
+    points: list
+
+
+def read_estimates(value, key, interval_key, where):
+    medians, intervals = field(value, key, dict, where), field(value, interval_key, dict, where)
+    estimates = {}
+    for backend in medians:
+        bounds = field(intervals, backend, list, where)
+        if len(bounds) != 2 or not all(isinstance(b, (int, float)) for b in bounds):
+            raise BadInput(f"{where}: '{interval_key}' of {backend} is no pair of numbers")
+        estimates[backend] = (finite(medians, backend, where), bounds[0], bounds[1])
+    return estimates
+
+
+def read_point(value, standard, where):
+    name = field(value, "value", str, where)
+    where = f"{where}, value '{name}'"
+    return Point(name, finite(value, "ownError", where), finite(value, "totalError", where),
+                 read_estimates(value, "milliseconds", "millisecondsInterval", where),
+                 read_estimates(value, "ratio", "interval", where), name == standard)
+
+
+def read_effect(item, where):
+    name = field(item, "name", str, where)
+    where = f"{where}, effect '{name}'"
+    standard = field(item, "standard", str, where)
+    points = [read_point(value, standard, where) for value in field(item, "values", list, where)]
+    if not points:
+        raise BadInput(f"{where}: no values")
+    return Effect(name, field(item, "title", str, where), field(item, "cost", str, where), field(item, "frame", str, where),
+                  bool(item.get("linear")), points)
+
+
+def read(path):
+    data = load_json(path)
+    if not isinstance(data, dict) or data.get("program") != "filament-accuracy":
+        raise BadInput(f"{path}: not written by filament-accuracy")
+    if data.get("version") != 1:
+        raise BadInput(f"{path}: version {data.get('version')} of the format; this program reads version 1")
+    return [read_effect(item, str(path)) for item in field(data, "effects", list, str(path))]
+
+
+# ------------------------------------------------------------------------------------------------------- pieces
+
+def percent(value, _=None):
+    if value <= 0:
+        return "0"
+    return f"{value * 100:.3g} %" if value >= 1e-5 else f"{value:.0e}"
+
+
+def frontier(points):
+    """Those that no other one beats in both, from the cheapest on. Points are (x, y)."""
+    best, result = math.inf, []
+    for x, y in sorted(points):
+        if y < best:
+            best = y
+            result.append((x, y))
+    return result
+
+
+def error_axis(axes, errors):
+    """Logarithmic where errors differ by more than a factor of 4. Returns where an error of 0 is drawn."""
+    positive = [e for e in errors if e > 0]
+    if not positive:
+        axes.set_ylim(-1, 1)
+        axes.set_yticks([0])
+        axes.set_yticklabels(["0"])
+        return 0
+    low, high = min(positive), max(positive)
+    if high / low < 4 and len(positive) == len(errors):
+        axes.set_ylim(0, high * 1.25)
+        axes.yaxis.set_major_formatter(FuncFormatter(percent))
+        return 0
+    floor = low / 6
+    axes.set_yscale("log")
+    axes.set_ylim(floor / 1.8 if len(positive) < len(errors) else low / 2.2, high * 2.2)
+    decades = math.log10(high / low)
+    axes.yaxis.set_major_locator(LogLocator(subs=(1,) if decades > 2.5 else (1, 2, 5)))
+    axes.yaxis.set_major_formatter(FuncFormatter(percent))
+    axes.yaxis.set_minor_formatter(NullFormatter())
+    if len(positive) < len(errors):
+        axes.axhline(floor, color="#999999", linewidth=0.8, linestyle=(0, (2, 2)))
+        axes.text(0.995, floor, "no error ", transform=axes.get_yaxis_transform(), ha="right", va="bottom", fontsize=7,
+                  color="#777777")
+    return floor
+
+
+def time_limits(axes, bounds):
+    """Around all intervals, never narrower than LEAST_SPAN of their middle."""
+    low, high = min(b[0] for b in bounds), max(b[1] for b in bounds)
+    middle = (low + high) / 2
+    half = max((high - low) / 2, LEAST_SPAN / 2 * middle) * 1.12
+    axes.set_xlim(middle - half, middle + half)
+
+
+def place_labels(axes, labels):
+    """Beside their points, towards the middle of the axes, moved up or down until none covers another one.
+
+    labels: (x, y, text, color, weight)."""
+    to_pixels = axes.transData.transform
+    scale = axes.figure.dpi / 100
+    left, right = axes.transAxes.transform((0, 0))[0], axes.transAxes.transform((1, 1))[0]
+    taken = []
+    for x, y, text, color, weight in sorted(labels, key=lambda label: -to_pixels((label[0], label[1]))[1]):
+        at_x, at_y = to_pixels((x, y))
+        width = 5.6 * scale * len(text)
+        to_left = at_x + width + 12 * scale > right and at_x - width - 12 * scale > left
+        begin = at_x - width - 9 * scale if to_left else at_x + 9 * scale
+        label_y, step = at_y, 0
+        while any(abs(label_y - other_y) < LABEL_HEIGHT * scale and begin < other_end and other_begin < begin + width
+                  for other_y, other_begin, other_end in taken):
+            step += 1
+            label_y = at_y + (-1) ** step * ((step + 1) // 2) * LABEL_HEIGHT * scale * 0.5
+        taken.append((label_y, begin, begin + width))
+        moved = abs(label_y - at_y) > 0.6 * LABEL_HEIGHT * scale
+        axes.annotate(text, (x, y), xytext=((-8 if to_left else 8), (label_y - at_y) * 72 / axes.figure.dpi),
+                      textcoords="offset points", ha="right" if to_left else "left", va="center", fontsize=8, color=color,
+                      fontweight=weight, annotation_clip=False,
+                      arrowprops={"arrowstyle": "-", "color": "#aaaaaa", "linewidth": 0.6} if moved else None)
+
+
+# ------------------------------------------------------------------------------------------------------- figures
+
+def draw_panel(axes, effect, backend):
+    points = [p for p in effect.points if backend in p.times]
+    zero = error_axis(axes, [p.error for p in effect.points])
+    time_limits(axes, [p.times[backend][1:] for p in points])
+    height = {id(p): p.error if p.error > 0 else zero for p in points}
+    edge = frontier([(p.times[backend][0], height[id(p)]) for p in points])
+    axes.step([x for x, _ in edge], [y for _, y in edge], where="post", color="#bbbbbb", linewidth=1.2, zorder=1)
+    color = BACKEND_COLORS.get(backend, GREEN)
+    for point in points:
+        median, low, high = point.times[backend]
+        axes.errorbar([median], [height[id(point)]], xerr=[[max(median - low, 0)], [max(high - median, 0)]], fmt="o",
+                      markersize=7 if point.standard else 5.5, color=color, ecolor="#777777", elinewidth=0.9, capsize=2.5,
+                      markerfacecolor=color if point.standard else "white", markeredgewidth=1.4, zorder=3)
+    axes.grid(True)
+    axes.set_title(BACKEND_TITLES.get(backend, backend))
+    what = {"frame": "a frame", "environment": "loading the environment", "model": "loading the model"}[effect.cost]
+    axes.set_xlabel(f"milliseconds, {what}")
+    axes.figure.canvas.draw()
+    place_labels(axes, [(p.times[backend][0], height[id(p)], p.label.split("=")[-1] if "preset" in p.label else p.label,
+                         "#222222", "bold" if p.standard else "normal") for p in points])
+
+
+def draw_effect(effect):
+    backends = [b for b in BACKEND_COLORS if any(b in p.times for p in effect.points)]
+    figure, panels = plt.subplots(1, max(1, len(backends)), figsize=(10, 3.3), sharey=True, squeeze=False)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.16, top=0.9, wspace=0.06)
+    for axes, backend in zip(panels[0], backends):
+        draw_panel(axes, effect, backend)
+    panels[0][0].set_ylabel("error, RMS")
+    return figure
+
+
+def worth_a_name(point, backend, typical):
+    ratio = point.ratios[backend][0]
+    return abs(ratio - 1) > 0.08 or not 0.8 < point.total / typical < 1.25 or point.total == 0
+
+
+def draw_frames(effects):
+    """Every value of every effect alone, and the presets: time against the default, error against the best of all."""
+    shown = [e for e in effects if e.cost == "frame" and e.linear and e.frame == "frame"]
+    if not shown:
+        return None
+    backends = [b for b in BACKEND_COLORS if any(b in p.ratios for e in shown for p in e.points)]
+    figure, panels = plt.subplots(1, len(backends), figsize=(10, 4.6), sharey=True, squeeze=False)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.2, top=0.93, wspace=0.06)
+    everything = [p for e in shown for p in e.points]
+    typical = sorted(p.total for p in everything)[len(everything) // 2]
+    for axes, backend in zip(panels[0], backends):
+        zero = error_axis(axes, [p.total for p in everything])
+        time_limits(axes, [p.ratios[backend][1:] for p in everything if backend in p.ratios])
+        labels, all_points = [], []
+        for i, effect in enumerate(shown):
+            is_preset = effect.name == "preset"
+            color = "#222222" if is_preset else EFFECT_COLORS[i % len(EFFECT_COLORS)]
+            for point in effect.points:
+                if backend not in point.ratios:
+                    continue
+                median, low, high = point.ratios[backend]
+                y = point.total if point.total > 0 else zero
+                all_points.append((median, y))
+                axes.errorbar([median], [y], xerr=[[max(median - low, 0)], [max(high - median, 0)]], fmt="none",
+                              ecolor="#cccccc", elinewidth=0.8, zorder=1)
+                axes.plot([median], [y], marker="D" if is_preset else "o", markersize=7 if is_preset else 4.5, color=color,
+                          zorder=4 if is_preset else 3, linestyle="none")
+                if is_preset or worth_a_name(point, backend, typical):
+                    labels.append((median, y, point.label if is_preset else f"{effect.name}: {point.label.split('=')[-1]}",
+                                   color, "bold" if is_preset else "normal"))
+        edge = frontier(all_points)
+        axes.step([x for x, _ in edge], [y for _, y in edge], where="post", color=GREY, linewidth=1.2, zorder=2)
+        axes.grid(True)
+        axes.set_title(BACKEND_TITLES.get(backend, backend))
+        axes.set_xlabel("time of the frame, × default")
+        figure.canvas.draw()
+        place_labels(axes, labels)
+    panels[0][0].set_ylabel("error of the frame, RMS")
+    figure.text(0.085, 0.035, "Diamonds: presets. Dots: one value of one effect alone; those without a name are near the default. "
+                "Grey line: what nothing beats in both.", fontsize=8, color="#666666")
+    return figure
+
+
+def draw_all(path):
+    """(name, figure), one after the other."""
+    effects = read(path)
+    if not effects:
+        raise BadInput(f"{path}: no effects in it: was everything skipped?")
+    for effect in effects:
+        yield effect.name, draw_effect(effect)
+    frames = draw_frames(effects)
+    if frames:
+        yield "frames", frames
