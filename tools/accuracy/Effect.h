@@ -38,6 +38,9 @@ struct Reference {
     uint32_t samples = 64; ///< Traced: per pixel
 };
 
+/// The scene of whole frames, unless a row or the command line says otherwise.
+inline constexpr const char* kWholeFrame = "frame";
+
 enum class Cost : uint8_t {
     Frame,       ///< milliseconds of the device for a whole frame
     Environment, ///< milliseconds to load the environment, from its file and without a cache
@@ -55,7 +58,7 @@ struct Effect {
     size_t best = 0;     ///< whole frames are compared with this value's
     Reference reference{};
     Cost cost = Cost::Frame;
-    std::string frame = "frame"; ///< the scene in which the frame is timed
+    std::string frame = kWholeFrame; ///< the scene in which the frame is timed
 };
 
 const char* toString(Cost cost);

@@ -31,6 +31,7 @@ public:
             if (!result) return fail(result.error().code, "effect {}: {}", effect.name, result.error().message);
             mResults.effects.push_back(std::move(*result));
         }
+        mResults.frame = mOptions.frame;
         mResults.size = mOptions.size;
         mResults.rounds = mOptions.rounds;
         return std::move(mResults);
@@ -189,9 +190,11 @@ private:
 
 } // namespace
 
-Result<Results> measure(std::vector<Effect> const& all, std::vector<std::string> const& chosen,
+Result<Results> measure(std::vector<Effect> const& table, std::vector<std::string> const& chosen,
                         SceneLibrary const& scenes, MeasureOptions const& options, MeasureProgress const& progress) {
-    std::vector<Effect> rows;
+    std::vector<Effect> all = table, rows;
+    for (Effect& effect : all)
+        if (effect.frame == kWholeFrame) effect.frame = options.frame;
     for (std::string const& name : chosen) {
         const auto found = std::ranges::find(all, name, &Effect::name);
         if (found == all.end()) {

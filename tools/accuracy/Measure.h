@@ -19,12 +19,13 @@ namespace filament::accuracy {
 
 struct MeasureOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
-    uint2 size{ 1280, 720 };        ///< of whole frames that are timed
-    uint2 errorSize{ 640, 360 };    ///< of whole frames that are compared
-    uint32_t rounds = 15;           ///< of frames
-    uint32_t loadRounds = 3;        ///< of loads, which take seconds
-    uint32_t mostTraced = 1u << 20; ///< samples a pixel of references, at most
-    std::filesystem::path pictures; ///< every picture that an error is of, as PNG; empty: none
+    std::string frame = kWholeFrame; ///< another scene of whole frames, for rows that do not have one of their own
+    uint2 size{ 1280, 720 };         ///< of whole frames that are timed
+    uint2 errorSize{ 640, 360 };     ///< of whole frames that are compared
+    uint32_t rounds = 15;            ///< of frames
+    uint32_t loadRounds = 3;         ///< of loads, which take seconds
+    uint32_t mostTraced = 1u << 20;  ///< samples a pixel of references, at most
+    std::filesystem::path pictures;  ///< every picture that an error is of, as PNG; empty: none
     conformance::SceneFolders folders{};
 };
 
@@ -32,8 +33,8 @@ struct MeasureOptions {
 using MeasureProgress = std::function<void(std::string const& what, double done)>;
 
 /// Fills `effects` and `skipped` in; machine, commit and date are the caller's.
-/// `all`: every effect of the table, for the best of all; `chosen`: names, empty for all.
-Result<Results> measure(std::vector<Effect> const& all, std::vector<std::string> const& chosen,
+/// `table`: every effect, for the best of all; `chosen`: names, empty for all.
+Result<Results> measure(std::vector<Effect> const& table, std::vector<std::string> const& chosen,
                         SceneLibrary const& scenes, MeasureOptions const& options, MeasureProgress const& progress);
 
 } // namespace filament::accuracy

@@ -14,7 +14,7 @@ struct Words {
     std::string effects = FILAMENT_SOURCE_DIR "/tools/accuracy/effects.json";
     std::string scenes = FILAMENT_SOURCE_DIR "/tools/accuracy/scenes";
     std::string assets = FILAMENT_ASSET_DIR;
-    std::string out = "accuracy", page, pictures, size, rounds, plots;
+    std::string out = "accuracy", page, pictures, frame, size, rounds, plots;
     std::vector<std::string> backends, include;
     bool quick = false;
 };
@@ -29,6 +29,7 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--page", words.page, "the report; default: accuracy.html in --out")->type_name("FILE");
     app.add_option("--include", words.include, "HTML fragments with further sections of the report")
             ->type_name("FILE...");
+    app.add_option("--frame", words.frame, "scene of whole frames; default: the showcase")->type_name("SCENE");
     app.add_option("--backend", words.backends, "vulkan gles; errors are measured on the first")->type_name("NAME...");
     app.add_option("--rounds", words.rounds, "turns that every value is timed, 1 to 1000; default 15")->type_name("N");
     app.add_option("--size", words.size, "of frames that are timed; default 1280x720")->type_name("WxH");
@@ -65,8 +66,10 @@ Result<void> convert(Words const& words, Options& options) {
     MeasureOptions& measure = options.measure;
     if (words.quick) {
         measure.size = measure.errorSize = { 160, 90 };
+        measure.frame = "sun-chart"; // one material, no environment
         measure.rounds = 3, measure.loadRounds = 1, measure.mostTraced = 16;
     }
+    if (!words.frame.empty()) measure.frame = words.frame;
     options.effects = words.effects, options.scenes = words.scenes;
     options.out = words.out, options.page = words.page, measure.pictures = words.pictures;
     options.include.assign(words.include.begin(), words.include.end());

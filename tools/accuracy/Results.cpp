@@ -60,15 +60,11 @@ Json jsonOf(EffectResult const& result) {
 } // namespace
 
 Json jsonOf(Results const& results) {
-    Json json{ { "program", "filament-accuracy" },
-               { "version", 1 },
-               { "machine", results.machine },
-               { "driver", results.drivers },
-               { "commit", results.commit },
-               { "date", results.date },
-               { "size", { results.size.x, results.size.y } },
-               { "rounds", results.rounds },
-               { "effects", Json::array() },
+    Json json{ { "program", "filament-accuracy" }, { "version", 1 },
+               { "machine", results.machine },     { "driver", results.drivers },
+               { "commit", results.commit },       { "date", results.date },
+               { "frame", results.frame },         { "size", { results.size.x, results.size.y } },
+               { "rounds", results.rounds },       { "effects", Json::array() },
                { "skipped", Json::array() } };
     for (EffectResult const& effect : results.effects) json["effects"].push_back(jsonOf(effect));
     for (Skipped const& one : results.skipped)

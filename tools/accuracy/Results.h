@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Results: what was measured, as values, as JSON and as CSV. The JSON is the table that QualityBudget reads.
-///   JSON    { "program", "version", "machine", "driver", "commit", "date", "size", "rounds", "effects": [ { "name",
+///   JSON    { "program", "version", "machine", "driver", "commit", "date", "frame", "size", "rounds", "effects": [ {
+///   "name",
 ///           "title", "question", "reference", "command", "cost", "frame", "linear", "standard", "best", "values": [ {
 ///           "value", "set", "error" (whole frame), "ownError", "ownMax", "ownFlip", "frameFlip", "totalError",
 ///           "milliseconds", "millisecondsInterval", "ratio", "interval" (of the ratio) } ] } ], "skipped" }. The last
@@ -51,6 +52,7 @@ struct Skipped {
 struct Results {
     std::string machine, commit, date;
     std::map<std::string, std::string> drivers; ///< by backend
+    std::string frame;                          ///< scene of whole frames
     uint2 size{ 0, 0 };
     uint32_t rounds = 0;
     std::vector<EffectResult> effects;

@@ -75,8 +75,8 @@ def save(figure, path):
 
 
 def draw_folder(arguments):
-    arguments.output.mkdir(parents=True, exist_ok=True)
     for name, figure in accuracy_plot.draw_all(arguments.input):
+        arguments.output.mkdir(parents=True, exist_ok=True)
         save(figure, arguments.output / f"{name}.{arguments.format}")
 
 

@@ -65,6 +65,25 @@ def trace():
     return {"traceEvents": events + [complete(2, "sort", 3000, 100, stolen=False)]}
 
 
+def measured_value(name, error, milliseconds, ratio):
+    both = lambda value: {"vulkan": value, "gles": value}  # noqa: E731
+    return {"value": name, "ownError": error, "totalError": error / 2, "milliseconds": both(milliseconds),
+            "millisecondsInterval": both([milliseconds * 0.9, milliseconds * 1.1]), "ratio": both(ratio),
+            "interval": both([ratio * 0.97, ratio * 1.02])}
+
+
+def accuracy():
+    """An effect with an exact value, one of a load, one in which nothing differs, and presets."""
+    effect = {"title": "an effect, titled", "cost": "frame", "frame": "frame", "linear": True, "standard": "table"}
+    values = [measured_value("table", 0, 10, 1), measured_value("fit", 0.02, 9, 0.9), measured_value("none", 0.4, 8, 0.8)]
+    same = [measured_value("table", 0, 10, 1), measured_value("fit", 0, 10, 1)]
+    return {"program": "filament-accuracy", "version": 1, "frame": "frame",
+            "effects": [{**effect, "name": "splitSum", "values": values},
+                        {**effect, "name": "load", "cost": "environment", "values": values},
+                        {**effect, "name": "same", "values": same},
+                        {**effect, "name": "preset", "values": values}]}
+
+
 class Plot(unittest.TestCase):
     def setUp(self):
         folder = tempfile.TemporaryDirectory()
@@ -145,6 +164,36 @@ class Pictures(Plot):
         events = [complete(i % 7, f"job {i % 40}", 3 * i, 2) for i in range(8000)]
         self.assert_png(self.drawn("jobs", {"traceEvents": events}), 1000, 200)
         self.assertIn("25 others", self.texts("jobs", {"traceEvents": events}))
+
+
+class AccuracyPictures(Plot):
+    def test_every_effect_and_the_whole_frames_are_drawn(self):
+        self.assertEqual(self.run_plot("accuracy", accuracy(), output="plots"), (0, ""))
+        names = {path.name for path in (self.folder / "plots").iterdir()}
+        self.assertEqual(names, {"splitSum.svg", "load.svg", "same.svg", "preset.svg", "frames.svg"})
+
+    def test_a_picture_names_values_backends_and_units(self):
+        self.run_plot("accuracy", accuracy(), output="plots")
+        def texts(name):
+            root = xml.etree.ElementTree.parse(self.folder / "plots" / name)
+            return " ".join("".join(node.itertext()) for node in root.iter("{http://www.w3.org/2000/svg}text"))
+        for words in ("table", "fit", "none", "Vulkan", "OpenGL ES", "milliseconds, a frame", "error, RMS", "no error"):
+            self.assertIn(words, texts("splitSum.svg"))
+        self.assertIn("loading the environment", texts("load.svg"))
+        self.assertIn("splitSum: none", texts("frames.svg"))
+
+    def test_the_same_figures_give_the_same_bytes(self):
+        for folder in ("a", "b"):
+            self.run_plot("accuracy", accuracy(), output=folder)
+        self.assertEqual((self.folder / "a" / "frames.svg").read_bytes(), (self.folder / "b" / "frames.svg").read_bytes())
+
+    def test_what_cannot_be_drawn_is_refused(self):
+        self.assert_refused("accuracy", bench(), "not written by filament-accuracy")
+        self.assert_refused("accuracy", {**accuracy(), "effects": []}, "no effects")
+        self.assert_refused("accuracy", {**accuracy(), "version": 2}, "version 2")
+        broken = accuracy()
+        broken["effects"][0]["values"][1]["ownError"] = None
+        self.assert_refused("accuracy", broken, "value 'fit': 'ownError'")
 
 
 class Refusals(Plot):

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// Small pictures of real rows, on both APIs.
+#include "tools/accuracy/Measure.h"
+
+#include <gmock/gmock.h>
+
+namespace filament::accuracy {
+namespace {
+
+const std::filesystem::path kFolder = std::filesystem::path(FILAMENT_SOURCE_DIR) / "tools" / "accuracy";
+
+EffectResult measured(std::string const& name, std::vector<Backend> backends) {
+    const Result<std::vector<Effect>> effects = readEffects(kFolder / "effects.json");
+    const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
+    if (!effects || !scenes) return {};
+    MeasureOptions options{ .backends = std::move(backends) };
+    options.size = options.errorSize = { 96, 54 };
+    options.rounds = 2, options.mostTraced = 1;
+    options.frame = "sun-chart"; // one material: few pipelines
+    options.folders = { std::filesystem::path(FILAMENT_BINARY_DIR) / "accuracy-test", FILAMENT_ASSET_DIR };
+    double last = 0;
+    const Result<Results> results = measure(*effects, { name }, *scenes, options, [&](std::string const&, double done) {
+        EXPECT_GE(done, last);
+        EXPECT_LE(done, 1.0);
+        last = done;
+    });
+    EXPECT_TRUE(results) << results.error().message;
+    return results && results->effects.size() == 1 ? results->effects.front() : EffectResult{};
+}
+
+TEST(Measurement, ExactMaskingIsNearestToThePathTracerAndEveryValueIsTimedOnBothBackends) {
+    const EffectResult result = measured("specularVisibility", { Backend::Vulkan, Backend::Gles });
+    ASSERT_EQ(result.values.size(), 3u);
+    EXPECT_LT(result.values[0].own.rms, 0.01);  // correlated
+    EXPECT_GT(result.values[1].own.rms, 0.02);  // fast
+    EXPECT_GT(result.values[2].own.rms, 0.015); // uncorrelated
+    EXPECT_EQ(result.values[0].frame.rms, 0.0); // it is the best value itself
+    for (ValueResult const& value : result.values) {
+        ASSERT_EQ(value.timings.size(), 2u);
+        for (auto const& [backend, timing] : value.timings) {
+            EXPECT_GT(timing.milliseconds.median, 0.0) << backend;
+            EXPECT_GT(timing.ratio.median, 0.0) << backend;
+        }
+    }
+}
+
+TEST(Measurement, WhiteMetalsVanishInAFurnaceOnlyIfTheirEnergyIsGivenBack) {
+    const EffectResult result = measured("energyCompensation", { Backend::Gles });
+    ASSERT_EQ(result.values.size(), 2u);
+    EXPECT_LT(result.values[0].own.rms, 0.001);
+    EXPECT_GT(result.values[1].own.rms, 0.1);
+}
+
+TEST(Measurement, AnUnknownEffectIsRefusedWithTheNearestName) {
+    const Result<std::vector<Effect>> effects = readEffects(kFolder / "effects.json");
+    const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
+    ASSERT_TRUE(effects && scenes);
+    const Result<Results> results = measure(*effects, { "frensel" }, *scenes, {}, [](std::string const&, double) {});
+    ASSERT_FALSE(results);
+    EXPECT_THAT(results.error().message, testing::HasSubstr("fresnel"));
+}
+
+} // namespace
+} // namespace filament::accuracy
