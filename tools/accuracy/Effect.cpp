@@ -18,11 +18,12 @@ namespace {
 using conformance::Json;
 using conformance::JsonReader;
 
-constexpr std::array<std::pair<std::string_view, ReferenceKind>, 6> kKinds{ {
+constexpr std::array<std::pair<std::string_view, ReferenceKind>, 7> kKinds{ {
         { "setting", ReferenceKind::Setting },
         { "scene", ReferenceKind::Scene },
         { "supersampled", ReferenceKind::Supersampled },
         { "traced", ReferenceKind::Traced },
+        { "otherBackend", ReferenceKind::OtherBackend },
         { "furnace", ReferenceKind::Furnace },
         { "integral", ReferenceKind::Integral },
 } };
@@ -77,7 +78,8 @@ void readIndex(JsonReader& reader, const char* key, Effect const& effect, size_t
 }
 
 void readReference(JsonReader& reader, Reference& reference) {
-    reader.choice("kind", reference.kind, "setting, scene, supersampled, traced, furnace or integral", kindFromName);
+    reader.choice("kind", reference.kind, "setting, scene, supersampled, traced, otherBackend, furnace or integral",
+                  kindFromName);
     reader.read("set", reference.set);
     checkWords(reader, "set", reference.set);
     reader.read("scene", reference.scene);
@@ -149,6 +151,8 @@ std::string describe(Reference const& reference) {
                                         "blocks, {} samples a pixel",
                                         reference.samples),
                             reference.set);
+    case ReferenceKind::OtherBackend:
+        return "the same value on the other backend: how far the two pictures part";
     case ReferenceKind::Furnace:
         return "closed form: in a white furnace a surface that reflects everything looks like the furnace";
     case ReferenceKind::Integral:

@@ -25,6 +25,7 @@ enum class ReferenceKind : uint8_t {
     Scene,        ///< the engine in another scene, where the difficulty is absent
     Supersampled, ///< the engine with `set` at `factor` times the resolution, averaged in linear light
     Traced,       ///< tools/reference: one reflection of light that nothing blocks, terms as `set` has them
+    OtherBackend, ///< the engine with the same value on the second backend: how far the two APIs part
     Furnace,      ///< a white furnace: what reflects everything looks like its environment
     Integral,     ///< numbers instead of a picture: an integral in double precision, by name
 };

@@ -22,7 +22,7 @@ public:
         if (const Result<void> opened = openStudios(); !opened) return opened.error();
         for (Effect const& effect : chosen) mStepsTotal += (2 + mStudios.size()) * effect.values.size();
         for (Effect const& effect : chosen) {
-            if (const std::string missing = missingFileOf(effect); !missing.empty()) {
+            if (const std::string missing = obstacleOf(effect); !missing.empty()) {
                 mResults.skipped.push_back({ effect.name, missing });
                 mStepsDone += (2 + mStudios.size()) * effect.values.size();
                 continue;
@@ -49,7 +49,9 @@ private:
         return {};
     }
 
-    std::string missingFileOf(Effect const& effect) const {
+    /// Why an effect cannot be measured here; empty: it can.
+    std::string obstacleOf(Effect const& effect) const {
+        if (effect.reference.kind == ReferenceKind::OtherBackend && mStudios.size() < 2) return "two backends";
         for (std::string const& name : { effect.scene, effect.frame, effect.reference.scene }) {
             if (name.empty()) continue;
             const Result<SceneSpec const*> scene = mScenes.find(name);
@@ -86,24 +88,33 @@ private:
         if (effect.reference.kind == ReferenceKind::Integral) return integralErrors(result);
         const Result<SceneSpec const*> scene = mScenes.find(effect.scene);
         if (!scene) return scene.error();
+        const ReferenceStage stage{ *mStudios.front(), mScenes, mOptions.folders, mJobs };
         Reference reference = effect.reference;
         reference.samples = std::min(reference.samples, mOptions.mostTraced);
-        const ReferenceStage stage{ *mStudios.front(), mScenes, mOptions.folders, mJobs };
-        const Result<Truth> truth = makeTruth(reference, **scene, effect.base, stage);
+        const bool isOfEachValue = reference.kind == ReferenceKind::OtherBackend;
+        Result<Truth> truth = isOfEachValue ? Truth{} : makeTruth(reference, **scene, effect.base, stage);
         if (!truth) return truth.error();
         result.referenceError = truth->standardError;
-        if (const Result<void> kept = keep(truth->picture, effect.name, "reference"); !kept) return kept;
         for (ValueResult& value : result.values) {
             step(effect, "error of " + value.value.name);
-            Result<Settings> settings = settingsFor(**scene, effect.base, value.value.set);
-            if (!settings) return settings.error();
-            const Result<Picture> picture =
-                    shoot(*mStudios.front(), **scene, *settings, (*scene)->view.size, (*scene)->linear);
+            const auto draw = [&](Studio& studio) { return shootValue(studio, **scene, effect, value.value); };
+            if (isOfEachValue) {
+                Result<Picture> other = draw(*mStudios.back());
+                if (!other) return other.error();
+                truth->picture = std::move(*other);
+            }
+            const Result<Picture> picture = draw(*mStudios.front());
             if (!picture) return picture.error();
-            if (const Result<void> kept = keep(*picture, effect.name, value.value.name); !kept) return kept;
             value.own = compare(truth->picture, *picture, truth->edges);
+            if (const Result<void> kept = keep(*picture, effect.name, value.value.name); !kept) return kept;
         }
-        return {};
+        return keep(truth->picture, effect.name, "reference");
+    }
+
+    static Result<Picture> shootValue(Studio& studio, SceneSpec const& scene, Effect const& effect,
+                                      Value const& value) {
+        const Result<Settings> settings = settingsFor(scene, effect.base, value.set);
+        return settings ? shoot(studio, scene, *settings, scene.view.size, scene.linear) : settings.error();
     }
 
     Result<void> integralErrors(EffectResult& result) {

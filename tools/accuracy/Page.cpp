@@ -155,14 +155,14 @@ constexpr const char* kHowToAdd =
 (<code>"diffuseIrradiance=sphericalHarmonics shBands=2"</code>); <code>standard</code> and <code>best</code> name values (the
 first one unless told otherwise); <code>base</code> are settings of all values; <code>cost</code> is <code>frame</code>,
 <code>environment</code> or <code>model</code>. References: <code>setting</code> (the engine with <code>set</code>),
-<code>scene</code>, <code>supersampled</code> (<code>factor</code>), <code>traced</code> (<code>samples</code>),
+<code>scene</code>, <code>supersampled</code> (<code>factor</code>), <code>traced</code> (<code>samples</code>), <code>otherBackend</code>,
 <code>furnace</code>, <code>integral</code>. Scenes are files as in <a href="conformance.md">conformance.md</a>.</p></section>)";
 
 std::string skippedHtml(Results const& results) {
     if (results.skipped.empty()) return {};
     std::string html = "<section><h2>Not measured</h2><ul>";
     for (Skipped const& one : results.skipped)
-        html += fmt::format("<li>{}: no {}</li>", escaped(one.name), escaped(one.reason));
+        html += fmt::format("<li>{}: needs {}</li>", escaped(one.name), escaped(one.reason));
     return html + "</ul></section>";
 }
 

@@ -32,7 +32,7 @@ Result<Settings> settingsFor(conformance::SceneSpec const& scene, std::vector<st
 Result<Picture> shoot(Studio& studio, conformance::SceneSpec const& scene, Settings const& settings, uint2 size,
                       bool linear);
 
-/// Not for ReferenceKind::Integral, which has no picture.
+/// Not for Integral, which has no picture, and OtherBackend, which has one for each value.
 Result<Truth> makeTruth(Reference const& reference, conformance::SceneSpec const& scene,
                         std::vector<std::string> const& base, ReferenceStage const& stage);
 

@@ -46,7 +46,7 @@ struct EffectResult {
 };
 
 struct Skipped {
-    std::string name, reason;
+    std::string name, reason; ///< what it needs and is not there
 };
 
 struct Results {

@@ -116,6 +116,7 @@ Result<void> change(Settings& settings, std::string_view word) {
         return fail(ErrorCode::InvalidArgument, "setting {}: '{}' is not {}", name, value, choice->range);
     if (name.starts_with("environment.")) remember(settings.environmentKey, word);
     if (name.starts_with("model.")) remember(settings.modelKey, word);
+    if (name.starts_with("engine.")) remember(settings.engineKey, word);
     return {};
 }
 

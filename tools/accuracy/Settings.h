@@ -27,8 +27,9 @@ struct Settings {
     ColorGrading colorGrading{};
     EnvironmentLoadOptions environment{};
     GltfLoadOptions model{};
-    /// The words that chose the options of loading, in order: equal texts load equal files.
-    std::string environmentKey{}, modelKey{};
+    EngineOptions engine{}; ///< but backend and cache
+    /// The words that chose the options of loading, in order: equal texts load equal files, make equal engines.
+    std::string environmentKey{}, modelKey{}, engineKey{};
 };
 
 Result<void> change(Settings& settings, std::string_view word);

@@ -54,34 +54,59 @@ Result<double> Take::time() {
     return timings.back().gpuMilliseconds;
 }
 
-Studio::Studio(Engine engine, conformance::SceneFolders const& folders)
-        : mFolders(folders), mEngine(std::move(engine)), mRenderer(mEngine, { .passTimers = true }) {}
+struct Studio::Equipment {
+    explicit Equipment(Engine made) : engine(std::move(made)), renderer(engine, { .passTimers = true }) {}
+
+    Engine engine;
+    Renderer renderer;
+    std::map<std::string, std::shared_ptr<Model>> models;
+    std::map<std::string, std::shared_ptr<Environment>> environments;
+};
+
+Studio::Studio(Backend backend, conformance::SceneFolders const& folders) : mBackend(backend), mFolders(folders) {}
+Studio::~Studio() = default;
 
 Result<std::unique_ptr<Studio>> Studio::open(Backend backend, conformance::SceneFolders const& folders) {
-    Result<Engine> engine = Engine::create({ .backend = backend, .cacheDirectory = cacheOf(folders) });
-    if (!engine) return engine.error();
-    return std::unique_ptr<Studio>(new Studio(std::move(*engine), folders));
+    std::unique_ptr<Studio> studio(new Studio(backend, folders));
+    const Result<Equipment*> first = studio->equipment({});
+    if (!first) return first.error();
+    studio->mDevice = (*first)->engine.device();
+    return studio;
 }
 
-Result<std::shared_ptr<Model>> Studio::model(SceneSpec const& spec, Settings const& settings) {
+Result<Studio::Equipment*> Studio::equipment(Settings const& settings) {
+    std::unique_ptr<Equipment>& known = mEquipment[settings.engineKey];
+    if (!known) {
+        EngineOptions options = settings.engine;
+        options.backend = mBackend;
+        options.cacheDirectory = cacheOf(mFolders);
+        Result<Engine> engine = Engine::create(options);
+        if (!engine) return engine.error();
+        known = std::make_unique<Equipment>(std::move(*engine));
+    }
+    return known.get();
+}
+
+Result<std::shared_ptr<Model>> Studio::model(Equipment& used, SceneSpec const& spec, Settings const& settings) {
     const Result<fs::path> file = conformance::modelFile(spec, mFolders);
     if (!file) return file.error();
-    std::shared_ptr<Model>& known = mModels[file->string() + settings.modelKey];
+    std::shared_ptr<Model>& known = used.models[file->string() + settings.modelKey];
     if (!known) {
-        Result<Model> loaded = loadGltf(mEngine, *file, settings.model);
+        Result<Model> loaded = loadGltf(used.engine, *file, settings.model);
         if (!loaded) return loaded.error();
         known = std::make_shared<Model>(std::move(*loaded));
     }
     return known;
 }
 
-Result<std::shared_ptr<Environment>> Studio::environment(SceneSpec const& spec, Settings const& settings) {
+Result<std::shared_ptr<Environment>> Studio::environment(Equipment& used, SceneSpec const& spec,
+                                                         Settings const& settings) {
     const Result<fs::path> file = conformance::environmentFile(spec, mFolders);
     if (!file) return file.error();
     if (file->empty()) return std::shared_ptr<Environment>();
-    std::shared_ptr<Environment>& known = mEnvironments[file->string() + settings.environmentKey];
+    std::shared_ptr<Environment>& known = used.environments[file->string() + settings.environmentKey];
     if (!known) {
-        Result<Environment> loaded = loadEnvironment(mEngine, *file, settings.environment);
+        Result<Environment> loaded = loadEnvironment(used.engine, *file, settings.environment);
         if (!loaded) return loaded.error();
         known = std::make_shared<Environment>(std::move(*loaded));
     }
@@ -89,11 +114,14 @@ Result<std::shared_ptr<Environment>> Studio::environment(SceneSpec const& spec, 
 }
 
 Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const& settings, uint2 size, bool linear) {
-    Result<std::shared_ptr<Model>> loaded = model(spec, settings);
+    const Result<Equipment*> used = equipment(settings);
+    if (!used) return used.error();
+    Engine& engine = (*used)->engine;
+    Result<std::shared_ptr<Model>> loaded = model(**used, spec, settings);
     if (!loaded) return loaded.error();
-    Result<std::shared_ptr<Environment>> sky = environment(spec, settings);
+    Result<std::shared_ptr<Environment>> sky = environment(**used, spec, settings);
     if (!sky) return sky.error();
-    Scene scene(mEngine);
+    Scene scene(engine);
     for (double4x4 const& copy : placedCopies(spec)) scene.add(**loaded, copy);
     for (conformance::LightSpec const& light : placedLights(spec))
         std::visit([&](auto const& placed) { scene.add(placed); }, light);
@@ -104,31 +132,37 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     view.samples = settings.samples;
     view.colorGrading = settings.colorGrading;
     view.camera = cameraOf(spec, scene.bounds());
-    const SwapChain target = mEngine.create(SwapChainDesc{
+    const SwapChain target = engine.create(SwapChainDesc{
             .size = size, .imageCount = 1, .format = linear ? Format::RGBA16F : Format::RGBA8, .name = "accuracy" });
-    return std::make_unique<Take>(mEngine, mRenderer,
-                                  TakeParts{ *loaded, *sky, std::move(scene), view, mEngine.own(target) });
+    return std::make_unique<Take>(engine, (*used)->renderer,
+                                  TakeParts{ *loaded, *sky, std::move(scene), view, engine.own(target) });
 }
 
 Result<double> Studio::timeEnvironment(SceneSpec const& spec, Settings const& settings) {
     const Result<fs::path> file = conformance::environmentFile(spec, mFolders);
     if (!file) return file.error();
+    const Result<Equipment*> used = equipment(settings);
+    if (!used) return used.error();
+    Engine& engine = (*used)->engine;
     std::error_code error;
     fs::remove_all(cacheOf(mFolders), error);
     const auto begin = std::chrono::steady_clock::now();
-    const Result<Environment> loaded = loadEnvironment(mEngine, *file, settings.environment);
+    const Result<Environment> loaded = loadEnvironment(engine, *file, settings.environment);
     if (!loaded) return loaded.error();
-    mEngine.waitIdle();
+    engine.waitIdle();
     return millisecondsSince(begin);
 }
 
 Result<double> Studio::timeModel(SceneSpec const& spec, Settings const& settings) {
     const Result<fs::path> file = conformance::modelFile(spec, mFolders);
     if (!file) return file.error();
+    const Result<Equipment*> used = equipment(settings);
+    if (!used) return used.error();
+    Engine& engine = (*used)->engine;
     const auto begin = std::chrono::steady_clock::now();
-    const Result<Model> loaded = loadGltf(mEngine, *file, settings.model);
+    const Result<Model> loaded = loadGltf(engine, *file, settings.model);
     if (!loaded) return loaded.error();
-    mEngine.waitIdle();
+    engine.waitIdle();
     return millisecondsSince(begin);
 }
 

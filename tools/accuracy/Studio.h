@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Studio: one engine on one backend; Take: one scene under one set of settings, ready to be drawn again and again.
+/// Studio: one backend, an engine for each set of engine options; Take: one scene under one set of settings, ready to
+/// be drawn again and again.
 ///   In      scene files and Settings.   Out: pictures, milliseconds.
 ///   Memory  what a Take needs is loaded once a studio and shared; it stays until the studio ends. Takes end before it.
 ///   Thread  one a studio.
@@ -51,8 +52,9 @@ private:
 class Studio {
 public:
     static Result<std::unique_ptr<Studio>> open(Backend backend, conformance::SceneFolders const& folders);
+    ~Studio();
 
-    DeviceDescription const& device() const { return mEngine.device(); }
+    DeviceDescription const& device() const { return mDevice; }
     /// `linear`: scene-linear half floats, without the tone mapper.
     Result<std::unique_ptr<Take>> take(conformance::SceneSpec const& spec, Settings const& settings, uint2 size,
                                        bool linear);
@@ -61,15 +63,17 @@ public:
     Result<double> timeModel(conformance::SceneSpec const& spec, Settings const& settings);
 
 private:
-    Studio(Engine engine, conformance::SceneFolders const& folders);
-    Result<std::shared_ptr<Model>> model(conformance::SceneSpec const& spec, Settings const& settings);
-    Result<std::shared_ptr<Environment>> environment(conformance::SceneSpec const& spec, Settings const& settings);
+    struct Equipment; // one engine and what it has loaded
+    Studio(Backend backend, conformance::SceneFolders const& folders);
+    Result<Equipment*> equipment(Settings const& settings);
+    Result<std::shared_ptr<Model>> model(Equipment& used, conformance::SceneSpec const& spec, Settings const& settings);
+    Result<std::shared_ptr<Environment>> environment(Equipment& used, conformance::SceneSpec const& spec,
+                                                     Settings const& settings);
 
+    const Backend mBackend;
     const conformance::SceneFolders mFolders;
-    Engine mEngine;
-    Renderer mRenderer;
-    std::map<std::string, std::shared_ptr<Model>> mModels;
-    std::map<std::string, std::shared_ptr<Environment>> mEnvironments;
+    DeviceDescription mDevice;
+    std::map<std::string, std::unique_ptr<Equipment>> mEquipment; // by Settings::engineKey
 };
 
 } // namespace filament::accuracy

@@ -51,7 +51,7 @@ int run(Options const& options) {
                                options.include, options.plots };
     if (const Result<void> written = writeReport(*results, places); !written) return failed(written.error());
     for (Skipped const& one : results->skipped)
-        tools::printWarning(fmt::format("effect {} skipped: no {}; give --assets", one.name, one.reason));
+        tools::printWarning(fmt::format("effect {} skipped: it needs {}", one.name, one.reason));
     std::printf("%s\n%s\n", (options.out / "results.json").c_str(), places.page.c_str());
     return 0;
 }
