@@ -38,6 +38,7 @@ struct DeviceFeatures {
     bool timers = false;
     bool blockCompression = false; ///< BC1..BC7
     bool depthClamp = false;
+    bool halfFloatShaders = false; ///< 16-bit floats in fragment shaders: float16_t in SPIR-V; ESSL has mediump always
 };
 
 /// What can be known about a device; constant for the life of the driver.

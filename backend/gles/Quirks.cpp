@@ -99,6 +99,7 @@ DeviceInfo describeDevice(GlApi const& gl, Quirks const& quirks) {
         .timers = quirks.timers,
         .blockCompression = quirks.blockCompression,
         .depthClamp = quirks.depthClamp,
+        .halfFloatShaders = true,
     };
     return info;
 }

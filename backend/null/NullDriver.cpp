@@ -36,7 +36,9 @@ DeviceInfo describeNullDevice() {
                     .maxVertexAttributes = kMaxVertexAttributes,
                     .maxSamples = 4,
                     .maxAnisotropy = 16 };
-    info.features = { .mergedPasses = true, .timers = true, .blockCompression = true, .depthClamp = true };
+    info.features = {
+        .mergedPasses = true, .timers = true, .blockCompression = true, .depthClamp = true, .halfFloatShaders = true
+    };
     return info;
 }
 

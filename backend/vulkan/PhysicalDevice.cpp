@@ -88,6 +88,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     DeviceInfo& info = device.info;
     info.features.mergedPasses = true; // subpasses are core
     info.features.blockCompression = features.features.textureCompressionBC;
+    info.features.halfFloatShaders = device.halfFloatShaders;
     info.features.depthClamp = features.features.depthClamp;
     if (!features.features.samplerAnisotropy) info.limits.maxAnisotropy = 1;
 }

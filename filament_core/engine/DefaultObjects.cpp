@@ -3,6 +3,7 @@
 
 #include "backend/stream/RecordingGuards.h"
 #include "filament_core/assets/DfgTable.h"
+#include "filament_core/assets/ToneTable.h"
 #include "filament_core/base/Assert.h"
 #include "filament_core/base/Result.h"
 #include "shaders/interface/ShaderInterface.h"
@@ -56,6 +57,18 @@ Texture Engine::Impl::dfgTable(uint32_t size) {
     return table;
 }
 
+Texture Engine::Impl::toneTable(ToneMapper mapper, uint32_t size) {
+    Texture& table = defaults.toneTables[{ mapper, size }];
+    if (table) return table;
+    const assets::Image colors = assets::bakeToneTable(jobs, static_cast<int>(mapper), size);
+    table = createTexture({ .format = colors.format,
+                            .width = colors.width,
+                            .height = colors.height,
+                            .pixels = colors.data,
+                            .name = fmt::format("tone table {} {}", toString(mapper), size) });
+    return table;
+}
+
 void createDefaultObjects(Engine::Impl& engine) {
     constexpr std::array<uint8_t, 4> white{ 255, 255, 255, 255 };
     constexpr std::array<uint8_t, 24> black{};
@@ -73,6 +86,9 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     engine.destroy(engine.defaults.blackCube);
     for (auto const& [size, table] : engine.defaults.dfg) {
         if (table) engine.destroy(table); // none: there was no memory for it
+    }
+    for (auto const& [which, table] : engine.defaults.toneTables) {
+        if (table) engine.destroy(table);
     }
     engine.stream->destroy(engine.pending, engine.defaults.instanceIds);
     for (auto const& [key, material] : engine.engineMaterials) {

@@ -17,6 +17,7 @@
 
 #include <filament/Engine.h>
 #include <filament/Quality.h>
+#include <filament/View.h>
 
 #include <chrono>
 #include <map>
@@ -72,9 +73,10 @@ struct SwapChainState {
 
 /// Objects that every engine has.
 struct Defaults {
-    Texture white;                     ///< 1x1 opaque white, for textures that a material leaves unset
-    Texture blackCube;                 ///< 1x1, for scenes without an environment
-    std::map<uint32_t, Texture> dfg;   ///< split-sum tables by their size
+    Texture white;                   ///< 1x1 opaque white, for textures that a material leaves unset
+    Texture blackCube;               ///< 1x1, for scenes without an environment
+    std::map<uint32_t, Texture> dfg; ///< split-sum tables by their size
+    std::map<std::pair<ToneMapper, uint32_t>, Texture> toneTables;
     backend::BufferHandle instanceIds; ///< 0, 1, 2, ... kObjectsPerWindow - 1
 };
 
@@ -110,7 +112,11 @@ struct Engine::Impl {
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked when first asked for, then kept.
     Texture dfgTable(uint32_t size);
+    /// The colours of a tone mapper as a table (ToneTable.h); baked when first asked for, then kept.
+    Texture toneTable(ToneMapper mapper, uint32_t size);
     Result<Material> createMaterial(MaterialDesc const& desc);
+    /// The package of an engine material, exact or plain as EngineOptions::exactShaders says.
+    std::span<const std::byte> enginePackage(std::string_view name) const;
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
     void useTextureFilter(TextureFilter filter);

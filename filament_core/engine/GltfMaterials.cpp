@@ -2,7 +2,6 @@
 #include "filament_core/engine/GltfMaterials.h"
 
 #include "filament_core/base/Log.h"
-#include "shaders/package/EngineMaterials.h"
 
 #include <array>
 
@@ -93,7 +92,7 @@ Material GltfMaterials::materialFor(MaterialData const& material, bool hasVertex
     Material& shared = mMaterials[keyOf(package, constants)];
     if (!shared) {
         mModel.materials.push_back({}); // whoever makes something here has already a place for it
-        auto created = mEngine.createMaterial({ shader::engineMaterial(package), std::move(constants), package });
+        auto created = mEngine.createMaterial({ mEngine.enginePackage(package), std::move(constants), package });
         if (!created) log(Severity::Error, "{}", created.error().message);
         FILAMENT_ASSERT(created.ok(), "the glTF materials have the constants that GltfMaterials sets");
         shared = mModel.materials.back() = *created;

@@ -150,11 +150,15 @@ Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     return materials.add(std::move(*loaded));
 }
 
+std::span<const std::byte> Engine::Impl::enginePackage(std::string_view name) const {
+    return shader::engineMaterial(name, options.exactShaders ? shader::Arithmetic::Exact : shader::Arithmetic::Plain);
+}
+
 Material Engine::Impl::engineMaterial(std::string_view package, std::vector<MaterialConstant> constants) {
     std::string key(package);
     for (MaterialConstant const& constant : constants) key += '/' + std::to_string(bitsOf(constant.value));
     if (const auto found = engineMaterials.find(key); found != engineMaterials.end()) return found->second;
-    auto material = createMaterial({ shader::engineMaterial(package), std::move(constants), key });
+    auto material = createMaterial({ enginePackage(package), std::move(constants), key });
     FILAMENT_ASSERT(material.ok(), "the engine's own materials are well formed");
     try {
         engineMaterials.emplace(key, *material);

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace filament {
@@ -28,6 +29,10 @@ using passes::FrameContext;
 constexpr Sampler kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
 constexpr Sampler kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
 constexpr Sampler kNearest{};
+
+uint32_t toneTableSize(ToneMapping mapping) {
+    return mapping == ToneMapping::Table16 ? 16 : mapping == ToneMapping::Table32 ? 32 : 64;
+}
 
 uint32_t countRunning(CompiledGraph const& plan) { return static_cast<uint32_t>(plan.order.size()); }
 
@@ -81,6 +86,7 @@ struct Renderer::Impl {
 
         const uint32_t tableSize = view.quality.dfgTableSize;
         engine.dfgTable(tableSize); // made before the frame, if this is the first that wants it
+        const TextureHandle toneTable = toneTableOf(view);
         {
             FrameCommands commands(*engine.stream); // waits when two frames ahead; submits at the end of this block
             stamps.acquired = clock();
@@ -89,7 +95,7 @@ struct Renderer::Impl {
             engine.useTextureFilter(view.quality.textureFilter);
             engine.drainPending(*commands);
             upload(*commands, *context, tableSize);
-            describe(*context, view, target);
+            describe(*context, view, target, toneTable);
             plan = compile(graph, transients);
             framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
         }
@@ -116,10 +122,16 @@ struct Renderer::Impl {
     }
 
     /// Which passes the frame has. A scene-linear target takes the colour pass as it is.
-    void describe(FrameContext& context, View const& view, engine::TextureState const& target) {
+    void describe(FrameContext& context, View const& view, engine::TextureState const& target,
+                  TextureHandle toneTable) {
         FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
-        context.settings = { view.size, view.samples, view.clearColor, passes::shadingKey(view.quality),
-                             view.quality.depthRange };
+        const bool halfIsThere = engine.stream->info().features.halfFloatShaders;
+        context.settings = { view.size,
+                             view.samples,
+                             view.clearColor,
+                             passes::shadingKey(view.quality),
+                             view.quality.depthRange,
+                             halfIsThere ? view.quality.shadingPrecision : ShadingPrecision::Full };
         context.arena = &arena;
         context.pipelines = &engine.pipelines;
         if (context.packet.sky) context.skybox = &engine.materials.get(engine.engineMaterial("skybox", {}));
@@ -137,17 +149,27 @@ struct Renderer::Impl {
         const TextureId color = graph.createTexture(
                 { .width = view.size.x, .height = view.size.y, .format = Format::RGBA16F, .name = "color" });
         passes::addColorPass(graph, &context, color);
-        passes::addToneMapPass(graph, &context, toneMapMaterials(view.colorGrading), color, output);
+        passes::addToneMapPass(graph, &context, toneMapMaterials(view.colorGrading, toneTable), color, output);
     }
 
-    passes::ToneMapMaterials toneMapMaterials(ColorGrading grading) {
-        const auto entry = toneMaps.try_emplace({ grading.toneMapper, grading.dither }).first;
+    TextureHandle toneTableOf(View const& view) {
+        const ToneMapping mapping = view.quality.toneMapping;
+        if (mapping == ToneMapping::Analytic) return {};
+        return engine.textureHandle(engine.toneTable(view.colorGrading.toneMapper, toneTableSize(mapping)));
+    }
+
+    /// `table`: none for the formula.
+    passes::ToneMapMaterials toneMapMaterials(ColorGrading grading, TextureHandle table) {
+        const auto entry = toneMaps.try_emplace({ grading.toneMapper, grading.dither, static_cast<bool>(table) }).first;
         if (!entry->second.merged || !entry->second.sampled) {
-            const std::vector<MaterialConstant> constants{ { "toneMapper", static_cast<int32_t>(grading.toneMapper) },
-                                                           { "dither", grading.dither } };
-            entry->second.merged = &engine.materials.get(engine.engineMaterial("tonemap", constants));
-            entry->second.sampled = &engine.materials.get(engine.engineMaterial("tonemap_sampled", constants));
+            std::vector<MaterialConstant> constants{ { "dither", grading.dither } };
+            if (!table) constants.push_back({ "toneMapper", static_cast<int32_t>(grading.toneMapper) });
+            const char* const merged = table ? "tonemap_table" : "tonemap";
+            const char* const sampled = table ? "tonemap_table_sampled" : "tonemap_sampled";
+            entry->second.merged = &engine.materials.get(engine.engineMaterial(merged, constants));
+            entry->second.sampled = &engine.materials.get(engine.engineMaterial(sampled, constants));
         }
+        entry->second.table = table;
         return entry->second;
     }
 
@@ -221,7 +243,7 @@ struct Renderer::Impl {
     CompiledGraph plan;
     std::vector<framegraph::PassTimer> timers;
     engine::FrameTimingLog timings;
-    std::map<std::pair<ToneMapper, bool>, passes::ToneMapMaterials> toneMaps;
+    std::map<std::tuple<ToneMapper, bool, bool>, passes::ToneMapMaterials> toneMaps; ///< mapper, dither, from a table
     std::map<uint64_t, Image> pixels; ///< of read-backs under way: everything but the bytes
     SwapChain imageTarget;
     uint64_t frame = 0;

@@ -23,7 +23,9 @@ constexpr std::string_view kSplitSums[] = { "table", "analytic" };
 constexpr std::string_view kTableSizes[] = { "16", "32", "64", "128", "256" };
 constexpr std::string_view kIrradiances[] = { "sphericalHarmonics", "lastSpecularLevel" };
 constexpr std::string_view kBands[] = { "1", "2", "3" };
+constexpr std::string_view kShadingPrecisions[] = { "full", "half" };
 constexpr std::string_view kTextureFilters[] = { "asAuthored", "bilinear", "trilinear", "anisotropic" };
+constexpr std::string_view kToneMappings[] = { "analytic", "table16", "table32", "table64" };
 constexpr std::string_view kDepthRanges[] = { "reversed", "ordinary" };
 constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" };
 
@@ -83,7 +85,9 @@ constexpr std::array kFields{
     numberField<&Quality::dfgTableSize, 16, 256>("dfgTableSize", kTableSizes, "a whole number from 16 to 256"),
     enumField<&Quality::diffuseIrradiance>("diffuseIrradiance", kIrradiances),
     numberField<&Quality::shBands, 1, 3>("shBands", kBands, "1, 2 or 3"),
+    enumField<&Quality::shadingPrecision>("shadingPrecision", kShadingPrecisions),
     enumField<&Quality::textureFilter>("textureFilter", kTextureFilters),
+    enumField<&Quality::toneMapping>("toneMapping", kToneMappings),
     enumField<&Quality::depthRange>("depthRange", kDepthRanges),
     enumField<&Quality::cameraRelative>("cameraRelative", kBooleans),
 };
@@ -134,7 +138,9 @@ const char* toString(FresnelTerm value) { return wordOf(kFresnelTerms, value); }
 const char* toString(DiffuseTerm value) { return wordOf(kDiffuseTerms, value); }
 const char* toString(SplitSum value) { return wordOf(kSplitSums, value); }
 const char* toString(DiffuseIrradiance value) { return wordOf(kIrradiances, value); }
+const char* toString(ShadingPrecision value) { return wordOf(kShadingPrecisions, value); }
 const char* toString(TextureFilter value) { return wordOf(kTextureFilters, value); }
+const char* toString(ToneMapping value) { return wordOf(kToneMappings, value); }
 const char* toString(DepthRange value) { return wordOf(kDepthRanges, value); }
 const char* toString(QualityPreset value) { return wordOf(kPresets, value); }
 
@@ -151,8 +157,14 @@ std::optional<SplitSum> splitSumFromName(std::string_view name) { return valueOf
 std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name) {
     return valueOf<DiffuseIrradiance>(kIrradiances, name);
 }
+std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name) {
+    return valueOf<ShadingPrecision>(kShadingPrecisions, name);
+}
 std::optional<TextureFilter> textureFilterFromName(std::string_view name) {
     return valueOf<TextureFilter>(kTextureFilters, name);
+}
+std::optional<ToneMapping> toneMappingFromName(std::string_view name) {
+    return valueOf<ToneMapping>(kToneMappings, name);
 }
 std::optional<DepthRange> depthRangeFromName(std::string_view name) { return valueOf<DepthRange>(kDepthRanges, name); }
 std::optional<QualityPreset> qualityPresetFromName(std::string_view name) {

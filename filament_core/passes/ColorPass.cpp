@@ -20,8 +20,9 @@ struct ChosenPipelines {
 ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
     PipelineCache& pipelines = *context.pipelines;
     prepare::FramePacket const& packet = context.packet;
+    PassSettings const& settings = context.settings;
     const uint32_t slot = pipelines.slot(
-            { pass.passLayout(), pass.subpass(), context.settings.shading, context.settings.depthRange });
+            { pass.passLayout(), pass.subpass(), settings.shading, settings.depthRange, settings.precision });
     ChosenPipelines chosen;
     chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, packet.opaque, packet.variant);
     chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, packet.blended, packet.variant);

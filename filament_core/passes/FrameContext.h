@@ -18,6 +18,7 @@ struct PassSettings {
     float4 clearColor{ 0, 0, 0, 1 };
     ShadingKey shading = 0;
     DepthRange depthRange = DepthRange::Reversed;
+    ShadingPrecision precision = ShadingPrecision::Full;
 };
 
 struct FrameContext {

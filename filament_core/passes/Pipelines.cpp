@@ -28,6 +28,12 @@ bool isLit(scene::Material const& material) { return material.package.shading ==
 
 uint8_t neededVariant(scene::Material const& material, uint8_t variant) { return isLit(material) ? variant : 0; }
 
+// Materials without such variants are lit in full.
+uint8_t withPrecision(scene::Material const& material, uint8_t variant, ShadingPrecision precision) {
+    const auto half = static_cast<uint8_t>(variant | shader::kVariantHalf);
+    return precision == ShadingPrecision::Half && material.package.findVariant(half) ? half : variant;
+}
+
 uint64_t makeKey(uint32_t slot, scene::MaterialInstance const& instance, uint32_t geometryLayout, uint8_t variant,
                  bool mirrored) {
     scene::Material const& material = *instance.material;
@@ -181,7 +187,8 @@ PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, s
 
     scene::Material& material = *instance.material;
     const ShadingKey shading = isLit(material) ? mSlots[slot].shading : ShadingKey{ 0 };
-    const ProgramHandle program = programFor(setup, material, neededVariant(material, variant), shading);
+    const uint8_t needed = withPrecision(material, neededVariant(material, variant), mSlots[slot].precision);
+    const ProgramHandle program = programFor(setup, material, needed, shading);
     if (!program) {
         mPipelines.insert({ key, {}, material.id }); // warn once
         return {};

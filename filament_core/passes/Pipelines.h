@@ -23,6 +23,7 @@ struct PassSlot {
     uint8_t subpass = 0;
     ShadingKey shading = 0;
     DepthRange depthRange = DepthRange::Reversed;
+    ShadingPrecision precision = ShadingPrecision::Full;
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 

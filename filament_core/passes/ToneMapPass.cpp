@@ -19,11 +19,19 @@ Chosen choose(PassContext& pass, FrameContext const& context, ToneMapMaterials m
     const bool merged = pass.isMerged(color);
     scene::Material& material = merged ? *materials.merged : *materials.sampled;
     const uint32_t slot = context.pipelines->slot({ pass.passLayout(), pass.subpass() });
-    const BindGroupEntry entry{ .binding = material.package.findParameter("color")->binding,
-                                .texture = pass.texture(color),
-                                .sampler = merged ? SamplerHandle{} : context.nearestSampler };
+    std::array<BindGroupEntry, 2> entries{};
+    entries[0] = { .binding = material.package.findParameter("color")->binding,
+                   .texture = pass.texture(color),
+                   .sampler = merged ? SamplerHandle{} : context.nearestSampler };
+    size_t count = 1;
+    if (materials.table) {
+        entries[count++] = { .binding = material.package.findParameter("table")->binding,
+                             .texture = materials.table,
+                             .sampler = context.nearestSampler };
+    }
     return { context.pipelines->fullscreenPipeline(pass.commands(), slot, material),
-             pass.bindGroup(material.package.layout[shader::kGroupMaterial], std::span(&entry, 1), "tone map") };
+             pass.bindGroup(material.package.layout[shader::kGroupMaterial], std::span(entries).first(count),
+                            "tone map") };
 }
 
 } // namespace

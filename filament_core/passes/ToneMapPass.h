@@ -12,6 +12,7 @@ namespace filament::passes {
 struct ToneMapMaterials {
     scene::Material* merged = nullptr;  ///< reads a subpass input
     scene::Material* sampled = nullptr; ///< reads a texture of the same size
+    backend::TextureHandle table{};     ///< of materials that look colours up (ToneTable.h); none: they compute them
 };
 
 void addToneMapPass(framegraph::FrameGraph& graph, FrameContext const* context, ToneMapMaterials materials,

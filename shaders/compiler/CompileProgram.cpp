@@ -14,20 +14,29 @@ namespace {
 
 using Words = std::vector<uint32_t>;
 
+/// Half precision is made of code without calls and local variables, whatever was asked for.
+Optimization goalOf(backend::ShaderStage stage, ProgramCompileOptions const& options) {
+    const bool isHalf = stage == backend::ShaderStage::Fragment && options.halfFragment;
+    return isHalf && options.optimization == Optimization::None ? Optimization::Performance : options.optimization;
+}
+
 /// GLSL -> optimised and lowered SPIR-V, still with names.
 Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
                          ProgramCompileOptions const& options) {
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
-    if (spirv && options.optimization != Optimization::None) spirv = optimizeSpirv(*spirv, options.optimization);
+    const Optimization goal = goalOf(stage, options);
+    if (spirv && goal != Optimization::None) spirv = optimizeSpirv(*spirv, goal);
     if (spirv && options.exact)
         spirv = forbidReordering(lowerExactly(*spirv)); // last: no pass re-forms what is spelled out
     return spirv;
 }
 
-Result<void> writeStage(Words const& lowered, ProgramCompileOptions const& options,
+Result<void> writeStage(Words const& lowered, bool half, ProgramCompileOptions const& options,
                         backend::ProgramLayout const& layout, Words& spirv, std::string& essl) {
     if (options.spirv) {
-        Result<Words> stripped = stripSpirv(lowered);
+        Result<Words> device = half ? halfFromRelaxed(lowered) : lowered;
+        if (!device) return device.error();
+        Result<Words> stripped = stripSpirv(*device);
         if (!stripped) return stripped.error();
         spirv = std::move(*stripped);
     }
@@ -58,8 +67,10 @@ Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_v
     ProgramShaders shaders;
     shaders.layout = options.layout.value_or(used->layout);
     shaders.vertexInputs = used->vertexInputs;
-    Result<void> written = writeStage(*vertex, options, shaders.layout, shaders.vertexSpirv, shaders.vertexEssl);
-    if (written) written = writeStage(*fragment, options, shaders.layout, shaders.fragmentSpirv, shaders.fragmentEssl);
+    Result<void> written = writeStage(*vertex, false, options, shaders.layout, shaders.vertexSpirv, shaders.vertexEssl);
+    if (written)
+        written = writeStage(*fragment, options.halfFragment, options, shaders.layout, shaders.fragmentSpirv,
+                             shaders.fragmentEssl);
     if (!written) return written.error();
     return shaders;
 }

@@ -36,6 +36,9 @@ enum class Optimization : uint8_t {
 
 struct ProgramCompileOptions {
     bool exact = true; ///< same bits on both APIs
+    /// What the fragment stage marks mediump is computed in 16 bits on Vulkan, too (halfFromRelaxed()), which needs
+    /// DeviceFeatures::halfFloatShaders. Otherwise Vulkan computes it in 32 bits: Mesa ignores RelaxedPrecision.
+    bool halfFragment = false;
     Optimization optimization = Optimization::Performance;
     bool spirv = true; ///< languages wanted; reflection happens in any case
     bool essl = true;

@@ -72,6 +72,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
 void defineFragment(StageText& out, MaterialDefinition const& definition, uint8_t variantKey) {
     defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
     defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
+    defineIf(out, (variantKey & kVariantHalf) != 0, "HALF_PRECISION");
     SpecularAntiAliasing const& antiAliasing = definition.specularAntiAliasing;
     if (!antiAliasing.enabled) return;
     out.define("SPECULAR_ANTI_ALIASING");
@@ -108,6 +109,22 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     return std::move(out).take();
 }
 
+/// Behind the author's code. What is not safe in 16 bits comes before the line from which kVariantHalf computes in
+/// them: distances, f0 near 1, derivatives, nits.
+Result<void> litFragment(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs,
+                         uint8_t variantKey) {
+    declareQuality(out);
+    Result<void> done =
+            includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
+    if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
+    if (done && needs.hasAmbientOcclusion) done = out.include("shaders/lib/ao.glsl");
+    if (done) done = out.include("shaders/material/surface_output.glsl");
+    if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface_half.glsl");
+    if (done) done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface_quality.glsl" });
+    if (done) done = out.include("shaders/material/surface_lit_main.glsl");
+    return done;
+}
+
 Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                     uint8_t variantKey, IncludeResolver const& includes) {
     const bool isLit = definition.package.shading == ShadingModel::Lit;
@@ -123,17 +140,9 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     if (needs.luminance) done = out.include("shaders/lib/color.glsl");
     if (done) done = out.include("shaders/material/surface_fragment_api.glsl");
     if (done) done = out.block(definition.fragment);
-    if (done && isLit) {
-        declareQuality(out);
-        done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl",
-                                 "shaders/lib/light.glsl", "shaders/material/surface_quality.glsl" });
-    }
-    if (done && isLit && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
-    if (done && isLit && needs.hasAmbientOcclusion) done = out.include("shaders/lib/ao.glsl");
-    if (done) done = out.include("shaders/material/surface_output.glsl");
-    if (done)
-        done = out.include(isLit ? "shaders/material/surface_lit_main.glsl"
-                                 : "shaders/material/surface_unlit_main.glsl");
+    if (done && isLit) done = litFragment(out, definition, needs, variantKey);
+    if (done && !isLit)
+        done = includeAll(out, { "shaders/material/surface_output.glsl", "shaders/material/surface_unlit_main.glsl" });
     if (!done) return done.error();
     return std::move(out).take();
 }

@@ -4,6 +4,7 @@
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
+#include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 
 #include <memory>
@@ -101,6 +102,18 @@ Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Opt
         return runPasses(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterSizePasses(); });
     }
     return runPasses(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterPerformancePasses(); });
+}
+
+// The conversion cannot take parts out of whole arrays: elements are loaded one by one first.
+Result<std::vector<uint32_t>> halfFromRelaxed(std::span<const uint32_t> spirv) {
+    Result<std::vector<uint32_t>> half = runPasses(spirv, [](spvtools::Optimizer& optimizer) {
+        constexpr double kAlways = 2; // whatever share of the elements is read
+        optimizer.RegisterPass(spvtools::CreateReduceLoadSizePass(kAlways));
+        optimizer.RegisterPass(spvtools::CreateConvertRelaxedToHalfPass());
+    });
+    if (half && !spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(*half))
+        return fail(ErrorCode::Unsupported, "what is marked mediump cannot be computed in 16 bits; avoid local arrays");
+    return half;
 }
 
 Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv) {

@@ -44,7 +44,8 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     prepared.layout = materialLayout(prepared.definition);
     MaterialPackage const& package = prepared.definition.package;
     const auto filtered = static_cast<uint8_t>(prepared.definition.filteredVariants | options.filteredVariants);
-    prepared.keys = variantKeys(package.domain, package.shading, filtered);
+    prepared.keys =
+            variantKeys(selectableBits(package.domain, package.shading, prepared.definition.halfPrecision), filtered);
     return prepared;
 }
 
@@ -70,6 +71,7 @@ Result<CompiledVariant> compileVariant(Prepared const& prepared, uint8_t key, Co
     if (!stages) return stages.error();
     Result<ProgramShaders> shaders = compileProgram(stages->vertex, stages->fragment,
                                                     { .exact = options.exact,
+                                                      .halfFragment = (key & kVariantHalf) != 0,
                                                       .optimization = options.optimization,
                                                       .spirv = options.spirv,
                                                       .essl = options.essl,

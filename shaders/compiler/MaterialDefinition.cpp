@@ -136,6 +136,7 @@ constexpr std::array kProperties{
     Property{ "variantFilter", readList<readVariantFilter> },
     Property{ "vertexDomain", readVertexDomain },
     Property{ "fullScreenTriangle", readFlag<&MaterialDefinition::fullScreenTriangle> },
+    Property{ "halfPrecision", readFlag<&MaterialDefinition::halfPrecision> },
     Property{ "flipUV", readFlag<&MaterialDefinition::flipUv> },
     Property{ "blending", readBlending },
     Property{ "maskThreshold", readMaskThreshold },
@@ -223,6 +224,9 @@ Result<void> checkTogether(MaterialDefinition const& definition) {
     if (package.domain == MaterialDomain::PostProcess &&
         (definition.requiredAttributes != 0 || !definition.variables.empty())) {
         return refuse("a material of the domain postprocess reads no attributes and has no variables");
+    }
+    if (definition.halfPrecision && package.shading != ShadingModel::Lit) {
+        return refuse("halfPrecision is for lit materials: nothing else is computed in 16 bits");
     }
     if (definition.fullScreenTriangle && package.vertexDomain != VertexDomain::Device) {
         return refuse("fullScreenTriangle needs vertexDomain : device");

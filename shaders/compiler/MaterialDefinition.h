@@ -40,6 +40,7 @@ struct MaterialDefinition {
     std::vector<Variable> variables;
     uint32_t requiredAttributes = 0; ///< bit n: location n, from `requires`
     uint8_t filteredVariants = 0;    ///< VariantBits that are never asked for
+    bool halfPrecision = false;      ///< also variants that are lit in 16 bits: kVariantHalf
     bool flipUv = true;
     bool fullScreenTriangle = false; ///< device domain: positions come from the vertex index, no attribute is read
     SpecularAntiAliasing specularAntiAliasing;

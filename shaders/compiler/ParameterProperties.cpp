@@ -212,6 +212,7 @@ Result<void> readRequirement(JsonValue const& item, MaterialDefinition& out) {
 
 constexpr std::pair<std::string_view, uint8_t> kVariantFilters[] = { { "directionalLighting", kVariantSun },
                                                                      { "dynamicLighting", kVariantPunctual },
+                                                                     { "halfPrecision", kVariantHalf },
                                                                      { "shadowReceiver", 0 },
                                                                      { "skinning", 0 },
                                                                      { "ssr", 0 },

@@ -11,10 +11,11 @@
 
 namespace filament::shader {
 
-/// The bits that can change the code of such a material: none for unlit and post-process ones.
-uint8_t selectableBits(MaterialDomain domain, ShadingModel shading);
+/// The bits that can change the code of such a material: none for unlit and post-process ones. kVariantHalf only where
+/// the material asks for it.
+uint8_t selectableBits(MaterialDomain domain, ShadingModel shading, bool halfPrecision);
 
-/// Ascending; always contains 0.
-std::vector<uint8_t> variantKeys(MaterialDomain domain, ShadingModel shading, uint8_t filteredBits);
+/// Ascending; always contains 0. `selectable`: see above.
+std::vector<uint8_t> variantKeys(uint8_t selectable, uint8_t filteredBits);
 
 } // namespace filament::shader

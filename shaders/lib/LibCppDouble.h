@@ -30,6 +30,7 @@ using glm::cross;
 using glm::dot;
 using glm::exp2;
 using glm::fract;
+using glm::log2;
 using glm::max;
 using glm::min;
 using glm::mix;

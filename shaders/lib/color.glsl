@@ -65,3 +65,19 @@ vec3 linearFromSrgb(vec3 x) { return vec3(linearFromSrgb(x.x), linearFromSrgb(x.
 float interleavedGradientNoise(vec2 pixel) {
     return fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
 }
+
+// ---- the axes of a tone-mapping table (ToneTable.h): stops of light, so that shadows get as many entries as highlights.
+// The offset makes the first cells nearly linear: the table holds black. 16 stops, [0, 256); all curves are flat beyond.
+// fp32 only, both ways: the logarithm of 16 stops leaves 16 bits no digits for the place between two entries.
+const float kToneTableOffset = 0.00390625f; // 2^-8
+const float kToneTableStops = 16.0f;
+
+// Light of one component -> [0, 1]; negative light is black. fp32 only.
+float toneTableCoordinate(float light) {
+    return saturate((log2(max(light, 0.0f) + kToneTableOffset) + 8.0f) * (1.0f / kToneTableStops));
+}
+
+// Inverse of toneTableCoordinate() on [0, 1]. fp32 only.
+float lightFromToneTableCoordinate(float coordinate) {
+    return max(exp2(coordinate * kToneTableStops - 8.0f) - kToneTableOffset, 0.0f);
+}

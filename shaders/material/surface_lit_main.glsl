@@ -7,20 +7,26 @@ struct Surface {
     vec3 f0;
     float f90;
     float metallic;
-    float perceptualRoughness;
+    highp float perceptualRoughness;
     float alpha;              // of the distribution: perceptualRoughness^2
     vec3 energyCompensation;
     vec3 specularAlbedo;      // of the whole hemisphere, with all bounces
     float visibility;         // ambient occlusion
+    vec3 normal, view;        // what prepareMaterial() found, in the precision of the lighting
+    float nov;
 };
 
-float materialPerceptualRoughness(MaterialInputs material) {
-    float roughness = material.roughness;
+highp float materialPerceptualRoughness(MaterialInputs material) {
+    highp float roughness = material.roughness;
 #if defined(SPECULAR_ANTI_ALIASING)
     roughness = filteredPerceptualRoughness(roughness, dFdx(shading_geometricNormal), dFdy(shading_geometricNormal),
             SPECULAR_ANTI_ALIASING_VARIANCE, SPECULAR_ANTI_ALIASING_THRESHOLD);
 #endif
+#if defined(HALF_PRECISION)
+    return clamp(roughness, kMinPerceptualRoughnessMedium, 1.0);
+#else
     return clampPerceptualRoughness(roughness);
+#endif
 }
 
 Surface surfaceOf(MaterialInputs material) {
@@ -29,15 +35,19 @@ Surface surfaceOf(MaterialInputs material) {
     baseColor /= max(material.baseColor.a, 1e-5); // fading scales the lit colour as a whole, see main()
 #endif
     Surface surface;
+    surface.normal = shading_normal;
+    surface.view = shading_view;
+    surface.nov = shading_NoV;
     surface.diffuse = diffuseColor(baseColor, material.metallic);
     surface.metallic = material.metallic;
     surface.f0 = f0FromBaseColor(baseColor, material.metallic, material.reflectance);
     // Nothing real reflects less than 2 %; darker f0 means that the material wants no reflection at all. Lagarde and de
     // Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
     surface.f90 = saturate(dot(surface.f0, vec3(50.0 * 0.33)));
-    surface.perceptualRoughness = materialPerceptualRoughness(material);
+    highp float roughness = materialPerceptualRoughness(material);
+    surface.perceptualRoughness = roughness;
     surface.alpha = alphaFromPerceptual(surface.perceptualRoughness);
-    vec2 dfg = splitSumTerm(shading_NoV, surface.perceptualRoughness);
+    vec2 dfg = splitSumTerm(shading_NoV, roughness);
     surface.energyCompensation = energyCompensationTerm(surface.f0, dfg);
     surface.specularAlbedo = specularDfg(surface.f0, dfg) * surface.energyCompensation;
 #if defined(HAS_AMBIENT_OCCLUSION)
@@ -48,21 +58,23 @@ Surface surfaceOf(MaterialInputs material) {
     return surface;
 }
 
-vec3 environmentFromWorld(vec3 direction) { return direction * mat3(frameUniforms.worldFromEnvironment); }
+highp vec3 environmentFromWorld(highp vec3 direction) {
+    return direction * mat3(frameUniforms.worldFromEnvironment);
+}
 
 // One way out of each function: an early return costs a loop in the code that the drivers see.
-vec3 imageBasedLight(Surface surface) {
-    vec3 light = vec3(0.0);
+highp vec3 imageBasedLight(Surface surface) {
+    highp vec3 light = vec3(0.0);
     if (frameUniforms.ambient.x > 0.0) { // else: no environment
-        vec3 irradiance = irradianceTerm(environmentFromWorld(shading_normal));
+        vec3 irradiance = irradianceTerm(environmentFromWorld(surface.normal));
         vec3 diffuse = surface.diffuse * irradiance * (1.0 - surface.specularAlbedo) * surface.visibility;
 
-        vec3 direction = dominantSpecularDirection(shading_normal, shading_reflected, surface.alpha);
-        float level = levelFromPerceptualRoughness(surface.perceptualRoughness, frameUniforms.ambient.y);
+        highp vec3 direction = dominantSpecularDirection(surface.normal, shading_reflected, surface.alpha);
+        highp float level = levelFromPerceptualRoughness(surface.perceptualRoughness, frameUniforms.ambient.y);
         vec3 radiance = textureLod(viewSpecular, environmentFromWorld(direction), level).rgb;
         vec3 specular = surface.specularAlbedo * radiance;
 #if defined(HAS_AMBIENT_OCCLUSION)
-        specular *= specularOcclusion(shading_NoV, surface.visibility, surface.alpha);
+        specular *= specularOcclusion(surface.nov, surface.visibility, surface.alpha);
 #endif
         light = (diffuse + specular) * frameUniforms.ambient.x;
     }
@@ -72,18 +84,17 @@ vec3 imageBasedLight(Surface surface) {
 #if defined(VARIANT_SUN) || defined(VARIANT_PUNCTUAL)
 
 // Light from one direction; illuminance at normal incidence, pre-exposed.
-vec3 directLight(Surface surface, vec3 light, vec3 illuminance) {
-    vec3 reflected = vec3(0.0);
-    float nol = saturate(dot(shading_normal, light));
+highp vec3 directLight(Surface surface, vec3 light, vec3 illuminance) {
+    highp vec3 reflected = vec3(0.0);
+    float nol = saturate(dot(surface.normal, light));
     if (nol > 0.0) {
-        vec3 halfway = normalizeOrZero(shading_view + light);
-        float noh = saturate(dot(shading_normal, halfway));
-        float voh = saturate(dot(shading_view, halfway));
-        float d = ndfGgx(noh, surface.alpha);
-        float v = visibilityTerm(shading_NoV, nol, surface.alpha);
+        vec3 halfway = normalizeOrZero(surface.view + light);
+        float voh = saturate(dot(surface.view, halfway));
+        float dv = distributionTerm(surface.normal, halfway, surface.alpha) *
+                visibilityTerm(surface.nov, nol, surface.alpha);
         vec3 f = fresnelTerm(surface.f0, surface.f90, surface.metallic, voh);
-        vec3 specular = (d * v) * f * surface.energyCompensation;
-        float diffuse = diffuseTerm(shading_NoV, nol, voh, surface.perceptualRoughness);
+        vec3 specular = finite(dv) * f * surface.energyCompensation;
+        float diffuse = diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness);
         reflected = (surface.diffuse * diffuse + specular) * illuminance * nol;
     }
     return reflected;
@@ -93,15 +104,15 @@ vec3 directLight(Surface surface, vec3 light, vec3 illuminance) {
 
 #if defined(VARIANT_PUNCTUAL)
 
-vec3 punctualLights(Surface surface) {
-    vec3 sum = vec3(0.0);
+highp vec3 punctualLights(Surface surface) {
+    highp vec3 sum = vec3(0.0);
     int count = int(frameUniforms.ambient.w);
     for (int i = 0; i < count; ++i) { // a loop, however few lights: unrolled code takes seconds to compile
         LightRecord light = lightUniforms.lights[i];
-        vec3 toLight = light.positionRange.xyz - vertex_worldPosition;
-        float attenuation = distanceAttenuation(toLight, light.positionRange.w);
+        highp vec3 toLight = light.positionRange.xyz - vertex_worldPosition;
+        highp float attenuation = distanceAttenuation(toLight, light.positionRange.w);
         if (attenuation <= 0.0) continue; // out of range
-        vec3 direction = normalizeOrZero(toLight);
+        highp vec3 direction = normalizeOrZero(toLight);
         if (light.colorIntensity.w > 0.0) {
             attenuation *= spotAttenuation(direction, light.directionScale.xyz, light.directionScale.w, light.offset.x);
             if (attenuation <= 0.0) continue; // outside of the cone
@@ -121,7 +132,7 @@ void main() {
     applyMask(inputs.baseColor);
 
     Surface surface = surfaceOf(inputs);
-    vec3 light = imageBasedLight(surface);
+    highp vec3 light = imageBasedLight(surface);
 #if defined(VARIANT_SUN)
     light += directLight(surface, frameUniforms.sunDirection.xyz, frameUniforms.sunIlluminance.rgb);
 #endif
@@ -132,7 +143,7 @@ void main() {
     light *= inputs.baseColor.a;
 #endif
 
-    vec4 color = vec4(light, outputAlpha(inputs.baseColor.a));
+    highp vec4 color = vec4(light, outputAlpha(inputs.baseColor.a));
     addEmissive(inputs, color);
     blendPostLighting(inputs, color);
     fragment_color = color;

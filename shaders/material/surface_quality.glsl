@@ -9,6 +9,22 @@ const int kDiffuseDisney = 1;
 const int kSplitSumAnalytic = 1;
 const int kIrradianceLastSpecularLevel = 1;
 
+// Half floats end at 65504, and infinity times the cosine of a grazing light would be NaN.
+#if defined(HALF_PRECISION)
+float finite(float x) { return min(x, 65504.0); }
+#else
+float finite(float x) { return x; }
+#endif
+
+// 1 - n.h is a rounding error in half floats where D peaks: there from the cross product of the vectors.
+float distributionTerm(vec3 normal, vec3 halfway, float alpha) {
+#if defined(HALF_PRECISION)
+    return ndfGgxFromVectors(normal, halfway, alpha);
+#else
+    return ndfGgx(saturate(dot(normal, halfway)), alpha);
+#endif
+}
+
 float visibilityTerm(float nov, float nol, float alpha) {
     float v;
     if (quality_specularVisibility == kVisibilityFast) {
@@ -18,7 +34,7 @@ float visibilityTerm(float nov, float nol, float alpha) {
     } else {
         v = visibilitySmithGgxCorrelated(nov, nol, alpha);
     }
-    return v;
+    return finite(v);
 }
 
 // f90 is below 1 only where the material wants no reflection (surfaceOf()): that goes for the exact term as well.
@@ -42,7 +58,7 @@ float diffuseTerm(float nov, float nol, float voh, float perceptualRoughness) {
     return d;
 }
 
-vec2 splitSumTerm(float nov, float perceptualRoughness) {
+vec2 splitSumTerm(highp float nov, highp float perceptualRoughness) {
     vec2 dfg;
     if (quality_splitSum == kSplitSumAnalytic) {
         dfg = dfgAnalytic(nov, perceptualRoughness);
@@ -59,7 +75,7 @@ vec3 energyCompensationTerm(vec3 f0, vec2 dfg) {
 }
 
 // Irradiance / pi around a direction of the environment's space.
-vec3 irradianceTerm(vec3 normal) {
+vec3 irradianceTerm(highp vec3 normal) {
     vec3 irradiance;
     if (quality_diffuseIrradiance == kIrradianceLastSpecularLevel) {
         irradiance = textureLod(viewSpecular, normal, frameUniforms.ambient.y).rgb;

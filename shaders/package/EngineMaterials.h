@@ -6,13 +6,19 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 #include <span>
 #include <string_view>
 
 namespace filament::shader {
 
+enum class Arithmetic : uint8_t {
+    Exact, ///< spelled out, so that both APIs compute the same bits (shaders/compiler/ExactLowering.h)
+    Plain, ///< left to the drivers
+};
+
 /// The bytes of a package, for readPackage().
-std::span<const std::byte> engineMaterial(std::string_view name);
+std::span<const std::byte> engineMaterial(std::string_view name, Arithmetic arithmetic = Arithmetic::Exact);
 
 /// All names, ascending.
 std::span<const std::string_view> engineMaterialNames();

@@ -50,10 +50,11 @@ struct Constant {
     friend bool operator==(Constant const&, Constant const&) = default;
 };
 
-/// What the scene may ask of a material; a set of bits is a variant key.
+/// What scene and view may ask of a material; a set of bits is a variant key.
 enum VariantBit : uint8_t {
     kVariantSun = 1,      ///< directionalLighting
     kVariantPunctual = 2, ///< dynamicLighting
+    kVariantHalf = 4,     ///< lit in 16 bits, of materials with halfPrecision; not of the scene: of Quality
 };
 
 struct Variant {

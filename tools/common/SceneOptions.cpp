@@ -98,7 +98,12 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
     for (std::string const& word : words.set) {
         const size_t equals = word.find('=');
         if (equals == std::string::npos) return invalidOption("--set", word, "NAME=VALUE, see docs/quality.md");
-        const Result<void> done = setQuality(options.quality, word.substr(0, equals), word.substr(equals + 1));
+        const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
+        if (name == "exact") {
+            if (auto done = convertSwitch("--set exact", value, options.exactShaders); !done) return done;
+            continue;
+        }
+        const Result<void> done = setQuality(options.quality, name, value);
         if (!done) return fail(done.error().code, "--set {}: {}", word, done.error().message);
     }
     return {};

@@ -35,6 +35,7 @@ struct SceneOptions {
     bool skybox = true; ///< where there is an environment
     ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
     Quality quality{};
+    bool exactShaders = true; ///< --set exact=off
     std::filesystem::path out = "out";
 };
 

@@ -4,6 +4,8 @@
 #include "tools/common/CommandLine.h"
 #include "tools/conformance/Mutations.h"
 
+#include <filament/Quality.h>
+
 #include <CLI/CLI.hpp>
 
 #include <cstdlib>
@@ -37,7 +39,7 @@ struct Words {
     std::string baselines = FILAMENT_SOURCE_DIR "/tests/conformance/baselines.json";
     std::string assets = FILAMENT_ASSET_DIR;
     std::string out = "conformance", shard = "0/1", threads, mutations;
-    std::vector<std::string> backends, merge;
+    std::vector<std::string> backends, merge, set;
 };
 
 void declare(CLI::App& app, Words& words, Options& options) {
@@ -55,6 +57,11 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies")
             ->type_name("on|off");
     app.add_option("--mutations", words.mutations, "check that defects are noticed")->type_name("on|off");
+    app.add_option("--set", words.set, "exact=off, or a quality choice of docs/quality.md, in every case; repeatable")
+            ->type_name("NAME=VALUE")
+            ->expected(1)
+            ->allow_extra_args(false)
+            ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
     app.add_option("--build", options.build, "name of this build in the results")->type_name("NAME");
     app.add_option("--bisect", options.bisect, "do not run: find the first draw of a case that differs")
             ->type_name("CASE");
@@ -77,11 +84,29 @@ Result<void> convertBackends(std::vector<std::string> const& words, Options& opt
     return {};
 }
 
+Result<void> convertSet(std::vector<std::string> const& words, Options& options) {
+    for (std::string const& word : words) {
+        const size_t equals = word.find('=');
+        if (equals == std::string::npos) return invalidOption("--set", word, "NAME=VALUE, see docs/quality.md");
+        const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
+        if (name == "exact") {
+            if (auto done = tools::convertSwitch("--set exact", value, options.exact); !done) return done;
+            continue;
+        }
+        Quality probe;
+        if (const Result<void> done = setQuality(probe, name, value); !done)
+            return fail(done.error().code, "--set {}: {}", word, done.error().message);
+        options.quality.emplace_back(name, value);
+    }
+    return {};
+}
+
 Result<void> convert(Words const& words, Options& options) {
     options.scenes = words.scenes, options.baselines = words.baselines, options.assets = words.assets;
     options.out = words.out;
     options.merge.assign(words.merge.begin(), words.merge.end());
     if (auto done = convertBackends(words.backends, options); !done) return done;
+    if (auto done = convertSet(words.set, options); !done) return done;
     if (auto done = tools::convertSwitch("--threads", words.threads, options.threads); !done) return done;
     if (auto done = tools::convertSwitch("--mutations", words.mutations, options.mutations); !done) return done;
     if (!options.mutate.empty() && !findMutation(options.mutate))

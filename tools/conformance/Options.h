@@ -32,6 +32,8 @@ struct Options {
     std::string mutate;                       ///< with --bisect: the defect of the first backend; empty: none
     std::string bisect;                       ///< the case to bisect; empty: run
     std::vector<std::filesystem::path> merge; ///< folders of results; empty: run
+    bool exact = true;                        ///< --set exact=off: the engine's shaders without it
+    std::vector<std::pair<std::string, std::string>> quality; ///< --set NAME=VALUE: of every case, over what it says
     bool list = false;
 };
 

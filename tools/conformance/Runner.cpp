@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Runner.h"
 
+#include "filament_core/base/Assert.h"
 #include "tools/common/Console.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Mutations.h"
@@ -192,7 +193,14 @@ Result<SceneSpec> findCase(std::vector<SceneSpec> const& cases, std::string cons
 std::vector<Configuration> configurationsOf(Options const& options) {
     const std::filesystem::path work = options.out / "work";
     const auto stage = [&](Backend backend, int workers, ThreadAffinity affinity, bool capture) {
-        return StageOptions{ backend, options.requireDevice, workers, affinity, capture, work, options.assets };
+        return StageOptions{ .backend = backend,
+                             .requireDevice = options.requireDevice,
+                             .workers = workers,
+                             .affinity = affinity,
+                             .exact = options.exact,
+                             .capture = capture,
+                             .work = work,
+                             .assets = options.assets };
     };
     std::vector<Configuration> all;
     for (const Backend backend : options.backends)
@@ -207,6 +215,15 @@ std::vector<Configuration> configurationsOf(Options const& options) {
     all.push_back({ fmt::format("{} pinned", toString(first)), stage(first, 2, ThreadAffinity::Pin, false) });
     all.push_back({ fmt::format("{} big cores", toString(first)), stage(first, 2, ThreadAffinity::BigCores, false) });
     return all;
+}
+
+void overrideQuality(std::vector<SceneSpec>& cases, Options const& options) {
+    for (SceneSpec& spec : cases) {
+        for (auto const& [name, value] : options.quality) {
+            const Result<void> done = setQuality(spec.view.quality, name, value);
+            FILAMENT_ASSERT(done.ok(), "parseOptions() checks every --set");
+        }
+    }
 }
 
 std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& options) {

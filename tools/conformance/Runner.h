@@ -22,6 +22,9 @@ struct Configuration {
 };
 std::vector<Configuration> configurationsOf(Options const& options);
 
+/// What --set says goes over what the cases say.
+void overrideQuality(std::vector<SceneSpec>& cases, Options const& options);
+
 /// The cases that --only names, of those every shard.count-th one.
 std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& options);
 

@@ -98,6 +98,17 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     reader.read("frames", spec.frames, 1, 16);
 }
 
+void readQuality(JsonReader& reader, Quality& quality) {
+    for (QualityChoice const& choice : qualityChoices()) {
+        const char* const key = choice.name.data(); // a literal
+        Json const* value = reader.raw(key);
+        if (!value) continue;
+        const std::string word = value->is_string() ? value->get<std::string>() : value->dump();
+        if (const Result<void> done = setQuality(quality, choice.name, word); !done)
+            reader.complain(key, done.error().message);
+    }
+}
+
 std::optional<ComparatorKind> comparatorFromName(std::string_view name) {
     if (name == "bits") return ComparatorKind::Bits;
     if (name == "tolerance") return ComparatorKind::Tolerance;
@@ -132,6 +143,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.object("camera", [&](JsonReader& r) { readCamera(r, spec); });
     reader.object("exposure", [&](JsonReader& r) { readExposure(r, spec.exposure); });
     reader.object("view", [&](JsonReader& r) { readView(r, spec); });
+    reader.object("quality", [&](JsonReader& r) { readQuality(r, spec.view.quality); });
     reader.object("comparator", [&](JsonReader& r) { readComparator(r, spec.comparator); });
     reader.read("kills", spec.kills);
     if (const Result<void> done = reader.finish(); !done) return done.error();

@@ -14,6 +14,7 @@ Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::uni
     EngineOptions engineOptions{ .backend = options.backend, .requireDevice = options.requireDevice };
     engineOptions.workers = options.workers;
     engineOptions.affinity = options.affinity;
+    engineOptions.exactShaders = options.exact;
     engineOptions.cacheDirectory = options.work / "environments";
     engineOptions.debug.capture = capture;
     Result<Engine> engine = Engine::create(engineOptions);

@@ -22,6 +22,7 @@ struct StageOptions {
     std::string requireDevice;
     int workers = 1;
     ThreadAffinity affinity = ThreadAffinity::None;
+    bool exact = true;            ///< EngineOptions::exactShaders
     bool capture = false;         ///< shoot() may ask what a frame did inside
     std::filesystem::path work;   ///< built models, the sky, baked environments
     std::filesystem::path assets; ///< where "asset:" begins; empty: nowhere

@@ -59,6 +59,7 @@ int run(Options const& options) {
     if (!options.merge.empty()) return mergeShards(options);
     Result<std::vector<SceneSpec>> scenes = readScenes(options.scenes);
     if (!scenes) return failed(scenes.error());
+    overrideQuality(*scenes, options);
     if (!options.bisect.empty()) return bisectAndPrint(options, *scenes);
     const std::vector<SceneSpec> cases = casesOf(std::move(*scenes), options);
     if (options.list) return list(cases);

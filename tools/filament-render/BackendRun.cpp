@@ -51,6 +51,7 @@ Result<Engine> createEngine(Options const& options, Backend backend) {
     EngineOptions engineOptions{ .backend = backend, .requireDevice = options.requireDevice };
     engineOptions.workers = options.workers;
     engineOptions.affinity = options.affinity;
+    engineOptions.exactShaders = options.exactShaders;
     engineOptions.traceJobs = !options.traceJobs.empty();
     if (options.trace) engineOptions.traceFile = options.out / fmt::format("{}.trace", fileStem(backend));
     Result<Engine> engine = Engine::create(engineOptions);

@@ -56,9 +56,12 @@ struct EngineOptions {
     std::string requireDevice{}; ///< case-insensitive part of the device's name; empty: the first usable
     int workers = -1;            ///< job threads besides the app thread; -1: one per remaining core; 0: none
     ThreadAffinity affinity = ThreadAffinity::None;
-    int driverCore = -1;                    ///< pin the driver thread to this core and keep job threads off it
-    int avoidCore = -1;                     ///< keep job threads off this core, too; -1: off none
-    bool validation = false;                ///< check every stream; Vulkan validation layers or KHR_debug on top
+    int driverCore = -1;     ///< pin the driver thread to this core and keep job threads off it
+    int avoidCore = -1;      ///< keep job threads off this core, too; -1: off none
+    bool validation = false; ///< check every stream; Vulkan validation layers or KHR_debug on top
+    /// The engine's own shaders spell their arithmetic out, so that both APIs draw the same bits. Off: the drivers
+    /// choose, as other engines let them; materials that you compile yourself are as you told matc.
+    bool exactShaders = true;
     bool traceJobs = false;                 ///< remember what every thread did when: Engine::writeJobTrace()
     bool hashFrames = false;                ///< FrameTimings::packetHash and streamHash, for tests; reads all twice
     std::filesystem::path traceFile{};      ///< write every command as text, for replay; empty: do not

@@ -50,6 +50,13 @@ enum class DiffuseIrradiance : uint8_t {
     LastSpecularLevel,  ///< roughness 1 of the specular environment: no coefficients, a GGX lobe instead of a cosine
 };
 
+/// Of the lighting of lit materials: what their own code computes keeps 32 bits. Materials that were compiled without
+/// halfPrecision, and devices without 16-bit floats, are lit in Full.
+enum class ShadingPrecision : uint8_t {
+    Full, ///< 32 bits
+    Half, ///< 16 bits: roughness from 0.089 on; the two APIs may round differently
+};
+
 /// Samplers of materials; those of the environment stay.
 enum class TextureFilter : uint8_t {
     AsAuthored,  ///< as the material's textures were set
@@ -61,6 +68,14 @@ enum class TextureFilter : uint8_t {
 enum class DepthRange : uint8_t {
     Reversed, ///< near 1, infinity 0: a float's exponent makes up for the perspective
     Ordinary, ///< near 0, infinity 1: the same compare the other way round, z-fights in the distance
+};
+
+/// How the tone mapper of View::colorGrading reaches the picture, with the transfer function of the display.
+enum class ToneMapping : uint8_t {
+    Analytic, ///< its formula, every pixel
+    Table16,  ///< a cube of 16 colours a side over the logarithm of light, interpolated: any grading at one price
+    Table32,
+    Table64,
 };
 
 enum class QualityPreset : uint8_t {
@@ -79,7 +94,9 @@ struct Quality {
     uint16_t dfgTableSize = 64; ///< texels a side, [16, 256]
     DiffuseIrradiance diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;
     uint8_t shBands = 3; ///< [1, 3]: 1, 4 or 9 coefficients
+    ShadingPrecision shadingPrecision = ShadingPrecision::Full;
     TextureFilter textureFilter = TextureFilter::AsAuthored;
+    ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
     /// Positions reach the shaders relative to the camera, subtracted in double precision. Off: as absolute floats,
     /// which the vertex shader subtracts, as engines with a float world do.
@@ -92,7 +109,9 @@ const char* toString(FresnelTerm value);
 const char* toString(DiffuseTerm value);
 const char* toString(SplitSum value);
 const char* toString(DiffuseIrradiance value);
+const char* toString(ShadingPrecision value);
 const char* toString(TextureFilter value);
+const char* toString(ToneMapping value);
 const char* toString(DepthRange value);
 const char* toString(QualityPreset value);
 std::optional<SpecularVisibility> specularVisibilityFromName(std::string_view name);
@@ -100,7 +119,9 @@ std::optional<FresnelTerm> fresnelTermFromName(std::string_view name);
 std::optional<DiffuseTerm> diffuseTermFromName(std::string_view name);
 std::optional<SplitSum> splitSumFromName(std::string_view name);
 std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name);
+std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name);
 std::optional<TextureFilter> textureFilterFromName(std::string_view name);
+std::optional<ToneMapping> toneMappingFromName(std::string_view name);
 std::optional<DepthRange> depthRangeFromName(std::string_view name);
 std::optional<QualityPreset> qualityPresetFromName(std::string_view name);
 

@@ -89,6 +89,21 @@ TEST(ChoosePipelines, UnlitMaterialsShareOnePipelineBetweenVariants) {
     EXPECT_EQ(fixture.choose(draws, setup), lit);
 }
 
+TEST(ChoosePipelines, HalfPrecisionTakesAProgramOfItsOwnWhereTheMaterialHasOneAndElseTheFullOne) {
+    DrawFixture fixture(2, 2, 1);
+    fixture.materials[0].package.variants.push_back(
+            { .key = shader::kVariantHalf, .vertexSpirv = { 1 }, .fragmentSpirv = { 3 } });
+    const std::vector<DrawCall> draws{ fixture.draw(0, 0, 0), fixture.draw(1, 0, 1) };
+    CommandBuffer setup;
+    const auto full = fixture.choose(draws, setup);
+    fixture.slot = fixture.pipelines->slot({ .precision = ShadingPrecision::Half });
+    const auto half = fixture.choose(draws, setup);
+    EXPECT_THAT(half, testing::Each(testing::Ne(PipelineHandle{})));
+    EXPECT_NE(half[0], full[0]);
+    EXPECT_EQ(fixture.materials[0].programs.size(), 2u);
+    EXPECT_EQ(fixture.materials[1].programs.size(), 1u);
+}
+
 TEST(PipelineCache, ForgettingAMaterialDestroysWhatWasMadeOfItAndNothingElse) {
     DrawFixture fixture(3, 9, 2);
     const std::vector<DrawCall> draws = fixture.randomDraws(500, 8);

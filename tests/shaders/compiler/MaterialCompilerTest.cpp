@@ -234,6 +234,29 @@ TEST(MaterialCompiler, CompilesEveryVariantThatAStateCanSelectAndNoOther) {
               (std::vector<int>{ 0 }));
 }
 
+TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsTheOtherVariantsAsTheyWere) {
+    const Result<MaterialPackage> plain = compile(withProperties("shadingModel : lit"));
+    const Result<MaterialPackage> both = compile(withProperties("shadingModel : lit, halfPrecision : true"));
+    ASSERT_TRUE(plain);
+    ASSERT_TRUE(both) << both.error().message;
+    ASSERT_EQ(both->variants.size(), 8u);
+    for (size_t i = 0; i < 4; ++i) {
+        Variant const &full = both->variants[i], &half = both->variants[i + 4];
+        EXPECT_EQ(full, plain->variants[i]);
+        EXPECT_EQ(half.key, full.key | kVariantHalf);
+        EXPECT_EQ(half.vertexSpirv, full.vertexSpirv) << "positions keep their precision";
+        EXPECT_EQ(test::validationErrors(half.fragmentSpirv), "");
+        EXPECT_THAT(test::disassembly(half.fragmentSpirv), HasSubstr("OpCapability Float16"));
+        EXPECT_THAT(test::disassembly(half.fragmentSpirv), HasSubstr("OpFMul %v3half"));
+        EXPECT_THAT(test::disassembly(full.fragmentSpirv), Not(HasSubstr("Float16")));
+        EXPECT_THAT(half.fragmentEssl, HasSubstr("mediump vec3"));
+        EXPECT_THAT(full.fragmentEssl, Not(HasSubstr("mediump vec3")));
+    }
+    EXPECT_THAT(
+            errorOf("material { shadingModel : unlit, halfPrecision : true }" + std::string(kEmptyFragment)).message,
+            HasSubstr("halfPrecision is for lit materials"));
+}
+
 TEST(MaterialCompiler, GivesAllSurfaceMaterialsTheSameViewGroup) {
     const Result<MaterialPackage> unlit = compile(withProperties("shadingModel : unlit"));
     const Result<MaterialPackage> lit = compile(withProperties("shadingModel : lit"));

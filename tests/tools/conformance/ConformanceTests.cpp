@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <fstream>
 #include <set>
 
 namespace filament::conformance {
@@ -60,6 +61,40 @@ TEST(Bisect, FindsNothingWhereNothingDiffers) {
     const Result<std::string> found = bisectCase(optionsFor("intersecting"), allScenes());
     ASSERT_TRUE(found.ok()) << found.error().message;
     EXPECT_EQ(*found, "");
+}
+
+// The promise of equal bits is the doing of the exact shaders: without them a case that demands bits must fail.
+TEST(Exactness, ShadersLeftToTheDriversAreNoticed) {
+    Options options = optionsFor("");
+    options.only = { "roughness-chart/linear" };
+    options.mutations = false;
+    const auto run = [&](bool exact) {
+        options.exact = exact;
+        auto results = runCases(options, casesOf(allScenes(), options));
+        EXPECT_TRUE(results.ok()) << (results.ok() ? "" : results.error().message);
+        return results.ok() ? std::move(*results) : Results();
+    };
+    EXPECT_EQ(summaryOf(run(true)).failed, 0u);
+    const Results plain = run(false);
+    ASSERT_EQ(plain.cases.size(), 1u);
+    ASSERT_EQ(plain.cases[0].comparisons.size(), 1u);
+    EXPECT_GT(plain.cases[0].comparisons[0].differing, 0u);
+    EXPECT_FALSE(plain.cases[0].comparisons[0].passed);
+}
+
+TEST(SceneFiles, SayQualityByItsNamesAndAMisspeltOneIsAnError) {
+    const std::filesystem::path file = std::filesystem::path(FILAMENT_BINARY_DIR) / "quality-scene.json";
+    const auto read = [&](const char* quality) {
+        std::ofstream(file) << R"({ "model": "a.glb", "quality": )" << quality << " }";
+        return readSceneFile(file);
+    };
+    const auto scene = read(R"({ "specularVisibility": "fast", "shBands": 2 })");
+    ASSERT_TRUE(scene.ok()) << scene.error().message;
+    EXPECT_EQ(toString(scene->front().view.quality), "specularVisibility=fast shBands=2");
+    const auto misspelt = read(R"({ "shBand": 2 })");
+    ASSERT_FALSE(misspelt.ok());
+    EXPECT_NE(misspelt.error().message.find("shBands"), std::string::npos) << misspelt.error().message;
+    EXPECT_FALSE(read(R"({ "shBands": 7 })").ok());
 }
 
 TEST(Shards, MergeToTheResultsOfOneRun) {

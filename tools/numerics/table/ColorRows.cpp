@@ -62,6 +62,32 @@ std::vector<Row> toneMapRows() {
     };
 }
 
+std::vector<Row> toneTableRows() {
+    constexpr std::string_view kFp32Only =
+            "the logarithm of 16 stops leaves 16 bits no digits for the place between entries";
+    return {
+        { .file = "color",
+          .function = "toneTableCoordinate(float)",
+          .call = NUMERICS_CALL(toneTableCoordinate(s.x)),
+          .s = { number("light", 0, 65504) },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 3e-7, .gpu = 3e-6, .negligible = 1, .why = "absolute: log2(), of at most 16, over 16" },
+          .fp32Only = kFp32Only },
+        { .file = "color",
+          .function = "lightFromToneTableCoordinate(float)",
+          .call = NUMERICS_CALL(lightFromToneTableCoordinate(s.x)),
+          .s = { unit("coordinate") },
+          .range = { 0, 256 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 1e-5,
+                      .gpu = 1e-4,
+                      .negligible = 0.00390625,
+                      .why = "exp2() of a rounded product; below the offset relative to it" },
+          .fp32Only = kFp32Only },
+    };
+}
+
 std::vector<Row> transferRows() {
     const Limits transfer{ .cpp = 1e-6, .gpu = 1e-6, .half = 1e-2, .why = kTransfer };
     return {
@@ -119,7 +145,7 @@ std::vector<Row> colorRows() {
           .noError = "noise: 53 times the rounding of a sum up to 1200, which wraps",
           .fp32Only = "16 bits do not count the pixels of a line" },
     };
-    for (std::vector<Row> const& more : { toneMapRows(), transferRows() })
+    for (std::vector<Row> const& more : { toneMapRows(), toneTableRows(), transferRows() })
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }
