@@ -20,7 +20,8 @@ with the double-precision evaluation of the same text for the same, already roun
 
 - **C++** is the library as the tests and the bakers compile it, **Vulkan** and **OpenGL ES** are fragment shaders in 32
   bits; these two agree to the bit.
-- **fp16** is `float16_t` on Vulkan and `mediump` on OpenGL ES, both with real 16-bit arithmetic on the devices below.
+- **fp16** is what materials in half precision get: `float16_t` on Vulkan and `mediump` on OpenGL ES out of the same text,
+  both with real 16-bit arithmetic on the devices below.
   Inputs are numbers of 16 bits, so that the error is that of the arithmetic alone. A function that 16 bits cannot carry
   says "fp32 only" and why.
 - **Error** is |result - truth| / max(|truth|, size), the largest and, behind the point, the 99th percentile. The size is the
@@ -160,20 +161,44 @@ void appendOutside(std::string& text, RowResult const& row) {
     text += fmt::format(" {} | {} |\n", firstNotFinite(row), row.row->outsideWhy);
 }
 
-std::string summaryOf(Study const& study) {
-    size_t inputs = 0, notFinite = 0, columns = 0;
+struct Totals {
+    size_t columns = 0, inputs = 0, notFinite = 0, halfInputs = 0, halfDiffering = 0;
+    std::string halfNames; ///< of the functions that differ
+};
+
+Totals totalsOf(Study const& study) {
+    Totals totals;
     for (RowResult const& row : study.rows) {
         for (const Column column : kColumns) {
             if (!row.of(column)) continue;
-            inputs += row.of(column)->inputs;
-            notFinite += row.of(column)->nan + row.of(column)->infinite;
-            ++columns;
+            Measurement const& m = *row.of(column);
+            ++totals.columns;
+            totals.inputs += m.inputs;
+            totals.notFinite += m.nan + m.infinite;
+            if (column == Column::GlesHalf) totals.halfInputs += m.inputs;
         }
+        totals.halfDiffering += row.differing[static_cast<size_t>(Format::Half)];
+        if (row.differing[static_cast<size_t>(Format::Half)] == 0) continue;
+        totals.halfNames += fmt::format("{}`{}`", totals.halfNames.empty() ? "" : ", ",
+                                        row.row->function.substr(0, row.row->function.find('(')));
     }
-    return fmt::format(
-            "This run: {} functions and cases, {} tables of results, {} evaluations of inputs in range, of which "
-            "**{} gave NaN or infinity**; {} broken promises in all. Vulkan on {}; OpenGL ES on {}.\n",
-            study.rows.size(), columns, inputs, notFinite, violationCount(study), study.devices[0], study.devices[1]);
+    return totals;
+}
+
+std::string summaryOf(Study const& study) {
+    const Totals totals = totalsOf(study);
+    std::string text =
+            fmt::format("This run: {} functions and cases in {} columns, {} evaluations of inputs in range, of which "
+                        "**{} gave NaN or infinity**; {} broken promises in all. Vulkan on {}; OpenGL ES on {}.\n",
+                        study.rows.size(), totals.columns, totals.inputs, totals.notFinite, violationCount(study),
+                        study.devices[0], study.devices[1]);
+    if (totals.halfDiffering > 0)
+        text += fmt::format(
+                "In 16 bits the two APIs agree to the bit about {:.1f} % of {} results; they differ in {}.\n",
+                100.0 * static_cast<double>(totals.halfInputs - totals.halfDiffering) /
+                        static_cast<double>(totals.halfInputs),
+                totals.halfInputs, totals.halfNames);
+    return text;
 }
 
 } // namespace

@@ -26,8 +26,8 @@ std::vector<std::string> allViolations(RowResult const& row) {
         if (!row.of(column)) continue;
         for (std::string& one : violations(*row.row, column, *row.of(column))) all.push_back(std::move(one));
     }
-    if (row.differingBits > 0)
-        all.push_back(fmt::format("{} results differ between Vulkan and OpenGL ES in 32 bits", row.differingBits));
+    if (row.differing[0] > 0)
+        all.push_back(fmt::format("{} results differ between Vulkan and OpenGL ES in 32 bits", row.differing[0]));
     return all;
 }
 
@@ -117,9 +117,13 @@ std::string jsonOf(Study const& study) {
     nlohmann::ordered_json json{ { "vulkan", study.devices[0] }, { "gles", study.devices[1] } };
     json["rows"] = nlohmann::ordered_json::array();
     for (RowResult const& row : study.rows) {
-        nlohmann::ordered_json one{ { "file", row.row->file },         { "function", row.row->function },
-                                    { "part", row.row->part },         { "why", row.row->limits.why },
-                                    { "fp32Only", row.row->fp32Only }, { "differingBits", row.differingBits } };
+        nlohmann::ordered_json one{ { "file", row.row->file },
+                                    { "function", row.row->function },
+                                    { "part", row.row->part },
+                                    { "why", row.row->limits.why },
+                                    { "fp32Only", row.row->fp32Only },
+                                    { "differingInFp32", row.differing[0] },
+                                    { "differingInFp16", row.differing[1] } };
         for (const Column column : kColumns) {
             if (row.of(column))
                 one["columns"][std::string(toString(column))] = jsonOf(*row.row, column, *row.of(column));

@@ -51,11 +51,13 @@ bool sameBits(float a, float b) {
 }
 
 void countDifferences(Study& study, Work const& work, std::vector<Results> const& a, std::vector<Results> const& b) {
+    if (a.empty() || b.empty()) return; // a device is missing
     for (size_t i = 0; i < work.tasks.size(); ++i) {
+        uint32_t& count = study.rows[work.indices[i]].differing[static_cast<size_t>(work.format)];
         for (size_t p = 0; p < work.points[i].inside.size(); ++p) {
             bool same = true;
             for (int c = 0; c < 4; ++c) same &= sameBits(a[i][p][c], b[i][p][c]);
-            study.rows[work.indices[i]].differingBits += !same;
+            count += !same;
         }
     }
 }
@@ -66,23 +68,31 @@ void evaluateInCpp(Study& study, Work const& work) {
     measureAll(study, work, Column::Cpp, results);
 }
 
-/// The results in fp32 stay for the comparison of the APIs.
-Result<std::vector<Results>> evaluateOn(Study& study, BackendType type, std::string const& library, Work const& single,
-                                        Work const& half) {
+/// What one device made of the work, for the comparison with the other; empty without a device.
+struct DeviceResults {
+    std::vector<Results> single, half;
+};
+
+Result<DeviceResults> evaluateOn(Study& study, BackendType type, std::string const& library, Work const& single,
+                                 Work const& half) {
     const bool vulkan = type == BackendType::Vulkan;
     auto device = GpuEvaluator::make(type, library);
     if (!device) {
         study.missing.push_back(device.error().message);
-        return std::vector<Results>{};
+        return DeviceResults{};
     }
     study.devices[vulkan ? 0 : 1] = (*device)->deviceName();
-    Result<std::vector<Results>> results = (*device)->evaluate(single.tasks, Format::Single);
-    if (!results) return results.error();
-    measureAll(study, single, vulkan ? Column::VulkanSingle : Column::GlesSingle, *results);
-    const Result<std::vector<Results>> halfResults = (*device)->evaluate(half.tasks, Format::Half);
-    if (!halfResults) return halfResults.error();
-    measureAll(study, half, vulkan ? Column::VulkanHalf : Column::GlesHalf, *halfResults);
-    return results;
+    Result<std::vector<Results>> singles = (*device)->evaluate(single.tasks, Format::Single);
+    if (!singles) return singles.error();
+    measureAll(study, single, vulkan ? Column::VulkanSingle : Column::GlesSingle, *singles);
+    if (!(*device)->hasHalf()) {
+        study.missing.push_back(fmt::format("{} has no half floats in shaders", (*device)->deviceName()));
+        return DeviceResults{ .single = std::move(*singles) };
+    }
+    Result<std::vector<Results>> halves = (*device)->evaluate(half.tasks, Format::Half);
+    if (!halves) return halves.error();
+    measureAll(study, half, vulkan ? Column::VulkanHalf : Column::GlesHalf, *halves);
+    return DeviceResults{ std::move(*singles), std::move(*halves) };
 }
 
 Result<std::string> mutatedLibrary(std::optional<Mutation> const& mutation) {
@@ -109,11 +119,12 @@ Result<Study> runStudy(std::string_view only, std::optional<Mutation> mutation) 
     }
     const Work single = workOf(study, Format::Single), half = workOf(study, Format::Half);
     evaluateInCpp(study, single);
-    const Result<std::vector<Results>> vulkan = evaluateOn(study, BackendType::Vulkan, *library, single, half);
+    const Result<DeviceResults> vulkan = evaluateOn(study, BackendType::Vulkan, *library, single, half);
     if (!vulkan) return vulkan.error();
-    const Result<std::vector<Results>> gles = evaluateOn(study, BackendType::Gles, *library, single, half);
+    const Result<DeviceResults> gles = evaluateOn(study, BackendType::Gles, *library, single, half);
     if (!gles) return gles.error();
-    if (!vulkan->empty() && !gles->empty()) countDifferences(study, single, *vulkan, *gles);
+    countDifferences(study, single, vulkan->single, gles->single);
+    countDifferences(study, half, vulkan->half, gles->half);
     return study;
 }
 

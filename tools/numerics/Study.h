@@ -19,8 +19,8 @@ namespace filament::shader::numerics {
 struct RowResult {
     Row const* row = nullptr;
     std::array<std::optional<Measurement>, kColumns.size()> columns; ///< by Column
-    /// Results in fp32, of inputs in range, that Vulkan and OpenGL ES do not agree about to the bit.
-    uint32_t differingBits = 0;
+    /// By Format: results of inputs in range that Vulkan and OpenGL ES do not agree about to the bit. None in fp32.
+    std::array<uint32_t, 2> differing{};
 
     std::optional<Measurement> const& of(Column column) const { return columns[static_cast<size_t>(column)]; }
 };

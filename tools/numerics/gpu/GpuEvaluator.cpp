@@ -140,7 +140,7 @@ Result<void> GpuEvaluator::evaluateGroup(std::span<const Task> tasks, numerics::
     std::vector<Row const*> rows;
     for (Task const& task : tasks) rows.push_back(task.row);
     const ShaderLanguage language = mStream->info().shaderLanguage;
-    const Result<ProgramShaders> shaders = groupProgram(mLibrary, rows, format, language);
+    const Result<ProgramShaders> shaders = groupProgram(mLibrary, rows, format);
     if (!shaders) return shaders.error();
 
     const Texels texels = texelsOf(tasks);

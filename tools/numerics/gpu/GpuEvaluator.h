@@ -28,6 +28,8 @@ public:
 
     /// "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6"
     std::string deviceName() const;
+    /// Whether the device has arithmetic of 16 bits at all.
+    bool hasHalf() const { return mStream->info().features.halfFloatShaders; }
     Result<std::vector<Results>> evaluate(std::span<const Task> tasks, Format format);
 
 private:

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/gpu/ShaderText.h"
 
-#include "shaders/compiler/HalfPrecision.h"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -21,20 +19,18 @@ void main() {
 }
 )";
 
+/// As in lit materials whose lighting runs in half precision (shaders/material/surface_half.glsl).
+constexpr std::string_view kHalfPrelude = R"(
+#define HALF_PRECISION 1
+precision mediump float;
+)";
+
 constexpr std::string_view kInterface = R"(
 layout(set = 0, binding = 0) uniform highp sampler2D inputS;
 layout(set = 0, binding = 1) uniform highp sampler2D inputU;
 layout(set = 0, binding = 2) uniform highp sampler2D inputV;
 layout(location = 0) out highp vec4 result;
 )";
-constexpr std::string_view kEsslInterface = R"(
-precision highp int;
-layout(binding = 0) uniform highp sampler2D inputS;
-layout(binding = 1) uniform highp sampler2D inputU;
-layout(binding = 2) uniform highp sampler2D inputV;
-layout(location = 0) out highp vec4 result;
-)";
-
 /// Results of any type as four numbers. The names of the types become those of the precision.
 constexpr std::string_view kPack = R"(
 vec4 asVec4(bool x) { return vec4(x ? 1.0f : 0.0f, 0.0f, 0.0f, 0.0f); }
@@ -51,8 +47,8 @@ Result<std::string> textOf(fs::path const& path) {
     return text.str();
 }
 
-/// main(): every row is computed, the pixel's own is kept.
-std::string mainText(std::span<Row const* const> rows) {
+/// Every row is computed, the pixel's own is kept.
+std::string evaluateText(std::span<Row const* const> rows) {
     std::string text = "void evaluate(int row, vec4 s, vec3 u, vec3 v, OUT(vec4) x) {\n    x = vec4(0.0f);\n";
     for (size_t i = 0; i < rows.size(); ++i)
         text += fmt::format("    if (row == {}) x = asVec4({});\n", i, rows[i]->call.text);
@@ -65,29 +61,11 @@ void main() {
     highp vec4 s = texelFetch(inputS, at, 0);
     highp vec4 u = texelFetch(inputU, at, 0);
     highp vec4 v = texelFetch(inputV, at, 0);
-    VEC4 x;
-    evaluate(int(u.w), VEC4(s), VEC3(u.xyz), VEC3(v.xyz), x);
-    result = vec4(x);
+    vec4 x;
+    evaluate(int(u.w), s, u.xyz, v.xyz, x);
+    result = x;
 }
 )";
-
-Result<ProgramShaders> compile(std::string const& fragment, std::string_view name, bool exact) {
-    return compileProgram(kVertex, fragment,
-                          { .exact = exact, .dynamicUniformBuffers = std::vector<SetBinding>{}, .fragmentName = name });
-}
-
-Result<ProgramShaders> mediumProgram(std::string const& body) {
-    // the vertex shader, and a fragment shader of the same interface for the layout of its three textures
-    Result<ProgramShaders> shaders = compile(fmt::format("#version 450{}void main() {{ ivec2 at = ivec2(0); result = "
-                                                         "texelFetch(inputS, at, 0) + texelFetch(inputU, at, 0) + "
-                                                         "texelFetch(inputV, at, 0); }}\n",
-                                                         kInterface),
-                                             "layout", true);
-    if (!shaders) return shaders.error();
-    shaders->fragmentEssl = fmt::format("#version 310 es\n{}{}#define VEC4 vec4\n#define VEC3 vec3\n{}{}",
-                                        kMediumpPrelude, kEsslInterface, body, kMain);
-    return shaders;
-}
 
 } // namespace
 
@@ -112,18 +90,14 @@ Result<std::string> libraryText() {
     return text;
 }
 
-Result<ProgramShaders> groupProgram(std::string const& library, std::span<Row const* const> rows, Format format,
-                                    backend::ShaderLanguage language) {
-    const std::string body = library + std::string(kPack) + mainText(rows);
-    if (format == Format::Half && language == backend::ShaderLanguage::Essl310) return mediumProgram(body);
-    if (format == Format::Half) {
-        // exact lowering knows 32-bit floats only, and no other device has to agree
-        return compile(fmt::format("#version 450\n{}{}#define VEC4 f16vec4\n#define VEC3 f16vec3\n{}{}",
-                                   kFloat16Prelude, kInterface, float16FromGlsl(body), kMain),
-                       "shaders/lib in 16 bits", false);
-    }
-    return compile(fmt::format("#version 450\n{}#define VEC4 vec4\n#define VEC3 vec3\n{}{}", kInterface, body, kMain),
-                   "shaders/lib", true);
+Result<ProgramShaders> groupProgram(std::string const& library, std::span<Row const* const> rows, Format format) {
+    const bool half = format == Format::Half;
+    const std::string fragment = fmt::format("#version 450\n{}{}{}{}{}{}", half ? kHalfPrelude : "", kInterface,
+                                             library, kPack, evaluateText(rows), kMain);
+    return compileProgram(kVertex, fragment,
+                          { .halfFragment = half,
+                            .dynamicUniformBuffers = std::vector<SetBinding>{},
+                            .fragmentName = half ? "shaders/lib in 16 bits" : "shaders/lib" });
 }
 
 } // namespace filament::shader::numerics
