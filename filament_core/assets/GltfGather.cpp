@@ -89,14 +89,10 @@ public:
         return values;
     }
 
-    /// Colours have three components or four.
+    /// Colours have three components or four, each in [0, 1] (glTF 2.0, 3.7.2.1); floats may say anything.
     std::vector<float4> readColors(uint32_t accessor, uint32_t dracoId) {
-        if (accessor == kNone) return {};
-        const uint8_t components =
-                mDraco && dracoId != kNone ? mDraco->componentCount(dracoId) : mDocument.accessors[accessor].components;
-        if (components != 3) return read<float4>(accessor, dracoId, "COLOR_0");
-        std::vector<float4> colors;
-        for (float3 const& color : read<float3>(accessor, dracoId, "COLOR_0")) colors.emplace_back(color, 1.0f);
+        std::vector<float4> colors = readAnyColors(accessor, dracoId);
+        for (float4& color : colors) color = glm::clamp(color, 0.0f, 1.0f);
         return colors;
     }
 
@@ -110,6 +106,16 @@ public:
     }
 
 private:
+    std::vector<float4> readAnyColors(uint32_t accessor, uint32_t dracoId) {
+        if (accessor == kNone) return {};
+        const uint8_t components =
+                mDraco && dracoId != kNone ? mDraco->componentCount(dracoId) : mDocument.accessors[accessor].components;
+        if (components != 3) return read<float4>(accessor, dracoId, "COLOR_0");
+        std::vector<float4> colors;
+        for (float3 const& color : read<float3>(accessor, dracoId, "COLOR_0")) colors.emplace_back(color, 1.0f);
+        return colors;
+    }
+
     GltfDocument const& mDocument;
     std::string const& mPath;
     GltfDiagnostics& mDiagnostics;

@@ -308,6 +308,14 @@ TEST(GltfGeometry, NumbersThatAreNotFiniteBecomeZeroWithAWarning) {
     EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("accessors[0]: 2 numbers are not finite")));
 }
 
+TEST(GltfGeometry, ColoursAreWithinZeroAndOne) {
+    TestFile file = TestFile::triangle();
+    file.attribute("COLOR_0", std::vector<float>{ -1, 0.25f, 3e38f, 1, 2, 0.5f, 0, 0, 1, 1, 1, 1 }, kFloat, "VEC4", 4);
+    const PrimitiveData primitive = onlyPrimitive(file);
+    EXPECT_EQ(vertexValue(primitive, shader::kAttributeColor, 0), float4(0, 0.25f, 1, 1));
+    EXPECT_EQ(vertexValue(primitive, shader::kAttributeColor, 1), float4(1, 0.5f, 0, 0));
+}
+
 TEST(GltfGeometry, EmptyPrimitivesAreLeftOutWithAWarning) {
     TestFile file = TestFile::triangle();
     file.root["meshes"][0]["primitives"].push_back({ { "attributes", Json::object() } });

@@ -49,7 +49,7 @@ GlbScene exampleScene() {
     GlbPrimitive primitive{ .positions = { float3(0, 0, 0), float3(1, 0, 0), float3(0, 2, 0) },
                             .normals = std::vector<float3>(3, float3(0, 0, 1)),
                             .tangents = std::vector<float4>(3, float4(1, 0, 0, -1)),
-                            .colors = std::vector<float4>(3, float4(0.5f, 1, 2, 1)),
+                            .colors = std::vector<float4>(3, float4(0.5f, 1, 0.25f, 1)),
                             .uvs = { float2(0, 0), float2(1, 0), float2(0, 1) },
                             .indices = { 0, 1, 2 },
                             .material = 1 };
@@ -139,7 +139,7 @@ TEST(GltfWriter, GeometrySurvivesTheRoundTrip) {
     ASSERT_EQ(model.meshes[0].primitives.size(), 2u);
     PrimitiveData const& primitive = model.meshes[0].primitives[0];
     EXPECT_THAT(cornersOf(primitive), testing::ElementsAreArray(scene.meshes[0].primitives[0].positions));
-    EXPECT_EQ(vertexValue(primitive, shader::kAttributeColor, 1), float4(0.5f, 1, 2, 1));
+    EXPECT_EQ(vertexValue(primitive, shader::kAttributeColor, 1), float4(0.5f, 1, 0.25f, 1));
     EXPECT_EQ(vertexValue(primitive, shader::kAttributeUv0, 2), float4(0, 1, 0, 1));
     EXPECT_LT(vertexValue(primitive, shader::kAttributeTangents, 0).w, 0.0f);
     EXPECT_EQ(primitive.boundsMax, float3(1, 2, 0));

@@ -31,5 +31,6 @@ std::vector<HardCase> distanceRows(); ///< far from the origin, tiny and huge
 std::vector<HardCase> shapeRows();    ///< odd transforms and vertices
 std::vector<HardCase> lightRows();    ///< noon, moonlight, lamps; what half floats cannot hold
 std::vector<HardCase> lensRows();     ///< near planes and odd targets
+std::vector<HardCase> fileRows();     ///< degenerate glTF attributes; surfaces in one place
 
 } // namespace filament::hard

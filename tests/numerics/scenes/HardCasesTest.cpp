@@ -16,7 +16,7 @@ constexpr Backend kBothApis[] = { Backend::Vulkan, Backend::Gles };
 std::vector<HardCase> const& allRows() {
     static const std::vector<HardCase> rows = [] {
         std::vector<HardCase> all;
-        for (auto const& part : { distanceRows(), shapeRows(), lightRows(), lensRows() })
+        for (auto const& part : { distanceRows(), shapeRows(), lightRows(), lensRows(), fileRows() })
             all.insert(all.end(), part.begin(), part.end());
         return all;
     }();

@@ -9,6 +9,8 @@
 
 #include <array>
 #include <cmath>
+#include <filesystem>
+#include <fstream>
 #include <span>
 
 namespace filament::hard {
@@ -141,6 +143,18 @@ Renderable Stage::add(Mesh const& mesh, double4x4 const& worldFromObject, Look c
                        .boundsMax = float3(extent),
                        .worldFromObject = worldFromObject,
                        .node = node });
+}
+
+void Stage::addFile(std::span<const std::byte> glb) {
+    const std::filesystem::path folder = std::filesystem::path(FILAMENT_BINARY_DIR) / "hard";
+    const std::filesystem::path path = folder / "case.glb";
+    std::filesystem::create_directories(folder);
+    std::ofstream(path, std::ios::binary)
+            .write(reinterpret_cast<const char*>(glb.data()), static_cast<std::streamsize>(glb.size()));
+    auto model = loadGltf(engine(), path);
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    scene.add(*model);
+    mModels.push_back(std::move(*model));
 }
 
 Texture Stage::constantCube(float radiance) {

@@ -13,6 +13,7 @@
 #include <cstdint>
 #include <memory>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -70,6 +71,8 @@ public:
 
     Renderable add(Mesh const& mesh, double4x4 const& worldFromObject = double4x4(1.0), Look const& look = {},
                    Node node = {});
+    /// The bytes of a .glb, loaded as an app would. One at a time per test program.
+    void addFile(std::span<const std::byte> glb);
     /// The same radiance from everywhere; `illuminance` is what a surface receives of it, times 1 / pi.
     void addConstantSky(Lux illuminance, float radiance = 1, bool visible = false);
     Engine& engine() { return mDevice.engine(); }
@@ -86,6 +89,7 @@ private:
     std::vector<Owned<Texture>> mTextures;
     std::vector<Owned<IndirectLight>> mLights;
     std::vector<Owned<Skybox>> mSkies;
+    std::vector<Model> mModels;
 };
 
 double4x4 translation(double3 by);
