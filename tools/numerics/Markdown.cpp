@@ -30,6 +30,9 @@ with the double-precision evaluation of the same text for the same, already roun
   in the wrong direction beyond the rounding. Anything else, and an error above the limit, fails `numerics_tests`, which also
   puts defects into the text that the devices compile and expects each to be noticed.
 
+Other devices than Mesa's CPU drivers need not round as IEEE 754 says: their errors, the order of their results and their bits
+are shown, but not judged.
+
 A new function gets a row in `tools/numerics/table/*Rows.cpp`, without which a test fails: its inputs and their intervals, its
 range, its limits and the reason for them.
 

@@ -28,6 +28,7 @@ struct RowResult {
 struct Study {
     std::array<std::string, 2> devices; ///< Vulkan, OpenGL ES; empty: none
     std::vector<std::string> missing;   ///< why a device is not there
+    bool promisesSameBits = false;      ///< in fp32: both are Mesa's CPU drivers
     std::vector<RowResult> rows;
 };
 

@@ -30,6 +30,7 @@ struct OutsideCount {
 struct Measurement {
     uint32_t inputs = 0;
     double worst = 0, percentile99 = 0;
+    bool isJudged = true; ///< false: the device need not round as IEEE 754 says, so errors and order are only reported
     uint32_t nan = 0, infinite = 0, outOfRange = 0, notMonotone = 0;
     std::optional<Point> worstAt, firstNotFinite, firstOutOfRange, firstNotMonotone;
     double worstResult = 0, worstTruth = 0;
