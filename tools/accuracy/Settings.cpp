@@ -19,7 +19,8 @@ struct Choice {
     std::string_view name;
     Words values; ///< those worth measuring
     bool (*set)(Settings& settings, std::string const& value);
-    std::string_view range; ///< for the error
+    std::string_view range;               ///< for the error
+    std::string Settings::*key = nullptr; ///< which of the keys the word belongs to, if it loads something else
 };
 
 constexpr std::string_view kSamples[] = { "1", "4" };
@@ -75,14 +76,23 @@ bool setFormat(Settings& settings, std::string const& value) {
     return true;
 }
 
+bool setExact(Settings& settings, std::string const& value) {
+    if (value != "on" && value != "off") return false;
+    settings.engine.exactShaders = value == "on";
+    return true;
+}
+
 constexpr std::array kChoices{
     Choice{ "samples", kSamples, setSamples, "1 or 4" },
     Choice{ "toneMapper", kToneMappers, setToneMapper, "linear, aces, filmic or mobile" },
     Choice{ "dither", kSwitch, setDither, "off or on" },
     Choice{ "preset", kPresets, setPreset, "low, medium, high or reference" },
-    Choice{ "environment.samples", kEnvironmentSamples, setEnvironmentSamples, "a whole number from 1 to 65536" },
-    Choice{ "environment.faceSize", kFaceSizes, setFaceSize, "a power of two from 16 to 2048" },
-    Choice{ "environment.format", kFormats, setFormat, "RGBA16F, R11G11B10F or RGB9E5" },
+    Choice{ "exact", kSwitch, setExact, "off or on", &Settings::engineKey },
+    Choice{ "environment.samples", kEnvironmentSamples, setEnvironmentSamples, "a whole number from 1 to 65536",
+            &Settings::environmentKey },
+    Choice{ "environment.faceSize", kFaceSizes, setFaceSize, "a power of two from 16 to 2048",
+            &Settings::environmentKey },
+    Choice{ "environment.format", kFormats, setFormat, "RGBA16F, R11G11B10F or RGB9E5", &Settings::environmentKey },
 };
 
 Choice const* findChoice(std::string_view name) {
@@ -96,8 +106,6 @@ Error unknown(std::string_view name) {
     for (QualityChoice const& choice : qualityChoices()) known.push_back(choice.name);
     return fail(ErrorCode::NotFound, "there is no setting '{}'{}", name, suggestion(name, known));
 }
-
-void remember(std::string& key, std::string_view word) { (key += ' ') += word; }
 
 } // namespace
 
@@ -114,9 +122,7 @@ Result<void> change(Settings& settings, std::string_view word) {
     }
     if (!choice->set(settings, value))
         return fail(ErrorCode::InvalidArgument, "setting {}: '{}' is not {}", name, value, choice->range);
-    if (name.starts_with("environment.")) remember(settings.environmentKey, word);
-    if (name.starts_with("model.")) remember(settings.modelKey, word);
-    if (name.starts_with("engine.")) remember(settings.engineKey, word);
+    if (choice->key) (settings.*choice->key += ' ') += word;
     return {};
 }
 
