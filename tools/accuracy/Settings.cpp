@@ -4,6 +4,8 @@
 #include "filament_core/base/Suggest.h"
 #include "tools/common/CommandLine.h"
 
+#include <filament/QualityBudget.h>
+
 #include <algorithm>
 #include <array>
 #include <bit>
@@ -27,6 +29,7 @@ constexpr std::string_view kSamples[] = { "1", "4" };
 constexpr std::string_view kToneMappers[] = { "linear", "aces", "filmic", "mobile" };
 constexpr std::string_view kSwitch[] = { "off", "on" };
 constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" };
+constexpr std::string_view kBudgets[] = { "0.8", "0.9", "1", "1.1", "1.2", "1.4" };
 constexpr std::string_view kEnvironmentSamples[] = { "16", "64", "256", "512", "1024", "4096" };
 constexpr std::string_view kFaceSizes[] = { "32", "64", "128", "256", "512" };
 constexpr std::string_view kFormats[] = { "RGBA16F", "R11G11B10F", "RGB9E5" };
@@ -53,6 +56,17 @@ bool setPreset(Settings& settings, std::string const& value) {
     const std::optional<QualityPreset> preset = qualityPresetFromName(value);
     if (preset) settings.quality = qualityPreset(*preset);
     return preset.has_value();
+}
+
+/// What the library's own table of costs buys for a multiple of the default's time.
+bool setBudget(Settings& settings, std::string const& value) {
+    constexpr double kDefaultMilliseconds = 100; // any number: only ratios count
+    const std::optional<double> times = tools::finiteNumber(value);
+    if (!times || !(*times > 0)) return false;
+    const Result<QualityDecision> decision = chooseQuality(
+            { .gpuMilliseconds = *times * kDefaultMilliseconds, .frameMilliseconds = kDefaultMilliseconds });
+    if (decision) settings.quality = decision->quality;
+    return decision.ok();
 }
 
 bool setEnvironmentSamples(Settings& settings, std::string const& value) {
@@ -87,6 +101,7 @@ constexpr std::array kChoices{
     Choice{ "toneMapper", kToneMappers, setToneMapper, "linear, aces, filmic or mobile" },
     Choice{ "dither", kSwitch, setDither, "off or on" },
     Choice{ "preset", kPresets, setPreset, "low, medium, high or reference" },
+    Choice{ "budget", kBudgets, setBudget, "how many times the default's time, above 0" },
     Choice{ "exact", kSwitch, setExact, "off or on", &Settings::engineKey },
     Choice{ "environment.samples", kEnvironmentSamples, setEnvironmentSamples, "a whole number from 1 to 65536",
             &Settings::environmentKey },

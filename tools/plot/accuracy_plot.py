@@ -11,6 +11,7 @@ from style import BLUE, GREEN, GREY, ORANGE, PINK, RED, SKY, YELLOW, BadInput, f
 BACKEND_COLORS = {"vulkan": BLUE, "gles": ORANGE}
 BACKEND_TITLES = {"vulkan": "Vulkan", "gles": "OpenGL ES"}
 EFFECT_COLORS = (BLUE, ORANGE, GREEN, PINK, RED, SKY, YELLOW, "#332288", "#117733", "#882255", "#44aa99", "#999933")
+SETTINGS_MARKERS = {"preset": "D", "budget": "s"}
 LEAST_SPAN = 0.16  # of the median: what differs by less is drawn close together, for it is
 LABEL_HEIGHT = 11  # pixels between labels at 100 dpi
 
@@ -219,7 +220,7 @@ def draw_frames(effects, frame):
         time_limits(axes, [p.ratios[backend][1:] for p in everything if backend in p.ratios])
         labels, all_points = [], []
         for i, effect in enumerate(shown):
-            is_preset = effect.name == "preset"
+            is_preset = effect.name in SETTINGS_MARKERS  # a setting of everything, not one value alone
             color = "#222222" if is_preset else EFFECT_COLORS[i % len(EFFECT_COLORS)]
             for point in effect.points:
                 if backend not in point.ratios:
@@ -229,10 +230,10 @@ def draw_frames(effects, frame):
                 all_points.append((median, y))
                 axes.errorbar([median], [y], xerr=[[max(median - low, 0)], [max(high - median, 0)]], fmt="none",
                               ecolor="#cccccc", elinewidth=0.8, zorder=1)
-                axes.plot([median], [y], marker="D" if is_preset else "o", markersize=7 if is_preset else 4.5, color=color,
+                axes.plot([median], [y], marker=SETTINGS_MARKERS.get(effect.name, "o"), markersize=7 if is_preset else 4.5, color=color,
                           zorder=4 if is_preset else 3, linestyle="none")
                 if is_preset or worth_a_name(point, backend, typical):
-                    labels.append((median, y, point.label if is_preset else f"{effect.name}: {point.label.split('=')[-1]}",
+                    labels.append((median, y, f"{effect.name} {point.label}" if is_preset else f"{effect.name}: {point.label.split('=')[-1]}",
                                    color, "bold" if is_preset else "normal"))
         edge = frontier(all_points)
         axes.step([x for x, _ in edge], [y for _, y in edge], where="post", color=GREY, linewidth=1.2, zorder=2)
@@ -242,7 +243,7 @@ def draw_frames(effects, frame):
         figure.canvas.draw()
         place_labels(axes, labels)
     panels[0][0].set_ylabel("error of the frame, RMS")
-    figure.text(0.085, 0.035, "Diamonds: presets. Dots: one value of one effect alone; those without a name are near the default. "
+    figure.text(0.085, 0.035, "Diamonds: presets. Squares: budgets. Dots: one value of one effect alone; those without a name are near the default. "
                 "Grey line: what nothing beats in both.", fontsize=8, color="#666666")
     return figure
 
