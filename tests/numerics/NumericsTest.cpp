@@ -176,8 +176,9 @@ TEST(NumericsReport, HasEveryCountOfEveryColumn) {
     const Result<Study> study = runStudy("pow5");
     ASSERT_TRUE(study) << study.error().message;
     const std::string csv = csvOf(*study);
-    const auto lines = static_cast<size_t>(std::count(csv.begin(), csv.end(), '\n'));
-    EXPECT_EQ(lines, 1 + kColumns.size() - 2 * study->missing.size());
+    const auto& columns = study->rows[0].columns;
+    const auto measured = std::count_if(columns.begin(), columns.end(), [](auto const& c) { return c.has_value(); });
+    EXPECT_EQ(std::count(csv.begin(), csv.end(), '\n'), 1 + measured);
     EXPECT_THAT(csv, ::testing::HasSubstr("math,\"pow5(float)\",\"\",C++ fp32,"));
     EXPECT_THAT(jsonOf(*study), ::testing::HasSubstr("\"function\": \"pow5(float)\""));
     EXPECT_THAT(terminalTable(*study), ::testing::HasSubstr("pow5(float)"));
@@ -228,12 +229,8 @@ TEST_P(NumericsMutation, IsNoticedOnEveryDevice) {
     }
     const auto of = [&](Column column) { return found[static_cast<size_t>(column)]; };
     EXPECT_EQ(of(Column::Cpp), 0u) << "C++ is not mutated";
-    if (!mutant->devices[0].empty()) {
-        EXPECT_GT(of(Column::VulkanSingle) + of(Column::VulkanHalf), 0u);
-    }
-    if (!mutant->devices[1].empty()) {
-        EXPECT_GT(of(Column::GlesSingle) + of(Column::GlesHalf), 0u);
-    }
+    EXPECT_GT(of(Column::VulkanSingle) + of(Column::VulkanHalf), 0u);
+    EXPECT_GT(of(Column::GlesSingle) + of(Column::GlesHalf), 0u);
 }
 
 INSTANTIATE_TEST_SUITE_P(
