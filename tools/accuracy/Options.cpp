@@ -15,11 +15,17 @@ struct Words {
     std::string scenes = FILAMENT_SOURCE_DIR "/tools/accuracy/scenes";
     std::string assets = FILAMENT_ASSET_DIR;
     std::string out = "accuracy", page, pictures, frame, size, rounds, plots;
-    std::vector<std::string> backends, include;
+    std::vector<std::string> backends, include, compare;
     bool quick = false;
 };
 
 void declare(CLI::App& app, Words& words, Options& options) {
+    app.add_option(
+               "--compare", words.compare,
+               "instead: the engine's pictures against the path tracer's, all rows or these; writes a fragment of the "
+               "report into --out")
+            ->expected(0, -1)
+            ->type_name("[NAME...]");
     app.add_option("--effect", options.effect, "only these rows")->type_name("NAME...");
     app.add_flag("--list", options.list, "print the rows and their values");
     app.add_option("--effects", words.effects, "the table of effects")->type_name("FILE");
@@ -62,6 +68,23 @@ Result<void> convertSize(std::string const& word, uint2& size) {
     return {};
 }
 
+/// `isAsked`: with or without names.
+void convertComparison(Words const& words, bool isAsked, Options& options) {
+    if (!isAsked) return;
+    const std::filesystem::path folder = FILAMENT_SOURCE_DIR "/tools/accuracy/comparison";
+    ComparisonOptions comparison{ .rows = folder / "rows.json",
+                                  .scenes = folder / "scenes",
+                                  .folders = options.measure.folders,
+                                  .chosen = words.compare,
+                                  .backend = options.measure.backends.front() };
+    std::erase(comparison.chosen, std::string());
+    if (words.quick) {
+        comparison.size = { 80, 45 };
+        comparison.mostSamples = 16;
+    }
+    options.comparison = std::move(comparison);
+}
+
 Result<void> convert(Words const& words, Options& options) {
     MeasureOptions& measure = options.measure;
     if (words.quick) {
@@ -95,6 +118,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     if (!parsed) return parsed.error();
     if (!*parsed) return std::optional<Options>();
     if (const Result<void> done = convert(words, options); !done) return done.error();
+    convertComparison(words, app.count("--compare") > 0, options);
     return std::optional(options);
 }
 

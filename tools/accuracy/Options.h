@@ -4,6 +4,7 @@
 #pragma once
 
 #include "tools/accuracy/Measure.h"
+#include "tools/accuracy/comparison/Comparison.h"
 
 #include <filesystem>
 #include <optional>
@@ -16,6 +17,7 @@ struct Options {
     std::vector<std::filesystem::path> include; ///< HTML fragments with further sections
     std::vector<std::string> effect;            ///< names; empty: all
     bool list = false, plots = true;
+    std::optional<ComparisonOptions> comparison; ///< --compare: this instead of the effects
     MeasureOptions measure{};
 };
 

@@ -4,8 +4,10 @@
 #include "tools/accuracy/Machine.h"
 #include "tools/accuracy/Options.h"
 #include "tools/accuracy/Page.h"
+#include "tools/accuracy/comparison/ComparisonPage.h"
 #include "tools/common/Console.h"
 
+#include <algorithm>
 #include <chrono>
 #include <cstdio>
 #include <exception>
@@ -37,7 +39,24 @@ MeasureProgress progressLine() {
     };
 }
 
+int compare(Options const& options) {
+    Result<ComparisonResults> results = comparePictures(*options.comparison, progressLine());
+    tools::clearProgress();
+    if (!results) return failed(results.error());
+    Results described;
+    describeMachine(described);
+    results->machine = described.machine, results->commit = described.commit, results->date = described.date;
+    if (const Result<void> written = writeComparison(*results, options.out); !written) return failed(written.error());
+    for (Skipped const& one : results->skipped)
+        tools::printWarning(fmt::format("row {} skipped: no {}; give --assets", one.name, one.reason));
+    std::fputs(textOf(*results).c_str(), stdout);
+    std::printf("%s\n", (options.out / "comparison.fragment.html").c_str());
+    const bool allExplained = std::ranges::all_of(results->rows, &RowResult::isExplained);
+    return allExplained ? 0 : failed(fail(ErrorCode::Internal, "more than a row allows is unexplained, see above"));
+}
+
 int run(Options const& options) {
+    if (options.comparison) return compare(options);
     const Result<std::vector<Effect>> effects = readEffects(options.effects);
     if (!effects) return failed(effects.error());
     if (options.list) return list(*effects);

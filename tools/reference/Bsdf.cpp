@@ -77,7 +77,7 @@ Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusi
     mSpecularChance = samplesDiffuse ? std::clamp(specular / (specular + diffuse), 0.1, 0.9) : 1;
     if (model.lobes == LobeChoice::Diffuse) mSpecularChance = 0;
     if (model.specularLight == SpecularLight::SplitSum && model.lobes != LobeChoice::Diffuse) {
-        mLobe.emplace(mAlpha);
+        mLobe.emplace(mRoughness, model.splitSumLevels);
         mLobeAlbedo = lib::specularDfg(mF0, dfg) * mCompensation * mAmbientSpecular;
         const double3 mirrored(-mView.x, -mView.y, mView.z);
         mLobeAxis = glm::normalize(lib::dominantSpecularDirection({ 0, 0, 1 }, mirrored, mAlpha));

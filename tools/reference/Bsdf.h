@@ -71,7 +71,7 @@ private:
     double3 mAmbientDiffuse{ 1.0 }; // occlusion
     double mAmbientSpecular = 1;    // occlusion
     double mSpecularChance = 0;
-    std::optional<PrefilteredLobe> mLobe;                                             // SpecularLight::SplitSum
+    std::optional<SplitSumLobe> mLobe;                                                // SpecularLight::SplitSum
     double3 mLobeAxis{ 0, 0, 1 }, mLobeTangent{ 1, 0, 0 }, mLobeBitangent{ 0, 1, 0 }; // local
     double3 mLobeAlbedo{ 0.0 };
 };

@@ -46,6 +46,7 @@ struct BsdfModel {
     CouplingTerm coupling = CouplingTerm::Engine;
     LobeChoice lobes = LobeChoice::Both;
     SpecularLight specularLight = SpecularLight::Integral;
+    uint32_t splitSumLevels = 0; ///< >= 2: only so many roughnesses are pre-filtered, others are mixed from two
     DiffuseLight diffuseLight = DiffuseLight::Integral;
     friend bool operator==(BsdfModel const&, BsdfModel const&) = default;
 };

@@ -60,6 +60,25 @@ double3 PrefilteredLobe::sample(double2 u) const {
     return { 2 * z * halfway.x, 2 * z * halfway.y, 2 * z2 - 1 };
 }
 
+SplitSumLobe::SplitSumLobe(double perceptualRoughness, uint32_t levels)
+        : mLower(lib::alphaFromPerceptual(perceptualRoughness)), mUpper(mLower) {
+    if (levels < 2) return;
+    const double last = levels - 1, level = lib::levelFromPerceptualRoughness(perceptualRoughness, last);
+    const double lower = std::min(std::floor(level), last - 1);
+    const auto lobeOf = [last](double of) {
+        const double roughness = lib::perceptualRoughnessFromLevel(of, last);
+        return PrefilteredLobe(lib::alphaFromPerceptual(lib::clampPerceptualRoughness(roughness)));
+    };
+    mLower = lobeOf(lower);
+    mUpper = lobeOf(lower + 1);
+    mShare = level - lower;
+}
+
+double3 SplitSumLobe::sample(double2 u) const {
+    if (u.x < mShare) return mUpper.sample({ u.x / mShare, u.y });
+    return mLower.sample({ (u.x - mShare) / (1 - mShare), u.y });
+}
+
 SkyHarmonics::SkyHarmonics(assets::HdrImage const& image) {
     for (uint32_t y = 0; y < image.height; ++y) {
         const double top = kPi * y / image.height, bottom = kPi * (y + 1) / image.height;

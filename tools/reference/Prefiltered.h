@@ -31,6 +31,22 @@ private:
     double mInverseWeight;
 };
 
+/// What the engine reads for a roughness: a lobe of that roughness, or with `levels` > 1 a mix of the two nearest ones
+/// of the roughnesses that the levels of a cube hold (shaders/lib/ibl.glsl), as trilinear filtering makes it.
+class SplitSumLobe {
+public:
+    /// perceptualRoughness in [0.045, 1].
+    SplitSumLobe(double perceptualRoughness, uint32_t levels);
+
+    double value(double3 light) const { return glm::mix(mLower.value(light), mUpper.value(light), mShare); }
+    double pdf(double3 light) const { return glm::mix(mLower.pdf(light), mUpper.pdf(light), mShare); }
+    double3 sample(double2 u) const;
+
+private:
+    PrefilteredLobe mLower, mUpper;
+    double mShare = 0; // of the upper one
+};
+
 /// The mean of n.l over PrefilteredLobe::sample(), 0 for directions behind the axis.
 double meanCosineOfLobe(double alpha);
 

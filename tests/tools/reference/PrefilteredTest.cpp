@@ -57,6 +57,33 @@ TEST(PrefilteredLobe, ItsSamplesHaveItsDensityAndIntegrateItToOne) {
     }
 }
 
+TEST(SplitSumLobe, BetweenTwoLevelsItIsTheirMixAndOnALevelThatLobe) {
+    constexpr double kLast = 4;
+    const auto roughnessOf = [](double level) { return shader::lib64::perceptualRoughnessFromLevel(level, kLast); };
+    const auto lobeOf = [&](double level) { return PrefilteredLobe(std::pow(roughnessOf(level), 2)); };
+    for (const double3 light :
+         { double3(0, 0, 1), glm::normalize(double3(0.4, 0, 1)), glm::normalize(double3(1, 0, 0.2)) }) {
+        EXPECT_NEAR(SplitSumLobe(roughnessOf(2), 5).value(light), lobeOf(2).value(light), 1e-9);
+        EXPECT_NEAR(SplitSumLobe(roughnessOf(2.25), 5).value(light),
+                    0.75 * lobeOf(2).value(light) + 0.25 * lobeOf(3).value(light), 1e-9);
+        EXPECT_NEAR(SplitSumLobe(1, 5).value(light), PrefilteredLobe(1).value(light), 1e-9);
+        EXPECT_EQ(SplitSumLobe(0.6, 0).value(light), PrefilteredLobe(0.36).value(light));
+    }
+}
+
+TEST(SplitSumLobe, SamplesOfAMixIntegrateItToOne) {
+    std::mt19937_64 random(5);
+    std::uniform_real_distribution<double> uniform(0, 1);
+    const SplitSumLobe lobe(0.55, 4);
+    double value = 0;
+    constexpr int kSamples = 200'000;
+    for (int i = 0; i < kSamples; ++i) {
+        const double3 light = lobe.sample({ uniform(random), uniform(random) });
+        if (lobe.pdf(light) > 0) value += lobe.value(light) / lobe.pdf(light) / kSamples;
+    }
+    EXPECT_NEAR(value, 1, 0.005);
+}
+
 TEST(SkyHarmonics, ASkyOfTwoBandsHasTheIrradianceOfItsFormula) {
     const auto sky = makeSky(128, [](double3 d) { return float3(double3(2 + d.y, 2 + d.x - 0.5 * d.z, 3)); });
     const EnvironmentLight light(sky, 10, 0);

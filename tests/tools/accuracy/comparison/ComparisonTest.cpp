@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+// The engine against the path tracer, small: what no approximation explains stays below a limit, and the limit notices
+// an engine that shades otherwise.
+#include "tools/accuracy/comparison/ComparisonPage.h"
+#include "tools/common/Html.h"
+
+#include <gtest/gtest.h>
+
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <fstream>
+#include <numeric>
+
+namespace filament::accuracy {
+namespace {
+
+namespace fs = std::filesystem;
+
+const fs::path kFolder = FILAMENT_SOURCE_DIR "/tools/accuracy/comparison";
+
+fs::path scratch() {
+    const fs::path folder = fs::path(FILAMENT_BINARY_DIR) / "comparison-test";
+    fs::create_directories(folder);
+    return folder;
+}
+
+fs::path rowsFile(std::string const& name, std::string const& text) {
+    const fs::path path = scratch() / (name + ".json");
+    std::ofstream(path) << text;
+    return path;
+}
+
+ComparisonOptions smallOptions(fs::path const& rows) {
+    return { .rows = rows,
+             .scenes = kFolder / "scenes",
+             .folders = { scratch() / "work", {} },
+             .size = { 80, 45 },
+             .mostSamples = 64 };
+}
+
+StepResult const& stepOf(RowResult const& row, std::string_view name) {
+    return *std::ranges::find(row.steps, name, &StepResult::name);
+}
+
+TEST(Comparison, UnderASunEverythingButHalfFloatsAndTheGridIsExplained) {
+    const fs::path rows = rowsFile("sun", R"([{"name": "metals", "scene": "metals/sun", "unexplained": 0.01},
+        {"name": "dielectrics", "scene": "dielectrics/sun", "unexplained": 0.01}])");
+    const Result<ComparisonResults> results = comparePictures(smallOptions(rows), {});
+    ASSERT_TRUE(results) << results.error().message;
+    ASSERT_EQ(results->rows.size(), 2u);
+    for (RowResult const& row : results->rows) EXPECT_TRUE(row.isExplained()) << textOf(*results);
+    EXPECT_GT(stepOf(results->rows[0], "interreflection").own, 0.02) << "metals see each other";
+    EXPECT_GT(stepOf(results->rows[1], "coupling").own, 0.01) << "dielectrics have both lobes";
+}
+
+TEST(Comparison, UnderASkyTheStepsAddUpToTheWholeAndTheRestIsSmall) {
+    const fs::path rows =
+            rowsFile("sky", R"([{"name": "dielectrics", "scene": "dielectrics/sky", "unexplained": 0.02}])");
+    const Result<ComparisonResults> results = comparePictures(smallOptions(rows), {});
+    ASSERT_TRUE(results) << results.error().message;
+    RowResult const& row = results->rows.front();
+    EXPECT_TRUE(row.isExplained()) << textOf(*results);
+    const double shares = std::accumulate(row.steps.begin(), row.steps.end(), 0.0,
+                                          [](double sum, StepResult const& step) { return sum + step.share; });
+    EXPECT_NEAR(shares, 1, 1e-6);
+    EXPECT_EQ(row.steps.back().left, 0) << "the last step ends at the path tracer's picture";
+    EXPECT_EQ(row.pictures.size(), row.steps.size() + 1);
+    for (const char* name : { "oneSample", "tables", "levels", "splitSum", "harmonics", "occlusion" })
+        EXPECT_GT(stepOf(row, name).own, 0) << name;
+    EXPECT_LT(row.eightBits, 0.5 / 255) << "rounding, and no more";
+    EXPECT_GT(row.eightBits, 0.2 / 255);
+}
+
+TEST(Comparison, AnEngineThatShadesOtherwiseIsNotExplained) {
+    const fs::path rows = rowsFile("wrong", R"([
+        {"name": "masking", "scene": "metals/sun", "unexplained": 0.01, "set": ["specularVisibility=uncorrelated"]},
+        {"name": "energy", "scene": "metals/sun", "unexplained": 0.01, "set": ["energyCompensation=off"]}])");
+    const Result<ComparisonResults> results = comparePictures(smallOptions(rows), {});
+    ASSERT_TRUE(results) << results.error().message;
+    for (RowResult const& row : results->rows)
+        EXPECT_FALSE(row.isExplained()) << row.row.name << '\n' << textOf(*results);
+}
+
+TEST(Comparison, TheReportHoldsEveryRowItsStepsAndItsCommand) {
+    const fs::path rows =
+            rowsFile("report", R"([{"name": "a-row", "title": "A <title>", "scene": "dielectrics/sun"}])");
+    ComparisonOptions options = smallOptions(rows);
+    options.mostSamples = 2;
+    options.size = { 16, 9 };
+    const Result<ComparisonResults> results = comparePictures(options, {});
+    ASSERT_TRUE(results) << results.error().message;
+    const Result<void> written = writeComparison(*results, scratch() / "report");
+    ASSERT_TRUE(written) << written.error().message;
+    std::ifstream file(scratch() / "report" / "comparison.fragment.html");
+    const std::string html{ std::istreambuf_iterator<char>(file), {} };
+    for (const char* text : { "A &lt;title&gt;", "Missing inter-reflection", "filament-accuracy --compare a-row",
+                              "data:image/png;base64,iVBORw0KGgo", "<section", "</section>" }) {
+        EXPECT_NE(html.find(text), std::string::npos) << text;
+    }
+    const auto json = jsonOf(*results);
+    EXPECT_EQ(json["rows"][0]["steps"].size(), results->rows[0].steps.size());
+    EXPECT_EQ(json["rows"][0]["rms"].get<double>(), results->rows[0].rms);
+}
+
+TEST(Comparison, RowsThatAreWrongAreRefusedWithTheirFileAndField) {
+    const std::pair<const char*, const char*> wrong[] = {
+        { "{}", "must be a JSON list of rows" },
+        { R"([{"scene": "metals/sun"}])", "row 0: name" },
+        { R"([{"name": "a", "scene": "metals/sun", "sample": 4}])", "'sample' is not a field here; did you mean" },
+        { R"([{"name": "a", "scene": "metals/sun", "samples": 1}])", "samples: expected a number from 2" },
+        { R"([{"name": "a", "scene": "metals/sun", "set": ["fresnell=exact"]}])", "fresnell" },
+    };
+    for (auto const& [text, complaint] : wrong) {
+        const auto rows = readComparisonRows(rowsFile("wrong-row", text));
+        ASSERT_FALSE(rows) << text;
+        EXPECT_NE(rows.error().message.find("wrong-row.json"), std::string::npos) << rows.error().message;
+        EXPECT_NE(rows.error().message.find(complaint), std::string::npos) << rows.error().message;
+    }
+    ComparisonOptions options = smallOptions(kFolder / "rows.json");
+    options.chosen = { "metals-sum" };
+    const Result<ComparisonResults> unknown = comparePictures(options, {});
+    ASSERT_FALSE(unknown);
+    EXPECT_NE(unknown.error().message.find("did you mean 'metals-sun'?"), std::string::npos) << unknown.error().message;
+}
+
+TEST(Comparison, ARowWithoutItsAssetsIsSkippedWithTheReason) {
+    const fs::path rows = rowsFile("assets", R"([{"name": "helmet", "scene": "helmet/studio"}])");
+    const Result<ComparisonResults> results = comparePictures(smallOptions(rows), {});
+    ASSERT_TRUE(results) << results.error().message;
+    EXPECT_TRUE(results->rows.empty());
+    ASSERT_EQ(results->skipped.size(), 1u);
+    EXPECT_NE(results->skipped[0].reason.find("FlightHelmet"), std::string::npos);
+}
+
+TEST(Ladder, EveryStepHasANameAndOneOfThemIsTheUnexplained) {
+    for (const bool hasEnvironment : { false, true }) {
+        const std::vector<Rung> rungs = ladder(hasEnvironment);
+        size_t unexplained = 0;
+        for (size_t i = 0; i + 1 < rungs.size(); ++i) {
+            EXPECT_FALSE(rungs[i].name.empty() || rungs[i].title.empty() || rungs[i].exact.empty()) << i;
+            unexplained += rungs[i].name == kUnexplained;
+            const bool changesWorld = rungs[i].kind != rungs[i + 1].kind;
+            EXPECT_EQ(changesWorld, rungs[i].name == kUnexplained) << "only there the reference takes over";
+        }
+        EXPECT_EQ(unexplained, 1u);
+        EXPECT_TRUE(rungs.back().name.empty()) << "the last picture is the truth";
+    }
+}
+
+Picture flat(float3 color, uint32_t width = 8, uint32_t height = 8) {
+    return { width, height, std::vector<float3>(size_t{ width } * height, color) };
+}
+
+TEST(Difference, IsRelativeToBothAndSigned) {
+    const Picture truth = flat(float3(1)), bright = flat(float3(1.5f));
+    const DifferenceScale scale(truth, bright);
+    const double floor = 0.01 * std::sqrt(3.0), size = 1.25 * std::sqrt(3.0) + floor;
+    EXPECT_NEAR(rms(bright, truth, scale), 0.5 * std::sqrt(3.0) / size, 1e-9);
+    EXPECT_NEAR(bias(bright, truth, scale), 0.5 / size, 1e-9);
+    EXPECT_NEAR(bias(truth, bright, scale), -0.5 / size, 1e-9);
+    EXPECT_NEAR(product(bright, truth, truth, bright, scale), -std::pow(rms(bright, truth, scale), 2), 1e-12);
+}
+
+TEST(Difference, PixelsBesideTheBackgroundDoNotCount) {
+    Picture truth = flat(float3(1));
+    truth.pixels[0] = float3(0);
+    const DifferenceScale scale(truth, flat(float3(1)));
+    EXPECT_EQ(scale.pixels(), 60u);
+    EXPECT_FALSE(scale.counts(0) || scale.counts(1) || scale.counts(8) || scale.counts(9));
+    EXPECT_TRUE(scale.counts(2));
+}
+
+TEST(Difference, MapsAreRedWhereTheFirstPictureIsBrighterAndBlueWhereItIsDarker) {
+    const Picture truth = flat(float3(1)), bright = flat(float3(2));
+    const DifferenceScale scale(truth, truth);
+    const auto pixel = [](Image const& image, int c) {
+        return std::to_integer<int>(image.pixels[static_cast<size_t>(c)]);
+    };
+    const Image red = differenceMap(bright, truth, scale, 0.25), blue = differenceMap(truth, bright, scale, 0.25);
+    const Image white = differenceMap(truth, truth, scale, 0.25);
+    EXPECT_GT(pixel(red, 0), pixel(red, 2) + 80);
+    EXPECT_GT(pixel(blue, 2), pixel(blue, 0) + 80);
+    for (int c = 0; c < 3; ++c) EXPECT_EQ(pixel(white, c), 255);
+}
+
+TEST(Html, TextIsEscapedAndBytesAreTheTestVectorsOfRfc4648) {
+    EXPECT_EQ(tools::escapedHtml("a<b> & \"c\""), "a&lt;b&gt; &amp; &quot;c&quot;");
+    const std::pair<const char*, const char*> vectors[] = {
+        { "", "" }, { "f", "Zg==" }, { "fo", "Zm8=" }, { "foo", "Zm9v" }, { "foob", "Zm9vYg==" }
+    };
+    for (auto const& [text, encoded] : vectors)
+        EXPECT_EQ(tools::base64(std::as_bytes(std::span(std::string_view(text)))), encoded);
+}
+
+} // namespace
+} // namespace filament::accuracy

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Comparison: the engine's pictures against the path tracer's, each difference explained by named approximations.
+///   In      rows of comparison/rows.json: a scene, samples, and how much may stay unexplained.
+///   Out     for every row the pictures of its ladder (Ladder.h) and what each step contributes.
+///   Thread  one at a time; the reference works on the job system.
+///   Fails   Unreadable, InvalidArgument: file, row, field. A row whose assets are not there is skipped with the
+///   reason. Memory  the pictures of a row, ten of them. Cost    for a row of 240 x 136 pixels and 256 samples, about
+///   20 core seconds.
+#pragma once
+
+#include "tools/accuracy/Results.h"
+#include "tools/accuracy/SceneLibrary.h"
+#include "tools/accuracy/comparison/Difference.h"
+#include "tools/accuracy/comparison/Ladder.h"
+
+#include <filament/Engine.h>
+
+#include <functional>
+
+namespace filament::accuracy {
+
+/// One line of the table.
+struct ComparisonRow {
+    std::string name, title, scene;
+    uint32_t samples = 256;         ///< a pixel, of the reference
+    double unexplained = 0.02;      ///< most relative RMS difference that may stay without a name, beyond the noise
+    std::vector<std::string> set{}; ///< settings of the engine, for all rungs
+};
+
+struct StepResult {
+    std::string name, title, approximate, exact;
+    double own = 0;   ///< RMS of what changes with this step
+    double left = 0;  ///< RMS against the path tracer, once this and all steps before it are exact
+    double share = 0; ///< of the whole squared difference; all shares add up to 1
+    double bias = 0;  ///< mean: > 0 where the approximation is too bright
+};
+
+struct RowResult {
+    ComparisonRow row;
+    uint2 size{ 0, 0 };
+    double rms = 0, bias = 0; ///< the engine's frame against the path tracer's
+    double flip = 0;          ///< mean, of the tone-mapped pictures
+    double eightBits = 0;     ///< RMS of what the engine's 8 bits a component change, in units of a display's white
+    double noise = 0;         ///< RMS standard error of the reference that follows the engine, relative
+    double tracedNoise = 0;   ///< the same of the path tracer's last picture
+    double unexplained = 0;   ///< the step without a name, noise taken off
+    double seconds = 0;       ///< of the references
+    std::vector<StepResult> steps, alternatives;
+    std::vector<Picture> pictures; ///< of the rungs, the path tracer's last
+    bool isExplained() const { return unexplained <= row.unexplained; }
+};
+
+struct ComparisonResults {
+    std::string machine, commit, date;
+    std::vector<RowResult> rows;
+    std::vector<Skipped> skipped;
+};
+
+struct ComparisonOptions {
+    std::filesystem::path rows, scenes;
+    conformance::SceneFolders folders{};
+    std::vector<std::string> chosen{}; ///< names; empty: all
+    Backend backend = Backend::Vulkan; ///< the other one draws the same bits
+    uint2 size{ 240, 136 };
+    uint32_t mostSamples = 1u << 20; ///< at most so many of the reference, whatever the row says
+};
+
+Result<std::vector<ComparisonRow>> readComparisonRows(std::filesystem::path const& file);
+
+/// What is being done, and how much of all is.
+using ComparisonProgress = std::function<void(std::string const& what, double done)>;
+
+Result<ComparisonResults> comparePictures(ComparisonOptions const& options, ComparisonProgress const& progress);
+
+} // namespace filament::accuracy

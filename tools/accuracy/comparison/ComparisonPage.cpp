@@ -1,0 +1,214 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/accuracy/comparison/ComparisonPage.h"
+
+#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/ImageWriter.h"
+#include "tools/common/Html.h"
+
+#include <nlohmann/json.hpp>
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <span>
+
+namespace filament::accuracy {
+namespace {
+
+namespace fs = std::filesystem;
+using Json = nlohmann::ordered_json;
+using tools::escapedHtml;
+
+constexpr double kFullColor = 0.25; // relative difference at which the maps are saturated
+constexpr size_t kMapsOfSteps = 3;  // of the largest steps
+constexpr const char* kCommand = "build/release/bin/filament-accuracy --compare";
+
+std::string percent(double value) { return fmt::format("{:.2f} %", value * 100); }
+std::string signedPercent(double value) { return fmt::format("{:+.2f} %", value * 100); }
+
+Json jsonOf(StepResult const& step) {
+    return { { "name", step.name },
+             { "own", step.own },
+             { "left", step.left },
+             { "share", step.share },
+             { "bias", step.bias } };
+}
+
+Json jsonOf(RowResult const& result) {
+    Json steps = Json::array(), others = Json::array();
+    for (StepResult const& step : result.steps) steps.push_back(jsonOf(step));
+    for (StepResult const& other : result.alternatives)
+        others.push_back({ { "name", other.name }, { "own", other.own }, { "bias", other.bias } });
+    return { { "name", result.row.name },
+             { "scene", result.row.scene },
+             { "samples", result.row.samples },
+             { "size", { result.size.x, result.size.y } },
+             { "rms", result.rms },
+             { "bias", result.bias },
+             { "flip", result.flip },
+             { "eightBits", result.eightBits },
+             { "noise", result.noise },
+             { "tracedNoise", result.tracedNoise },
+             { "unexplained", result.unexplained },
+             { "unexplainedLimit", result.row.unexplained },
+             { "referenceSeconds", result.seconds },
+             { "steps", std::move(steps) },
+             { "alternatives", std::move(others) } };
+}
+
+/// Writes a picture and gives it back as an element of the page.
+class Pictures {
+public:
+    explicit Pictures(fs::path folder) : mFolder(std::move(folder)) {}
+
+    Result<std::string> figure(std::string const& name, Image const& image, std::string const& caption) const {
+        const fs::path path = mFolder / (name + ".png");
+        if (const Result<void> written = assets::writePng(path, image.width, image.height, image.pixels); !written)
+            return written.error();
+        const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
+        if (!bytes) return bytes.error();
+        return fmt::format(
+                "<figure style=\"display:inline-block;margin:.3rem\"><img width=\"{}\" height=\"{}\" alt=\"{}\" "
+                "src=\"data:image/png;base64,{}\"><figcaption class=\"small\">{}</figcaption></figure>",
+                image.width, image.height, escapedHtml(caption), tools::base64(*bytes), escapedHtml(caption));
+    }
+
+private:
+    fs::path mFolder;
+};
+
+/// Steps by how much they change, largest first; the unexplained one is shown in any case.
+std::vector<size_t> largestSteps(RowResult const& result) {
+    std::vector<size_t> order;
+    for (size_t i = 0; i < result.steps.size(); ++i) {
+        if (result.steps[i].name != kUnexplained) order.push_back(i);
+    }
+    std::ranges::stable_sort(order, std::ranges::greater{}, [&](size_t i) { return result.steps[i].own; });
+    order.resize(std::min(order.size(), kMapsOfSteps));
+    return order;
+}
+
+Result<std::string> figuresOf(RowResult const& result, Pictures const& pictures) {
+    Picture const &engine = result.pictures.front(), &truth = result.pictures.back();
+    const DifferenceScale scale(truth, result.pictures[1]);
+    struct Wanted {
+        std::string name, caption;
+        Image image;
+    };
+    std::vector<Wanted> wanted{ { "engine", "engine", tonemapped(engine) },
+                                { "traced", "path tracer", tonemapped(truth) },
+                                { "difference", fmt::format("difference, {}", percent(result.rms)),
+                                  differenceMap(engine, truth, scale, kFullColor) } };
+    const auto addStep = [&](size_t i) {
+        StepResult const& step = result.steps[i];
+        wanted.push_back({ step.name, fmt::format("{}, {}", step.title, percent(step.own)),
+                           differenceMap(result.pictures[i], result.pictures[i + 1], scale, kFullColor) });
+    };
+    for (const size_t i : largestSteps(result)) addStep(i);
+    for (size_t i = 0; i < result.steps.size(); ++i) {
+        if (result.steps[i].name == kUnexplained) addStep(i);
+    }
+    std::string html;
+    for (Wanted const& one : wanted) {
+        Result<std::string> figure = pictures.figure(result.row.name + "-" + one.name, one.image, one.caption);
+        if (!figure) return figure;
+        html += *figure;
+    }
+    return html;
+}
+
+std::string tableOf(RowResult const& result) {
+    std::string html =
+            "<table><tr><th>made exact</th><th>changes, RMS</th><th>mean</th><th>share</th><th>left, RMS</th>"
+            "</tr>";
+    html += fmt::format("<tr class=\"standard\"><td>the engine's frame</td><td></td><td></td><td></td><td>{}</td></tr>",
+                        percent(result.rms));
+    for (StepResult const& step : result.steps) {
+        html += fmt::format(
+                "<tr><td title=\"{}; exact: {}\">{}</td><td>{}</td><td>{}</td><td>{:.1f} %</td><td>{}</td></tr>",
+                escapedHtml(step.approximate), escapedHtml(step.exact), escapedHtml(step.title), percent(step.own),
+                signedPercent(step.bias), step.share * 100, percent(step.left));
+    }
+    return html + "</table>";
+}
+
+std::string notesOf(RowResult const& result) {
+    std::string html = fmt::format(
+            "<p class=\"small\">{} Scene <code>{}</code>, {} x {}, {} samples a pixel: standard error {} where the "
+            "reference follows the engine, {} of the path tracer. Unexplained beyond the first: {}, at most {} "
+            "allowed. Mean "
+            "FLIP {:.4f}. 8 bits a component: {} of white.",
+            result.isExplained() ? "" : "<b>More than allowed is unexplained.</b>", escapedHtml(result.row.scene),
+            result.size.x, result.size.y, result.row.samples, percent(result.noise), percent(result.tracedNoise),
+            percent(result.unexplained), percent(result.row.unexplained), result.flip, percent(result.eightBits));
+    for (StepResult const& other : result.alternatives)
+        html += fmt::format(" {}: {} RMS, {} mean ({}).", escapedHtml(other.title), percent(other.own),
+                            signedPercent(other.bias), escapedHtml(other.approximate));
+    return html + fmt::format("<br><code>{} {}</code></p>", kCommand, escapedHtml(result.row.name));
+}
+
+constexpr const char* kIntroduction =
+        R"(<section id="against-the-path-tracer"><h2>Against the path tracer</h2><p>The engine's frame and what light would
+do, step by step: each line makes one named approximation exact, first in the engine, below the line "Unexplained" in the
+path tracer (<code>tools/reference</code>), which above it computes what the engine computes. <b>Changes</b> is what the step
+does to the picture, <b>mean</b> how much brighter the approximation is, <b>share</b> its part of the squared difference (they
+add up to 100 %; a negative one hides another), <b>left</b> what then still differs from the path tracer. Differences are
+relative to the mean of engine and path tracer; maps are red where the upper picture of a step is brighter, blue
+where it is darker, full at 25 %, grey where nothing is compared. A mouse over a line says what is exact in it.</p>)";
+
+Result<std::string> fragmentOf(ComparisonResults const& results, Pictures const& pictures) {
+    std::string html = kIntroduction;
+    html += fmt::format("<p class=\"small\">Commit {}, {}, on {}. All of it: <code>{}</code></p>",
+                        escapedHtml(results.commit), escapedHtml(results.date), escapedHtml(results.machine), kCommand);
+    for (RowResult const& row : results.rows) {
+        const Result<std::string> figures = figuresOf(row, pictures);
+        if (!figures) return figures.error();
+        html += fmt::format("<h3 id=\"compare-{}\">{}</h3>{}{}{}", escapedHtml(row.row.name),
+                            escapedHtml(row.row.title), *figures, tableOf(row), notesOf(row));
+    }
+    for (Skipped const& one : results.skipped)
+        html += fmt::format("<p class=\"small\">{}: not compared, no {}</p>", escapedHtml(one.name),
+                            escapedHtml(one.reason));
+    return html + "</section>\n";
+}
+
+Result<void> writeText(fs::path const& path, std::string const& text) {
+    return assets::replaceFile(path, std::as_bytes(std::span(text)));
+}
+
+} // namespace
+
+Json jsonOf(ComparisonResults const& results) {
+    Json rows = Json::array(), skipped = Json::array();
+    for (RowResult const& row : results.rows) rows.push_back(jsonOf(row));
+    for (Skipped const& one : results.skipped) skipped.push_back({ { "name", one.name }, { "reason", one.reason } });
+    return { { "machine", results.machine },
+             { "commit", results.commit },
+             { "date", results.date },
+             { "rows", std::move(rows) },
+             { "skipped", std::move(skipped) } };
+}
+
+Result<void> writeComparison(ComparisonResults const& results, fs::path const& out) {
+    const Result<std::string> fragment = fragmentOf(results, Pictures(out / "comparison"));
+    if (!fragment) return fragment.error();
+    const std::string json = jsonOf(results).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+    if (const Result<void> written = writeText(out / "comparison.json", json); !written) return written;
+    return writeText(out / "comparison.fragment.html", *fragment);
+}
+
+std::string textOf(ComparisonResults const& results) {
+    std::string text;
+    for (RowResult const& row : results.rows) {
+        text += fmt::format("{}: RMS {}, mean {}, noise {}, unexplained {} of at most {}{}\n", row.row.name,
+                            percent(row.rms), signedPercent(row.bias), percent(row.noise), percent(row.unexplained),
+                            percent(row.row.unexplained), row.isExplained() ? "" : "  TOO MUCH");
+        for (StepResult const& step : row.steps) {
+            text += fmt::format("    {:<18} changes {:>8}  mean {:>8}  share {:>6.1f} %  left {:>8}\n", step.name,
+                                percent(step.own), signedPercent(step.bias), step.share * 100, percent(step.left));
+        }
+    }
+    return text;
+}
+
+} // namespace filament::accuracy

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ComparisonPage: what comparePictures() found, as a section of the accuracy report and as JSON.
+///   Out     OUT/comparison.json, OUT/comparison/ROW-*.png, OUT/comparison.fragment.html with the pictures in it, which
+///           the report includes.
+///   Fails   Unreadable with the path.
+///   Thread  one.
+#pragma once
+
+#include "tools/accuracy/comparison/Comparison.h"
+
+#include <nlohmann/json_fwd.hpp>
+
+namespace filament::accuracy {
+
+nlohmann::ordered_json jsonOf(ComparisonResults const& results);
+
+Result<void> writeComparison(ComparisonResults const& results, std::filesystem::path const& out);
+
+/// What a terminal shows: a line a row, and its steps.
+std::string textOf(ComparisonResults const& results);
+
+} // namespace filament::accuracy

@@ -1,0 +1,118 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/accuracy/comparison/Ladder.h"
+
+#include <algorithm>
+
+namespace filament::accuracy {
+namespace {
+
+using reference::BsdfModel;
+using reference::CouplingTerm;
+using reference::DiffuseLight;
+using reference::EnergyTerm;
+using reference::Integrator;
+using reference::SpecularLight;
+
+constexpr uint32_t kSupersampling = 4;
+constexpr uint32_t kLevels = 6; // of a cube of 512 texels a face: assets::specularLevelCount()
+
+/// Tables as large as they go: what is left of their error is below that of half floats.
+std::vector<std::string> finestTables() {
+    return { "environment.faceSize=512", "environment.samples=1024", "dfgTableSize=256" };
+}
+
+std::vector<Rung> allRungs() {
+    return {
+        { .name = "oneSample",
+          .title = "One sample a pixel",
+          .approximate = "the centre of a pixel, textures through mip levels",
+          .exact = "16 samples a pixel" },
+        { .supersampling = kSupersampling,
+          .name = "tables",
+          .title = "Resolution of look-up tables",
+          .approximate = "environment of 256 texels a face, each integrating 512 pieces of the sky; albedo table of 64 "
+                         "texels a side",
+          .exact = "512 texels, 1024 pieces; 256 texels",
+          .needsEnvironment = true },
+        { .supersampling = kSupersampling,
+          .set = finestTables(),
+          .name = kUnexplained,
+          .title = "Unexplained",
+          .approximate = "the engine: fp32 shaders, half floats, texels, a rasteriser",
+          .exact = "the same formulas in double precision, rays" },
+        { .kind = RungKind::Reference,
+          .integrator = Integrator::Unoccluded,
+          .bsdf = { .specularLight = SpecularLight::SplitSum,
+                    .splitSumLevels = kLevels,
+                    .diffuseLight = DiffuseLight::Harmonics },
+          .name = "levels",
+          .title = "Roughness between levels",
+          .approximate = "a mix of the two nearest of six pre-filtered roughnesses",
+          .exact = "the environment pre-filtered for every roughness",
+          .needsEnvironment = true },
+        { .kind = RungKind::Reference,
+          .integrator = Integrator::Unoccluded,
+          .bsdf = { .specularLight = SpecularLight::SplitSum, .diffuseLight = DiffuseLight::Harmonics },
+          .name = "splitSum",
+          .title = "Split sum",
+          .approximate = "the environment filtered by the lobe as seen along the normal, times the lobe's albedo",
+          .exact = "the integral of environment and lobe",
+          .needsEnvironment = true },
+        { .kind = RungKind::Reference,
+          .integrator = Integrator::Unoccluded,
+          .bsdf = { .diffuseLight = DiffuseLight::Harmonics },
+          .name = "harmonics",
+          .title = "Spherical harmonics",
+          .approximate = "irradiance by three bands",
+          .exact = "the integral over the hemisphere",
+          .needsEnvironment = true },
+        { .kind = RungKind::Reference,
+          .integrator = Integrator::Unoccluded,
+          .name = "occlusion",
+          .title = "Missing shadows",
+          .approximate = "nothing blocks light but the material's occlusion map",
+          .exact = "rays find what blocks it" },
+        { .kind = RungKind::Reference,
+          .maxBounces = 1,
+          .name = "interreflection",
+          .title = "Missing inter-reflection",
+          .approximate = "light that was reflected once",
+          .exact = "every bounce" },
+        { .kind = RungKind::Reference,
+          .name = "coupling",
+          .title = "Uncoupled lobes",
+          .approximate = "under suns and lamps the diffuse lobe gets what the specular lobe has reflected, too",
+          .exact = "it gets the rest" },
+        { .kind = RungKind::Reference,
+          .bsdf = { .coupling = CouplingTerm::Always },
+          .name = "schlick",
+          .title = "Schlick's Fresnel term",
+          .approximate = "Schlick's fit",
+          .exact = "Fresnel's equations" },
+        { .kind = RungKind::Reference, .bsdf = { .fresnel = FresnelTerm::Exact, .coupling = CouplingTerm::Always } },
+    };
+}
+
+} // namespace
+
+std::vector<Rung> ladder(bool hasEnvironment) {
+    std::vector<Rung> rungs = allRungs();
+    if (!hasEnvironment) std::erase_if(rungs, [](Rung const& rung) { return rung.needsEnvironment; });
+    return rungs;
+}
+
+std::span<const Alternative> alternatives() {
+    static const Alternative kAll[] = {
+        { .bsdf = { .fresnel = FresnelTerm::Exact,
+                    .energy = EnergyTerm::SingleScatter,
+                    .coupling = CouplingTerm::Always },
+          .name = "energyCompensation",
+          .title = "Energy compensation",
+          .text = "the factor that gives back what microfacets lose by counting one bounce: what leaving it out "
+                  "changes "
+                  "bounds what is wrong with it" },
+    };
+    return kAll;
+}
+
+} // namespace filament::accuracy

@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Ladder: from the engine's picture to the path tracer's, one named approximation at a time.
+///   Idea     the first rung is what the engine draws, the last one what light does. Between two neighbours exactly one
+///            approximation is made exact, first in the engine, then, once both compute the same thing, in the
+///            reference: the differences of all neighbours add up to the whole difference, pixel by pixel, and each has
+///            a name. One of them has none: between the engine at its finest and the reference with the same
+///            approximations there should be nothing.
+///   Adding   one row of kRungs in Ladder.cpp.
+///   Thread   any; constants.
+#pragma once
+
+#include "tools/reference/Reference.h"
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace filament::accuracy {
+
+enum class RungKind : uint8_t { Engine, Reference };
+
+/// One picture of the ladder.
+struct Rung {
+    RungKind kind = RungKind::Engine;
+    // Of the engine.
+    uint32_t supersampling = 1;     ///< a side; the mean of so many squared samples
+    std::vector<std::string> set{}; ///< settings beyond the scene's own
+    // Of the reference.
+    reference::Integrator integrator = reference::Integrator::Path;
+    uint32_t maxBounces = 64;
+    reference::BsdfModel bsdf{};
+
+    // What the next rung does better than this one. Not of the last one.
+    std::string_view name{};        ///< "splitSum"
+    std::string_view title{};       ///< "Split sum"
+    std::string_view approximate{}; ///< what is done here
+    std::string_view exact{};       ///< what the next rung does
+    bool needsEnvironment = false;  ///< without one, this rung is the next one
+};
+
+/// The name of the step that should change nothing.
+inline constexpr std::string_view kUnexplained = "unexplained";
+
+/// Top: the engine's frame. Bottom: the path tracer's. Rungs that mean nothing without an environment are left out.
+std::vector<Rung> ladder(bool hasEnvironment);
+
+/// What no rung holds: a change of the whole model, to be seen beside the ladder.
+struct Alternative {
+    reference::BsdfModel bsdf{};
+    std::string_view name{}, title{}, text{};
+};
+std::span<const Alternative> alternatives();
+
+} // namespace filament::accuracy

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Html: text and bytes as they may stand in an HTML page.
+///   Thread  any; pure.
+#pragma once
+
+#include <cstddef>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace filament::tools {
+
+/// For text and for quoted attributes.
+std::string escapedHtml(std::string_view text);
+/// RFC 4648, section 4: for data: URLs.
+std::string base64(std::span<const std::byte> bytes);
+
+} // namespace filament::tools
