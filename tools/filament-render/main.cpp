@@ -3,6 +3,7 @@
 // two. Exit status 0: everything asked for was drawn and, with two backends, all pixels are equal (within --tolerance).
 #include "filament_core/assets/EnvironmentFile.h"
 #include "tools/common/Console.h"
+#include "tools/common/Machine.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/filament-render/BackendRun.h"
 #include "tools/filament-render/Options.h"
@@ -93,6 +94,8 @@ Result<void> writeCosts(Options const& options, std::vector<BackendRun> const& r
             costs = run.costs;
     }
     if (!costs) return {};
+    costs->machine = describeMachine();
+    costs->commit = builtCommit();
     const std::string text = toJson(*costs);
     return assets::replaceFile(options.measureCosts, std::as_bytes(std::span(text)));
 }
