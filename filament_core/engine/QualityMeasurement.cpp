@@ -11,7 +11,6 @@
 #include <cmath>
 #include <cstring>
 #include <numeric>
-#include <span>
 
 namespace filament {
 namespace {
@@ -20,14 +19,27 @@ constexpr uint32_t kFewestRounds = 15; // half of it is enough for the median to
 constexpr double kDarkest = 0.01;      // of the mean: what is darker counts as that
 constexpr double kMostLinear = 65504;  // of half floats
 
+double linearFromHalf(uint16_t half) {
+    const auto value = static_cast<double>(floatFromHalf(half));
+    return std::isfinite(value) ? std::clamp(value, 0.0, kMostLinear) : kMostLinear;
+}
+
+// IEC 61966-2-1.
+double linearFromCode(std::byte code) {
+    const double c = std::to_integer<int>(code) / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
 double luminanceAt(Image const& image, size_t pixel) {
-    uint16_t bits[3];
-    std::memcpy(bits, image.pixels.data() + pixel * 8, sizeof(bits));
-    const auto linear = [](uint16_t half) {
-        const auto value = static_cast<double>(floatFromHalf(half));
-        return std::isfinite(value) ? std::clamp(value, 0.0, kMostLinear) : kMostLinear;
-    };
-    return 0.2126 * linear(bits[0]) + 0.7152 * linear(bits[1]) + 0.0722 * linear(bits[2]);
+    double3 color;
+    if (image.format == Format::RGBA16F) {
+        uint16_t bits[3];
+        std::memcpy(bits, image.pixels.data() + pixel * 8, sizeof(bits));
+        color = { linearFromHalf(bits[0]), linearFromHalf(bits[1]), linearFromHalf(bits[2]) };
+    } else {
+        for (int c = 0; c < 3; ++c) color[c] = linearFromCode(image.pixels[pixel * 4 + static_cast<size_t>(c)]);
+    }
+    return glm::dot(color, double3(0.2126, 0.7152, 0.0722));
 }
 
 double relativeError(Image const& image, Image const& exact) {
@@ -92,9 +104,9 @@ public:
         QualityEffect effect{ .name = std::string(choice.name), .values = {} };
         for (Setting& setting : settings) {
             effect.values.push_back({ .value = setting.value });
-            const Result<Image> picture = draw(setting.pictured);
-            if (!picture) return picture.error();
-            effect.values.back().error = relativeError(*picture, *mExact);
+            const Result<double> error = errorOf(setting.pictured);
+            if (!error) return error.error();
+            effect.values.back().error = *error;
             if (const Result<double> warmUp = time(setting.timed); !warmUp) return warmUp.error();
         }
         for (uint32_t round = 0; round < rounds; ++round) {
@@ -110,9 +122,13 @@ public:
     }
 
     Result<void> drawExact() {
-        Result<Image> exact = draw(qualityPreset(QualityPreset::Reference));
-        if (!exact) return exact.error();
-        mExact = std::move(*exact);
+        const Quality exact = qualityPreset(QualityPreset::Reference);
+        Result<Image> linear = draw(exact, mLinear);
+        if (!linear) return linear.error();
+        Result<Image> display = draw(exact, mDisplay);
+        if (!display) return display.error();
+        mExactLinear = std::move(*linear);
+        mExactDisplay = std::move(*display);
         return {};
     }
 
@@ -133,11 +149,21 @@ private:
         return settings;
     }
 
-    Result<Image> draw(Quality const& quality) {
+    /// What changes no light changes the tone mapper, or nothing.
+    Result<double> errorOf(Quality const& quality) {
+        const Result<Image> linear = draw(quality, mLinear);
+        if (!linear) return linear.error();
+        if (const double error = relativeError(*linear, mExactLinear); error > 0) return error;
+        const Result<Image> display = draw(quality, mDisplay);
+        if (!display) return display.error();
+        return relativeError(*display, mExactDisplay);
+    }
+
+    Result<Image> draw(Quality const& quality, SwapChain into) {
         View view = mView;
         view.quality = quality;
-        mPictured.render(mScene, view, mLinear);
-        return mPictured.waitPixels(mPictured.readPixels(mLinear));
+        mPictured.render(mScene, view, into);
+        return mPictured.waitPixels(mPictured.readPixels(into));
     }
 
     Result<double> time(Quality const& quality) {
@@ -170,7 +196,7 @@ private:
     View mView;
     Renderer mTimed, mPictured;
     Owned<SwapChain> mDisplay, mLinear;
-    std::optional<Image> mExact;
+    Image mExactLinear, mExactDisplay;
 };
 
 Result<void> check(CostMeasurement const& measurement) {

@@ -51,8 +51,11 @@ int compare(Options const& options) {
         tools::printWarning(fmt::format("row {} skipped: no {}; give --assets", one.name, one.reason));
     std::fputs(textOf(*results).c_str(), stdout);
     std::printf("%s\n", (options.out / "comparison.fragment.html").c_str());
-    const bool allExplained = std::ranges::all_of(results->rows, &RowResult::isExplained);
-    return allExplained ? 0 : failed(fail(ErrorCode::Internal, "more than a row allows is unexplained, see above"));
+    if (!std::ranges::all_of(results->closedForms, &ClosedForm::agrees))
+        return failed(fail(ErrorCode::Internal, "the path tracer contradicts a closed form, see above"));
+    if (!std::ranges::all_of(results->rows, &RowResult::isExplained))
+        return failed(fail(ErrorCode::Internal, "more than a row allows is unexplained, see above"));
+    return 0;
 }
 
 int run(Options const& options) {

@@ -7,7 +7,8 @@
 ///   default
 ///            value of the same choice is used: both were measured in turns, so that the load of the machine cancels.
 ///   Error    root mean square of (picture - exact) / (exact + 1 % of its mean), luminance, scene-linear: everything
-///            else at its most exact. 0 for the value that the others are compared with.
+///            else at its most exact. 0 for the value that the others are compared with. What changes nothing there is
+///            compared as displayed, behind the tone mapper.
 ///   File     JSON, see docs/quality.md: { "machine", "driver", "commit", "size", "effects": [ ... ] }.
 ///   Fails    readQualityCosts(): Corrupt or InvalidArgument with file, element, and what would be right. Whoever makes
 ///   a

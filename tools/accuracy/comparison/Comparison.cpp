@@ -19,6 +19,8 @@ using conformance::JsonReader;
 using conformance::SceneSpec;
 using reference::ReferenceImage;
 
+constexpr uint32_t kClosedFormSamples = 1024;
+
 /// One row while it is made.
 class RowMaker {
 public:
@@ -208,6 +210,9 @@ Result<ComparisonResults> comparePictures(ComparisonOptions const& options, Comp
     if (!studio) return studio.error();
     jobs::JobSystem jobs;
     ComparisonResults results;
+    Result<std::vector<ClosedForm>> forms = checkClosedForms(*scenes, options.folders, kClosedFormSamples, jobs);
+    if (!forms) return forms.error();
+    results.closedForms = std::move(*forms);
     for (size_t i = 0; i < rows->size(); ++i) {
         ComparisonRow const& row = (*rows)[i];
         const Result<SceneSpec const*> scene = scenes->find(row.scene);

@@ -10,6 +10,7 @@
 
 #include "tools/accuracy/Results.h"
 #include "tools/accuracy/SceneLibrary.h"
+#include "tools/accuracy/comparison/ClosedForms.h"
 #include "tools/accuracy/comparison/Difference.h"
 #include "tools/accuracy/comparison/Ladder.h"
 
@@ -52,6 +53,7 @@ struct RowResult {
 
 struct ComparisonResults {
     std::string machine, commit, date;
+    std::vector<ClosedForm> closedForms; ///< the path tracer's own check
     std::vector<RowResult> rows;
     std::vector<Skipped> skipped;
 };

@@ -34,6 +34,14 @@ Json jsonOf(StepResult const& step) {
              { "bias", step.bias } };
 }
 
+Json jsonOf(ClosedForm const& form) {
+    return { { "name", form.name },
+             { "formula", form.formula },
+             { "expected", form.expected },
+             { "mean", form.mean },
+             { "standardError", form.standardError } };
+}
+
 Json jsonOf(RowResult const& result) {
     Json steps = Json::array(), others = Json::array();
     for (StepResult const& step : result.steps) steps.push_back(jsonOf(step));
@@ -156,10 +164,26 @@ add up to 100 %; a negative one hides another), <b>left</b> what then still diff
 relative to the mean of engine and path tracer; maps are red where the upper picture of a step is brighter, blue
 where it is darker, full at 25 %, grey where nothing is compared. A mouse over a line says what is exact in it.</p>)";
 
+std::string closedFormTable(ComparisonResults const& results) {
+    std::string html =
+            "<p>The path tracer itself, where radiance is a formula (more of them: <code>ctest -R "
+            "tools_reference</code>):</p><table><tr><th>scene</th><th>formula</th><th>expected</th><th>traced"
+            "</th><th>standard error</th><th>off by</th></tr>";
+    for (ClosedForm const& form : results.closedForms) {
+        html += fmt::format(
+                "<tr><td>{}</td><td>{}</td><td>{:.6f}</td><td>{:.6f}</td><td>{:.1e}</td><td>{:.1f} standard "
+                "errors{}</td></tr>",
+                escapedHtml(form.name), escapedHtml(form.formula), form.expected, form.mean, form.standardError,
+                form.deviations(), form.agrees() ? "" : " <b>too much</b>");
+    }
+    return html + "</table>";
+}
+
 Result<std::string> fragmentOf(ComparisonResults const& results, Pictures const& pictures) {
     std::string html = kIntroduction;
     html += fmt::format("<p class=\"small\">Commit {}, {}, on {}. All of it: <code>{}</code></p>",
                         escapedHtml(results.commit), escapedHtml(results.date), escapedHtml(results.machine), kCommand);
+    html += closedFormTable(results);
     for (RowResult const& row : results.rows) {
         const Result<std::string> figures = figuresOf(row, pictures);
         if (!figures) return figures.error();
@@ -179,14 +203,12 @@ Result<void> writeText(fs::path const& path, std::string const& text) {
 } // namespace
 
 Json jsonOf(ComparisonResults const& results) {
-    Json rows = Json::array(), skipped = Json::array();
+    Json rows = Json::array(), skipped = Json::array(), forms = Json::array();
+    for (ClosedForm const& form : results.closedForms) forms.push_back(jsonOf(form));
     for (RowResult const& row : results.rows) rows.push_back(jsonOf(row));
     for (Skipped const& one : results.skipped) skipped.push_back({ { "name", one.name }, { "reason", one.reason } });
-    return { { "machine", results.machine },
-             { "commit", results.commit },
-             { "date", results.date },
-             { "rows", std::move(rows) },
-             { "skipped", std::move(skipped) } };
+    return { { "machine", results.machine },      { "commit", results.commit }, { "date", results.date },
+             { "closedForms", std::move(forms) }, { "rows", std::move(rows) },  { "skipped", std::move(skipped) } };
 }
 
 Result<void> writeComparison(ComparisonResults const& results, fs::path const& out) {
@@ -199,6 +221,10 @@ Result<void> writeComparison(ComparisonResults const& results, fs::path const& o
 
 std::string textOf(ComparisonResults const& results) {
     std::string text;
+    for (ClosedForm const& form : results.closedForms) {
+        text += fmt::format("closed form: {}: {:.6f} for {:.6f}, {:.1f} standard errors off{}\n", form.name, form.mean,
+                            form.expected, form.deviations(), form.agrees() ? "" : "  TOO MUCH");
+    }
     for (RowResult const& row : results.rows) {
         text += fmt::format("{}: RMS {}, mean {}, noise {}, unexplained {} of at most {}{}\n", row.row.name,
                             percent(row.rms), signedPercent(row.bias), percent(row.noise), percent(row.unexplained),

@@ -73,6 +73,22 @@ TEST(Comparison, UnderASkyTheStepsAddUpToTheWholeAndTheRestIsSmall) {
     EXPECT_GT(row.eightBits, 0.2 / 255);
 }
 
+TEST(Comparison, ThePathTracerAgreesWithClosedFormsWithinItsError) {
+    const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
+    ASSERT_TRUE(scenes) << scenes.error().message;
+    jobs::JobSystem jobs;
+    const Result<std::vector<ClosedForm>> forms = checkClosedForms(*scenes, { scratch() / "work", {} }, 256, jobs);
+    ASSERT_TRUE(forms) << forms.error().message;
+    ASSERT_EQ(forms->size(), 4u);
+    for (ClosedForm const& form : *forms) {
+        EXPECT_TRUE(form.agrees()) << form.name << ": " << form.mean << " for " << form.expected;
+        EXPECT_LT(form.standardError, 0.01 * form.expected) << form.name;
+        ClosedForm wrong = form;
+        wrong.expected *= 1.02;
+        EXPECT_FALSE(wrong.agrees()) << form.name << ": two per cent more would be noticed";
+    }
+}
+
 TEST(Comparison, AnEngineThatShadesOtherwiseIsNotExplained) {
     const fs::path rows = rowsFile("wrong", R"([
         {"name": "masking", "scene": "metals/sun", "unexplained": 0.01, "set": ["specularVisibility=uncorrelated"]},
