@@ -30,6 +30,7 @@ public:
             Result<EffectResult> result = measureEffect(effect);
             if (!result) return fail(result.error().code, "effect {}: {}", effect.name, result.error().message);
             mResults.effects.push_back(std::move(*result));
+            for (std::unique_ptr<Studio> const& studio : mStudios) studio->forgetUnusual();
         }
         mResults.frame = mOptions.frame;
         mResults.size = mOptions.size;

@@ -59,8 +59,8 @@ struct Studio::Equipment {
 
     Engine engine;
     Renderer renderer;
-    std::map<std::string, std::shared_ptr<Model>> models;
-    std::map<std::string, std::shared_ptr<Environment>> environments;
+    std::map<std::string, Loaded<Model>> models;
+    std::map<std::string, Loaded<Environment>> environments;
 };
 
 Studio::Studio(Backend backend, conformance::SceneFolders const& folders) : mBackend(backend), mFolders(folders) {}
@@ -90,13 +90,13 @@ Result<Studio::Equipment*> Studio::equipment(Settings const& settings) {
 Result<std::shared_ptr<Model>> Studio::model(Equipment& used, SceneSpec const& spec, Settings const& settings) {
     const Result<fs::path> file = conformance::modelFile(spec, mFolders);
     if (!file) return file.error();
-    std::shared_ptr<Model>& known = used.models[file->string() + settings.modelKey];
-    if (!known) {
+    Loaded<Model>& known = used.models[file->string() + settings.modelKey];
+    if (!known.file) {
         Result<Model> loaded = loadGltf(used.engine, *file, settings.model);
         if (!loaded) return loaded.error();
-        known = std::make_shared<Model>(std::move(*loaded));
+        known = { std::make_shared<Model>(std::move(*loaded)), settings.modelKey.empty() };
     }
-    return known;
+    return known.file;
 }
 
 Result<std::shared_ptr<Environment>> Studio::environment(Equipment& used, SceneSpec const& spec,
@@ -104,13 +104,13 @@ Result<std::shared_ptr<Environment>> Studio::environment(Equipment& used, SceneS
     const Result<fs::path> file = conformance::environmentFile(spec, mFolders);
     if (!file) return file.error();
     if (file->empty()) return std::shared_ptr<Environment>();
-    std::shared_ptr<Environment>& known = used.environments[file->string() + settings.environmentKey];
-    if (!known) {
+    Loaded<Environment>& known = used.environments[file->string() + settings.environmentKey];
+    if (!known.file) {
         Result<Environment> loaded = loadEnvironment(used.engine, *file, settings.environment);
         if (!loaded) return loaded.error();
-        known = std::make_shared<Environment>(std::move(*loaded));
+        known = { std::make_shared<Environment>(std::move(*loaded)), settings.environmentKey.empty() };
     }
-    return known;
+    return known.file;
 }
 
 Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const& settings, uint2 size, bool linear) {
@@ -164,6 +164,16 @@ Result<double> Studio::timeModel(SceneSpec const& spec, Settings const& settings
     if (!loaded) return loaded.error();
     engine.waitIdle();
     return millisecondsSince(begin);
+}
+
+void Studio::forgetUnusual() {
+    const auto isUnusual = [](auto const& entry) {
+        return !entry.second.isUsual && entry.second.file.use_count() == 1;
+    };
+    for (auto& [key, used] : mEquipment) {
+        std::erase_if(used->models, isUnusual);
+        std::erase_if(used->environments, isUnusual);
+    }
 }
 
 } // namespace filament::accuracy

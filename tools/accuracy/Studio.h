@@ -2,7 +2,7 @@
 /// Studio: one backend, an engine for each set of engine options; Take: one scene under one set of settings, ready to
 /// be drawn again and again.
 ///   In      scene files and Settings.   Out: pictures, milliseconds.
-///   Memory  what a Take needs is loaded once a studio and shared; it stays until the studio ends. Takes end before it.
+///   Memory  what a Take needs is loaded once a studio and shared; see forgetUnusual(). Takes end before their studio.
 ///   Thread  one a studio.
 ///   Fails   what loaders and device say, in one line.
 ///   Cost    the first picture of a new combination compiles a pipeline: up to a second.
@@ -22,6 +22,13 @@ namespace filament::accuracy {
 
 /// The scene's own view, as the settings to start from.
 Settings settingsOf(conformance::SceneSpec const& spec);
+
+/// A file that was loaded, shared by takes.
+template <class T>
+struct Loaded {
+    std::shared_ptr<T> file;
+    bool isUsual = true; ///< with the default options
+};
 
 /// What a take draws, and what that needs to stay.
 struct TakeParts {
@@ -61,6 +68,8 @@ public:
     /// Milliseconds of loading one file again, its cache empty.
     Result<double> timeEnvironment(conformance::SceneSpec const& spec, Settings const& settings);
     Result<double> timeModel(conformance::SceneSpec const& spec, Settings const& settings);
+    /// Drops files that no Take uses and that were loaded with options of their own: a cube of 2048 is half a gigabyte.
+    void forgetUnusual();
 
 private:
     struct Equipment; // one engine and what it has loaded

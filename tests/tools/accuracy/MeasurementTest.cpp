@@ -9,7 +9,7 @@ namespace {
 
 const std::filesystem::path kFolder = std::filesystem::path(FILAMENT_SOURCE_DIR) / "tools" / "accuracy";
 
-EffectResult measured(std::string const& name, std::vector<Backend> backends) {
+Results measuredAll(std::string const& name, std::vector<Backend> backends) {
     const Result<std::vector<Effect>> effects = readEffects(kFolder / "effects.json");
     const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
     if (!effects || !scenes) return {};
@@ -25,7 +25,12 @@ EffectResult measured(std::string const& name, std::vector<Backend> backends) {
         last = done;
     });
     EXPECT_TRUE(results) << results.error().message;
-    return results && results->effects.size() == 1 ? results->effects.front() : EffectResult{};
+    return results ? *results : Results{};
+}
+
+EffectResult measured(std::string const& name, std::vector<Backend> backends) {
+    const Results results = measuredAll(name, std::move(backends));
+    return results.effects.size() == 1 ? results.effects.front() : EffectResult{};
 }
 
 TEST(Measurement, ExactMaskingIsNearestToThePathTracerAndEveryValueIsTimedOnBothBackends) {
@@ -49,6 +54,21 @@ TEST(Measurement, WhiteMetalsVanishInAFurnaceOnlyIfTheirEnergyIsGivenBack) {
     ASSERT_EQ(result.values.size(), 2u);
     EXPECT_LT(result.values[0].own.rms, 0.001);
     EXPECT_GT(result.values[1].own.rms, 0.1);
+}
+
+TEST(Measurement, TheApisPartOnlyWithoutExactShaders) {
+    const EffectResult result = measured("exact", { Backend::Vulkan, Backend::Gles });
+    ASSERT_EQ(result.values.size(), 2u);
+    EXPECT_EQ(result.values[0].own.max, 0.0); // on: the same bits
+    EXPECT_GT(result.values[1].own.max, 0.0);
+    EXPECT_LT(result.values[1].own.rms, 0.001);
+}
+
+TEST(Measurement, AnEffectThatNeedsTwoBackendsIsSkippedWithOneAndSaysSo) {
+    const Results results = measuredAll("exact", { Backend::Gles });
+    EXPECT_TRUE(results.effects.empty());
+    ASSERT_EQ(results.skipped.size(), 1u);
+    EXPECT_EQ(results.skipped[0].reason, "two backends");
 }
 
 TEST(Measurement, AnUnknownEffectIsRefusedWithTheNearestName) {
