@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/EnvironmentFile.h"
 #include "tools/common/Console.h"
+#include "tools/common/Html.h"
 
 #include <fmt/ranges.h>
 
@@ -16,36 +17,6 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kCommand = "build/release/bin/filament-accuracy";
-
-std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        if (c == '&')
-            result += "&amp;";
-        else if (c == '<')
-            result += "&lt;";
-        else if (c == '>')
-            result += "&gt;";
-        else if (c == '"')
-            result += "&quot;";
-        else
-            result += c;
-    }
-    return result;
-}
-
-// RFC 4648, section 4.
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t word = 0;
-        const size_t count = std::min<size_t>(3, bytes.size() - i);
-        for (size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? std::to_integer<uint32_t>(bytes[i + k]) : 0);
-        for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
-}
 
 constexpr const char* kHead =
         R"(<!doctype html><html lang="en"><head><meta charset="utf-8"><title>What accuracy costs</title><style>
@@ -78,15 +49,15 @@ std::string tableOf(EffectResult const& result) {
     html += "<th>whole frame</th>";
     if (result.values.empty()) return {};
     for (auto const& [backend, timing] : result.values.front().timings)
-        html += fmt::format("<th>{}</th><th>&times; {}</th>", escaped(backend),
-                            escaped(effect.values[effect.standard].name));
+        html += fmt::format("<th>{}</th><th>&times; {}</th>", tools::escapedHtml(backend),
+                            tools::escapedHtml(effect.values[effect.standard].name));
     html += "</tr>";
     for (size_t i = 0; i < result.values.size(); ++i) {
         ValueResult const& value = result.values[i];
         html += fmt::format("<tr{}><td title=\"{}\">{}</td><td>{}</td><td>{}</td>",
                             i == effect.standard ? " class=\"standard\"" : "",
-                            escaped(fmt::format("{}", fmt::join(value.value.set, " "))), escaped(value.value.name),
-                            percent(value.own.rms), percent(value.own.max));
+                            tools::escapedHtml(fmt::format("{}", fmt::join(value.value.set, " "))),
+                            tools::escapedHtml(value.value.name), percent(value.own.rms), percent(value.own.max));
         if (hasFlip) html += fmt::format("<td>{:.4f}</td>", value.own.flip);
         html += fmt::format("<td>{}</td>", percent(value.frame.rms));
         for (auto const& [backend, timing] : value.timings) html += timeCell(timing, i == effect.standard);
@@ -98,51 +69,50 @@ std::string tableOf(EffectResult const& result) {
 std::string imageTag(fs::path const& file, std::string const& title) {
     const auto bytes = assets::readFileBytes(file);
     if (!bytes) return {};
-    return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">", escaped(title), base64(*bytes));
+    return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">", tools::escapedHtml(title),
+                       tools::base64(*bytes));
 }
 
 std::string sectionOf(EffectResult const& result, fs::path const& plots) {
     Effect const& effect = result.effect;
     std::string reference = describe(effect.reference);
     if (result.referenceError > 0) reference += fmt::format(" (standard error {})", percent(result.referenceError));
-    std::string html = fmt::format("<section id=\"{0}\"><h2>{1}</h2><p>{2}</p>", escaped(effect.name),
-                                   escaped(effect.title), escaped(effect.question));
+    std::string html = fmt::format("<section id=\"{0}\"><h2>{1}</h2><p>{2}</p>", tools::escapedHtml(effect.name),
+                                   tools::escapedHtml(effect.title), tools::escapedHtml(effect.question));
     html += imageTag(plots / (effect.name + ".svg"), effect.title);
     html += tableOf(result);
-    html += fmt::format("<p class=\"small\">Reference: {}. ", escaped(reference));
-    if (!effect.scene.empty()) html += fmt::format("Scene: <code>{}</code>. ", escaped(effect.scene));
-    html += effect.cost == Cost::Frame
-                    ? fmt::format("Time: the device's, for a whole frame of <code>{}</code>. ", escaped(effect.frame))
-                    : fmt::format("Time: to load the {} of <code>{}</code> from its file. ", toString(effect.cost),
-                                  escaped(effect.frame));
+    html += fmt::format("<p class=\"small\">Reference: {}. ", tools::escapedHtml(reference));
+    if (!effect.scene.empty()) html += fmt::format("Scene: <code>{}</code>. ", tools::escapedHtml(effect.scene));
+    html += effect.cost == Cost::Frame ? fmt::format("Time: the device's, for a whole frame of <code>{}</code>. ",
+                                                     tools::escapedHtml(effect.frame))
+                                       : fmt::format("Time: to load the {} of <code>{}</code> from its file. ",
+                                                     toString(effect.cost), tools::escapedHtml(effect.frame));
     html += fmt::format("Whole frame: <code>{}</code> against {}.<br><code>{}</code></p></section>",
-                        escaped(effect.frame), escaped(effect.values[effect.best].name), escaped(result.command));
+                        tools::escapedHtml(effect.frame), tools::escapedHtml(effect.values[effect.best].name),
+                        tools::escapedHtml(result.command));
     return html;
 }
 
+constexpr const char* kMethod = R"(</ul><p>All of it again:</p><pre>{0} --compare --out out/accuracy &amp;&amp;
+{0} --out out/accuracy --page docs/accuracy.html</pre><p>Beside each row stands the command for that row.</p>
+<p><b>Error</b> of a pixel: the difference to the reference over the brighter of both plus 1 % of the reference's mean; RMS
+and largest over all pixels that show something. FLIP (Andersson et al. 2020) is what a viewer sees when flipping between the
+pictures: 0 nothing, 1 everything. <b>Whole frame</b>: RMS of the scene <code>{1}</code> against the best value of the effect.
+<b>Time</b>: medians of {2} turns at {3} x {4}, all values of an effect in turns; the ratio to the standard value (bold) is
+taken turn by turn, its 95 % interval by bootstrap. Errors are of the first backend; where the second one does not draw the
+same bits, <a href="quality.md">quality.md</a> says so.</p>
+)";
+
 std::string introduction(Results const& results) {
     std::string html = fmt::format(
-            "<h1>What accuracy costs</h1><p>Every approximation of the engine that has an alternative, measured: how "
-            "far "
-            "each value is from the truth of its effect, and what it costs. {} effects. Commit {}, {}, on {}.</p><ul>",
-            results.effects.size(), escaped(results.commit), escaped(results.date), escaped(results.machine));
+            R"(<h1>What accuracy costs</h1><p>Every approximation of the engine that has an alternative, measured: how far
+each value is from the truth of its effect, and what it costs. {} effects. Commit {}, {}, on {}.</p><ul>)",
+            results.effects.size(), tools::escapedHtml(results.commit), tools::escapedHtml(results.date),
+            tools::escapedHtml(results.machine));
     for (auto const& [backend, driver] : results.drivers)
-        html += fmt::format("<li>{}: {}</li>", escaped(backend), escaped(driver));
-    html += fmt::format(
-            "</ul><p>All of it again: <code>{} --page docs/accuracy.html</code>. Beside each row stands the command "
-            "for that "
-            "row.</p><p><b>Error</b> of a pixel: the difference to the reference over the reference plus 1 % of its "
-            "mean; "
-            "RMS and largest over all pixels that show something. FLIP (Andersson et al. 2020) is what a viewer sees "
-            "when "
-            "flipping between the pictures: 0 nothing, 1 everything. <b>Whole frame</b>: RMS of the showcase against "
-            "the "
-            "best value of the effect. <b>Time</b>: medians of {} turns at {} x {}, all values of an effect in turns; "
-            "the "
-            "ratio to the standard value (bold) is taken turn by turn, its 95 % interval by bootstrap. Errors are of "
-            "the first backend: the second one draws the same bits.</p>",
-            kCommand, results.rounds, results.size.x, results.size.y);
-    return html;
+        html += fmt::format("<li>{}: {}</li>", tools::escapedHtml(backend), tools::escapedHtml(driver));
+    return html + fmt::format(kMethod, kCommand, tools::escapedHtml(results.frame), results.rounds, results.size.x,
+                              results.size.y);
 }
 
 constexpr const char* kHowToAdd =
@@ -162,7 +132,7 @@ std::string skippedHtml(Results const& results) {
     if (results.skipped.empty()) return {};
     std::string html = "<section><h2>Not measured</h2><ul>";
     for (Skipped const& one : results.skipped)
-        html += fmt::format("<li>{}: needs {}</li>", escaped(one.name), escaped(one.reason));
+        html += fmt::format("<li>{}: needs {}</li>", tools::escapedHtml(one.name), tools::escapedHtml(one.reason));
     return html + "</ul></section>";
 }
 
@@ -200,12 +170,12 @@ std::vector<std::string> sectionsOf(ReportPlaces const& places) {
 std::string htmlOf(Results const& results, fs::path const& plots, std::vector<std::string> const& sections) {
     std::string html = kHead + introduction(results) + "<nav>";
     for (EffectResult const& effect : results.effects)
-        html += fmt::format("<a href=\"#{}\">{}</a><br>", escaped(effect.effect.name), escaped(effect.effect.title));
+        html += fmt::format("<a href=\"#{}\">{}</a><br>", tools::escapedHtml(effect.effect.name),
+                            tools::escapedHtml(effect.effect.title));
     html += "</nav>";
     if (const std::string frames = imageTag(plots / "frames.svg", "Whole frames"); !frames.empty())
-        html += "<section><h2>Whole frames</h2><p>Every value of every effect alone, and the presets: time and error "
-                "of the "
-                "same frame, against a frame with the best value of everything.</p>" +
+        html += R"(<section><h2>Whole frames</h2><p>Presets, budgets, and every value of every effect alone: time and error of
+the same frame, against a frame with the best value of everything.</p>)" +
                 frames + "</section>";
     for (EffectResult const& effect : results.effects) html += sectionOf(effect, plots);
     for (std::string const& section : sections) html += section;
