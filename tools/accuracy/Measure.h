@@ -20,7 +20,7 @@ namespace filament::accuracy {
 struct MeasureOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
     std::string frame = kWholeFrame; ///< another scene of whole frames, for rows that do not have one of their own
-    uint2 size{ 1280, 720 };         ///< of whole frames that are timed
+    uint2 size{ 960, 540 };          ///< of whole frames that are timed
     uint2 errorSize{ 640, 360 };     ///< of whole frames that are compared
     uint32_t rounds = 15;            ///< of frames
     uint32_t loadRounds = 3;         ///< of loads, which take seconds

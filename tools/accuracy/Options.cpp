@@ -38,7 +38,7 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--frame", words.frame, "scene of whole frames; default: the showcase")->type_name("SCENE");
     app.add_option("--backend", words.backends, "vulkan gles; errors are measured on the first")->type_name("NAME...");
     app.add_option("--rounds", words.rounds, "turns that every value is timed, 1 to 1000; default 15")->type_name("N");
-    app.add_option("--size", words.size, "of frames that are timed; default 1280x720")->type_name("WxH");
+    app.add_option("--size", words.size, "of frames that are timed; default 960x540")->type_name("WxH");
     app.add_option("--plots", words.plots, "draw them")->type_name("on|off");
     app.add_option("--pictures", words.pictures, "also keep every picture that an error is of")->type_name("DIR");
     app.add_flag("--quick", words.quick, "small frames, three rounds: to see that it works, not to quote");

@@ -83,7 +83,7 @@ def read(path):
 def percent(value, _=None):
     if value <= 0:
         return "0"
-    return f"{value * 100:.3g} %" if value >= 1e-5 else f"{value:.0e}"
+    return f"{value * 100:.3g} %" if value >= 0.99e-6 else f"{value:.0e}"
 
 
 def frontier(points):
@@ -118,7 +118,7 @@ def error_axis(axes, errors):
     axes.yaxis.set_minor_formatter(NullFormatter())
     if len(positive) < len(errors):
         axes.axhline(floor, color="#999999", linewidth=0.8, linestyle=(0, (2, 2)))
-        axes.text(0.995, floor, "no error ", transform=axes.get_yaxis_transform(), ha="right", va="bottom", fontsize=7,
+        axes.text(0.005, floor, " no error", transform=axes.get_yaxis_transform(), ha="left", va="bottom", fontsize=7,
                   color="#777777")
     return floor
 
