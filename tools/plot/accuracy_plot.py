@@ -12,6 +12,7 @@ BACKEND_COLORS = {"vulkan": BLUE, "gles": ORANGE}
 BACKEND_TITLES = {"vulkan": "Vulkan", "gles": "OpenGL ES"}
 EFFECT_COLORS = (BLUE, ORANGE, GREEN, PINK, RED, SKY, YELLOW, "#332288", "#117733", "#882255", "#44aa99", "#999933")
 SETTINGS_MARKERS = {"preset": "D", "budget": "s"}
+FARTHEST = 1.9  # times the default: what takes longer stands at the edge of the picture of whole frames, its time beside it
 LEAST_SPAN = 0.16  # of the median: what differs by less is drawn close together, for it is
 LABEL_HEIGHT = 11  # pixels between labels at 100 dpi
 
@@ -211,30 +212,34 @@ def draw_frames(effects, frame):
     if not shown:
         return None
     backends = [b for b in BACKEND_COLORS if any(b in p.ratios for e in shown for p in e.points)]
-    figure, panels = plt.subplots(1, len(backends), figsize=(10, 4.6), sharey=True, squeeze=False)
-    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.2, top=0.93, wspace=0.06)
+    figure, panels = plt.subplots(1, len(backends), figsize=(10, 6), sharey=True, squeeze=False)
+    figure.subplots_adjust(left=0.085, right=0.985, bottom=0.15, top=0.945, wspace=0.06)
     everything = [p for e in shown for p in e.points]
     typical = sorted(p.total for p in everything)[len(everything) // 2]
     for axes, backend in zip(panels[0], backends):
         zero = error_axis(axes, [p.total for p in everything])
-        time_limits(axes, [p.ratios[backend][1:] for p in everything if backend in p.ratios])
+        near = [p.ratios[backend] for p in everything if backend in p.ratios and p.ratios[backend][0] < FARTHEST]
+        time_limits(axes, [(max(low, 0.5), min(high, FARTHEST)) for _, low, high in near] or [(1, 1)])
+        right = axes.get_xlim()[1]
         labels, all_points = [], []
         for i, effect in enumerate(shown):
-            is_preset = effect.name in SETTINGS_MARKERS  # a setting of everything, not one value alone
-            color = "#222222" if is_preset else EFFECT_COLORS[i % len(EFFECT_COLORS)]
+            is_setting = effect.name in SETTINGS_MARKERS  # of everything, not one value alone
+            color = "#222222" if is_setting else EFFECT_COLORS[i % len(EFFECT_COLORS)]
             for point in effect.points:
                 if backend not in point.ratios:
                     continue
                 median, low, high = point.ratios[backend]
-                y = point.total if point.total > 0 else zero
+                x, y = min(median, right), point.total if point.total > 0 else zero
                 all_points.append((median, y))
-                axes.errorbar([median], [y], xerr=[[max(median - low, 0)], [max(high - median, 0)]], fmt="none",
+                axes.errorbar([x], [y], xerr=[[max(median - low, 0)], [max(high - median, 0)]], fmt="none",
                               ecolor="#cccccc", elinewidth=0.8, zorder=1)
-                axes.plot([median], [y], marker=SETTINGS_MARKERS.get(effect.name, "o"), markersize=7 if is_preset else 4.5, color=color,
-                          zorder=4 if is_preset else 3, linestyle="none")
-                if is_preset or worth_a_name(point, backend, typical):
-                    labels.append((median, y, f"{effect.name} {point.label}" if is_preset else f"{effect.name}: {point.label.split('=')[-1]}",
-                                   color, "bold" if is_preset else "normal"))
+                marker = ">" if median > right else SETTINGS_MARKERS.get(effect.name, "o")
+                axes.plot([x], [y], marker=marker, markersize=7 if is_setting else 4.5, color=color, linestyle="none",
+                          zorder=4 if is_setting else 3, clip_on=False)
+                if is_setting or worth_a_name(point, backend, typical):
+                    name = f"{effect.name} {point.label}" if is_setting else f"{effect.name}: {point.label.split('=')[-1]}"
+                    labels.append((x, y, name if median <= right else f"{name}, {median:.2g} ×", color,
+                                   "bold" if is_setting else "normal"))
         edge = frontier(all_points)
         axes.step([x for x, _ in edge], [y for _, y in edge], where="post", color=GREY, linewidth=1.2, zorder=2)
         axes.grid(True)
@@ -243,7 +248,7 @@ def draw_frames(effects, frame):
         figure.canvas.draw()
         place_labels(axes, labels)
     panels[0][0].set_ylabel("error of the frame, RMS")
-    figure.text(0.085, 0.035, "Diamonds: presets. Squares: budgets. Dots: one value of one effect alone; those without a name are near the default. "
+    figure.text(0.085, 0.03, "Diamonds: presets. Squares: budgets. Dots: one value of one effect alone; those without a name are near the default. "
                 "Grey line: what nothing beats in both.", fontsize=8, color="#666666")
     return figure
 
