@@ -25,7 +25,7 @@ table{border-collapse:collapse;font-variant-numeric:tabular-nums}td,th{padding:.
 border-bottom:1px solid #ddd;white-space:nowrap}td:first-child,th:first-child{text-align:left}section{border-top:1px solid
 #bbb;margin-top:1.6rem}h2{margin:.8rem 0 .2rem}code{background:#f3f3f3;padding:.1rem .3rem}img{max-width:100%;display:block}
 .small{color:#555;font-size:13px}.standard td:first-child{font-weight:bold}pre{background:#f3f3f3;padding:.6rem}
-nav{columns:3;font-size:14px}</style></head><body>
+</style></head><body>
 )";
 
 std::string percent(double value) {
@@ -115,6 +115,37 @@ each value is from the truth of its effect, and what it costs. {} effects. Commi
                               results.size.y);
 }
 
+/// "1.21 vulkan, 1.30 gles", without what the interval cannot tell from 1.
+std::string ratiosOf(ValueResult const& value) {
+    std::string text;
+    for (auto const& [backend, timing] : value.timings) {
+        if (timing.ratio.low <= 1 && timing.ratio.high >= 1) continue;
+        text += fmt::format("{}&times; {:.2f} {}", text.empty() ? "" : ", ", timing.ratio.median,
+                            tools::escapedHtml(backend));
+    }
+    return text.empty() ? "no measurable difference" : text;
+}
+
+/// The value with the least error beside the standard one's, and what it would cost to take it.
+std::string glanceOf(EffectResult const& result) {
+    ValueResult const& standard = result.values[result.effect.standard];
+    ValueResult const& best =
+            *std::ranges::min_element(result.values, {}, [](ValueResult const& value) { return value.own.rms; });
+    std::string row = fmt::format("<tr><td><a href=\"#{}\">{}</a></td><td>{}</td><td>{}</td>",
+                                  tools::escapedHtml(result.effect.name), tools::escapedHtml(result.effect.title),
+                                  tools::escapedHtml(standard.value.name), percent(standard.own.rms));
+    if (&best == &standard) return row + "<td colspan=\"3\" class=\"small\">nothing is more exact</td></tr>";
+    return row + fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>", tools::escapedHtml(best.value.name),
+                             percent(best.own.rms), ratiosOf(best));
+}
+
+std::string glance(Results const& results) {
+    std::string html = "<section><h2>At a glance</h2><table><tr><th>effect</th><th>standard</th><th>error</th>"
+                       "<th>most exact</th><th>error</th><th>time of the most exact</th></tr>";
+    for (EffectResult const& effect : results.effects) html += glanceOf(effect);
+    return html + "</table></section>";
+}
+
 constexpr const char* kHowToAdd =
         R"(<section><h2>Adding an effect</h2><p>An object in <code>tools/accuracy/effects.json</code>:</p><pre>{
   "name": "specularVisibility", "title": "Masking of microfacets", "choice": "specularVisibility",
@@ -168,11 +199,7 @@ std::vector<std::string> sectionsOf(ReportPlaces const& places) {
 } // namespace
 
 std::string htmlOf(Results const& results, fs::path const& plots, std::vector<std::string> const& sections) {
-    std::string html = kHead + introduction(results) + "<nav>";
-    for (EffectResult const& effect : results.effects)
-        html += fmt::format("<a href=\"#{}\">{}</a><br>", tools::escapedHtml(effect.effect.name),
-                            tools::escapedHtml(effect.effect.title));
-    html += "</nav>";
+    std::string html = kHead + introduction(results) + glance(results);
     if (const std::string frames = imageTag(plots / "frames.svg", "Whole frames"); !frames.empty())
         html += R"(<section><h2>Whole frames</h2><p>Presets, budgets, and every value of every effect alone: time and error of
 the same frame, against a frame with the best value of everything.</p>)" +
