@@ -8,8 +8,8 @@
 namespace filament::reference {
 namespace {
 
-// Pairs of dimensions of the sample's numbers: 0 is the pixel's, then four a bounce; layers have their own.
-enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kPerBounce };
+// Pairs of dimensions of the sample's numbers: 0 is the pixel's, then five a bounce; layers have their own.
+enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kPerBounce };
 constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20;
 
 constexpr uint32_t kRouletteFrom = 4; // bounces that are never ended by chance
@@ -25,6 +25,7 @@ struct PathTracer::Path {
     Ray ray;
     SampleStream const& numbers;
     uint64_t& rays;
+    Hit hit{};
     bool isCamera = true;
     double3 throughput{ 1.0 };
     double bsdfPdf = 0; // of the direction, once the path was reflected
@@ -45,10 +46,10 @@ double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64
     Path path{ .ray = ray, .numbers = numbers, .rays = rays };
     double3 sum(0.0);
     while (const std::optional<SurfaceSample> surface = nextSurface(path)) {
-        sum += path.throughput * surface->emitted;
+        sum += path.throughput * surface->emitted * emissionWeight(path);
         if (!surface->scatters || path.bounce >= mSettings.maxBounces) return sum;
         const Bsdf bsdf(*surface, mSettings.bsdf, mUseOcclusion);
-        sum += path.throughput * lightAt(path, *surface, bsdf);
+        sum += path.throughput * (lightAt(path, *surface, bsdf) + emissiveSample(path, *surface, bsdf));
         if (mSettings.integrator == Integrator::Unoccluded || !reflect(path, *surface, bsdf)) return sum;
     }
     return sum + path.throughput * missed(path);
@@ -61,6 +62,7 @@ std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
         ++path.rays;
         const std::optional<Hit> hit = mScene.nearest(path.ray);
         if (!hit) return {};
+        path.hit = *hit;
         SurfaceSample surface = surfaceAt(mScene.part(*hit), hit->point, -path.ray.direction);
         if (surface.opacity >= 1) return surface;
 
@@ -116,6 +118,32 @@ double3 PathTracer::environmentSample(Path& path, SurfaceSample const& surface, 
     if (reflected == double3(0.0)) return reflected;
     const double share = visibility(path, surface, sample.direction, std::numeric_limits<double>::infinity());
     if (share == 0) return double3(0.0);
+    const double weight =
+            mSettings.sampling == Sampling::Light ? 1 : powerHeuristic(sample.pdf, bsdf.pdf(sample.direction));
+    return reflected * (share * weight / sample.pdf);
+}
+
+/// Of a glowing surface as a path finds it that was reflected: emissiveSample() has found the rest.
+double PathTracer::emissionWeight(Path const& path) const {
+    if (path.isCamera || mSettings.sampling == Sampling::Bsdf) return 1;
+    const double pdf = mScene.emissiveLights().pdf(path.hit, path.ray.direction);
+    if (mSettings.sampling == Sampling::Light) return pdf > 0 ? 0 : 1;
+    return powerHeuristic(path.bsdfPdf, pdf);
+}
+
+double3 PathTracer::emissiveSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const {
+    EmissiveLights const& lights = mScene.emissiveLights();
+    const bool isOn = mSettings.integrator == Integrator::Path && mSettings.sampling != Sampling::Bsdf;
+    if (lights.empty() || !isOn) return double3(0.0);
+    // Which triangle: the roulette's second number, which it does not need.
+    const EmissiveSample sample = lights.sample(surface.position, path.pair(kEmission), path.pair(kRoulette).y);
+    if (!(sample.pdf > 0)) return double3(0.0);
+    const double3 reflected = bsdf.evaluate(sample.direction, LightSource::Ambient) * sample.radiance;
+    if (reflected == double3(0.0)) return reflected;
+    // Not as far as the light itself.
+    const double farthest = sample.distance - std::max(sample.distance * 1e-5, 2 * surface.selfAvoidance);
+    if (farthest <= 0) return double3(0.0);
+    const double share = visibility(path, surface, sample.direction, farthest);
     const double weight =
             mSettings.sampling == Sampling::Light ? 1 : powerHeuristic(sample.pdf, bsdf.pdf(sample.direction));
     return reflected * (share * weight / sample.pdf);

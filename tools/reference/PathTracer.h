@@ -31,6 +31,8 @@ private:
     double3 missed(Path const& path) const;
     double3 lightAt(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const;
     double3 environmentSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const;
+    double3 emissiveSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const;
+    double emissionWeight(Path const& path) const;
     double3 directSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const;
     double3 unoccludedBsdfSample(Path const& path, Bsdf const& bsdf) const;
     double visibility(Path& path, SurfaceSample const& surface, double3 direction, double distance) const;

@@ -190,6 +190,7 @@ Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::Jo
     auto* const traced = new TracedScene(std::move(*intersector));
     TracedScenePtr result(traced);
     traced->mParts = std::move(parts); // the elements stay where they are
+    traced->mEmissiveLights = EmissiveLights(traced->mParts);
     traced->mOrigin = origin;
     traced->mWarnings = std::move(warnings);
     for (ReferenceModel const& model : scene.models) traced->mModels.push_back(model.data);

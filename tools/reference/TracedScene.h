@@ -7,6 +7,7 @@
 #pragma once
 
 #include "tools/reference/DirectLights.h"
+#include "tools/reference/EmissiveLights.h"
 #include "tools/reference/EnvironmentLight.h"
 #include "tools/reference/Intersector.h"
 #include "tools/reference/Reference.h"
@@ -25,6 +26,7 @@ public:
 
     EnvironmentLight const& environment() const { return mEnvironment; }
     DirectLights const& directLights() const { return mDirectLights; }
+    EmissiveLights const& emissiveLights() const { return mEmissiveLights; }
     bool skybox() const { return mSkybox; }
     std::vector<std::string> const& warnings() const { return mWarnings; }
 
@@ -38,6 +40,7 @@ private:
     bool mHasBlended = false;
     EnvironmentLight mEnvironment;
     DirectLights mDirectLights;
+    EmissiveLights mEmissiveLights; // refers to mParts
     bool mSkybox = false;
     std::vector<std::string> mWarnings;
 };

@@ -13,7 +13,7 @@ using reference::EnergyTerm;
 using reference::Integrator;
 using reference::SpecularLight;
 
-constexpr uint32_t kSupersampling = 4;
+constexpr uint32_t kSupersampling = 8;
 constexpr uint32_t kLevels = 6; // of a cube of 512 texels a face: assets::specularLevelCount()
 
 /// Tables as large as they go: what is left of their error is below that of half floats.
@@ -26,7 +26,7 @@ std::vector<Rung> allRungs() {
         { .name = "oneSample",
           .title = "One sample a pixel",
           .approximate = "the centre of a pixel, textures through mip levels",
-          .exact = "16 samples a pixel" },
+          .exact = "64 samples a pixel" },
         { .supersampling = kSupersampling,
           .name = "tables",
           .title = "Resolution of look-up tables",
