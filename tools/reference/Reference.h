@@ -67,7 +67,8 @@ enum class Integrator : uint8_t {
     Unoccluded, ///< one reflection of light that nothing blocks: the integral that image-based lighting approximates
 };
 
-/// Which technique finds the environment and glowing surfaces. Both and each alone have the same mean; the others exist to test that.
+/// Which technique finds the environment and glowing surfaces. Both and each alone have the same mean; the others exist
+/// to test that.
 enum class Sampling : uint8_t { Both, Bsdf, Light };
 
 enum class PixelFilter : uint8_t {

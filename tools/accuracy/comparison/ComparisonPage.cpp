@@ -34,6 +34,12 @@ Json jsonOf(StepResult const& step) {
              { "bias", step.bias } };
 }
 
+constexpr const char* kHowToAdd =
+        R"(<p class="small">A row is an object in <code>tools/accuracy/comparison/rows.json</code>:
+<code>{ "name": "metals-sun", "title": "Metals under a sun", "scene": "metals/sun", "samples": 256, "unexplained": 0.01 }</code>;
+scenes are files of <code>comparison/scenes</code> as in <a href="conformance.md">conformance.md</a>. A new approximation of the
+engine is a rung of <code>comparison/Ladder.cpp</code>.</p>)";
+
 Json jsonOf(ClosedForm const& form) {
     return { { "name", form.name },
              { "formula", form.formula },
@@ -193,7 +199,7 @@ Result<std::string> fragmentOf(ComparisonResults const& results, Pictures const&
     for (Skipped const& one : results.skipped)
         html += fmt::format("<p class=\"small\">{}: not compared, no {}</p>", escapedHtml(one.name),
                             escapedHtml(one.reason));
-    return html + "</section>\n";
+    return html + kHowToAdd + "</section>\n";
 }
 
 Result<void> writeText(fs::path const& path, std::string const& text) {
