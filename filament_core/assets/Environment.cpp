@@ -23,7 +23,8 @@ Result<void> checkOptions(EnvironmentOptions const& options) {
         return fail(ErrorCode::InvalidArgument, "{} environment samples are not in [1, 65536]", options.samples);
     }
     if (!isEnvironmentFormat(options.format)) {
-        return fail(ErrorCode::InvalidArgument, "environment format {} is none of RGBA16F, R11G11B10F and RGB9E5",
+        return fail(ErrorCode::InvalidArgument,
+                    "environment format {} is none of RGBA16F, R11G11B10F, RGB9E5 and RGBA8",
                     backend::formatInfo(options.format).name);
     }
     return {};
@@ -81,6 +82,13 @@ Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs
     return baked;
 }
 
+Image irradianceOf(IblCube const& cube, jobs::JobSystem& jobs) {
+    constexpr uint32_t kSource = 64; // texels a face: as fine as irradianceCube() wants it
+    const size_t level = std::bit_width(std::max(cube.front().size() / kSource, 1u)) - 1u;
+    const IblCubeLevel irradiance = irradianceCube(cube[level], kIrradianceFaceSize, jobs);
+    return encodeCube(std::span(&irradiance, 1), backend::Format::RGBA16F, jobs).image;
+}
+
 } // namespace
 
 uint32_t skyFaceSize(uint32_t sourceWidth) { return std::clamp(std::bit_ceil((sourceWidth + 3) / 4), 16u, 512u); }
@@ -114,15 +122,16 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
     data.statistics.sourceHeight = image.height;
     data.statistics.repairs = image.repairs;
     data.irradianceSh = irradianceSh(cube.front(), jobs);
-    const std::vector<IblCubeLevel> levels =
-            prefilterSpecular(cube, options.faceSize, options.samples, jobs,
-                              [&](size_t done, size_t total) { report(options, "prefilter", done, total); });
+    const std::vector<IblCubeLevel> levels = prefilterSpecular(
+            cube, options.faceSize, options.samples, jobs,
+            [&](size_t done, size_t total) { report(options, "prefilter", done, total); }, options.mapping);
     data.levelOfRoughnessOne = static_cast<float>(levels.size() - 1);
     EncodedCube specular = encodeCube(levels, options.format, jobs);
     const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
     EncodedCube sky = encodeCube(std::span(cube).subspan(skyLevel, 1), options.format, jobs);
     data.specular = std::move(specular.image);
     data.sky = std::move(sky.image);
+    data.irradiance = irradianceOf(cube, jobs);
     data.statistics.specularLoss = specular.loss;
     data.statistics.skyLoss = sky.loss;
     return data;

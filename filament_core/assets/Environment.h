@@ -31,7 +31,8 @@ struct EnvironmentOptions {
     bool useCache = true;
     uint32_t faceSize = 256; ///< texels of a specular face, power of two in [16, 2048]
     uint32_t samples = 512;  ///< pieces of the sky that each texel integrates, about; [1, 65536]
-    backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F, RGB9E5
+    backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F, RGB9E5, RGBA8: RGBM
+    RoughnessMapping mapping = RoughnessMapping::Quadratic;
     EnvironmentProgress progress{};
 };
 
@@ -42,9 +43,13 @@ struct EnvironmentStatistics {
     bool fromCache = false;
 };
 
+/// Between texels 6 degrees apart a cosine lobe is linear to 0.3 %.
+inline constexpr uint32_t kIrradianceFaceSize = 16;
+
 struct EnvironmentData {
-    Image specular; ///< cube, level i for perceptual roughness 1 - sqrt(1 - i / levelOfRoughnessOne)
-    Image sky;      ///< cube, one level: the picture itself at its own density of pixels
+    Image specular;   ///< cube, level i for the roughness that `mapping` of the options says
+    Image sky;        ///< cube, one level: the picture itself at its own density of pixels
+    Image irradiance; ///< cube, one level of kIrradianceFaceSize texels: irradiance / pi, always RGBA16F
     std::array<float4, 9> irradianceSh{}; ///< see shaders/lib/ibl.glsl
     float levelOfRoughnessOne = 0;
     EnvironmentStatistics statistics;

@@ -15,7 +15,7 @@ static_assert(std::endian::native == std::endian::little, "cached environments a
 
 constexpr uint64_t kMagic = 0x31564E454C494600; // "\0FILENV1"
 /// Raised with every change of the baker's results or of this layout.
-constexpr uint32_t kBakerVersion = 2;
+constexpr uint32_t kBakerVersion = 3;
 constexpr uint32_t kMaxFaceSize = 2048, kMaxLevels = 16;
 
 struct CubeHeader {
@@ -30,9 +30,9 @@ struct FileHeader {
     uint32_t sourceWidth, sourceHeight;
     uint64_t notANumber, infinite, negative;
     std::array<float, 36> irradianceSh;
-    CubeHeader specular, sky;
+    CubeHeader specular, sky, irradiance;
 };
-static_assert(sizeof(FileHeader) == 3 * 8 + 2 * 4 + 3 * 8 + 36 * 4 + 2 * sizeof(CubeHeader) &&
+static_assert(sizeof(FileHeader) == 3 * 8 + 2 * 4 + 3 * 8 + 36 * 4 + 3 * sizeof(CubeHeader) &&
               sizeof(CubeHeader) == 32);
 static_assert(std::is_trivially_copyable_v<FileHeader>);
 
@@ -62,8 +62,9 @@ Error corrupt(const char* reason) { return fail(ErrorCode::Corrupt, "a cached en
 } // namespace
 
 uint64_t environmentKey(std::span<const std::byte> picture, EnvironmentOptions const& options) {
-    const std::array<uint32_t, 4> choices{ kBakerVersion, options.faceSize, options.samples,
-                                           static_cast<uint32_t>(options.format) };
+    const std::array<uint32_t, 5> choices{ kBakerVersion, options.faceSize, options.samples,
+                                           static_cast<uint32_t>(options.format),
+                                           static_cast<uint32_t>(options.mapping) };
     return hashCombine(hashBytes(picture), hashValue(choices));
 }
 
@@ -79,13 +80,14 @@ std::vector<std::byte> encodeEnvironment(EnvironmentData const& data, uint64_t k
                        statistics.repairs.negative,
                        {},
                        headerOf(data.specular, statistics.specularLoss),
-                       headerOf(data.sky, statistics.skyLoss) };
+                       headerOf(data.sky, statistics.skyLoss),
+                       headerOf(data.irradiance, {}) };
     std::memcpy(header.irradianceSh.data(), data.irradianceSh.data(), sizeof(header.irradianceSh));
     std::vector<std::byte> bytes(sizeof(FileHeader));
-    bytes.reserve(bytes.size() + data.specular.data.size() + data.sky.data.size());
+    bytes.reserve(bytes.size() + data.specular.data.size() + data.sky.data.size() + data.irradiance.data.size());
     std::memcpy(bytes.data(), &header, sizeof(header));
-    bytes.insert(bytes.end(), data.specular.data.begin(), data.specular.data.end());
-    bytes.insert(bytes.end(), data.sky.data.begin(), data.sky.data.end());
+    for (Image const* image : { &data.specular, &data.sky, &data.irradiance })
+        bytes.insert(bytes.end(), image->data.begin(), image->data.end());
     const uint64_t checksum = hashBytes(std::span(bytes).subspan(kChecksummedFrom));
     std::memcpy(bytes.data() + offsetof(FileHeader, checksum), &checksum, sizeof(checksum));
     return bytes;
@@ -96,18 +98,24 @@ Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint
     if (bytes.size() < sizeof(header)) return corrupt("is cut short");
     std::memcpy(&header, bytes.data(), sizeof(header));
     if (header.magic != kMagic || header.key != key) return corrupt("belongs to something else");
-    if (!isPlausible(header.specular) || !isPlausible(header.sky)) return corrupt("has an impossible size");
+    if (!isPlausible(header.specular) || !isPlausible(header.sky) || !isPlausible(header.irradiance))
+        return corrupt("has an impossible size");
     EnvironmentData data;
     data.specular = emptyImage(header.specular);
     data.sky = emptyImage(header.sky);
-    const uint64_t specularBytes = data.specular.levelOffset(data.specular.levels);
-    const uint64_t skyBytes = data.sky.levelOffset(data.sky.levels);
-    if (bytes.size() != sizeof(header) + specularBytes + skyBytes) return corrupt("is cut short");
+    data.irradiance = emptyImage(header.irradiance);
+    uint64_t texelBytes = 0;
+    for (Image const* image : { &data.specular, &data.sky, &data.irradiance })
+        texelBytes += image->levelOffset(image->levels);
+    if (bytes.size() != sizeof(header) + texelBytes) return corrupt("is cut short");
     if (hashBytes(bytes.subspan(kChecksummedFrom)) != header.checksum) return corrupt("does not match its checksum");
 
-    const auto texels = bytes.subspan(sizeof(header));
-    data.specular.data.assign(texels.begin(), texels.begin() + static_cast<std::ptrdiff_t>(specularBytes));
-    data.sky.data.assign(texels.begin() + static_cast<std::ptrdiff_t>(specularBytes), texels.end());
+    auto texels = bytes.subspan(sizeof(header));
+    for (Image* image : { &data.specular, &data.sky, &data.irradiance }) {
+        const auto own = texels.first(image->levelOffset(image->levels));
+        image->data.assign(own.begin(), own.end());
+        texels = texels.subspan(own.size());
+    }
     std::memcpy(data.irradianceSh.data(), header.irradianceSh.data(), sizeof(header.irradianceSh));
     data.levelOfRoughnessOne = static_cast<float>(data.specular.levels - 1);
     data.statistics = { header.sourceWidth,

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The bytes of a cached environment: little-endian header, irradiance, then the texels of both cubes; a 64-bit
+/// The bytes of a cached environment: little-endian header, irradiance, then the texels of the cubes; a 64-bit
 /// checksum over everything. Private to this folder.
 ///   Fails   decode: Corrupt, for any bytes whatsoever; sizes are checked against the bytes before memory is taken.
 ///   Thread  pure functions.

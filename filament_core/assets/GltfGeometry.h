@@ -66,7 +66,7 @@ void addFlatNormals(GltfGeometry& geometry);
 void addTangents(GltfGeometry& geometry, uint32_t uvSet);
 
 /// Interleaves everything into the form that goes to the GPU.
-PrimitiveData packGeometry(GltfGeometry geometry);
+PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage = {});
 
 /// Vertex i of the result is vertex sources[i]; indices stay as they are.
 void reorderVertices(GltfGeometry& geometry, std::span<const uint32_t> sources);

@@ -64,8 +64,8 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextu
         });
     }
     for (GltfPrimitiveJob& job : primitives) {
-        group.run<"build primitive">([&document, &scene, &progress, &job] {
-            buildPrimitive(document, scene, job);
+        group.run<"build primitive">([&document, &scene, &options, &progress, &job] {
+            buildPrimitive(document, scene, options.storage, job);
             progress.step();
         });
     }

@@ -35,7 +35,8 @@ struct GltfOptions {
     /// Called after every step, with `done` growing from 0 to `total`; from any worker, but never from two at once.
     std::function<void(GltfStage stage, size_t done, size_t total)> progress = {};
     uint32_t maxTextureSize = 0; ///< texels; larger images start at a smaller mip level. 0: no limit
-    std::string name = "model";  ///< what messages call a file in memory; loadGltf() fills it in
+    GeometryStorage storage{};
+    std::string name = "model"; ///< what messages call a file in memory; loadGltf() fills it in
 };
 
 Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& jobs, GltfOptions options = {});

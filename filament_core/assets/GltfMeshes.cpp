@@ -23,7 +23,7 @@ void replaceOverflow(std::string const& path, GltfGeometry& geometry, GltfDiagno
 }
 
 PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
-                    std::string const& path, GltfDiagnostics& diagnostics) {
+                    GeometryStorage const& storage, std::string const& path, GltfDiagnostics& diagnostics) {
     GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
     if (!diagnostics.ok() || geometry.positions.empty()) return {};
     makeList(primitive.draco ? GltfMode::Triangles : primitive.mode, path, geometry, diagnostics);
@@ -36,7 +36,7 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     addFlatNormals(geometry);
     if (const uint32_t uvSet = normalMapUvSet(document, primitive.material); uvSet != kNone)
         addTangents(geometry, uvSet);
-    return packGeometry(std::move(geometry));
+    return packGeometry(std::move(geometry), storage);
 }
 
 } // namespace
@@ -62,12 +62,13 @@ std::vector<GltfPrimitiveJob> listPrimitives(GltfDocument const& document, GltfS
     return jobs;
 }
 
-void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GltfPrimitiveJob& job) {
+void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GeometryStorage const& storage,
+                    GltfPrimitiveJob& job) {
     GltfMeshRequest const& request = scene.meshes[job.request];
     const std::string path = fmt::format("meshes[{}].primitives[{}]", request.mesh, job.primitive);
     GltfPrimitive const& primitive = document.meshes[request.mesh].primitives[job.primitive];
     try {
-        job.data = build(document, request, primitive, path, job.diagnostics);
+        job.data = build(document, request, primitive, storage, path, job.diagnostics);
     } catch (std::bad_alloc const&) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory, "{}: out of memory; free some and try again", path);
     } catch (std::exception const& exception) {

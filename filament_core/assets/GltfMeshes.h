@@ -21,7 +21,8 @@ struct GltfPrimitiveJob {
 std::vector<GltfPrimitiveJob> listPrimitives(GltfDocument const& document, GltfScene const& scene,
                                              GltfDiagnostics& diagnostics);
 
-void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GltfPrimitiveJob& job);
+void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GeometryStorage const& storage,
+                    GltfPrimitiveJob& job);
 
 /// Moves the built primitives into one mesh per request.
 std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene const& scene,

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/GltfGeometry.h"
 #include "filament_core/assets/TangentFrame.h"
+#include "filament_core/math/Half.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <meshoptimizer.h>
@@ -37,6 +38,12 @@ void writeFloats(std::byte* target, float const* values) {
     std::memcpy(target, values, N * sizeof(float));
 }
 
+void writeHalves(std::byte* target, float const* values) {
+    std::array<uint16_t, 4> halves;
+    for (size_t i = 0; i < 4; ++i) halves[i] = halfFromFloat(values[i]);
+    std::memcpy(target, halves.data(), sizeof halves);
+}
+
 Writer writerOf(VertexFormat format) {
     switch (format) {
     case VertexFormat::Float2:
@@ -45,6 +52,8 @@ Writer writerOf(VertexFormat format) {
         return writeFloats<3>;
     case VertexFormat::Float4:
         return writeFloats<4>;
+    case VertexFormat::Half4:
+        return writeHalves;
     case VertexFormat::Byte4N:
         return writeIntegers<int8_t, 4>;
     case VertexFormat::UByte4N:
@@ -97,12 +106,60 @@ private:
     backend::VertexLayout& mLayout;
 };
 
-void writeFrames(GltfGeometry const& geometry, uint16_t offset, Interleaver& interleaver) {
-    for (size_t i = 0; i < geometry.normals.size(); ++i) {
-        const float4 tangent = geometry.tangents.empty() ? float4(0, 0, 0, 1) : geometry.tangents[i];
-        const auto frame = encodeTangentFrame(geometry.normals[i], float3(tangent), tangent.w);
-        std::memcpy(interleaver.at(i, offset), frame.data(), sizeof frame);
+void findBounds(std::vector<float3> const& positions, PrimitiveData& primitive) {
+    primitive.boundsMin = primitive.boundsMax = positions[0];
+    for (float3 const& position : positions) {
+        primitive.boundsMin = glm::min(primitive.boundsMin, position);
+        primitive.boundsMax = glm::max(primitive.boundsMax, position);
     }
+}
+
+VertexFormat formatOf(TangentStorage storage) {
+    switch (storage) {
+    case TangentStorage::Snorm16:
+        return VertexFormat::Short4N;
+    case TangentStorage::Snorm8:
+        return VertexFormat::Byte4N;
+    case TangentStorage::Float:
+        break;
+    }
+    return VertexFormat::Float4;
+}
+
+/// w keeps its sign when it is rounded: at least one step of the integers.
+std::vector<float4> framesOf(GltfGeometry const& geometry, TangentStorage storage) {
+    const float leastW = storage == TangentStorage::Snorm8 ? 1.0f / 127 : 1.0f / 32767;
+    std::vector<float4> frames(geometry.normals.size());
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const float4 tangent = geometry.tangents.empty() ? float4(0, 0, 0, 1) : geometry.tangents[i];
+        frames[i] = tangentFrameQuaternion(geometry.normals[i], float3(tangent), tangent.w, leastW);
+    }
+    return frames;
+}
+
+/// Positions into [0, 1]^3, all axes by the same factor: normals and tangents stay what they are.
+void fitUnitCube(GltfGeometry& geometry, PrimitiveData& primitive) {
+    findBounds(geometry.positions, primitive);
+    const float3 size = primitive.boundsMax - primitive.boundsMin;
+    const float largest = std::max({ size.x, size.y, size.z });
+    primitive.positionOffset = primitive.boundsMin;
+    primitive.positionScale = largest > 0 ? largest : 1.0f;
+    for (float3& position : geometry.positions)
+        position = (position - primitive.positionOffset) / primitive.positionScale;
+}
+
+/// What cannot be stored as wanted keeps its floats: beyond the largest half float.
+void storePositions(PositionStorage storage, GltfGeometry& geometry, PrimitiveData& primitive) {
+    if (storage == PositionStorage::AsAuthored) return;
+    if (storage == PositionStorage::Unorm16) {
+        fitUnitCube(geometry, primitive);
+        geometry.positionFormat = VertexFormat::UShort4N;
+        return;
+    }
+    const bool fits = std::ranges::all_of(geometry.positions, [](float3 const& p) {
+        return std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) }) <= kMaxHalf;
+    });
+    if (fits) geometry.positionFormat = VertexFormat::Half4;
 }
 
 /// 16 bits while 0xFFFF, which restarts strips on some APIs, stays free.
@@ -131,18 +188,11 @@ void weldEqualVertices(std::vector<uint32_t>& indices, PrimitiveData& primitive)
     primitive.vertexCount = static_cast<uint32_t>(unique);
 }
 
-void findBounds(std::vector<float3> const& positions, PrimitiveData& primitive) {
-    primitive.boundsMin = primitive.boundsMax = positions[0];
-    for (float3 const& position : positions) {
-        primitive.boundsMin = glm::min(primitive.boundsMin, position);
-        primitive.boundsMax = glm::max(primitive.boundsMax, position);
-    }
-}
-
 } // namespace
 
-PrimitiveData packGeometry(GltfGeometry geometry) {
+PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage) {
     PrimitiveData primitive;
+    storePositions(storage.positions, geometry, primitive);
     primitive.topology = geometry.topology;
     primitive.vertexCount = geometry.vertexCount();
     primitive.hasTangents = !geometry.normals.empty();
@@ -155,13 +205,13 @@ PrimitiveData packGeometry(GltfGeometry geometry) {
         return exists ? interleaver.addAttribute(location, format) : uint16_t{ 0 };
     };
     const uint16_t position = add(true, shader::kAttributePosition, geometry.positionFormat);
-    const uint16_t frame = add(primitive.hasTangents, shader::kAttributeTangents, VertexFormat::Short4N);
+    const uint16_t frame = add(primitive.hasTangents, shader::kAttributeTangents, formatOf(storage.tangents));
     const uint16_t color = add(primitive.hasColor, shader::kAttributeColor, geometry.colorFormat);
     const uint16_t uv0 = add(primitive.hasUv0, shader::kAttributeUv0, geometry.uvFormats[0]);
     const uint16_t uv1 = add(primitive.hasUv1, shader::kAttributeUv1, geometry.uvFormats[1]);
     interleaver.allocate();
     interleaver.write(geometry.positions, position, geometry.positionFormat);
-    writeFrames(geometry, frame, interleaver);
+    interleaver.write(framesOf(geometry, storage.tangents), frame, formatOf(storage.tangents));
     interleaver.write(geometry.colors, color, geometry.colorFormat);
     interleaver.write(geometry.uvs[0], uv0, geometry.uvFormats[0]);
     interleaver.write(geometry.uvs[1], uv1, geometry.uvFormats[1]);

@@ -4,6 +4,7 @@
 #include "filament_core/assets/IblTree.h"
 #include "filament_core/base/Assert.h"
 #include "filament_core/math/Half.h"
+#include "filament_core/math/Rgbm.h"
 #include "filament_core/math/SharedExponent.h"
 #include "shaders/lib/LibCpp.h"
 
@@ -63,6 +64,7 @@ std::array<double, 9> shFactors() {
 float maximumOf(backend::Format format, int component) {
     if (format == backend::Format::RGBA16F) return kMaxHalf;
     if (format == backend::Format::RGB9E5) return kMaxRgb9E5;
+    if (format == backend::Format::RGBA8) return kMaxRgbm;
     return component < 2 ? kMaxFloat11 : kMaxFloat10;
 }
 
@@ -73,7 +75,9 @@ void encodeTexel(float3 color, backend::Format format, std::byte* out) {
                                               kOne };
         std::memcpy(out, halves.data(), sizeof(halves));
     } else {
-        const uint32_t packed = format == backend::Format::RGB9E5 ? packRgb9E5(color) : packR11G11B10F(color);
+        const uint32_t packed = format == backend::Format::RGB9E5  ? packRgb9E5(color)
+                                : format == backend::Format::RGBA8 ? packRgbm(color)
+                                                                   : packR11G11B10F(color);
         std::memcpy(out, &packed, sizeof(packed));
     }
 }
@@ -107,7 +111,7 @@ RowLoss encodeRow(IblCubeLevel const& level, std::span<const float> solidAngles,
 
 bool isEnvironmentFormat(backend::Format format) {
     return format == backend::Format::RGBA16F || format == backend::Format::R11G11B10F ||
-           format == backend::Format::RGB9E5;
+           format == backend::Format::RGB9E5 || format == backend::Format::RGBA8;
 }
 
 uint32_t specularLevelCount(uint32_t faceSize) {
@@ -116,7 +120,8 @@ uint32_t specularLevelCount(uint32_t faceSize) {
 }
 
 std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSize, uint32_t pieces,
-                                            jobs::JobSystem& jobs, IblProgress const& progress) {
+                                            jobs::JobSystem& jobs, IblProgress const& progress,
+                                            RoughnessMapping mapping) {
     FILAMENT_ASSERT(std::has_single_bit(faceSize) && faceSize >= 2,
                     "the size of a cube face is a power of two, 2 or more");
     FILAMENT_ASSERT(faceSize <= cube.front().size(), "a specular cube is no finer than the environment it comes from");
@@ -127,12 +132,50 @@ std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSi
     std::vector<IblCubeLevel> levels{ cube[std::bit_width(cube.front().size() / faceSize) - 1u] };
     for (uint32_t i = 1; i < count; ++i) {
         if (progress) progress(i, count);
-        const float roughness = shader::lib::perceptualRoughnessFromLevel(static_cast<float>(i), last);
+        const float roughness =
+                shader::lib::perceptualRoughnessFromLevel(static_cast<float>(i), last, static_cast<int>(mapping));
         const float alpha = shader::lib::alphaFromPerceptual(shader::lib::clampPerceptualRoughness(roughness));
         levels.push_back(prefilterLevel(tree, faceSize >> i, Lobe::ofPieces(alpha, pieces), jobs));
     }
     if (progress) progress(count, count);
     return levels;
+}
+
+IblCubeLevel irradianceCube(IblCubeLevel const& level, uint32_t faceSize, jobs::JobSystem& jobs) {
+    struct Source {
+        float3 direction, light;
+        float solidAngle;
+    };
+    std::vector<Source> sources;
+    const std::vector<float> solidAngles = texelSolidAngles(level.size());
+    for (uint32_t face = 0; face < 6; ++face) {
+        for (size_t i = 0; i < solidAngles.size(); ++i) {
+            const auto x = static_cast<int>(i % level.size()), y = static_cast<int>(i / level.size());
+            const CubePoint centre{ face, faceCoordinate(x, level.size()), faceCoordinate(y, level.size()) };
+            sources.push_back(
+                    { glm::normalize(directionFromCube(centre)), level.radiance(face, x, y), solidAngles[i] });
+        }
+    }
+    IblCubeLevel irradiance(faceSize);
+    const size_t faceTexels = size_t(faceSize) * faceSize;
+    jobs::parallelFor<"irradiance">(jobs, 6 * faceTexels, kTexelsPerJob, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) {
+            const auto face = static_cast<uint32_t>(i / faceTexels);
+            const int x = static_cast<int>(i % faceSize), y = static_cast<int>(i % faceTexels / faceSize);
+            const float3 normal = glm::normalize(
+                    directionFromCube({ face, faceCoordinate(x, faceSize), faceCoordinate(y, faceSize) }));
+            float3 light(0.0f);
+            float weights = 0;
+            for (Source const& source : sources) {
+                const float weight = std::max(glm::dot(normal, source.direction), 0.0f) * source.solidAngle;
+                light += source.light * weight;
+                weights += weight;
+            }
+            irradiance.at(face, x, y) = Texel{ light.x, light.y, light.z, 0 } / splat(weights);
+        }
+    });
+    irradiance.fillBorder();
+    return irradiance;
 }
 
 std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& jobs) {
@@ -157,7 +200,7 @@ std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& j
 }
 
 EncodedCube encodeCube(std::span<const IblCubeLevel> levels, backend::Format format, jobs::JobSystem& jobs) {
-    FILAMENT_ASSERT(isEnvironmentFormat(format), "an environment is stored as RGBA16F, R11G11B10F or RGB9E5");
+    FILAMENT_ASSERT(isEnvironmentFormat(format), "an environment is stored as RGBA16F, R11G11B10F, RGB9E5 or RGBM");
     FILAMENT_ASSERT(!levels.empty(), "a cube has at least one level");
     const uint32_t size = levels.front().size();
     EncodedCube result;

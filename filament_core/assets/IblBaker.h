@@ -15,6 +15,8 @@
 #include "filament_core/assets/IblCube.h"
 #include "filament_core/assets/Image.h"
 
+#include <filament/Quality.h>
+
 #include <array>
 #include <functional>
 #include <span>
@@ -29,7 +31,12 @@ using IblProgress = std::function<void(size_t done, size_t total)>;
 
 /// `faceSize` is a power of two of at least 2 and at most cube[0].size(); each texel's lobe is cut into about `pieces`.
 std::vector<IblCubeLevel> prefilterSpecular(IblCube const& cube, uint32_t faceSize, uint32_t pieces,
-                                            jobs::JobSystem& jobs, IblProgress const& progress = {});
+                                            jobs::JobSystem& jobs, IblProgress const& progress = {},
+                                            RoughnessMapping mapping = RoughnessMapping::Quadratic);
+
+/// Irradiance / pi around each texel of a cube of `faceSize` texels: a plain sum over `level`, normalised so that a
+/// constant environment stays what it is. A level of 64 texels a face is fine enough for a lobe of 120 degrees.
+IblCubeLevel irradianceCube(IblCubeLevel const& level, uint32_t faceSize, jobs::JobSystem& jobs);
 
 /// Irradiance / pi as polynomial coefficients; w is 0. A constant environment L gives (L, 0, 0, ...).
 std::array<float4, 9> irradianceSh(IblCubeLevel const& level, jobs::JobSystem& jobs);
@@ -45,7 +52,8 @@ struct EncodedCube {
     EncodeLoss loss;
 };
 
-/// RGBA16F (alpha 1), R11G11B10F, and RGB9E5, which has 9 bits of the brightest component where R11G11B10F has 6.
+/// RGBA16F (alpha 1), R11G11B10F, RGB9E5, which has 9 bits of the brightest component where R11G11B10F has 6, and
+/// RGBA8, which stands for RGBM (Rgbm.h).
 bool isEnvironmentFormat(backend::Format format);
 
 /// `levels` each half the size of the one before; `format` is one of those above. Clamps at the format's

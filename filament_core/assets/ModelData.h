@@ -9,6 +9,8 @@
 #include "filament_core/assets/Image.h"
 #include "filament_core/math/Math.h"
 
+#include <filament/Quality.h>
+
 #include <array>
 #include <cstdint>
 #include <string>
@@ -43,6 +45,12 @@ struct MaterialData {
     bool unlit = false;
 };
 
+/// How vertices are stored (<filament/Quality.h>).
+struct GeometryStorage {
+    PositionStorage positions = PositionStorage::AsAuthored;
+    TangentStorage tangents = TangentStorage::Snorm16;
+};
+
 /// One draw's worth of geometry. Positions and all other attributes are interleaved in one stream.
 struct PrimitiveData {
     backend::Topology topology = backend::Topology::Triangles;
@@ -52,8 +60,10 @@ struct PrimitiveData {
     std::vector<std::byte> indices; ///< always indexed
     backend::IndexType indexType = backend::IndexType::UInt16;
     uint32_t vertexCount = 0, indexCount = 0;
-    uint32_t material = kNone; ///< kNone: glTF's default material
-    float3 boundsMin{ 0.0f }, boundsMax{ 0.0f };
+    uint32_t material = kNone;                   ///< kNone: glTF's default material
+    float3 boundsMin{ 0.0f }, boundsMax{ 0.0f }; ///< of the stored positions
+    float3 positionOffset{ 0.0f };               ///< position of the file = offset + scale * stored position
+    float positionScale = 1;
     bool hasColor = false, hasUv0 = false, hasUv1 = false;
     bool hasTangents = false; ///< false: no normals could be made either (points, lines)
 };

@@ -44,7 +44,7 @@ float3 normalizedOr(float3 vector, float3 fallback) {
     return scaled / std::sqrt(glm::dot(scaled, scaled));
 }
 
-std::array<int16_t, 4> encodeTangentFrame(float3 normal, float3 tangent, float handedness) {
+float4 tangentFrameQuaternion(float3 normal, float3 tangent, float handedness, float leastW) {
     const float3 z = normalizedOr(normal, float3(0, 0, 1));
     const float3 unit = normalizedOr(tangent, z);
     const float3 inPlane = unit - z * glm::dot(z, unit);
@@ -52,17 +52,17 @@ std::array<int16_t, 4> encodeTangentFrame(float3 normal, float3 tangent, float h
     const float3 x = isParallel ? anyTangent(z) : normalizedOr(inPlane, anyTangent(z));
     float4 q = quaternionFromBasis(x, glm::cross(z, x), z);
     if (q.w < 0) q = -q;
-    constexpr float kBias = 1.0f / kScale;
-    if (q.w < kBias) { // stay a unit quaternion
-        q *= std::sqrt(1.0f - kBias * kBias);
-        q.w = kBias;
+    if (q.w < leastW) { // stay a unit quaternion
+        q *= std::sqrt(1.0f - leastW * leastW);
+        q.w = leastW;
     }
-    if (handedness < 0) q = -q;
+    return glm::clamp(handedness < 0 ? -q : q, -1.0f, 1.0f);
+}
+
+std::array<int16_t, 4> encodeTangentFrame(float3 normal, float3 tangent, float handedness) {
+    const float4 q = tangentFrameQuaternion(normal, tangent, handedness, 1.0f / kScale);
     std::array<int16_t, 4> encoded;
-    for (size_t i = 0; i < 4; ++i) {
-        const float component = std::clamp(q[static_cast<int>(i)], -1.0f, 1.0f);
-        encoded[i] = static_cast<int16_t>(std::lround(component * kScale));
-    }
+    for (size_t i = 0; i < 4; ++i) encoded[i] = static_cast<int16_t>(std::lround(q[static_cast<int>(i)] * kScale));
     return encoded;
 }
 

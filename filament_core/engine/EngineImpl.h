@@ -56,6 +56,7 @@ struct IndirectLightState {
 
 struct SkyboxState {
     backend::TextureHandle cube;
+    bool isRgbm = false;
     std::string name;
 };
 

@@ -11,7 +11,7 @@ namespace filament {
 
 struct Environment::Impl {
     Engine::Impl& engine;
-    Texture specular{}, sky{};
+    Texture specular{}, sky{}, irradiance{};
     IndirectLight indirectLight{};
     Skybox skybox{};
 
@@ -19,6 +19,7 @@ struct Environment::Impl {
         Engine& owner = Engine::of(engine);
         if (skybox) owner.destroy(skybox); // none: memory ran out while the environment was loaded
         if (indirectLight) owner.destroy(indirectLight);
+        if (irradiance) engine.destroy(irradiance);
         if (sky) engine.destroy(sky);
         if (specular) engine.destroy(specular);
     }
@@ -62,6 +63,7 @@ Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const&
                                               .faceSize = options.faceSize,
                                               .samples = options.samples,
                                               .format = options.format,
+                                              .mapping = options.roughnessMapping,
                                               .progress = options.progress });
         if (!data) return data.error();
 
@@ -69,8 +71,11 @@ Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const&
         std::unique_ptr<Environment::Impl> parts(new Environment::Impl{ impl });
         parts->specular = uploadCube(impl, data->specular, name);
         parts->sky = uploadCube(impl, data->sky, name + " sky");
+        parts->irradiance = uploadCube(impl, data->irradiance, name + " irradiance");
         parts->indirectLight = orBadAlloc(engine.create(IndirectLightDesc{ .specular = parts->specular,
                                                                            .specularLevels = data->specular.levels,
+                                                                           .mapping = options.roughnessMapping,
+                                                                           .irradiance = parts->irradiance,
                                                                            .irradianceSh = data->irradianceSh,
                                                                            .name = name }));
         parts->skybox = orBadAlloc(engine.create(SkyboxDesc{ .cube = parts->sky, .name = name }));

@@ -49,6 +49,12 @@ public:
     }
 
 private:
+    struct Part {
+        RenderableDesc desc{};
+        double4x4 meshFromPositions{ 1.0 };
+        bool isScaled = false;
+    };
+
     void uploadImages() {
         for (assets::Image const& image : mData.images) {
             mModel->textures.push_back({}); // whoever makes something here has already a place for it
@@ -65,11 +71,12 @@ private:
         GltfMaterials materials(mEngine, *mModel, mModel->textures);
         std::map<std::pair<uint32_t, bool>, MaterialInstance> instances; // one a material, with and without colours
         for (assets::MeshData const& mesh : mData.meshes) {
-            std::vector<RenderableDesc>& parts = mMeshes.emplace_back();
+            std::vector<Part>& parts = mMeshes.emplace_back();
             for (PrimitiveData const& primitive : mesh.primitives) {
                 MaterialInstance& instance = instances[{ primitive.material, primitive.hasColor }];
                 if (!instance) instance = materials.instanceFor(materialOf(primitive), primitive.hasColor);
-                parts.push_back(upload(primitive, instance, mesh.name));
+                parts.push_back({ upload(primitive, instance, mesh.name), meshFromPositions(primitive),
+                                  primitive.positionScale != 1 || primitive.positionOffset != float3(0) });
             }
         }
     }
@@ -113,13 +120,29 @@ private:
             const uint32_t parent = node.parent == kNone ? Model::Impl::kRoot : node.parent;
             mModel->nodes.push_back({ node.name, parent, node.parentFromNode });
             if (node.mesh != kNone) {
-                for (RenderableDesc const& part : mMeshes[node.mesh]) {
-                    growBounds(part, node.worldFromNode);
-                    mModel->renderables.push_back({ part, i });
-                }
+                for (Part const& part : mMeshes[node.mesh]) placePart(part, i, node.worldFromNode);
             }
             if (node.light != kNone) mModel->lights.push_back({ lightOf(mData.lights[node.light]), i });
         }
+        // Behind the nodes of the file, whose parents are numbers.
+        for (Model::Impl::PartNode& node : mScalingNodes) mModel->nodes.push_back(std::move(node));
+    }
+
+    /// Positions that fill a unit cube hang at a node of their own, which makes them as large as they are.
+    void placePart(Part const& part, uint32_t node, double4x4 const& worldFromNode) {
+        growBounds(part.desc, worldFromNode * part.meshFromPositions);
+        uint32_t at = node;
+        if (part.isScaled) {
+            at = static_cast<uint32_t>(mData.nodes.size() + mScalingNodes.size());
+            mScalingNodes.push_back({ part.desc.name + " positions", node, part.meshFromPositions });
+        }
+        mModel->renderables.push_back({ part.desc, at });
+    }
+
+    static double4x4 meshFromPositions(PrimitiveData const& primitive) {
+        double4x4 matrix(static_cast<double>(primitive.positionScale));
+        matrix[3] = double4(double3(primitive.positionOffset), 1);
+        return matrix;
     }
 
     void growBounds(RenderableDesc const& part, double4x4 const& modelFromPart) {
@@ -154,7 +177,8 @@ private:
     Engine::Impl& mEngine;
     ModelData const& mData;
     std::unique_ptr<Model::Impl> mModel;
-    std::vector<std::vector<RenderableDesc>> mMeshes; // by mesh of the file, one an own primitive
+    std::vector<std::vector<Part>> mMeshes; // by mesh of the file, one an own primitive
+    std::vector<Model::Impl::PartNode> mScalingNodes;
 };
 
 } // namespace
@@ -187,7 +211,7 @@ namespace {
 
 Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path const& path,
                                           GltfLoadOptions const& options) {
-    assets::GltfOptions loaderOptions;
+    assets::GltfOptions loaderOptions{ .storage = { options.positions, options.tangents } };
     if (options.progress) {
         loaderOptions.progress = [&](assets::GltfStage stage, size_t done, size_t total) {
             options.progress(stage == assets::GltfStage::Structure ? "reading" : "decoding", done, total);

@@ -113,6 +113,7 @@ struct Renderer::Impl {
                     { .specular = context.packet.specular ? context.packet.specular : black,
                       .dfg = engine.textureHandle(engine.dfgTable(tableSize)),
                       .sky = context.packet.sky ? context.packet.sky : black,
+                      .irradiance = context.packet.irradiance ? context.packet.irradiance : black,
                       .trilinear = sampler(kTrilinear),
                       .bilinear = sampler(kBilinear) });
         context.viewGroup = data.viewGroup();
@@ -129,12 +130,14 @@ struct Renderer::Impl {
         context.settings = { view.size,
                              view.samples,
                              view.clearColor,
-                             passes::shadingKey(view.quality),
+                             passes::shadingKey(view.quality, context.packet.environment),
                              view.quality.depthRange,
                              halfIsThere ? view.quality.shadingPrecision : ShadingPrecision::Full };
         context.arena = &arena;
         context.pipelines = &engine.pipelines;
-        if (context.packet.sky) context.skybox = &engine.materials.get(engine.engineMaterial("skybox", {}));
+        if (context.packet.sky)
+            context.skybox =
+                    &engine.materials.get(engine.engineMaterial("skybox", { { "isRgbm", context.packet.skyIsRgbm } }));
 
         const TextureId output = graph.importTexture(target.handle,
                                                      { .width = target.desc.width,

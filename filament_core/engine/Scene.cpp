@@ -125,8 +125,13 @@ void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotatio
 }
 
 void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
-    mImpl->data.skybox = { skybox ? mImpl->engine.skyboxes.get(skybox).cube : backend::TextureHandle{}, illuminance,
-                           rotationRadians };
+    scene::SkyboxState state{ .illuminance = illuminance, .rotationRadians = rotationRadians };
+    if (skybox) {
+        engine::SkyboxState const& made = mImpl->engine.skyboxes.get(skybox);
+        state.cube = made.cube;
+        state.isRgbm = made.isRgbm;
+    }
+    mImpl->data.skybox = state;
 }
 
 Box Scene::bounds() const { return scene::sceneBounds(mImpl->upToDate()); }

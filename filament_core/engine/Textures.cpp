@@ -187,6 +187,10 @@ IndirectLight Engine::create(IndirectLightDesc const& desc) {
         engine::Draft draft(mImpl->indirectLights);
         engine::IndirectLightState& state = draft.state();
         state.light.specular = mImpl->textureHandle(desc.specular);
+        if (desc.irradiance) state.light.irradiance = mImpl->textureHandle(desc.irradiance);
+        state.light.storage = { .isRgbm = mImpl->textures.get(desc.specular).desc.format == Format::RGBA8,
+                                .hasIrradianceCube = static_cast<bool>(desc.irradiance),
+                                .mapping = desc.mapping };
         state.light.levelOfRoughnessOne = static_cast<float>(desc.specularLevels - 1);
         state.light.irradianceSh = desc.irradianceSh;
         state.name = desc.name;
@@ -197,7 +201,8 @@ IndirectLight Engine::create(IndirectLightDesc const& desc) {
 Skybox Engine::create(SkyboxDesc const& desc) {
     return mImpl->orNone("skybox", desc.name, [&] {
         engine::Draft draft(mImpl->skyboxes);
-        draft.state() = { mImpl->textureHandle(desc.cube), desc.name };
+        engine::TextureState const& cube = mImpl->textures.get(desc.cube);
+        draft.state() = { cube.handle, cube.desc.format == Format::RGBA8, desc.name };
         return draft.keep();
     });
 }

@@ -21,8 +21,11 @@ constexpr std::string_view kDiffuseTerms[] = { "lambert", "disney" };
 constexpr std::string_view kBooleans[] = { "off", "on" };
 constexpr std::string_view kSplitSums[] = { "table", "analytic" };
 constexpr std::string_view kTableSizes[] = { "16", "32", "64", "128", "256" };
-constexpr std::string_view kIrradiances[] = { "sphericalHarmonics", "lastSpecularLevel" };
+constexpr std::string_view kIrradiances[] = { "sphericalHarmonics", "lastSpecularLevel", "cube" };
+constexpr std::string_view kRoughnessMappings[] = { "quadratic", "logarithmic", "linear" };
 constexpr std::string_view kBands[] = { "1", "2", "3" };
+constexpr std::string_view kPositionStorages[] = { "asAuthored", "half", "unorm16" };
+constexpr std::string_view kTangentStorages[] = { "snorm16", "snorm8", "float" };
 constexpr std::string_view kShadingPrecisions[] = { "full", "half" };
 constexpr std::string_view kTextureFilters[] = { "asAuthored", "bilinear", "trilinear", "anisotropic" };
 constexpr std::string_view kToneMappings[] = { "analytic", "table16", "table32", "table64" };
@@ -138,6 +141,9 @@ const char* toString(FresnelTerm value) { return wordOf(kFresnelTerms, value); }
 const char* toString(DiffuseTerm value) { return wordOf(kDiffuseTerms, value); }
 const char* toString(SplitSum value) { return wordOf(kSplitSums, value); }
 const char* toString(DiffuseIrradiance value) { return wordOf(kIrradiances, value); }
+const char* toString(RoughnessMapping value) { return wordOf(kRoughnessMappings, value); }
+const char* toString(PositionStorage value) { return wordOf(kPositionStorages, value); }
+const char* toString(TangentStorage value) { return wordOf(kTangentStorages, value); }
 const char* toString(ShadingPrecision value) { return wordOf(kShadingPrecisions, value); }
 const char* toString(TextureFilter value) { return wordOf(kTextureFilters, value); }
 const char* toString(ToneMapping value) { return wordOf(kToneMappings, value); }
@@ -156,6 +162,15 @@ std::optional<DiffuseTerm> diffuseTermFromName(std::string_view name) {
 std::optional<SplitSum> splitSumFromName(std::string_view name) { return valueOf<SplitSum>(kSplitSums, name); }
 std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name) {
     return valueOf<DiffuseIrradiance>(kIrradiances, name);
+}
+std::optional<RoughnessMapping> roughnessMappingFromName(std::string_view name) {
+    return valueOf<RoughnessMapping>(kRoughnessMappings, name);
+}
+std::optional<PositionStorage> positionStorageFromName(std::string_view name) {
+    return valueOf<PositionStorage>(kPositionStorages, name);
+}
+std::optional<TangentStorage> tangentStorageFromName(std::string_view name) {
+    return valueOf<TangentStorage>(kTangentStorages, name);
 }
 std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name) {
     return valueOf<ShadingPrecision>(kShadingPrecisions, name);

@@ -63,13 +63,14 @@ void FrameData::makeFixed(CommandBuffer& commands, Set& set) {
 void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& textures) {
     release(commands, set.view);
     set.textures = textures;
-    const std::array<BindGroupEntry, 6> entries{ {
+    const std::array<BindGroupEntry, 7> entries{ {
             { .binding = shader::kBindingFrame, .buffer = set.frame, .size = sizeof(FrameUniforms) },
             { .binding = shader::kBindingObjects, .buffer = set.objects, .size = kWindowBytes },
             { .binding = shader::kBindingLights, .buffer = set.lights, .size = sizeof(shader::LightUniforms) },
             { .binding = shader::kBindingSpecular, .texture = textures.specular, .sampler = textures.trilinear },
             { .binding = shader::kBindingDfg, .texture = textures.dfg, .sampler = textures.bilinear },
             { .binding = shader::kBindingSky, .texture = textures.sky, .sampler = textures.bilinear },
+            { .binding = shader::kBindingIrradiance, .texture = textures.irradiance, .sampler = textures.bilinear },
     } };
     NewHandle view(mStream, mStream.allocateBindGroup());
     commands.record(CmdCreateBindGroup{ view, { shader::viewGroupLayout(), entries, "view" } });

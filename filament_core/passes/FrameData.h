@@ -17,9 +17,9 @@ namespace filament::passes {
 
 /// The textures of the view group; every handle is set.
 struct ViewTextures {
-    backend::TextureHandle specular, dfg, sky;
+    backend::TextureHandle specular, dfg, sky, irradiance;
     backend::SamplerHandle trilinear; ///< of the specular levels
-    backend::SamplerHandle bilinear;  ///< of the sky and the table: one level each
+    backend::SamplerHandle bilinear;  ///< of sky, irradiance and table: one level each
     friend bool operator==(ViewTextures const&, ViewTextures const&) = default;
 };
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
+#include "filament_core/scene/SceneData.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <filament/Quality.h>
@@ -16,7 +17,8 @@ namespace filament::passes {
 
 using ShadingKey = uint16_t;
 
-ShadingKey shadingKey(Quality const& quality);
+/// `light`: how the environment of the scene is stored, which selects programs as well.
+ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& light = {});
 
 /// Values for shader::kQualityConstants, in their order.
 std::array<backend::ConstantValue, shader::kQualityConstants.size()> shadingConstants(ShadingKey key);

@@ -56,7 +56,10 @@ struct FramePacket {
     std::span<const DrawCall> blended; ///< back to front
     uint8_t variant = 0;               ///< shader::VariantBit set that the scene's lights select
     backend::TextureHandle specular;   ///< none: no indirect light
+    backend::TextureHandle irradiance; ///< none: the coefficients in `frame` only
     backend::TextureHandle sky;        ///< none: no skybox
+    scene::EnvironmentStorage environment{};
+    bool skyIsRgbm = false;
     PacketCounts counts;
 };
 

@@ -41,7 +41,8 @@ uint64_t hashPacket(FramePacket const& packet) {
     for (DrawCall const& draw : packet.opaque) hash = hashDraw(draw, hash);
     for (DrawCall const& draw : packet.blended) hash = hashDraw(draw, hash);
     hash = hashAll(hash, packet.opaque.size(), packet.blended.size(), packet.variant, packet.specular.bits,
-                   packet.sky.bits);
+                   packet.irradiance.bits, packet.sky.bits, packet.environment.isRgbm, packet.environment.mapping,
+                   packet.skyIsRgbm);
     return hashCounts(packet.counts, hash);
 }
 

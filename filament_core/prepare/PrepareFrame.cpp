@@ -43,7 +43,10 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
     packet.specular = scene.indirectLight.specular;
+    packet.irradiance = scene.indirectLight.irradiance;
+    packet.environment = scene.indirectLight.storage;
     packet.sky = scene.skybox.cube;
+    packet.skyIsRgbm = scene.skybox.isRgbm;
     return packet;
 }
 

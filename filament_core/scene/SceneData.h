@@ -11,6 +11,7 @@
 
 #include <filament/Box.h>
 #include <filament/Objects.h>
+#include <filament/Quality.h>
 #include <filament/Units.h>
 
 #include <array>
@@ -46,8 +47,17 @@ struct NodeContents {
     std::vector<LightPose> lightPoses; ///< by handle index
 };
 
+/// What shaders must know to read an environment.
+struct EnvironmentStorage {
+    bool isRgbm = false;            ///< the specular cube: RGBA8 as RGBM
+    bool hasIrradianceCube = false; ///< else: the coefficients only
+    RoughnessMapping mapping = RoughnessMapping::Quadratic;
+};
+
 struct IndirectLightState {
     backend::TextureHandle specular;
+    backend::TextureHandle irradiance; ///< none: the coefficients only
+    EnvironmentStorage storage{};
     float levelOfRoughnessOne = 0;
     std::array<float4, 9> irradianceSh{};
     Lux illuminance{};
@@ -56,6 +66,7 @@ struct IndirectLightState {
 
 struct SkyboxState {
     backend::TextureHandle cube;
+    bool isRgbm = false; ///< RGBA8 as RGBM
     Lux illuminance{};
     float rotationRadians = 0;
 };

@@ -39,6 +39,7 @@ enum ViewBinding : uint8_t {
     kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
     kBindingDfg = 4,         ///< sampler2D: split-sum terms
     kBindingSky = 5,         ///< samplerCube: unfiltered environment
+    kBindingIrradiance = 6,  ///< samplerCube: irradiance / pi
 };
 
 // ---- FrameUniforms
@@ -98,6 +99,8 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityWithoutEnergyCompensation = 1003, ///< 1: one bounce only
     kQualitySplitSum = 1004,
     kQualityDiffuseIrradiance = 1005,
+    kQualityEnvironmentEncoding = 1006, ///< 1: RGBM (of the environment, not of the view)
+    kQualityRoughnessMapping = 1007,    ///< (of the environment)
 };
 
 inline constexpr std::array kQualityConstants{
@@ -107,6 +110,8 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "withoutEnergyCompensation", kQualityWithoutEnergyCompensation },
     QualityConstant{ "splitSum", kQualitySplitSum },
     QualityConstant{ "diffuseIrradiance", kQualityDiffuseIrradiance },
+    QualityConstant{ "environmentEncoding", kQualityEnvironmentEncoding },
+    QualityConstant{ "roughnessMapping", kQualityRoughnessMapping },
 };
 
 // clang-format on

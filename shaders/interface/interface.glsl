@@ -54,3 +54,4 @@ layout(set = 0, binding = 2, std140) uniform LightUniforms {
 layout(set = 0, binding = 3) uniform samplerCube viewSpecular;
 layout(set = 0, binding = 4) uniform sampler2D viewDfg;
 layout(set = 0, binding = 5) uniform samplerCube viewSky;
+layout(set = 0, binding = 6) uniform samplerCube viewIrradiance;

@@ -13,6 +13,41 @@ float perceptualRoughnessFromLevel(float level, float levelOfRoughnessOne) {
     return 1.0f - sqrt(max(1.0f - level / levelOfRoughnessOne, 0.0f));
 }
 
+// Other mappings of roughness to levels (RoughnessMapping of <filament/Quality.h>, in its order).
+const int kRoughnessQuadratic = 0;
+const int kRoughnessLogarithmic = 1; // every level doubles alpha; level 0 is the mirror all the same
+const int kRoughnessLinear = 2;
+
+// Guy and Agopian 2018, "High performance on mobile", for the quadratic and the logarithmic one. Ranges as above.
+float levelFromPerceptualRoughness(float perceptualRoughness, float levelOfRoughnessOne, int mapping) {
+    float level = levelFromPerceptualRoughness(perceptualRoughness, levelOfRoughnessOne);
+    if (mapping == kRoughnessLogarithmic) {
+        level = max(levelOfRoughnessOne + 2.0f * log2(max(perceptualRoughness, 0.001f)), 0.0f);
+    } else if (mapping == kRoughnessLinear) {
+        level = levelOfRoughnessOne * perceptualRoughness;
+    }
+    return level;
+}
+
+// Inverse of the above, but for the mirror at level 0 of the logarithmic one.
+float perceptualRoughnessFromLevel(float level, float levelOfRoughnessOne, int mapping) {
+    float roughness = perceptualRoughnessFromLevel(level, levelOfRoughnessOne);
+    if (mapping == kRoughnessLogarithmic) {
+        roughness = level > 0.0009765625f ? exp2(0.5f * (level - levelOfRoughnessOne)) : 0.0f; // 2^-10: every format has it
+    } else if (mapping == kRoughnessLinear) {
+        roughness = level / levelOfRoughnessOne;
+    }
+    return roughness;
+}
+
+// RGBM: a colour in [0, 1] and one factor for it in alpha; here of the square root of radiance, so that 8 bits reach
+// from 0 to kRgbmRange^2 = 256. Packed by Rgbm.h. Karis 2009, "RGBM color encoding"; the root is Lazarov's, 2011.
+const float kRgbmRange = 16.0f;
+vec3 radianceFromRgbm(vec4 texel) {
+    vec3 root = vec3(texel) * (texel.w * kRgbmRange);
+    return root * root;
+}
+
 // Where a rough lobe really points: off the mirror direction r towards the normal n. Lagarde and de Rousiers 2014,
 // "Moving Frostbite to Physically Based Rendering", section 4.9.3, with the quadratic weight alpha^2.
 // Not normalised: a cube map look-up does not need it. n, r unit, alpha in [0, 1].

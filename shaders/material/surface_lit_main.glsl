@@ -70,8 +70,9 @@ highp vec3 imageBasedLight(Surface surface) {
         vec3 diffuse = surface.diffuse * irradiance * (1.0 - surface.specularAlbedo) * surface.visibility;
 
         highp vec3 direction = dominantSpecularDirection(surface.normal, shading_reflected, surface.alpha);
-        highp float level = levelFromPerceptualRoughness(surface.perceptualRoughness, frameUniforms.ambient.y);
-        vec3 radiance = textureLod(viewSpecular, environmentFromWorld(direction), level).rgb;
+        highp float level = levelFromPerceptualRoughness(surface.perceptualRoughness, frameUniforms.ambient.y,
+                quality_roughnessMapping);
+        vec3 radiance = radianceOfTexel(textureLod(viewSpecular, environmentFromWorld(direction), level));
         vec3 specular = surface.specularAlbedo * radiance;
 #if defined(HAS_AMBIENT_OCCLUSION)
         specular *= specularOcclusion(surface.nov, surface.visibility, surface.alpha);

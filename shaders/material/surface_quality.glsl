@@ -8,6 +8,8 @@ const int kFresnelExact = 1;
 const int kDiffuseDisney = 1;
 const int kSplitSumAnalytic = 1;
 const int kIrradianceLastSpecularLevel = 1;
+const int kIrradianceCube = 2;
+const int kEncodingRgbm = 1;
 
 // Half floats end at 65504, and infinity times the cosine of a grazing light would be NaN.
 #if defined(HALF_PRECISION)
@@ -74,11 +76,23 @@ vec3 energyCompensationTerm(vec3 f0, vec2 dfg) {
     return factor;
 }
 
+vec3 radianceOfTexel(vec4 texel) {
+    vec3 radiance;
+    if (quality_environmentEncoding == kEncodingRgbm) {
+        radiance = radianceFromRgbm(texel);
+    } else {
+        radiance = texel.rgb;
+    }
+    return radiance;
+}
+
 // Irradiance / pi around a direction of the environment's space.
 vec3 irradianceTerm(highp vec3 normal) {
     vec3 irradiance;
     if (quality_diffuseIrradiance == kIrradianceLastSpecularLevel) {
-        irradiance = textureLod(viewSpecular, normal, frameUniforms.ambient.y).rgb;
+        irradiance = radianceOfTexel(textureLod(viewSpecular, normal, frameUniforms.ambient.y));
+    } else if (quality_diffuseIrradiance == kIrradianceCube) {
+        irradiance = textureLod(viewIrradiance, normal, 0.0).rgb;
     } else {
         irradiance = irradianceSh(frameUniforms.irradianceSh, normal, int(frameUniforms.ambient.z));
     }

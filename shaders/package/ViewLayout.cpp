@@ -19,6 +19,7 @@ backend::BindGroupLayout viewGroupLayout(MaterialDomain domain) {
     add(kBindingSpecular, BindingType::SampledTexture, ShaderStage::Fragment);
     add(kBindingDfg, BindingType::SampledTexture, ShaderStage::Fragment);
     add(kBindingSky, BindingType::SampledTexture, ShaderStage::Fragment);
+    add(kBindingIrradiance, BindingType::SampledTexture, ShaderStage::Fragment);
     return layout;
 }
 

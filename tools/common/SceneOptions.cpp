@@ -89,6 +89,28 @@ Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
     return {};
 }
 
+/// What is chosen beside Quality, when an engine is made or a file is loaded. Nothing: it is another name.
+std::optional<Result<void>> convertLoadChoice(std::string const& name, std::string const& value,
+                                              SceneOptions& options) {
+    const auto choose = [&](auto& member, auto const& known, const char* cure) -> Result<void> {
+        if (!known) return invalidOption(("--set " + name).c_str(), value, cure);
+        member = *known;
+        return {};
+    };
+    if (name == "exact") return convertSwitch("--set exact", value, options.exactShaders);
+    if (name == "environment.format")
+        return choose(options.environmentOptions.format, environmentFormatFromName(value),
+                      "RGBA16F, R11G11B10F, RGB9E5 or RGBM");
+    if (name == "environment.roughnessMapping")
+        return choose(options.environmentOptions.roughnessMapping, roughnessMappingFromName(value),
+                      "quadratic, logarithmic or linear");
+    if (name == "model.positions")
+        return choose(options.modelOptions.positions, positionStorageFromName(value), "asAuthored, half or unorm16");
+    if (name == "model.tangents")
+        return choose(options.modelOptions.tangents, tangentStorageFromName(value), "snorm16, snorm8 or float");
+    return std::nullopt;
+}
+
 Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
     if (!words.quality.empty()) {
         const auto preset = qualityPresetFromName(words.quality);
@@ -99,8 +121,8 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
         const size_t equals = word.find('=');
         if (equals == std::string::npos) return invalidOption("--set", word, "NAME=VALUE, see docs/quality.md");
         const std::string name = word.substr(0, equals), value = word.substr(equals + 1);
-        if (name == "exact") {
-            if (auto done = convertSwitch("--set exact", value, options.exactShaders); !done) return done;
+        if (const auto chosen = convertLoadChoice(name, value, options)) {
+            if (!*chosen) return *chosen;
             continue;
         }
         const Result<void> done = setQuality(options.quality, name, value);

@@ -8,6 +8,8 @@
 #include "filament_core/base/Result.h"
 
 #include <filament/Camera.h>
+#include <filament/Environment.h>
+#include <filament/Gltf.h>
 #include <filament/Light.h>
 #include <filament/View.h>
 
@@ -35,7 +37,9 @@ struct SceneOptions {
     bool skybox = true; ///< where there is an environment
     ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
     Quality quality{};
-    bool exactShaders = true; ///< --set exact=off
+    bool exactShaders = true;                    ///< --set exact=off
+    EnvironmentLoadOptions environmentOptions{}; ///< --set environment.format=RGBM, environment.roughnessMapping=linear
+    GltfLoadOptions modelOptions{};              ///< --set model.positions=half, model.tangents=snorm8
     std::filesystem::path out = "out";
 };
 

@@ -63,6 +63,15 @@ void readEnvironment(JsonReader& reader, SceneSpec& spec) {
     reader.read("degrees", degrees, -360, 360);
     spec.environmentSettings.rotationRadians = static_cast<float>(glm::radians(degrees));
     reader.read("skybox", spec.environmentSettings.skybox);
+    EnvironmentLoadOptions& options = spec.environmentOptions;
+    reader.choice("format", options.format, "RGBA16F, R11G11B10F, RGB9E5 or RGBM", environmentFormatFromName);
+    reader.choice("roughnessMapping", options.roughnessMapping, "quadratic, logarithmic or linear",
+                  roughnessMappingFromName);
+}
+
+void readGeometry(JsonReader& reader, GltfLoadOptions& options) {
+    reader.choice("positions", options.positions, "asAuthored, half or unorm16", positionStorageFromName);
+    reader.choice("tangents", options.tangents, "snorm16, snorm8 or float", tangentStorageFromName);
 }
 
 void readCamera(JsonReader& reader, SceneSpec& spec) {
@@ -134,6 +143,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     else
         reader.complain("model", "a scene needs one: a path, \"asset:PATH\" or { \"objects\": [...] }");
     reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
+    reader.object("geometry", [&](JsonReader& r) { readGeometry(r, spec.modelOptions); });
     reader.objects("suns", [&](JsonReader& r) { readSun(r, spec); });
     reader.objects("points", [&](JsonReader& r) { readPoint(r, spec); });
     reader.objects("spots", [&](JsonReader& r) { readSpot(r, spec); });

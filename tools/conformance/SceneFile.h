@@ -10,6 +10,8 @@
 #include "tools/conformance/JsonReader.h"
 
 #include <filament/Camera.h>
+#include <filament/Environment.h>
+#include <filament/Gltf.h>
 #include <filament/Light.h>
 #include <filament/Scene.h>
 #include <filament/View.h>
@@ -39,6 +41,8 @@ struct SceneSpec {
     std::filesystem::path folder; ///< where the scene file is: paths are relative to it
     std::string environment;      ///< "sky", "asset:...", a path; empty: none
     EnvironmentSettings environmentSettings{};
+    EnvironmentLoadOptions environmentOptions{ .faceSize = 64, .samples = 128 };
+    GltfLoadOptions modelOptions{};
     std::vector<LightSpec> lights;
     std::vector<double4x4> copies; ///< where the model stands; never empty
     double3 origin{ 0.0 };         ///< of everything: model, lights, camera

@@ -1,10 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Stage.h"
 
+#include <fmt/core.h>
+
 namespace filament::conformance {
 namespace {
 
-const EnvironmentLoadOptions kEnvironment{ .faceSize = 64, .samples = 128 };
+// Equal texts: loaded already.
+std::string keyOf(std::filesystem::path const& path, GltfLoadOptions const& options) {
+    return fmt::format("{} {} {}", path.string(), toString(options.positions), toString(options.tangents));
+}
+
+std::string keyOf(std::filesystem::path const& path, EnvironmentLoadOptions const& options) {
+    return fmt::format("{} {} {}", path.string(), environmentFormatName(options.format),
+                       toString(options.roughnessMapping));
+}
 
 } // namespace
 
@@ -28,24 +38,26 @@ Stage::Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend
 Result<void> Stage::loadModel(SceneSpec const& spec) {
     const Result<std::filesystem::path> path = modelFile(spec, { mOptions.work, mOptions.assets });
     if (!path) return path.error();
-    if (mModel && mModelKey == path->string()) return {};
+    std::string key = keyOf(*path, spec.modelOptions);
+    if (mModel && mModelKey == key) return {};
     mModel.reset();
-    Result<Model> model = loadGltf(mEngine, *path);
+    Result<Model> model = loadGltf(mEngine, *path, spec.modelOptions);
     if (!model) return model.error();
     mModel = std::move(*model);
-    mModelKey = path->string();
+    mModelKey = std::move(key);
     return {};
 }
 
 Result<void> Stage::loadSky(SceneSpec const& spec) {
     const Result<std::filesystem::path> path = environmentFile(spec, { mOptions.work, mOptions.assets });
     if (!path) return path.error();
-    if (path->empty() || mEnvironmentKey == path->string()) return {};
-    Result<Environment> environment = loadEnvironment(mEngine, *path, kEnvironment);
+    std::string key = keyOf(*path, spec.environmentOptions);
+    if (path->empty() || mEnvironmentKey == key) return {};
+    Result<Environment> environment = loadEnvironment(mEngine, *path, spec.environmentOptions);
     if (!environment) return environment.error();
     mEnvironment.reset();
     mEnvironment = std::move(*environment);
-    mEnvironmentKey = path->string();
+    mEnvironmentKey = std::move(key);
     return {};
 }
 

@@ -108,7 +108,9 @@ private:
 Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
                          std::filesystem::path const& environment) {
     StopWatch watch;
-    Result<Model> loaded = loadGltf(mEngine, model, { .progress = progressOf(run.backend, "model") });
+    GltfLoadOptions modelOptions = mOptions.modelOptions;
+    modelOptions.progress = progressOf(run.backend, "model");
+    Result<Model> loaded = loadGltf(mEngine, model, modelOptions);
     if (!loaded) return loaded.error();
     mModel.emplace(std::move(*loaded));
     run.modelName = mModel->name();
@@ -118,8 +120,9 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
     run.start.model = watch.lap();
 
     if (!environment.empty()) {
-        Result<Environment> sky =
-                loadEnvironment(mEngine, environment, { .progress = progressOf(run.backend, "environment") });
+        EnvironmentLoadOptions environmentOptions = mOptions.environmentOptions;
+        environmentOptions.progress = progressOf(run.backend, "environment");
+        Result<Environment> sky = loadEnvironment(mEngine, environment, environmentOptions);
         if (!sky) return sky.error();
         mEnvironment.emplace(std::move(*sky));
         mScene.setEnvironment(*mEnvironment, { .illuminance = mOptions.iblIntensity, .skybox = mOptions.skybox });

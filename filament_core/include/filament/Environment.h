@@ -6,6 +6,7 @@
 #pragma once
 
 #include <filament/Engine.h>
+#include <filament/EnvironmentFormat.h>
 #include <filament/Gltf.h>
 
 #include <filesystem>
@@ -15,8 +16,9 @@ namespace filament {
 
 struct EnvironmentLoadOptions {
     uint32_t faceSize = 256;         ///< texels of a cube face, power of two in [16, 2048]
-    Format format = Format::RGBA16F; ///< or R11G11B10F, RGB9E5: half the memory
-    uint32_t samples = 512;          ///< pieces of the sky that each texel integrates, about
+    Format format = Format::RGBA16F; ///< or R11G11B10F, RGB9E5, RGBA8 (as RGBM): half the memory
+    RoughnessMapping roughnessMapping = RoughnessMapping::Quadratic;
+    uint32_t samples = 512; ///< pieces of the sky that each texel integrates, about
     LoadProgress progress{};
 };
 

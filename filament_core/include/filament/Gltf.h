@@ -20,6 +20,8 @@ namespace filament {
 using LoadProgress = std::function<void(std::string_view stage, size_t done, size_t total)>;
 
 struct GltfLoadOptions {
+    PositionStorage positions = PositionStorage::AsAuthored;
+    TangentStorage tangents = TangentStorage::Snorm16;
     LoadProgress progress{};
 };
 

@@ -8,6 +8,7 @@
 #include <filament/Format.h>
 #include <filament/Handle.h>
 #include <filament/Math.h>
+#include <filament/Quality.h>
 #include <filament/Sampler.h>
 
 #include <array>
@@ -105,14 +106,16 @@ using ParameterValue = std::variant<bool, int32_t, uint32_t, float, float2, floa
 
 /// Pre-filtered environment: irradiance and specular reflections of everything far away.
 struct IndirectLightDesc {
-    Texture specular{}; ///< cube; level i holds perceptual roughness 1 - sqrt(1 - i / (levels - 1))
+    Texture specular{}; ///< cube; level i holds the roughness that `mapping` says; RGBA8 is RGBM (shaders/lib/ibl.glsl)
     uint32_t specularLevels = 1;
+    RoughnessMapping mapping = RoughnessMapping::Quadratic;
+    Texture irradiance{};                 ///< cube of irradiance / pi, for DiffuseIrradiance::Cube; may be none
     std::array<float4, 9> irradianceSh{}; ///< rgb; see shaders/lib/ibl.glsl, irradianceSh()
     std::string name{};
 };
 
 struct SkyboxDesc {
-    Texture cube{};
+    Texture cube{}; ///< RGBA8 is RGBM
     std::string name{};
 };
 

@@ -48,6 +48,28 @@ enum class SplitSum : uint8_t {
 enum class DiffuseIrradiance : uint8_t {
     SphericalHarmonics, ///< Quality::shBands bands
     LastSpecularLevel,  ///< roughness 1 of the specular environment: no coefficients, a GGX lobe instead of a cosine
+    Cube,               ///< a small cube map of irradiance: no bands cut off; the coefficients where a light has none
+};
+
+/// Which mip level of a specular environment holds which roughness: chosen when it is loaded. n is the last level.
+enum class RoughnessMapping : uint8_t {
+    Quadratic,   ///< n r (2 - r), r the perceptual roughness: most levels for rough surfaces
+    Logarithmic, ///< n + log2(r^2), from 0 on: every level twice as wide a lobe
+    Linear,      ///< n r
+};
+
+/// How vertex positions of a glTF file are stored: chosen when it is loaded.
+enum class PositionStorage : uint8_t {
+    AsAuthored, ///< floats, or the integers of a file that is quantised already
+    Half,       ///< 11 bits relative to the origin of each mesh
+    Unorm16,    ///< 16 bits within the bounding cube of each primitive; a node of the model scales them back
+};
+
+/// How tangent frames of a glTF file are stored: a quaternion a vertex, chosen when it is loaded.
+enum class TangentStorage : uint8_t {
+    Snorm16, ///< 4 x 16 bits: 0.003 degrees off
+    Snorm8,  ///< 4 x 8 bits: up to a degree off
+    Float,
 };
 
 /// Of the lighting of lit materials: what their own code computes keeps 32 bits. Materials that were compiled without
@@ -109,6 +131,9 @@ const char* toString(FresnelTerm value);
 const char* toString(DiffuseTerm value);
 const char* toString(SplitSum value);
 const char* toString(DiffuseIrradiance value);
+const char* toString(RoughnessMapping value);
+const char* toString(PositionStorage value);
+const char* toString(TangentStorage value);
 const char* toString(ShadingPrecision value);
 const char* toString(TextureFilter value);
 const char* toString(ToneMapping value);
@@ -119,6 +144,9 @@ std::optional<FresnelTerm> fresnelTermFromName(std::string_view name);
 std::optional<DiffuseTerm> diffuseTermFromName(std::string_view name);
 std::optional<SplitSum> splitSumFromName(std::string_view name);
 std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name);
+std::optional<RoughnessMapping> roughnessMappingFromName(std::string_view name);
+std::optional<PositionStorage> positionStorageFromName(std::string_view name);
+std::optional<TangentStorage> tangentStorageFromName(std::string_view name);
 std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name);
 std::optional<TextureFilter> textureFilterFromName(std::string_view name);
 std::optional<ToneMapping> toneMappingFromName(std::string_view name);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/IblBaker.h"
+#include "filament_core/assets/Environment.h"
 
 #include "filament_core/assets/DfgTable.h"
 #include "filament_core/math/Half.h"
@@ -125,6 +126,33 @@ TEST_F(IblBakerTest, EveryLevelIsTheLobeOfItsRoughnessOverTheSky) {
             const float3 baked(texel[0], texel[1], texel[2]), reference = prefilterByBruteForce(n, alpha);
             EXPECT_LT(glm::distance(baked, reference), 0.01f * glm::length(reference)) << "level " << i;
         }
+    }
+}
+
+TEST_F(IblBakerTest, EveryMappingPutsTheLobeOfItsRoughnessIntoEachLevel) {
+    const IblCube cube = cubeFromEquirect(pictureOf(128, unevenSky), 128, mJobs);
+    for (const RoughnessMapping mapping : { RoughnessMapping::Logarithmic, RoughnessMapping::Linear }) {
+        const std::vector<IblCubeLevel> levels = prefilterSpecular(cube, 128, 256, mJobs, {}, mapping);
+        for (uint32_t i = 2; i < 4; ++i) {
+            // Of 4 levels: alpha 1/2 and 1, or perceptual roughness 2/3 and 1.
+            const float alpha = i == 3 ? 1.0f : mapping == RoughnessMapping::Linear ? 4.0f / 9 : 0.5f;
+            const Texel texel = levels[i].sample(cubeFromDirection(kNormals[1]));
+            const float3 reference = prefilterByBruteForce(kNormals[1], alpha);
+            EXPECT_LT(glm::distance(float3(texel[0], texel[1], texel[2]), reference), 0.01f * glm::length(reference))
+                    << toString(mapping) << " level " << i;
+        }
+    }
+}
+
+// Against the coefficients, which are exact for a sky of three bands.
+TEST_F(IblBakerTest, TheIrradianceCubeOfASmoothSkyAgreesWithTheCoefficients) {
+    const HdrImage sky = pictureOf(64, [](float3 d) { return float3(1.0f + d.x, 1.0f + d.y * d.z, 1.5f - d.z); });
+    const IblCube cube = cubeFromEquirect(sky, 64, mJobs);
+    const std::array<float4, 9> sh = irradianceSh(cube[0], mJobs);
+    const IblCubeLevel irradiance = irradianceCube(cube[0], kIrradianceFaceSize, mJobs);
+    for (const float3 n : kNormals) {
+        const Texel texel = irradiance.sample(cubeFromDirection(n));
+        EXPECT_LT(glm::distance(float3(texel[0], texel[1], texel[2]), lib::irradianceSh(sh.data(), n, 3)), 0.01f);
     }
 }
 

@@ -74,7 +74,8 @@ public:
     }
 
     /// Radiance `level + 1` in specular level `level`, of `levels`; irradiance / pi from the coefficients.
-    void addEnvironment(std::array<float4, 9> const& irradianceSh, uint32_t levels = 3) {
+    void addEnvironment(std::array<float4, 9> const& irradianceSh, uint32_t levels = 3,
+                        RoughnessMapping mapping = RoughnessMapping::Quadratic, Texture irradiance = {}) {
         std::vector<uint16_t> texels;
         for (uint32_t level = 0; level < levels; ++level) {
             const uint32_t side = 1u << (levels - 1 - level);
@@ -87,7 +88,9 @@ public:
                                                         .layers = 6,
                                                         .levels = levels,
                                                         .pixels = std::as_bytes(std::span(texels)) }));
-        IndirectLightDesc light{ .specular = mCube, .specularLevels = levels };
+        IndirectLightDesc light{
+            .specular = mCube, .specularLevels = levels, .mapping = mapping, .irradiance = irradiance
+        };
         light.irradianceSh = irradianceSh;
         mLight = mEngine.own(mEngine.create(light));
         scene.setIndirectLight(mLight, Lux{ 1 / view.camera.exposure.factor() });

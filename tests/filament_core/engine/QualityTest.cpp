@@ -2,6 +2,7 @@
 // Quality choices of the shading as pictures: each value draws the same bits on both APIs, and draws what its formula
 // says. The formulas are the shader library compiled as C++ (shaders/lib/LibCpp.h), which its own tests check.
 #include "filament_core/assets/DfgTable.h"
+#include "filament_core/math/Rgbm.h"
 #include "filament_core/math/SharedExponent.h"
 #include "tests/filament_core/engine/QualityFixture.h"
 
@@ -183,13 +184,83 @@ TEST_P(QualityTest, EachBandAddsItsTermsToTheDiffuseLight) {
     test::expectNoErrors(*engine);
 }
 
+// A white metal shows the radiance of its level, which Patch::addEnvironment() numbers from 1.
+TEST_P(QualityTest, EachRoughnessMappingReadsTheLevelThatItsFormulaSays) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    const auto levelRead = [&](RoughnessMapping mapping, float roughness) {
+        Patch patch(*engine);
+        patch.setSurface(float4(1), 1, roughness);
+        patch.addEnvironment({}, 5, mapping);
+        return patch.renderCenter().x - 1;
+    };
+    for (const float r : { 0.3f, 0.5f, 0.7f, 1.0f }) {
+        EXPECT_NEAR(levelRead(RoughnessMapping::Quadratic, r), 4 * r * (2 - r), 0.02f) << r;
+        EXPECT_NEAR(levelRead(RoughnessMapping::Logarithmic, r), 4 + std::log2(r * r), 0.02f) << r;
+        EXPECT_NEAR(levelRead(RoughnessMapping::Linear, r), 4 * r, 0.02f) << r;
+    }
+    EXPECT_NEAR(levelRead(RoughnessMapping::Logarithmic, 0.2f), 0, 0.02f) << "alpha below 2^-4 is the mirror";
+    test::expectNoErrors(*engine);
+}
+
+Owned<Texture> halfCube(Engine& engine, float3 radiance) {
+    std::vector<uint16_t> texels;
+    for (int face = 0; face < 6; ++face) {
+        for (const float value : { radiance.x, radiance.y, radiance.z, 1.0f }) texels.push_back(halfFromFloat(value));
+    }
+    return engine.own(engine.create(TextureDesc{ .kind = TextureKind::Cube,
+                                                 .format = Format::RGBA16F,
+                                                 .layers = 6,
+                                                 .pixels = std::as_bytes(std::span(texels)) }));
+}
+
+TEST_P(QualityTest, TheIrradianceCubeTakesThePlaceOfTheCoefficientsWhereThereIsOne) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    const auto shown = [&](std::array<float4, 9> const& sh, Texture cube, DiffuseIrradiance choice) {
+        Patch patch(*engine);
+        patch.setSurface(float4(1), 0, 1);
+        patch.addEnvironment(sh, 3, RoughnessMapping::Quadratic, cube);
+        patch.view.quality.diffuseIrradiance = choice;
+        return patch.renderCenter();
+    };
+    const float3 light(0.5f, 1, 2);
+    const Owned<Texture> cube = halfCube(*engine, light);
+    const float3 fromCube = shown({}, cube, DiffuseIrradiance::Cube);
+    expectNear(fromCube, shown({ float4(light, 0) }, cube, DiffuseIrradiance::SphericalHarmonics));
+    EXPECT_NE(fromCube, shown({}, cube, DiffuseIrradiance::SphericalHarmonics));
+    EXPECT_EQ(shown({ float4(light, 0) }, {}, DiffuseIrradiance::Cube),
+              shown({ float4(light, 0) }, {}, DiffuseIrradiance::SphericalHarmonics))
+            << "without a cube the coefficients serve";
+    test::expectNoErrors(*engine);
+}
+
+TEST_P(QualityTest, ASkyInRgbmIsDecoded) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    const float3 light(3, 0.5f, 0.04f);
+    const std::vector<uint32_t> texels(6, packRgbm(light));
+    const Owned<Texture> cube = engine->own(engine->create(
+            TextureDesc{ .kind = TextureKind::Cube, .layers = 6, .pixels = std::as_bytes(std::span(texels)) }));
+    const Owned<Skybox> sky = engine->own(engine->create(SkyboxDesc{ .cube = cube }));
+    Scene scene(*engine);
+    View view{ .size = { 4, 4 } };
+    scene.setSkybox(sky, Lux{ 1 / view.camera.exposure.factor() });
+    expectNear(float3(test::halfPixel(test::renderLinear(*engine, scene, view), 2, 2)), unpackRgbm(texels[0]));
+    test::expectNoErrors(*engine);
+}
+
 // Radiance 1 in every format of an environment is radiance 1 in the picture.
 TEST_P(QualityTest, EnvironmentsOfEveryFormatAreSampledAsWhatTheyHold) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
-    const std::pair<Format, uint32_t> formats[] = { { Format::R11G11B10F, packR11G11B10F(float3(1.5f, 0.5f, 0.25f)) },
-                                                    { Format::RGB9E5, packRgb9E5(float3(1.5f, 0.5f, 0.25f)) } };
-    for (auto const& [format, texel] : formats) {
+    const float3 radiance(1.5f, 0.5f, 0.25f);
+    const std::tuple<Format, uint32_t, float3> formats[] = {
+        { Format::R11G11B10F, packR11G11B10F(radiance), radiance },
+        { Format::RGB9E5, packRgb9E5(radiance), radiance },
+        { Format::RGBA8, packRgbm(radiance), unpackRgbm(packRgbm(radiance)) },
+    };
+    for (auto const& [format, texel, held] : formats) {
         Patch patch(*engine);
         const std::array<uint32_t, 6> texels{ texel, texel, texel, texel, texel, texel };
         const Owned<Texture> cube =
@@ -200,7 +271,7 @@ TEST_P(QualityTest, EnvironmentsOfEveryFormatAreSampledAsWhatTheyHold) {
         const Owned<IndirectLight> light = engine->own(engine->create(IndirectLightDesc{ .specular = cube }));
         patch.scene.setIndirectLight(light, Lux{ 1 / patch.view.camera.exposure.factor() });
         patch.setSurface(float4(1), 1, 0.3f);
-        expectNear(patch.renderCenter(), float3(1.5f, 0.5f, 0.25f));
+        expectNear(patch.renderCenter(), held);
     }
     test::expectNoErrors(*engine);
 }
@@ -215,8 +286,10 @@ std::vector<Image> renderEveryValue(Backend backend) {
     Patch patch(*engine, kViewDegrees);
     patch.setSurface({ 0.9f, 0.5f, 0.3f, 1 }, 0.5f, kRoughness);
     patch.addSun(kTowardsSun);
+    const Owned<Texture> irradiance = halfCube(*engine, { 0.6f, 0.5f, 0.4f });
     patch.addEnvironment({ float4(0.5f), float4(0.1f), float4(0.2f), float4(0.05f), float4(0.04f), float4(0.03f),
-                           float4(0.02f), float4(0.01f), float4(0.03f) });
+                           float4(0.02f), float4(0.01f), float4(0.03f) },
+                         3, RoughnessMapping::Quadratic, irradiance);
     for (QualityChoice const& choice : qualityChoices()) {
         for (const std::string_view value : choice.values) {
             patch.view.quality = {};

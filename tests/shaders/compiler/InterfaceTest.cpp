@@ -34,7 +34,8 @@ protected:
             layout(location = 0) out vec4 color;
             void main() {
                 color = frameUniforms.viewport + objectUniforms.objects[0].row0 + lightUniforms.lights[0].offset
-                        + texture(viewSpecular, vec3(1.0)) + texture(viewDfg, vec2(0.5)) + texture(viewSky, vec3(1.0));
+                        + texture(viewSpecular, vec3(1.0)) + texture(viewDfg, vec2(0.5)) + texture(viewSky, vec3(1.0))
+                        + texture(viewIrradiance, vec3(1.0));
             })",
                                                                   backend::ShaderStage::Fragment, "interface");
         EXPECT_TRUE(spirv) << (spirv ? "" : spirv.error().message);

@@ -184,7 +184,8 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
         { .binding = kBindingLights, .buffer = lightBuffer, .size = sizeof(LightUniforms) },
         { .binding = kBindingSpecular, .texture = mWhiteCube, .sampler = mSampler },
         { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler },
-        { .binding = kBindingSky, .texture = mWhiteCube, .sampler = mSampler }
+        { .binding = kBindingSky, .texture = mWhiteCube, .sampler = mSampler },
+        { .binding = kBindingIrradiance, .texture = mWhiteCube, .sampler = mSampler }
     };
     const BindGroupHandle group = mStream->allocateBindGroup();
     commands.record(CmdCreateBindGroup{ group, { viewGroupLayout(), entries, "view" } });

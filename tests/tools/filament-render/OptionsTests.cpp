@@ -47,6 +47,18 @@ TEST(Options, WithoutArgumentsAreThoseOfTheManual) {
     EXPECT_EQ(options.out, "out");
 }
 
+TEST(Options, WhatIsChosenWhenFilesAreLoadedIsSetByNameAsWell) {
+    const auto options =
+            parsed({ "--set", "environment.format=RGBM", "--set", "environment.roughnessMapping=linear", "--set",
+                     "model.positions=unorm16", "--set", "model.tangents=snorm8", "--set", "exact=off" });
+    EXPECT_EQ(options.environmentOptions.format, Format::RGBA8);
+    EXPECT_STREQ(environmentFormatName(options.environmentOptions.format), "RGBM");
+    EXPECT_EQ(options.environmentOptions.roughnessMapping, RoughnessMapping::Linear);
+    EXPECT_EQ(options.modelOptions.positions, PositionStorage::Unorm16);
+    EXPECT_EQ(options.modelOptions.tangents, TangentStorage::Snorm8);
+    EXPECT_FALSE(options.exactShaders);
+}
+
 TEST(Options, AQualityIsAPresetAndThenItsChangesInTheirOrder) {
     EXPECT_EQ(parsed({}).quality, Quality{});
     EXPECT_EQ(parsed({ "--quality", "low" }).quality, qualityPreset(QualityPreset::Low));
@@ -67,6 +79,7 @@ TEST(Options, AWrongQualityNamesWhatWouldBeRight) {
     };
     EXPECT_NE(messageOf({ "--quality", "ultra" }).find("low, medium, high or reference"), std::string::npos);
     EXPECT_NE(messageOf({ "--set", "shBands" }).find("NAME=VALUE"), std::string::npos);
+    EXPECT_NE(messageOf({ "--set", "environment.format=RGBE" }).find("RGBM"), std::string::npos);
     EXPECT_NE(messageOf({ "--set", "shBand=2" }).find("shBands"), std::string::npos);
     EXPECT_NE(messageOf({ "--set", "fresnel=no" }).find("schlick or exact"), std::string::npos);
 }
