@@ -4,7 +4,7 @@
 ///           nothing from the heap, and frames of growing needs do so ever more seldom.
 ///   Thread  one thread at a time. Jobs get spans carved out before they start.
 ///   Limits  objects are never destructed: trivially destructible types only.
-///   Fails   never (std::bad_alloc ends the process).
+///   Fails   std::bad_alloc, and what was allocated before stays valid.
 #pragma once
 
 #include "filament_core/base/Assert.h"

@@ -53,8 +53,8 @@ std::vector<uint32_t> Transforms::remove(Node node) {
 
 void Transforms::setTransform(Node node, double4x4 const& parentFromNode) {
     const uint32_t slot = slotOf(node);
-    mLocal[slot] = affineFrom(parentFromNode);
     markChanged(slot);
+    mLocal[slot] = affineFrom(parentFromNode);
 }
 
 void Transforms::setParent(Node node, Node parent) {
@@ -138,19 +138,20 @@ void Transforms::growTo(uint32_t slots) {
 
 void Transforms::markChanged(uint32_t slot) {
     if (mFlags[slot] & kListed) return;
-    mFlags[slot] |= kListed | kStale;
     mChanged.push_back(slot);
+    mFlags[slot] |= kListed | kStale;
 }
 
 void Transforms::markUnplaced(Node node) {
     const uint32_t slot = slotOf(node);
     if (mFlags[slot] & (kStale | kUnplaced)) return;
-    mFlags[slot] |= kUnplaced;
     mUnplaced.push_back(slot);
+    mFlags[slot] |= kUnplaced;
 }
 
 std::vector<uint32_t> const& Transforms::takeUnplaced() {
     mTakenUnplaced.clear();
+    mTakenUnplaced.reserve(mUnplaced.size());
     for (const uint32_t slot : mUnplaced) {
         if (mFlags[slot] & kUnplaced) mTakenUnplaced.push_back(slot);
         mFlags[slot] &= static_cast<uint8_t>(~kUnplaced);
@@ -182,15 +183,15 @@ void Transforms::beginUpdate() {
     mLevelBegin = mLevelEnd = mNextListed = 0;
 }
 
-/// Counting sort of the changed nodes, without those that a changed parent takes along.
+/// Counting sort of the changed nodes, without those that a changed parent takes along. Memory first: an update for
+/// which there is none has not begun.
 void Transforms::listByDepth() {
     uint32_t deepest = 0;
-    std::erase_if(mChanged, [&](uint32_t slot) {
-        const bool isHighest = (mFlags[slot] & kListed) && !(mFlags[mLinks[slot].parent] & kListed);
-        if (isHighest) deepest = std::max(deepest, mLinks[slot].depth);
-        return !isHighest;
-    });
+    for (const uint32_t slot : mChanged) deepest = std::max(deepest, mLinks[slot].depth);
     mDepthStarts.assign(deepest + 2, 0);
+    mByDepth.reserve(mChanged.size());
+    std::erase_if(mChanged,
+                  [&](uint32_t slot) { return !(mFlags[slot] & kListed) || (mFlags[mLinks[slot].parent] & kListed); });
     for (const uint32_t slot : mChanged) ++mDepthStarts[mLinks[slot].depth + 1];
     for (size_t i = 1; i < mDepthStarts.size(); ++i) mDepthStarts[i] += mDepthStarts[i - 1];
     mByDepth.resize(mChanged.size());

@@ -47,6 +47,7 @@ void expectSoundFrames(Engine& engine, FaultStage& stage, uint64_t expectedPacke
 uint64_t undisturbedPacket(StageOptions const& options) {
     auto engine = makeEngine(options);
     FaultStage stage(*engine, options);
+    stage.move();
     EXPECT_TRUE(stage.draw().ok());
     return stage.packetHash();
 }
@@ -69,6 +70,7 @@ public:
             return;
         }
         FaultStage stage(*mEngine, mOptions);
+        stage.move();
         expectSoundFrames(*mEngine, stage, mPacket, outcome);
     }
 
@@ -84,6 +86,7 @@ public:
     Draws(StageOptions const& options, uint64_t packet, int framesBefore)
             : mPacket(packet), mEngine(makeEngine(options)), mStage(*mEngine, options) {
         for (int i = 0; i < framesBefore; ++i) EXPECT_TRUE(mStage.draw().ok());
+        mStage.move();
     }
 
     Result<void> act() override {

@@ -40,7 +40,7 @@ inline Result<Engine> makeEngine(StageOptions const& options, std::shared_ptr<ba
                             .debug = { .faults = std::move(faults) } });
 }
 
-/// Spheres in a row, a sun, a swap chain of 32 x 32 pixels.
+/// Spheres in rows, each at a node below one root, and a sun; pictures of 32 x 32 pixels.
 class FaultStage {
 public:
     explicit FaultStage(Engine& engine, StageOptions const& options = {}) : mEngine(engine), mScene(engine) {
@@ -53,6 +53,7 @@ public:
             EXPECT_TRUE(engine.set(mInstances.back(), "baseColorFactor", float4(0.8f, 0.4f, 0.2f, 1)).ok());
             EXPECT_TRUE(engine.set(mInstances.back(), "roughnessFactor", 0.5f).ok());
         }
+        mRoot = mScene.add(NodeDesc{ .name = "root" });
         for (int i = 0; i < options.spheres; ++i)
             place({ 0.4 * (i % 3 - 1), 0, -0.5 * (i / 3) }, mInstances[static_cast<size_t>(i % options.materials)]);
         mScene.add(SunLight{ .directionWorld = { -0.4f, -1, -0.6f } });
@@ -63,6 +64,12 @@ public:
 
     /// One frame, waited for.
     Result<Image> draw() { return mRenderer->renderToImage(mScene, mView); }
+    /// The next frame has to place every sphere anew.
+    void move() {
+        double4x4 worldFromRoot(1);
+        worldFromRoot[3] = double4(0.1, 0.2, -0.3, 1);
+        mScene.setTransform(mRoot, worldFromRoot);
+    }
     Renderer& renderer() { return *mRenderer; }
     Scene& scene() { return mScene; }
     View& view() { return mView; }
@@ -78,17 +85,19 @@ private:
     void place(double3 at, MaterialInstance material) {
         double4x4 world(1);
         world[3] = double4(at, 1);
+        const Node node = mScene.add(NodeDesc{ .parent = mRoot, .parentFromNode = world });
         mScene.add({ .vertices = mVertices,
                      .indices = mIndices,
                      .material = material,
                      .boundsMin = float3(-1),
                      .boundsMax = float3(1),
-                     .worldFromObject = world });
+                     .node = node });
     }
 
     Engine& mEngine;
     Scene mScene;
     View mView;
+    Node mRoot;
     Owned<VertexBuffer> mVertices;
     Owned<IndexBuffer> mIndices;
     Owned<Material> mMaterial;
