@@ -32,7 +32,10 @@ constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" }
 constexpr std::string_view kBudgets[] = { "0.8", "0.9", "1", "1.1", "1.2", "1.4" };
 constexpr std::string_view kEnvironmentSamples[] = { "16", "64", "256", "512", "1024", "4096" };
 constexpr std::string_view kFaceSizes[] = { "32", "64", "128", "256", "512" };
-constexpr std::string_view kFormats[] = { "RGBA16F", "R11G11B10F", "RGB9E5" };
+constexpr std::string_view kFormats[] = { "RGBA16F", "R11G11B10F", "RGB9E5", "RGBM" };
+constexpr std::string_view kMappings[] = { "quadratic", "logarithmic", "linear" };
+constexpr std::string_view kPositions[] = { "asAuthored", "half", "unorm16" };
+constexpr std::string_view kTangents[] = { "float", "snorm16", "snorm8" };
 
 bool setSamples(Settings& settings, std::string const& value) {
     if (value != "1" && value != "4") return false;
@@ -82,13 +85,20 @@ bool setFaceSize(Settings& settings, std::string const& value) {
     return true;
 }
 
-bool setFormat(Settings& settings, std::string const& value) {
-    constexpr Format kInOrder[] = { Format::RGBA16F, Format::R11G11B10F, Format::RGB9E5 };
-    const auto found = std::ranges::find(kFormats, std::string_view(value));
-    if (found == std::end(kFormats)) return false;
-    settings.environment.format = kInOrder[found - std::begin(kFormats)];
-    return true;
+/// An enumerator by its name, into one field of the options of loading.
+template <auto FromName, auto Options, auto Field>
+bool setByName(Settings& settings, std::string const& value) {
+    const auto found = FromName(value);
+    if (found) settings.*Options.*Field = *found;
+    return found.has_value();
 }
+
+constexpr auto setFormat =
+        setByName<environmentFormatFromName, &Settings::environment, &EnvironmentLoadOptions::format>;
+constexpr auto setMapping =
+        setByName<roughnessMappingFromName, &Settings::environment, &EnvironmentLoadOptions::roughnessMapping>;
+constexpr auto setPositions = setByName<positionStorageFromName, &Settings::model, &GltfLoadOptions::positions>;
+constexpr auto setTangents = setByName<tangentStorageFromName, &Settings::model, &GltfLoadOptions::tangents>;
 
 bool setExact(Settings& settings, std::string const& value) {
     if (value != "on" && value != "off") return false;
@@ -107,7 +117,12 @@ constexpr std::array kChoices{
             &Settings::environmentKey },
     Choice{ "environment.faceSize", kFaceSizes, setFaceSize, "a power of two from 16 to 2048",
             &Settings::environmentKey },
-    Choice{ "environment.format", kFormats, setFormat, "RGBA16F, R11G11B10F or RGB9E5", &Settings::environmentKey },
+    Choice{ "environment.format", kFormats, setFormat, "RGBA16F, R11G11B10F, RGB9E5 or RGBM",
+            &Settings::environmentKey },
+    Choice{ "environment.roughnessMapping", kMappings, setMapping, "quadratic, logarithmic or linear",
+            &Settings::environmentKey },
+    Choice{ "model.positions", kPositions, setPositions, "asAuthored, half or unorm16", &Settings::modelKey },
+    Choice{ "model.tangents", kTangents, setTangents, "float, snorm16 or snorm8", &Settings::modelKey },
 };
 
 Choice const* findChoice(std::string_view name) {
