@@ -5,6 +5,8 @@
 #include "filament_core/assets/Environment.h"
 #include "filament_core/assets/ImageWriter.h"
 #include "filament_core/math/Half.h"
+#include "filament_core/math/Rgbm.h"
+#include "filament_core/math/SharedExponent.h"
 #include "shaders/lib/LibCpp.h"
 
 #include <CLI/CLI.hpp>
@@ -27,6 +29,7 @@ struct Arguments {
     uint32_t size = 256, samples = 512, dfgSize = 64;
     int workers = -1;
     backend::Format format = backend::Format::RGBA16F;
+    RoughnessMapping mapping = RoughnessMapping::Quadratic;
     bool previews = false; // .png beside .exr
     float exposure = 1;
 };
@@ -42,14 +45,15 @@ struct Cross {
 constexpr std::array<uint2, 6> kCrossPlaces{ { { 2, 1 }, { 0, 1 }, { 1, 0 }, { 1, 2 }, { 1, 1 }, { 3, 1 } } };
 
 float3 decodeTexel(const std::byte* at, backend::Format format) {
-    if (format == backend::Format::R11G11B10F) {
-        uint32_t bits = 0;
-        std::memcpy(&bits, at, sizeof(bits));
-        return unpackR11G11B10F(bits);
+    if (format == backend::Format::RGBA16F) {
+        std::array<uint16_t, 4> halves{};
+        std::memcpy(halves.data(), at, sizeof(halves));
+        return { floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2]) };
     }
-    std::array<uint16_t, 4> halves{};
-    std::memcpy(halves.data(), at, sizeof(halves));
-    return { floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2]) };
+    uint32_t bits = 0;
+    std::memcpy(&bits, at, sizeof(bits));
+    if (format == backend::Format::R11G11B10F) return unpackR11G11B10F(bits);
+    return format == backend::Format::RGB9E5 ? unpackRgb9E5(bits) : unpackRgbm(bits);
 }
 
 Cross crossOf(Image const& cube, uint32_t level) {
@@ -130,9 +134,11 @@ void printLoss(const char* name, EncodeLoss const& loss) {
 Result<void> run(Arguments const& arguments) {
     jobs::JobSystem jobs({ .workers = arguments.workers });
     const bool terminal = ::isatty(STDERR_FILENO) != 0;
-    EnvironmentOptions options{
-        .useCache = false, .faceSize = arguments.size, .samples = arguments.samples, .format = arguments.format
-    };
+    EnvironmentOptions options{ .useCache = false,
+                                .faceSize = arguments.size,
+                                .samples = arguments.samples,
+                                .format = arguments.format,
+                                .mapping = arguments.mapping };
     if (terminal) options.progress = printProgress;
     const auto start = std::chrono::steady_clock::now();
     const Result<EnvironmentData> data = loadEnvironment(arguments.environment, jobs, options);
@@ -144,6 +150,7 @@ Result<void> run(Arguments const& arguments) {
     std::filesystem::create_directories(arguments.out, error); // a failure shows at the first file, with its path
     auto done = writeCube(arguments, data->specular, "specular");
     if (done) done = writeCube(arguments, data->sky, "sky");
+    if (done) done = writeCube(arguments, data->irradiance, "irradiance");
     if (done) done = writeSh(arguments.out / "sh.txt", data->irradianceSh);
     if (done) done = writeDfg(arguments.out / "dfg.exr", bakeDfgTable(jobs, arguments.dfgSize));
     if (!done) return done;
@@ -158,16 +165,23 @@ Result<void> run(Arguments const& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("Bakes an equirectangular .hdr or .exr: specular-N.exr, sky.exr, sh.txt, dfg.exr");
+    CLI::App app("Bakes an equirectangular .hdr or .exr: specular-N.exr, sky.exr, irradiance.exr, sh.txt, dfg.exr");
     app.add_option("environment", arguments.environment, "the picture")->required();
     app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")
             ->capture_default_str();
     app.add_option("--samples", arguments.samples, "pieces of the sky that each texel integrates, about")
             ->capture_default_str();
     const std::map<std::string, backend::Format> formats{ { "rgba16f", backend::Format::RGBA16F },
-                                                          { "r11g11b10f", backend::Format::R11G11B10F } };
-    app.add_option("--format", arguments.format, "rgba16f or r11g11b10f")
+                                                          { "r11g11b10f", backend::Format::R11G11B10F },
+                                                          { "rgb9e5", backend::Format::RGB9E5 },
+                                                          { "rgbm", backend::Format::RGBA8 } };
+    app.add_option("--format", arguments.format, "rgba16f, r11g11b10f, rgb9e5 or rgbm")
             ->transform(CLI::CheckedTransformer(formats, CLI::ignore_case));
+    const std::map<std::string, RoughnessMapping> mappings{ { "quadratic", RoughnessMapping::Quadratic },
+                                                            { "logarithmic", RoughnessMapping::Logarithmic },
+                                                            { "linear", RoughnessMapping::Linear } };
+    app.add_option("--mapping", arguments.mapping, "of roughness to levels: quadratic, logarithmic or linear")
+            ->transform(CLI::CheckedTransformer(mappings, CLI::ignore_case));
     app.add_option("--out", arguments.out, "directory for the results")->capture_default_str();
     app.add_option("--workers", arguments.workers, "threads besides the main one; -1: all cores");
     app.add_flag("--png", arguments.previews, "tone-mapped previews beside the .exr files");

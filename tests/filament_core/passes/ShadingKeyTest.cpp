@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// Which choices select a program: those of Quality, and how the scene's environment is stored.
+#include "filament_core/passes/ShadingKey.h"
+
+#include <gtest/gtest.h>
+
+#include <set>
+
+namespace filament::passes {
+namespace {
+
+uint32_t bitsOf(ShadingKey key, uint32_t id) {
+    for (backend::ConstantValue const& constant : shadingConstants(key)) {
+        if (constant.id == id) return constant.bits;
+    }
+    ADD_FAILURE() << "no constant " << id;
+    return 0;
+}
+
+TEST(ShadingKey, TheDefaultsAreTheProgramAsItWasCompiled) {
+    EXPECT_EQ(shadingKey({}), 0);
+    for (backend::ConstantValue const& constant : shadingConstants(0)) EXPECT_EQ(constant.bits, 0u);
+}
+
+TEST(ShadingKey, WhatIsANumberInAUniformOrAStateOfAPipelineSelectsNoProgram) {
+    Quality quality;
+    quality.shBands = 1;
+    quality.dfgTableSize = 16;
+    quality.textureFilter = TextureFilter::Bilinear;
+    quality.toneMapping = ToneMapping::Table16;
+    quality.depthRange = DepthRange::Ordinary;
+    quality.cameraRelative = false;
+    EXPECT_EQ(shadingKey(quality), 0);
+}
+
+TEST(ShadingKey, EveryStorageOfAnEnvironmentIsAKeyOfItsOwn) {
+    std::set<ShadingKey> keys;
+    for (const bool isRgbm : { false, true }) {
+        for (const RoughnessMapping mapping :
+             { RoughnessMapping::Quadratic, RoughnessMapping::Logarithmic, RoughnessMapping::Linear }) {
+            const ShadingKey key = shadingKey({}, { .isRgbm = isRgbm, .mapping = mapping });
+            EXPECT_EQ(bitsOf(key, shader::kQualityEnvironmentEncoding), isRgbm ? 1u : 0u);
+            EXPECT_EQ(bitsOf(key, shader::kQualityRoughnessMapping), static_cast<uint32_t>(mapping));
+            keys.insert(key);
+        }
+    }
+    EXPECT_EQ(keys.size(), 6u);
+}
+
+TEST(ShadingKey, AnIrradianceCubeIsReadOnlyWhereThereIsOne) {
+    const Quality cube{ .diffuseIrradiance = DiffuseIrradiance::Cube };
+    EXPECT_EQ(shadingKey(cube, { .hasIrradianceCube = false }), shadingKey({}));
+    EXPECT_EQ(bitsOf(shadingKey(cube, { .hasIrradianceCube = true }), shader::kQualityDiffuseIrradiance),
+              static_cast<uint32_t>(DiffuseIrradiance::Cube));
+    EXPECT_EQ(shadingKey({}, { .hasIrradianceCube = true }), shadingKey({})) << "nobody asked for it";
+}
+
+} // namespace
+} // namespace filament::passes
