@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Names of quality choices: every one is read back as it was written, unknown ones say what would be right.
+#include <filament/EnvironmentFormat.h>
 #include <filament/Quality.h>
 
 #include <gtest/gtest.h>
@@ -60,6 +61,31 @@ TEST(Quality, AValueOutOfRangeChangesNothingAndNamesTheRange) {
     const Result<void> result = setQuality(quality, "fresnel", "fresnel");
     ASSERT_FALSE(result);
     EXPECT_NE(result.error().message.find("schlick or exact"), std::string::npos) << result.error().message;
+}
+
+/// Every word of what is chosen when files are loaded names one value, and no other word does.
+template <class E>
+void expectNames(std::initializer_list<const char*> words, std::optional<E> (*fromName)(std::string_view)) {
+    uint8_t next = 0;
+    for (const char* word : words) {
+        const std::optional<E> value = fromName(word);
+        ASSERT_TRUE(value) << word;
+        EXPECT_EQ(*value, static_cast<E>(next++)) << word;
+        EXPECT_STREQ(toString(*value), word);
+    }
+    EXPECT_FALSE(fromName("none"));
+}
+
+TEST(Quality, ChoicesOfLoadingAreReadBackAsTheyAreWritten) {
+    expectNames({ "quadratic", "logarithmic", "linear" }, roughnessMappingFromName);
+    expectNames({ "asAuthored", "half", "unorm16" }, positionStorageFromName);
+    expectNames({ "snorm16", "snorm8", "float" }, tangentStorageFromName);
+    for (const char* word : { "RGBA16F", "R11G11B10F", "RGB9E5", "RGBM" }) {
+        const std::optional<Format> format = environmentFormatFromName(word);
+        ASSERT_TRUE(format) << word;
+        EXPECT_STREQ(environmentFormatName(*format), word);
+    }
+    EXPECT_FALSE(environmentFormatFromName("RGBA8"));
 }
 
 TEST(Quality, PresetsHaveNamesAndTheHighOneIsTheDefault) {
