@@ -43,7 +43,7 @@ std::string fileName(Sweep const& sweep) {
 } // namespace
 
 uint64_t sweepAllocations(Sweep const& sweep, std::function<std::unique_ptr<Scenario>()> const& make) {
-    const std::filesystem::path folder = std::filesystem::path(FILAMENT_BINARY_DIR) / "faults";
+    const std::filesystem::path folder = faultFolder();
     std::filesystem::create_directories(folder);
     std::ofstream list(folder / fileName(sweep));
     runOnce(sweep, ~0u, make); // what the process keeps once

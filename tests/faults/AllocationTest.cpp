@@ -5,6 +5,7 @@
 #include "tests/faults/FaultStage.h"
 
 #include "filament_core/assets/GltfWriter.h"
+#include "filament_core/math/Half.h"
 
 #include <filesystem>
 #include <fstream>
@@ -125,7 +126,7 @@ private:
 
 /// Two triangles with a texture, a light and two materials.
 std::filesystem::path modelFile() {
-    const std::filesystem::path path = std::filesystem::path(FILAMENT_BINARY_DIR) / "faults" / "model.glb";
+    const std::filesystem::path path = faultFolder() / "model.glb";
     std::filesystem::create_directories(path.parent_path());
     assets::GlbScene scene;
     const std::vector<std::byte> pixels(4 * 4 * 4, std::byte{ 0x80 });
@@ -191,7 +192,54 @@ private:
 
     const std::filesystem::path mFile;
     Result<Engine> mEngine;
-    std::optional<Model> mModel; // before its engine
+    std::optional<Model> mModel; // ends before its engine
+};
+
+// ---------------------------------------------------------------------------------------------- an environment
+
+std::filesystem::path environmentFile() {
+    const std::filesystem::path path = faultFolder() / "sky.exr";
+    std::filesystem::create_directories(path.parent_path());
+    Image image{ .width = 8, .height = 4, .format = Format::RGBA16F, .pixels = {} };
+    const uint16_t half = halfFromFloat(0.5f);
+    for (uint32_t i = 0; i < 8 * 4 * 4; ++i) {
+        const std::span<const std::byte> bytes = std::as_bytes(std::span(&half, 1));
+        image.pixels.insert(image.pixels.end(), bytes.begin(), bytes.end());
+    }
+    EXPECT_TRUE(saveExr(path, image).ok());
+    return path;
+}
+
+class LoadsEnvironment final : public Scenario {
+public:
+    LoadsEnvironment(StageOptions const& options, std::filesystem::path file)
+            : mFile(std::move(file)), mEngine(makeEngine(options)) {
+        std::filesystem::remove_all(faultFolder() / "cache");
+    }
+
+    Result<void> act() override {
+        auto sky = loadEnvironment(*mEngine, mFile, { .faceSize = 16, .samples = 8 });
+        if (!sky) return sky.error();
+        mSky.emplace(std::move(*sky));
+        return {};
+    }
+
+    void expectSound(Result<void> const& outcome) override {
+        if (!outcome.ok()) {
+            EXPECT_TRUE(contains(outcome.error().message, "memory")) << outcome.error().message;
+            const Result<void> again = act();
+            ASSERT_TRUE(again.ok()) << again.error().message;
+        }
+        FaultStage stage(*mEngine);
+        stage.scene().setEnvironment(*mSky, { .illuminance = Lux{ 1000 } });
+        EXPECT_TRUE(stage.draw().ok());
+        expectEachNamesMemory(mEngine->takeErrors());
+    }
+
+private:
+    const std::filesystem::path mFile;
+    Result<Engine> mEngine;
+    std::optional<Environment> mSky; // ends before its engine
 };
 
 // ---------------------------------------------------------------------------------------------- the sweeps
@@ -249,6 +297,15 @@ TEST_P(OutOfMemory, EverythingEnds) {
 TEST_P(OutOfMemory, AModelIsLoadedOrRefused) {
     const std::filesystem::path file = modelFile();
     sweepAllocations(GetParam().of("model"), [&] { return std::make_unique<LoadsModel>(GetParam().options, file); });
+}
+
+TEST(EnvironmentWithoutMemory, IsLoadedOrRefused) {
+    const std::filesystem::path file = environmentFile();
+    const StageOptions options{ .workers = 1 };
+    for (const Whose whose : { Whose::App, Whose::Jobs }) {
+        sweepAllocations({ .name = "environment", .whose = whose, .stride = 3 },
+                         [&] { return std::make_unique<LoadsEnvironment>(options, file); });
+    }
 }
 
 // The instrument itself: without a boundary the exception would arrive here.

@@ -14,6 +14,7 @@
 
 #include <algorithm>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
 #include <optional>
 #include <string>
@@ -23,6 +24,9 @@ namespace filament::test {
 
 /// FILAMENT_STRESS: every place instead of some.
 inline bool isStress() { return std::getenv("FILAMENT_STRESS") != nullptr; }
+
+/// What the tests write lies here.
+inline std::filesystem::path faultFolder() { return std::filesystem::path(FILAMENT_BINARY_DIR) / "faults"; }
 
 struct StageOptions {
     Backend backend = Backend::Null;
@@ -37,6 +41,7 @@ inline Result<Engine> makeEngine(StageOptions const& options, std::shared_ptr<ba
                             .workers = options.workers,
                             .validation = options.validation,
                             .hashFrames = true,
+                            .cacheDirectory = faultFolder() / "cache",
                             .debug = { .faults = std::move(faults) } });
 }
 
