@@ -27,8 +27,10 @@ using glm::clamp;
 using glm::cos;
 using glm::cross;
 using glm::dot;
+using glm::exp;
 using glm::exp2;
 using glm::fract;
+using glm::log;
 using glm::log2;
 using glm::max;
 using glm::min;
@@ -43,15 +45,18 @@ using glm::sqrt;
 namespace {
 
 #include "shaders/lib/math.glsl"
-// the rest needs math.glsl and, except for clarity, no order
+// the rest in the order of the alphabet: the lobes that are added to brdf.glsl come after it
 #include "shaders/lib/aa.glsl"
 #include "shaders/lib/ao.glsl"
 #include "shaders/lib/brdf.glsl"
+#include "shaders/lib/brdf_anisotropic.glsl"
+#include "shaders/lib/coat.glsl"
 #include "shaders/lib/color.glsl"
 #include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/ibl.glsl"
 #include "shaders/lib/light.glsl"
 #include "shaders/lib/sampling.glsl"
+#include "shaders/lib/sheen.glsl"
 #include "shaders/lib/tangent.glsl"
 
 } // namespace

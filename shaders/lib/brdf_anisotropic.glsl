@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// The GGX lobe of brushed and woven surfaces: D, V, and where image-based light comes from. Vectors named *Local are in
+// the frame of tangent x, bitangent y and normal z; alpha.x is the roughness along the tangent, alpha.y along the
+// bitangent. With alpha.x = alpha.y every function is its isotropic counterpart of brdf.glsl.
+
+// Of the shading normal in a bent one: the square of what remains where the eye looks along the grooves is still a normal
+// number of 16 bits.
+const float kMinShadingNormalWeight = 0.03125f;
+// A view behind the shading normal may cancel it: the result is short then, but a number.
+const float kMinBentLength2 = 6.103515625e-5f;
+
+// The roughness of both directions. Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks": one is
+// stretched by as much as the other is narrowed. alpha in [0, 1], anisotropy in [-1, 1], positive: the highlight is
+// drawn out along the tangent. minAlpha: what the precision holds, as for clampPerceptualRoughness(). Returns
+// [minAlpha, 2].
+vec2 anisotropicAlpha(float alpha, float anisotropy, float minAlpha) {
+    return max(alpha * vec2(1.0f + anisotropy, 1.0f - anisotropy), vec2(minAlpha));
+}
+
+// The same as KHR_materials_anisotropy defines it: only the direction along the tangent becomes rougher, up to 1.
+// alpha, strength in [0, 1]. Returns [minAlpha, 1].
+vec2 anisotropicAlphaFromStrength(float alpha, float strength, float minAlpha) {
+    return max(vec2(mix(alpha, 1.0f, strength * strength), alpha), vec2(minAlpha));
+}
+
+// Burley 2012, "Physically Based Shading at Disney", eq. 13, with numerator and denominator divided by alpha.x alpha.y:
+// no power of alpha higher than the second remains, and nothing cancels, which 16 bits need.
+// halfLocal unit, alpha in [kMinAlpha, 2]. Returns 1/sr in [0, 1 / (pi alpha.x alpha.y)].
+float ndfGgxAnisotropic(vec3 halfLocal, vec2 alpha) {
+    float product = alpha.x * alpha.y;
+    float x = halfLocal.x * halfLocal.x * (alpha.y / alpha.x);
+    float y = halfLocal.y * halfLocal.y * (alpha.x / alpha.y);
+    float inverse = 1.0f / (x + y + halfLocal.z * halfLocal.z * product);
+    return (product * inverse) * (inverse * kInversePi);
+}
+
+// Height-correlated Smith masking and shadowing over 4 nol nov. Heitz 2014, "Understanding the Masking-Shadowing
+// Function in Microfacet-Based BRDFs", eq. 99 with the lambda of eq. 86, multiplied by both cosines.
+// Directions are unit, above the surface. Returns 1/sr, finite also where both graze.
+float visibilitySmithGgxAnisotropic(vec3 viewLocal, vec3 lightLocal, vec2 alpha) {
+    vec3 stretchedView = vec3(alpha.x * viewLocal.x, alpha.y * viewLocal.y, viewLocal.z);
+    vec3 stretchedLight = vec3(alpha.x * lightLocal.x, alpha.y * lightLocal.y, lightLocal.z);
+    float masking = lightLocal.z * sqrt(dot(stretchedView, stretchedView));
+    float shadowing = viewLocal.z * sqrt(dot(stretchedLight, stretchedLight));
+    return 0.5f / max(masking + shadowing, kMinVisibilityDenominator);
+}
+
+// Half vector distributed as D(h) noh: a disc stretched by both roughnesses. Burley 2012, eq. 14, without the quotient
+// that is infinite at the rim. u in [0, 1)^2, alpha >= 0. fp32 only: a ratio of the roughnesses of 250 times the rounding
+// of 2 pi u.
+vec3 importanceSampleGgxAnisotropic(vec2 u, vec2 alpha) {
+    float phi = kTwoPi * u.x;
+    float radius = sqrt(u.y);
+    vec3 h = vec3(alpha.x * radius * cos(phi), alpha.y * radius * sin(phi), sqrt(1.0f - u.y));
+    return h / sqrt(dot(h, h));
+}
+
+// What image-based light is reflected about, as the cube map holds round lobes only: the normal turned towards the view
+// within the plane across the grooves. Revie 2012, "Implementing Fur Using Deferred Shading", GPU Pro 2, as McAuley
+// 2015, "Rendering the World of Far Cry 4", uses it. The amount vanishes with the roughness, where the lobe is a mirror's.
+// n, t, b, view unit and n the cross product of t and b; anisotropy in [-1, 1], perceptualRoughness in [0, 1].
+// Returns a unit vector; n for anisotropy 0.
+vec3 anisotropicNormal(vec3 n, vec3 t, vec3 b, vec3 view, float anisotropy, float perceptualRoughness) {
+    vec3 across = anisotropy < 0.0f ? t : b;
+    float amount = max(anisotropy, -anisotropy) * saturate(5.0f * perceptualRoughness);
+    vec3 bent = (view - across * dot(across, view)) * amount + n * max(1.0f - amount, kMinShadingNormalWeight);
+    return bent / sqrt(max(dot(bent, bent), kMinBentLength2));
+}

@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// brdf_anisotropic.glsl: physics of the stretched lobe, and that it is the round one where nothing is stretched.
+#include "tests/shaders/lib/Furnace.h"
+
+#include <gtest/gtest.h>
+
+#include <random>
+
+namespace filament::shader::lib64 {
+namespace {
+
+const vec2 kAlphas[] = { { 0.05, 0.6 }, { 0.3, 0.3 }, { 1.6, 0.4 }, { 2.0, 0.1 } };
+constexpr Quadrature kFine{ .polar = 1500, .azimuth = 720, .polePower = 3 };
+
+vec3 localHalf(vec3 v, vec3 l) { return glm::normalize(v + l); }
+
+TEST(Anisotropy, TheRoughnessesAreEqualForZeroAndSwapWithTheSign) {
+    EXPECT_EQ(anisotropicAlpha(0.25, 0.0, kMinAlpha), vec2(0.25));
+    EXPECT_EQ(anisotropicAlpha(0.25, 0.8, kMinAlpha).x, anisotropicAlpha(0.25, -0.8, kMinAlpha).y);
+    EXPECT_NEAR(anisotropicAlpha(0.25, 0.8, kMinAlpha).x, 0.45, 1e-12);
+    EXPECT_EQ(anisotropicAlpha(0.25, 1.0, kMinAlpha).y, kMinAlpha);
+    EXPECT_EQ(anisotropicAlphaFromStrength(0.25, 0.0, kMinAlpha), vec2(0.25));
+    EXPECT_EQ(anisotropicAlphaFromStrength(0.25, 1.0, kMinAlpha), vec2(1.0, 0.25));
+}
+
+TEST(Anisotropy, EqualRoughnessesGiveTheIsotropicLobe) {
+    std::mt19937 random(7);
+    std::uniform_real_distribution<double> uniform(0.01, 1.0);
+    for (int i = 0; i < 2000; ++i) {
+        const double alpha = uniform(random);
+        const vec3 v = glm::normalize(vec3(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random)));
+        const vec3 l = glm::normalize(vec3(uniform(random) - 0.5, uniform(random) - 0.5, uniform(random)));
+        const vec3 h = localHalf(v, l);
+        EXPECT_NEAR(ndfGgxAnisotropic(h, vec2(alpha)) / ndfGgx(h.z, alpha), 1, 1e-9);
+        EXPECT_NEAR(visibilitySmithGgxAnisotropic(v, l, vec2(alpha)) / visibilitySmithGgxCorrelated(v.z, l.z, alpha), 1,
+                    1e-9);
+    }
+}
+
+TEST(Anisotropy, TheNormalDistributionCoversTheSurfaceExactlyOnce) {
+    for (const vec2 alpha : kAlphas) {
+        const double covered = integrateUpper([&](vec3 h) { return ndfGgxAnisotropic(h, alpha) * h.z; }, kFine);
+        EXPECT_NEAR(covered, 1, 1e-3) << alpha.x << ' ' << alpha.y;
+    }
+}
+
+// Heitz 2014, eq. 72 and 86, in tangents.
+TEST(Anisotropy, MaskingTowardsTheNormalIsSmithsMaskingFunction) {
+    for (const vec2 alpha : kAlphas) {
+        for (const double angle : { 0.0, 0.7, 1.5 }) {
+            for (const double nov : { 0.05, 0.4, 0.9 }) {
+                const double sine = std::sqrt(1 - nov * nov);
+                const vec3 v(sine * std::cos(angle), sine * std::sin(angle), nov);
+                const double stretched = (sq(alpha.x * v.x) + sq(alpha.y * v.y)) / (nov * nov);
+                const double g1 = 2 / (1 + std::sqrt(1 + stretched));
+                EXPECT_NEAR(visibilitySmithGgxAnisotropic(v, vec3(0, 0, 1), alpha) * 4 * nov / g1, 1, 1e-12);
+            }
+        }
+    }
+}
+
+TEST(Anisotropy, TheLobeIsReciprocal) {
+    const vec3 a = glm::normalize(vec3(0.3, -0.8, 0.2)), b = glm::normalize(vec3(-0.9, 0.1, 0.7));
+    for (const vec2 alpha : kAlphas) {
+        EXPECT_DOUBLE_EQ(visibilitySmithGgxAnisotropic(a, b, alpha), visibilitySmithGgxAnisotropic(b, a, alpha));
+    }
+}
+
+TEST(Anisotropy, OneBounceNeverReflectsMoreThanArrives) {
+    for (const vec2 alpha : kAlphas) {
+        for (const double nov : { 0.1, 0.5, 0.95 }) {
+            for (const bool along : { true, false }) {
+                const vec3 v = along ? viewAt(nov) : vec3(0, viewAt(nov).x, nov);
+                const double albedo = integrateHalf(v,
+                                                    [&](vec3 l, vec3 h) {
+                                                        return ndfGgxAnisotropic(h, alpha) *
+                                                               visibilitySmithGgxAnisotropic(v, l, alpha) * l.z;
+                                                    },
+                                                    { .polar = 600, .azimuth = 720, .polePower = 3 });
+                EXPECT_LT(albedo, kNoGain) << alpha.x << ' ' << alpha.y << " nov " << nov;
+                EXPECT_GT(albedo, 0.2);
+            }
+        }
+    }
+}
+
+// Moments of the distribution that the samples claim to have.
+TEST(Anisotropy, SamplesFollowTheDistribution) {
+    for (const vec2 alpha : kAlphas) {
+        const auto sampler = [&](vec2 u) { return importanceSampleGgxAnisotropic(u, alpha); };
+        for (const int component : { 0, 1, 2 }) {
+            const auto moment = [&](vec3 h) { return h[component] * h[component]; };
+            const double expected =
+                    integrateUpper([&](vec3 h) { return ndfGgxAnisotropic(h, alpha) * h.z * moment(h); }, kFine);
+            EXPECT_NEAR(meanOverSamples(sampler, moment), expected, 3e-3) << alpha.x << ' ' << alpha.y;
+        }
+    }
+}
+
+TEST(Anisotropy, ThePositiveSignStretchesTheHighlightAlongTheTangent) {
+    const vec2 alpha = anisotropicAlpha(0.2, 0.8, kMinAlpha);
+    EXPECT_GT(ndfGgxAnisotropic(viewAt(0.97), alpha), 10 * ndfGgxAnisotropic(vec3(0, viewAt(0.97).x, 0.97), alpha));
+}
+
+TEST(Anisotropy, TheBentNormalLiesInThePlaneAcrossTheGrooves) {
+    const vec3 n(0, 0, 1), t(1, 0, 0), b(0, 1, 0), view = glm::normalize(vec3(0.5, 0.6, 0.4));
+    EXPECT_EQ(anisotropicNormal(n, t, b, view, 0.0, 0.5), n);
+    EXPECT_EQ(anisotropicNormal(n, t, b, view, 1.0, 0.0), n) << "a mirror";
+    const vec3 along = anisotropicNormal(n, t, b, view, 1.0, 0.5), across = anisotropicNormal(n, t, b, view, -1.0, 0.5);
+    EXPECT_NEAR(along.y, 0, 1e-12);
+    EXPECT_GT(along.x, 0.3);
+    EXPECT_NEAR(across.x, 0, 1e-12);
+    EXPECT_GT(across.y, 0.3);
+    EXPECT_NEAR(glm::length(along), 1, 1e-12);
+}
+
+TEST(Anisotropy, TheBentNormalIsANumberWhereTheEyeLooksAlongTheGroovesOrFromBehind) {
+    const vec3 n(0, 0, 1), t(1, 0, 0), b(0, 1, 0);
+    for (const vec3 view : { vec3(0, 1, 0), vec3(0, -1, 0), vec3(0, 0, -1), vec3(1, 0, 0) }) {
+        for (const double anisotropy : { -1.0, -0.5, 0.5, 0.96875, 1.0 }) {
+            const vec3 bent = anisotropicNormal(n, t, b, view, anisotropy, 1.0);
+            EXPECT_TRUE(std::isfinite(bent.x) && std::isfinite(bent.y) && std::isfinite(bent.z));
+        }
+    }
+}
+
+} // namespace
+} // namespace filament::shader::lib64
