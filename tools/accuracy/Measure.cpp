@@ -6,6 +6,8 @@
 #include "tools/accuracy/Timings.h"
 
 #include <algorithm>
+#include <map>
+#include <optional>
 
 namespace filament::accuracy {
 namespace {
@@ -157,8 +159,12 @@ private:
         };
         const Result<Picture> best = draw(effect.values[effect.best].set);
         if (!best) return best.error();
-        const Result<Picture> bestOfEverything = draw(bestOfAll(effect.frame));
-        if (!bestOfEverything) return bestOfEverything.error();
+        std::optional<Picture>& bestOfEverything = mBestOfEverything[{ effect.frame, linear }];
+        if (!bestOfEverything) {
+            Result<Picture> drawn = draw(bestOfAll(effect.frame));
+            if (!drawn) return drawn.error();
+            bestOfEverything = std::move(*drawn);
+        }
         for (ValueResult& value : result.values) {
             step(effect, "whole frame with " + value.value.name);
             const Result<Picture> picture = draw(value.value.set);
@@ -196,6 +202,7 @@ private:
     MeasureProgress const& mProgress;
     jobs::JobSystem mJobs;
     std::vector<std::unique_ptr<Studio>> mStudios;
+    std::map<std::pair<std::string, bool>, std::optional<Picture>> mBestOfEverything; // by scene, and whether linear
     Results mResults;
     size_t mStepsDone = 0, mStepsTotal = 0;
 };

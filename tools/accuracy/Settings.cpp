@@ -103,6 +103,7 @@ constexpr auto setTangents = setByName<tangentStorageFromName, &Settings::model,
 bool setExact(Settings& settings, std::string const& value) {
     if (value != "on" && value != "off") return false;
     settings.engine.exactShaders = value == "on";
+    settings.engineKey = value == "on" ? "" : "exact=off"; // the default needs no engine of its own
     return true;
 }
 
@@ -112,7 +113,7 @@ constexpr std::array kChoices{
     Choice{ "dither", kSwitch, setDither, "off or on" },
     Choice{ "preset", kPresets, setPreset, "low, medium, high or reference" },
     Choice{ "budget", kBudgets, setBudget, "how many times the default's time, above 0" },
-    Choice{ "exact", kSwitch, setExact, "off or on", &Settings::engineKey },
+    Choice{ "exact", kSwitch, setExact, "off or on" },
     Choice{ "environment.samples", kEnvironmentSamples, setEnvironmentSamples, "a whole number from 1 to 65536",
             &Settings::environmentKey },
     Choice{ "environment.faceSize", kFaceSizes, setFaceSize, "a power of two from 16 to 2048",
