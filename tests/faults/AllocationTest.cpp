@@ -56,10 +56,11 @@ uint64_t undisturbedPacket(StageOptions const& options) {
 /// Making an engine.
 class MakesEngine final : public Scenario {
 public:
-    explicit MakesEngine(StageOptions const& options, uint64_t packet) : mOptions(options), mPacket(packet) {}
+    explicit MakesEngine(StageOptions const& options, uint64_t packet)
+            : mOptions(options), mEngineOptions(engineOptions(options)), mPacket(packet) {}
 
     Result<void> act() override {
-        auto engine = makeEngine(mOptions);
+        auto engine = Engine::create(mEngineOptions);
         if (!engine) return engine.error();
         mEngine.emplace(std::move(*engine));
         return {};
@@ -77,6 +78,7 @@ public:
 
 private:
     const StageOptions mOptions;
+    const EngineOptions mEngineOptions;
     const uint64_t mPacket;
     std::optional<Engine> mEngine;
 };

@@ -36,13 +36,17 @@ struct StageOptions {
     bool validation = true;
 };
 
+inline EngineOptions engineOptions(StageOptions const& options, std::shared_ptr<backend::FaultInjector> faults = {}) {
+    return { .backend = options.backend,
+             .workers = options.workers,
+             .validation = options.validation,
+             .hashFrames = true,
+             .cacheDirectory = faultFolder() / "cache",
+             .debug = { .faults = std::move(faults) } };
+}
+
 inline Result<Engine> makeEngine(StageOptions const& options, std::shared_ptr<backend::FaultInjector> faults = {}) {
-    return Engine::create({ .backend = options.backend,
-                            .workers = options.workers,
-                            .validation = options.validation,
-                            .hashFrames = true,
-                            .cacheDirectory = faultFolder() / "cache",
-                            .debug = { .faults = std::move(faults) } });
+    return Engine::create(engineOptions(options, std::move(faults)));
 }
 
 /// Spheres in rows, each at a node below one root, and a sun; pictures of 32 x 32 pixels.
