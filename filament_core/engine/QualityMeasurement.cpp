@@ -12,6 +12,8 @@
 #include <cstring>
 #include <numeric>
 
+#include <time.h>
+
 namespace filament {
 namespace {
 
@@ -87,17 +89,30 @@ std::vector<double> undisturbedRatios(std::vector<double> const& times, std::vec
     return ratios;
 }
 
+/// Of all threads of this process, which on a CPU driver are the device.
+double processorMilliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+struct FrameCost {
+    double device = 0;   // milliseconds by the device's clock
+    double compared = 0; // what ratios are taken of
+};
+
 struct Setting {
     std::string value;
     Quality timed, pictured;
-    std::vector<double> milliseconds{};
+    std::vector<double> device{}, compared{}; // by round
 };
 
 class CostMeter {
 public:
     CostMeter(Engine& engine, Scene const& scene, View const& view)
             : mEngine(engine), mScene(scene), mView(view), mTimed(engine, { .passTimers = true }), mPictured(engine),
-              mDisplay(target(Format::RGBA8)), mLinear(target(Format::RGBA16F)) {}
+              mDisplay(target(Format::RGBA8)), mLinear(target(Format::RGBA16F)),
+              mIsCpu(engine.device().device.find("llvmpipe") != std::string::npos) {}
 
     Result<QualityEffect> measure(QualityChoice const& choice, uint32_t rounds) {
         std::vector<Setting> settings = settingsOf(choice);
@@ -107,14 +122,15 @@ public:
             const Result<double> error = errorOf(setting.pictured);
             if (!error) return error.error();
             effect.values.back().error = *error;
-            if (const Result<double> warmUp = time(setting.timed); !warmUp) return warmUp.error();
+            if (const Result<FrameCost> warmUp = time(setting.timed); !warmUp) return warmUp.error();
         }
         for (uint32_t round = 0; round < rounds; ++round) {
             for (size_t i = 0; i < settings.size(); ++i) {
                 Setting& setting = settings[(i + round) % settings.size()];
-                const Result<double> milliseconds = time(setting.timed);
-                if (!milliseconds) return milliseconds.error();
-                setting.milliseconds.push_back(*milliseconds);
+                const Result<FrameCost> cost = time(setting.timed);
+                if (!cost) return cost.error();
+                setting.device.push_back(cost->device);
+                setting.compared.push_back(cost->compared);
             }
         }
         fillTimes(settings, *qualityValue(Quality{}, choice.name), effect);
@@ -166,9 +182,10 @@ private:
         return mPictured.waitPixels(mPictured.readPixels(into));
     }
 
-    Result<double> time(Quality const& quality) {
+    Result<FrameCost> time(Quality const& quality) {
         View view = mView;
         view.quality = quality;
+        const double before = processorMilliseconds();
         mTimed.render(mScene, view, mDisplay);
         mEngine.waitIdle();
         const std::vector<FrameTimings> timings = mTimed.takeTimings();
@@ -176,14 +193,15 @@ private:
             return fail(ErrorCode::Unsupported, "{} does not time its passes: costs cannot be measured on it",
                         mEngine.device().device);
         }
-        return timings.back().gpuMilliseconds;
+        const double device = timings.back().gpuMilliseconds;
+        return FrameCost{ device, mIsCpu ? processorMilliseconds() - before : device };
     }
 
     void fillTimes(std::vector<Setting> const& settings, std::string_view standard, QualityEffect& effect) const {
         const auto base = std::ranges::find(settings, standard, &Setting::value);
-        const double baseMilliseconds = median(base->milliseconds);
+        const double baseMilliseconds = median(base->device);
         for (size_t i = 0; i < settings.size(); ++i) {
-            const std::vector<double> ratios = undisturbedRatios(settings[i].milliseconds, base->milliseconds);
+            const std::vector<double> ratios = undisturbedRatios(settings[i].compared, base->compared);
             const size_t low = lowRank(ratios.size());
             effect.values[i].on(mEngine.device().backend) = { .milliseconds = baseMilliseconds * median(ratios),
                                                               .lowRatio = ratios[low],
@@ -197,6 +215,7 @@ private:
     Renderer mTimed, mPictured;
     Owned<SwapChain> mDisplay, mLinear;
     Image mExactLinear, mExactDisplay;
+    bool mIsCpu; // a CPU driver: its clock goes on while other processes have the cores, processor time does not
 };
 
 Result<void> check(CostMeasurement const& measurement) {

@@ -16,6 +16,7 @@
 namespace filament::tools {
 namespace {
 
+constexpr uint32_t kCostRounds = 31;
 constexpr uint32_t kBudgetFrames = 7; // the median of so many says what a frame takes
 
 class StopWatch {
@@ -173,7 +174,7 @@ Result<void> Stage::measureCosts(BackendRun& run) {
     showProgress(fmt::format("{}: measuring quality choices", fileStem(run.backend)));
     View view = mView;
     view.quality = {};
-    Result<QualityCosts> costs = measureQualityCosts(mEngine, mScene, view);
+    Result<QualityCosts> costs = measureQualityCosts(mEngine, mScene, view, { .rounds = kCostRounds });
     if (!costs) return costs.error();
     run.costs = std::move(*costs);
     return {};

@@ -6,6 +6,7 @@
 ///   Time     device time of a whole frame with this value, everything else at its default. Only the ratio to the
 ///   default
 ///            value of the same choice is used: both were measured in turns, so that the load of the machine cancels.
+///            On CPU drivers (llvmpipe) the ratio is that of processor time, which leaves out what other processes do.
 ///   Error    root mean square of (picture - exact) / (exact + 1 % of its mean), luminance, scene-linear: everything
 ///            else at its most exact. 0 for the value that the others are compared with. What changes nothing there is
 ///            compared as displayed, behind the tone mapper.
