@@ -50,13 +50,17 @@ namespace {
 #include "shaders/lib/ao.glsl"
 #include "shaders/lib/brdf.glsl"
 #include "shaders/lib/brdf_anisotropic.glsl"
+#include "shaders/lib/cloth.glsl"
 #include "shaders/lib/coat.glsl"
 #include "shaders/lib/color.glsl"
 #include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/ibl.glsl"
 #include "shaders/lib/light.glsl"
+#include "shaders/lib/refraction.glsl"
 #include "shaders/lib/sampling.glsl"
 #include "shaders/lib/sheen.glsl"
+#include "shaders/lib/specular.glsl"
+#include "shaders/lib/subsurface.glsl"
 #include "shaders/lib/tangent.glsl"
 
 } // namespace

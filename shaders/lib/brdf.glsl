@@ -83,6 +83,12 @@ vec3 fresnelSchlick(vec3 f0, float f90, float voh) { return f0 + (vec3(f90) - f0
 // Lambert 1760: a diffuse reflector scatters equally into all directions. Returns 1/sr.
 float diffuseLambert() { return kInversePi; }
 
+// Lambert's lobe times nol, reaching around to cosines of -wrap as if light went through: McAuley 2013, "Extension to
+// Energy-Conserving Wrapped Diffuse". (1 + wrap)^2 keeps its integral at 1. nol in [-1, 1], wrap in [0, 1]. Returns 1/sr.
+float diffuseWrapped(float nol, float wrap) {
+    return max((nol + wrap) / ((1.0f + wrap) * (1.0f + wrap)), 0.0f) * kInversePi;
+}
+
 // Burley 2012, "Physically Based Shading at Disney", section 5.3: darker edges on smooth surfaces, brighter ones on rough.
 // With the factors of Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.3,
 // which keep its albedo at or below 1. All in [0, 1], perceptual roughness. Returns 1/sr.

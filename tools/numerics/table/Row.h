@@ -99,7 +99,8 @@ std::span<const Row> rows();
 // The rows of one source each; rows() joins them.
 std::vector<Row> mathRows();
 std::vector<Row> brdfRows();
-std::vector<Row> layerRows(); ///< anisotropic GGX, coat, sheen
+std::vector<Row> scatterRows(); ///< cloth, refraction, specular, subsurface
+std::vector<Row> layerRows();   ///< anisotropic GGX, coat, sheen
 std::vector<Row> colorRows();
 std::vector<Row> imageRows();    ///< aa, ao, ibl
 std::vector<Row> geometryRows(); ///< light, sampling, tangent
