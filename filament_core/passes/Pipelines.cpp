@@ -13,24 +13,24 @@ using namespace backend;
 
 constexpr uint32_t kNoGeometry = 0xFFF;
 
-// always 1 | material 20 bits | geometry layout 12 | slot 12 | variant 4 | culling off 1 | mirrored 1
+// always 1 | material 20 bits | geometry layout 12 | slot 12 | variant 8 | culling off 1 | mirrored 1
 uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint8_t variant, bool cullingDisabled,
                  bool mirrored) {
     FILAMENT_ASSERT(material < 1u << 20 && geometryLayout <= kNoGeometry && slot < 4096,
                     "at most 2^20 materials, 4095 vertex layouts and 4096 passes with their shading");
-    return uint64_t{ 1 } << 63 | static_cast<uint64_t>(material) << 32 | static_cast<uint64_t>(geometryLayout) << 20 |
-           static_cast<uint64_t>(slot) << 8 | static_cast<uint64_t>(variant) << 4 |
+    return uint64_t{ 1 } << 63 | static_cast<uint64_t>(material) << 34 | static_cast<uint64_t>(geometryLayout) << 22 |
+           static_cast<uint64_t>(slot) << 10 | static_cast<uint64_t>(variant) << 2 |
            static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
 }
 
 // Lights and shading select nothing in an unlit material.
-bool isLit(scene::Material const& material) { return material.package.shading == shader::ShadingModel::Lit; }
+bool isLit(scene::Material const& material) { return material.package.shading != shader::ShadingModel::Unlit; }
 
 uint8_t neededVariant(scene::Material const& material, uint8_t variant) { return isLit(material) ? variant : 0; }
 
 // Materials without such variants are lit in full.
-uint8_t withPrecision(scene::Material const& material, uint8_t variant, ShadingPrecision precision) {
-    const auto half = static_cast<uint8_t>(variant | shader::kVariantHalf);
+uint16_t withPrecision(scene::Material const& material, uint8_t variant, ShadingPrecision precision) {
+    const auto half = static_cast<uint16_t>(variant | shader::kVariantHalf);
     return precision == ShadingPrecision::Half && material.package.findVariant(half) ? half : variant;
 }
 
@@ -59,13 +59,14 @@ CullMode cullMode(shader::MaterialPackage const& package, bool cullingDisabled) 
 }
 
 // Colours are pre-multiplied (DESIGN: conventions); coverage accumulates in alpha.
-BlendState blendState(shader::Blending blending) {
+BlendState blendState(shader::MaterialPackage const& package) {
     BlendState over{ .enabled = true,
                      .srcColor = BlendFactor::One,
                      .dstColor = BlendFactor::OneMinusSrcAlpha,
                      .srcAlpha = BlendFactor::One,
                      .dstAlpha = BlendFactor::OneMinusSrcAlpha };
-    switch (blending) {
+    shader::BlendFunction const& custom = package.blendFunction;
+    switch (package.blending) {
     case shader::Blending::Opaque:
     case shader::Blending::Masked:
         return {};
@@ -81,6 +82,10 @@ BlendState blendState(shader::Blending blending) {
         return over;
     case shader::Blending::Screen:
         over.dstColor = BlendFactor::OneMinusSrcColor, over.dstAlpha = BlendFactor::OneMinusSrcAlpha;
+        return over;
+    case shader::Blending::Custom:
+        over.srcColor = custom.sourceColor, over.dstColor = custom.targetColor;
+        over.srcAlpha = custom.sourceAlpha, over.dstAlpha = custom.targetAlpha;
         return over;
     }
     return over;
@@ -105,9 +110,9 @@ uint32_t PipelineCache::slot(PassSlot const& slot) {
     return static_cast<uint32_t>(mSlots.size() - 1);
 }
 
-ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& material, uint8_t variant,
+ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& material, uint16_t variant,
                                         ShadingKey shading) {
-    const uint32_t key = static_cast<uint32_t>(shading) << 8 | variant;
+    const uint32_t key = static_cast<uint32_t>(shading) << 16 | variant;
     for (scene::MaterialProgram const& program : material.programs) {
         if (program.key == key) return program.handle;
     }
@@ -148,7 +153,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     PipelineDesc desc{ .pass = slot.layout, .subpass = slot.subpass, .debugName = material.name };
     desc.raster.cull = cullMode(package, cullingDisabled);
     desc.raster.frontFace = mirrored ? FrontFace::Clockwise : FrontFace::CounterClockwise;
-    desc.raster.alphaToCoverage = package.blending == shader::Blending::Masked && slot.layout.samples > 1;
+    desc.raster.alphaToCoverage = package.alphaToCoverage && slot.layout.samples > 1;
     if (geometryLayout != kNoGeometry) {
         desc.vertices = withInstanceIndex(mLayouts[geometryLayout].vertices);
         desc.raster.topology = mLayouts[geometryLayout].topology;
@@ -158,9 +163,9 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         // Equal passes too: the sky sits exactly at the far plane, decals exactly on their surface.
         desc.depthStencil.depthCompare =
                 slot.depthRange == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
-        desc.depthStencil.depthWrite = package.depthWrite && !material.isBlended();
+        desc.depthStencil.depthWrite = package.depthWrite;
     }
-    BlendState blend = blendState(package.blending);
+    BlendState blend = blendState(package);
     if (!package.colorWrite || package.culling == shader::Culling::FrontAndBack) blend.writeMask = 0;
     desc.blend.fill(blend);
     return desc;
@@ -187,7 +192,7 @@ PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, s
 
     scene::Material& material = *instance.material;
     const ShadingKey shading = isLit(material) ? mSlots[slot].shading : ShadingKey{ 0 };
-    const uint8_t needed = withPrecision(material, neededVariant(material, variant), mSlots[slot].precision);
+    const uint16_t needed = withPrecision(material, neededVariant(material, variant), mSlots[slot].precision);
     const ProgramHandle program = programFor(setup, material, needed, shading);
     if (!program) {
         mPipelines.insert({ key, {}, material.id }); // warn once

@@ -53,7 +53,7 @@ public:
     size_t size() const { return mPipelines.size(); }
 
 private:
-    backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material& material, uint8_t variant,
+    backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material& material, uint16_t variant,
                                       ShadingKey shading);
     backend::ProgramHandle createProgram(backend::CommandBuffer& setup, scene::Material const& material,
                                          shader::Variant const& code, ShadingKey shading);

@@ -36,6 +36,10 @@ const char* glslPrecision(Precision precision) {
     return "";
 }
 
+std::string samplerType(Parameter const& parameter) {
+    return (parameter.format == SamplerFormat::Int ? "i" : "") + std::string(glslType(parameter.type));
+}
+
 bool takesPrecision(ParameterType type) { return type > ParameterType::Bool4; }
 
 void declareBlock(StageText& out, MaterialDefinition const& definition) {
@@ -64,7 +68,7 @@ void declareTextures(StageText& out, MaterialDefinition const& definition) {
         out.originate(definition.parameterSources[i].at);
         out.line(fmt::format("layout({}set = 1, binding = {}) uniform {}{} materialParams_{};", index,
                              parameter.binding, glslPrecision(definition.parameterSources[i].precision),
-                             glslType(parameter.type), parameter.name));
+                             samplerType(parameter), parameter.name));
     }
 }
 

@@ -16,7 +16,13 @@ namespace {
 const char* blendDefine(Blending blending) {
     static constexpr const char* kNames[] = { "BLEND_MODE_OPAQUE", "BLEND_MODE_MASKED", "BLEND_MODE_TRANSPARENT",
                                               "BLEND_MODE_FADE",   "BLEND_MODE_ADD",    "BLEND_MODE_MULTIPLY",
-                                              "BLEND_MODE_SCREEN" };
+                                              "BLEND_MODE_SCREEN", "BLEND_MODE_CUSTOM" };
+    return kNames[static_cast<size_t>(blending)];
+}
+
+const char* postLightingDefine(PostLightingBlending blending) {
+    static constexpr const char* kNames[] = { "POST_LIGHTING_OPAQUE", "POST_LIGHTING_TRANSPARENT", "POST_LIGHTING_ADD",
+                                              "POST_LIGHTING_MULTIPLY", "POST_LIGHTING_SCREEN" };
     return kNames[static_cast<size_t>(blending)];
 }
 
@@ -69,10 +75,12 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     defineIf(out, needs.clipSpaceTransform, "HAS_CLIP_SPACE_TRANSFORM");
 }
 
-void defineFragment(StageText& out, MaterialDefinition const& definition, uint8_t variantKey) {
+void defineFragment(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
     defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
     defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
     defineIf(out, (variantKey & kVariantHalf) != 0, "HALF_PRECISION");
+    out.define(postLightingDefine(definition.package.postLightingBlending));
+    defineIf(out, definition.specularAmbientOcclusion != SpecularAmbientOcclusion::None, "SPECULAR_AMBIENT_OCCLUSION");
     SpecularAntiAliasing const& antiAliasing = definition.specularAntiAliasing;
     if (!antiAliasing.enabled) return;
     out.define("SPECULAR_ANTI_ALIASING");
@@ -112,7 +120,7 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
 /// Behind the author's code. What is not safe in 16 bits comes before the line from which kVariantHalf computes in
 /// them: distances, f0 near 1, derivatives, nits.
 Result<void> litFragment(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs,
-                         uint8_t variantKey) {
+                         uint16_t variantKey) {
     declareQuality(out);
     Result<void> done =
             includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
@@ -126,7 +134,7 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
 }
 
 Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
-                                    uint8_t variantKey, IncludeResolver const& includes) {
+                                    uint16_t variantKey, IncludeResolver const& includes) {
     const bool isLit = definition.package.shading == ShadingModel::Lit;
     StageText out(includes);
     beginStage(out, "in");
@@ -242,7 +250,7 @@ Result<std::string> generateVertex(MaterialDefinition const& definition, Materia
 }
 
 Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
-                                     uint8_t variantKey, IncludeResolver const& includes) {
+                                     uint16_t variantKey, IncludeResolver const& includes) {
     return definition.package.domain == MaterialDomain::PostProcess
                    ? postFragment(definition, includes)
                    : surfaceFragment(definition, needs, variantKey, includes);

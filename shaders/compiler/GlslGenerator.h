@@ -24,7 +24,7 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                    IncludeResolver const& includes);
 Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
-                                     uint8_t variantKey, IncludeResolver const& includes);
+                                     uint16_t variantKey, IncludeResolver const& includes);
 
 /// The bind group layout that all variants share: the engine's group 0, the material's group 1.
 backend::ProgramLayout materialLayout(MaterialDefinition const& definition);

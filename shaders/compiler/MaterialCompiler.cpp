@@ -4,6 +4,7 @@
 #include "jobsystem/JobSystem.h"
 #include "shaders/compiler/EmbeddedSources.h"
 #include "shaders/compiler/GlslGenerator.h"
+#include "shaders/compiler/ShaderTextGaps.h"
 #include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -20,7 +21,7 @@ struct Prepared {
     MaterialNeeds needs;
     backend::ProgramLayout layout{};
     IncludeResolver includes;
-    std::vector<uint8_t> keys;
+    std::vector<uint16_t> keys;
 };
 
 IncludeResolver withEngineFiles(IncludeResolver const& others) {
@@ -37,15 +38,16 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     if (!parsed) return parsed.error();
     Result<MaterialDefinition> definition = defineMaterial(std::move(*parsed), fileName);
     if (!definition) return definition.error();
+    if (Result<void> possible = checkShaderText(*definition); !possible) return possible.error();
     prepared.definition = std::move(*definition);
     Result<MaterialNeeds> needs = findNeeds(prepared.definition, prepared.includes);
     if (!needs) return needs.error();
     prepared.needs = *needs;
     prepared.layout = materialLayout(prepared.definition);
-    MaterialPackage const& package = prepared.definition.package;
-    const auto filtered = static_cast<uint8_t>(prepared.definition.filteredVariants | options.filteredVariants);
-    prepared.keys =
-            variantKeys(selectableBits(package.domain, package.shading, prepared.definition.halfPrecision), filtered);
+    MaterialPackage& package = prepared.definition.package;
+    package.filteredVariants |= options.filteredVariants;
+    prepared.keys = variantKeys(selectableBits(package.domain, package.shading, prepared.definition.halfPrecision),
+                                package.filteredVariants);
     return prepared;
 }
 
@@ -53,7 +55,7 @@ struct StagePair {
     std::string vertex, fragment;
 };
 
-Result<StagePair> generate(Prepared const& prepared, uint8_t key) {
+Result<StagePair> generate(Prepared const& prepared, uint16_t key) {
     Result<std::string> vertex = generateVertex(prepared.definition, prepared.needs, prepared.includes);
     if (!vertex) return vertex.error();
     Result<std::string> fragment = generateFragment(prepared.definition, prepared.needs, key, prepared.includes);
@@ -66,7 +68,7 @@ struct CompiledVariant {
     uint32_t vertexInputs = 0;
 };
 
-Result<CompiledVariant> compileVariant(Prepared const& prepared, uint8_t key, CompileOptions const& options) {
+Result<CompiledVariant> compileVariant(Prepared const& prepared, uint16_t key, CompileOptions const& options) {
     Result<StagePair> stages = generate(prepared, key);
     if (!stages) return stages.error();
     Result<ProgramShaders> shaders = compileProgram(stages->vertex, stages->fragment,
@@ -128,7 +130,7 @@ Result<std::string> preprocessMaterial(std::string_view text, std::string_view f
     Result<Prepared> prepared = prepare(text, fileName, options);
     if (!prepared) return prepared.error();
     std::string out;
-    for (const uint8_t key : prepared->keys) {
+    for (const uint16_t key : prepared->keys) {
         Result<StagePair> stages = generate(*prepared, key);
         if (!stages) return stages.error();
         out += fmt::format("// ==== variant {} vertex\n{}\n// ==== variant {} fragment\n{}\n", key, stages->vertex, key,

@@ -27,7 +27,7 @@ struct CompileOptions {
     Optimization optimization = Optimization::Performance;
     bool spirv = true; ///< languages that the package gets
     bool essl = true;
-    uint8_t filteredVariants = 0; ///< VariantBits never asked for, besides those of the material's own variantFilter
+    uint16_t filteredVariants = 0; ///< VariantBits never asked for, besides those of the material's own variantFilter
     /// Files besides the engine's own (which are asked first): usually those beside the .mat.
     IncludeResolver includes{};
     jobs::JobSystem* jobs = nullptr; ///< null: on the calling thread alone

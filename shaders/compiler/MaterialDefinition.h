@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MaterialDefinition: what a .mat file says, checked and with defaults filled in, before any code is generated.
 ///   In      MaterialText (Jsonish.h). Out: plain values.
-///   Thread  any. Fails: InvalidArgument with "file:line: reason" and a suggestion for misspelt names; Unsupported for
-///           properties of the guide that this version does not have yet.
+///   Thread  any. Fails: InvalidArgument with "file:line: reason": misspelt names with a suggestion, values out of
+///           range, properties that contradict each other (DefinitionRules.h), more samplers than the feature level
+///           has.
+///   Not     whether the shader text can do what is asked for: that is ShaderTextGaps.h.
 #pragma once
 
 #include "shaders/compiler/Jsonish.h"
@@ -34,19 +36,37 @@ struct SpecularAntiAliasing {
     float threshold = 0.2f;
 };
 
+enum class SpecularAmbientOcclusion : uint8_t { None, Simple, BentNormals };
+
+/// A property that the author wrote, and where.
+struct GivenProperty {
+    std::string name;
+    SourcePosition at;
+};
+
 struct MaterialDefinition {
     MaterialPackage package; ///< everything but attributes, layout and variants
     std::vector<ParameterSource> parameterSources;
     std::vector<Variable> variables;
     uint32_t requiredAttributes = 0; ///< bit n: location n, from `requires`
-    uint8_t filteredVariants = 0;    ///< VariantBits that are never asked for
     bool halfPrecision = false;      ///< also variants that are lit in 16 bits: kVariantHalf
     bool flipUv = true;
     bool fullScreenTriangle = false; ///< device domain: positions come from the vertex index, no attribute is read
+    bool clearCoatIorChange = true;
+    bool multiBounceAmbientOcclusion = true; ///< the guide's default on desktops
+    SpecularAmbientOcclusion specularAmbientOcclusion = SpecularAmbientOcclusion::Simple;
+    bool customSurfaceShading = false;
     SpecularAntiAliasing specularAntiAliasing;
+    std::vector<GivenProperty> given; ///< in the order of the file
     std::optional<GlslBlock> vertex;
     GlslBlock fragment;
     std::string fileName;
+
+    /// Where the author wrote a property; null: it has its default.
+    SourcePosition const* find(std::string_view property) const;
+    /// An error about a property, at its line; about the file if it has its default.
+    Error errorAbout(std::string_view property, std::string const& message,
+                     ErrorCode code = ErrorCode::InvalidArgument) const;
 };
 
 inline constexpr size_t kMaxVariables = 4;
@@ -55,9 +75,8 @@ inline constexpr std::string_view kMaskThresholdParameter = "_maskThreshold";
 
 Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fileName);
 
-/// "directionalLighting" and the like -> the variant bits that they stand for; 0 for filters of features that this
-/// version does not have; nothing for an unknown name.
-std::optional<uint8_t> variantBitsOfFilter(std::string_view name);
+/// "directionalLighting" and the like -> the VariantBit that they stand for; nothing for an unknown name.
+std::optional<uint16_t> variantBitsOfFilter(std::string_view name);
 std::vector<std::string_view> variantFilterNames();
 
 } // namespace filament::shader

@@ -32,18 +32,29 @@ constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", Para
 Result<void> readType(JsonValue const& value, Parameter& out) {
     if (Result<void> isString = expectKind(value, JsonValue::Kind::String, "type"); !isString) return isString;
     JsonValue base = value;
-    if (const size_t bracket = value.text.find('['); bracket != std::string::npos) {
-        const char* const last = value.text.data() + value.text.size();
-        const auto size = std::from_chars(value.text.data() + bracket + 1, last, out.arraySize);
+    constexpr std::string_view kTimes = "\xC3\x97"; // the multiplication sign, with which the guide prints float3x3
+    if (const size_t times = base.text.find(kTimes); times != std::string::npos)
+        base.text.replace(times, kTimes.size(), "x");
+    if (const size_t bracket = base.text.find('['); bracket != std::string::npos) {
+        const char* const last = base.text.data() + base.text.size();
+        const auto size = std::from_chars(base.text.data() + bracket + 1, last, out.arraySize);
         const bool isSize = size.ec == std::errc{} && std::string_view(size.ptr, last) == "]";
         if (!isSize || out.arraySize == 0 || out.arraySize > kMaxBlockBytes / 16) {
             return errorAt(value.at, fmt::format("\"{}\": an array size is a number from 1 to {}", value.text,
                                                  kMaxBlockBytes / 16));
         }
-        base.text = value.text.substr(0, bracket);
+        base.text.resize(bracket);
     }
-    if (equalIgnoringCase(base.text, "samplerExternal") || equalIgnoringCase(base.text, "sampler3d")) {
-        return errorAt(value.at, fmt::format("the type {} is known but not supported by this version", base.text),
+    if (equalIgnoringCase(base.text, "samplerExternal")) {
+        return errorAt(
+                value.at,
+                "samplerExternal shows the frames of a camera or a video of the platform, which an engine without "
+                "a window system never receives; use sampler2d",
+                ErrorCode::Unsupported);
+    }
+    for (const std::string_view later : { "sampler3d", "samplerCubemapArray" }) {
+        if (!equalIgnoringCase(base.text, later)) continue;
+        return errorAt(value.at, fmt::format("the type {} is known but not supported by this version", later),
                        ErrorCode::Unsupported);
     }
     if (Result<void> known = readEnum(base, "type", kTypes, out.type); !known) return known;
@@ -52,17 +63,14 @@ Result<void> readType(JsonValue const& value, Parameter& out) {
     return {};
 }
 
-/// `format` of samplers: only float textures exist here.
-Result<void> checkFormat(JsonValue const& value) {
-    static constexpr std::pair<std::string_view, bool> kFormats[] = {
-        { "float", true },
-        { "int", false },
+Result<void> readFormat(JsonValue const& value, Parameter& out) {
+    static constexpr std::pair<std::string_view, SamplerFormat> kFormats[] = {
+        { "float", SamplerFormat::Float },
+        { "int", SamplerFormat::Int },
     };
-    bool isFloat = true;
-    if (Result<void> known = readEnum(value, "format", kFormats, isFloat); !known) return known;
-    if (isFloat) return {};
-    return errorAt(value.at, "samplers of format int are known but not supported by this version",
-                   ErrorCode::Unsupported);
+    if (!isTexture(out.type) || out.type == ParameterType::SubpassInput)
+        return errorAt(value.at, fmt::format("only samplers have a format, and '{}' is none", out.name));
+    return readEnum(value, "format", kFormats, out.format);
 }
 
 Result<void> requireMember(JsonValue const& object, std::string_view key, std::string_view what,
@@ -102,7 +110,7 @@ Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
     Result<void> done = readType(*entry->type, parameter);
     if (JsonValue const* precision = findMember(item, "precision"); done && precision)
         done = readPrecision(*precision, source.precision);
-    if (JsonValue const* format = findMember(item, "format"); done && format) done = checkFormat(*format);
+    if (JsonValue const* format = findMember(item, "format"); done && format) done = readFormat(*format, parameter);
     if (!done) return done;
     out.package.parameters.push_back(std::move(parameter));
     out.parameterSources.push_back(std::move(source));
@@ -210,20 +218,22 @@ Result<void> readRequirement(JsonValue const& item, MaterialDefinition& out) {
     return {};
 }
 
-constexpr std::pair<std::string_view, uint8_t> kVariantFilters[] = { { "directionalLighting", kVariantSun },
-                                                                     { "dynamicLighting", kVariantPunctual },
-                                                                     { "halfPrecision", kVariantHalf },
-                                                                     { "shadowReceiver", 0 },
-                                                                     { "skinning", 0 },
-                                                                     { "ssr", 0 },
-                                                                     { "stereo", 0 },
-                                                                     { "fog", 0 },
-                                                                     { "vsm", 0 } };
+constexpr std::pair<std::string_view, uint16_t> kVariantFilters[] = {
+    { "directionalLighting", kVariantSun },
+    { "dynamicLighting", kVariantPunctual },
+    { "shadowReceiver", kVariantShadowReceiver },
+    { "skinning", kVariantSkinning },
+    { "fog", kVariantFog },
+    { "vsm", kVariantVsm },
+    { "ssr", kVariantSsr },
+    { "stereo", kVariantStereo },
+    { "halfPrecision", kVariantHalf },
+};
 
 Result<void> readFilter(JsonValue const& item, MaterialDefinition& out) {
-    uint8_t bits = 0;
+    uint16_t bits = 0;
     if (Result<void> done = readEnum(item, "variantFilter", kVariantFilters, bits); !done) return done;
-    out.filteredVariants |= bits;
+    out.package.filteredVariants |= bits;
     return {};
 }
 
@@ -249,7 +259,7 @@ Result<void> readVariantFilter(JsonValue const& value, MaterialDefinition& out) 
     return readEach(value, "variantFilter", kMaxParameterCount, readFilter, out);
 }
 
-std::optional<uint8_t> variantBitsOfFilter(std::string_view name) {
+std::optional<uint16_t> variantBitsOfFilter(std::string_view name) {
     for (auto const& [known, bits] : kVariantFilters) {
         if (equalIgnoringCase(name, known)) return bits;
     }
@@ -268,9 +278,6 @@ Result<void> layOutParameters(MaterialDefinition& definition) {
         Parameter& parameter = definition.package.parameters[i];
         if (!isTexture(parameter.type)) continue;
         SourcePosition const& at = definition.parameterSources[i].at;
-        if (binding >= backend::kMaxBindings) {
-            return errorAt(at, fmt::format("a material has at most {} textures", backend::kMaxBindings - 1));
-        }
         if (parameter.type == ParameterType::SubpassInput && definition.package.domain != MaterialDomain::PostProcess) {
             return errorAt(at, "subpass inputs exist only in the domain postprocess");
         }

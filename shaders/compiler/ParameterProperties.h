@@ -13,7 +13,8 @@ Result<void> readVariables(JsonValue const& value, MaterialDefinition& out);
 Result<void> readRequires(JsonValue const& value, MaterialDefinition& out);
 Result<void> readVariantFilter(JsonValue const& value, MaterialDefinition& out);
 
-/// Assigns bindings and std140 offsets once all parameters are known. Fails: too many textures or bytes.
+/// Assigns bindings and std140 offsets once all parameters are known and there are not too many (DefinitionRules.h).
+/// Fails: too many bytes.
 Result<void> layOutParameters(MaterialDefinition& definition);
 
 } // namespace filament::shader

@@ -3,16 +3,16 @@
 
 namespace filament::shader {
 
-uint8_t selectableBits(MaterialDomain domain, ShadingModel shading, bool halfPrecision) {
-    if (domain != MaterialDomain::Surface || shading != ShadingModel::Lit) return 0;
-    return kVariantSun | kVariantPunctual | (halfPrecision ? kVariantHalf : 0);
+uint16_t selectableBits(MaterialDomain domain, ShadingModel shading, bool halfPrecision) {
+    if (domain != MaterialDomain::Surface || shading == ShadingModel::Unlit) return 0;
+    return static_cast<uint16_t>(kVariantSun | kVariantPunctual | (halfPrecision ? kVariantHalf : 0));
 }
 
-std::vector<uint8_t> variantKeys(uint8_t selectable, uint8_t filteredBits) {
+std::vector<uint16_t> variantKeys(uint16_t selectable, uint16_t filteredBits) {
     const uint32_t bits = selectable & ~static_cast<uint32_t>(filteredBits);
-    std::vector<uint8_t> keys;
+    std::vector<uint16_t> keys;
     for (uint32_t key = 0; key <= bits; ++key) {
-        if ((key & ~bits) == 0) keys.push_back(static_cast<uint8_t>(key));
+        if ((key & ~bits) == 0) keys.push_back(static_cast<uint16_t>(key));
     }
     return keys;
 }

@@ -13,9 +13,9 @@ namespace filament::shader {
 
 /// The bits that can change the code of such a material: none for unlit and post-process ones. kVariantHalf only where
 /// the material asks for it.
-uint8_t selectableBits(MaterialDomain domain, ShadingModel shading, bool halfPrecision);
+uint16_t selectableBits(MaterialDomain domain, ShadingModel shading, bool halfPrecision);
 
 /// Ascending; always contains 0. `selectable`: see above.
-std::vector<uint8_t> variantKeys(uint8_t selectable, uint8_t filteredBits);
+std::vector<uint16_t> variantKeys(uint16_t selectable, uint16_t filteredBits);
 
 } // namespace filament::shader

@@ -74,7 +74,7 @@ highp vec3 imageBasedLight(Surface surface) {
                 quality_roughnessMapping);
         vec3 radiance = radianceOfTexel(textureLod(viewSpecular, environmentFromWorld(direction), level));
         vec3 specular = surface.specularAlbedo * radiance;
-#if defined(HAS_AMBIENT_OCCLUSION)
+#if defined(HAS_AMBIENT_OCCLUSION) && defined(SPECULAR_AMBIENT_OCCLUSION)
         specular *= specularOcclusion(surface.nov, surface.visibility, surface.alpha);
 #endif
         light = (diffuse + specular) * frameUniforms.ambient.x;

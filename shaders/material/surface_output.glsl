@@ -23,10 +23,22 @@ void addEmissive(MaterialInputs material, inout vec4 color) {
 #endif
 }
 
-// Source over: the default of postLightingBlending.
+// The modes of postLightingBlending (materials guide, 4.2.17), with the post-lighting colour above the lit one. Like
+// blending of the same name by the device: multiply and screen weight all four channels.
 void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #if defined(HAS_POST_LIGHTING_COLOR)
-    color = material.postLightingColor + color * (1.0 - material.postLightingColor.a);
+    vec4 above = material.postLightingColor;
+#if defined(POST_LIGHTING_OPAQUE)
+    color = above;
+#elif defined(POST_LIGHTING_TRANSPARENT)
+    color = above + color * (1.0 - above.a);
+#elif defined(POST_LIGHTING_ADD)
+    color += above;
+#elif defined(POST_LIGHTING_MULTIPLY)
+    color *= above;
+#elif defined(POST_LIGHTING_SCREEN)
+    color += above * (1.0 - color);
+#endif
 #endif
 }
 

@@ -36,6 +36,11 @@ public:
         return byte.empty() ? uint8_t{ 0 } : static_cast<uint8_t>(byte[0]);
     }
 
+    uint16_t u16() {
+        const uint8_t low = u8();
+        return static_cast<uint16_t>(low | u8() << 8);
+    }
+
     uint32_t u32() {
         const auto four = bytes(4);
         uint32_t value = 0;

@@ -14,7 +14,7 @@ T const* find(std::vector<T> const& things, Key const& key, auto member) {
 
 } // namespace
 
-Variant const* MaterialPackage::findVariant(uint8_t key) const { return find(variants, key, &Variant::key); }
+Variant const* MaterialPackage::findVariant(uint32_t key) const { return find(variants, key, &Variant::key); }
 
 Parameter const* MaterialPackage::findParameter(std::string_view wanted) const {
     return find(parameters, wanted, &Parameter::name);

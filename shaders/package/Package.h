@@ -19,10 +19,18 @@
 namespace filament::shader {
 
 enum class MaterialDomain : uint8_t { Surface, PostProcess };
-enum class ShadingModel : uint8_t { Unlit, Lit };
-enum class Blending : uint8_t { Opaque, Masked, Transparent, Fade, Add, Multiply, Screen };
+enum class ShadingModel : uint8_t { Unlit, Lit, Subsurface, Cloth, SpecularGlossiness };
+enum class Blending : uint8_t { Opaque, Masked, Transparent, Fade, Add, Multiply, Screen, Custom };
+enum class PostLightingBlending : uint8_t { Opaque, Transparent, Add, Multiply, Screen };
+enum class TransparencyMode : uint8_t { Default, TwoPassesOneSide, TwoPassesTwoSides };
 enum class Culling : uint8_t { None, Front, Back, FrontAndBack };
 enum class VertexDomain : uint8_t { Object, World, View, Device };
+enum class Interpolation : uint8_t { Smooth, Flat };
+enum class RefractionMode : uint8_t { None, Cubemap, ScreenSpace };
+enum class RefractionType : uint8_t { Solid, Thin };
+enum class Reflections : uint8_t { Default, ScreenSpace };
+enum class MaterialQuality : uint8_t { Default, Low, Normal, High };
+enum class SamplerFormat : uint8_t { Float, Int };
 
 // clang-format off
 enum class ParameterType : uint8_t {
@@ -36,9 +44,10 @@ bool isTexture(ParameterType type); ///< samplers and subpass inputs
 struct Parameter {
     std::string name;
     ParameterType type = ParameterType::Float;
-    uint32_t arraySize = 0; ///< 0: not an array
-    uint32_t offset = 0;    ///< bytes in the MaterialParams block; textures: 0
-    uint8_t binding = 0;    ///< textures: binding in kGroupMaterial
+    uint32_t arraySize = 0;                      ///< 0: not an array
+    uint32_t offset = 0;                         ///< bytes in the MaterialParams block; textures: 0
+    uint8_t binding = 0;                         ///< textures: binding in kGroupMaterial
+    SamplerFormat format = SamplerFormat::Float; ///< textures: what a fetch gives
     friend bool operator==(Parameter const&, Parameter const&) = default;
 };
 
@@ -50,15 +59,30 @@ struct Constant {
     friend bool operator==(Constant const&, Constant const&) = default;
 };
 
-/// What scene and view may ask of a material; a set of bits is a variant key.
-enum VariantBit : uint8_t {
-    kVariantSun = 1,      ///< directionalLighting
-    kVariantPunctual = 2, ///< dynamicLighting
-    kVariantHalf = 4,     ///< lit in 16 bits, of materials with halfPrecision; not of the scene: of Quality
+/// What scene and view may ask of a material; a set of bits is a variant key. The first eight are the names of
+/// variantFilter (materials guide, 4.2.6). No variant has the bits marked *: nothing asks for them yet.
+enum VariantBit : uint16_t {
+    kVariantSun = 1,            ///< directionalLighting
+    kVariantPunctual = 2,       ///< dynamicLighting
+    kVariantShadowReceiver = 4, ///< *
+    kVariantSkinning = 8,       ///< *
+    kVariantFog = 16,           ///< *
+    kVariantVsm = 32,           ///< *
+    kVariantSsr = 64,           ///< *
+    kVariantStereo = 128,       ///< *
+    kVariantHalf = 256,         ///< lit in 16 bits, of materials with halfPrecision; not of the scene: of Quality
+};
+inline constexpr uint16_t kAllVariantBits = 511;
+
+/// Of blending custom: how what the material gives and what is there already are weighted.
+struct BlendFunction {
+    backend::BlendFactor sourceColor = backend::BlendFactor::One, sourceAlpha = backend::BlendFactor::One;
+    backend::BlendFactor targetColor = backend::BlendFactor::Zero, targetAlpha = backend::BlendFactor::Zero;
+    friend bool operator==(BlendFunction const&, BlendFunction const&) = default;
 };
 
 struct Variant {
-    uint8_t key = 0;
+    uint16_t key = 0;
     std::vector<uint32_t> vertexSpirv, fragmentSpirv;
     std::string vertexEssl, fragmentEssl;
     friend bool operator==(Variant const&, Variant const&) = default;
@@ -69,11 +93,25 @@ struct MaterialPackage {
     MaterialDomain domain = MaterialDomain::Surface;
     ShadingModel shading = ShadingModel::Lit;
     Blending blending = Blending::Opaque;
+    BlendFunction blendFunction; ///< of Blending::Custom
+    PostLightingBlending postLightingBlending = PostLightingBlending::Transparent;
+    TransparencyMode transparency = TransparencyMode::Default;
     Culling culling = Culling::Back;
     VertexDomain vertexDomain = VertexDomain::Object;
+    Interpolation interpolation = Interpolation::Smooth;
+    RefractionMode refractionMode = RefractionMode::None;
+    RefractionType refractionType = RefractionType::Solid;
+    Reflections reflections = Reflections::Default;
+    MaterialQuality quality = MaterialQuality::Default;
+    uint8_t featureLevel = 1; ///< 1 to 3
     bool doubleSided = false;
     bool colorWrite = true, depthWrite = true, depthCulling = true;
+    bool alphaToCoverage = false; ///< where there is more than one sample
+    bool instanced = false;
+    bool vertexDomainDeviceJittered = false;
+    bool shadowMultiplier = false, transparentShadow = false;
     float maskThreshold = 0.4f;
+    uint16_t filteredVariants = 0;   ///< VariantBits that the material was compiled without
     uint32_t requiredAttributes = 0; ///< bit n: AttributeLocation n is read
     uint32_t uniformBytes = 0;       ///< size of the MaterialParams block, a multiple of 16; 0: none
     std::vector<Parameter> parameters;
@@ -82,7 +120,7 @@ struct MaterialPackage {
     std::vector<Variant> variants;   ///< ascending by key
     friend bool operator==(MaterialPackage const&, MaterialPackage const&) = default;
 
-    Variant const* findVariant(uint8_t key) const;
+    Variant const* findVariant(uint32_t key) const;
     Parameter const* findParameter(std::string_view name) const;
     Constant const* findConstant(std::string_view name) const;
 };

@@ -15,7 +15,7 @@ constexpr uint32_t tag(const char (&text)[5]) {
 }
 
 inline constexpr uint32_t kMagic = tag("FMAT");
-inline constexpr uint32_t kVersion = 2;    ///< counts up when old readers would misunderstand a file
+inline constexpr uint32_t kVersion = 3;    ///< counts up when old readers would misunderstand a file
 inline constexpr size_t kHeaderBytes = 16; ///< magic, version, checksum of everything behind the header
 
 inline constexpr uint32_t kSectionGeneral = tag("GENL");
@@ -26,6 +26,6 @@ inline constexpr uint32_t kSectionVariants = tag("VARI");
 
 inline constexpr uint32_t kMaxParameters = 1024;
 inline constexpr uint32_t kMaxConstants = 1024;
-inline constexpr uint32_t kMaxVariants = 256; ///< a key is one byte
+inline constexpr uint32_t kMaxVariants = 512; ///< every set of VariantBits
 
 } // namespace filament::shader::format

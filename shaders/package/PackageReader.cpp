@@ -71,20 +71,47 @@ Result<Sections> splitSections(std::span<const std::byte> content) {
 
 // ---------------------------------------------------------------------------------------------- one function a section
 
+bool readBlending(ByteReader& in, MaterialPackage& out) {
+    constexpr auto kLast = backend::BlendFactor::SrcAlphaSaturate;
+    BlendFunction& function = out.blendFunction;
+    return readEnum(in, out.blending, Blending::Custom) && readEnum(in, function.sourceColor, kLast) &&
+           readEnum(in, function.sourceAlpha, kLast) && readEnum(in, function.targetColor, kLast) &&
+           readEnum(in, function.targetAlpha, kLast) &&
+           readEnum(in, out.postLightingBlending, PostLightingBlending::Screen) &&
+           readEnum(in, out.transparency, TransparencyMode::TwoPassesTwoSides) &&
+           readEnum(in, out.refractionMode, RefractionMode::ScreenSpace) &&
+           readEnum(in, out.refractionType, RefractionType::Thin) &&
+           readEnum(in, out.reflections, Reflections::ScreenSpace);
+}
+
+bool readRaster(ByteReader& in, MaterialPackage& out) {
+    return readEnum(in, out.culling, Culling::FrontAndBack) && readEnum(in, out.vertexDomain, VertexDomain::Device) &&
+           readEnum(in, out.interpolation, Interpolation::Flat);
+}
+
+bool readFlags(ByteReader& in, MaterialPackage& out) {
+    return readBool(in, out.doubleSided) && readBool(in, out.colorWrite) && readBool(in, out.depthWrite) &&
+           readBool(in, out.depthCulling) && readBool(in, out.alphaToCoverage) && readBool(in, out.instanced) &&
+           readBool(in, out.vertexDomainDeviceJittered) && readBool(in, out.shadowMultiplier) &&
+           readBool(in, out.transparentShadow);
+}
+
 bool readGeneral(ByteReader in, MaterialPackage& out) {
     out.name = in.text();
-    const bool enums = readEnum(in, out.domain, MaterialDomain::PostProcess) &&
-                       readEnum(in, out.shading, ShadingModel::Lit) && readEnum(in, out.blending, Blending::Screen) &&
-                       readEnum(in, out.culling, Culling::FrontAndBack) &&
-                       readEnum(in, out.vertexDomain, VertexDomain::Device);
-    const bool flags = enums && readBool(in, out.doubleSided) && readBool(in, out.colorWrite) &&
-                       readBool(in, out.depthWrite) && readBool(in, out.depthCulling);
+    const bool models = readEnum(in, out.domain, MaterialDomain::PostProcess) &&
+                        readEnum(in, out.shading, ShadingModel::SpecularGlossiness) &&
+                        readEnum(in, out.quality, MaterialQuality::High);
+    out.featureLevel = in.u8();
+    const bool state = models && readBlending(in, out) && readRaster(in, out) && readFlags(in, out);
     out.maskThreshold = in.f32();
+    out.filteredVariants = in.u16();
     out.requiredAttributes = in.u32();
     out.uniformBytes = in.u32();
+    const bool level = out.featureLevel >= 1 && out.featureLevel <= 3;
     const bool threshold = out.maskThreshold >= 0 && out.maskThreshold <= 1; // false for NaN
-    const bool attributes = out.requiredAttributes < 1u << backend::kMaxVertexAttributes;
-    return flags && threshold && attributes && out.uniformBytes % 16 == 0 && in.atEnd() && !in.failed();
+    const bool bits = out.requiredAttributes < 1u << backend::kMaxVertexAttributes &&
+                      (out.filteredVariants & ~kAllVariantBits) == 0;
+    return state && level && threshold && bits && out.uniformBytes % 16 == 0 && in.atEnd() && !in.failed();
 }
 
 bool readParameters(ByteReader in, std::vector<Parameter>& out) {
@@ -97,6 +124,7 @@ bool readParameters(ByteReader in, std::vector<Parameter>& out) {
         parameter.arraySize = in.u32();
         parameter.offset = in.u32();
         parameter.binding = in.u8();
+        if (!readEnum(in, parameter.format, SamplerFormat::Int)) return false;
         out.push_back(std::move(parameter));
     }
     return in.atEnd() && !in.failed();
@@ -145,11 +173,12 @@ bool readVariants(ByteReader in, std::vector<Variant>& out) {
     if (count > kMaxVariants) return false;
     for (uint32_t i = 0; i < count && !in.failed(); ++i) {
         Variant variant;
-        variant.key = in.u8();
+        variant.key = in.u16();
         variant.vertexSpirv = in.words();
         variant.fragmentSpirv = in.words();
         variant.vertexEssl = in.text();
         variant.fragmentEssl = in.text();
+        if ((variant.key & ~kAllVariantBits) != 0) return false;
         if (!out.empty() && variant.key <= out.back().key) return false;
         out.push_back(std::move(variant));
     }

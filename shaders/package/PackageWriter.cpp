@@ -14,6 +14,14 @@ using namespace format;
 class ByteWriter {
 public:
     void u8(uint32_t value) { mBytes.push_back(static_cast<std::byte>(value)); }
+    template <class E>
+    void enumerator(E value) {
+        u8(static_cast<uint32_t>(value));
+    }
+    void u16(uint32_t value) {
+        u8(value & 0xFF);
+        u8(value >> 8 & 0xFF);
+    }
     void u32(uint32_t value) {
         for (int shift = 0; shift < 32; shift += 8) u8(value >> shift & 0xFF);
     }
@@ -42,19 +50,36 @@ private:
     std::vector<std::byte> mBytes;
 };
 
+void writeBlending(ByteWriter& out, MaterialPackage const& package) {
+    out.enumerator(package.blending);
+    out.enumerator(package.blendFunction.sourceColor);
+    out.enumerator(package.blendFunction.sourceAlpha);
+    out.enumerator(package.blendFunction.targetColor);
+    out.enumerator(package.blendFunction.targetAlpha);
+    out.enumerator(package.postLightingBlending);
+    out.enumerator(package.transparency);
+    out.enumerator(package.refractionMode);
+    out.enumerator(package.refractionType);
+    out.enumerator(package.reflections);
+}
+
 ByteWriter generalSection(MaterialPackage const& package) {
     ByteWriter out;
     out.text(package.name);
-    out.u8(static_cast<uint32_t>(package.domain));
-    out.u8(static_cast<uint32_t>(package.shading));
-    out.u8(static_cast<uint32_t>(package.blending));
-    out.u8(static_cast<uint32_t>(package.culling));
-    out.u8(static_cast<uint32_t>(package.vertexDomain));
-    out.u8(package.doubleSided);
-    out.u8(package.colorWrite);
-    out.u8(package.depthWrite);
-    out.u8(package.depthCulling);
+    out.enumerator(package.domain);
+    out.enumerator(package.shading);
+    out.enumerator(package.quality);
+    out.u8(package.featureLevel);
+    writeBlending(out, package);
+    out.enumerator(package.culling);
+    out.enumerator(package.vertexDomain);
+    out.enumerator(package.interpolation);
+    for (const bool flag :
+         { package.doubleSided, package.colorWrite, package.depthWrite, package.depthCulling, package.alphaToCoverage,
+           package.instanced, package.vertexDomainDeviceJittered, package.shadowMultiplier, package.transparentShadow })
+        out.u8(flag);
     out.f32(package.maskThreshold);
+    out.u16(package.filteredVariants);
     out.u32(package.requiredAttributes);
     out.u32(package.uniformBytes);
     return out;
@@ -69,6 +94,7 @@ ByteWriter parameterSection(std::span<const Parameter> parameters) {
         out.u32(parameter.arraySize);
         out.u32(parameter.offset);
         out.u8(parameter.binding);
+        out.enumerator(parameter.format);
     }
     return out;
 }
@@ -104,7 +130,7 @@ ByteWriter variantSection(std::span<const Variant> variants) {
     ByteWriter out;
     out.u32(static_cast<uint32_t>(variants.size()));
     for (Variant const& variant : variants) {
-        out.u8(variant.key);
+        out.u16(variant.key);
         out.words(variant.vertexSpirv);
         out.words(variant.fragmentSpirv);
         out.text(variant.vertexEssl);

@@ -36,10 +36,10 @@ std::optional<std::string> readFile(std::filesystem::path const& path) {
     return std::string(std::istreambuf_iterator<char>(file), {});
 }
 
-Result<uint8_t> filteredBits(std::vector<std::string> const& filters) {
-    uint8_t bits = 0;
+Result<uint16_t> filteredBits(std::vector<std::string> const& filters) {
+    uint16_t bits = 0;
     for (std::string const& filter : filters) {
-        const std::optional<uint8_t> known = shader::variantBitsOfFilter(filter);
+        const std::optional<uint16_t> known = shader::variantBitsOfFilter(filter);
         if (!known) {
             return fail(ErrorCode::InvalidArgument, "there is no variant '{}'{}", filter,
                         suggestion(filter, shader::variantFilterNames()));
@@ -60,7 +60,7 @@ Result<void> write(std::string const& path, std::vector<std::byte> const& bytes)
 Result<void> run(Arguments const& arguments) {
     const std::optional<std::string> text = readFile(arguments.input);
     if (!text) return fail(ErrorCode::NotFound, "cannot read '{}'", arguments.input);
-    const Result<uint8_t> filtered = filteredBits(arguments.filters);
+    const Result<uint16_t> filtered = filteredBits(arguments.filters);
     if (!filtered) return filtered.error();
 
     jobs::JobSystem jobs({ .workers = arguments.threads > 0 ? arguments.threads - 1 : -1 });

@@ -141,8 +141,12 @@ TEST(MaterialCompiler, SuggestsTheNameThatWasProbablyMeant) {
 
 TEST(MaterialCompiler, SaysWhichKnownFeaturesItLacks) {
     for (const char* properties :
-         { "refractionMode : cubemap", "shadingModel : cloth", "blending : custom", "customSurfaceShading : true",
-           "parameters : [ { name : a, type : samplerExternal } ]" }) {
+         { "refractionMode : cubemap", "shadingModel : cloth", "reflections : screenspace",
+           "customSurfaceShading : true", "blending : fade, transparency : twoPassesOneSide", "instanced : true",
+           "interpolation : flat", "shadingModel : unlit, shadowMultiplier : true",
+           "multiBounceAmbientOcclusion : true", "specularAmbientOcclusion : bentNormals",
+           "parameters : [ { name : a, type : sampler3d } ]",
+           "parameters : [ { name : a, type : sampler2d, format : int } ]" }) {
         const Error error = errorOf(withProperties(properties));
         EXPECT_EQ(error.code, ErrorCode::Unsupported) << properties;
         EXPECT_THAT(error.message, HasSubstr("wood.mat:2: "));

@@ -27,11 +27,26 @@ MaterialPackage fullPackage() {
     package.doubleSided = true;
     package.depthWrite = false;
     package.maskThreshold = 0.25f;
+    package.blendFunction = { .sourceColor = backend::BlendFactor::DstAlpha,
+                              .targetAlpha = backend::BlendFactor::SrcAlphaSaturate };
+    package.postLightingBlending = PostLightingBlending::Screen;
+    package.transparency = TransparencyMode::TwoPassesTwoSides;
+    package.interpolation = Interpolation::Flat;
+    package.refractionMode = RefractionMode::ScreenSpace;
+    package.refractionType = RefractionType::Thin;
+    package.reflections = Reflections::ScreenSpace;
+    package.quality = MaterialQuality::High;
+    package.featureLevel = 3;
+    package.alphaToCoverage = package.instanced = package.vertexDomainDeviceJittered = true;
+    package.transparentShadow = true;
+    package.filteredVariants = kVariantStereo | kVariantHalf;
     package.requiredAttributes = 0b1011;
-    package.parameters = { { .name = "tint", .type = ParameterType::Float3 },
-                           { .name = "weights", .type = ParameterType::Float, .arraySize = 3 },
-                           { .name = "uvMatrix", .type = ParameterType::Float3x3 },
-                           { .name = "albedo", .type = ParameterType::Sampler2D, .binding = 1 } };
+    package.parameters = {
+        { .name = "tint", .type = ParameterType::Float3 },
+        { .name = "weights", .type = ParameterType::Float, .arraySize = 3 },
+        { .name = "uvMatrix", .type = ParameterType::Float3x3 },
+        { .name = "albedo", .type = ParameterType::Sampler2D, .binding = 1, .format = SamplerFormat::Int }
+    };
     package.uniformBytes = assignOffsets(package.parameters);
     package.constants = { { .name = "hasAlbedo", .id = 0 },
                           { .name = "steps", .id = 1, .type = backend::ConstantValue::Type::Int, .defaultBits = 7 } };
@@ -40,7 +55,7 @@ MaterialPackage fullPackage() {
     package.layout[1].bindings[1] = { .binding = 1, .type = backend::BindingType::SampledTexture };
     package.variants = {
         { .key = 0, .vertexSpirv = { 1, 2 }, .fragmentSpirv = { 3 }, .vertexEssl = "v", .fragmentEssl = "f" },
-        { .key = kVariantSun, .fragmentSpirv = { 4, 5, 6 }, .fragmentEssl = "sun" }
+        { .key = kVariantSun | kVariantHalf, .fragmentSpirv = { 4, 5, 6 }, .fragmentEssl = "sun" }
     };
     return package;
 }
@@ -62,7 +77,7 @@ TEST(Package, IsEqualBytesForEqualMaterials) { EXPECT_EQ(writePackage(fullPackag
 
 TEST(Package, FindsItsPartsByNameAndKey) {
     const MaterialPackage package = fullPackage();
-    EXPECT_EQ(package.findVariant(kVariantSun), &package.variants[1]);
+    EXPECT_EQ(package.findVariant(kVariantSun | kVariantHalf), &package.variants[1]);
     EXPECT_EQ(package.findVariant(kVariantPunctual), nullptr);
     EXPECT_EQ(package.findParameter("albedo"), &package.parameters[3]);
     EXPECT_EQ(package.findParameter("Albedo"), nullptr);

@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// What an author reads who made a mistake: materials that are wrong in one place each, with the whole message.
+#include "shaders/compiler/MaterialCompiler.h"
+
+#include <gtest/gtest.h>
+
+#include <span>
+#include <string>
+
+namespace filament::shader {
+namespace {
+
+struct Broken {
+    const char* text;
+    const char* message;
+};
+
+#define GOOD_FRAGMENT "fragment { void material(inout MaterialInputs material) { prepareMaterial(material); } }"
+#define FRAGMENT(code) "fragment {\n void material(inout MaterialInputs material) {\n" code "\n}\n}"
+
+constexpr Broken kSyntax[] = {
+    { "", "a.mat:1: there is no material block" },
+    { "material", "a.mat:1: expected '{', found the end of the file" },
+    { "material {}", "a.mat:1: there is no fragment block" },
+    { "material {}\nmaterial {}", "a.mat:2: there are two material blocks" },
+    { "materiel {}", "a.mat:1: expected 'material', 'vertex' or 'fragment', found 'materiel'" },
+    { "material {\n name stone }", "a.mat:2: expected ':', found 'stone'" },
+    { "material {\n name : }", "a.mat:2: expected a value, found '}'" },
+    { "material {\n name : \"stone }", "a.mat:2: this string has no closing quote" },
+    { "material {\n name : stone\n shadingModel : lit }", "a.mat:3: expected ',' or '}', found 'shadingModel'" },
+    { "material {\n requires : [ uv0 uv1 ] }", "a.mat:2: expected ',' or ']', found 'uv1'" },
+    { "material {}\nfragment {\n void f() {", "a.mat:2: this block has no closing brace" },
+};
+
+constexpr Broken kValues[] = {
+    { "material {\n\n blendMode : add }" GOOD_FRAGMENT, "a.mat:3: there is no property 'blendMode'" },
+    { "material {\n doubleSided : 1 }" GOOD_FRAGMENT, "a.mat:2: 'doubleSided' must be a boolean, not a number" },
+    { "material {\n culling : \"\" }" GOOD_FRAGMENT, "a.mat:2: 'culling' cannot be ''" },
+    { "material {\n shadingModel : litt }" GOOD_FRAGMENT,
+      "a.mat:2: 'shadingModel' cannot be 'litt'; did you mean 'lit'?" },
+    { "material {\n featureLevel : 4 }" GOOD_FRAGMENT, "a.mat:2: 'featureLevel' must lie in [1, 3], it is 4" },
+    { "material {\n featureLevel : 1.5 }" GOOD_FRAGMENT, "a.mat:2: 'featureLevel' is 1, 2 or 3" },
+    { "material {\n maskThreshold : -0.1 }" GOOD_FRAGMENT, "a.mat:2: 'maskThreshold' must lie in [0, 1], it is -0.1" },
+    { "material {\n name : a,\n name : b }" GOOD_FRAGMENT, "a.mat:3: the property 'name' is given twice" },
+    { "material {\n requires : [ custom8 ] }" GOOD_FRAGMENT,
+      "a.mat:2: 'requires' cannot be 'custom8'; did you mean 'custom0'?" },
+    { "material {\n variables : [ a, b, c, d, e ] }" GOOD_FRAGMENT, "a.mat:2: 'variables' has more than 4 entries" },
+    { "material {\n parameters : [ { name : 2x, type : float } ] }" GOOD_FRAGMENT,
+      "a.mat:2: parameter \"2x\" is not a usable GLSL identifier" },
+    { "material {\n parameters : [ { name : x } ] }" GOOD_FRAGMENT, "a.mat:2: a parameter needs the field 'type'" },
+    { "material {\n parameters : [ { name : x, type : sampler2d[2] } ] }" GOOD_FRAGMENT,
+      "a.mat:2: samplers cannot be arrays; use sampler2dArray" },
+    { "material {\n parameters : [ { name : x, type : float, format : int } ] }" GOOD_FRAGMENT,
+      "a.mat:2: only samplers have a format, and 'x' is none" },
+    { "material {\n constants : [ { name : x, type : float2 } ] }" GOOD_FRAGMENT,
+      "a.mat:2: 'type' cannot be 'float2'; did you mean 'float'?" },
+    { "material {\n constants : [ { name : x, type : int, default : 0.5 } ] }" GOOD_FRAGMENT,
+      "a.mat:2: the default of an int is a 32-bit integer" },
+    { "material {\n variantFilter : [ shadows ] }" GOOD_FRAGMENT, "a.mat:2: 'variantFilter' cannot be 'shadows'" },
+    { "material {\n blending : custom, blendFunction : { srcRGB : two, srcA : one, dstRGB : one, dstA : one } "
+      "}" GOOD_FRAGMENT,
+      "a.mat:2: 'srcRGB' cannot be 'two'" },
+    { "material {\n blending : custom, blendFunction : { srcRGB : one } }" GOOD_FRAGMENT,
+      "a.mat:2: blendFunction needs the field 'srcA'" },
+    { "material {\n blending : custom, blendFunction : { sourceRGB : one } }" GOOD_FRAGMENT,
+      "a.mat:2: blendFunction has no field 'sourceRGB'; did you mean 'srcRGB'?" },
+};
+
+constexpr Broken kContradictions[] = {
+    { "material {\n blendFunction : { srcRGB : one, srcA : one, dstRGB : one, dstA : one } }" GOOD_FRAGMENT,
+      "a.mat:2: blendFunction is only read with blending : custom; set that, or leave the function out" },
+    { "material {\n blending : custom }" GOOD_FRAGMENT,
+      "a.mat:2: blending : custom needs a blendFunction : { srcRGB : ..., srcA : ..., dstRGB : ..., dstA : ... }" },
+    { "material {\n transparency : twoPassesOneSide }" GOOD_FRAGMENT,
+      "a.mat:2: two passes are for what is blended; set a blending, for instance transparent" },
+    { "material {\n blending : fade,\n transparency : twoPassesOneSide,\n refractionMode : cubemap }" GOOD_FRAGMENT,
+      "a.mat:3: two passes are for materials that do not refract; leave out transparency or refractionMode" },
+    { "material {\n blending : fade,\n refractionMode : cubemap }" GOOD_FRAGMENT,
+      "a.mat:3: what refracts is drawn opaque, because it shows what is behind it by itself; leave out blending" },
+    { "material {\n shadingModel : unlit,\n refractionMode : cubemap }" GOOD_FRAGMENT,
+      "a.mat:3: an unlit material refracts nothing; use shadingModel : lit" },
+    { "material {\n shadowMultiplier : true }" GOOD_FRAGMENT,
+      "a.mat:2: shadowMultiplier is for shadingModel : unlit; lit materials receive shadows anyway" },
+    { "material {\n customSurfaceShading : true, shadingModel : cloth }" GOOD_FRAGMENT,
+      "a.mat:2: customSurfaceShading works with shadingModel : lit only" },
+    { "material {\n reflections : screenspace, shadingModel : unlit }" GOOD_FRAGMENT,
+      "a.mat:2: an unlit material reflects nothing; use shadingModel : lit" },
+    { "material {\n domain : postprocess,\n shadingModel : lit }" GOOD_FRAGMENT,
+      "a.mat:3: a material of the domain postprocess cannot be lit" },
+};
+
+constexpr Broken kCode[] = {
+    { "material {}\nfragment {\n}", "a.mat:2: this block must define void material(inout MaterialInputs material)" },
+    { "material {}\n" FRAGMENT(""), "a.mat:2: this block must define material(), which must call "
+                                    "prepareMaterial(material)" },
+    { "material {}\n" FRAGMENT("\n #include \"gone.glsl\""),
+      "a.mat:5: cannot find the file \"gone.glsl\" of this #include" },
+    { "material { shadingModel : unlit }\nvertex {\n}\n" GOOD_FRAGMENT,
+      "a.mat:2: this block must define void materialVertex(inout MaterialVertexInputs material)" },
+};
+
+void expectMessages(std::span<const Broken> materials) {
+    for (Broken const& broken : materials) {
+        const Result<MaterialPackage> package = compileMaterial(broken.text, "a.mat");
+        EXPECT_EQ(package ? "it compiles" : package.error().message, broken.message) << broken.text;
+    }
+}
+
+TEST(BrokenMaterials, NameTheLineWhereTheTextStopsMakingSense) { expectMessages(kSyntax); }
+TEST(BrokenMaterials, NameTheValueAndWhatItMayBe) { expectMessages(kValues); }
+TEST(BrokenMaterials, NameTheContradictionAndItsCure) { expectMessages(kContradictions); }
+TEST(BrokenMaterials, NameTheLineOfTheCode) { expectMessages(kCode); }
+
+} // namespace
+} // namespace filament::shader
