@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// DfgTable: the half of the split sum that depends on the surface only, for every environment and material.
-///   Out     RG16F, size x size; column: nov = (x + 0.5) / size, row: perceptual roughness = (y + 0.5) / size.
+///   Out     RGBA16F, size x size; column: nov = (x + 0.5) / size, row: perceptual roughness = (y + 0.5) / size.
 ///           green = integral of D V n.l over the hemisphere: what a white surface reflects with one bounce;
 ///           red = the same weighted by Schlick's (1 - voh)^5. This is the form of Lagarde and Golubev 2018, "The Road
 ///           toward Unified Rendering", which also restores multiple scattering: specularDfg(), energyCompensation().
+///           blue = what a white sheen of that roughness reflects: Charlie's distribution with Neubelt's visibility,
+///           which exceeds 1 where smooth fibres graze; sheenLimit() and sheenAlbedoScaling() take it. alpha = 0,
+///           unused.
 ///   Thread  runs on the job system; the same bits for any number of workers.
-///   Fails   never.  Cost: 64 x 64 with 512 samples in about 25 ms on two cores.
+///   Fails   never.  Cost: 64 x 64 with 512 samples in about 35 ms on two cores.
 #pragma once
 
 #include "filament_core/assets/Image.h"
@@ -16,6 +19,9 @@ namespace filament::assets {
 
 /// One entry. nov in (0, 1], alpha in [kMinAlpha, 1]. Returns (red, green) as above.
 float2 integrateDfg(float nov, float alpha, uint32_t samples);
+
+/// Blue of one entry. Same ranges. Returns values >= 0, up to about 6.
+float integrateSheen(float nov, float alpha, uint32_t samples);
 
 Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size = 64, uint32_t samples = 512);
 

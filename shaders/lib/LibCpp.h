@@ -23,6 +23,8 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
+using glm::acos;
+using glm::atan;
 using glm::clamp;
 using glm::cos;
 using glm::cross;
@@ -55,7 +57,11 @@ namespace {
 #include "shaders/lib/color.glsl"
 #include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/ibl.glsl"
+#include "shaders/lib/iridescence.glsl"
 #include "shaders/lib/light.glsl"
+#include "shaders/lib/normals.glsl"
+#include "shaders/lib/occlusion.glsl"
+#include "shaders/lib/parallax.glsl"
 #include "shaders/lib/refraction.glsl"
 #include "shaders/lib/sampling.glsl"
 #include "shaders/lib/sheen.glsl"

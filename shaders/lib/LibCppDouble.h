@@ -24,6 +24,8 @@ using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 
+using glm::acos;
+using glm::atan;
 using glm::clamp;
 using glm::cos;
 using glm::cross;

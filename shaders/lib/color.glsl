@@ -46,6 +46,19 @@ vec3 toneMap(vec3 color, int mapper) {
     return saturate(x);
 }
 
+// Inverse of toneMapFilmic(), per component: the root of its quadratic, in the one of two forms that does not cancel.
+// What a tone-mapped picture must emit to look like itself. x in [0, 1]; 1 is the light where the curve reaches 1. fp32
+// only: the bright end is steep.
+float inverseTonemap(float x) {
+    float y = saturate(x);
+    float a = 2.51f - 2.43f * y;
+    float b = 0.59f * y - 0.03f;
+    float root = sqrt(b * b + 0.56f * a * y);
+    return b < 0.0f ? 0.28f * y / (root - b) : (b + root) / (2.0f * a);
+}
+
+vec3 inverseTonemap(vec3 x) { return vec3(inverseTonemap(x.x), inverseTonemap(x.y), inverseTonemap(x.z)); }
+
 // IEC 61966-2-1, the sRGB transfer function, one component. [0, 1] -> [0, 1].
 float srgbFromLinear(float x) {
     return x <= 0.0031308f ? 12.92f * x : 1.055f * pow(x, 1.0f / 2.4f) - 0.055f;
@@ -58,6 +71,17 @@ float linearFromSrgb(float x) {
 
 vec3 srgbFromLinear(vec3 x) { return vec3(srgbFromLinear(x.x), srgbFromLinear(x.y), srgbFromLinear(x.z)); }
 vec3 linearFromSrgb(vec3 x) { return vec3(linearFromSrgb(x.x), linearFromSrgb(x.y), linearFromSrgb(x.z)); }
+
+// inverseTonemap() of what a display shows: the transfer function is undone first. [0, 1]. fp32 only.
+vec3 inverseTonemapSRGB(vec3 x) { return inverseTonemap(linearFromSrgb(saturate(x))); }
+
+// Video to colour, both with the transfer function: JFIF 1.02, the full range of ITU-R BT.601. y, cbcr in [0, 1].
+// Returns values that may leave [0, 1]: not every triple is a colour.
+vec3 ycbcrToRgb(float y, vec2 cbcr) {
+    float cb = cbcr.x - 0.5f;
+    float cr = cbcr.y - 0.5f;
+    return vec3(y + 1.402f * cr, y - 0.344136f * cb - 0.714136f * cr, y + 1.772f * cb);
+}
 
 // Noise that is nearly uniform in every 3x3 block: for dithering and for rotating sample patterns. Jimenez 2014,
 // "Next Generation Post Processing in Call of Duty: Advanced Warfare". pixel: gl_FragCoord.xy. Returns [0, 1). fp32 only:

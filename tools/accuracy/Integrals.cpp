@@ -20,7 +20,7 @@ class DfgSampler {
 public:
     explicit DfgSampler(assets::Image const& table) : mSize(table.width), mTexels(size_t(mSize) * mSize) {
         for (size_t i = 0; i < mTexels.size(); ++i) {
-            uint16_t halves[2];
+            uint16_t halves[4];
             std::memcpy(halves, table.data.data() + i * sizeof(halves), sizeof(halves));
             mTexels[i] = { floatFromHalf(halves[0]), floatFromHalf(halves[1]) };
         }

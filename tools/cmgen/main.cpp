@@ -112,10 +112,10 @@ Result<void> writeSh(std::filesystem::path const& path, std::array<float4, 9> co
 
 Result<void> writeDfg(std::filesystem::path const& path, Image const& table) {
     std::vector<float3> pixels;
-    for (size_t i = 0; i < table.data.size(); i += 4) {
-        std::array<uint16_t, 2> halves{};
+    for (size_t i = 0; i < table.data.size(); i += 8) {
+        std::array<uint16_t, 3> halves{};
         std::memcpy(halves.data(), table.data.data() + i, sizeof(halves));
-        pixels.emplace_back(floatFromHalf(halves[0]), floatFromHalf(halves[1]), 0.0f);
+        pixels.emplace_back(floatFromHalf(halves[0]), floatFromHalf(halves[1]), floatFromHalf(halves[2]));
     }
     return writeExr(path, table.width, table.height, pixels);
 }

@@ -131,12 +131,39 @@ TEST(IblFunctions, TheDfgOfTheSmoothestSurfaceIsFresnelAlone) {
 TEST(IblFunctions, NoEntryOfTheTableReflectsMoreThanArrives) {
     jobs::JobSystem jobs({ .workers = 0 });
     const assets::Image table = assets::bakeDfgTable(jobs, 16, 256);
-    for (size_t i = 0; i < table.data.size(); i += 4) {
-        uint16_t halves[2];
-        std::memcpy(halves, table.data.data() + i, 4);
+    ASSERT_EQ(table.data.size(), 16u * 16 * 8);
+    for (size_t i = 0; i < table.data.size(); i += 8) {
+        uint16_t halves[4];
+        std::memcpy(halves, table.data.data() + i, 8);
+        EXPECT_GE(floatFromHalf(halves[2]), 0.0f);
+        EXPECT_LT(floatFromHalf(halves[2]), 7.0f);
         const vec2 dfg(floatFromHalf(halves[0]), floatFromHalf(halves[1]));
         EXPECT_LE(dfg.x, dfg.y);
         EXPECT_LE(dfg.y, 1.02f) << "no more than all light; 2 % is the noise of 256 samples";
+    }
+}
+
+// Blue, against the lobe integrated over light directions; and all entries are where the table says.
+TEST(IblFunctions, TheTablesBlueIsTheAlbedoOfASheenThatBruteForceFinds) {
+    jobs::JobSystem jobs({ .workers = 0 });
+    const assets::Image table = assets::bakeDfgTable(jobs, 16, 512);
+    for (const uint32_t row : { 3u, 7u, 11u, 15u }) {
+        const float roughness = (static_cast<float>(row) + 0.5f) / 16, alpha = alphaFromPerceptual(roughness);
+        for (const uint32_t column : { 0u, 3u, 8u, 15u }) {
+            const float nov = (static_cast<float>(column) + 0.5f) / 16;
+            const vec3 v(std::sqrt(1 - nov * nov), 0, nov);
+            const double exact = integrateHemisphere(
+                    [&](vec3 l) {
+                        const float noh = min(glm::normalize(v + l).z, 1.0f);
+                        return ndfCharlie(noh, alpha) * visibilityNeubelt(nov, l.z) * l.z;
+                    },
+                    1000, 400, 1);
+            EXPECT_NEAR(assets::integrateSheen(nov, alpha, 4096), exact, 2e-3 + 0.01 * exact)
+                    << roughness << ' ' << nov;
+            uint16_t half = 0;
+            std::memcpy(&half, table.data.data() + (row * 16 + column) * 8 + 4, 2);
+            EXPECT_NEAR(floatFromHalf(half), exact, 4e-3 + 0.03 * exact) << roughness << ' ' << nov;
+        }
     }
 }
 

@@ -6,8 +6,8 @@ namespace filament::shader::numerics {
 std::span<const Row> rows() {
     static const std::vector<Row> all = [] {
         std::vector<Row> joined;
-        for (auto const& source :
-             { mathRows(), brdfRows(), layerRows(), scatterRows(), colorRows(), imageRows(), geometryRows() })
+        for (auto const& source : { mathRows(), brdfRows(), layerRows(), scatterRows(), detailRows(), colorRows(),
+                                    imageRows(), geometryRows() })
             joined.insert(joined.end(), source.begin(), source.end());
         return joined;
     }();
