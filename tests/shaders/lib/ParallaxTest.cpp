@@ -84,6 +84,12 @@ TEST(Color, TheInverseToneMapperUndoesTheFilmicOne) {
     EXPECT_EQ(inverseTonemap(2.0f), inverseTonemap(1.0f)) << "nothing is brighter than white";
 }
 
+TEST(Color, TheTwoFormsOfTheInverseToneMapperMeetWithTheSameSlope) {
+    const float joint = 0.03f / 0.59f, step = 1e-3f;
+    const float below = inverseTonemap(joint - step), at = inverseTonemap(joint), above = inverseTonemap(joint + step);
+    EXPECT_NEAR(at - below, above - at, 0.05f * (above - at));
+}
+
 // Of BT.601: white, black and the primaries at full range.
 TEST(Color, VideoBecomesColour) {
     EXPECT_EQ(ycbcrToRgb(1.0f, vec2(0.5f)), vec3(1.0f));

@@ -74,6 +74,12 @@ TEST(Sheen, SamplesFollowCharlie) {
     }
 }
 
+TEST(Sheen, TheSeriesOfOneMinusExpMeetsTheExponential) {
+    for (double x = 1e-9; x < 3; x *= 1.01) EXPECT_NEAR(oneMinusExp(x) / -std::expm1(-x), 1, 5e-8) << x;
+    EXPECT_EQ(oneMinusExp(0.0), 0);
+    EXPECT_NEAR(oneMinusExp(0.125), oneMinusExp(std::nextafter(0.125, 0.0)), 1e-8) << "where both pieces meet";
+}
+
 // Why sheenLimit() exists.
 TEST(Sheen, NeubeltsVisibilityReflectsMoreThanArrivesFromSmoothFibresUnlessItIsLimited) {
     EXPECT_GT(neubeltAlbedo(0.05, 0.04), 1.2);
