@@ -40,20 +40,9 @@ std::vector<std::string_view> tokensOf(std::string_view text) {
 } // namespace
 
 CodeScan::CodeScan(std::string_view glsl) {
-    const std::vector<std::string_view> tokens = tokensOf(glsl);
-    std::set<std::string_view> inputs;
-    for (size_t i = 0; i < tokens.size(); ++i) {
-        if (isWordCharacter(tokens[i][0])) mWords.emplace(tokens[i]);
-        if (tokens[i] == "define") mHasMacros = true;
-        if (tokens[i] == "MaterialInputs" && i + 1 < tokens.size()) inputs.insert(tokens[i + 1]);
+    for (const std::string_view token : tokensOf(glsl)) {
+        if (isWordCharacter(token[0])) mWords.emplace(token);
     }
-    for (size_t i = 0; i + 2 < tokens.size(); ++i) {
-        if (tokens[i + 1] == "." && inputs.contains(tokens[i])) mMembers.emplace(tokens[i + 2]);
-    }
-}
-
-bool CodeScan::touches(std::string_view member) const {
-    return mMembers.contains(member) || (mHasMacros && mentions(member));
 }
 
 } // namespace filament::shader

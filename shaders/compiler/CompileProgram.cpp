@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/CompileProgram.h"
 
+#include "shaders/compiler/CanonicalOrder.h"
 #include "shaders/compiler/ExactLowering.h"
 #include "shaders/compiler/ForbidReordering.h"
 #include "shaders/compiler/GlslToSpirv.h"
@@ -26,6 +27,7 @@ Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std:
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
     const Optimization goal = goalOf(stage, options);
     if (spirv && goal != Optimization::None) spirv = optimizeSpirv(*spirv, goal);
+    if (spirv) spirv = canonicalOrder(*spirv);
     if (spirv && options.exact)
         spirv = forbidReordering(lowerExactly(*spirv)); // last: no pass re-forms what is spelled out
     return spirv;

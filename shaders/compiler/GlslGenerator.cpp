@@ -3,6 +3,8 @@
 
 #include "shaders/compiler/CodeScan.h"
 #include "shaders/compiler/GlslDeclarations.h"
+#include "shaders/compiler/MaterialAnalysis.h"
+#include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/StageText.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/ViewLayout.h"
@@ -68,10 +70,8 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     defineIf(out, needs.worldPosition, "NEEDS_WORLD_POSITION");
     defineIf(out, needs.normal, "NEEDS_NORMAL");
     defineIf(out, needs.tangent, "NEEDS_TANGENT");
-    defineIf(out, needs.hasNormalMap, "HAS_NORMAL");
-    defineIf(out, needs.hasEmissive, "HAS_EMISSIVE");
-    defineIf(out, needs.hasAmbientOcclusion, "HAS_AMBIENT_OCCLUSION");
-    defineIf(out, needs.hasPostLightingColor, "HAS_POST_LIGHTING_COLOR");
+    const auto members = materialMembers();
+    for (size_t i = 0; i < members.size(); ++i) defineIf(out, (needs.terms & termBit(i)) != 0, members[i].term);
     defineIf(out, needs.clipSpaceTransform, "HAS_CLIP_SPACE_TRANSFORM");
 }
 
@@ -125,7 +125,7 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     Result<void> done =
             includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
-    if (done && needs.hasAmbientOcclusion) done = out.include("shaders/lib/ao.glsl");
+    if (done && needs.has("HAS_AMBIENT_OCCLUSION")) done = out.include("shaders/lib/ao.glsl");
     if (done) done = out.include("shaders/material/surface_output.glsl");
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface_half.glsl");
     if (done) done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface_quality.glsl" });
@@ -133,20 +133,28 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     return done;
 }
 
-Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
-                                    uint16_t variantKey, IncludeResolver const& includes) {
-    const bool isLit = definition.package.shading == ShadingModel::Lit;
-    StageText out(includes);
+/// Everything before the author's code.
+Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                  uint16_t variantKey) {
     beginStage(out, "in");
     defineSurface(out, definition, needs);
     defineFragment(out, definition, variantKey);
     Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl",
                                           "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
-    if (!done) return done.error();
+    if (!done) return done;
     declareInterface(out, definition);
     declareVariables(out, definition);
+    declareMaterialInputs(out, definition);
     if (needs.luminance) done = out.include("shaders/lib/color.glsl");
     if (done) done = out.include("shaders/material/surface_fragment_api.glsl");
+    return done;
+}
+
+Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                    uint16_t variantKey, IncludeResolver const& includes) {
+    const bool isLit = definition.package.shading != ShadingModel::Unlit;
+    StageText out(includes);
+    Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
     if (done) done = out.block(definition.fragment);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
     if (done && !isLit)
@@ -228,19 +236,33 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
 
     const bool isLit = definition.package.shading == ShadingModel::Lit;
     MaterialNeeds needs;
-    needs.hasNormalMap = isLit && fragment.touches("normal");
-    needs.hasEmissive = fragment.touches("emissive");
-    needs.hasAmbientOcclusion = isLit && fragment.touches("ambientOcclusion");
-    needs.hasPostLightingColor = fragment.touches("postLightingColor");
     needs.worldPosition =
             isLit || mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
                                              "getWorldReflectedVector", "getNdotV" });
     needs.normal = isLit || needsAttribute(definition, kAttributeTangents);
-    needs.tangent = needs.hasNormalMap || (needs.normal && fragment.mentions("getWorldTangentFrame"));
+    needs.tangent = needs.normal && fragment.mentions("getWorldTangentFrame");
     needs.clipSpaceTransform =
             definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");
     needs.luminance = fragment.mentions("luminance");
     return needs;
+}
+
+bool MaterialNeeds::has(std::string_view term) const {
+    const auto members = materialMembers();
+    for (size_t i = 0; i < members.size(); ++i) {
+        if (members[i].term == term && (terms & termBit(i)) != 0) return true;
+    }
+    return false;
+}
+
+Result<std::string> generateProbe(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                  IncludeResolver const& includes) {
+    StageText out(includes);
+    if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
+    declareProbe(out, definition);
+    if (Result<void> done = out.block(definition.fragment); !done) return done.error();
+    defineProbeMain(out, definition);
+    return std::move(out).take();
 }
 
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,

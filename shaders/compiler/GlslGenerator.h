@@ -14,17 +14,24 @@ namespace filament::shader {
 /// What the author's code makes necessary; equal for all variants.
 struct MaterialNeeds {
     bool worldPosition = false, normal = false, tangent = false;
-    bool hasNormalMap = false, hasEmissive = false, hasAmbientOcclusion = false, hasPostLightingColor = false;
     bool clipSpaceTransform = false;
     bool luminance = false; ///< calls luminance() of the colour library
+    uint64_t terms = 0;     ///< bit n: the term of materialMembers()[n] (findTerms())
+
+    bool has(std::string_view term) const;
 };
 
+/// What the names in the code say: getters and the functions that must be there. The terms come from findTerms().
 Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes);
 
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                    IncludeResolver const& includes);
 Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                      uint16_t variantKey, IncludeResolver const& includes);
+
+/// The fragment stage up to the author's code, with a main() for findTerms().
+Result<std::string> generateProbe(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                  IncludeResolver const& includes);
 
 /// The bind group layout that all variants share: the engine's group 0, the material's group 1.
 backend::ProgramLayout materialLayout(MaterialDefinition const& definition);

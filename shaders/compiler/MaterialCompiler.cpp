@@ -4,6 +4,7 @@
 #include "jobsystem/JobSystem.h"
 #include "shaders/compiler/EmbeddedSources.h"
 #include "shaders/compiler/GlslGenerator.h"
+#include "shaders/compiler/MaterialAnalysis.h"
 #include "shaders/compiler/ShaderTextGaps.h"
 #include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
@@ -43,6 +44,8 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     Result<MaterialNeeds> needs = findNeeds(prepared.definition, prepared.includes);
     if (!needs) return needs.error();
     prepared.needs = *needs;
+    Result<void> terms = findTerms(prepared.definition, prepared.includes, prepared.needs);
+    if (!terms) return terms.error();
     prepared.layout = materialLayout(prepared.definition);
     MaterialPackage& package = prepared.definition.package;
     package.filteredVariants |= options.filteredVariants;

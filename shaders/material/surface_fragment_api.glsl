@@ -1,34 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of surface materials, what goes before the material's own code: MaterialInputs, prepareMaterial() and
-// the functions of the guide, 4.5.7.
+// Fragment stage of surface materials, what goes before the material's own code: prepareMaterial() and the functions of the
+// guide, 4.5.7. MaterialInputs and initMaterial() come from the compiler (MaterialMembers.cpp).
 
 layout(location = 0) out vec4 fragment_color;
-
-struct MaterialInputs {
-    vec4 baseColor; // pre-multiplied by its alpha
-    vec4 emissive;  // rgb: nits; a: exposure weight
-    vec4 postLightingColor;
-#if defined(SHADING_MODEL_LIT)
-    float roughness;
-    float metallic;
-    float reflectance;
-    float ambientOcclusion;
-    vec3 normal; // in tangent space
-#endif
-};
-
-void initMaterial(out MaterialInputs material) {
-    material.baseColor = vec4(1.0);
-    material.emissive = vec4(0.0, 0.0, 0.0, 1.0);
-    material.postLightingColor = vec4(0.0);
-#if defined(SHADING_MODEL_LIT)
-    material.roughness = 1.0;
-    material.metallic = 0.0;
-    material.reflectance = 0.5;
-    material.ambientOcclusion = 1.0;
-    material.normal = vec3(0.0, 0.0, 1.0);
-#endif
-}
 
 // Grazing views would divide by zero in the visibility term and read outside of the DFG table.
 const float kMinNoV = 1e-4;

@@ -329,12 +329,6 @@ TEST(MaterialCompiler, IsNotFooledByCommentsOrParametersOfTheSameName) {
     EXPECT_THAT(text, Not(HasSubstr("#define HAS_EMISSIVE")));
 }
 
-TEST(MaterialCompiler, AssumesTheWorstOfMacros) {
-    EXPECT_THAT(fragmentOf("\n#define SET(x) m.x\nvoid material(inout MaterialInputs m) { SET(normal) = vec3(0, 0, 1); "
-                           "prepareMaterial(m); }"),
-                HasSubstr("#define HAS_NORMAL"));
-}
-
 TEST(MaterialCompiler, FlipsUvUnlessTold) {
     EXPECT_THAT(fragmentOf("void material(inout MaterialInputs m) { prepareMaterial(m); }"),
                 HasSubstr("#define FLIP_UV"));

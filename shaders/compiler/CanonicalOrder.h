@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// canonicalOrder: one form for all SPIR-V modules that mean the same but for what the optimiser removed.
+///   Why     dead code leaves traces: constants in another order, other numbers. A material that sets a property to
+///           what it is anyway would be another file than one that does not.
+///   Out     types, constants and variables in the order in which the functions first need them; ids counted from 1 in
+///           the order of their definition; names and decorations sorted by them.
+///   Thread  any. Memory: the module twice. Fails: Internal for a module that SPIRV-Tools cannot read.
+#pragma once
+
+#include "filament_core/base/Result.h"
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace filament::shader {
+
+Result<std::vector<uint32_t>> canonicalOrder(std::span<const uint32_t> module);
+
+} // namespace filament::shader

@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/MaterialAnalysis.h"
+
+#include "shaders/compiler/GlslToSpirv.h"
+#include "shaders/compiler/MaterialMembers.h"
+#include "shaders/compiler/SpirvEditor.h"
+
+#include <fmt/core.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <unordered_map>
+
+namespace filament::shader {
+namespace {
+
+using Id = SpirvEditor::Id;
+
+/// Where the probe writes member n of materialMembers(), and reads what it is at first.
+constexpr uint32_t kProbeOutputLocation = 1, kProbeInputLocation = 16;
+
+bool isProbed(MaterialMember const& member, MaterialDefinition const& definition) {
+    return member.absent != Absent::Never && member.isMemberOf(definition);
+}
+
+/// Colours above the picture are neutral if blending them changes nothing.
+std::array<float, 4> neutralOf(MaterialMember const& member, MaterialDefinition const& definition) {
+    if (member.name != "postLightingColor") return member.neutral;
+    constexpr float kNone = std::numeric_limits<float>::infinity(); // equal to no constant
+    switch (definition.package.postLightingBlending) {
+    case PostLightingBlending::Opaque:
+        return { kNone, kNone, kNone, kNone };
+    case PostLightingBlending::Multiply:
+        return { 1, 1, 1, 1 };
+    case PostLightingBlending::Transparent:
+    case PostLightingBlending::Add:
+    case PostLightingBlending::Screen:
+        return member.neutral;
+    }
+    return member.neutral;
+}
+
+bool isNeutral(std::span<const float> value, std::array<float, 4> const& neutral) {
+    for (size_t i = 0; i < value.size(); ++i) {
+        if (!std::isnan(neutral[i]) && value[i] != neutral[i]) return false;
+    }
+    return true;
+}
+
+/// If what the member is at first needs the term, only whether it was touched decides. Such members come from outside,
+/// so that nothing folds with them.
+bool comesFromOutside(MaterialMember const& member, MaterialDefinition const& definition) {
+    const auto initial = std::span(member.initial).first(member.components);
+    return member.absent == Absent::Untouched || !isNeutral(initial, neutralOf(member, definition));
+}
+
+// ---------------------------------------------------------------------------------------------- what arrives
+
+struct Arrival {
+    enum class Kind : uint8_t { Nothing, Untouched, Constant, Computed };
+    Kind kind = Kind::Nothing;
+    std::vector<float> constant;
+    friend bool operator==(Arrival const&, Arrival const&) = default;
+};
+
+/// The variables of the module that have a location, by that location.
+struct Interface {
+    std::unordered_map<Id, uint32_t> inputs, outputs;
+};
+
+using Words = std::span<const uint32_t>;
+
+/// `visit(op, words)` for every instruction; words[0] is the instruction's own first word.
+void forEachInstruction(Words module, auto&& visit) {
+    constexpr size_t kHeaderWords = 5;
+    for (size_t at = kHeaderWords; at < module.size();) {
+        const size_t count = module[at] >> 16;
+        visit(static_cast<spv::Op>(module[at] & 0xFFFF), module.subspan(at, count));
+        at += count;
+    }
+}
+
+/// Decorations come before the variables.
+Interface interfaceOf(Words module) {
+    std::unordered_map<Id, uint32_t> locations;
+    Interface found;
+    forEachInstruction(module, [&](spv::Op op, Words words) {
+        if (op == spv::OpDecorate && words[2] == spv::DecorationLocation) locations[words[1]] = words[3];
+        if (op != spv::OpVariable) return;
+        const auto location = locations.find(words[2]);
+        if (location == locations.end()) return;
+        if (words[3] == spv::StorageClassInput) found.inputs.insert(*location);
+        if (words[3] == spv::StorageClassOutput) found.outputs.insert(*location);
+    });
+    return found;
+}
+
+/// By index of the member. A member that several stores reach with different values is computed.
+std::vector<Arrival> arrivalsIn(Words module) {
+    const Interface interface = interfaceOf(module);
+    std::vector<Arrival> arrivals(materialMembers().size());
+    std::unordered_map<Id, uint32_t> loaded; // value -> the location of the input that it was loaded from
+    const SpirvEditor editor(module);
+    const auto arrive = [&](size_t member, Id value) {
+        Arrival arrival{ Arrival::Kind::Computed, {} };
+        const auto components = editor.constantOf(value);
+        const auto source = loaded.find(value);
+        if (!components.empty()) arrival = { Arrival::Kind::Constant, { components.begin(), components.end() } };
+        if (source != loaded.end() && source->second == kProbeInputLocation + member)
+            arrival = { Arrival::Kind::Untouched, {} };
+        const bool isFirst = arrivals[member].kind == Arrival::Kind::Nothing;
+        arrivals[member] = isFirst || arrivals[member] == arrival ? arrival : Arrival{ Arrival::Kind::Computed, {} };
+    };
+    forEachInstruction(module, [&](spv::Op op, Words words) {
+        if (op == spv::OpLoad) {
+            const auto input = interface.inputs.find(words[3]);
+            if (input != interface.inputs.end()) loaded[words[2]] = input->second;
+        }
+        if (op == spv::OpStore) {
+            const auto output = interface.outputs.find(words[1]);
+            if (output != interface.outputs.end() && output->second >= kProbeOutputLocation)
+                arrive(output->second - kProbeOutputLocation, words[2]);
+        }
+    });
+    return arrivals;
+}
+
+// ---------------------------------------------------------------------------------------------- what it means
+
+bool isTermIn(MaterialMember const& member, MaterialDefinition const& definition, Arrival const& arrival) {
+    if (arrival.kind == Arrival::Kind::Untouched || arrival.kind == Arrival::Kind::Nothing) return false;
+    if (member.absent == Absent::Untouched || arrival.kind != Arrival::Kind::Constant) return true;
+    return !isNeutral(arrival.constant, neutralOf(member, definition));
+}
+
+} // namespace
+
+// prepareMaterial() is the engine's, behind a door that notes what it takes.
+void declareProbe(StageText& out, MaterialDefinition const& definition) {
+    const auto members = materialMembers();
+    std::string taken;
+    for (uint32_t i = 0; i < members.size(); ++i) {
+        if (!isProbed(members[i], definition)) continue;
+        const std::string_view type = floatType(members[i].components);
+        out.line(fmt::format("layout(location = {}) out {} probe_{};", kProbeOutputLocation + i, type, i));
+        if (comesFromOutside(members[i], definition))
+            out.line(fmt::format("layout(location = {}) in {} probe_initial_{};", kProbeInputLocation + i, type, i));
+        if (members[i].isPrepared) taken += fmt::format("probe_{} = material.{}; ", i, members[i].name);
+    }
+    out.line(fmt::format("void probe_prepareMaterial(const MaterialInputs material) {{ {}prepareMaterial(material); }}",
+                         taken));
+    out.define("prepareMaterial", "probe_prepareMaterial");
+}
+
+void defineProbeMain(StageText& out, MaterialDefinition const& definition) {
+    const auto members = materialMembers();
+    std::string begin, end;
+    for (uint32_t i = 0; i < members.size(); ++i) {
+        if (!isProbed(members[i], definition)) continue;
+        if (comesFromOutside(members[i], definition))
+            begin += fmt::format("probe_inputs.{} = probe_initial_{}; ", members[i].name, i);
+        if (!members[i].isPrepared) end += fmt::format("probe_{} = probe_inputs.{}; ", i, members[i].name);
+    }
+    out.line("void main() { MaterialInputs probe_inputs; initMaterial(probe_inputs); computeShadingGeometry();");
+    out.line(begin + "material(probe_inputs);");
+    out.line(end + "}");
+}
+
+Result<void> findTerms(MaterialDefinition const& definition, IncludeResolver const& includes, MaterialNeeds& needs) {
+    if (definition.package.domain == MaterialDomain::PostProcess) return {};
+    Result<std::string> text = generateProbe(definition, needs, includes);
+    if (!text) return text.error();
+    Result<std::vector<uint32_t>> spirv = spirvFromGlsl(*text, backend::ShaderStage::Fragment, definition.fileName);
+    if (spirv) spirv = optimizeSpirv(*spirv);
+    if (!spirv) return spirv.error();
+    const std::vector<Arrival> arrivals = arrivalsIn(*spirv);
+    const auto members = materialMembers();
+    for (size_t i = 0; i < members.size(); ++i) {
+        if (!isProbed(members[i], definition) || !isTermIn(members[i], definition, arrivals[i])) continue;
+        if (!members[i].hasText) {
+            return errorAt(definition.fragment.at,
+                           fmt::format("this block sets material.{}, which is known but not supported by this version",
+                                       members[i].name),
+                           ErrorCode::Unsupported);
+        }
+        needs.terms |= termBit(i);
+        needs.tangent |= members[i].isPrepared; // directions in tangent space
+    }
+    return {};
+}
+
+} // namespace filament::shader

@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// MaterialMembers: the members of MaterialInputs (materials guide, 4.4.2), one row each: who has it, what it is at
+/// first, when it costs nothing, and the term that comes into the shader otherwise.
+///   The rows are the only place that knows: the struct, initMaterial() and the analysis of what a material sets
+///   (MaterialAnalysis.h) follow from them.
+///   Thread  any; constant data.
+#pragma once
+
+#include "shaders/compiler/MaterialDefinition.h"
+#include "shaders/compiler/StageText.h"
+
+#include <array>
+#include <cstdint>
+#include <span>
+
+namespace filament::shader {
+
+enum class Absent : uint8_t {
+    Never,     ///< always read: no term
+    Untouched, ///< the term is in as soon as the code writes the member, whatever it writes
+    Neutral,   ///< the term is in unless the member is `neutral` wherever the code has run
+};
+
+struct MaterialMember {
+    std::string_view name;
+    uint8_t components = 1; ///< of a float vector
+    std::array<float, 4> initial{};
+    bool (*isMemberOf)(MaterialDefinition const&) = nullptr;
+    Absent absent = Absent::Never;
+    std::string_view term;          ///< the macro that the texts test; empty: none
+    std::array<float, 4> neutral{}; ///< NaN: any value is
+    bool isPrepared = false;        ///< prepareMaterial() takes it: what is written behind that has no effect
+    bool hasText = false;           ///< shaders/material can do it
+};
+
+std::span<const MaterialMember> materialMembers();
+
+/// Index into materialMembers() -> its bit in MaterialNeeds::terms.
+constexpr uint64_t termBit(size_t member) { return uint64_t{ 1 } << member; }
+
+/// struct MaterialInputs and initMaterial().
+void declareMaterialInputs(StageText& out, MaterialDefinition const& definition);
+/// "float", "vec2", ...
+std::string_view floatType(uint32_t components);
+/// "vec2(0.5, 1.0)"
+std::string floatLiteral(std::span<const float> components);
+
+} // namespace filament::shader
