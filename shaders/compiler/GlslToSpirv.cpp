@@ -38,6 +38,7 @@ LogSummary summarize(std::string_view logText) {
         const bool isCount = line.find("compilation errors.") != std::string_view::npos;
         const bool isEcho = line.find("compilation terminated") != std::string_view::npos;
         if (isCount || isEcho) continue;
+        line.remove_suffix(line.size() - 1 - line.find_last_not_of(' ')); // glslang leaves room for more
         if (summary.errors++ == 0) summary.firstError = line;
     }
     return summary;

@@ -4,7 +4,9 @@
 #include "jobsystem/JobSystem.h"
 #include "shaders/compiler/EmbeddedSources.h"
 #include "shaders/compiler/GlslGenerator.h"
+#include "shaders/compiler/GlslSuggestions.h"
 #include "shaders/compiler/MaterialAnalysis.h"
+#include "shaders/compiler/Reflection.h"
 #include "shaders/compiler/ShaderTextGaps.h"
 #include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
@@ -32,12 +34,16 @@ IncludeResolver withEngineFiles(IncludeResolver const& others) {
     };
 }
 
+Result<MaterialDefinition> define(std::string_view text, std::string_view fileName, IncludeResolver const& includes) {
+    Result<MaterialText> parsed = parseMaterialText(text, fileName, includes);
+    if (!parsed) return parsed.error();
+    return defineMaterial(std::move(*parsed), fileName);
+}
+
 Result<Prepared> prepare(std::string_view text, std::string_view fileName, CompileOptions const& options) {
     Prepared prepared;
     prepared.includes = withEngineFiles(options.includes);
-    Result<MaterialText> parsed = parseMaterialText(text, fileName, prepared.includes);
-    if (!parsed) return parsed.error();
-    Result<MaterialDefinition> definition = defineMaterial(std::move(*parsed), fileName);
+    Result<MaterialDefinition> definition = define(text, fileName, prepared.includes);
     if (!definition) return definition.error();
     if (Result<void> possible = checkShaderText(*definition); !possible) return possible.error();
     prepared.definition = std::move(*definition);
@@ -45,7 +51,7 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     if (!needs) return needs.error();
     prepared.needs = *needs;
     Result<void> terms = findTerms(prepared.definition, prepared.includes, prepared.needs);
-    if (!terms) return terms.error();
+    if (!terms) return withSuggestion(terms.error(), prepared.definition);
     prepared.layout = materialLayout(prepared.definition);
     MaterialPackage& package = prepared.definition.package;
     package.filteredVariants |= options.filteredVariants;
@@ -115,17 +121,23 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     if (!prepared) return prepared.error();
     Compiled variants = compileVariants(*prepared, options);
 
-    MaterialPackage package = std::move(prepared->definition.package);
+    MaterialPackage package = prepared->definition.package;
     package.layout = prepared->layout;
     for (std::optional<Result<CompiledVariant>>& compiled :
          variants) { // the error of the lowest key, whoever was first
         Result<CompiledVariant>& result = *compiled;
-        if (!result) return result.error();
+        if (!result) return withSuggestion(result.error(), prepared->definition);
         package.requiredAttributes |= result->vertexInputs;
         package.variants.push_back(std::move(result->variant));
     }
     package.requiredAttributes &= ~(1u << kAttributeInstance); // comes from the engine, not from the geometry
     return package;
+}
+
+Result<std::string> reflectParameters(std::string_view text, std::string_view fileName, CompileOptions const& options) {
+    const Result<MaterialDefinition> definition = define(text, fileName, withEngineFiles(options.includes));
+    if (!definition) return definition.error();
+    return parametersAsJson(*definition);
 }
 
 Result<std::string> preprocessMaterial(std::string_view text, std::string_view fileName,

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// matc: compiles one material definition (.mat) into a package (.fmat). Flags as in the materials guide, 5.2.
 ///   Out     the same bytes for any number of threads. Nothing is written if there is an error.
-///   Status  0: written; 1: the reason is on standard error, "file:line: reason".
+///   Status  0: written; 1: the reason is on standard error, as the guide shows it (5.1): "ERROR: file:line: reason"
+///           with the line of the author's file, and which material was not compiled.
 #include "filament_core/base/Suggest.h"
 #include "jobsystem/JobSystem.h"
 #include "shaders/compiler/MaterialCompiler.h"
@@ -24,6 +25,7 @@ using namespace filament;
 struct Arguments {
     std::string input, output;
     std::string api = "all";
+    std::string reflect;
     std::string platform = "all"; // the same code serves all platforms; accepted because build scripts pass it
     std::vector<std::string> filters;
     int threads = 0;
@@ -57,6 +59,12 @@ Result<void> write(std::string const& path, std::vector<std::byte> const& bytes)
     return fail(ErrorCode::Unreadable, "cannot write '{}'; does its folder exist?", path);
 }
 
+Result<void> print(Result<std::string> const& text) {
+    if (!text) return text.error();
+    std::fputs(text->c_str(), stdout);
+    return {};
+}
+
 Result<void> run(Arguments const& arguments) {
     const std::optional<std::string> text = readFile(arguments.input);
     if (!text) return fail(ErrorCode::NotFound, "cannot read '{}'", arguments.input);
@@ -72,12 +80,8 @@ Result<void> run(Arguments const& arguments) {
     const std::filesystem::path folder = std::filesystem::path(arguments.input).parent_path();
     options.includes = [&](std::string_view path) { return readFile(folder / path); };
 
-    if (arguments.preprocess) {
-        const Result<std::string> glsl = shader::preprocessMaterial(*text, arguments.input, options);
-        if (!glsl) return glsl.error();
-        std::fputs(glsl->c_str(), stdout);
-        return {};
-    }
+    if (arguments.preprocess) return print(shader::preprocessMaterial(*text, arguments.input, options));
+    if (!arguments.reflect.empty()) return print(shader::reflectParameters(*text, arguments.input, options));
     const Result<shader::MaterialPackage> package = shader::compileMaterial(*text, arguments.input, options);
     if (!package) return package.error();
     return write(arguments.output, shader::writePackage(*package));
@@ -103,12 +107,17 @@ int main(int argc, char** argv) {
     app.add_flag("--inexact", arguments.inexact,
                  "leave dot, normalize, mix, ... to the drivers: the APIs may differ in bits");
     auto* const preprocess = app.add_flag("--preprocess", arguments.preprocess, "print the generated GLSL and stop");
+    auto* const reflect = app.add_option("-r,--reflect", arguments.reflect, "print what the material declares, as JSON")
+                                  ->check(CLI::IsMember({ "parameters" }));
     CLI11_PARSE(app, argc, argv);
-    if (output->empty() && preprocess->empty()) {
+    if (output->empty() && preprocess->empty() && reflect->empty()) {
         std::fprintf(stderr, "matc: give the package to write with -o\n");
         return 1;
     }
     const Result<void> done = run(arguments);
-    if (!done) std::fprintf(stderr, "%s\n", done.error().message.c_str());
+    if (!done) {
+        std::fprintf(stderr, "ERROR: %s\n\nCould not compile material %s\n", done.error().message.c_str(),
+                     arguments.input.c_str());
+    }
     return done ? 0 : 1;
 }

@@ -89,6 +89,21 @@ constexpr Broken kContradictions[] = {
       "a.mat:3: a material of the domain postprocess cannot be lit" },
 };
 
+// The sentences of the GLSL compiler, and what may have been meant.
+constexpr Broken kMisspelt[] = {
+    { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.metalic = 1.0;"),
+      "a.mat:5: 'metalic' : no such field in structure 'material'; did you mean 'metallic'?" },
+    { "material { parameters : [ { name : albedo, type : float4 } ] }\n" FRAGMENT(
+              "prepareMaterial(material);\nmaterial.baseColor = materialParams.albdo;"),
+      "a.mat:5: 'albdo' : no such field in structure 'materialParams' (and 1 more); did you mean 'albedo'?" },
+    { "material { parameters : [ { name : albedo, type : sampler2d } ], requires : [ uv0 ] }\n" FRAGMENT(
+              "prepareMaterial(material);\nmaterial.baseColor = texture(materialParams_albdo, getUV0());"),
+      "a.mat:5: 'materialParams_albdo' : undeclared identifier; did you mean 'materialParams_albedo'?" },
+    { "material { constants : [ { name : wet, type : bool } ] }\n" FRAGMENT(
+              "prepareMaterial(material);\nif (materialConstants_wett) material.roughness = 0.0;"),
+      "a.mat:5: 'materialConstants_wett' : undeclared identifier; did you mean 'materialConstants_wet'?" },
+};
+
 constexpr Broken kCode[] = {
     { "material {}\nfragment {\n}", "a.mat:2: this block must define void material(inout MaterialInputs material)" },
     { "material {}\n" FRAGMENT(""), "a.mat:2: this block must define material(), which must call "
@@ -109,6 +124,7 @@ void expectMessages(std::span<const Broken> materials) {
 TEST(BrokenMaterials, NameTheLineWhereTheTextStopsMakingSense) { expectMessages(kSyntax); }
 TEST(BrokenMaterials, NameTheValueAndWhatItMayBe) { expectMessages(kValues); }
 TEST(BrokenMaterials, NameTheContradictionAndItsCure) { expectMessages(kContradictions); }
+TEST(BrokenMaterials, NameWhatWasProbablyMeantInTheCode) { expectMessages(kMisspelt); }
 TEST(BrokenMaterials, NameTheLineOfTheCode) { expectMessages(kCode); }
 
 } // namespace

@@ -104,6 +104,62 @@ TEST_F(Matc, PrintsTheGeneratedGlslOnRequest) {
     EXPECT_THAT(outcome.output, HasSubstr("// ==== variant 3 fragment"));
 }
 
+TEST_F(Matc, ListsTheParametersInTheFormOfTheGuide) {
+    const std::string input = file("skybox.mat", R"(material {
+    parameters : [ { type : bool, name : showSun }, { type : float3, name : weights, }, { type : "float[9]", name : sh },
+        { type : samplerCubemap, name : skybox }, { type : sampler2d, format : int, precision : high, name : ids } ],
+    blending : masked }
+fragment { void material(inout MaterialInputs material) { prepareMaterial(material); } }
+)");
+    const Outcome outcome = matc("--reflect parameters " + input);
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_EQ(outcome.output, R"({
+  "parameters": [
+    {
+      "name": "showSun",
+      "type": "bool",
+      "size": "1"
+    },
+    {
+      "name": "weights",
+      "type": "float3",
+      "size": "1"
+    },
+    {
+      "name": "sh",
+      "type": "float",
+      "size": "9"
+    },
+    {
+      "name": "skybox",
+      "type": "samplerCubemap",
+      "format": "float",
+      "precision": "default"
+    },
+    {
+      "name": "ids",
+      "type": "sampler2d",
+      "format": "int",
+      "precision": "high"
+    }
+  ]
+}
+)");
+    EXPECT_EQ(matc("-r parameters " + file("stone.mat", kLit)).output, "{\n  \"parameters\": []\n}\n");
+}
+
+TEST_F(Matc, ReportsErrorsInTheFormOfTheGuide) {
+    const std::string input =
+            file("metal.mat",
+                 "material { shadingModel : lit }\n\nfragment {\n    void material(inout MaterialInputs "
+                 "material) {\n        prepareMaterial(material);\n        material.metalic = 1.0;\n    }\n}\n");
+    const Outcome outcome = matc("-o " + path("out.fmat") + " " + input);
+    EXPECT_EQ(outcome.status, 1);
+    EXPECT_THAT(outcome.output, HasSubstr("ERROR: " + input + ":6: 'metalic' : no such field in structure"));
+    EXPECT_THAT(outcome.output, HasSubstr("did you mean 'metallic'?"));
+    EXPECT_THAT(outcome.output, HasSubstr("\n\nCould not compile material " + input + "\n"));
+}
+
 TEST_F(Matc, SaysWhatIsMissing) {
     EXPECT_THAT(matc("-o " + path("out") + " " + path("gone.mat")).output, HasSubstr("cannot read"));
     EXPECT_THAT(matc(file("stone.mat", kLit)).output, HasSubstr("give the package to write with -o"));
