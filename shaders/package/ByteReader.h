@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <span>
 #include <string>
-#include <vector>
 
 namespace filament::shader {
 
@@ -58,14 +57,6 @@ public:
     std::string text() {
         const auto characters = bytes(u32());
         return { reinterpret_cast<const char*>(characters.data()), characters.size() };
-    }
-
-    std::vector<uint32_t> words() {
-        const size_t count = u32();
-        ByteReader from(bytes(4 * count));
-        std::vector<uint32_t> values(failed() ? 0 : count);
-        for (uint32_t& value : values) value = from.u32();
-        return values;
     }
 
 private:

@@ -63,7 +63,7 @@ Result<Sections> splitSections(std::span<const std::byte> content) {
         if (!sections.emplace(tag, body).second) return corrupt("a section appears twice");
     }
     for (const uint32_t tag :
-         { kSectionGeneral, kSectionParameters, kSectionConstants, kSectionLayout, kSectionVariants }) {
+         { kSectionGeneral, kSectionParameters, kSectionConstants, kSectionLayout, kSectionCode, kSectionVariants }) {
         if (!sections.contains(tag)) return corrupt("a required section is missing");
     }
     return sections;
@@ -168,21 +168,57 @@ bool readLayout(ByteReader in, backend::ProgramLayout& out) {
     return in.atEnd() && !in.failed();
 }
 
-bool readVariants(ByteReader in, std::vector<Variant>& out) {
+using Code = std::vector<std::span<const std::byte>>;
+
+bool readCode(ByteReader in, Code& out) {
+    const uint32_t count = in.u32();
+    if (count > 4 * kMaxVariants) return false;
+    for (uint32_t i = 0; i < count && !in.failed(); ++i) out.push_back(in.bytes(in.u32()));
+    return in.atEnd() && !in.failed();
+}
+
+/// Hands out pieces of code, as long as they are there and together not more than `bytesLeft`.
+struct CodeReader {
+    Code const& code;
+    size_t bytesLeft;
+
+    std::span<const std::byte> piece(ByteReader& in, bool& good) {
+        const uint32_t index = in.u32();
+        good = good && index < code.size() && code[index].size() <= bytesLeft;
+        if (!good) return {};
+        bytesLeft -= code[index].size();
+        return code[index];
+    }
+    std::vector<uint32_t> words(ByteReader& in, bool& good) {
+        const auto bytes = piece(in, good);
+        good = good && bytes.size() % 4 == 0;
+        ByteReader from(bytes);
+        std::vector<uint32_t> values(good ? bytes.size() / 4 : 0);
+        for (uint32_t& value : values) value = from.u32();
+        return values;
+    }
+    std::string text(ByteReader& in, bool& good) {
+        const auto bytes = piece(in, good);
+        return { reinterpret_cast<const char*>(bytes.data()), bytes.size() };
+    }
+};
+
+bool readVariants(ByteReader in, CodeReader code, std::vector<Variant>& out) {
     const uint32_t count = in.u32();
     if (count > kMaxVariants) return false;
-    for (uint32_t i = 0; i < count && !in.failed(); ++i) {
+    bool good = true;
+    for (uint32_t i = 0; i < count && good && !in.failed(); ++i) {
         Variant variant;
         variant.key = in.u16();
-        variant.vertexSpirv = in.words();
-        variant.fragmentSpirv = in.words();
-        variant.vertexEssl = in.text();
-        variant.fragmentEssl = in.text();
+        variant.vertexSpirv = code.words(in, good);
+        variant.fragmentSpirv = code.words(in, good);
+        variant.vertexEssl = code.text(in, good);
+        variant.fragmentEssl = code.text(in, good);
         if ((variant.key & ~kAllVariantBits) != 0) return false;
         if (!out.empty() && variant.key <= out.back().key) return false;
         out.push_back(std::move(variant));
     }
-    return in.atEnd() && !in.failed();
+    return good && in.atEnd() && !in.failed();
 }
 
 // ---------------------------------------------------------------------------------------------- do the parts agree?
@@ -224,7 +260,11 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
         return corrupt("the parameters are malformed");
     if (!readConstants(section(kSectionConstants), package.constants)) return corrupt("the constants are malformed");
     if (!readLayout(section(kSectionLayout), package.layout)) return corrupt("the binding layout is malformed");
-    if (!readVariants(section(kSectionVariants), package.variants)) return corrupt("the variants are malformed");
+    Code code;
+    if (!readCode(section(kSectionCode), code)) return corrupt("the code of the variants is malformed");
+    const CodeReader pieces{ code, kMaxSharing * bytes.size() };
+    if (!readVariants(section(kSectionVariants), pieces, package.variants))
+        return corrupt("the variants are malformed");
     if (Result<void> consistent = checkConsistency(package); !consistent) return consistent.error();
     return package;
 }

@@ -4,6 +4,8 @@
 #include "shaders/package/PackageFormat.h"
 
 #include <bit>
+#include <map>
+#include <string>
 #include <string_view>
 
 namespace filament::shader {
@@ -33,10 +35,6 @@ public:
     void text(std::string_view value) {
         u32(static_cast<uint32_t>(value.size()));
         append(std::as_bytes(std::span(value)));
-    }
-    void words(std::span<const uint32_t> values) {
-        u32(static_cast<uint32_t>(values.size()));
-        for (const uint32_t value : values) u32(value);
     }
     void append(std::span<const std::byte> bytes) { mBytes.insert(mBytes.end(), bytes.begin(), bytes.end()); }
     void section(uint32_t tag, ByteWriter const& content) {
@@ -126,15 +124,40 @@ ByteWriter layoutSection(backend::ProgramLayout const& layout) {
     return out;
 }
 
-ByteWriter variantSection(std::span<const Variant> variants) {
+/// Code of stages, each text once, in the order in which the variants first need it.
+class CodePool {
+public:
+    uint32_t add(std::span<const uint32_t> spirv) {
+        ByteWriter words;
+        for (const uint32_t word : spirv) words.u32(word);
+        return add(std::string_view(reinterpret_cast<const char*>(words.bytes().data()), words.bytes().size()));
+    }
+    uint32_t add(std::string_view code) {
+        const auto [at, isNew] = mIndices.emplace(code, static_cast<uint32_t>(mIndices.size()));
+        if (isNew) mCode.text(code);
+        return at->second;
+    }
+    ByteWriter section() const {
+        ByteWriter out;
+        out.u32(static_cast<uint32_t>(mIndices.size()));
+        out.append(mCode.bytes());
+        return out;
+    }
+
+private:
+    std::map<std::string, uint32_t, std::less<>> mIndices;
+    ByteWriter mCode;
+};
+
+ByteWriter variantSection(std::span<const Variant> variants, CodePool& code) {
     ByteWriter out;
     out.u32(static_cast<uint32_t>(variants.size()));
     for (Variant const& variant : variants) {
         out.u16(variant.key);
-        out.words(variant.vertexSpirv);
-        out.words(variant.fragmentSpirv);
-        out.text(variant.vertexEssl);
-        out.text(variant.fragmentEssl);
+        out.u32(code.add(variant.vertexSpirv));
+        out.u32(code.add(variant.fragmentSpirv));
+        out.u32(code.add(variant.vertexEssl));
+        out.u32(code.add(variant.fragmentEssl));
     }
     return out;
 }
@@ -147,7 +170,10 @@ std::vector<std::byte> writePackage(MaterialPackage const& package) {
     sections.section(kSectionParameters, parameterSection(package.parameters));
     sections.section(kSectionConstants, constantSection(package.constants));
     sections.section(kSectionLayout, layoutSection(package.layout));
-    sections.section(kSectionVariants, variantSection(package.variants));
+    CodePool code;
+    const ByteWriter variants = variantSection(package.variants, code);
+    sections.section(kSectionCode, code.section());
+    sections.section(kSectionVariants, variants);
 
     ByteWriter file;
     file.u32(kMagic);

@@ -153,6 +153,26 @@ TEST(Package, SaysWhichVersionItWouldNeed) {
     EXPECT_THAT(read.error().message, HasSubstr("version 99"));
 }
 
+TEST(Package, StoresCodeThatVariantsShareOnce) {
+    MaterialPackage package = fullPackage();
+    package.variants[0].vertexEssl = package.variants[1].vertexEssl = std::string(4000, 'v');
+    const size_t shared = writePackage(package).size();
+    package.variants[1].vertexEssl.back() = 'w';
+    const size_t apart = writePackage(package).size();
+    EXPECT_EQ(apart, shared + 4 + 4000);
+    EXPECT_EQ(readPackage(writePackage(package)).value(), package);
+}
+
+TEST(Package, RefusesToMultiplyAPieceOfCodeBeyondReason) {
+    MaterialPackage package = fullPackage();
+    package.variants.clear();
+    for (uint16_t key = 0; key <= kAllVariantBits; ++key)
+        package.variants.push_back({ .key = key, .vertexEssl = std::string(100'000, 'v') });
+    const Result<MaterialPackage> read = readPackage(writePackage(package));
+    ASSERT_FALSE(read) << "51 megabytes from 113 kilobytes";
+    EXPECT_EQ(read.error().code, ErrorCode::Corrupt);
+}
+
 TEST(Package, RefusesParametersOutsideOfTheirBlock) {
     MaterialPackage package = fullPackage();
     package.parameters[0].offset = package.uniformBytes;

@@ -2,6 +2,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -51,6 +52,22 @@ protected:
     fs::path mFolder = fs::temp_directory_path() / ("matc_test_" + std::to_string(getpid()));
 };
 
+/// Three maps and a normal, as most materials of models are.
+constexpr const char* kStandard = R"(material { name : standard, shadingModel : lit, requires : [ uv0 ],
+    parameters : [ { name : baseColor, type : sampler2d }, { name : normal, type : sampler2d }, { name : orm, type : sampler2d } ] }
+fragment {
+    void material(inout MaterialInputs m) {
+        m.normal = texture(materialParams_normal, getUV0()).xyz * 2.0 - 1.0;
+        prepareMaterial(m);
+        m.baseColor = texture(materialParams_baseColor, getUV0());
+        vec3 orm = texture(materialParams_orm, getUV0()).rgb;
+        m.ambientOcclusion = orm.r;
+        m.roughness = orm.g;
+        m.metallic = orm.b;
+    }
+}
+)";
+
 constexpr const char* kLit = R"(material { name : stone, shadingModel : lit }
 fragment { void material(inout MaterialInputs m) { prepareMaterial(m); m.roughness = 0.5; } }
 )";
@@ -64,6 +81,21 @@ TEST_F(Matc, WritesTheSameBytesWithAnyNumberOfThreads) {
     EXPECT_GT(contents(path("1")).size(), 1000u);
     EXPECT_EQ(contents(path("1")), contents(path("2")));
     EXPECT_EQ(contents(path("1")), contents(path("7")));
+}
+
+TEST_F(Matc, CompilesTheStandardMaterialQuicklyIntoASmallPackage) {
+    const std::string input = file("standard.mat", kStandard);
+    const auto begin = std::chrono::steady_clock::now();
+    ASSERT_EQ(matc("-j 1 -o " + path("standard.fmat") + " " + input).status, 0);
+    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    const size_t bytes = contents(path("standard.fmat")).size();
+    std::printf("standard lit material, both APIs, all variants, one thread: %.2f s, %.0f KB\n", seconds.count(),
+                static_cast<double>(bytes) / 1000);
+    RecordProperty("bytes", static_cast<int>(bytes));
+    EXPECT_LT(bytes, 250'000u);
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
+    EXPECT_LT(seconds.count(), 1.5) << "with other programs on the machine, run this test alone";
+#endif
 }
 
 TEST_F(Matc, ReportsErrorsWithFileAndLineAndWritesNothing) {
