@@ -6,6 +6,7 @@
 #include "shaders/compiler/GlslGenerator.h"
 #include "shaders/compiler/GlslSuggestions.h"
 #include "shaders/compiler/MaterialAnalysis.h"
+#include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/Reflection.h"
 #include "shaders/compiler/ShaderTextGaps.h"
 #include "shaders/compiler/Variants.h"
@@ -132,6 +133,18 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     }
     package.requiredAttributes &= ~(1u << kAttributeInstance); // comes from the engine, not from the geometry
     return package;
+}
+
+Result<std::string> describeTerms(std::string_view text, std::string_view fileName, CompileOptions const& options) {
+    const Result<Prepared> prepared = prepare(text, fileName, options);
+    if (!prepared) return prepared.error();
+    std::string names;
+    const auto members = materialMembers();
+    for (size_t i = 0; i < members.size(); ++i) {
+        if ((prepared->needs.terms & termBit(i)) == 0) continue;
+        names += (names.empty() ? "" : " ") + std::string(members[i].term);
+    }
+    return names.empty() ? "no terms" : names;
 }
 
 Result<std::string> reflectParameters(std::string_view text, std::string_view fileName, CompileOptions const& options) {

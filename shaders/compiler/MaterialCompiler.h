@@ -40,6 +40,9 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
 Result<std::string> preprocessMaterial(std::string_view text, std::string_view fileName,
                                        CompileOptions const& options = {});
 
+/// The terms that are in, as their macros, in one line (MaterialAnalysis.h).
+Result<std::string> describeTerms(std::string_view text, std::string_view fileName, CompileOptions const& options = {});
+
 /// What the material declares, as JSON: the guide's `--reflect parameters`. The code is not compiled.
 Result<std::string> reflectParameters(std::string_view text, std::string_view fileName,
                                       CompileOptions const& options = {});

@@ -5,6 +5,7 @@
 ///           with the line of the author's file, and which material was not compiled.
 #include "filament_core/base/Suggest.h"
 #include "jobsystem/JobSystem.h"
+#include "shaders/compiler/Cost.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/compiler/MaterialDefinition.h"
 
@@ -29,7 +30,7 @@ struct Arguments {
     std::string platform = "all"; // the same code serves all platforms; accepted because build scripts pass it
     std::vector<std::string> filters;
     int threads = 0;
-    bool optimizeSize = false, noOptimization = false, inexact = false, preprocess = false;
+    bool optimizeSize = false, noOptimization = false, inexact = false, preprocess = false, cost = false;
 };
 
 std::optional<std::string> readFile(std::filesystem::path const& path) {
@@ -81,6 +82,7 @@ Result<void> run(Arguments const& arguments) {
     options.includes = [&](std::string_view path) { return readFile(folder / path); };
 
     if (arguments.preprocess) return print(shader::preprocessMaterial(*text, arguments.input, options));
+    if (arguments.cost) return print(shader::costReport(*text, arguments.input, options));
     if (!arguments.reflect.empty()) return print(shader::reflectParameters(*text, arguments.input, options));
     const Result<shader::MaterialPackage> package = shader::compileMaterial(*text, arguments.input, options);
     if (!package) return package.error();
@@ -109,8 +111,9 @@ int main(int argc, char** argv) {
     auto* const preprocess = app.add_flag("--preprocess", arguments.preprocess, "print the generated GLSL and stop");
     auto* const reflect = app.add_option("-r,--reflect", arguments.reflect, "print what the material declares, as JSON")
                                   ->check(CLI::IsMember({ "parameters" }));
+    auto* const cost = app.add_flag("--cost", arguments.cost, "print what the fragment stages do and stop");
     CLI11_PARSE(app, argc, argv);
-    if (output->empty() && preprocess->empty() && reflect->empty()) {
+    if (output->empty() && preprocess->empty() && reflect->empty() && cost->empty()) {
         std::fprintf(stderr, "matc: give the package to write with -o\n");
         return 1;
     }

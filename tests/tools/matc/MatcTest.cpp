@@ -136,6 +136,14 @@ TEST_F(Matc, PrintsTheGeneratedGlslOnRequest) {
     EXPECT_THAT(outcome.output, HasSubstr("// ==== variant 3 fragment"));
 }
 
+TEST_F(Matc, CountsWhatTheFragmentStagesDo) {
+    const Outcome outcome = matc("--cost " + file("standard.mat", kStandard));
+    EXPECT_EQ(outcome.status, 0);
+    EXPECT_THAT(outcome.output, HasSubstr("HAS_AMBIENT_OCCLUSION HAS_NORMAL\n"));
+    EXPECT_THAT(outcome.output, HasSubstr("\nsun+punctual "));
+    EXPECT_THAT(matc("--cost " + file("stone.mat", kLit)).output, HasSubstr(": no terms\n"));
+}
+
 TEST_F(Matc, ListsTheParametersInTheFormOfTheGuide) {
     const std::string input = file("skybox.mat", R"(material {
     parameters : [ { type : bool, name : showSun }, { type : float3, name : weights, }, { type : "float[9]", name : sh },
