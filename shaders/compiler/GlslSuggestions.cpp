@@ -28,7 +28,8 @@ std::vector<std::string> fieldsOf(MaterialDefinition const& definition) {
 }
 
 std::vector<std::string> identifiersOf(MaterialDefinition const& definition) {
-    std::vector<std::string> names{ "materialParams", "prepareMaterial" };
+    std::vector<std::string> names{ "prepareMaterial" };
+    if (definition.package.uniformBytes > 0) names.emplace_back("materialParams");
     for (Parameter const& parameter : definition.package.parameters) {
         if (isTexture(parameter.type)) names.push_back("materialParams_" + parameter.name);
     }
