@@ -2,47 +2,20 @@
 #include "tools/conformance/Report.h"
 
 #include "filament_core/assets/EnvironmentFile.h"
+#include "tools/common/Html.h"
 
+#include <algorithm>
 #include <map>
 
 namespace filament::conformance {
 namespace {
 
-/// For text and attributes of XML and HTML.
+/// For text and attributes of XML and HTML; XML has no control characters.
 std::string escaped(std::string_view text) {
-    std::string result;
-    for (const char c : text) {
-        switch (c) {
-        case '&':
-            result += "&amp;";
-            break;
-        case '<':
-            result += "&lt;";
-            break;
-        case '>':
-            result += "&gt;";
-            break;
-        case '"':
-            result += "&quot;";
-            break;
-        default:
-            result += static_cast<unsigned char>(c) < 0x20 && c != '\n' ? ' ' : c;
-        }
-    }
-    return result;
-}
-
-// RFC 4648, section 4.
-std::string base64(std::span<const std::byte> bytes) {
-    constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-    std::string text;
-    for (size_t i = 0; i < bytes.size(); i += 3) {
-        uint32_t word = 0;
-        const size_t count = std::min<size_t>(3, bytes.size() - i);
-        for (size_t k = 0; k < 3; ++k) word = word << 8 | (k < count ? std::to_integer<uint32_t>(bytes[i + k]) : 0);
-        for (size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[word >> (18 - 6 * k) & 63] : '=';
-    }
-    return text;
+    std::string printable(text);
+    std::ranges::replace_if(
+            printable, [](char c) { return static_cast<unsigned char>(c) < 0x20 && c != '\n'; }, ' ');
+    return tools::escapedHtml(printable);
 }
 
 std::string imageTag(std::filesystem::path const& file, std::string const& title, const char* name) {
@@ -50,7 +23,7 @@ std::string imageTag(std::filesystem::path const& file, std::string const& title
     if (!bytes) return {};
     return fmt::format("<figure><img class=\"{}\" alt=\"{}\" src=\"data:image/png;base64,{}\"><figcaption>{}"
                        "</figcaption></figure>",
-                       name, escaped(title), base64(*bytes), escaped(title));
+                       name, escaped(title), tools::base64(*bytes), escaped(title));
 }
 
 std::string joined(std::vector<std::string> const& lines) {
