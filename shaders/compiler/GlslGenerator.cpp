@@ -28,6 +28,15 @@ const char* postLightingDefine(PostLightingBlending blending) {
     return kNames[static_cast<size_t>(blending)];
 }
 
+const char* shadingDefine(ShadingModel model) {
+    static constexpr const char* kNames[] = { "SHADING_MODEL_UNLIT", "SHADING_MODEL_LIT", "SHADING_MODEL_SUBSURFACE",
+                                              "SHADING_MODEL_CLOTH", "SHADING_MODEL_SPECULAR_GLOSSINESS" };
+    return kNames[static_cast<size_t>(model)];
+}
+
+/// The text that fulfils the contract of shading models (shaders/material/README.md).
+std::string_view shadingText(ShadingModel) { return "shaders/material/surface_lit_shading.glsl"; }
+
 const char* vertexDomainDefine(VertexDomain domain) {
     static constexpr const char* kNames[] = { "VERTEX_DOMAIN_OBJECT", "VERTEX_DOMAIN_WORLD", "VERTEX_DOMAIN_VIEW",
                                               "VERTEX_DOMAIN_DEVICE" };
@@ -58,7 +67,7 @@ void beginStage(StageText& out, std::string_view varying) {
 /// Both stages must agree on these: they decide which varyings exist.
 void defineSurface(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs) {
     MaterialPackage const& package = definition.package;
-    out.define(package.shading == ShadingModel::Lit ? "SHADING_MODEL_LIT" : "SHADING_MODEL_UNLIT");
+    out.define(shadingDefine(package.shading));
     out.define(blendDefine(package.blending));
     out.define(vertexDomainDefine(package.vertexDomain));
     defineIf(out, definition.flipUv, "FLIP_UV");
@@ -128,9 +137,11 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done && needs.has("HAS_AMBIENT_OCCLUSION")) done = out.include("shaders/lib/ao.glsl");
     if (done) done = out.include("shaders/material/surface_output.glsl");
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface_half.glsl");
-    if (done) done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface_quality.glsl" });
-    if (done) done = out.include("shaders/material/surface_lit_main.glsl");
-    return done;
+    if (!done) return done;
+    return includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface_quality.glsl",
+                             "shaders/material/surface_incoming.glsl", "shaders/material/surface_parameters.glsl",
+                             shadingText(definition.package.shading), "shaders/material/surface_lights.glsl",
+                             "shaders/material/surface_main.glsl" });
 }
 
 /// Everything before the author's code.
@@ -213,7 +224,7 @@ Result<void> checkBlocks(MaterialDefinition const& definition, CodeScan const& f
     }
     Result<void> done =
             expectFunction(fragment, "material", definition.fragment, "void material(inout MaterialInputs material)");
-    if (done && definition.package.shading == ShadingModel::Lit) {
+    if (done && definition.package.shading != ShadingModel::Unlit) {
         done = expectFunction(fragment, "prepareMaterial", definition.fragment,
                               "material(), which must call prepareMaterial(material)");
     }
@@ -234,7 +245,7 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     const CodeScan fragment(*fragmentText), vertex(*vertexText);
     if (Result<void> complete = checkBlocks(definition, fragment, vertex); !complete) return complete.error();
 
-    const bool isLit = definition.package.shading == ShadingModel::Lit;
+    const bool isLit = definition.package.shading != ShadingModel::Unlit;
     MaterialNeeds needs;
     needs.worldPosition =
             isLit || mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",

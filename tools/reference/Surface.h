@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SurfaceSample: all that shading needs to know about the point that a ray hit: the engine's struct Surface
-/// (shaders/material/surface_lit_main.glsl) in double precision, with its geometry. What later materials add
+/// (shaders/material/surface_lit_shading.glsl) in double precision, with its geometry. What later materials add
 /// (clear coat, sheen, transmission, ...) becomes members here and lobes in Bsdf.
 ///   Space   world relative to TracedScene's origin; directions are unit.
 #pragma once

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// What light arrives at a surface, whatever its model: one light, and the environment. All of it is pre-exposed, so that
+// sums stay within fp16 even under 110 000 lux.
+
+struct Light {
+    vec3 direction;   // to the light, unit
+    vec3 illuminance; // at normal incidence
+};
+
+highp vec3 environmentFromWorld(highp vec3 direction) {
+    return direction * mat3(frameUniforms.worldFromEnvironment);
+}
+
+// Around a direction of the world, which need not be normalised: the mean over a lobe of this roughness. Before
+// frameUniforms.ambient.x.
+vec3 environmentRadiance(highp vec3 direction, highp float perceptualRoughness) {
+    highp float level =
+            levelFromPerceptualRoughness(perceptualRoughness, frameUniforms.ambient.y, quality_roughnessMapping);
+    return radianceOfTexel(textureLod(viewSpecular, environmentFromWorld(direction), level));
+}
+
+// What a white Lambert reflector with this normal sends back. Before frameUniforms.ambient.x.
+vec3 environmentIrradiance(highp vec3 normal) { return irradianceTerm(environmentFromWorld(normal)); }

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// The sum over all lights that reach a surface: shadeLight() of the shading model for each.
+
+#if defined(VARIANT_PUNCTUAL)
+
+highp vec3 punctualLights(Surface surface) {
+    highp vec3 sum = vec3(0.0);
+    int count = int(frameUniforms.ambient.w);
+    for (int i = 0; i < count; ++i) { // a loop, however few lights: unrolled code takes seconds to compile
+        LightRecord light = lightUniforms.lights[i];
+        highp vec3 toLight = light.positionRange.xyz - vertex_worldPosition;
+        highp float attenuation = distanceAttenuation(toLight, light.positionRange.w);
+        if (attenuation <= 0.0) continue; // out of range
+        highp vec3 direction = normalizeOrZero(toLight);
+        if (light.colorIntensity.w > 0.0) {
+            attenuation *= spotAttenuation(direction, light.directionScale.xyz, light.directionScale.w, light.offset.x);
+            if (attenuation <= 0.0) continue; // outside of the cone
+        }
+        sum += shadeLight(surface, Light(direction, light.colorIntensity.rgb * attenuation));
+    }
+    return sum;
+}
+
+#endif
+
+void addLights(Surface surface, inout highp vec3 sum) {
+#if defined(VARIANT_SUN)
+    sum += shadeLight(surface, Light(frameUniforms.sunDirection.xyz, frameUniforms.sunIlluminance.rgb));
+#endif
+#if defined(VARIANT_PUNCTUAL)
+    sum += punctualLights(surface);
+#endif
+}

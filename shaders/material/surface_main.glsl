@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fragment stage of surface materials that are lit by something, entry point.
+
+void main() {
+    MaterialInputs inputs;
+    initMaterial(inputs);
+    computeShadingGeometry();
+    material(inputs);
+    applyMask(inputs.baseColor);
+
+    Surface surface = surfaceOf(inputs);
+    highp vec3 light = vec3(0.0);
+    if (frameUniforms.ambient.x > 0.0) light = shadeEnvironment(surface) * frameUniforms.ambient.x; // else: none
+    addLights(surface, light);
+#if defined(BLEND_MODE_FADE)
+    light *= inputs.baseColor.a;
+#endif
+
+    highp vec4 color = vec4(light, outputAlpha(inputs.baseColor.a));
+    addEmissive(inputs, color);
+    blendPostLighting(inputs, color);
+    fragment_color = color;
+}
