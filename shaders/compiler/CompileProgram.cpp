@@ -4,6 +4,7 @@
 #include "shaders/compiler/CanonicalOrder.h"
 #include "shaders/compiler/ExactLowering.h"
 #include "shaders/compiler/ForbidReordering.h"
+#include "shaders/compiler/FullPrecision.h"
 #include "shaders/compiler/GlslToSpirv.h"
 #include "shaders/compiler/ReflectLayout.h"
 #include "shaders/compiler/SpirvToEssl.h"
@@ -15,16 +16,21 @@ namespace {
 
 using Words = std::vector<uint32_t>;
 
+bool isHalf(backend::ShaderStage stage, ProgramCompileOptions const& options) {
+    return stage == backend::ShaderStage::Fragment && options.halfFragment;
+}
+
 /// Half precision is made of code without calls and local variables, whatever was asked for.
 Optimization goalOf(backend::ShaderStage stage, ProgramCompileOptions const& options) {
-    const bool isHalf = stage == backend::ShaderStage::Fragment && options.halfFragment;
-    return isHalf && options.optimization == Optimization::None ? Optimization::Performance : options.optimization;
+    return isHalf(stage, options) && options.optimization == Optimization::None ? Optimization::Performance
+                                                                                : options.optimization;
 }
 
 /// GLSL -> optimised and lowered SPIR-V, still with names.
 Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
                          ProgramCompileOptions const& options) {
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
+    if (spirv && options.exact && !isHalf(stage, options)) spirv = fullPrecision(*spirv);
     const Optimization goal = goalOf(stage, options);
     if (spirv && goal != Optimization::None) spirv = optimizeSpirv(*spirv, goal);
     if (spirv) spirv = canonicalOrder(*spirv);

@@ -3,8 +3,9 @@
 ///   Steps   glslang (SPIR-V 1.3, Vulkan 1.1 rules) -> SPIRV-Tools performance passes -> exact lowering -> reflection
 ///           -> SPIR-V, and SPIRV-Cross -> ESSL. Both languages come from the same lowered module.
 ///   Exact   `exact` spells out the operations that Mesa expands differently for the two languages (ExactLowering.h)
-///           and forbids reordering (ForbidReordering.h): both devices do the same arithmetic in the same order.
-///   ESSL    bindings are numbered with backend::flatBinding; everything is highp unless the source says otherwise;
+///           and forbids reordering (ForbidReordering.h): both devices do the same arithmetic in the same order. All
+///           of it is highp, whatever the source says (FullPrecision.h), but for fragment stages with halfFragment.
+///   ESSL    bindings are numbered with backend::flatBinding; without `exact` what the source says is mediump is;
 ///           a subpass input becomes a framebuffer fetch of the colour attachment of the same index; the value of
 ///           specialisation constant N is the macro SPIRV_CROSS_CONSTANT_ID_N, defined behind the #version line.
 ///   Thread  any; calls are independent and equal input gives equal bytes.

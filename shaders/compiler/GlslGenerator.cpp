@@ -88,6 +88,7 @@ void defineFragment(StageText& out, MaterialDefinition const& definition, uint16
     defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
     defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
     defineIf(out, (variantKey & kVariantHalf) != 0, "HALF_PRECISION");
+    defineIf(out, definition.package.alphaToCoverage, "ALPHA_TO_COVERAGE");
     out.define(postLightingDefine(definition.package.postLightingBlending));
     defineIf(out, definition.specularAmbientOcclusion != SpecularAmbientOcclusion::None, "SPECULAR_AMBIENT_OCCLUSION");
     SpecularAntiAliasing const& antiAliasing = definition.specularAntiAliasing;

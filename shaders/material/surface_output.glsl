@@ -42,8 +42,9 @@ void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #endif
 }
 
+// Of an opaque surface it is 1, unless the device makes coverage of it.
 float outputAlpha(float alpha) {
-#if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED)
+#if (defined(BLEND_MODE_OPAQUE) && !defined(ALPHA_TO_COVERAGE)) || defined(BLEND_MODE_MASKED)
     return 1.0;
 #else
     return alpha;

@@ -25,6 +25,7 @@ Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::uni
     engineOptions.workers = options.workers;
     engineOptions.affinity = options.affinity;
     engineOptions.exactShaders = options.exact;
+    engineOptions.validation = options.validation;
     engineOptions.cacheDirectory = options.work / "environments";
     engineOptions.debug.capture = capture;
     Result<Engine> engine = Engine::create(engineOptions);
@@ -36,6 +37,13 @@ Stage::Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend
         : mOptions(options), mEngine(std::move(engine)), mCapture(std::move(capture)), mRenderer(mEngine) {}
 
 Result<void> Stage::loadModel(SceneSpec const& spec) {
+    mMaterial.reset();
+    if (isMaterialModel(spec)) {
+        Result<tools::MaterialStand> stand = makeMaterialModel(mEngine, spec);
+        if (!stand) return stand.error();
+        mMaterial.emplace(std::move(*stand));
+        return {};
+    }
     const Result<std::filesystem::path> path = modelFile(spec, { mOptions.work, mOptions.assets });
     if (!path) return path.error();
     std::string key = keyOf(*path, spec.modelOptions);
@@ -61,12 +69,21 @@ Result<void> Stage::loadSky(SceneSpec const& spec) {
     return {};
 }
 
+void Stage::placeModel(SceneSpec const& spec) {
+    for (double4x4 const& copy : placedCopies(spec)) {
+        if (mMaterial)
+            mMaterial->addTo(*mScene, copy);
+        else
+            mScene->add(*mModel, copy);
+    }
+}
+
 Result<void> Stage::set(SceneSpec const& spec) {
     mScene.reset();
     if (Result<void> loaded = loadModel(spec); !loaded) return loaded;
     if (Result<void> loaded = loadSky(spec); !loaded) return loaded;
     mScene.emplace(mEngine);
-    for (double4x4 const& copy : placedCopies(spec)) mScene->add(*mModel, copy);
+    placeModel(spec);
     for (LightSpec const& light : placedLights(spec))
         std::visit([&](auto const& placed) { mScene->add(placed); }, light);
     if (!spec.environment.empty()) mScene->setEnvironment(*mEnvironment, spec.environmentSettings);

@@ -7,6 +7,7 @@
 #pragma once
 
 #include "backend/layers/Captured.h"
+#include "tools/conformance/MaterialModel.h"
 #include "tools/conformance/SceneAssets.h"
 
 #include <filament/Environment.h>
@@ -23,6 +24,7 @@ struct StageOptions {
     int workers = 1;
     ThreadAffinity affinity = ThreadAffinity::None;
     bool exact = true;            ///< EngineOptions::exactShaders
+    bool validation = false;      ///< EngineOptions::validation: what it says is in Shot::errors
     bool capture = false;         ///< shoot() may ask what a frame did inside
     std::filesystem::path work;   ///< built models, the sky, baked environments
     std::filesystem::path assets; ///< where "asset:" begins; empty: nowhere
@@ -49,6 +51,7 @@ private:
     Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture);
 
     Result<void> loadModel(SceneSpec const& spec);
+    void placeModel(SceneSpec const& spec);
     Result<void> loadSky(SceneSpec const& spec);
 
     const StageOptions mOptions;
@@ -57,6 +60,7 @@ private:
     Renderer mRenderer;
     std::string mModelKey, mEnvironmentKey;
     std::optional<Model> mModel;
+    std::optional<tools::MaterialStand> mMaterial; ///< instead of a model
     std::optional<Environment> mEnvironment;
     std::optional<Scene> mScene; // ends before model and environment
     Owned<SwapChain> mTarget;

@@ -261,6 +261,22 @@ TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsThe
             HasSubstr("halfPrecision is for lit materials"));
 }
 
+TEST(MaterialCompiler, KeepsAllBitsOfWhatAsksForMediumPrecisionUnlessItIsInexact) {
+    const char* const text = R"(material { shadingModel : unlit, requires : [ uv0 ],
+        parameters : [ { name : map, type : sampler2d, precision : medium }, { name : tint, type : float4, precision : low } ] }
+        fragment { void material(inout MaterialInputs m) {
+            prepareMaterial(m);
+            mediump vec4 own = texture(materialParams_map, getUV0());
+            m.baseColor = own * materialParams.tint; } })";
+    for (const bool exact : { true, false }) {
+        const Result<MaterialPackage> package = compileMaterial(text, "a.mat", { .exact = exact });
+        ASSERT_TRUE(package) << package.error().message;
+        const std::string& essl = package->variants[0].fragmentEssl;
+        EXPECT_EQ(essl.find("uniform mediump") == std::string::npos, exact) << essl;
+        EXPECT_EQ(essl.find("mediump vec4") == std::string::npos, exact) << essl;
+    }
+}
+
 TEST(MaterialCompiler, GivesAllSurfaceMaterialsTheSameViewGroup) {
     const Result<MaterialPackage> unlit = compile(withProperties("shadingModel : unlit"));
     const Result<MaterialPackage> lit = compile(withProperties("shadingModel : lit"));

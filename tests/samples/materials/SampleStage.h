@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+/// SampleStage: one small picture of a material under a studio's lamps, a sun and a lamp, on either API with validation.
+///   Fails   by a failure of the running test; the picture is then empty.
+#pragma once
+
+#include "tests/samples/materials/SampleTable.h"
+#include "tools/materials/MaterialFile.h"
+
+#include <filament/Backend.h>
+#include <filament/Image.h>
+
+#include <vector>
+
+namespace filament::samples {
+
+inline constexpr const char* kSampleFolder = FILAMENT_SOURCE_DIR "/samples/materials";
+
+using Picture = Image; ///< scene-linear half floats
+
+Picture draw(Sample const& sample, std::vector<tools::TextEdit> const& edits, Backend backend);
+
+size_t differingPixels(Picture const& a, Picture const& b);
+/// Of all components but alpha, as a display shows them, in [0, 1].
+double mean(Picture const& picture);
+float spread(Picture const& picture); ///< standard deviation
+void save(std::string const& name, Picture const& picture);
+
+} // namespace filament::samples

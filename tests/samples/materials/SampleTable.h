@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+/// SampleTable: what each file of samples/materials is expected to show.
+#pragma once
+
+#include "tools/materials/MaterialFile.h"
+
+#include <cstdint>
+#include <ostream>
+#include <string>
+#include <vector>
+
+namespace filament::samples {
+
+/// What the property does to the mean of the picture.
+enum class Effect : uint8_t { Differs, Brighter, Darker };
+
+struct Sample {
+    std::string name;
+    tools::TextEdit without; ///< takes the property away; empty: the sample is the base that others change
+    Effect effect = Effect::Differs;
+    uint8_t samplesOfAPixel = 1;
+    bool hasLamp = true; ///< besides sun and sky
+};
+
+inline std::ostream& operator<<(std::ostream& out, Sample const& sample) { return out << sample.name; }
+
+std::vector<Sample> samples();
+
+/// Names of chapter 4.2 and the values of which each is a property of its own.
+inline constexpr const char* kPropertiesOfTheGuide[] = {
+    "name :",
+    "featureLevel :",
+    "shadingModel : lit",
+    "shadingModel : unlit",
+    "parameters :",
+    "precision :",
+    "format : float",
+    "constants :",
+    "variantFilter :",
+    "flipUV :",
+    "quality :",
+    "vertexDomainDeviceJittered :",
+    "requires :",
+    "uv1",
+    "custom0",
+    "variables :",
+    "vertexDomain : world",
+    "vertexDomain : view",
+    "vertexDomain : device",
+    "blending : transparent",
+    "blending : fade",
+    "blending : add",
+    "blending : masked",
+    "blending : multiply",
+    "blending : screen",
+    "blending : custom",
+    "blendFunction :",
+    "postLightingBlending :",
+    "maskThreshold :",
+    "culling : front",
+    "colorWrite :",
+    "depthWrite :",
+    "depthCulling :",
+    "doubleSided :",
+    "alphaToCoverage :",
+    "multiBounceAmbientOcclusion :",
+    "specularAmbientOcclusion : simple",
+    "specularAntiAliasing :",
+    "specularAntiAliasingVariance :",
+    "specularAntiAliasingThreshold :",
+};
+
+} // namespace filament::samples

@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/conformance/MaterialModel.h"
+
+namespace filament::conformance {
+namespace {
+
+using Words = std::vector<std::pair<std::string, std::string>>;
+
+void readWords(JsonReader& reader, const char* key, Words& words) {
+    Json const* object = reader.raw(key);
+    if (!object) return;
+    if (!object->is_object()) return reader.complain(key, "expected an object of strings");
+    for (auto const& [name, value] : object->items()) {
+        if (!value.is_string()) return reader.complain(key, "'" + name + "': expected a string");
+        words.emplace_back(name, value.get<std::string>());
+    }
+}
+
+} // namespace
+
+bool isMaterialModel(SceneSpec const& spec) { return spec.model.is_object() && spec.model.contains("material"); }
+
+Result<tools::MaterialStand> makeMaterialModel(Engine& engine, SceneSpec const& spec) {
+    std::string path, mesh;
+    Words edits, values;
+    JsonReader reader(spec.model, spec.name + ": model");
+    reader.read("material", path);
+    reader.read("mesh", mesh);
+    readWords(reader, "edits", edits);
+    readWords(reader, "values", values);
+    if (const Result<void> done = reader.finish(); !done) return done.error();
+    const Result<std::shared_ptr<const tools::MaterialFile>> file =
+            tools::readMaterialFile(spec.folder / path, edits);
+    if (!file) return file.error();
+    return tools::MaterialStand::make(engine, **file, values, mesh);
+}
+
+} // namespace filament::conformance

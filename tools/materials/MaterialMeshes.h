@@ -1,0 +1,38 @@
+// SPDX-License-Identifier: Apache-2.0
+/// MaterialMeshes: what materials are shown on. Every vertex has every attribute that a material may require.
+///   Meshes  sphere, plane (facing +z), box, torus (around +z), curtain (a plane in waves), all within [-1, 1]^3;
+///           screen (clip space, the middle of the picture, for vertexDomain device), billboard (view space, 3 m ahead,
+///           for vertexDomain view).
+///   Uv      v grows upwards, as materials with flipUV expect it; uv1 is uv0 turned by a right angle and doubled.
+///   Colour  hues by uv. custom0: (uv, radius from the middle of the mesh, 1); custom1 to custom7: the mesh's number of
+///           the attribute in every component.
+///   Thread  any; pure.
+#pragma once
+
+#include "filament_core/math/Math.h"
+
+#include <array>
+#include <cstdint>
+#include <optional>
+#include <string_view>
+#include <vector>
+
+namespace filament::tools {
+
+struct MaterialVertex {
+    float3 position;
+    float4 tangents; ///< quaternion, as in Attribute::Tangents
+    float4 color;
+    float2 uv0, uv1;
+    std::array<float4, 8> custom;
+};
+
+struct MaterialMesh {
+    std::vector<MaterialVertex> vertices;
+    std::vector<uint16_t> indices;
+};
+
+/// Nothing for an unknown name.
+std::optional<MaterialMesh> makeMaterialMesh(std::string_view name);
+
+} // namespace filament::tools

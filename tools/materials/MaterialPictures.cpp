@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/materials/MaterialPictures.h"
+
+#include "filament_core/base/Result.h"
+#include "filament_core/math/Math.h"
+#include "tools/showcase/Textures.h"
+
+#include <cmath>
+#include <functional>
+
+namespace filament::tools {
+namespace {
+
+constexpr uint32_t kSize = 128;
+constexpr Sampler kTrilinear{ .magFilter = Filter::Linear,
+                              .minFilter = Filter::Linear,
+                              .mipFilter = MipFilter::Linear,
+                              .wrapU = WrapMode::Repeat,
+                              .wrapV = WrapMode::Repeat };
+
+std::byte code(float value) { return std::byte{ static_cast<uint8_t>(glm::clamp(value, 0.0f, 1.0f) * 255 + 0.5f) }; }
+
+/// `texel(uv)` in [0, 1]^4; row 0 at the top, v = 0 there.
+template <class Texel>
+std::vector<std::byte> paint(uint32_t size, Texel const& texel) {
+    std::vector<std::byte> pixels;
+    for (uint32_t y = 0; y < size; ++y) {
+        for (uint32_t x = 0; x < size; ++x) {
+            const float4 value = texel((float2(x, y) + 0.5f) / static_cast<float>(size));
+            for (int c = 0; c < 4; ++c) pixels.push_back(code(value[c]));
+        }
+    }
+    return pixels;
+}
+
+MaterialPicture upload(Engine& engine, TextureDesc desc, std::span<const std::byte> pixels, Sampler const& sampler) {
+    desc.pixels = pixels;
+    return { engine.own(engine.create(desc)), sampler };
+}
+
+MaterialPicture flat(Engine& engine, std::string const& name, uint32_t size, std::span<const std::byte> pixels,
+                     bool isColor) {
+    return upload(engine,
+                  { .format = isColor ? Format::RGBA8Srgb : Format::RGBA8,
+                    .width = size,
+                    .height = size,
+                    .generateMips = true,
+                    .name = name },
+                  pixels, kTrilinear);
+}
+
+/// Rolling hills that tile: height in [0, 1].
+float hills(float2 uv) {
+    return 0.5f + 0.25f * (std::cos(2 * kPi * 4 * uv.x) + std::cos(2 * kPi * 4 * uv.y));
+}
+
+float4 hillNormal(float2 uv) {
+    constexpr float kDepth = 0.06f, kStep = 1.0f / 512;
+    const float across = hills(uv + float2(kStep, 0)) - hills(uv - float2(kStep, 0));
+    const float down = hills(uv + float2(0, kStep)) - hills(uv - float2(0, kStep));
+    const float3 n = glm::normalize(float3(-across * kDepth, down * kDepth, 2 * kStep)); // +y is up, v down
+    return float4(n * 0.5f + 0.5f, 1);
+}
+
+float4 swirl(float2 uv) {
+    const float2 d = float2(uv.x, 1 - uv.y) - 0.5f;
+    const float length = std::max(glm::length(d), 1e-3f);
+    return { 0.5f - 0.5f * d.y / length, 0.5f + 0.5f * d.x / length, 0.5f, 1 };
+}
+
+using Painter = float4 (*)(float2);
+struct Painted {
+    std::string_view name;
+    Painter texel;
+};
+constexpr Painted kPainted[] = {
+    { "waves/height", [](float2 uv) { return float4(float3(hills(uv)), 1); } },
+    { "waves/normal", hillNormal },
+    { "waves/occlusion", [](float2 uv) { return float4(float3(0.15f + 0.85f * hills(uv)), 1); } },
+    { "swirl/direction", swirl },
+    { "wedge/thickness", [](float2 uv) { return float4(float3(uv.x), 1); } },
+};
+
+struct Set {
+    std::string_view name;
+    showcase::TextureSet (*make)(uint32_t size);
+};
+constexpr Set kSets[] = {
+    { "brick", showcase::brickTextures },   { "wood", showcase::woodTextures },
+    { "terrazzo", showcase::terrazzoTextures }, { "checker", showcase::checkerTextures },
+    { "dimple", showcase::dimpleTextures }, { "lattice", showcase::latticeTextures },
+    { "glass", showcase::stainedGlassTextures }, { "lava", showcase::lavaTextures },
+    { "brushed", showcase::brushedTextures },
+};
+
+showcase::Picture const* pictureOf(showcase::TextureSet const& set, std::string_view kind) {
+    if (kind == "color") return &set.color;
+    if (kind == "normal") return &set.normal;
+    if (kind == "surface") return &set.surface;
+    return kind == "emission" ? &set.emission : nullptr;
+}
+
+MaterialPicture gradientCube(Engine& engine, std::string const& name) {
+    constexpr uint32_t kSide = 16;
+    std::vector<std::byte> pixels;
+    for (int face = 0; face < 6; ++face) {
+        const float3 tint(face % 2 ? 0.2f : 0.9f, face / 2 % 2 ? 0.8f : 0.3f, face / 4 ? 0.9f : 0.4f);
+        const auto own = paint(kSide, [&](float2 uv) { return float4(tint * (0.4f + 0.6f * uv.y), 1); });
+        pixels.insert(pixels.end(), own.begin(), own.end());
+    }
+    return upload(engine,
+                  { .kind = TextureKind::Cube, .width = kSide, .height = kSide, .layers = 6, .name = name }, pixels,
+                  { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
+}
+
+MaterialPicture stripeLayers(Engine& engine, std::string const& name) {
+    constexpr uint32_t kSide = 32, kLayers = 3;
+    std::vector<std::byte> pixels;
+    for (uint32_t layer = 0; layer < kLayers; ++layer) {
+        const auto own = paint(kSide, [&](float2 uv) {
+            const float at = layer == 0 ? uv.x : layer == 1 ? uv.y : uv.x + uv.y;
+            float4 color(0.08f, 0.08f, 0.08f, 1);
+            if (std::fmod(at * 4, 1.0f) < 0.5f) color[static_cast<int>(layer)] = 0.9f;
+            return color;
+        });
+        pixels.insert(pixels.end(), own.begin(), own.end());
+    }
+    return upload(engine,
+                  { .kind = TextureKind::Texture2DArray,
+                    .width = kSide,
+                    .height = kSide,
+                    .layers = kLayers,
+                    .name = name },
+                  pixels, { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
+}
+
+MaterialPicture wholeNumbers(Engine& engine, std::string const& name) {
+    std::vector<std::byte> pixels;
+    for (uint32_t x = 0; x < 256; ++x) pixels.push_back(static_cast<std::byte>(x));
+    return upload(engine, { .format = Format::R8UI, .width = 256, .name = name }, pixels, {});
+}
+
+} // namespace
+
+Result<MaterialPicture> makeMaterialPicture(Engine& engine, std::string const& name) {
+    for (Painted const& painted : kPainted) {
+        if (painted.name == name) return flat(engine, name, kSize, paint(kSize, painted.texel), false);
+    }
+    const size_t slash = name.find('/');
+    const std::string kind = slash == std::string::npos ? "" : name.substr(slash + 1);
+    for (Set const& set : kSets) {
+        if (set.name != std::string_view(name).substr(0, slash)) continue;
+        const showcase::TextureSet made = set.make(kSize);
+        showcase::Picture const* picture = pictureOf(made, kind);
+        if (!picture || picture->size == 0) break;
+        return flat(engine, name, picture->size, picture->pixels, kind == "color" || kind == "emission");
+    }
+    if (name == "gradient/cube") return gradientCube(engine, name);
+    if (name == "stripes/layers") return stripeLayers(engine, name);
+    if (name == "number/uint") return wholeNumbers(engine, name);
+    return fail(ErrorCode::NotFound,
+                "there is no picture '{}': brick, wood, terrazzo, checker, dimple, lattice, glass, lava or brushed and "
+                "/color, /normal, /surface or /emission; waves/height, waves/normal, waves/occlusion, swirl/direction, "
+                "wedge/thickness, gradient/cube, stripes/layers, number/uint",
+                name);
+}
+
+} // namespace filament::tools

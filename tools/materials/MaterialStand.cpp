@@ -1,0 +1,133 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/materials/MaterialStand.h"
+
+#include "shaders/package/EngineMaterials.h"
+#include "tools/materials/MaterialMeshes.h"
+#include "tools/materials/MaterialValues.h"
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <algorithm>
+#include <cstddef>
+
+namespace filament::tools {
+namespace {
+
+std::vector<AttributeDesc> attributes() {
+    std::vector<AttributeDesc> list{
+        { Attribute::Position, VertexFormat::Float3, offsetof(MaterialVertex, position) },
+        { Attribute::Tangents, VertexFormat::Float4, offsetof(MaterialVertex, tangents) },
+        { Attribute::Color, VertexFormat::Float4, offsetof(MaterialVertex, color) },
+        { Attribute::Uv0, VertexFormat::Float2, offsetof(MaterialVertex, uv0) },
+        { Attribute::Uv1, VertexFormat::Float2, offsetof(MaterialVertex, uv1) },
+    };
+    for (uint32_t i = 0; i < 8; ++i) {
+        list.push_back({ static_cast<Attribute>(static_cast<uint32_t>(Attribute::Custom0) + i), VertexFormat::Float4,
+                         static_cast<uint32_t>(offsetof(MaterialVertex, custom) + i * sizeof(float4)) });
+    }
+    return list;
+}
+
+/// A block that goes through the object from left to right.
+double4x4 slabPlace() {
+    return glm::scale(glm::rotate(double4x4(1.0), 0.35, double3(0, 0, 1)), double3(2.0, 0.22, 0.9));
+}
+
+} // namespace
+
+Result<MaterialStand::Geometry> MaterialStand::makeGeometry(Engine& engine, std::string const& name) {
+    const std::optional<MaterialMesh> mesh = makeMaterialMesh(name);
+    if (!mesh) {
+        return fail(ErrorCode::NotFound,
+                    "there is no mesh '{}': sphere, plane, box, torus, curtain, screen or billboard", name);
+    }
+    return Geometry{ engine.own(engine.create(VertexBufferDesc{
+                             .vertexCount = static_cast<uint32_t>(mesh->vertices.size()),
+                             .stride = sizeof(MaterialVertex),
+                             .attributes = attributes(),
+                             .data = std::as_bytes(std::span(mesh->vertices)),
+                             .name = name })),
+                     engine.own(engine.create(IndexBufferDesc{
+                             .indexCount = static_cast<uint32_t>(mesh->indices.size()),
+                             .data = std::as_bytes(std::span(mesh->indices)),
+                             .name = name })) };
+}
+
+Result<void> MaterialStand::addSlab(Engine& engine) {
+    Result<Material> material = engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") });
+    if (!material) return material.error();
+    mSlabMaterial = engine.own(*material);
+    mSlabInstance = engine.own(engine.createInstance(mSlabMaterial, "slab"));
+    if (Result<void> done = engine.set(mSlabInstance, "baseColorFactor", float4(0.5f, 0.5f, 0.5f, 1)); !done)
+        return done;
+    if (Result<void> done = engine.set(mSlabInstance, "roughnessFactor", 0.6f); !done) return done;
+    Result<Geometry> box = makeGeometry(engine, "box");
+    if (!box) return box.error();
+    mBox = std::move(*box);
+    return {};
+}
+
+Result<void> MaterialStand::set(Engine& engine, MaterialFile const& file, std::string const& name,
+                                std::string const& value) {
+    shader::Parameter const* parameter = file.package.findParameter(name);
+    if (!parameter) {
+        if (file.package.findConstant(name)) return {}; // set when the material was made
+        return fail(ErrorCode::NotFound, "{} has no parameter or constant '{}'", file.name, name);
+    }
+    if (!shader::isTexture(parameter->type)) return setMaterialValue(engine, mInstance, *parameter, value);
+    Result<MaterialPicture> picture = makeMaterialPicture(engine, value);
+    if (!picture) return picture.error();
+    mPictures.push_back(std::move(*picture));
+    return engine.set(mInstance, name, mPictures.back().texture, mPictures.back().sampler);
+}
+
+Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& file, MaterialValues const& values,
+                                          std::string const& meshName) {
+    MaterialValues all = file.show.values;
+    for (auto const& value : values) {
+        std::erase_if(all, [&](auto const& old) { return old.first == value.first; });
+        all.push_back(value);
+    }
+    Result<std::vector<MaterialConstant>> constants = materialConstants(file.package, all);
+    if (!constants) return constants.error();
+    Result<Material> material =
+            engine.create(MaterialDesc{ .package = file.bytes, .constants = *constants, .name = file.name });
+    if (!material) return material.error();
+    MaterialStand stand;
+    stand.mName = file.name;
+    stand.mMaterial = engine.own(*material);
+    stand.mInstance = engine.own(engine.createInstance(*material, file.name));
+    stand.mIsInObjectSpace = file.package.vertexDomain == shader::VertexDomain::Object;
+    Result<Geometry> mesh = makeGeometry(engine, meshName.empty() ? file.show.mesh : meshName);
+    if (!mesh) return mesh.error();
+    stand.mMesh = std::move(*mesh);
+    if (file.show.slab) {
+        if (Result<void> done = stand.addSlab(engine); !done) return done.error();
+    }
+    for (auto const& [name, value] : all) {
+        if (Result<void> done = stand.set(engine, file, name, value); !done) return done.error();
+    }
+    return stand;
+}
+
+void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject) const {
+    const RenderableDesc object{ .vertices = mMesh.vertices,
+                                 .indices = mMesh.indices,
+                                 .material = mInstance,
+                                 .boundsMin = float3(-1),
+                                 .boundsMax = float3(1),
+                                 .worldFromObject = worldFromObject,
+                                 .culled = mIsInObjectSpace,
+                                 .name = mName };
+    scene.add(object);
+    if (!mSlabMaterial.get()) return;
+    scene.add({ .vertices = mBox.vertices,
+                .indices = mBox.indices,
+                .material = mSlabInstance,
+                .boundsMin = float3(-0.7f),
+                .boundsMax = float3(0.7f),
+                .worldFromObject = worldFromObject * slabPlace(),
+                .name = "slab" });
+}
+
+} // namespace filament::tools

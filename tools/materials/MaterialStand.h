@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// MaterialStand: a material on the mesh that its file asks for, with the values that it asks for.
+///   In      a MaterialFile; values and a mesh given besides go before those of the file.
+///   Life    the stand owns what it shows: it must outlive the scenes that it was added to.
+///   Thread  that of the engine.
+///   Fails   NotFound or InvalidArgument that names file, parameter and cure; what the engine says of the material.
+#pragma once
+
+#include "tools/materials/MaterialFile.h"
+#include "tools/materials/MaterialPictures.h"
+#include "tools/materials/MaterialValues.h"
+
+#include <filament/Box.h>
+#include <filament/Scene.h>
+
+#include <string>
+#include <vector>
+
+namespace filament::tools {
+
+class MaterialStand {
+public:
+    static Result<MaterialStand> make(Engine& engine, MaterialFile const& file, MaterialValues const& values = {},
+                                      std::string const& mesh = {});
+
+    void addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1.0)) const;
+    Material material() const { return mMaterial; }
+    MaterialInstance instance() const { return mInstance; }
+
+private:
+    Result<void> addSlab(Engine& engine);
+    Result<void> set(Engine& engine, MaterialFile const& file, std::string const& name, std::string const& value);
+
+    struct Geometry {
+        Owned<VertexBuffer> vertices;
+        Owned<IndexBuffer> indices;
+    };
+    std::string mName;
+    Owned<Material> mMaterial, mSlabMaterial;
+    Owned<MaterialInstance> mInstance, mSlabInstance;
+    Geometry mMesh, mBox;
+    std::vector<MaterialPicture> mPictures;
+    bool mIsInObjectSpace = true;
+
+    static Result<Geometry> makeGeometry(Engine& engine, std::string const& mesh);
+};
+
+} // namespace filament::tools
