@@ -11,7 +11,7 @@ void readWords(JsonReader& reader, const char* key, Words& words) {
     if (!object) return;
     if (!object->is_object()) return reader.complain(key, "expected an object of strings");
     for (auto const& [name, value] : object->items()) {
-        if (!value.is_string()) return reader.complain(key, "'" + name + "': expected a string");
+        if (!value.is_string()) return reader.complain(key, fmt::format("'{}': expected a string", name));
         words.emplace_back(name, value.get<std::string>());
     }
 }
@@ -29,8 +29,7 @@ Result<tools::MaterialStand> makeMaterialModel(Engine& engine, SceneSpec const& 
     readWords(reader, "edits", edits);
     readWords(reader, "values", values);
     if (const Result<void> done = reader.finish(); !done) return done.error();
-    const Result<std::shared_ptr<const tools::MaterialFile>> file =
-            tools::readMaterialFile(spec.folder / path, edits);
+    const Result<std::shared_ptr<const tools::MaterialFile>> file = tools::readMaterialFile(spec.folder / path, edits);
     if (!file) return file.error();
     return tools::MaterialStand::make(engine, **file, values, mesh);
 }

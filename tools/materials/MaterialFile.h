@@ -2,7 +2,7 @@
 /// MaterialFile: a .mat file (compiled here) or a .fmat file, and how it wants to be looked at.
 ///   Show    a .mat file may say in one comment line on what it is shown and what its parameters and constants are:
 ///               // show: mesh=sphere tint=1,0.5,0.2 normalMap=brick/normal
-///           mesh=sphere|plane|box|torus|curtain|screen|billboard (MaterialMeshes.h); slab=true puts a grey block
+///           mesh=sphere|plane|box|torus|scroll|screen|billboard (MaterialMeshes.h); slab=true puts a grey block
 ///           through the object. Every other key is a parameter or a constant: numbers, true, false, or the name of a
 ///           picture (MaterialPictures.h). "name[]" is an array, its elements one after the other.
 ///   Thread  any.

@@ -69,15 +69,14 @@ SurfacePoint torusPoint(float u, float v) {
     return { out * kRadius + n * kTube, n, { -std::sin(around), std::cos(around), 0 } };
 }
 
-SurfacePoint planePoint(float u, float v) {
-    return { { 2 * u - 1, 2 * v - 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 } };
-}
+SurfacePoint planePoint(float u, float v) { return { { 2 * u - 1, 2 * v - 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 } }; }
 
-/// Waves along x that are deeper at the bottom.
-SurfacePoint curtainPoint(float u, float v) {
-    const float x = 2 * u - 1, depth = 0.1f + 0.12f * (1 - v), angle = 7 * x;
-    const float slope = 7 * depth * std::cos(angle);
-    return { { x, 2 * v - 1, depth * std::sin(angle) }, { -slope, 0.06f * std::sin(angle), 1 }, { 1, 0, slope } };
+/// A sheet rolled up around y, so that both of its sides are seen.
+SurfacePoint scrollPoint(float u, float v) {
+    const float angle = 2 * kPi * (1.35f * u + 0.4f), radius = 0.35f + 0.55f * u;
+    const float3 out(std::sin(angle), 0, std::cos(angle)), along(std::cos(angle), 0, -std::sin(angle));
+    const float3 tangent = along * (radius * 2 * kPi * 1.35f) + out * 0.55f;
+    return { out * radius + float3(0, 1.6f * v - 0.8f, 0), glm::cross(tangent, float3(0, 1, 0)), tangent };
 }
 
 void addBox(MaterialMesh& mesh, float half) {
@@ -101,13 +100,13 @@ std::optional<MaterialMesh> makeMaterialMesh(std::string_view name) {
         addGrid(mesh, 64, 32, torusPoint);
     } else if (name == "plane") {
         addGrid(mesh, 4, 4, planePoint);
-    } else if (name == "curtain") {
-        addGrid(mesh, 48, 8, curtainPoint);
+    } else if (name == "scroll") {
+        addGrid(mesh, 64, 4, scrollPoint);
     } else if (name == "box") {
         addBox(mesh, 0.7f);
-    } else if (name == "screen") { // row 0 is the top row, so +y is up here, too
+    } else if (name == "screen") { // row 0 is the top row: y grows downwards
         addGrid(mesh, 1, 1, [](float u, float v) {
-            return SurfacePoint{ { 1.2f * u - 0.6f, 1.2f * v - 0.6f, 0.5f }, { 0, 0, 1 }, { 1, 0, 0 } };
+            return SurfacePoint{ { 1.2f * u - 0.6f, 0.6f - 1.2f * v, 0.5f }, { 0, 0, 1 }, { 1, 0, 0 } };
         });
     } else if (name == "billboard") {
         addGrid(mesh, 1, 1, [](float u, float v) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MaterialMeshes: what materials are shown on. Every vertex has every attribute that a material may require.
-///   Meshes  sphere, plane (facing +z), box, torus (around +z), curtain (a plane in waves), all within [-1, 1]^3;
+///   Meshes  sphere, plane (facing +z), box, torus (around +z), scroll (a sheet rolled up around y), all within [-1,
+///   1]^3;
 ///           screen (clip space, the middle of the picture, for vertexDomain device), billboard (view space, 3 m ahead,
 ///           for vertexDomain view).
 ///   Uv      v grows upwards, as materials with flipUV expect it; uv1 is uv0 turned by a right angle and doubled.

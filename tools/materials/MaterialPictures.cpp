@@ -50,9 +50,7 @@ MaterialPicture flat(Engine& engine, std::string const& name, uint32_t size, std
 }
 
 /// Rolling hills that tile: height in [0, 1].
-float hills(float2 uv) {
-    return 0.5f + 0.25f * (std::cos(2 * kPi * 4 * uv.x) + std::cos(2 * kPi * 4 * uv.y));
-}
+float hills(float2 uv) { return 0.5f + 0.25f * (std::cos(2 * kPi * 4 * uv.x) + std::cos(2 * kPi * 4 * uv.y)); }
 
 float4 hillNormal(float2 uv) {
     constexpr float kDepth = 0.06f, kStep = 1.0f / 512;
@@ -86,9 +84,9 @@ struct Set {
     showcase::TextureSet (*make)(uint32_t size);
 };
 constexpr Set kSets[] = {
-    { "brick", showcase::brickTextures },   { "wood", showcase::woodTextures },
-    { "terrazzo", showcase::terrazzoTextures }, { "checker", showcase::checkerTextures },
-    { "dimple", showcase::dimpleTextures }, { "lattice", showcase::latticeTextures },
+    { "brick", showcase::brickTextures },        { "wood", showcase::woodTextures },
+    { "terrazzo", showcase::terrazzoTextures },  { "checker", showcase::checkerTextures },
+    { "dimple", showcase::dimpleTextures },      { "lattice", showcase::latticeTextures },
     { "glass", showcase::stainedGlassTextures }, { "lava", showcase::lavaTextures },
     { "brushed", showcase::brushedTextures },
 };
@@ -108,9 +106,8 @@ MaterialPicture gradientCube(Engine& engine, std::string const& name) {
         const auto own = paint(kSide, [&](float2 uv) { return float4(tint * (0.4f + 0.6f * uv.y), 1); });
         pixels.insert(pixels.end(), own.begin(), own.end());
     }
-    return upload(engine,
-                  { .kind = TextureKind::Cube, .width = kSide, .height = kSide, .layers = 6, .name = name }, pixels,
-                  { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
+    return upload(engine, { .kind = TextureKind::Cube, .width = kSide, .height = kSide, .layers = 6, .name = name },
+                  pixels, { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
 }
 
 MaterialPicture stripeLayers(Engine& engine, std::string const& name) {
@@ -125,13 +122,10 @@ MaterialPicture stripeLayers(Engine& engine, std::string const& name) {
         });
         pixels.insert(pixels.end(), own.begin(), own.end());
     }
-    return upload(engine,
-                  { .kind = TextureKind::Texture2DArray,
-                    .width = kSide,
-                    .height = kSide,
-                    .layers = kLayers,
-                    .name = name },
-                  pixels, { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
+    return upload(
+            engine,
+            { .kind = TextureKind::Texture2DArray, .width = kSide, .height = kSide, .layers = kLayers, .name = name },
+            pixels, { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
 }
 
 MaterialPicture wholeNumbers(Engine& engine, std::string const& name) {

@@ -39,18 +39,18 @@ Result<MaterialStand::Geometry> MaterialStand::makeGeometry(Engine& engine, std:
     const std::optional<MaterialMesh> mesh = makeMaterialMesh(name);
     if (!mesh) {
         return fail(ErrorCode::NotFound,
-                    "there is no mesh '{}': sphere, plane, box, torus, curtain, screen or billboard", name);
+                    "there is no mesh '{}': sphere, plane, box, torus, scroll, screen or billboard", name);
     }
-    return Geometry{ engine.own(engine.create(VertexBufferDesc{
-                             .vertexCount = static_cast<uint32_t>(mesh->vertices.size()),
-                             .stride = sizeof(MaterialVertex),
-                             .attributes = attributes(),
-                             .data = std::as_bytes(std::span(mesh->vertices)),
-                             .name = name })),
-                     engine.own(engine.create(IndexBufferDesc{
-                             .indexCount = static_cast<uint32_t>(mesh->indices.size()),
-                             .data = std::as_bytes(std::span(mesh->indices)),
-                             .name = name })) };
+    return Geometry{
+        engine.own(engine.create(VertexBufferDesc{ .vertexCount = static_cast<uint32_t>(mesh->vertices.size()),
+                                                   .stride = sizeof(MaterialVertex),
+                                                   .attributes = attributes(),
+                                                   .data = std::as_bytes(std::span(mesh->vertices)),
+                                                   .name = name })),
+        engine.own(engine.create(IndexBufferDesc{ .indexCount = static_cast<uint32_t>(mesh->indices.size()),
+                                                  .data = std::as_bytes(std::span(mesh->indices)),
+                                                  .name = name }))
+    };
 }
 
 Result<void> MaterialStand::addSlab(Engine& engine) {

@@ -56,16 +56,26 @@ M matrixOf(const double* numbers) {
 /// Nothing for types that the engine does not take alone.
 std::optional<ParameterValue> valueOf(ParameterType type, const double* numbers) {
     switch (type) {
-    case ParameterType::Bool: return numbers[0] != 0;
-    case ParameterType::Int: return static_cast<int32_t>(numbers[0]);
-    case ParameterType::Uint: return static_cast<uint32_t>(numbers[0]);
-    case ParameterType::Float: return static_cast<float>(numbers[0]);
-    case ParameterType::Float2: return vectorOf<float2, float>(numbers);
-    case ParameterType::Float3: return vectorOf<float3, float>(numbers);
-    case ParameterType::Float4: return vectorOf<float4, float>(numbers);
-    case ParameterType::Float3x3: return matrixOf<float3x3>(numbers);
-    case ParameterType::Float4x4: return matrixOf<float4x4>(numbers);
-    default: return std::nullopt;
+    case ParameterType::Bool:
+        return numbers[0] != 0;
+    case ParameterType::Int:
+        return static_cast<int32_t>(numbers[0]);
+    case ParameterType::Uint:
+        return static_cast<uint32_t>(numbers[0]);
+    case ParameterType::Float:
+        return static_cast<float>(numbers[0]);
+    case ParameterType::Float2:
+        return vectorOf<float2, float>(numbers);
+    case ParameterType::Float3:
+        return vectorOf<float3, float>(numbers);
+    case ParameterType::Float4:
+        return vectorOf<float4, float>(numbers);
+    case ParameterType::Float3x3:
+        return matrixOf<float3x3>(numbers);
+    case ParameterType::Float4x4:
+        return matrixOf<float4x4>(numbers);
+    default:
+        return std::nullopt;
     }
 }
 
@@ -81,7 +91,8 @@ Result<void> setMaterialValue(Engine& engine, MaterialInstance instance, shader:
     }
     const std::optional<ParameterValue> value =
             parameter.arraySize == 0 ? valueOf(parameter.type, numbers->data()) : std::nullopt;
-    if (!value) return fail(ErrorCode::Unsupported, "parameter '{}': this type cannot be given in words", parameter.name);
+    if (!value)
+        return fail(ErrorCode::Unsupported, "parameter '{}': this type cannot be given in words", parameter.name);
     return engine.set(instance, parameter.name, *value);
 }
 
@@ -97,9 +108,15 @@ Result<std::vector<MaterialConstant>> materialConstants(shader::MaterialPackage 
             return fail(ErrorCode::InvalidArgument, "constant '{}': '{}' is not a number", name, words);
         const double number = numbers->front();
         switch (constant->type) {
-        case Type::Bool: constants.push_back({ name, number != 0 }); break;
-        case Type::Int: constants.push_back({ name, static_cast<int32_t>(number) }); break;
-        default: constants.push_back({ name, static_cast<float>(number) }); break;
+        case Type::Bool:
+            constants.push_back({ name, number != 0 });
+            break;
+        case Type::Int:
+            constants.push_back({ name, static_cast<int32_t>(number) });
+            break;
+        default:
+            constants.push_back({ name, static_cast<float>(number) });
+            break;
         }
     }
     return constants;

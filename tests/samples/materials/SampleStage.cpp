@@ -38,8 +38,8 @@ SceneSpec sceneOf(Sample const& sample, std::vector<tools::TextEdit> const& edit
     spec.environmentSettings.illuminance = Lux{ 10'000 };
     spec.lights.emplace_back(SunLight{ .directionWorld = { -0.4f, -1, -0.6f }, .illuminance = Lux{ 40'000 } });
     if (sample.hasLamp) {
-        spec.lights.emplace_back(
-                PointLight{ .positionWorld = { 1.5, 0.2, 1.8 }, .intensity = Candela{ 30'000 }, .color = { 1, 0.6f, 0.3f } });
+        spec.lights.emplace_back(PointLight{
+                .positionWorld = { 1.5, 0.2, 1.8 }, .intensity = Candela{ 30'000 }, .color = { 1, 0.6f, 0.3f } });
     }
     spec.copies = { double4x4(1.0) };
     spec.eye = double3(1.2, 0.9, 2.6);

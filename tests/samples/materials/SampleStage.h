@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SampleStage: one small picture of a material under a studio's lamps, a sun and a lamp, on either API with validation.
+/// SampleStage: one small picture of a material under a studio's lamps, a sun and a lamp, on either API with
+/// validation.
 ///   Fails   by a failure of the running test; the picture is then empty.
 #pragma once
 
