@@ -135,7 +135,9 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
 
 void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options) {
     app.set_help_flag("--help", "print this text");
-    app.add_option("MODEL", words.model, ".gltf or .glb; without one the showcase is drawn")->type_name("");
+    app.add_option("MODEL", words.model,
+                   ".gltf or .glb, filament-render also .mat or .fmat; without one the showcase is drawn")
+            ->type_name("");
     app.add_option("--environment", words.environment, "equirectangular .hdr or .exr: light and background");
     app.add_option("--size", words.size, "WIDTHxHEIGHT in pixels (1280x720)");
     app.add_flag("--fit,!--no-fit", options.fit, "centre of the bounding box at the origin, largest dimension 1 (on)");

@@ -3,6 +3,7 @@
 
 #include "tools/common/Console.h"
 #include "tools/filament-render/HeapCounter.h"
+#include "tools/materials/MaterialStand.h"
 
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
@@ -97,6 +98,10 @@ public:
 private:
     Engine& mEngine;
     Options const& mOptions;
+    Result<void> loadMaterial(BackendRun& run, std::filesystem::path const& path);
+    Result<void> loadModel(BackendRun& run, std::filesystem::path const& path);
+
+    std::optional<MaterialStand> mMaterial; ///< instead of a model
     std::optional<Model> mModel;
     std::optional<Environment> mEnvironment;
     Owned<Texture> mPixels;
@@ -106,18 +111,37 @@ private:
     View mView;
 };
 
-Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
-                         std::filesystem::path const& environment) {
-    StopWatch watch;
+Result<void> Stage::loadMaterial(BackendRun& run, std::filesystem::path const& path) {
+    const auto file = readMaterialFile(path);
+    if (!file) return file.error();
+    Result<MaterialStand> stand = MaterialStand::make(mEngine, **file, mOptions.values);
+    if (!stand) return stand.error();
+    mMaterial.emplace(std::move(*stand));
+    run.modelName = (*file)->name;
+    const Box bounds{ double3(-1), double3(1) };
+    const double4x4 worldFromMaterial = mOptions.fit ? fitToUnitCube(bounds) : double4x4(1.0);
+    for (double4x4 const& place : placesOf(mOptions.copies, worldFromMaterial)) mMaterial->addTo(mScene, place);
+    return {};
+}
+
+Result<void> Stage::loadModel(BackendRun& run, std::filesystem::path const& path) {
     GltfLoadOptions modelOptions = mOptions.modelOptions;
     modelOptions.progress = progressOf(run.backend, "model");
-    Result<Model> loaded = loadGltf(mEngine, model, modelOptions);
+    Result<Model> loaded = loadGltf(mEngine, path, modelOptions);
     if (!loaded) return loaded.error();
     mModel.emplace(std::move(*loaded));
     run.modelName = mModel->name();
     run.warnings = mModel->warnings();
     const double4x4 worldFromModel = mOptions.fit ? fitToUnitCube(mModel->bounds()) : double4x4(1.0);
     for (double4x4 const& place : placesOf(mOptions.copies, worldFromModel)) mScene.add(*mModel, place);
+    return {};
+}
+
+Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
+                         std::filesystem::path const& environment) {
+    StopWatch watch;
+    const Result<void> shown = isMaterialFile(model) ? loadMaterial(run, model) : loadModel(run, model);
+    if (!shown) return shown;
     run.start.model = watch.lap();
 
     if (!environment.empty()) {

@@ -14,6 +14,7 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
                 affinity = "none", requireDevice, budget, costs, measureCosts;
+    std::vector<std::string> values;
 };
 
 Result<void> convertChoices(Words const& words, Options& options) {
@@ -72,10 +73,21 @@ Result<void> convertBudget(Words const& words, Options& options) {
     return {};
 }
 
+Result<void> convertValues(Words const& words, Options& options) {
+    for (std::string const& word : words.values) {
+        const size_t equals = word.find('=');
+        if (equals == 0 || equals == std::string::npos)
+            return invalidOption("--parameter", word, "NAME=VALUE, for instance roughness=0.3 or map=brick/color");
+        options.values.emplace_back(word.substr(0, equals), word.substr(equals + 1));
+    }
+    return {};
+}
+
 void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--backend", words.backend, "vulkan, gles or both (default)")->default_str("both");
     app.add_option("--frames", words.frames, "frames to draw; the last one is saved (1)");
     app.add_option("--copies", words.copies, "draw the model so many times, on a grid (1)");
+    app.add_option("--parameter", words.values, "NAME=VALUE: a parameter or constant of a material (repeatable)");
     app.add_option("--tolerance", words.tolerance, "largest difference in 1/255 that still counts as equal (0)");
     app.add_option("--format", words.format, "png, or exr: scene-linear half floats before the tone mapper (png)");
     app.add_flag("--timing", options.timing, "print what start and frames cost");
@@ -100,7 +112,8 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     Options options;
     SceneWords sceneWords;
     Words words;
-    CLI::App app{ "Draws a glTF model with image-based light on Vulkan, OpenGL ES or both, and compares the bits.",
+    CLI::App app{ "Draws a glTF model, or a material on a sphere, with image-based light on Vulkan, OpenGL ES or both, "
+                  "and compares the bits.",
                   "filament-render" };
     declareSceneOptions(app, sceneWords, options);
     declare(app, words, options);
@@ -110,7 +123,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     options.requireDevice = words.requireDevice;
     options.traceJobs = words.traceJobs;
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget }) {
+    for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

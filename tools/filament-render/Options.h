@@ -10,6 +10,7 @@
 
 #include <optional>
 #include <string>
+#include <utility>
 #include <vector>
 
 namespace filament::tools {
@@ -20,8 +21,9 @@ struct Options : SceneOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
     std::string requireDevice;
     uint32_t frames = 1;
-    uint32_t copies = 1;    ///< of the model, on a grid
-    uint32_t tolerance = 0; ///< in 1/255
+    std::vector<std::pair<std::string, std::string>> values; ///< of the parameters of a material
+    uint32_t copies = 1;                                     ///< of the model, on a grid
+    uint32_t tolerance = 0;                                  ///< in 1/255
     PictureFormat format = PictureFormat::Png;
     bool timing = false, explain = false, trace = false;
     std::filesystem::path traceJobs; ///< empty: none

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/materials/MaterialStand.h"
 
+#include "filament_core/base/Suggest.h"
 #include "shaders/package/EngineMaterials.h"
 #include "tools/materials/MaterialMeshes.h"
 #include "tools/materials/MaterialValues.h"
@@ -26,6 +27,14 @@ std::vector<AttributeDesc> attributes() {
                          static_cast<uint32_t>(offsetof(MaterialVertex, custom) + i * sizeof(float4)) });
     }
     return list;
+}
+
+Error unknownValue(MaterialFile const& file, std::string const& name) {
+    std::vector<std::string_view> known;
+    for (auto const& parameter : file.package.parameters) known.push_back(parameter.name);
+    for (auto const& constant : file.package.constants) known.push_back(constant.name);
+    return fail(ErrorCode::NotFound, "material '{}' has no parameter or constant '{}'{}", file.name, name,
+                suggestion(name, known));
 }
 
 /// A block that goes through the object from left to right.
@@ -72,7 +81,7 @@ Result<void> MaterialStand::set(Engine& engine, MaterialFile const& file, std::s
     shader::Parameter const* parameter = file.package.findParameter(name);
     if (!parameter) {
         if (file.package.findConstant(name)) return {}; // set when the material was made
-        return fail(ErrorCode::NotFound, "{} has no parameter or constant '{}'", file.name, name);
+        return unknownValue(file, name);
     }
     if (!shader::isTexture(parameter->type)) return setMaterialValue(engine, mInstance, *parameter, value);
     Result<MaterialPicture> picture = makeMaterialPicture(engine, value);

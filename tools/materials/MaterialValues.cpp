@@ -86,8 +86,8 @@ Result<void> setMaterialValue(Engine& engine, MaterialInstance instance, shader:
     const size_t wanted = componentsOf(parameter.type) * std::max(parameter.arraySize, 1u);
     const auto numbers = numbersOf(words);
     if (!numbers || numbers->size() != wanted) {
-        return fail(ErrorCode::InvalidArgument, "parameter '{}': '{}' is not {} numbers separated by commas",
-                    parameter.name, words, wanted);
+        return fail(ErrorCode::InvalidArgument, "parameter '{}' takes {} number{}, not '{}'", parameter.name, wanted,
+                    wanted == 1 ? "" : "s, separated by commas", words);
     }
     const std::optional<ParameterValue> value =
             parameter.arraySize == 0 ? valueOf(parameter.type, numbers->data()) : std::nullopt;

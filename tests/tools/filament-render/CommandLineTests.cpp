@@ -109,6 +109,21 @@ TEST_F(CommandLine, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
     }
 }
 
+TEST_F(CommandLine, AMaterialIsShownWithTheValuesOfItsFileAndOfTheCommandLine) {
+    writeText(sFolder / "tint.mat", R"(// show: tint=0.5,0.5,0.5 gloss=0.2
+        material { parameters : [ { name : tint, type : float3 }, { name : gloss, type : float } ] }
+        fragment { void material(inout MaterialInputs m) {
+            prepareMaterial(m); m.baseColor.rgb = materialParams.tint; m.roughness = materialParams.gloss; } })");
+    const Outcome shown = run("tint.mat --size 64x64 --parameter tint=1,0,0 --out material");
+    EXPECT_EQ(shown.status, 0) << shown.errors;
+    EXPECT_THAT(shown.output, HasSubstr("identical: 100.0000 % of pixels"));
+    expectRefused("tint.mat --parameter tnit=1,0,0", { "tnit", "did you mean 'tint'?" });
+    expectRefused("tint.mat --parameter tint=1,0", { "tint", "3 numbers" });
+    expectRefused("tint.mat --parameter tint", { "--parameter", "NAME=VALUE" });
+    writeText(sFolder / "broken.mat", "material {}\nfragment {}");
+    expectRefused("broken.mat", { "broken.mat:2", "material(" });
+}
+
 TEST_F(CommandLine, AModelThatIsNotThereIsNamed) { expectRefused("missing.glb --size 32x32", { "missing.glb" }); }
 
 TEST_F(CommandLine, AFolderIsNotAModel) {
