@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// What is said and means nothing costs nothing: a property at its default and a member at its neutral value give the
+// bytes of a material that does not mention them, whatever the shading model.
+#include "filament_core/base/Hash.h"
+#include "shaders/compiler/MaterialCompiler.h"
+#include "shaders/compiler/MaterialMembers.h"
+#include "shaders/compiler/StateProperties.h"
+
+#include <fmt/core.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <string>
+
+namespace filament::shader {
+namespace {
+
+struct Default {
+    std::string_view property, value; ///< empty value: the property has none
+};
+
+/// As the guide has them (4.2), and our own.
+constexpr Default kDefaults[] = {
+    { "name", "" }, // is what it is called
+    { "domain", "surface" },
+    { "featureLevel", "1" },
+    { "shadingModel", "lit" },
+    { "flipUV", "true" },
+    { "quality", "default" },
+    { "instanced", "false" },
+    { "vertexDomainDeviceJittered", "false" },
+    { "vertexDomain", "object" },
+    { "interpolation", "smooth" },
+    { "fullScreenTriangle", "false" },
+    { "halfPrecision", "false" },
+    { "blending", "opaque" },
+    { "blendFunction", "" }, // only with blending : custom, and then it must be there
+    { "postLightingBlending", "transparent" },
+    { "transparency", "default" },
+    { "maskThreshold", "0.4" },
+    { "refractionMode", "none" },
+    { "refractionType", "solid" },
+    { "culling", "back" },
+    { "colorWrite", "true" },
+    { "depthWrite", "true" },
+    { "depthCulling", "true" },
+    { "doubleSided", "false" },
+    { "alphaToCoverage", "false" },
+    { "reflections", "default" },
+    { "shadowMultiplier", "false" },
+    { "transparentShadow", "false" },
+    { "clearCoatIorChange", "true" },
+    { "multiBounceAmbientOcclusion", "true" },
+    { "specularAmbientOcclusion", "simple" },
+    { "specularAntiAliasing", "false" },
+    { "specularAntiAliasingVariance", "0.15" },
+    { "specularAntiAliasingThreshold", "0.2" },
+    { "customSurfaceShading", "false" },
+};
+
+/// The lists of the guide, empty or with what is there anyway.
+constexpr Default kLists[] = { { "parameters", "[]" }, { "constants", "[]" },          { "variantFilter", "[]" },
+                               { "requires", "[]" },   { "requires", "[ position ]" }, { "variables", "[]" } };
+
+std::string materialOf(std::string_view properties, std::string_view code) {
+    return fmt::format("material {{\n{}\n}}\nfragment {{ void material(inout MaterialInputs m) {{ {} }} }}", properties,
+                       code);
+}
+
+/// 0 where the text does not compile, with a failure; Unsupported is left to those who ask.
+struct Bytes {
+    uint64_t hash = 0;
+    bool isSupported = true;
+};
+
+Bytes bytesOf(std::string const& text) {
+    const Result<MaterialPackage> package = compileMaterial(text, "a.mat", { .filteredVariants = kVariantPunctual });
+    if (package) return { hashBytes(writePackage(*package)), true };
+    EXPECT_EQ(package.error().code, ErrorCode::Unsupported) << text << package.error().message;
+    return { 0, false };
+}
+
+// Everything that the terms could be in: each of them unset here.
+constexpr const char* kCode = "prepareMaterial(m); m.baseColor.rgb = vec3(0.2, 0.4, 0.6);";
+
+TEST(Neutral, DefaultsThatAreStatedChangeNoByte) {
+    const uint64_t unset = bytesOf(materialOf("", kCode)).hash;
+    for (StateProperty const& property : stateProperties()) {
+        const auto known = std::ranges::find(kDefaults, property.name, &Default::property);
+        ASSERT_NE(known, std::end(kDefaults)) << property.name << " has no default in this test";
+        if (known->value.empty()) continue;
+        const std::string stated = fmt::format("{} : {}", known->property, known->value);
+        const Bytes bytes = bytesOf(materialOf(stated, kCode));
+        EXPECT_TRUE(!bytes.isSupported || bytes.hash == unset) << stated;
+    }
+    for (Default const& list : kLists) {
+        const std::string stated = fmt::format("{} : {}", list.property, list.value);
+        EXPECT_EQ(bytesOf(materialOf(stated, kCode)).hash, unset) << stated;
+    }
+}
+
+// The test above would pass if the bytes never changed.
+TEST(Neutral, OtherValuesThanTheDefaultsChangeTheBytes) {
+    const uint64_t unset = bytesOf(materialOf("", kCode)).hash;
+    for (const char* other : { "culling : none", "blending : fade", "doubleSided : true", "maskThreshold : 0.5",
+                               "specularAntiAliasing : true", "featureLevel : 2", "vertexDomain : world" })
+        EXPECT_NE(bytesOf(materialOf(other, kCode)).hash, unset) << other;
+}
+
+constexpr const char* kModels[] = {
+    "shadingModel : lit",
+    "shadingModel : subsurface",
+    "shadingModel : cloth",
+    "shadingModel : specularGlossiness",
+    "shadingModel : unlit",
+    "refractionMode : cubemap",
+    "refractionMode : cubemap, refractionType : thin",
+    "shadingModel : specularGlossiness, refractionMode : cubemap",
+};
+
+MaterialDefinition definitionOf(std::string_view properties) {
+    const std::string text = materialOf(properties, "");
+    Result<MaterialText> parsed = parseMaterialText(text, "a.mat", {});
+    EXPECT_TRUE(parsed);
+    Result<MaterialDefinition> definition = defineMaterial(std::move(*parsed), "a.mat");
+    EXPECT_TRUE(definition);
+    return std::move(*definition);
+}
+
+std::string setTo(MaterialMember const& member, std::array<float, 4> value) {
+    for (float& component : value) component = std::isnan(component) ? 0.0f : component;
+    return fmt::format("m.{} = {};", member.name, floatLiteral(std::span(value).first(member.components)));
+}
+
+TEST(Neutral, MembersAtTheirNeutralValueChangeNoByteOfAnyShadingModel) {
+    size_t compared = 0;
+    for (const char* model : kModels) {
+        const Bytes unset = bytesOf(materialOf(model, "prepareMaterial(m);"));
+        if (!unset.isSupported) continue;
+        const MaterialDefinition definition = definitionOf(model);
+        for (MaterialMember const& member : materialMembers()) {
+            if (!member.isMemberOf(definition) || member.absent == Absent::Untouched) continue;
+            // what is always read is neutral where it begins
+            const std::string set = setTo(member, member.absent == Absent::Neutral ? member.neutral : member.initial);
+            EXPECT_EQ(bytesOf(materialOf(model, set + " prepareMaterial(m);")).hash, unset.hash) << model << ' ' << set;
+            ++compared;
+        }
+    }
+    EXPECT_GE(compared, 14u);
+}
+
+} // namespace
+} // namespace filament::shader
