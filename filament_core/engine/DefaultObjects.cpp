@@ -69,6 +69,30 @@ Texture Engine::Impl::toneTable(ToneMapper mapper, uint32_t size) {
     return table;
 }
 
+Texture Engine::Impl::unsetTexture(ParameterType sampler) {
+    constexpr auto kWhite = [] {
+        std::array<std::byte, 24> texels{};
+        texels.fill(std::byte{ 255 });
+        return texels;
+    }();
+    if (sampler == ParameterType::SamplerCube && !defaults.whiteCube) {
+        defaults.whiteCube =
+                createTexture({ .kind = TextureKind::Cube, .layers = 6, .pixels = kWhite, .name = "white cube" });
+    }
+    if (sampler == ParameterType::Sampler2DArray && !defaults.whiteArray) {
+        defaults.whiteArray = createTexture(
+                { .kind = TextureKind::Texture2DArray, .pixels = std::span(kWhite).first(4), .name = "white array" });
+    }
+    switch (sampler) {
+    case ParameterType::SamplerCube:
+        return defaults.whiteCube;
+    case ParameterType::Sampler2DArray:
+        return defaults.whiteArray;
+    default:
+        return defaults.white;
+    }
+}
+
 void createDefaultObjects(Engine::Impl& engine) {
     constexpr std::array<uint8_t, 4> white{ 255, 255, 255, 255 };
     constexpr std::array<uint8_t, 24> black{};
@@ -84,6 +108,9 @@ void createDefaultObjects(Engine::Impl& engine) {
 void destroyDefaultObjects(Engine::Impl& engine) {
     engine.destroy(engine.defaults.white);
     engine.destroy(engine.defaults.blackCube);
+    for (const Texture made : { engine.defaults.whiteCube, engine.defaults.whiteArray }) {
+        if (made) engine.destroy(made);
+    }
     for (auto const& [size, table] : engine.defaults.dfg) {
         if (table) engine.destroy(table); // none: there was no memory for it
     }

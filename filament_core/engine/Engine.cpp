@@ -42,12 +42,12 @@ Backend publicBackend(BackendType type) {
     return Backend::Null;
 }
 
-DeviceDescription describe(DeviceInfo const& info) {
+DeviceDescription descriptionOf(DeviceInfo const& info) {
     return { publicBackend(info.backend), info.deviceName, info.driverName, info.limits.maxTextureSize,
              info.limits.maxSamples };
 }
 
-FrameLatency describe(LatencyStatistics const& latency) {
+FrameLatency latencyOf(LatencyStatistics const& latency) {
     const auto milliseconds = [](int64_t nanoseconds) { return static_cast<double>(nanoseconds) * 1e-6; };
     return { latency.frames, milliseconds(latency.submitToEnd.median), milliseconds(latency.submitToEnd.p99),
              milliseconds(latency.backPressure.median), milliseconds(latency.backPressure.p99) };
@@ -122,14 +122,14 @@ const char* toString(Backend backend) {
 
 std::vector<DeviceDescription> listDevices() {
     std::vector<DeviceDescription> devices;
-    for (DeviceInfo const& info : backend::listDevices()) devices.push_back(describe(info));
+    for (DeviceInfo const& info : backend::listDevices()) devices.push_back(descriptionOf(info));
     return devices;
 }
 
 Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> commandStream)
         : options(std::move(engineOptions)), stream(std::move(commandStream)),
           driverPin(jobs::CoreRegistry::ofProcess().reserve(options.driverCore)), jobs(jobOptions(options)),
-          device(describe(stream->info())), pipelines(*stream, layouts), samplers(*stream) {
+          device(descriptionOf(stream->info())), pipelines(*stream, layouts), samplers(*stream) {
     createDefaultObjects(*this);
 }
 
@@ -224,7 +224,7 @@ EngineStatistics Engine::statistics() const {
              driver.commands,
              driver.deviceBytes,
              mImpl->stream->backPressureNanoseconds(),
-             describe(mImpl->stream->latency()) };
+             latencyOf(mImpl->stream->latency()) };
 }
 
 std::vector<std::string> Engine::takeErrors() {

@@ -75,6 +75,7 @@ struct SwapChainState {
 /// Objects that every engine has.
 struct Defaults {
     Texture white;                   ///< 1x1 opaque white, for textures that a material leaves unset
+    Texture whiteCube, whiteArray;   ///< the same as a cube and as an array of one layer; none until asked for
     Texture blackCube;               ///< 1x1, for scenes without an environment
     std::map<uint32_t, Texture> dfg; ///< split-sum tables by their size
     std::map<std::pair<ToneMapper, uint32_t>, Texture> toneTables;
@@ -108,6 +109,8 @@ struct Engine::Impl {
     SwapChain createSwapChain(SwapChainDesc const& desc);
     MaterialInstance createInstance(Material material, std::string name);
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
+    Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
+                     uint32_t first);
     Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler);
     void destroy(Texture texture);
     void destroy(SwapChain swapChain);
@@ -123,6 +126,11 @@ struct Engine::Impl {
     void useTextureFilter(TextureFilter filter);
     void updateInstance(scene::MaterialInstance& instance, backend::CommandBuffer& commands);
     void markDirty(MaterialInstance instance);
+    template <class Write>
+    Result<void> change(MaterialInstance instance, std::string_view parameter, Write&& write);
+    Result<void> checkTexture(scene::Material const& material, shader::Parameter const& parameter, Texture texture);
+    /// What a sampler shows that the app has not set: opaque white, of the sampler's kind. Made when first asked for.
+    Texture unsetTexture(ParameterType sampler);
     /// None: the texture is larger than the device allows.
     backend::TextureHandle textureHandle(Texture texture) const { return textures.get(texture).handle; }
 

@@ -3,7 +3,9 @@
 #include "filament_core/base/OutOfMemory.h"
 #include "filament_core/base/Result.h"
 #include "filament_core/base/Suggest.h"
+#include "filament_core/engine/DescribeMaterial.h"
 #include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/Parameters.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/EngineMaterials.h"
 
@@ -41,6 +43,18 @@ uint32_t bitsOf(std::variant<bool, int32_t, float> const& value) {
     }
 }
 
+const char* typeName(ConstantValue::Type type) {
+    switch (type) {
+    case ConstantValue::Type::Bool:
+        return "bool";
+    case ConstantValue::Type::Int:
+        return "int";
+    case ConstantValue::Type::Float:
+        return "float";
+    }
+    return "unknown";
+}
+
 template <class Items>
 std::vector<std::string_view> namesOf(Items const& items) {
     std::vector<std::string_view> names;
@@ -58,39 +72,12 @@ Result<std::vector<ConstantValue>> resolveConstants(shader::MaterialPackage cons
                         suggestion(constant.name, namesOf(package.constants)));
         }
         if (known->type != typeOf(constant.value)) {
-            return fail(ErrorCode::InvalidArgument, "constant '{}' of material '{}' was given a value of another type",
-                        constant.name, package.name);
+            return fail(ErrorCode::InvalidArgument, "constant '{}' of material '{}' is {}, but was given {}",
+                        constant.name, package.name, typeName(known->type), typeName(typeOf(constant.value)));
         }
         values.push_back({ known->id, bitsOf(constant.value), known->type });
     }
     return values;
-}
-
-// What a ParameterValue may be assigned to, and its bytes without std140 padding.
-struct RawValue {
-    ParameterType type;
-    uint32_t columns; ///< 1, or the columns of a matrix: each starts at a multiple of 16 bytes
-    uint32_t columnBytes;
-    const void* data;
-};
-
-RawValue rawValue(ParameterValue const& value, uint32_t& boolStorage) {
-    struct Visitor {
-        uint32_t& boolBits;
-        RawValue operator()(bool v) const {
-            boolBits = v;
-            return { ParameterType::Bool, 1, 4, &boolBits };
-        }
-        RawValue operator()(int32_t const& v) const { return { ParameterType::Int, 1, 4, &v }; }
-        RawValue operator()(uint32_t const& v) const { return { ParameterType::Uint, 1, 4, &v }; }
-        RawValue operator()(float const& v) const { return { ParameterType::Float, 1, 4, &v }; }
-        RawValue operator()(float2 const& v) const { return { ParameterType::Float2, 1, 8, &v }; }
-        RawValue operator()(float3 const& v) const { return { ParameterType::Float3, 1, 12, &v }; }
-        RawValue operator()(float4 const& v) const { return { ParameterType::Float4, 1, 16, &v }; }
-        RawValue operator()(float3x3 const& v) const { return { ParameterType::Float3x3, 3, 12, &v }; }
-        RawValue operator()(float4x4 const& v) const { return { ParameterType::Float4x4, 4, 16, &v }; }
-    };
-    return std::visit(Visitor{ boolStorage }, value);
 }
 
 Error unknownParameter(scene::Material const& material, std::string_view name) {
@@ -108,6 +95,23 @@ size_t textureSlot(shader::MaterialPackage const& package, Parameter const& para
     return slot;
 }
 
+const char* kindName(TextureType type) {
+    switch (type) {
+    case TextureType::Texture2D:
+        return "a 2D texture";
+    case TextureType::Texture2DArray:
+        return "an array";
+    case TextureType::Cube:
+        return "a cube";
+    }
+    return "a texture";
+}
+
+TextureType kindOf(ParameterType sampler) {
+    if (sampler == ParameterType::SamplerCube) return TextureType::Cube;
+    return sampler == ParameterType::Sampler2DArray ? TextureType::Texture2DArray : TextureType::Texture2D;
+}
+
 Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     auto package = shader::readPackage(desc.package);
     if (!package) {
@@ -119,6 +123,7 @@ Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     material.name = desc.name.empty() ? package->name : desc.name;
     material.package = std::move(*package);
     material.constants = std::move(*constants);
+    material.description = engine::describeMaterial(material);
     return material;
 }
 
@@ -177,12 +182,12 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
     instance.name = name.empty() ? parent.name : std::move(name);
     instance.parameters.resize(parent.package.uniformBytes);
     instance.cullingDisabled = parent.package.doubleSided;
-    if (Parameter const* threshold = parent.package.findParameter("_maskThreshold")) {
+    if (Parameter const* threshold = parent.package.findParameter(shader::kMaskThresholdParameter)) {
         std::memcpy(instance.parameters.data() + threshold->offset, &parent.package.maskThreshold, sizeof(float));
     }
-    const scene::TextureBinding white{ textureHandle(defaults.white), {} };
     for (Parameter const& parameter : parent.package.parameters) {
-        if (shader::isTexture(parameter.type)) instance.textures.push_back(white);
+        if (shader::isTexture(parameter.type))
+            instance.textures.push_back({ textureHandle(unsetTexture(parameter.type)), {} });
     }
     dirtyInstances.push_back(draft.handle()); // the last that may fail
     instance.id = nextInstanceId++;
@@ -195,23 +200,44 @@ void Engine::Impl::markDirty(MaterialInstance handle) {
     if (!instance.parametersDirty && !instance.texturesDirty) dirtyInstances.push_back(handle);
 }
 
-Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, ParameterValue const& value) {
+template <class Write>
+Result<void> Engine::Impl::change(MaterialInstance handle, std::string_view name, Write&& write) {
     scene::MaterialInstance& instance = instances.get(handle);
     Parameter const* parameter = instance.material->package.findParameter(name);
     if (!parameter) return unknownParameter(*instance.material, name);
-    uint32_t boolStorage = 0;
-    const RawValue raw = rawValue(value, boolStorage);
-    if (raw.type != parameter->type) {
-        return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' was given a value of another type",
-                    name, instance.material->name);
-    }
+    const size_t listed = dirtyInstances.size();
     markDirty(handle);
-    for (uint32_t column = 0; column < raw.columns; ++column) {
-        std::memcpy(instance.parameters.data() + parameter->offset + column * 16,
-                    static_cast<const std::byte*>(raw.data) + column * raw.columnBytes, raw.columnBytes);
+    Result<void> written = write(instance, *parameter);
+    if (written)
+        instance.parametersDirty = true;
+    else
+        dirtyInstances.resize(listed); // never grows: markDirty() added one at most
+    return written;
+}
+
+Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, ParameterValue const& value) {
+    return change(handle, name, [&](scene::MaterialInstance& instance, Parameter const& parameter) {
+        return engine::writeParameter(*instance.material, parameter, value, instance.parameters);
+    });
+}
+
+Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, ParameterArray const& values,
+                               uint32_t first) {
+    return change(handle, name, [&](scene::MaterialInstance& instance, Parameter const& parameter) {
+        return engine::writeParameters(*instance.material, parameter, values, first, instance.parameters);
+    });
+}
+
+Result<void> Engine::Impl::checkTexture(scene::Material const& material, Parameter const& parameter, Texture texture) {
+    const char* const declared = toString(parameter.type);
+    if (!shader::isTexture(parameter.type) || parameter.type == ParameterType::SubpassInput) {
+        return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is {}, not a sampler", parameter.name,
+                    material.name, declared);
     }
-    instance.parametersDirty = true;
-    return {};
+    engine::TextureState const& state = textures.get(texture);
+    if (state.desc.type == kindOf(parameter.type)) return {};
+    return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is {}, but texture '{}' is {}",
+                parameter.name, material.name, declared, state.name, kindName(state.desc.type));
 }
 
 Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, Texture texture, Sampler sampler) {
@@ -219,15 +245,11 @@ Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, T
     shader::MaterialPackage const& package = instance.material->package;
     Parameter const* parameter = package.findParameter(name);
     if (!parameter) return unknownParameter(*instance.material, name);
-    if (!shader::isTexture(parameter->type)) {
-        return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is not a sampler", name,
-                    instance.material->name);
-    }
-    const Texture standIn = parameter->type == ParameterType::SamplerCube ? defaults.blackCube : defaults.white;
-    const TextureHandle handleOrNone = textureHandle(texture);
+    if (Result<void> fits = checkTexture(*instance.material, *parameter, texture); !fits) return fits;
+    TextureHandle shown = textureHandle(texture);
+    if (!shown) shown = textureHandle(unsetTexture(parameter->type));
     markDirty(handle);
-    instance.textures[textureSlot(package, *parameter)] = { handleOrNone ? handleOrNone : textureHandle(standIn),
-                                                            sampler };
+    instance.textures[textureSlot(package, *parameter)] = { shown, sampler };
     instance.texturesDirty = true;
     return {};
 }
@@ -244,8 +266,17 @@ Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, 
     return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, value); });
 }
 
+Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
+                         uint32_t first) {
+    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, values, first); });
+}
+
 Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler) {
     return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, texture, sampler); });
+}
+
+MaterialDescription const& Engine::describe(Material material) const {
+    return mImpl->materials.get(material).description;
 }
 
 void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {

@@ -7,6 +7,7 @@
 #include "backend/api/Handles.h"
 #include "shaders/package/Package.h"
 
+#include <filament/Material.h>
 #include <filament/Sampler.h>
 
 #include <cstdint>
@@ -28,6 +29,7 @@ struct Material {
     std::vector<backend::ConstantValue> constants;
     std::vector<MaterialProgram> programs; ///< made when first needed
     uint32_t instanceCount = 0;
+    MaterialDescription description;
 
     bool isBlended() const {
         return package.blending != shader::Blending::Opaque && package.blending != shader::Blending::Masked;

@@ -48,10 +48,9 @@ void declareBlock(StageText& out, MaterialDefinition const& definition) {
     for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
         Parameter const& parameter = definition.package.parameters[i];
         if (isTexture(parameter.type)) continue;
-        ParameterSource const& source = definition.parameterSources[i];
-        out.originate(source.at);
+        out.originate(definition.parameterSources[i].at);
         const std::string array = parameter.arraySize > 0 ? fmt::format("[{}]", parameter.arraySize) : "";
-        const char* const precision = takesPrecision(parameter.type) ? glslPrecision(source.precision) : "";
+        const char* const precision = takesPrecision(parameter.type) ? glslPrecision(parameter.precision) : "";
         out.line(fmt::format("{}{} {}{};", precision, glslType(parameter.type), parameter.name, array));
     }
     out.line("} materialParams;");
@@ -67,8 +66,8 @@ void declareTextures(StageText& out, MaterialDefinition const& definition) {
                                           : "";
         out.originate(definition.parameterSources[i].at);
         out.line(fmt::format("layout({}set = 1, binding = {}) uniform {}{} materialParams_{};", index,
-                             parameter.binding, glslPrecision(definition.parameterSources[i].precision),
-                             samplerType(parameter), parameter.name));
+                             parameter.binding, glslPrecision(parameter.precision), samplerType(parameter),
+                             parameter.name));
     }
 }
 

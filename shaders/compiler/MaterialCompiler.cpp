@@ -124,6 +124,10 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
 
     MaterialPackage package = prepared->definition.package;
     package.layout = prepared->layout;
+    const auto members = materialMembers();
+    for (size_t i = 0; i < members.size(); ++i) {
+        if ((prepared->needs.terms & termBit(i)) != 0) package.terms.emplace_back(members[i].name);
+    }
     for (std::optional<Result<CompiledVariant>>& compiled :
          variants) { // the error of the lowest key, whoever was first
         Result<CompiledVariant>& result = *compiled;

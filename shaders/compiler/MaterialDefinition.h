@@ -16,11 +16,8 @@
 
 namespace filament::shader {
 
-enum class Precision : uint8_t { Default, Low, Medium, High };
-
 /// What only the generated code needs to know of a parameter; same order as MaterialPackage::parameters.
 struct ParameterSource {
-    Precision precision = Precision::Default;
     SourcePosition at;
 };
 
@@ -70,8 +67,6 @@ struct MaterialDefinition {
 };
 
 inline constexpr size_t kMaxVariables = 4;
-/// Name of the parameter that holds the mask threshold of masked materials; its default is package.maskThreshold.
-inline constexpr std::string_view kMaskThresholdParameter = "_maskThreshold";
 
 Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fileName);
 

@@ -106,14 +106,13 @@ Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
         return errorAt(item.at, fmt::format("there are two parameters '{}'", entry->name));
     }
     Parameter parameter{ .name = entry->name };
-    ParameterSource source{ .at = item.at };
     Result<void> done = readType(*entry->type, parameter);
     if (JsonValue const* precision = findMember(item, "precision"); done && precision)
-        done = readPrecision(*precision, source.precision);
+        done = readPrecision(*precision, parameter.precision);
     if (JsonValue const* format = findMember(item, "format"); done && format) done = readFormat(*format, parameter);
     if (!done) return done;
     out.package.parameters.push_back(std::move(parameter));
-    out.parameterSources.push_back(std::move(source));
+    out.parameterSources.push_back({ item.at });
     return {};
 }
 

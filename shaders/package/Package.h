@@ -9,36 +9,35 @@
 #include "backend/api/Descriptions.h"
 #include "filament_core/base/Result.h"
 
+#include <filament/Material.h>
+
 #include <array>
 #include <cstddef>
 #include <cstdint>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 namespace filament::shader {
 
-enum class MaterialDomain : uint8_t { Surface, PostProcess };
-enum class ShadingModel : uint8_t { Unlit, Lit, Subsurface, Cloth, SpecularGlossiness };
-enum class Blending : uint8_t { Opaque, Masked, Transparent, Fade, Add, Multiply, Screen, Custom };
+using filament::Blending;
+using filament::Culling;
+using filament::MaterialDomain;
+using filament::ParameterType;
+using filament::Precision;
+using filament::SamplerFormat;
+using filament::ShadingModel;
+using filament::TransparencyMode;
+
 enum class PostLightingBlending : uint8_t { Opaque, Transparent, Add, Multiply, Screen };
-enum class TransparencyMode : uint8_t { Default, TwoPassesOneSide, TwoPassesTwoSides };
-enum class Culling : uint8_t { None, Front, Back, FrontAndBack };
 enum class VertexDomain : uint8_t { Object, World, View, Device };
 enum class Interpolation : uint8_t { Smooth, Flat };
 enum class RefractionMode : uint8_t { None, Cubemap, ScreenSpace };
 enum class RefractionType : uint8_t { Solid, Thin };
 enum class Reflections : uint8_t { Default, ScreenSpace };
 enum class MaterialQuality : uint8_t { Default, Low, Normal, High };
-enum class SamplerFormat : uint8_t { Float, Int };
 
-// clang-format off
-enum class ParameterType : uint8_t {
-    Bool, Bool2, Bool3, Bool4, Float, Float2, Float3, Float4, Int, Int2, Int3, Int4, Uint, Uint2, Uint3, Uint4,
-    Float3x3, Float4x4,                          ///< std140 columns of 16 bytes
-    Sampler2D, Sampler2DArray, SamplerCube, SubpassInput,
-};
-// clang-format on
 bool isTexture(ParameterType type); ///< samplers and subpass inputs
 
 struct Parameter {
@@ -48,6 +47,7 @@ struct Parameter {
     uint32_t offset = 0;                         ///< bytes in the MaterialParams block; textures: 0
     uint8_t binding = 0;                         ///< textures: binding in kGroupMaterial
     SamplerFormat format = SamplerFormat::Float; ///< textures: what a fetch gives
+    Precision precision = Precision::Default;    ///< as the author asked
     friend bool operator==(Parameter const&, Parameter const&) = default;
 };
 
@@ -116,6 +116,7 @@ struct MaterialPackage {
     uint32_t uniformBytes = 0;       ///< size of the MaterialParams block, a multiple of 16; 0: none
     std::vector<Parameter> parameters;
     std::vector<Constant> constants;
+    std::vector<std::string> terms;  ///< members of MaterialInputs that the code sets: the others cost nothing
     backend::ProgramLayout layout{}; ///< the same for all variants
     std::vector<Variant> variants;   ///< ascending by key
     friend bool operator==(MaterialPackage const&, MaterialPackage const&) = default;
@@ -124,6 +125,9 @@ struct MaterialPackage {
     Parameter const* findParameter(std::string_view name) const;
     Constant const* findConstant(std::string_view name) const;
 };
+
+/// Name of the parameter that holds the mask threshold of masked materials; its default is package.maskThreshold.
+inline constexpr std::string_view kMaskThresholdParameter = "_maskThreshold";
 
 Result<MaterialPackage> readPackage(std::span<const std::byte> bytes);
 std::vector<std::byte> writePackage(MaterialPackage const& package);

@@ -62,8 +62,8 @@ Result<Sections> splitSections(std::span<const std::byte> content) {
         if (in.failed()) return corrupt("a section is longer than the file");
         if (!sections.emplace(tag, body).second) return corrupt("a section appears twice");
     }
-    for (const uint32_t tag :
-         { kSectionGeneral, kSectionParameters, kSectionConstants, kSectionLayout, kSectionCode, kSectionVariants }) {
+    for (const uint32_t tag : { kSectionGeneral, kSectionParameters, kSectionConstants, kSectionTerms, kSectionLayout,
+                                kSectionCode, kSectionVariants }) {
         if (!sections.contains(tag)) return corrupt("a required section is missing");
     }
     return sections;
@@ -125,6 +125,7 @@ bool readParameters(ByteReader in, std::vector<Parameter>& out) {
         parameter.offset = in.u32();
         parameter.binding = in.u8();
         if (!readEnum(in, parameter.format, SamplerFormat::Int)) return false;
+        if (!readEnum(in, parameter.precision, Precision::High)) return false;
         out.push_back(std::move(parameter));
     }
     return in.atEnd() && !in.failed();
@@ -141,6 +142,13 @@ bool readConstants(ByteReader in, std::vector<Constant>& out) {
         constant.defaultBits = in.u32();
         out.push_back(std::move(constant));
     }
+    return in.atEnd() && !in.failed();
+}
+
+bool readTerms(ByteReader in, std::vector<std::string>& out) {
+    const uint32_t count = in.u32();
+    if (count > kMaxTerms) return false;
+    for (uint32_t i = 0; i < count && !in.failed(); ++i) out.push_back(in.text());
     return in.atEnd() && !in.failed();
 }
 
@@ -259,6 +267,7 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
     if (!readParameters(section(kSectionParameters), package.parameters))
         return corrupt("the parameters are malformed");
     if (!readConstants(section(kSectionConstants), package.constants)) return corrupt("the constants are malformed");
+    if (!readTerms(section(kSectionTerms), package.terms)) return corrupt("the terms are malformed");
     if (!readLayout(section(kSectionLayout), package.layout)) return corrupt("the binding layout is malformed");
     Code code;
     if (!readCode(section(kSectionCode), code)) return corrupt("the code of the variants is malformed");

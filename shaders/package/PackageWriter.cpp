@@ -93,6 +93,7 @@ ByteWriter parameterSection(std::span<const Parameter> parameters) {
         out.u32(parameter.offset);
         out.u8(parameter.binding);
         out.enumerator(parameter.format);
+        out.enumerator(parameter.precision);
     }
     return out;
 }
@@ -106,6 +107,13 @@ ByteWriter constantSection(std::span<const Constant> constants) {
         out.u8(static_cast<uint32_t>(constant.type));
         out.u32(constant.defaultBits);
     }
+    return out;
+}
+
+ByteWriter termSection(std::span<const std::string> terms) {
+    ByteWriter out;
+    out.u32(static_cast<uint32_t>(terms.size()));
+    for (std::string const& term : terms) out.text(term);
     return out;
 }
 
@@ -169,6 +177,7 @@ std::vector<std::byte> writePackage(MaterialPackage const& package) {
     sections.section(kSectionGeneral, generalSection(package));
     sections.section(kSectionParameters, parameterSection(package.parameters));
     sections.section(kSectionConstants, constantSection(package.constants));
+    sections.section(kSectionTerms, termSection(package.terms));
     sections.section(kSectionLayout, layoutSection(package.layout));
     CodePool code;
     const ByteWriter variants = variantSection(package.variants, code);

@@ -120,8 +120,15 @@ public:
     /// Parameters start at zero, textures at opaque white.
     MaterialInstance createInstance(Material material, std::string name = {});
 
-    /// NotFound names the nearest parameter; InvalidArgument names the type it has.
+    /// What the material declares, and what it was loaded with. Until it is destroyed.
+    MaterialDescription const& describe(Material material) const;
+
+    /// NotFound names the nearest parameter; InvalidArgument names the type it has and the one it was given.
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
+    /// Elements [first, first + values.size()) of an array; the others stay. InvalidArgument also for those it lacks.
+    Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
+                     uint32_t first = 0);
+    /// InvalidArgument also for a texture of another kind than the sampler's.
     Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler = {});
     /// Raster state that may change at run time. `doubleSided` only if the material was compiled for it.
     void setCullingDisabled(MaterialInstance instance, bool disabled);

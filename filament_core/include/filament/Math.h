@@ -25,6 +25,13 @@ using double4 = glm::dvec4;
 using double3x3 = glm::dmat3;
 using double4x4 = glm::dmat4;
 using uint2 = glm::uvec2;
+using uint3 = glm::uvec3;
+using uint4 = glm::uvec4;
 using int2 = glm::ivec2;
+using int3 = glm::ivec3;
+using int4 = glm::ivec4;
+using bool2 = glm::bvec2;
+using bool3 = glm::bvec3;
+using bool4 = glm::bvec4;
 
 } // namespace filament

@@ -7,6 +7,7 @@
 
 #include <filament/Format.h>
 #include <filament/Handle.h>
+#include <filament/Material.h>
 #include <filament/Math.h>
 #include <filament/Quality.h>
 #include <filament/Sampler.h>
@@ -101,8 +102,17 @@ struct MaterialDesc {
     std::string name{}; ///< empty: the name in the package
 };
 
-/// Value of a parameter; integers, booleans and matrices by their GLSL sizes.
-using ParameterValue = std::variant<bool, int32_t, uint32_t, float, float2, float3, float4, float3x3, float4x4>;
+/// Value of a parameter: the C++ type that has the name of the parameter's type (ParameterType).
+using ParameterValue = std::variant<bool, bool2, bool3, bool4, float, float2, float3, float4, int32_t, int2, int3, int4,
+                                    uint32_t, uint2, uint3, uint4, float3x3, float4x4>;
+
+/// Values of neighbouring elements of an array parameter.
+using ParameterArray =
+        std::variant<std::span<const bool>, std::span<const bool2>, std::span<const bool3>, std::span<const bool4>,
+                     std::span<const float>, std::span<const float2>, std::span<const float3>, std::span<const float4>,
+                     std::span<const int32_t>, std::span<const int2>, std::span<const int3>, std::span<const int4>,
+                     std::span<const uint32_t>, std::span<const uint2>, std::span<const uint3>, std::span<const uint4>,
+                     std::span<const float3x3>, std::span<const float4x4>>;
 
 /// Pre-filtered environment: irradiance and specular reflections of everything far away.
 struct IndirectLightDesc {

@@ -41,15 +41,18 @@ MaterialPackage fullPackage() {
     package.transparentShadow = true;
     package.filteredVariants = kVariantStereo | kVariantHalf;
     package.requiredAttributes = 0b1011;
-    package.parameters = {
-        { .name = "tint", .type = ParameterType::Float3 },
-        { .name = "weights", .type = ParameterType::Float, .arraySize = 3 },
-        { .name = "uvMatrix", .type = ParameterType::Float3x3 },
-        { .name = "albedo", .type = ParameterType::Sampler2D, .binding = 1, .format = SamplerFormat::Int }
-    };
+    package.parameters = { { .name = "tint", .type = ParameterType::Float3 },
+                           { .name = "weights", .type = ParameterType::Float, .arraySize = 3 },
+                           { .name = "uvMatrix", .type = ParameterType::Float3x3 },
+                           { .name = "albedo",
+                             .type = ParameterType::Sampler2D,
+                             .binding = 1,
+                             .format = SamplerFormat::Int,
+                             .precision = Precision::Medium } };
     package.uniformBytes = assignOffsets(package.parameters);
     package.constants = { { .name = "hasAlbedo", .id = 0 },
                           { .name = "steps", .id = 1, .type = backend::ConstantValue::Type::Int, .defaultBits = 7 } };
+    package.terms = { "normal", "clearCoat" };
     package.layout[1].count = 2;
     package.layout[1].bindings[0] = { .binding = 0, .type = backend::BindingType::UniformBuffer };
     package.layout[1].bindings[1] = { .binding = 1, .type = backend::BindingType::SampledTexture };

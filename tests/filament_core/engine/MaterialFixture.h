@@ -1,0 +1,88 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Materials from their text, and a picture that one of them fills.
+#pragma once
+
+#include "shaders/compiler/MaterialCompiler.h"
+#include "tests/filament_core/engine/RenderFixture.h"
+
+#include <array>
+#include <string_view>
+#include <vector>
+
+namespace filament::test {
+
+/// The package of a .mat text; a failure of the test if it does not compile.
+inline std::vector<std::byte> compilePackage(std::string_view text, shader::CompileOptions const& options = {}) {
+    const Result<shader::MaterialPackage> package = shader::compileMaterial(text, "test.mat", options);
+    if (package) return shader::writePackage(*package);
+    ADD_FAILURE() << package.error().message;
+    return {};
+}
+
+inline Owned<Material> loadMaterial(Engine& engine, std::string_view text,
+                                    std::vector<MaterialConstant> constants = {}) {
+    const std::vector<std::byte> bytes = compilePackage(text);
+    auto material = engine.create(MaterialDesc{ .package = bytes, .constants = std::move(constants) });
+    if (material) return engine.own(*material);
+    ADD_FAILURE() << material.error().message;
+    return {};
+}
+
+/// A square of 2 x 2 metres in the plane z = 0 around the origin, its front towards +z; position, tangents and uv0.
+class Square {
+public:
+    explicit Square(Engine& engine) {
+        struct Vertex {
+            float3 position;
+            float4 tangents;
+            float2 uv;
+        };
+        constexpr float4 kUpright{ 0, 0, 0, 1 };
+        const std::array<Vertex, 4> vertices{ { { { -1, -1, 0 }, kUpright, { 0, 1 } },
+                                                { { 1, -1, 0 }, kUpright, { 1, 1 } },
+                                                { { 1, 1, 0 }, kUpright, { 1, 0 } },
+                                                { { -1, 1, 0 }, kUpright, { 0, 0 } } } };
+        constexpr std::array<uint16_t, 6> kIndices{ 0, 1, 2, 0, 2, 3 };
+        mVertices = engine.own(engine.create(VertexBufferDesc{
+                .vertexCount = 4,
+                .stride = sizeof(Vertex),
+                .attributes = { { Attribute::Position, VertexFormat::Float3, 0 },
+                                { Attribute::Tangents, VertexFormat::Float4, offsetof(Vertex, tangents) },
+                                { Attribute::Uv0, VertexFormat::Float2, offsetof(Vertex, uv) } },
+                .data = std::as_bytes(std::span(vertices)),
+                .name = "square" }));
+        mIndices = engine.own(engine.create(
+                IndexBufferDesc{ .indexCount = 6, .data = std::as_bytes(std::span(kIndices)), .name = "square" }));
+    }
+
+    Renderable add(Scene& scene, MaterialInstance material, double3 at = {}, double scale = 1) const {
+        double4x4 world(scale);
+        world[3] = double4(at, 1);
+        return scene.add({ .vertices = mVertices,
+                           .indices = mIndices,
+                           .material = material,
+                           .boundsMin = float3(-1, -1, -0.01f),
+                           .boundsMax = float3(1, 1, 0.01f),
+                           .worldFromObject = world });
+    }
+
+    /// The square fills it.
+    static View view(uint2 size = { 16, 16 }) {
+        return { .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 80 }), .size = size };
+    }
+
+private:
+    Owned<VertexBuffer> mVertices;
+    Owned<IndexBuffer> mIndices;
+};
+
+/// The pixel in the middle of a picture of the square, scene-linear.
+inline float4 shownBy(Engine& engine, MaterialInstance material) {
+    const Square square(engine);
+    Scene scene(engine);
+    square.add(scene, material);
+    const Image image = renderLinear(engine, scene, Square::view());
+    return image.pixels.empty() ? float4(-1) : halfPixel(image, 8, 8);
+}
+
+} // namespace filament::test
