@@ -5,6 +5,7 @@
   plot.py bench   FILE.json  -o OUT   all figures of threading_bench --json: costs, wake-ups, scaling, frames
   plot.py scaling FILE.json  -o OUT   only how they grow with workers and with renderables
   plot.py jobs    TRACE.json -o OUT   who ran what when: a Chrome trace-event file, as --trace-jobs writes it
+  plot.py materials FILE.json -o OUT  what the terms of a material cost: material_bench --json
   plot.py accuracy FILE.json -o DIR   results.json of filament-accuracy: one picture an effect, and frames; --format
 
 OUT ends in .png, .svg or .pdf. A file that cannot be drawn is refused with one line on standard error and exit status 2.
@@ -24,6 +25,7 @@ import matplotlib.pyplot as plt
 import accuracy_plot
 import bench_plot
 import jobs_plot
+import materials_plot
 from style import BadInput, apply_style
 
 FORMATS = (".png", ".svg", ".pdf")
@@ -51,7 +53,7 @@ def parse_arguments(words):
                                      formatter_class=argparse.RawDescriptionHelpFormatter)
     commands = parser.add_subparsers(dest="command", required=True, metavar="COMMAND")
     for name, help_text in (("bench", "all figures of threading_bench"), ("scaling", "scaling figures only"),
-                            ("jobs", "a timeline of jobs")):
+                            ("jobs", "a timeline of jobs"), ("materials", "what the terms of a material cost")):
         command = commands.add_parser(name, help=help_text)
         command.add_argument("input", type=pathlib.Path, metavar="FILE.json")
         command.add_argument("-o", "--output", type=output_path, required=True, metavar="OUT")
@@ -83,6 +85,8 @@ def draw_folder(arguments):
 def draw(arguments):
     if arguments.command == "jobs":
         return jobs_plot.draw(arguments.input, arguments.begin, arguments.end, arguments.title)
+    if arguments.command == "materials":
+        return materials_plot.draw(arguments.input, arguments.title)
     return bench_plot.draw(arguments.input, arguments.title, only_scaling=arguments.command == "scaling")
 
 
