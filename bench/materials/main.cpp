@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-// material_bench: what each term of a material costs over a full screen, as a ratio to the standard model, on both APIs.
+// material_bench: what each term of a material costs over a full screen, as a ratio to the standard model, on both
+// APIs.
 //   Method  one engine an API; in every round every material once on each, so that all see the same machine. Processor
-//           time of the process, which on CPU drivers is the device, less that of a frame without the object; medians of
-//           the ratios within rounds. --wall takes elapsed time instead, for devices that are no CPU.
+//           time of the process, which on CPU drivers is the device, less that of a frame without the object; medians
+//           of the ratios within rounds. --wall takes elapsed time instead, for devices that are no CPU.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
-#include "bench/materials/Cases.h"
 #include "tools/common/Machine.h"
 #include "tools/conformance/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
+#include "tools/materials/MaterialTerms.h"
 
 #include <filament/filament.h>
 
@@ -34,6 +35,21 @@ struct Options {
     std::vector<std::string> only; ///< parts of names; empty: all
     bool wall = false;
 };
+
+/// What the reference text says that a term costs, as a ratio to the standard model; empty: nothing.
+const char* referenceOf(std::string const& term) {
+    static constexpr std::pair<std::string_view, const char*> kSaid[] = {
+        { "standard", "1" },
+        { "normal map", "1.1" },
+        { "clear coat", "2" },
+        { "anisotropy", "1.2" },
+        { "subsurface", "1.3" },
+        { "refraction, solid", "2 to 3" },
+        { "refraction, thin", "2 to 3" },
+    };
+    const auto said = std::ranges::find(kSaid, term, &std::pair<std::string_view, const char*>::first);
+    return said != std::end(kSaid) ? said->second : "";
+}
 
 double secondsOf(clockid_t clock) {
     timespec now{};
@@ -95,8 +111,9 @@ private:
     void addScene(tools::MaterialStand const* stand) {
         mScenes.push_back(std::make_unique<Scene>(mEngine));
         Scene& scene = *mScenes.back();
-        if (stand) stand->addTo(scene, double4x4(double4(4, 0, 0, 0), double4(0, 4, 0, 0), double4(0, 0, 4, 0),
-                                                 double4(0, 0, 0, 1)));
+        if (stand)
+            stand->addTo(scene,
+                         double4x4(double4(4, 0, 0, 0), double4(0, 4, 0, 0), double4(0, 0, 4, 0), double4(0, 0, 0, 1)));
         scene.setEnvironment(*mEnvironment, { .illuminance = Lux{ 10'000 }, .skybox = false });
         scene.add(SunLight{ .directionWorld = { -0.4f, -0.5f, -1 } });
         for (int i = 0; i < mOptions.lamps; ++i)
@@ -116,7 +133,7 @@ private:
 };
 
 struct Row {
-    CostCase what;
+    tools::MaterialTerm what;
     std::vector<double> seconds[2]; ///< by device, by round; without the frame
     double ratio[2]{}, low[2]{}, high[2]{};
 };
@@ -134,7 +151,7 @@ Result<Devices> openAll(Options const& options, fs::path const& work) {
 }
 
 /// The first case always: the others are compared with it.
-bool isWanted(CostCase const& what, size_t index, Options const& options) {
+bool isWanted(tools::MaterialTerm const& what, size_t index, Options const& options) {
     return index == 0 || options.only.empty() || std::ranges::any_of(options.only, [&](std::string const& part) {
                return what.name.find(part) != std::string::npos;
            });
@@ -142,12 +159,12 @@ bool isWanted(CostCase const& what, size_t index, Options const& options) {
 
 Result<std::vector<Row>> addAll(Devices& devices, Options const& options) {
     std::vector<Row> rows;
-    const std::vector<CostCase> cases = costCases();
+    const std::vector<tools::MaterialTerm> cases = tools::materialTerms();
     for (size_t i = 0; i < cases.size(); ++i) {
-        CostCase const& what = cases[i];
+        tools::MaterialTerm const& what = cases[i];
         if (!isWanted(what, i, options)) continue;
-        const auto file = tools::readMaterialFile(FILAMENT_SOURCE_DIR "/bench/materials/base.mat", what.edits);
-        if (!file) return fail(file.error().code, "{}: {}", what.name, file.error().message);
+        const auto file = tools::readMaterialTerm(what);
+        if (!file) return file.error();
         for (auto& device : devices) {
             if (Result<void> added = device->add(**file); !added) return added.error();
         }
@@ -159,8 +176,7 @@ Result<std::vector<Row>> addAll(Devices& devices, Options const& options) {
 void measureRound(Devices& devices, std::vector<Row>& rows) {
     for (size_t d = 0; d < devices.size(); ++d) {
         const double empty = devices[d]->measure(0);
-        for (size_t i = 0; i < rows.size(); ++i)
-            rows[i].seconds[d].push_back(devices[d]->measure(i + 1) - empty);
+        for (size_t i = 0; i < rows.size(); ++i) rows[i].seconds[d].push_back(devices[d]->measure(i + 1) - empty);
     }
 }
 
@@ -179,17 +195,18 @@ void computeRatios(std::vector<Row>& rows, size_t devices) {
 }
 
 void printTable(std::vector<Row> const& rows) {
-    std::printf("| material | Vulkan ms | x standard | GLES ms | x standard | reference |\n|---|---|---|---|---|---|\n");
+    std::printf(
+            "| material | Vulkan ms | x standard | GLES ms | x standard | reference |\n|---|---|---|---|---|---|\n");
     for (Row const& row : rows) {
         std::printf("| %s | %.2f | %.2f | %.2f | %.2f | %s |\n", row.what.name.c_str(), median(row.seconds[0]) * 1e3,
-                    row.ratio[0], median(row.seconds[1]) * 1e3, row.ratio[1], row.what.reference.c_str());
+                    row.ratio[0], median(row.seconds[1]) * 1e3, row.ratio[1], referenceOf(row.what.name));
     }
 }
 
 nlohmann::json toJson(std::vector<Row> const& rows, Devices const& devices, Options const& options) {
     nlohmann::json list = nlohmann::json::array();
     for (Row const& row : rows) {
-        nlohmann::json one{ { "name", row.what.name }, { "reference", row.what.reference } };
+        nlohmann::json one{ { "name", row.what.name }, { "reference", referenceOf(row.what.name) } };
         for (size_t d = 0; d < devices.size(); ++d) {
             one[toString(devices[d]->backend())] = { { "ms", median(row.seconds[d]) * 1e3 },
                                                      { "ratio", row.ratio[d] },

@@ -76,8 +76,15 @@ Result<void> MaterialStand::addSlab(Engine& engine) {
     return {};
 }
 
-Result<void> MaterialStand::set(Engine& engine, MaterialFile const& file, std::string const& name,
-                                std::string const& value) {
+Result<void> MaterialStand::set(Engine& engine, MaterialFile const& file, MaterialValues const& values) {
+    for (auto const& [name, value] : values) {
+        if (Result<void> done = setOne(engine, file, name, value); !done) return done;
+    }
+    return {};
+}
+
+Result<void> MaterialStand::setOne(Engine& engine, MaterialFile const& file, std::string const& name,
+                                   std::string const& value) {
     shader::Parameter const* parameter = file.package.findParameter(name);
     if (!parameter) {
         if (file.package.findConstant(name)) return {}; // set when the material was made
@@ -113,9 +120,7 @@ Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& fi
     if (file.show.slab) {
         if (Result<void> done = stand.addSlab(engine); !done) return done.error();
     }
-    for (auto const& [name, value] : all) {
-        if (Result<void> done = stand.set(engine, file, name, value); !done) return done.error();
-    }
+    if (Result<void> done = stand.set(engine, file, all); !done) return done.error();
     return stand;
 }
 

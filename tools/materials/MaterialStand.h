@@ -23,13 +23,15 @@ public:
     static Result<MaterialStand> make(Engine& engine, MaterialFile const& file, MaterialValues const& values = {},
                                       std::string const& mesh = {});
 
+    /// Other values for parameters that it has; those of constants stay.
+    Result<void> set(Engine& engine, MaterialFile const& file, MaterialValues const& values);
     void addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1.0)) const;
     Material material() const { return mMaterial; }
     MaterialInstance instance() const { return mInstance; }
 
 private:
     Result<void> addSlab(Engine& engine);
-    Result<void> set(Engine& engine, MaterialFile const& file, std::string const& name, std::string const& value);
+    Result<void> setOne(Engine& engine, MaterialFile const& file, std::string const& name, std::string const& value);
 
     struct Geometry {
         Owned<VertexBuffer> vertices;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 #include <optional>
+#include <type_traits>
+#include <variant>
 
 namespace filament::tools {
 namespace {
-
-using shader::ParameterType;
 
 /// Nothing if one of the words is no number.
 std::optional<std::vector<double>> numbersOf(std::string const& words) {
@@ -36,47 +36,44 @@ size_t componentsOf(ParameterType type) {
     return (static_cast<size_t>(type) - static_cast<size_t>(ParameterType::Bool)) % 4 + 1;
 }
 
-template <class V, class Scalar>
-V vectorOf(const double* numbers) {
-    V value{};
-    for (int i = 0; i < V::length(); ++i) value[i] = static_cast<Scalar>(numbers[i]);
-    return value;
+template <class T>
+T elementOf(const double* numbers) {
+    if constexpr (std::is_same_v<T, bool>) {
+        return *numbers != 0;
+    } else if constexpr (std::is_arithmetic_v<T>) {
+        return static_cast<T>(*numbers);
+    } else { // components of a vector, columns of a matrix
+        using Part = std::remove_cvref_t<decltype(std::declval<T&>()[0])>;
+        constexpr auto kLength = static_cast<size_t>(T::length());
+        const size_t stride = std::is_arithmetic_v<Part> ? 1 : kLength; // matrices are square
+        T value{};
+        for (size_t i = 0; i < kLength; ++i) value[static_cast<int>(i)] = elementOf<Part>(numbers + i * stride);
+        return value;
+    }
 }
 
-template <class M>
-M matrixOf(const double* numbers) {
-    M value{};
-    for (int column = 0; column < M::length(); ++column) {
-        for (int row = 0; row < M::length(); ++row)
-            value[column][row] = static_cast<float>(numbers[column * M::length() + row]);
+/// The alternatives of ParameterValue are in the order of ParameterType.
+template <size_t Type>
+Result<void> setAs(Engine& engine, MaterialInstance instance, shader::Parameter const& parameter,
+                   std::vector<double> const& numbers) {
+    using T = std::variant_alternative_t<Type, ParameterValue>;
+    if (parameter.arraySize == 0)
+        return engine.set(instance, parameter.name, ParameterValue(elementOf<T>(numbers.data())));
+    for (uint32_t i = 0; i < parameter.arraySize; ++i) {
+        const T value = elementOf<T>(numbers.data() + i * componentsOf(parameter.type));
+        const Result<void> done = engine.set(instance, parameter.name, ParameterArray(std::span(&value, 1)), i);
+        if (!done) return done;
     }
-    return value;
+    return {};
 }
 
-/// Nothing for types that the engine does not take alone.
-std::optional<ParameterValue> valueOf(ParameterType type, const double* numbers) {
-    switch (type) {
-    case ParameterType::Bool:
-        return numbers[0] != 0;
-    case ParameterType::Int:
-        return static_cast<int32_t>(numbers[0]);
-    case ParameterType::Uint:
-        return static_cast<uint32_t>(numbers[0]);
-    case ParameterType::Float:
-        return static_cast<float>(numbers[0]);
-    case ParameterType::Float2:
-        return vectorOf<float2, float>(numbers);
-    case ParameterType::Float3:
-        return vectorOf<float3, float>(numbers);
-    case ParameterType::Float4:
-        return vectorOf<float4, float>(numbers);
-    case ParameterType::Float3x3:
-        return matrixOf<float3x3>(numbers);
-    case ParameterType::Float4x4:
-        return matrixOf<float4x4>(numbers);
-    default:
-        return std::nullopt;
-    }
+template <size_t... Types>
+Result<void> setAsType(Engine& engine, MaterialInstance instance, shader::Parameter const& parameter,
+                       std::vector<double> const& numbers, std::index_sequence<Types...>) {
+    Result<void> done;
+    const auto type = static_cast<size_t>(parameter.type);
+    (void)((Types == type && (done = setAs<Types>(engine, instance, parameter, numbers), true)) || ...);
+    return done;
 }
 
 } // namespace
@@ -89,11 +86,8 @@ Result<void> setMaterialValue(Engine& engine, MaterialInstance instance, shader:
         return fail(ErrorCode::InvalidArgument, "parameter '{}' takes {} number{}, not '{}'", parameter.name, wanted,
                     wanted == 1 ? "" : "s, separated by commas", words);
     }
-    const std::optional<ParameterValue> value =
-            parameter.arraySize == 0 ? valueOf(parameter.type, numbers->data()) : std::nullopt;
-    if (!value)
-        return fail(ErrorCode::Unsupported, "parameter '{}': this type cannot be given in words", parameter.name);
-    return engine.set(instance, parameter.name, *value);
+    return setAsType(engine, instance, parameter, *numbers,
+                     std::make_index_sequence<std::variant_size_v<ParameterValue>>());
 }
 
 Result<std::vector<MaterialConstant>> materialConstants(shader::MaterialPackage const& package,
