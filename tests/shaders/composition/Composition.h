@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Composition: a material's own fragment stage, compiled as C++ from the text that the compiler generates, as a
+/// function of view and light. Its .mat file is beside this header; its parameters are in composition.inc.
+///   Frame   tangent +x, bitangent +y, normal +z; directions point away from the surface.
+///   Thread  one: the text has global variables.
+#pragma once
+
+#include "tests/shaders/composition/GlslCpp.h"
+
+#include <span>
+
+namespace filament::shader::composition {
+
+struct Inputs {
+    vec3 color{ 1.0 }, tint{ 1.0 }; ///< of the base; of what lies above, below or behind
+    double metallic = 0, roughness = 0.5, strength = 1, smallRoughness = 0.3;
+    bool energyCompensation = true;
+};
+
+struct Composition {
+    const char* name;
+    /// What one light of illuminance 1 gives: the BRDF times the cosine of the light.
+    vec3 (*light)(Inputs const& inputs, vec3 view, vec3 light);
+    /// What a white environment of radiance 1 gives.
+    vec3 (*environment)(Inputs const& inputs, vec3 view);
+};
+
+std::span<const Composition> compositions();
+
+/// The split-sum table (DfgTable.h), of more samples and without its 16 bits.
+vec4 splitSum(vec2 uv);
+
+} // namespace filament::shader::composition

@@ -1,0 +1,127 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GlslCpp: what scripts/glsl_to_cpp.py expects around its text: types and built-in functions of GLSL in double, and
+/// textures that are functions.
+///   Thread  one: the text has global variables, as a fragment has.
+///   Not     derivatives (they are 0: a flat surface), images, integers of 32 bits beyond what the texts use.
+#pragma once
+
+#include <filament/Math.h>
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/matrix.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace filament::shader::composition {
+
+using uint = unsigned;
+using vec2 = glm::dvec2;
+using vec3 = glm::dvec3;
+using vec4 = glm::dvec4;
+using mat3 = glm::dmat3;
+using mat4 = glm::dmat4;
+using bvec2 = glm::bvec2;
+using bvec3 = glm::bvec3;
+using bvec4 = glm::bvec4;
+using ivec2 = glm::ivec2;
+using ivec3 = glm::ivec3;
+using ivec4 = glm::ivec4;
+using uvec2 = glm::uvec2;
+using uvec3 = glm::uvec3;
+using uvec4 = glm::uvec4;
+
+using glm::abs;
+using glm::acos;
+using glm::atan;
+using glm::ceil;
+using glm::clamp;
+using glm::cos;
+using glm::cross;
+using glm::dot;
+using glm::exp;
+using glm::exp2;
+using glm::floor;
+using glm::fract;
+using glm::inversesqrt;
+using glm::length;
+using glm::log;
+using glm::log2;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::mod;
+using glm::normalize;
+using glm::pow;
+using glm::reflect;
+using glm::refract;
+using glm::sign;
+using glm::sin;
+using glm::smoothstep;
+using glm::sqrt;
+using glm::step;
+using glm::tan;
+using glm::transpose;
+
+template <class T>
+T dFdx(T const& x) {
+    return x * 0.0;
+}
+template <class T>
+T dFdy(T const& x) {
+    return x * 0.0;
+}
+
+template <int... Lanes, class V>
+auto swizzle(V const& v) {
+    return glm::vec<sizeof...(Lanes), double>(v[Lanes]...);
+}
+
+/// Components of a vector that are assigned to.
+template <class V, int... Lanes>
+struct LanesOf {
+    using Value = glm::vec<sizeof...(Lanes), double>;
+    V& v;
+    operator Value() const { return Value(v[Lanes]...); }
+    void operator=(Value const& value) const {
+        int i = 0;
+        ((v[Lanes] = value[i++]), ...);
+    }
+    template <class T>
+    void operator+=(T const& value) const {
+        *this = Value(*this) + value;
+    }
+    template <class T>
+    void operator-=(T const& value) const {
+        *this = Value(*this) - value;
+    }
+    template <class T>
+    void operator*=(T const& value) const {
+        *this = Value(*this) * value;
+    }
+    template <class T>
+    void operator/=(T const& value) const {
+        *this = Value(*this) / value;
+    }
+};
+
+template <int... Lanes, class V>
+LanesOf<V, Lanes...> lanesOf(V& v) {
+    return { v };
+}
+
+/// Nothing is looked up but the split-sum table; everything else is white: a white furnace.
+struct samplerCube {};
+struct sampler2D {
+    vec4 (*texel)(vec2 uv) = nullptr; ///< null: white
+};
+
+inline vec4 textureLod(samplerCube, vec3, double) { return vec4(1.0); }
+inline vec4 texture(samplerCube, vec3) { return vec4(1.0); }
+inline vec4 textureLod(sampler2D const& map, vec2 uv, double) { return map.texel ? map.texel(uv) : vec4(1.0); }
+inline vec4 texture(sampler2D const& map, vec2 uv) { return textureLod(map, uv, 0.0); }
+
+inline vec4 gl_FragCoord;
+inline bool gl_FrontFacing = true;
+
+} // namespace filament::shader::composition
