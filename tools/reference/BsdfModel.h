@@ -38,6 +38,18 @@ enum class DiffuseLight : uint8_t {
     Harmonics, ///< the engine's: three bands (Prefiltered.h)
 };
 
+/// What a clear coat does to the light that it does not reflect.
+enum class CoatTerm : uint8_t {
+    Engine, ///< the lobes below, in the directions of the light outside, times what passes in and out (CoatLayer.h)
+    Exact,  ///< the two interfaces: directions bend, and what the coat reflects inside comes back
+};
+
+/// How much light a sheen takes from the layer below it.
+enum class SheenTerm : uint8_t {
+    Engine, ///< KHR_materials_sheen's albedo scaling: of lights the lesser of both directions', else the viewer's
+    Exact,  ///< so that a white base under a white sheen reflects all light, in both directions alike
+};
+
 struct BsdfModel {
     SpecularVisibility visibility = SpecularVisibility::Correlated;
     FresnelTerm fresnel = FresnelTerm::Schlick;
@@ -48,6 +60,8 @@ struct BsdfModel {
     SpecularLight specularLight = SpecularLight::Integral;
     uint32_t splitSumLevels = 0; ///< >= 2: only so many roughnesses are pre-filtered, others are mixed from two
     DiffuseLight diffuseLight = DiffuseLight::Integral;
+    CoatTerm coat = CoatTerm::Engine;
+    SheenTerm sheen = SheenTerm::Engine;
     friend bool operator==(BsdfModel const&, BsdfModel const&) = default;
 };
 

@@ -2,11 +2,11 @@
 #include "tools/reference/DirectionalAlbedo.h"
 
 #include "shaders/lib/LibCppDouble.h"
+#include "tools/reference/AlbedoTable.h"
 
 #include <glm/geometric.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <numbers>
 #include <utility>
@@ -19,6 +19,7 @@ namespace lib = shader::lib64;
 
 constexpr double kPi = std::numbers::pi;
 constexpr int kCosines = 96, kRoughnesses = 64, kQuadrature = 16;
+constexpr int kCoatCosines = 48, kCoatRoughnesses = 32;
 
 // Smith's masking of one direction.
 double masking(double cosine, double alpha) {
@@ -97,10 +98,12 @@ std::vector<Node> gaussLegendre(int count) {
     return nodes;
 }
 
-double2 integrate(double nov, double alpha, std::vector<Node> const& nodes, int azimuths) {
+/// Integral over lights of D V F nol, F = weight(voh).
+template <class Weight>
+auto integrate(double nov, double alpha, std::vector<Node> const& nodes, int azimuths, Weight const& weight) {
     const VisibleNormals normals(nov, alpha);
     const double maskingOfView = masking(nov, alpha);
-    double2 sum(0.0);
+    decltype(weight(0.0)) sum(0.0);
     for (int j = 0; j < azimuths; ++j) {
         const double azimuth = ((j + 0.5) / azimuths - 0.5) * kPi; // the other half is its mirror image
         const double last = normals.horizon(azimuth);
@@ -111,77 +114,45 @@ double2 integrate(double nov, double alpha, std::vector<Node> const& nodes, int 
             const double measure = std::sin(2 * angle) * last * node.weight / azimuths;
             const double visibility = lib::visibilitySmithGgxCorrelated(nov, reflection.nol, alpha);
             const double passed = visibility * 4 * reflection.nol * nov / maskingOfView;
-            sum += passed * measure * double2(lib::pow5(1 - std::min(reflection.voh, 1.0)), 1.0);
+            sum += weight(std::min(reflection.voh, 1.0)) * (passed * measure);
         }
     }
     return sum;
 }
 
-const double kLeastLog = std::log(lib::kMinPerceptualRoughness);
+double2 schlickAndWhite(double voh) { return { lib::pow5(1 - voh), 1.0 }; }
 
-/// Rows are even in the logarithm of roughness, columns in the cube root of the cosine: smooth surfaces at grazing
-/// angles, where the curves bend, get most of the table.
-class Table {
-public:
-    Table() : mEntries(kCosines * kRoughnesses) {
-        const std::vector<Node> nodes = gaussLegendre(kQuadrature);
-        for (int row = 0; row < kRoughnesses; ++row) {
-            const double alpha = lib::alphaFromPerceptual(roughnessOf(row));
-            for (int column = 0; column < kCosines; ++column) {
-                const double root = (column + 1.0) / kCosines;
-                mEntries[static_cast<size_t>(row * kCosines + column)] =
-                        integrate(root * root * root, alpha, nodes, kQuadrature);
-            }
-        }
-    }
+AlbedoTable<double2> const& schlickTable() {
+    static const AlbedoTable<double2> sTable(kCosines, kRoughnesses, [](double nov, double roughness) {
+        static const std::vector<Node> sNodes = gaussLegendre(kQuadrature);
+        return integrate(nov, lib::alphaFromPerceptual(roughness), sNodes, kQuadrature, schlickAndWhite);
+    });
+    return sTable;
+}
 
-    double2 lookUp(double nov, double perceptualRoughness) const {
-        const double x = std::cbrt(nov) * kCosines - 1;
-        const double y = (1 - std::log(perceptualRoughness) / kLeastLog) * (kRoughnesses - 1);
-        const auto wx = weights(x), wy = weights(y);
-        const int x0 = static_cast<int>(std::floor(x)), y0 = static_cast<int>(std::floor(y));
-        double2 sum(0.0);
-        for (int j = 0; j < 4; ++j) {
-            for (int i = 0; i < 4; ++i) {
-                sum += at(x0 + i - 1, y0 + j - 1) * (wx[static_cast<size_t>(i)] * wy[static_cast<size_t>(j)]);
-            }
-        }
-        return glm::clamp(sum, 1e-9, 1.0);
-    }
-
-private:
-    static double roughnessOf(int row) {
-        return std::exp(kLeastLog * (1 - static_cast<double>(row) / (kRoughnesses - 1)));
-    }
-
-    // Catmull and Rom 1974: through the entries, with continuous slope.
-    static std::array<double, 4> weights(double x) {
-        const double t = x - std::floor(x);
-        return { ((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2, ((4 - 3 * t) * t + 1) * t / 2,
-                 (t - 1) * t * t / 2 };
-    }
-
-    // One entry beyond the border the table goes on as the parabola through its last three.
-    double2 at(int x, int y) const {
-        const int column = std::clamp(x, 0, kCosines - 1), row = std::clamp(y, 0, kRoughnesses - 1);
-        const int dx = column - x, dy = row - y;
-        if (dx != 0) return 3.0 * (at(column, y) - at(column + dx, y)) + at(column + 2 * dx, y);
-        if (dy != 0) return 3.0 * (at(x, row) - at(x, row + dy)) + at(x, row + 2 * dy);
-        return mEntries[static_cast<size_t>(row * kCosines + column)];
-    }
-
-    std::vector<double2> mEntries;
-};
+AlbedoTable<double> const& coatTable() {
+    static const AlbedoTable<double> sTable(kCoatCosines, kCoatRoughnesses, [](double nov, double roughness) {
+        static const std::vector<Node> sNodes = gaussLegendre(kQuadrature);
+        return integrate(nov, lib::alphaFromPerceptual(roughness), sNodes, kQuadrature,
+                         [](double voh) { return lib::fresnelComplex(voh, kCoatIor, 0.0); });
+    });
+    return sTable;
+}
 
 } // namespace
 
 double2 integrateDirectionalAlbedo(double nov, double alpha, int radii, int azimuths) {
-    return integrate(nov, alpha, gaussLegendre(radii), azimuths);
+    return integrate(nov, alpha, gaussLegendre(radii), azimuths, schlickAndWhite);
 }
 
 double2 directionalAlbedo(double nov, double perceptualRoughness) {
-    static const Table sTable;
-    return sTable.lookUp(std::clamp(nov, 1e-4, 1.0), perceptualRoughness);
+    return glm::clamp(schlickTable().lookUp(nov, perceptualRoughness), 1e-9, 1.0);
 }
+
+double coatAlbedo(double nov, double perceptualRoughness) {
+    return std::clamp(coatTable().lookUp(nov, perceptualRoughness), 0.0, 1.0);
+}
+
+double averageCoatAlbedo(double perceptualRoughness) { return coatTable().average(perceptualRoughness); }
 
 } // namespace filament::reference

@@ -9,20 +9,24 @@
 #include "filament_core/assets/ModelData.h"
 #include "filament_core/math/Math.h"
 
+#include <functional>
 #include <vector>
 
 namespace filament::reference {
 
+struct SurfaceSample;
+
 struct Part {
     assets::MaterialData const* material = nullptr;
     std::vector<assets::Image> const* images = nullptr;
-    std::vector<float3> positions; ///< world - origin
-    std::vector<double3> normals;  ///< world, unit or zero
-    std::vector<double4> tangents; ///< world; w: sign of the bitangent
-    std::vector<float4> colors;    ///< empty: white
-    std::vector<float2> uvs[2];    ///< empty: (0, 0)
-    std::vector<uint32_t> indices; ///< three a triangle
-    bool isMirrored = false;       ///< the transform turns the winding around
+    std::function<void(SurfaceSample&)> finish{}; ///< ReferenceModel::finish
+    std::vector<float3> positions;                ///< world - origin
+    std::vector<double3> normals;                 ///< world, unit or zero
+    std::vector<double4> tangents;                ///< world; w: sign of the bitangent
+    std::vector<float4> colors;                   ///< empty: white
+    std::vector<float2> uvs[2];                   ///< empty: (0, 0)
+    std::vector<uint32_t> indices;                ///< three a triangle
+    bool isMirrored = false;                      ///< the transform turns the winding around
 };
 
 /// The attribute at `location` of every vertex; missing components are 0, 0, 0, 1. Empty if there is none.

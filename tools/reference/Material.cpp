@@ -95,6 +95,9 @@ SurfaceSample surfaceAt(Part const& part, TrianglePoint const& point, double3 vi
     } else {
         evaluateLit(part, varyings, double3(color), surface);
     }
+    if (part.finish) part.finish(surface);
+    TransmissionSample& below = surface.transmission;
+    below.isFromInside = side < 0 && !below.isThin && below.color != double3(0.0);
     return surface;
 }
 

@@ -1,22 +1,33 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/PathTracer.h"
 
+#include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/Material.h"
 
 #include <algorithm>
 
 namespace filament::reference {
+
+namespace lib = shader::lib64;
+
 namespace {
 
 // Pairs of dimensions of the sample's numbers: 0 is the pixel's, then five a bounce; layers have their own.
 enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kPerBounce };
-constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20;
+constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21;
 
 constexpr uint32_t kRouletteFrom = 4; // bounces that are never ended by chance
 
 double powerHeuristic(double pdf, double otherPdf) {
     const double a = pdf * pdf, b = otherPdf * otherPdf;
     return a > 0 ? a / (a + b) : 0;
+}
+
+// Light is not carried through a triangle by its shading normal: both normals must say whether it is transmitted.
+bool isOnOneSide(SurfaceSample const& surface, double3 direction) {
+    const bool isAbove = glm::dot(direction, surface.geometricNormal) > 0;
+    if (!surface.transmits()) return isAbove;
+    return isAbove == (glm::dot(direction, surface.normal) > 0);
 }
 
 } // namespace
@@ -31,6 +42,9 @@ struct PathTracer::Path {
     double bsdfPdf = 0; // of the direction, once the path was reflected
     uint32_t bounce = 0, layers = 0;
     PassedTriangles passed{};
+    int color = -1;             // the only one it carries, since light was dispersed
+    double spread = 1;          // index^2 of what it is in: radiance there is so much larger
+    bool isBehindGlass = false; // went straight through since it was reflected: shadow rays do not
 
     double2 pair(BounceDimension dimension) const {
         return numbers.pair(kFirstBounce + bounce * kPerBounce + dimension);
@@ -45,14 +59,34 @@ PathTracer::PathTracer(TracedScene const& scene, ReferenceSettings const& settin
 double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64_t& rays) const {
     Path path{ .ray = ray, .numbers = numbers, .rays = rays };
     double3 sum(0.0);
-    while (const std::optional<SurfaceSample> surface = nextSurface(path)) {
+    while (std::optional<SurfaceSample> surface = nextSurface(path)) {
+        if (surface->transmits()) enterSurface(path, *surface);
         sum += path.throughput * surface->emitted * emissionWeight(path);
         if (!surface->scatters || path.bounce >= mSettings.maxBounces) return sum;
-        const Bsdf bsdf(*surface, mSettings.bsdf, mUseOcclusion);
+        const Bsdf bsdf = bsdfAt(*surface);
         sum += path.throughput * (lightAt(path, *surface, bsdf) + emissiveSample(path, *surface, bsdf));
         if (mSettings.integrator == Integrator::Unoccluded || !reflect(path, *surface, bsdf)) return sum;
     }
     return sum + path.throughput * missed(path);
+}
+
+/// What was absorbed on the way to the inside of a solid, and which colour goes on.
+void PathTracer::enterSurface(Path& path, SurfaceSample& surface) const {
+    TransmissionSample& below = surface.transmission;
+    if (below.isThin) return;
+    if (below.isFromInside) path.throughput *= lib::transmittance(below.absorption, path.hit.distance);
+    if (!(below.dispersion > 0) || mSettings.integrator == Integrator::Unoccluded) return;
+    if (path.color < 0) {
+        path.color = std::min(static_cast<int>(path.numbers.pair(kColor).x * 3), 2);
+        double3 only(0.0);
+        only[path.color] = 3;
+        path.throughput *= only;
+    }
+    below.ior = lib::dispersedIor(below.ior, below.dispersion)[path.color];
+}
+
+Bsdf PathTracer::bsdfAt(SurfaceSample const& surface) const {
+    return Bsdf(surface, mSettings.bsdf, mUseOcclusion, mSettings.integrator == Integrator::Unoccluded);
 }
 
 // The surface that the path meets next, blended ones by chance: one of little opacity may still reflect much.
@@ -84,7 +118,7 @@ double3 PathTracer::missed(Path const& path) const {
         return mScene.skybox() ? environment.radiance(path.ray.direction) * mExposure : mBackground;
     }
     if (environment.isBlack()) return double3(0.0);
-    const double weight = environmentWeight(path.bsdfPdf, path.ray.direction);
+    const double weight = path.isBehindGlass ? 1 : environmentWeight(path.bsdfPdf, path.ray.direction);
     return weight > 0 ? environment.radiance(path.ray.direction) * (mExposure * weight) : double3(0.0);
 }
 
@@ -125,7 +159,7 @@ double3 PathTracer::environmentSample(Path& path, SurfaceSample const& surface, 
 
 /// Of a glowing surface as a path finds it that was reflected: emissiveSample() has found the rest.
 double PathTracer::emissionWeight(Path const& path) const {
-    if (path.isCamera || mSettings.sampling == Sampling::Bsdf) return 1;
+    if (path.isCamera || path.isBehindGlass || mSettings.sampling == Sampling::Bsdf) return 1;
     const double pdf = mScene.emissiveLights().pdf(path.hit, path.ray.direction);
     if (mSettings.sampling == Sampling::Light) return pdf > 0 ? 0 : 1;
     return powerHeuristic(path.bsdfPdf, pdf);
@@ -159,7 +193,7 @@ double3 PathTracer::directSample(Path& path, SurfaceSample const& surface, Bsdf 
 double3 PathTracer::unoccludedBsdfSample(Path const& path, Bsdf const& bsdf) const {
     if (mSettings.sampling == Sampling::Light) return double3(0.0);
     const BsdfSample sample = bsdf.sample(path.pair(kReflection), path.pair(kChoices).y);
-    if (sample.pdf <= 0) return double3(0.0);
+    if (sample.pdf <= 0 || sample.isStraight) return double3(0.0);
     const double weight = environmentWeight(sample.pdf, sample.direction);
     return bsdf.evaluate(sample.direction, LightSource::Ambient) * mScene.environment().radiance(sample.direction) *
            (weight / sample.pdf);
@@ -167,7 +201,7 @@ double3 PathTracer::unoccludedBsdfSample(Path const& path, Bsdf const& bsdf) con
 
 double PathTracer::visibility(Path& path, SurfaceSample const& surface, double3 direction, double distance) const {
     if (mSettings.integrator == Integrator::Unoccluded) return 1;
-    if (glm::dot(direction, surface.geometricNormal) <= 0) return 0;
+    if (!isOnOneSide(surface, direction)) return 0;
     ++path.rays;
     return mScene.transmittance(
             { .origin = surface.rayOrigin(direction), .direction = direction, .farthest = distance });
@@ -175,20 +209,29 @@ double PathTracer::visibility(Path& path, SurfaceSample const& surface, double3 
 
 bool PathTracer::reflect(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const {
     const BsdfSample sample = bsdf.sample(path.pair(kReflection), path.pair(kChoices).y);
-    if (sample.pdf <= 0 || glm::dot(sample.direction, surface.geometricNormal) <= 0) return false;
-    path.throughput *= bsdf.evaluate(sample.direction, LightSource::Ambient) / sample.pdf;
+    if (sample.pdf <= 0 || !(sample.isStraight || isOnOneSide(surface, sample.direction))) return false;
+    const double3 share =
+            sample.isStraight ? bsdf.straightShare() : bsdf.evaluate(sample.direction, LightSource::Ambient);
+    path.throughput *= share / sample.pdf;
     const double largest = std::max({ path.throughput.x, path.throughput.y, path.throughput.z });
     if (!(largest > 0)) return false;
-    if (path.bounce >= kRouletteFrom && largest < 1) {
-        const double survival = std::min(largest, 0.95);
+    const bool entersOrLeaves = !surface.transmission.isThin && glm::dot(sample.direction, surface.geometricNormal) < 0;
+    if (entersOrLeaves) path.spread = surface.transmission.isFromInside ? 1 : lib::sq(surface.transmission.ior);
+    if (path.bounce >= kRouletteFrom && largest * path.spread < 1) {
+        const double survival = std::min(largest * path.spread, 0.95);
         if (path.pair(kRoulette).x >= survival) return false;
         path.throughput /= survival;
     }
-    path.ray = { .origin = surface.rayOrigin(sample.direction), .direction = sample.direction };
-    path.isCamera = false;
-    path.bsdfPdf = sample.pdf;
     path.passed.count = 0;
     ++path.bounce;
+    if (sample.isStraight) {
+        path.isBehindGlass = true;
+        path.ray = { .origin = surface.rayOrigin(path.ray.direction), .direction = path.ray.direction };
+        return true;
+    }
+    path.ray = { .origin = surface.rayOrigin(sample.direction), .direction = sample.direction };
+    path.isCamera = path.isBehindGlass = false;
+    path.bsdfPdf = sample.pdf;
     return true;
 }
 

@@ -4,6 +4,10 @@
 ///           the environment combined with the BSDF's sample by the power heuristic (Veach 1997, "Robust Monte Carlo
 ///           Methods for Light Transport Simulation", section 9.2). Russian roulette from the fifth reflection on.
 ///           Blended surfaces are chosen or passed by chance, with the weights that keep the mean.
+///   Inside  a path may enter solids; the way inside is absorbed. Shadow rays stop at them: what lies behind is found
+///   by
+///           paths alone, so that light from one direction makes caustics of much noise. One solid at a time: where two
+///           touch or overlap each is in air. Where a solid disperses light, a path takes one of three colours.
 ///   Visible single-sided materials are not seen from behind by the camera; every other ray meets both sides, as light
 ///           would. Light is not carried through a triangle by its shading normal. Emissive surfaces light others
 ///           when paths happen to meet them.
@@ -28,6 +32,8 @@ private:
     struct Path;
 
     std::optional<SurfaceSample> nextSurface(Path& path) const;
+    void enterSurface(Path& path, SurfaceSample& surface) const;
+    Bsdf bsdfAt(SurfaceSample const& surface) const;
     double3 missed(Path const& path) const;
     double3 lightAt(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const;
     double3 environmentSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const;

@@ -30,9 +30,14 @@ namespace filament::reference {
 
 // ---- what is drawn
 
+struct SurfaceSample;
+/// What a material says beyond the words of its file, at every point of the model. Called on any thread, often.
+using SurfaceFinish = std::function<void(SurfaceSample&)>;
+
 struct ReferenceModel {
     std::shared_ptr<const assets::ModelData> data;
     double4x4 worldFromModel{ 1.0 };
+    SurfaceFinish finish{};
 };
 
 /// An equirectangular picture, placed as <filament/Environment.h> says; between its pixels bilinear.

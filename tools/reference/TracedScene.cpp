@@ -20,6 +20,7 @@ struct Placement {
     ModelData const* model = nullptr;
     PrimitiveData const* primitive = nullptr;
     double4x4 worldFromObject{ 1.0 };
+    SurfaceFinish const* finish = nullptr;
 };
 
 bool isFinite(double4x4 const& m) {
@@ -114,7 +115,7 @@ Result<void> checkScene(ReferenceScene const& scene) {
 class Collector {
 public:
     Collector(ReferenceScene const& scene, std::vector<std::string>& warnings) : lights(scene), mWarnings(warnings) {
-        for (ReferenceModel const& model : scene.models) add(*model.data, model.worldFromModel);
+        for (ReferenceModel const& model : scene.models) add(*model.data, model.worldFromModel, model.finish);
     }
 
     std::vector<Placement> placements;
@@ -122,7 +123,7 @@ public:
     Box bounds;
 
 private:
-    void add(ModelData const& model, double4x4 const& worldFromModel) {
+    void add(ModelData const& model, double4x4 const& worldFromModel, SurfaceFinish const& finish) {
         size_t skipped = 0;
         for (NodeData const& node : model.nodes) {
             const double4x4 world = worldFromModel * node.worldFromNode;
@@ -132,7 +133,7 @@ private:
                     const bool isSurface = primitive.topology == backend::Topology::Triangles;
                     skipped += !isSurface;
                     if (!isSurface || primitive.indexCount < 3) continue;
-                    placements.push_back({ &model, &primitive, world });
+                    placements.push_back({ &model, &primitive, world, &finish });
                     grow(bounds, primitive, world);
                 }
             }
@@ -155,6 +156,7 @@ std::vector<Part> makeParts(std::vector<Placement> const& placements, double3 or
             parts[i] = makePart(*placement.primitive, placement.worldFromObject, origin);
             parts[i].material = &materialOf(*placement.model, *placement.primitive);
             parts[i].images = &placement.model->images;
+            parts[i].finish = *placement.finish;
         }
     });
     return parts;

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/StandardLobes.h"
+
+#include "shaders/lib/LibCppDouble.h"
+#include "tools/reference/DirectionalAlbedo.h"
+
+#include <algorithm>
+
+namespace filament::reference {
+
+namespace lib = shader::lib64;
+
+namespace {
+
+bool isStretched(SurfaceSample const& surface) { return surface.stretchedAlpha != double2(0.0); }
+
+Frame frameOf(SurfaceSample const& surface) {
+    return isStretched(surface) ? Frame(surface.normal, surface.tangent) : Frame(surface.normal);
+}
+
+} // namespace
+
+StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion)
+        : mModel(model), mInterface(surface, model.fresnel), mFrame(frameOf(surface)),
+          mView(liftedAboveHorizon(mFrame.toLocal(surface.view))), mRoughness(surface.perceptualRoughness),
+          mAlpha(isStretched(surface) ? surface.stretchedAlpha : double2(lib::alphaFromPerceptual(mRoughness))),
+          mDiffuse(surface.diffuse) {
+    const double2 dfg = directionalAlbedo(mView.z, mRoughness);
+    const bool isCompensated = model.energy == EnergyTerm::Compensated && !surface.transmission.isFromInside;
+    mCompensation = isCompensated ? lib::energyCompensation(surface.f0, dfg) : double3(1.0);
+    // specularDfg() for any f90; the split sum takes it for 1.
+    double3 specularAlbedo = (surface.f0 * (dfg.y - dfg.x) + surface.f90 * dfg.x) * mCompensation;
+    mCoupling = model.coupling == CouplingTerm::Never ? double3(1.0) : glm::max(1.0 - specularAlbedo, 0.0);
+    if (surface.transmission.isFromInside) specularAlbedo = mInterface.reflectance(mView.z);
+    if (useOcclusion) {
+        mAmbientDiffuse = double3(surface.occlusion);
+        mAmbientSpecular = lib::specularOcclusion(mView.z, surface.occlusion, lib::alphaFromPerceptual(mRoughness));
+    }
+    if (model.lobes == LobeChoice::Specular) mDiffuse = double3(0.0);
+    if (model.lobes == LobeChoice::Diffuse) mCompensation = double3(0.0);
+    if (model.lobes != LobeChoice::Diffuse) mSpecularAlbedo = specularAlbedo;
+    mAlbedo = mDiffuse * mCoupling + mSpecularAlbedo;
+    const double specular = lib::luminance(mSpecularAlbedo);
+    const double diffuse = lib::luminance(mDiffuse * mCoupling);
+    // A tenth at least for each lobe that is there.
+    const bool samplesDiffuse = diffuse > 0 && model.diffuseLight == DiffuseLight::Integral;
+    mSpecularChance = samplesDiffuse ? std::clamp(specular / (specular + diffuse), 0.1, 0.9) : 1;
+    if (model.lobes == LobeChoice::Diffuse) mSpecularChance = 0;
+    if (model.specularLight == SpecularLight::SplitSum && model.lobes != LobeChoice::Diffuse) usePrefiltered(dfg);
+}
+
+void StandardLobes::usePrefiltered(double2 dfg) {
+    mLobe.emplace(mRoughness, mModel.splitSumLevels);
+    mLobeAlbedo = lib::specularDfg(mInterface.f0(), dfg) * mCompensation * mAmbientSpecular;
+    const double3 mirrored(-mView.x, -mView.y, mView.z);
+    const double alpha = lib::alphaFromPerceptual(mRoughness);
+    mLobeFrame = Frame(glm::normalize(lib::dominantSpecularDirection({ 0, 0, 1 }, mirrored, alpha)));
+}
+
+double3 StandardLobes::harmonicAlbedo() const {
+    return mModel.diffuseLight == DiffuseLight::Harmonics ? mDiffuse * mCoupling * mAmbientDiffuse : double3(0.0);
+}
+
+double StandardLobes::visibility(double3 light) const {
+    if (mAlpha.x != mAlpha.y) return lib::visibilitySmithGgxAnisotropic(mView, light, mAlpha);
+    switch (mModel.visibility) {
+    case SpecularVisibility::Fast:
+        return lib::visibilitySmithGgxCorrelatedFast(mView.z, light.z, mAlpha.x);
+    case SpecularVisibility::Uncorrelated:
+        return lib::visibilitySmithGgxUncorrelated(mView.z, light.z, mAlpha.x);
+    case SpecularVisibility::Correlated:
+        break;
+    }
+    return lib::visibilitySmithGgxCorrelated(mView.z, light.z, mAlpha.x);
+}
+
+double StandardLobes::diffuseTerm(double nol, double voh) const {
+    return mModel.diffuse == DiffuseTerm::Lambert ? lib::diffuseLambert()
+                                                  : lib::diffuseDisney(mView.z, nol, voh, mRoughness);
+}
+
+LobeValues StandardLobes::evaluate(double3 light, LightSource source) const {
+    double3 local = mFrame.toLocal(light);
+    local.z = std::min(local.z, 1.0);
+    LobeValues values;
+    if (local.z > 0) values = lobesAt(local, source);
+    if (mLobe && source == LightSource::Ambient) {
+        values.specular += mLobeAlbedo * mLobe->value(mLobeFrame.toLocal(mFrame.toLocal(light)));
+    }
+    return values;
+}
+
+// Without what is pre-filtered.
+LobeValues StandardLobes::lobesAt(double3 local, LightSource source) const {
+    const double3 sum = mView + local;
+    const double length = glm::length(sum);
+    LobeValues values;
+    if (length < 1e-12) return values;
+    const double3 halfway = sum / length;
+    const double voh = lib::saturate(glm::dot(mView, halfway));
+    const bool isAmbient = source == LightSource::Ambient;
+    if (!mLobe || !isAmbient) {
+        values.specular =
+                (ggx(halfway, mAlpha) * visibility(local) * local.z) * mInterface.reflectance(voh) * mCompensation;
+    }
+    if (mModel.diffuseLight == DiffuseLight::Integral || !isAmbient) {
+        values.diffuse = mDiffuse * (diffuseTerm(local.z, voh) * local.z);
+        if (mModel.coupling != CouplingTerm::Engine || isAmbient) values.diffuse *= mCoupling;
+    }
+    if (isAmbient) {
+        values.diffuse *= mAmbientDiffuse;
+        values.specular *= mAmbientSpecular;
+    }
+    return values;
+}
+
+std::optional<double3> StandardLobes::sample(double2 u, double choice) const {
+    if (mModel.diffuseLight == DiffuseLight::Harmonics && mModel.lobes == LobeChoice::Diffuse) return {};
+    const double3 local = choice < mSpecularChance ? sampleSpecular(u) : lib::hemisphereCosineSample(u);
+    if (local.z <= 0 && !mLobe) return {};
+    return glm::normalize(mFrame.toWorld(local));
+}
+
+double3 StandardLobes::sampleSpecular(double2 u) const {
+    if (mLobe) return mLobeFrame.toWorld(mLobe->sample(u));
+    const double3 halfway = sampleVisibleNormal(mView, mAlpha, u);
+    return 2 * glm::dot(mView, halfway) * halfway - mView;
+}
+
+double StandardLobes::pdf(double3 light) const {
+    const double3 local = mFrame.toLocal(light);
+    if (local.z <= 0 && !mLobe) return 0;
+    double density = (1 - mSpecularChance) * std::max(local.z, 0.0) * lib::kInversePi;
+    if (mSpecularChance > 0) density += mSpecularChance * specularPdf(local);
+    return density;
+}
+
+double StandardLobes::specularPdf(double3 light) const {
+    return mLobe ? mLobe->pdf(mLobeFrame.toLocal(light)) : visibleReflectionPdf(mView, light, mAlpha);
+}
+
+} // namespace filament::reference

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// StandardLobes: the base of the standard material: a diffuse lobe and a GGX lobe, round or stretched.
+///   Value   f(view, light) * cos, in 1/sr: diffuse lobe, and D V F * energy compensation, from shaders/lib in double.
+///   Sampler one lobe in proportion to the lobes' albedos: half vectors that the viewer sees, or cosine.
+///   Thread  a value. Memory: none.
+#pragma once
+
+#include "tools/reference/Microfacets.h"
+#include "tools/reference/Prefiltered.h"
+
+#include <optional>
+
+namespace filament::reference {
+
+/// What sends the light: the engine does not treat both alike (CouplingTerm::Engine, occlusion maps).
+enum class LightSource : uint8_t {
+    Ambient, ///< the environment and other surfaces
+    Direct,  ///< suns and punctual lights
+};
+
+/// What the diffuse and the specular lobe of a base reflect; layers above change both in their own ways.
+struct LobeValues {
+    double3 diffuse{ 0.0 }, specular{ 0.0 };
+};
+
+class StandardLobes {
+public:
+    StandardLobes(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion);
+
+    /// f * cos(light, normal), zero below the horizon. `light`: world, unit. The lobe of the split sum stands in for
+    /// the specular one and may reach below the horizon, as the engine's does.
+    LobeValues evaluate(double3 light, LightSource source) const;
+    /// A direction of the world, or none. u and choice in (0, 1).
+    std::optional<double3> sample(double2 u, double choice) const;
+    /// Of sample(), per steradian.
+    double pdf(double3 light) const;
+    /// What DiffuseLight::Harmonics multiplies irradiance / pi around the normal by; 0 with an integral.
+    double3 harmonicAlbedo() const;
+    /// About how much of all light both lobes reflect: for choosing between layers.
+    double3 albedo() const { return mAlbedo; }
+    double3 specularAlbedo() const { return mSpecularAlbedo; }
+
+private:
+    double visibility(double3 light) const;
+    double diffuseTerm(double nol, double voh) const;
+    LobeValues lobesAt(double3 local, LightSource source) const;
+    double3 sampleSpecular(double2 u) const; ///< local
+    double specularPdf(double3 light) const;
+    void usePrefiltered(double2 dfg);
+
+    BsdfModel mModel;
+    Interface mInterface;
+    Frame mFrame;
+    double3 mView; // local, lifted to nov = kMinNov where it is below that
+    double mRoughness;
+    double2 mAlpha; // along tangent and bitangent
+    double3 mDiffuse;
+    double3 mCompensation;
+    double3 mCoupling;              // of the diffuse lobe, where it applies
+    double3 mAmbientDiffuse{ 1.0 }; // occlusion
+    double mAmbientSpecular = 1;    // occlusion
+    double mSpecularChance = 0;
+    double3 mAlbedo{ 0.0 }, mSpecularAlbedo{ 0.0 };
+    std::optional<SplitSumLobe> mLobe; // SpecularLight::SplitSum
+    Frame mLobeFrame;                  // in local space
+    double3 mLobeAlbedo{ 0.0 };
+};
+
+} // namespace filament::reference
