@@ -91,6 +91,10 @@ void defineFragment(StageText& out, MaterialDefinition const& definition, uint16
     defineIf(out, definition.package.alphaToCoverage, "ALPHA_TO_COVERAGE");
     out.define(postLightingDefine(definition.package.postLightingBlending));
     defineIf(out, definition.specularAmbientOcclusion != SpecularAmbientOcclusion::None, "SPECULAR_AMBIENT_OCCLUSION");
+    defineIf(out, definition.specularAmbientOcclusion == SpecularAmbientOcclusion::BentNormals,
+             "SPECULAR_OCCLUSION_BENT_NORMALS");
+    defineIf(out, definition.multiBounceAmbientOcclusion, "MULTI_BOUNCE_AMBIENT_OCCLUSION");
+    defineIf(out, definition.clearCoatIorChange, "CLEAR_COAT_IOR_CHANGE");
     SpecularAntiAliasing const& antiAliasing = definition.specularAntiAliasing;
     if (!antiAliasing.enabled) return;
     out.define("SPECULAR_ANTI_ALIASING");
@@ -127,6 +131,15 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     return std::move(out).take();
 }
 
+/// What a shading model finds when its material sets such a term.
+struct Layer {
+    std::string_view term, text;
+};
+constexpr Layer kLayers[] = { { "HAS_ANISOTROPY", "shaders/material/surface_anisotropy.glsl" },
+                              { "HAS_IRIDESCENCE", "shaders/material/surface_iridescence.glsl" },
+                              { "HAS_SHEEN", "shaders/material/surface_sheen.glsl" },
+                              { "HAS_CLEAR_COAT", "shaders/material/surface_coat.glsl" } };
+
 /// Behind the author's code. What is not safe in 16 bits comes before the line from which kVariantHalf computes in
 /// them: distances, f0 near 1, derivatives, nits.
 Result<void> litFragment(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs,
@@ -135,13 +148,20 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     Result<void> done =
             includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
-    if (done && needs.has("HAS_AMBIENT_OCCLUSION")) done = out.include("shaders/lib/ao.glsl");
+    if (done && needs.has("HAS_AMBIENT_OCCLUSION"))
+        done = includeAll(out, { "shaders/lib/ao.glsl", "shaders/lib/occlusion.glsl" });
+    if (done && needs.has("HAS_IRIDESCENCE")) done = out.include("shaders/lib/iridescence.glsl");
     if (done) done = out.include("shaders/material/surface_output.glsl");
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface_half.glsl");
     if (!done) return done;
-    return includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface_quality.glsl",
+    done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface_quality.glsl",
                              "shaders/material/surface_incoming.glsl", "shaders/material/surface_parameters.glsl",
-                             shadingText(definition.package.shading), "shaders/material/surface_lights.glsl",
+                             "shaders/material/surface_occlusion.glsl" });
+    for (Layer const& layer : kLayers) {
+        if (done && needs.has(layer.term)) done = out.include(layer.text);
+    }
+    if (!done) return done;
+    return includeAll(out, { shadingText(definition.package.shading), "shaders/material/surface_lights.glsl",
                              "shaders/material/surface_main.glsl" });
 }
 

@@ -18,11 +18,21 @@ namespace {
 
 using Id = SpirvEditor::Id;
 
-/// Where the probe writes member n of materialMembers(), and reads what it is at first.
+/// Where the probe writes the nth of the members that it looks at, and reads what that is at first.
 constexpr uint32_t kProbeOutputLocation = 1, kProbeInputLocation = 16;
 
 bool isProbed(MaterialMember const& member, MaterialDefinition const& definition) {
     return member.absent != Absent::Never && member.isMemberOf(definition);
+}
+
+/// Indices into materialMembers(), ascending: there are fewer locations than members of all models together.
+std::vector<uint32_t> probedMembers(MaterialDefinition const& definition) {
+    const auto members = materialMembers();
+    std::vector<uint32_t> probed;
+    for (uint32_t i = 0; i < members.size(); ++i) {
+        if (isProbed(members[i], definition)) probed.push_back(i);
+    }
+    return probed;
 }
 
 /// Colours above the picture are neutral if blending them changes nothing.
@@ -97,10 +107,11 @@ Interface interfaceOf(Words module) {
     return found;
 }
 
-/// By index of the member. A member that several stores reach with different values is computed.
-std::vector<Arrival> arrivalsIn(Words module) {
+/// In the order of probedMembers(), `count` of them. A member that several stores reach with different values is
+/// computed.
+std::vector<Arrival> arrivalsIn(Words module, size_t count) {
     const Interface interface = interfaceOf(module);
-    std::vector<Arrival> arrivals(materialMembers().size());
+    std::vector<Arrival> arrivals(count);
     std::unordered_map<Id, uint32_t> loaded; // value -> the location of the input that it was loaded from
     const SpirvEditor editor(module);
     const auto arrive = [&](size_t member, Id value) {
@@ -141,13 +152,14 @@ bool isTermIn(MaterialMember const& member, MaterialDefinition const& definition
 void declareProbe(StageText& out, MaterialDefinition const& definition) {
     const auto members = materialMembers();
     std::string taken;
-    for (uint32_t i = 0; i < members.size(); ++i) {
-        if (!isProbed(members[i], definition)) continue;
-        const std::string_view type = floatType(members[i].components);
+    const std::vector<uint32_t> probed = probedMembers(definition);
+    for (uint32_t i = 0; i < probed.size(); ++i) {
+        MaterialMember const& member = members[probed[i]];
+        const std::string_view type = floatType(member.components);
         out.line(fmt::format("layout(location = {}) out {} probe_{};", kProbeOutputLocation + i, type, i));
-        if (comesFromOutside(members[i], definition))
+        if (comesFromOutside(member, definition))
             out.line(fmt::format("layout(location = {}) in {} probe_initial_{};", kProbeInputLocation + i, type, i));
-        if (members[i].isPrepared) taken += fmt::format("probe_{} = material.{}; ", i, members[i].name);
+        if (member.isPrepared) taken += fmt::format("probe_{} = material.{}; ", i, member.name);
     }
     out.line(fmt::format("void probe_prepareMaterial(const MaterialInputs material) {{ {}prepareMaterial(material); }}",
                          taken));
@@ -157,11 +169,12 @@ void declareProbe(StageText& out, MaterialDefinition const& definition) {
 void defineProbeMain(StageText& out, MaterialDefinition const& definition) {
     const auto members = materialMembers();
     std::string begin, end;
-    for (uint32_t i = 0; i < members.size(); ++i) {
-        if (!isProbed(members[i], definition)) continue;
-        if (comesFromOutside(members[i], definition))
-            begin += fmt::format("probe_inputs.{} = probe_initial_{}; ", members[i].name, i);
-        if (!members[i].isPrepared) end += fmt::format("probe_{} = probe_inputs.{}; ", i, members[i].name);
+    const std::vector<uint32_t> probed = probedMembers(definition);
+    for (uint32_t i = 0; i < probed.size(); ++i) {
+        MaterialMember const& member = members[probed[i]];
+        if (comesFromOutside(member, definition))
+            begin += fmt::format("probe_inputs.{} = probe_initial_{}; ", member.name, i);
+        if (!member.isPrepared) end += fmt::format("probe_{} = probe_inputs.{}; ", i, member.name);
     }
     out.line("void main() { MaterialInputs probe_inputs; initMaterial(probe_inputs); computeShadingGeometry();");
     out.line(begin + "material(probe_inputs);");
@@ -175,18 +188,19 @@ Result<void> findTerms(MaterialDefinition const& definition, IncludeResolver con
     Result<std::vector<uint32_t>> spirv = spirvFromGlsl(*text, backend::ShaderStage::Fragment, definition.fileName);
     if (spirv) spirv = optimizeSpirv(*spirv);
     if (!spirv) return spirv.error();
-    const std::vector<Arrival> arrivals = arrivalsIn(*spirv);
-    const auto members = materialMembers();
-    for (size_t i = 0; i < members.size(); ++i) {
-        if (!isProbed(members[i], definition) || !isTermIn(members[i], definition, arrivals[i])) continue;
-        if (!members[i].hasText) {
+    const std::vector<uint32_t> probed = probedMembers(definition);
+    const std::vector<Arrival> arrivals = arrivalsIn(*spirv, probed.size());
+    for (size_t i = 0; i < probed.size(); ++i) {
+        MaterialMember const& member = materialMembers()[probed[i]];
+        if (!isTermIn(member, definition, arrivals[i])) continue;
+        if (!member.hasText) {
             return errorAt(definition.fragment.at,
                            fmt::format("this block sets material.{}, which is known but not supported by this version",
-                                       members[i].name),
+                                       member.name),
                            ErrorCode::Unsupported);
         }
-        needs.terms |= termBit(i);
-        needs.tangent |= members[i].isPrepared; // directions in tangent space
+        needs.terms |= termBit(probed[i]);
+        needs.tangent |= member.isTangential;
     }
     return {};
 }

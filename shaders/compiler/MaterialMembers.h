@@ -31,6 +31,7 @@ struct MaterialMember {
     std::array<float, 4> neutral{}; ///< NaN: any value is
     bool isPrepared = false;        ///< prepareMaterial() takes it: what is written behind that has no effect
     bool hasText = false;           ///< shaders/material can do it
+    bool isTangential = isPrepared; ///< what it says is said in tangent space: needs tangents
 };
 
 std::span<const MaterialMember> materialMembers();

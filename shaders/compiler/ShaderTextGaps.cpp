@@ -17,8 +17,6 @@ constexpr Gap kGaps[] = {
       "the shading model subsurface" },
     { [](MaterialDefinition const& d) { return d.package.shading == ShadingModel::Cloth; }, "shadingModel",
       "the shading model cloth" },
-    { [](MaterialDefinition const& d) { return d.package.shading == ShadingModel::SpecularGlossiness; }, "shadingModel",
-      "the shading model specularGlossiness" },
     { [](MaterialDefinition const& d) { return d.package.refractionMode != RefractionMode::None; }, "refractionMode",
       "refraction" },
     { [](MaterialDefinition const& d) { return d.package.reflections == Reflections::ScreenSpace; }, "reflections",
@@ -33,12 +31,6 @@ constexpr Gap kGaps[] = {
     { [](MaterialDefinition const& d) { return d.package.shadowMultiplier; }, "shadowMultiplier", "a shadow" },
     { [](MaterialDefinition const& d) { return d.customSurfaceShading; }, "customSurfaceShading",
       "customSurfaceShading" },
-    { [](MaterialDefinition const& d) {
-         return d.find("multiBounceAmbientOcclusion") != nullptr && d.multiBounceAmbientOcclusion;
-     },
-      "multiBounceAmbientOcclusion", "multiBounceAmbientOcclusion" },
-    { [](MaterialDefinition const& d) { return d.specularAmbientOcclusion == SpecularAmbientOcclusion::BentNormals; },
-      "specularAmbientOcclusion", "specular occlusion by bent normals" },
     { [](MaterialDefinition const& d) {
          return std::ranges::count(d.package.parameters, SamplerFormat::Int, &Parameter::format) > 0;
      },

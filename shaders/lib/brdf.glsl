@@ -132,3 +132,6 @@ vec3 energyCompensation(vec3 f0, vec2 dfg) { return vec3(1.0f) + f0 * (1.0f / df
 // Directional albedo of the specular lobe, one bounce: the second factor of the split sum.
 // dfg.x <= dfg.y: the integrals weighted by Schlick's (1 - voh)^5 and by 1. Multiply by energyCompensation() as well.
 vec3 specularDfg(vec3 f0, vec2 dfg) { return mix(vec3(dfg.x), vec3(dfg.y), f0); }
+
+// The same where grazing light is not reflected wholly. f90 in [0, 1]; 1 gives the same bits as above.
+vec3 specularDfg(vec3 f0, float f90, vec2 dfg) { return vec3(dfg.x * f90) + (dfg.y - dfg.x) * f0; }

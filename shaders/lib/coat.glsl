@@ -3,7 +3,8 @@
 // layers below. Light passes it twice, so the base gets transmission on the way in times transmission on the way out.
 //   strength   how much of the surface is coated, in [0, 1]; 0 leaves the base as it is.
 
-const float kCoatF0 = 0.04f; // index 1.5 in air
+const float kCoatIor = 1.5f;
+const float kCoatF0 = 0.04f; // of that index in air
 
 // A cheap visibility term for the coat, whose lobe is narrow. Kelemen and Szirmay-Kalos 2001, "A Microfacet Based
 // Coupled Specular-Matte BRDF Model with Importance Sampling", section 3: G / (4 nol nov) = 1 / (4 voh^2).

@@ -14,6 +14,12 @@ vec3 shading_normal;
 vec3 shading_view;
 vec3 shading_reflected;
 float shading_NoV;
+#if defined(HAS_CLEAR_COAT)
+vec3 shading_clearCoatNormal;
+#endif
+#if defined(HAS_BENT_NORMAL)
+vec3 shading_bentNormal;
+#endif
 
 #if defined(NEEDS_WORLD_POSITION)
 vec3 getWorldPosition() { return vertex_worldPosition; }
@@ -74,6 +80,14 @@ void computeShadingGeometry() {
 void prepareMaterial(const MaterialInputs material) {
 #if defined(NEEDS_NORMAL) && defined(HAS_NORMAL)
     shading_normal = normalizeOrZero(shading_tangentToWorld * material.normal);
+#endif
+#if defined(HAS_BENT_NORMAL)
+    shading_bentNormal = normalizeOrZero(shading_tangentToWorld * material.bentNormal);
+#endif
+#if defined(HAS_CLEAR_COAT_NORMAL) && defined(HAS_CLEAR_COAT)
+    shading_clearCoatNormal = normalizeOrZero(shading_tangentToWorld * material.clearCoatNormal);
+#elif defined(HAS_CLEAR_COAT)
+    shading_clearCoatNormal = shading_geometricNormal;
 #endif
 #if defined(NEEDS_NORMAL) && defined(NEEDS_WORLD_POSITION)
     shading_NoV = max(dot(shading_normal, shading_view), kMinNoV);

@@ -144,7 +144,6 @@ TEST(MaterialCompiler, SaysWhichKnownFeaturesItLacks) {
          { "refractionMode : cubemap", "shadingModel : cloth", "reflections : screenspace",
            "customSurfaceShading : true", "blending : fade, transparency : twoPassesOneSide", "instanced : true",
            "interpolation : flat", "shadingModel : unlit, shadowMultiplier : true",
-           "multiBounceAmbientOcclusion : true", "specularAmbientOcclusion : bentNormals",
            "parameters : [ { name : a, type : sampler3d } ]",
            "parameters : [ { name : a, type : sampler2d, format : int } ]" }) {
         const Error error = errorOf(withProperties(properties));

@@ -2,6 +2,7 @@
 #include "tests/shaders/exact/MaterialRig.h"
 
 #include "filament_core/assets/DfgTable.h"
+#include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/package/EngineMaterials.h"
 #include "shaders/package/ParameterLayout.h"
 #include "shaders/package/ViewLayout.h"
@@ -259,11 +260,20 @@ void MaterialRig::draw(CommandBuffer& commands, MaterialPackage const& package, 
     commands.record(CmdEndPass{});
 }
 
+Result<MaterialPackage> MaterialRig::package(MaterialScene const& scene) {
+    if (scene.source.empty()) return readPackage(engineMaterial(scene.material));
+    const auto known = mCompiled.find(scene.source);
+    if (known != mCompiled.end()) return known->second;
+    Result<MaterialPackage> compiled = compileMaterial(scene.source, "test.mat");
+    if (compiled) mCompiled.emplace(scene.source, *compiled);
+    return compiled;
+}
+
 Result<std::vector<float>> MaterialRig::render(MaterialScene const& scene) {
-    const Result<MaterialPackage> package = readPackage(engineMaterial(scene.material));
-    if (!package) return package.error();
+    const Result<MaterialPackage> found = package(scene);
+    if (!found) return found.error();
     CommandBuffer& commands = mStream->acquire();
-    draw(commands, *package, scene);
+    draw(commands, *found, scene);
     const Ticket ticket = mStream->nextTicket();
     commands.record(
             CmdReadTexture{ .texture = mColor, .rect = { 0, 0, kPictureSide, kPictureSide }, .ticket = ticket });

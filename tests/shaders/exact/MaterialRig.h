@@ -20,7 +20,8 @@ inline constexpr uint32_t kPictureSide = 64;
 
 struct MaterialScene {
     std::string material = "gltf_lit_opaque";
-    uint8_t variant = 0;
+    std::string source; ///< of a material to compile in its place, unless empty
+    uint16_t variant = 0;
     std::map<std::string, uint32_t> constants;            ///< bits by name
     std::map<std::string, std::vector<float>> parameters; ///< components by name; missing ones are 0
     FrameUniforms frame{};                                ///< matrices and viewport are filled in by the rig
@@ -32,6 +33,9 @@ public:
     /// Null where no such device is installed.
     static std::unique_ptr<MaterialRig> make(backend::BackendType type);
     Result<std::vector<float>> render(MaterialScene const& scene);
+
+    /// The package of the scene's material, compiled once per source.
+    Result<MaterialPackage> package(MaterialScene const& scene);
 
 private:
     explicit MaterialRig(std::unique_ptr<backend::CommandStream> stream) : mStream(std::move(stream)) {}
@@ -53,6 +57,7 @@ private:
     backend::SamplerHandle mSampler;
     backend::BufferHandle mVertices, mIndices, mInstance, mObjects;
     uint32_t mIndexCount = 0;
+    std::map<std::string, MaterialPackage> mCompiled; ///< by source
 };
 
 } // namespace filament::shader::test

@@ -267,6 +267,18 @@ std::vector<Row> parameterRows() {
                       .gpu = 1e-6,
                       .half = 1e-2,
                       .why = "eight roundings at most, none of a difference that cancels" } },
+        { .file = "brdf",
+          .function = "specularDfg(vec3, float, vec2)",
+          .call = NUMERICS_CALL(specularDfg(u, s.z, vec2(s.x * s.y, s.y))),
+          .s = { unit("dfg.x / dfg.y"), unit("dfg.y"), unit("f90") },
+          .u = colour("f0", 1),
+          .range = { 0, 1 },
+          .limits = { .cpp = 1e-6,
+                      .gpu = 1e-6,
+                      .half = 1e-2,
+                      .negligible = 0.125,
+                      .halfNegligible = 0.125,
+                      .why = "the table's two values cancel where they are close: an ulp of them remains" } },
     };
 }
 

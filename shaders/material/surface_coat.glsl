@@ -1,0 +1,44 @@
+// SPDX-License-Identifier: Apache-2.0
+// A clear coat above everything else, with a normal and a roughness of its own. What it reflects, by the albedo of its
+// lobe, is missing below: of the directions of view and light the one that lets less through decides, so that pairs of
+// directions may be exchanged and a white base under it sends back all that arrives.
+
+#include "shaders/lib/coat.glsl"
+
+struct Coat {
+    float strength; // 0: none
+    highp float perceptualRoughness;
+    float alpha;
+    vec3 normal;
+    highp float nov;
+    vec2 dfg;       // of the coat's lobe towards the view
+};
+
+Coat coatOf(MaterialInputs material) {
+    Coat coat;
+    coat.strength = saturate(material.clearCoat);
+    coat.perceptualRoughness = shadedRoughness(material.clearCoatRoughness);
+    coat.alpha = alphaFromPerceptual(coat.perceptualRoughness);
+    coat.normal = shading_clearCoatNormal;
+    coat.nov = max(dot(shading_clearCoatNormal, shading_view), kMinNoV);
+    coat.dfg = splitSumTerm(coat.nov, coat.perceptualRoughness);
+    return coat;
+}
+
+// What the coat reflects of a white environment.
+float coatAlbedo(Coat coat) { return mix(coat.dfg.x, coat.dfg.y, kCoatF0) * coat.strength; }
+
+// The factor of what lies below, for the environment.
+float coatLeaves(Coat coat) { return coatTransmissionFromDfg(coat.dfg, coat.strength); }
+
+// The same for one light. nol: at the coat's normal, in [0, 1].
+float coatLeavesOfLight(Coat coat, float nol) {
+    vec2 dfg = splitSumTerm(max(nol, kMinNoV), coat.perceptualRoughness);
+    return min(coatLeaves(coat), coatTransmissionFromDfg(dfg, coat.strength));
+}
+
+// The coat's own lobe for one light, before nol.
+float coatOfLight(Coat coat, vec3 halfway, float voh) {
+    return finite(distributionTerm(coat.normal, halfway, coat.alpha) * finite(visibilityKelemen(voh))) *
+            coatFresnel(voh, coat.strength);
+}
