@@ -63,10 +63,11 @@ double CoatLayer::pdf(double3 light) const {
     return local.z > 0 ? visibleReflectionPdf(mView, local, double2(mAlpha)) : 0;
 }
 
-double CoatLayer::attenuation(double3 light, LightSource) const {
+double CoatLayer::attenuation(double3 light, LightSource source) const {
+    const double view = 1 - mStrength * (1 - mViewTransmission);
+    if (source == LightSource::Ambient) return view;
     const double nol = std::max(mFrame.toLocal(light).z, 0.0);
-    const double in = 1 - mStrength * (1 - transmission(std::min(nol, 1.0)));
-    return in * (1 - mStrength * (1 - mViewTransmission));
+    return std::min(view, 1 - mStrength * (1 - transmission(std::min(nol, 1.0))));
 }
 
 double3 CoatLayer::viewInside() const {

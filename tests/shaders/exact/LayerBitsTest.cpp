@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // What lies above, below and behind the base, on both devices: the same bits, and what the formulas say in closed form.
+#include "shaders/lib/LibCpp.h"
 #include "tests/shaders/exact/MaterialRig.h"
 
 #include <gtest/gtest.h>
@@ -333,6 +334,51 @@ TEST_F(LayerBits, SpecularGlossinessSaysTheStandardModelInOtherWords) {
                                  1, model)));
     EXPECT_LT(most(coated), 1.005f);
     EXPECT_GT(least(coated), 0.9f);
+}
+
+// ------------------------------------------------------------------------------------------------ occlusion
+
+TEST_F(LayerBits, OcclusionBouncesWithTheColorOfTheSurface) {
+    const auto of = [](std::string const& color, const char* bounces) {
+        return render(furnace(
+                scene("m.specularFactor = 0.0; m.ambientOcclusion = amount; m.baseColor.rgb = vec3(" + color + ");",
+                      0.5f, std::string("multiBounceAmbientOcclusion : ") + bounces)));
+    };
+    const Pixels once = of("0.8", "false"), often = of("0.8", "true"), dark = of("0.1", "true");
+    EXPECT_LT(distance(once, Pixels(once.size(), 0.4f)), 1e-6f);
+    const float bright = lib::multiBounceAo(0.5f, float3(0.8f)).x;
+    EXPECT_GT(bright, 0.6f);
+    EXPECT_LT(distance(often, Pixels(often.size(), 0.8f * bright)), 1e-6f);
+    EXPECT_LT(distance(dark, Pixels(dark.size(), 0.1f * lib::multiBounceAo(0.5f, float3(0.1f)).x)), 1e-6f);
+}
+
+TEST_F(LayerBits, SpecularOcclusionFollowsTheBentNormal) {
+    const auto of = [](const char* mode, std::string const& bent) {
+        return render(furnace(
+                scene("m.metallic = 1.0; m.roughness = 0.2; m.ambientOcclusion = amount;", 0.4f,
+                      std::string("multiBounceAmbientOcclusion : false, specularAmbientOcclusion : ") + mode, bent)));
+    };
+    const Pixels none = of("none", ""), simple = of("simple", ""), along = of("bentNormals", "");
+    const Pixels aside = of("bentNormals", "m.bentNormal = vec3(1.0, 0.0, 0.0);");
+    EXPECT_GT(least(none), 0.97f);
+    EXPECT_LT(mean(simple), mean(none) - 0.02);
+    EXPECT_GT(most(along), 0.99f) << "what reflects the middle of the visible cone sees the sky";
+    EXPECT_LT(least(along), 0.01f) << "and nothing beside it";
+    EXPECT_GT(distance(along, aside), 0.9f);
+}
+
+TEST_F(LayerBits, DiffuseAmbientLightComesFromTheBentNormal) {
+    const auto inSky = [](MaterialScene made) {
+        made = furnace(std::move(made));
+        for (size_t i = 1; i < 4; ++i) made.frame.irradianceSh[i] = { 0.2f, 0.2f, 0.2f, 0 };
+        return made;
+    };
+    const char* const tilt = " = normalize(vec3(0.4, 0.2, 0.8));";
+    const Pixels bent = render(inSky(scene("m.specularFactor = 0.0;", 1, "", "m.bentNormal" + std::string(tilt))));
+    const Pixels turned = render(inSky(scene("m.specularFactor = 0.0;", 1, "", "m.normal" + std::string(tilt))));
+    const Pixels straight = render(inSky(scene("m.specularFactor = 0.0;")));
+    EXPECT_LT(distance(bent, turned), 1e-6f);
+    EXPECT_GT(distance(bent, straight), 0.05f);
 }
 
 // ------------------------------------------------------------------------------------------------ everything at once
