@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// CoatLayer: a clear coat of index 1.5: its lobe, and what it leaves to the layers below.
-///   Engine  shaders/material/surface_coat.glsl: Kelemen's visibility, Schlick's term; below it everything is
-///           multiplied by the lesser of what passes in the direction of the view and in that of the light, which do not
-///           bend; of ambient light by that of the view.
+///   Engine  shaders/material/surface_coat.glsl: Kelemen's visibility, Schlick's term. Below it everything is
+///           multiplied by the lesser of what passes towards the view and from the light, neither of which bends;
+///           ambient light by the former.
 ///   Exact   Smith's visibility, Fresnel's equations. Directions bend at the coat; radiance from within is spread over
 ///           index^2 times the solid angle. What the coat reflects back inside adds up to a geometric series:
 ///             specular base  1 / (1 - F R), exact for mirrors. Of rough metals it lacks what total reflection returns:
