@@ -44,6 +44,10 @@ constexpr std::array<FormatInfo, static_cast<size_t>(Format::Count)> kFormats{ {
         { "BC6HUfloat", 16, 4, 3, Color, true, false, false },
         { "BC7", 16, 4, 4, Color, false, false, false },
         { "BC7Srgb", 16, 4, 4, Color, false, true, false },
+        { "R8I", 1, 1, 1, SignedInteger, false, false, false },
+        { "R32I", 4, 1, 1, SignedInteger, false, false, false },
+        { "RG32I", 8, 1, 2, SignedInteger, false, false, false },
+        { "RGBA8I", 4, 1, 4, SignedInteger, false, false, false },
 } };
 
 constexpr std::array<VertexFormatInfo, static_cast<size_t>(VertexFormat::Count)> kVertexFormats{ {

@@ -11,7 +11,7 @@ namespace filament::backend {
 using filament::Format;
 using filament::VertexFormat;
 
-enum class FormatKind : uint8_t { Color, UnsignedInteger, Depth, DepthStencil };
+enum class FormatKind : uint8_t { Color, UnsignedInteger, SignedInteger, Depth, DepthStencil };
 
 struct FormatInfo {
     const char* name;

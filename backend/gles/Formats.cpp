@@ -37,6 +37,10 @@ constexpr std::array<GlFormat, static_cast<size_t>(Format::Count)> kFormats{ {
         { GL_COMPRESSED_RGB_BPTC_UNSIGNED_FLOAT_EXT, 0, 0 },
         { GL_COMPRESSED_RGBA_BPTC_UNORM_EXT, 0, 0 },
         { GL_COMPRESSED_SRGB_ALPHA_BPTC_UNORM_EXT, 0, 0 },
+        { GL_R8I, GL_RED_INTEGER, GL_BYTE },
+        { GL_R32I, GL_RED_INTEGER, GL_INT },
+        { GL_RG32I, GL_RG_INTEGER, GL_INT },
+        { GL_RGBA8I, GL_RGBA_INTEGER, GL_BYTE },
 } };
 
 constexpr std::array<GLenum, static_cast<size_t>(VertexFormat::Count)> kVertexTypes{

@@ -99,6 +99,7 @@ DeviceInfo describeDevice(GlApi const& gl, Quirks const& quirks) {
         .timers = quirks.timers,
         .blockCompression = quirks.blockCompression,
         .depthClamp = quirks.depthClamp,
+        .lastVertexProvokes = true, // OpenGL ES knows no other
         .halfFloatShaders = true,
     };
     return info;

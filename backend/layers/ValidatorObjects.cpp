@@ -300,7 +300,8 @@ void Validator::checkTextureEntry(BindingDesc const& binding, BindGroupEntry con
             formatInfo(texture->desc.format).name);
     const bool filters = sampler->desc.magFilter == Filter::Linear || sampler->desc.minFilter == Filter::Linear ||
                          sampler->desc.mipFilter == MipFilter::Linear;
-    require(!filters || kind != FormatKind::UnsignedInteger, Harm::WrongResult,
+    const bool isInteger = kind == FormatKind::UnsignedInteger || kind == FormatKind::SignedInteger;
+    require(!filters || !isInteger, Harm::WrongResult,
             "binding {}: integer texture '{}' cannot be filtered; use Nearest", entry.binding, texture->name);
 }
 

@@ -36,9 +36,12 @@ DeviceInfo describeNullDevice() {
                     .maxVertexAttributes = kMaxVertexAttributes,
                     .maxSamples = 4,
                     .maxAnisotropy = 16 };
-    info.features = {
-        .mergedPasses = true, .timers = true, .blockCompression = true, .depthClamp = true, .halfFloatShaders = true
-    };
+    info.features = { .mergedPasses = true,
+                      .timers = true,
+                      .blockCompression = true,
+                      .depthClamp = true,
+                      .lastVertexProvokes = true,
+                      .halfFloatShaders = true };
     return info;
 }
 

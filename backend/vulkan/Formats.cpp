@@ -37,6 +37,10 @@ constexpr std::array<VkFormat, static_cast<size_t>(Format::Count)> kFormats{
     VK_FORMAT_BC6H_UFLOAT_BLOCK,
     VK_FORMAT_BC7_UNORM_BLOCK,
     VK_FORMAT_BC7_SRGB_BLOCK,
+    VK_FORMAT_R8_SINT,
+    VK_FORMAT_R32_SINT,
+    VK_FORMAT_R32G32_SINT,
+    VK_FORMAT_R8G8B8A8_SINT,
 };
 
 constexpr std::array<VkFormat, static_cast<size_t>(VertexFormat::Count)> kVertexFormats{

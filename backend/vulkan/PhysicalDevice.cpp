@@ -89,6 +89,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     info.features.mergedPasses = true; // subpasses are core
     info.features.blockCompression = features.features.textureCompressionBC;
     info.features.halfFloatShaders = device.halfFloatShaders;
+    info.features.lastVertexProvokes = device.provokingVertexLast;
     info.features.depthClamp = features.features.depthClamp;
     if (!features.features.samplerAnisotropy) info.limits.maxAnisotropy = 1;
 }

@@ -58,6 +58,14 @@ Bytes encodeTexel(Format format, Rgba const& color) {
     case Format::RGBA8UI:
         for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<uint8_t>(color[i]));
         break;
+    case Format::R8I:
+    case Format::RGBA8I:
+        for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<int8_t>(color[i]));
+        break;
+    case Format::R32I:
+    case Format::RG32I:
+        for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<int32_t>(color[i]));
+        break;
     case Format::R32UI:
     case Format::RG32UI:
         for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<uint32_t>(color[i]));
@@ -102,6 +110,14 @@ Rgba decodeTexel(Format format, const std::byte* bytes) {
     case Format::R8UI:
     case Format::RGBA8UI:
         for (uint32_t i = 0; i < info.components; ++i) color[i] = get<uint8_t>(bytes, i);
+        return color;
+    case Format::R8I:
+    case Format::RGBA8I:
+        for (uint32_t i = 0; i < info.components; ++i) color[i] = get<int8_t>(bytes, i);
+        return color;
+    case Format::R32I:
+    case Format::RG32I:
+        for (uint32_t i = 0; i < info.components; ++i) color[i] = static_cast<float>(get<int32_t>(bytes, i));
         return color;
     case Format::R32UI:
     case Format::RG32UI:

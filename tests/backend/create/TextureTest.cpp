@@ -47,9 +47,12 @@ Bytes randomTexels(Format format, uint32_t count, std::mt19937& random) {
                 bytes.push_back(static_cast<std::byte>(random()));
         }
     }
-    if (format == Format::R32UI || format == Format::RG32UI) {
-        for (size_t i = 3; i < bytes.size(); i += 4)
-            bytes[i] = std::byte{ 0 }; // exact in the floats that the test reads
+    const bool isInteger = info.kind == FormatKind::UnsignedInteger || info.kind == FormatKind::SignedInteger;
+    if (isInteger && info.bytesPerBlock / info.components == 4) {
+        for (size_t i = 3; i < bytes.size(); i += 4) { // exact in the floats that the test reads
+            const bool isNegative = info.kind == FormatKind::SignedInteger && i % 8 == 3;
+            bytes[i] = isNegative ? std::byte{ 0xFF } : std::byte{ 0 };
+        }
     }
     return bytes;
 }
@@ -63,10 +66,14 @@ DRIVER_TEST(Texture, EveryUncompressedFormatIsSampledAsItsDefinitionSays) {
         if (isCompressed(format) || hasDepth(format)) continue;
         SCOPED_TRACE(info.name);
         const Bytes texels = randomTexels(format, 8, random);
-        const bool integer = info.kind == FormatKind::UnsignedInteger;
-        const std::vector<Rgba> seen = paintRow(
-                gpu, 8, integer ? "layout(set = 1, binding = 0) uniform highp usampler2D image;" : kSampler2D,
-                "result = vec4(texture(image, vec2((i + 0.5) / 8.0, 0.5)));", gpu.image(format, 8, 1, texels), nearest);
+        const char* const sampler = info.kind == FormatKind::UnsignedInteger
+                                            ? "layout(set = 1, binding = 0) uniform highp usampler2D image;"
+                                    : info.kind == FormatKind::SignedInteger
+                                            ? "layout(set = 1, binding = 0) uniform highp isampler2D image;"
+                                            : kSampler2D;
+        const std::vector<Rgba> seen =
+                paintRow(gpu, 8, sampler, "result = vec4(texture(image, vec2((i + 0.5) / 8.0, 0.5)));",
+                         gpu.image(format, 8, 1, texels), nearest);
         for (uint32_t t = 0; t < 8; ++t) {
             const Rgba expected = decodeTexel(format, texels.data() + size_t{ t } * info.bytesPerBlock);
             // sRGB decoding may use a table or a polynomial: half a step of 8 bits where its slope is 1.
