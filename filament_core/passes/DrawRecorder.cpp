@@ -60,7 +60,12 @@ private:
 constexpr PipelineHandle kMissing{ ~0u };
 
 bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
-    return a.material == b.material && a.geometry->layout == b.geometry->layout && a.mirrored == b.mirrored;
+    return a.material == b.material && a.geometry->layout == b.geometry->layout && a.mirrored == b.mirrored &&
+           a.pass == b.pass;
+}
+
+PipelineUse useOf(DrawCall const& draw, uint8_t variant) {
+    return { *draw.material, draw.geometry->layout, variant, draw.mirrored, draw.pass };
 }
 
 /// What the cache has; only reads it. False if it lacks some.
@@ -71,8 +76,7 @@ bool lookUp(std::span<PipelineHandle> chosen, PipelineCache const& pipelines, ui
         DrawCall const& draw = draws[i];
         chosen[i] = i > 0 && isDrawnAlike(draw, draws[i - 1])
                             ? chosen[i - 1]
-                            : pipelines.find(slot, *draw.material, draw.geometry->layout, variant, draw.mirrored)
-                                      .value_or(kMissing);
+                            : pipelines.find(slot, useOf(draw, variant)).value_or(kMissing);
         hasAll = hasAll && chosen[i] != kMissing;
     }
     return hasAll;
@@ -83,8 +87,7 @@ void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineCache&
           std::span<const DrawCall> draws, uint8_t variant) {
     for (size_t i = 0; i < draws.size(); ++i) {
         if (chosen[i] != kMissing) continue;
-        DrawCall const& draw = draws[i];
-        chosen[i] = pipelines.pipelineFor(setup, slot, *draw.material, draw.geometry->layout, variant, draw.mirrored);
+        chosen[i] = pipelines.pipelineFor(setup, slot, useOf(draws[i], variant));
     }
 }
 

@@ -13,7 +13,7 @@ using namespace backend;
 
 constexpr uint32_t kNoGeometry = 0xFFF;
 
-// always 1 | material 20 bits | geometry layout 12 | slot 12 | variant 8 | culling off 1 | mirrored 1
+// always 1 | pass 2 bits | material 20 | geometry layout 12 | slot 12 | variant 8 | culling off 1 | mirrored 1
 uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint8_t variant, bool cullingDisabled,
                  bool mirrored) {
     FILAMENT_ASSERT(material < 1u << 20 && geometryLayout <= kNoGeometry && slot < 4096,
@@ -34,17 +34,15 @@ uint16_t withPrecision(scene::Material const& material, uint8_t variant, Shading
     return precision == ShadingPrecision::Half && material.package.findVariant(half) ? half : variant;
 }
 
-uint64_t makeKey(uint32_t slot, scene::MaterialInstance const& instance, uint32_t geometryLayout, uint8_t variant,
-                 bool mirrored) {
-    scene::Material const& material = *instance.material;
-    return makeKey(material.id, geometryLayout, slot, neededVariant(material, variant), instance.cullingDisabled,
-                   mirrored);
+uint64_t makeKey(uint32_t slot, PipelineUse const& use) {
+    scene::Material const& material = *use.instance.material;
+    return static_cast<uint64_t>(use.pass) << 54 |
+           makeKey(material.id, use.geometryLayout, slot, neededVariant(material, use.variant),
+                   use.instance.cullingDisabled, use.mirrored);
 }
 
-// A double-sided material shades both faces; its instances choose whether the back is drawn.
 CullMode cullMode(shader::MaterialPackage const& package, bool cullingDisabled) {
     if (cullingDisabled) return CullMode::None;
-    if (package.doubleSided) return CullMode::Back;
     switch (package.culling) {
     case shader::Culling::None:
         return CullMode::None;
@@ -53,9 +51,13 @@ CullMode cullMode(shader::MaterialPackage const& package, bool cullingDisabled) 
     case shader::Culling::Back:
         return CullMode::Back;
     case shader::Culling::FrontAndBack:
-        return CullMode::Back; // nothing is drawn: see colorWrite below
+        return CullMode::Back; // what is left leaves no trace: see drawsNothing()
     }
     return CullMode::Back;
+}
+
+bool drawsNothing(shader::MaterialPackage const& package, bool cullingDisabled) {
+    return package.culling == shader::Culling::FrontAndBack && !cullingDisabled;
 }
 
 // Colours are pre-multiplied (DESIGN: conventions); coverage accumulates in alpha.
@@ -89,6 +91,18 @@ BlendState blendState(shader::MaterialPackage const& package) {
         return over;
     }
     return over;
+}
+
+// Materials guide, 4.2.18. The second of two equal depths passes: both passes run the same vertex stage.
+void usePass(PipelineDesc& desc, shader::TransparencyMode transparency, prepare::DrawPass pass) {
+    if (pass == prepare::DrawPass::Only) return;
+    const bool isFirst = pass == prepare::DrawPass::First;
+    if (transparency == shader::TransparencyMode::TwoPassesTwoSides) {
+        desc.raster.cull = isFirst ? CullMode::Front : CullMode::Back;
+    } else if (isFirst) {
+        desc.depthStencil.depthWrite = desc.depthStencil.depthCompare != CompareOp::None;
+        for (BlendState& blend : desc.blend) blend = { .writeMask = 0 };
+    }
 }
 
 // The geometry's own attributes, then the instance index in the next buffer slot.
@@ -163,10 +177,10 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         // Equal passes too: the sky sits exactly at the far plane, decals exactly on their surface.
         desc.depthStencil.depthCompare =
                 slot.depthRange == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
-        desc.depthStencil.depthWrite = package.depthWrite;
+        desc.depthStencil.depthWrite = package.depthWrite && !drawsNothing(package, cullingDisabled);
     }
     BlendState blend = blendState(package);
-    if (!package.colorWrite || package.culling == shader::Culling::FrontAndBack) blend.writeMask = 0;
+    if (!package.colorWrite || drawsNothing(package, cullingDisabled)) blend.writeMask = 0;
     desc.blend.fill(blend);
     return desc;
 }
@@ -179,26 +193,26 @@ PipelineHandle PipelineCache::create(CommandBuffer& setup, uint64_t key, Pipelin
     return handle.keep();
 }
 
-std::optional<PipelineHandle> PipelineCache::find(uint32_t slot, scene::MaterialInstance const& instance,
-                                                  uint32_t geometryLayout, uint8_t variant, bool mirrored) const {
-    PipelineTable::Entry const* entry = mPipelines.find(makeKey(slot, instance, geometryLayout, variant, mirrored));
+std::optional<PipelineHandle> PipelineCache::find(uint32_t slot, PipelineUse const& use) const {
+    PipelineTable::Entry const* entry = mPipelines.find(makeKey(slot, use));
     return entry ? std::optional(entry->handle) : std::nullopt;
 }
 
-PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, scene::MaterialInstance const& instance,
-                                          uint32_t geometryLayout, uint8_t variant, bool mirrored) {
-    const uint64_t key = makeKey(slot, instance, geometryLayout, variant, mirrored);
+PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, PipelineUse const& use) {
+    const uint64_t key = makeKey(slot, use);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
 
-    scene::Material& material = *instance.material;
+    scene::Material& material = *use.instance.material;
     const ShadingKey shading = isLit(material) ? mSlots[slot].shading : ShadingKey{ 0 };
-    const uint16_t needed = withPrecision(material, neededVariant(material, variant), mSlots[slot].precision);
+    const uint16_t needed = withPrecision(material, neededVariant(material, use.variant), mSlots[slot].precision);
     const ProgramHandle program = programFor(setup, material, needed, shading);
     if (!program) {
         mPipelines.insert({ key, {}, material.id }); // warn once
         return {};
     }
-    PipelineDesc desc = describe(mSlots[slot], material, instance.cullingDisabled, geometryLayout, mirrored);
+    PipelineDesc desc =
+            describe(mSlots[slot], material, use.instance.cullingDisabled, use.geometryLayout, use.mirrored);
+    usePass(desc, material.package.transparency, use.pass);
     desc.program = program;
     return create(setup, key, desc, material.id);
 }

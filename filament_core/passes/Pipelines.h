@@ -9,6 +9,7 @@
 #include "backend/stream/CommandStream.h"
 #include "filament_core/passes/PipelineTable.h"
 #include "filament_core/passes/ShadingKey.h"
+#include "filament_core/prepare/FramePacket.h"
 #include "filament_core/scene/SceneData.h"
 
 #include <cstdint>
@@ -27,6 +28,15 @@ struct PassSlot {
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 
+/// What a pipeline is chosen by, besides where it draws.
+struct PipelineUse {
+    scene::MaterialInstance const& instance;
+    uint32_t geometryLayout = 0; ///< into GeometryLayouts
+    uint8_t variant = 0;         ///< VariantBits that the scene selects
+    bool mirrored = false;
+    prepare::DrawPass pass = prepare::DrawPass::Only;
+};
+
 class PipelineCache {
 public:
     PipelineCache(backend::CommandStream& stream, scene::GeometryLayouts const& layouts)
@@ -36,13 +46,10 @@ public:
     uint32_t slot(PassSlot const& slot);
 
     /// What pipelineFor() answers, if it has answered that before.
-    std::optional<backend::PipelineHandle> find(uint32_t slot, scene::MaterialInstance const& instance,
-                                                uint32_t geometryLayout, uint8_t variant, bool mirrored) const;
+    std::optional<backend::PipelineHandle> find(uint32_t slot, PipelineUse const& use) const;
 
     /// Records creation into `setup` when the pipeline does not exist yet. None: the draw must be skipped.
-    backend::PipelineHandle pipelineFor(backend::CommandBuffer& setup, uint32_t slot,
-                                        scene::MaterialInstance const& instance, uint32_t geometryLayout,
-                                        uint8_t variant, bool mirrored);
+    backend::PipelineHandle pipelineFor(backend::CommandBuffer& setup, uint32_t slot, PipelineUse const& use);
 
     /// For full-screen materials: no vertices, no depth test unless the material asks for one.
     backend::PipelineHandle fullscreenPipeline(backend::CommandBuffer& setup, uint32_t slot, scene::Material& material);

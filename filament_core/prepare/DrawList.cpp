@@ -21,19 +21,23 @@ uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, 
 }
 
 bool startsDraw(std::span<const SortItem> items, size_t i) {
-    return i % shader::kObjectsPerWindow == 0 || items[i].draw != items[i - 1].draw;
+    return i % shader::kObjectsPerWindow == 0 || items[i].draw != items[i - 1].draw || isDrawnTwice(items[i].draw);
 }
 
 uint32_t countDraws(std::span<const SortItem> items, size_t begin, size_t end) {
     uint32_t count = 0;
-    for (size_t i = begin; i < end; ++i) count += startsDraw(items, i);
+    for (size_t i = begin; i < end; ++i) count += startsDraw(items, i) + isDrawnTwice(items[i].draw);
     return count;
 }
 
 DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first, size_t end) {
     scene::Drawable const& drawable = drawables[drawableOf(draw)];
-    return { drawable.material, &drawable.geometry, static_cast<uint32_t>(first), static_cast<uint32_t>(end - first),
-             isMirrored(draw) };
+    return { drawable.material,
+             &drawable.geometry,
+             static_cast<uint32_t>(first),
+             static_cast<uint32_t>(end - first),
+             isMirrored(draw),
+             isDrawnTwice(draw) ? DrawPass::First : DrawPass::Only };
 }
 
 // Returns the triangles of the range.
@@ -44,7 +48,13 @@ uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem>
         size_t next = first + 1;
         while (next < end && !startsDraw(items, next)) ++next;
         *draws = drawCall(drawables, items[first].draw, first, next);
-        triangles += static_cast<uint64_t>(draws->geometry->indexCount / 3) * draws->instanceCount;
+        const uint64_t drawn = static_cast<uint64_t>(draws->geometry->indexCount / 3) * draws->instanceCount;
+        triangles += drawn;
+        if (draws->pass == DrawPass::First) {
+            draws[1] = draws[0];
+            (++draws)->pass = DrawPass::Second;
+            triangles += drawn;
+        }
         ++draws;
         first = next;
     }
@@ -67,8 +77,10 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
         const size_t range = begin / kCullRange;
         SortItem const* from = visible.slots.data() + begin;
         for (size_t i = visible.firsts[range]; i < visible.firsts[range + 1]; ++i, ++from) {
-            items[i] = { keyOf(drawables.use(drawableOf(from->draw)), *from, visible.spanOf(from->draw), hidden),
-                         from->renderable, from->draw };
+            const scene::Drawables::Use use = drawables.use(drawableOf(from->draw));
+            static_assert(scene::Drawables::kTwoPassesOrder << 1 == kDrawnTwice);
+            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden), from->renderable,
+                         from->draw | (use.order & scene::Drawables::kTwoPassesOrder) << 1 };
         }
     });
     return items;

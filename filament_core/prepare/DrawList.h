@@ -20,7 +20,7 @@ struct DrawLists {
 };
 
 /// Neighbours of one draw become one instanced draw call; none crosses a window of shader::kObjectsPerWindow objects.
-/// Blended neighbours merge too: instances draw in order.
+/// Blended neighbours merge too: instances draw in order. What has two passes is two draw calls an object.
 DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
                          std::span<const SortItem> items, PacketCounts& counts);
 

@@ -26,6 +26,10 @@ struct ObjectList {
     bool empty() const { return order.empty(); }
 };
 
+/// What a material with two passes (materials guide, 4.2.18) draws: depth, then colour; or back faces, then front
+/// faces.
+enum class DrawPass : uint8_t { Only, First, Second };
+
 /// Instances [firstObject, firstObject + instanceCount) of FramePacket::objects, all of one window, share geometry,
 /// material and raster state.
 struct DrawCall {
@@ -34,6 +38,7 @@ struct DrawCall {
     uint32_t firstObject = 0;
     uint32_t instanceCount = 1;
     bool mirrored = false;
+    DrawPass pass = DrawPass::Only; ///< First and Second of an object follow each other
 };
 
 struct PacketCounts {

@@ -18,7 +18,7 @@ uint64_t hashDraw(DrawCall const& draw, uint64_t seed) {
     seed = hashAll(seed, geometry.vertices.bits, geometry.indices.bits, geometry.layout, geometry.firstIndex,
                    geometry.indexCount, geometry.indexType);
     return hashAll(seed, draw.material->material->id, draw.material->id, draw.firstObject, draw.instanceCount,
-                   draw.mirrored);
+                   draw.mirrored, draw.pass);
 }
 
 uint64_t hashCounts(PacketCounts const& counts, uint64_t seed) {

@@ -35,14 +35,18 @@ namespace filament::prepare {
 struct SortItem {
     uint64_t key = 0; ///< from culling until writeKeys(): the bits of its depth
     uint32_t renderable = 0;
-    uint32_t draw = 0; ///< drawable << 1 | mirrored: equal draws can be instances of one draw call
+    uint32_t draw = 0; ///< drawable << 1 | mirrored, and kDrawnTwice: equal draws can be instances of one draw call
 };
 static_assert(sizeof(SortItem) == 16, "sorting moves four of them a cache line");
 
 inline constexpr uint64_t kBlendedKey = 1ull << 63;
 
+/// Set by writeKeys(): the two passes of an object follow each other, so that it shares no draw call.
+inline constexpr uint32_t kDrawnTwice = 1u << 31;
+
 constexpr uint32_t drawOf(uint32_t drawable, bool mirrored) { return drawable << 1 | (mirrored ? 1 : 0); }
-constexpr uint32_t drawableOf(uint32_t draw) { return draw >> 1; }
+constexpr uint32_t drawableOf(uint32_t draw) { return (draw & ~kDrawnTwice) >> 1; }
+constexpr bool isDrawnTwice(uint32_t draw) { return (draw & kDrawnTwice) != 0; }
 constexpr bool isMirrored(uint32_t draw) { return (draw & 1) != 0; }
 
 /// The bits of a non-negative float grow with its value; everything else, NaN included, counts as 0.

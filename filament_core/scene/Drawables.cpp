@@ -11,7 +11,8 @@ uint32_t orderOf(MaterialInstance const& instance) {
     constexpr uint32_t kMaterialMask = (1u << Drawables::kMaterialBits) - 1;
     constexpr uint32_t kInstanceMask = (1u << Drawables::kInstanceBits) - 1;
     const uint32_t blended = instance.material->isBlended() ? Drawables::kBlendedOrder : 0;
-    return blended | (instance.material->id & kMaterialMask) << Drawables::kInstanceBits |
+    const uint32_t twice = instance.material->hasTwoPasses() ? Drawables::kTwoPassesOrder : 0;
+    return blended | twice | (instance.material->id & kMaterialMask) << Drawables::kInstanceBits |
            (instance.id & kInstanceMask);
 }
 

@@ -52,6 +52,7 @@ public:
     /// which costs state changes and nothing else.
     static constexpr uint32_t kMaterialBits = 12, kInstanceBits = 12;
     static constexpr uint32_t kBlendedOrder = 1u << 31;
+    static constexpr uint32_t kTwoPassesOrder = 1u << 30; ///< blended, and drawn twice
 
     /// The number of this pair, with one more user.
     uint32_t acquire(Drawable const& drawable);
@@ -60,7 +61,7 @@ public:
     Drawable const& operator[](uint32_t number) const { return mDrawables[number]; }
     /// What sorting reads of a pair.
     struct Use {
-        uint32_t order = 0; ///< material << kInstanceBits | instance, and kBlendedOrder if the material blends
+        uint32_t order = 0; ///< material << kInstanceBits | instance, and the flags above
         uint32_t users = 0;
     };
     Use use(uint32_t number) const { return mUses[number]; }

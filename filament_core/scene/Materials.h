@@ -34,6 +34,7 @@ struct Material {
     bool isBlended() const {
         return package.blending != shader::Blending::Opaque && package.blending != shader::Blending::Masked;
     }
+    bool hasTwoPasses() const { return package.transparency != shader::TransparencyMode::Default && isBlended(); }
 };
 
 struct TextureBinding {

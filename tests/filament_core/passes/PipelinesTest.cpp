@@ -16,10 +16,13 @@ using prepare::DrawCall;
 
 struct CreatedPipelines {
     std::vector<PipelineHandle> pipelines;
+    std::vector<PipelineDesc> descs; ///< without what they point to
     std::vector<std::string> names;
     uint32_t programs = 0, destroyedPipelines = 0, destroyedPrograms = 0;
     void execute(CmdCreatePipeline const& c) {
         pipelines.push_back(c.handle);
+        descs.push_back(c.desc);
+        descs.back().debugName = {};
         names.emplace_back(c.desc.debugName);
     }
     void execute(CmdCreateProgram const&) { ++programs; }
@@ -102,6 +105,66 @@ TEST(ChoosePipelines, HalfPrecisionTakesAProgramOfItsOwnWhereTheMaterialHasOneAn
     EXPECT_NE(half[0], full[0]);
     EXPECT_EQ(fixture.materials[0].programs.size(), 2u);
     EXPECT_EQ(fixture.materials[1].programs.size(), 1u);
+}
+
+/// The pipelines of both passes of a material that blends, in a pass with a depth buffer.
+std::vector<PipelineDesc> twoPassesOf(shader::TransparencyMode transparency, bool depthWrite) {
+    DrawFixture fixture(1, 1, 1);
+    shader::MaterialPackage& package = fixture.materials[0].package;
+    package.blending = shader::Blending::Transparent;
+    package.transparency = transparency;
+    package.depthWrite = depthWrite;
+    PassSlot slot{ .layout = { .depthFormat = Format::D32F } };
+    slot.layout.subpasses[0].usesDepth = true;
+    fixture.slot = fixture.pipelines->slot(slot);
+    std::vector<DrawCall> draws(3, fixture.draw(0, 0, 0));
+    draws[0].pass = prepare::DrawPass::First;
+    draws[1].pass = prepare::DrawPass::Second;
+    CommandBuffer setup;
+    const auto chosen = fixture.choose(draws, setup);
+    EXPECT_EQ(fixture.pipelines->size(), 3u) << "either pass, and a single one, have a pipeline of their own";
+    EXPECT_EQ(createdBy(setup).programs, 1u);
+    return createdBy(setup).descs;
+}
+
+TEST(PipelineCache, OneSideDrawsDepthAloneAndThenTheColorOfWhatIsNearest) {
+    for (const bool depthWrite : { false, true }) {
+        const auto descs = twoPassesOf(shader::TransparencyMode::TwoPassesOneSide, depthWrite);
+        ASSERT_EQ(descs.size(), 3u);
+        PipelineDesc depthOnly = descs[2];
+        depthOnly.depthStencil.depthWrite = true;
+        EXPECT_EQ(descs[0].depthStencil, depthOnly.depthStencil);
+        EXPECT_EQ(descs[0].raster, depthOnly.raster);
+        for (BlendState const& blend : descs[0].blend) EXPECT_EQ(blend.writeMask, 0);
+        EXPECT_EQ(descs[1].depthStencil.depthCompare, CompareOp::GreaterEqual) << "equal depths pass";
+        EXPECT_EQ(descs[1].depthStencil, descs[2].depthStencil);
+        EXPECT_EQ(descs[1].blend, descs[2].blend);
+    }
+}
+
+TEST(PipelineCache, TwoSidesDrawTheBackFacesAndThenTheFrontFaces) {
+    const auto descs = twoPassesOf(shader::TransparencyMode::TwoPassesTwoSides, false);
+    ASSERT_EQ(descs.size(), 3u);
+    EXPECT_EQ(descs[0].raster.cull, CullMode::Front);
+    EXPECT_EQ(descs[1].raster.cull, CullMode::Back);
+    for (int pass = 0; pass < 2; ++pass) {
+        EXPECT_EQ(descs[pass].depthStencil, descs[2].depthStencil);
+        EXPECT_EQ(descs[pass].blend, descs[2].blend);
+    }
+}
+
+TEST(PipelineCache, CullingOfBothFacesLeavesNoTraceInTheDepthBuffer) {
+    DrawFixture fixture(1, 1, 1);
+    fixture.materials[0].package.culling = shader::Culling::FrontAndBack;
+    PassSlot slot{ .layout = { .depthFormat = Format::D32F } };
+    slot.layout.subpasses[0].usesDepth = true;
+    fixture.slot = fixture.pipelines->slot(slot);
+    CommandBuffer setup;
+    fixture.choose(std::vector{ fixture.draw(0, 0, 0) }, setup);
+    const auto descs = createdBy(setup).descs;
+    ASSERT_EQ(descs.size(), 1u);
+    EXPECT_FALSE(descs[0].depthStencil.depthWrite);
+    EXPECT_EQ(descs[0].blend[0].writeMask, 0);
 }
 
 TEST(PipelineCache, ForgettingAMaterialDestroysWhatWasMadeOfItAndNothingElse) {

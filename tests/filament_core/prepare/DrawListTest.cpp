@@ -31,6 +31,7 @@ struct DrawListTest : testing::Test, BoxScene {
         uint64_t triangles = 0;
         for (std::span<const DrawCall> list : { packet.opaque, packet.blended }) {
             for (DrawCall const& draw : list) {
+                if (draw.pass == DrawPass::Second) next -= draw.instanceCount; // the same objects once more
                 ASSERT_EQ(draw.firstObject, next);
                 ASSERT_GT(draw.instanceCount, 0u);
                 ASSERT_EQ(draw.firstObject / kWindow, (draw.firstObject + draw.instanceCount - 1) / kWindow);
@@ -50,11 +51,18 @@ struct DrawListTest : testing::Test, BoxScene {
         EXPECT_EQ(triangles, packet.counts.triangles);
     }
 
+    scene::MaterialInstance* twoPasses() {
+        scene::MaterialInstance* look = material(shader::Blending::Transparent);
+        look->material->package.transparency = shader::TransparencyMode::TwoPassesTwoSides;
+        return look;
+    }
+
     void addRandom(uint32_t count, uint32_t seed) {
         std::vector<scene::MaterialInstance*> looks;
         for (int i = 0; i < 9; ++i) {
             looks.push_back(material(i % 3 ? shader::Blending::Opaque : shader::Blending::Transparent));
         }
+        looks.push_back(twoPasses());
         Random random(seed);
         for (uint32_t i = 0; i < count; ++i) {
             const double3 at(random.within(-20, 20), random.within(-20, 20), random.within(-60, 5));
@@ -136,6 +144,35 @@ TEST_F(DrawListTest, NeighboursThatBlendMergeToo) {
     const FramePacket packet = prepare();
     ASSERT_EQ(packet.blended.size(), 1u);
     EXPECT_EQ(packet.blended[0].instanceCount, 5u);
+}
+
+TEST_F(DrawListTest, TheTwoPassesOfAnObjectFollowEachOtherAndNoOtherObjectComesBetween) {
+    const auto* glass = twoPasses();
+    const auto* smoke = material(shader::Blending::Transparent);
+    for (int i = 0; i < 6; ++i) add({ 0.0, 0.0, -1.0 * i }, i < 4 ? glass : smoke);
+    const FramePacket packet = prepare();
+    expectCoversItsObjects(packet);
+    ASSERT_EQ(packet.blended.size(), 1 + 4 * 2u) << "the smoke merges, the glass does not";
+    EXPECT_EQ(packet.blended[0].pass, DrawPass::Only);
+    EXPECT_EQ(packet.blended[0].instanceCount, 2u);
+    for (uint32_t i = 0; i < 4; ++i) {
+        DrawCall const &first = packet.blended[1 + 2 * i], &second = packet.blended[2 + 2 * i];
+        EXPECT_EQ(first.pass, DrawPass::First);
+        EXPECT_EQ(second.pass, DrawPass::Second);
+        EXPECT_EQ(first.firstObject, 2 + i);
+        EXPECT_EQ(second.firstObject, 2 + i);
+        EXPECT_EQ(first.instanceCount, 1u);
+    }
+    EXPECT_EQ(packet.counts.triangles, 12u * (2 + 4 * 2));
+}
+
+TEST_F(DrawListTest, TwoPassesOfWhatDoesNotBlendAreOne) {
+    scene::MaterialInstance* solid = twoPasses();
+    solid->material->package.blending = shader::Blending::Opaque;
+    for (int i = 0; i < 3; ++i) add({ 0.0, 0.0, -1.0 * i }, solid);
+    const FramePacket packet = prepare();
+    ASSERT_EQ(packet.opaque.size(), 1u);
+    EXPECT_EQ(packet.opaque[0].pass, DrawPass::Only);
 }
 
 TEST_F(DrawListTest, EverythingOutOfViewIsAPacketWithoutObjects) {
