@@ -57,6 +57,27 @@ Texture Engine::Impl::dfgTable(uint32_t size) {
     return table;
 }
 
+Texture Engine::Impl::unsetTexture(shader::Parameter const& parameter) {
+    using enum ParameterType;
+    using shader::SamplerFormat;
+    Texture& texture = defaults.standIns[{ parameter.type, parameter.format }];
+    if (texture) return texture;
+    const bool isFloat = parameter.format == SamplerFormat::Float;
+    std::array<uint8_t, 4 * 6> texels;
+    texels.fill(isFloat ? 255 : 1);
+    const uint32_t layers = parameter.type == SamplerCube ? 6 : 1;
+    texture = createTexture({ .kind = parameter.type == SamplerCube      ? TextureKind::Cube
+                                      : parameter.type == Sampler2DArray ? TextureKind::Texture2DArray
+                                                                         : TextureKind::Texture2D,
+                              .format = isFloat                                  ? Format::RGBA8
+                                        : parameter.format == SamplerFormat::Int ? Format::RGBA8I
+                                                                                 : Format::RGBA8UI,
+                              .layers = layers,
+                              .pixels = std::as_bytes(std::span(texels)).first(4 * layers),
+                              .name = "white" });
+    return texture;
+}
+
 Texture Engine::Impl::toneTable(ToneMapper mapper, uint32_t size) {
     Texture& table = defaults.toneTables[{ mapper, size }];
     if (table) return table;
@@ -69,34 +90,8 @@ Texture Engine::Impl::toneTable(ToneMapper mapper, uint32_t size) {
     return table;
 }
 
-Texture Engine::Impl::unsetTexture(ParameterType sampler) {
-    constexpr auto kWhite = [] {
-        std::array<std::byte, 24> texels{};
-        texels.fill(std::byte{ 255 });
-        return texels;
-    }();
-    if (sampler == ParameterType::SamplerCube && !defaults.whiteCube) {
-        defaults.whiteCube =
-                createTexture({ .kind = TextureKind::Cube, .layers = 6, .pixels = kWhite, .name = "white cube" });
-    }
-    if (sampler == ParameterType::Sampler2DArray && !defaults.whiteArray) {
-        defaults.whiteArray = createTexture(
-                { .kind = TextureKind::Texture2DArray, .pixels = std::span(kWhite).first(4), .name = "white array" });
-    }
-    switch (sampler) {
-    case ParameterType::SamplerCube:
-        return defaults.whiteCube;
-    case ParameterType::Sampler2DArray:
-        return defaults.whiteArray;
-    default:
-        return defaults.white;
-    }
-}
-
 void createDefaultObjects(Engine::Impl& engine) {
-    constexpr std::array<uint8_t, 4> white{ 255, 255, 255, 255 };
     constexpr std::array<uint8_t, 24> black{};
-    engine.defaults.white = engine.createTexture({ .pixels = std::as_bytes(std::span(white)), .name = "white" });
     engine.defaults.blackCube = engine.createTexture({ .kind = TextureKind::Cube,
                                                        .layers = 6,
                                                        .pixels = std::as_bytes(std::span(black)),
@@ -106,11 +101,10 @@ void createDefaultObjects(Engine::Impl& engine) {
 }
 
 void destroyDefaultObjects(Engine::Impl& engine) {
-    engine.destroy(engine.defaults.white);
-    engine.destroy(engine.defaults.blackCube);
-    for (const Texture made : { engine.defaults.whiteCube, engine.defaults.whiteArray }) {
-        if (made) engine.destroy(made);
+    for (auto const& [which, texture] : engine.defaults.standIns) {
+        if (texture) engine.destroy(texture);
     }
+    engine.destroy(engine.defaults.blackCube);
     for (auto const& [size, table] : engine.defaults.dfg) {
         if (table) engine.destroy(table); // none: there was no memory for it
     }

@@ -51,7 +51,9 @@ MaterialDescription describeMaterial(scene::Material const& material) {
                              .filtered = variantSet(package.filteredVariants),
                              .terms = package.terms };
     for (shader::Parameter const& parameter : package.parameters) {
-        if (parameter.name == shader::kMaskThresholdParameter) continue;
+        const bool isOwn =
+                parameter.name == shader::kMaskThresholdParameter || parameter.name == shader::kDoubleSidedParameter;
+        if (isOwn) continue; // the compiler's
         out.parameters.push_back(
                 { parameter.name, parameter.type, parameter.arraySize, parameter.precision, parameter.format });
     }

@@ -74,9 +74,9 @@ struct SwapChainState {
 
 /// Objects that every engine has.
 struct Defaults {
-    Texture white;                   ///< 1x1 opaque white, for textures that a material leaves unset
-    Texture whiteCube, whiteArray;   ///< the same as a cube and as an array of one layer; none until asked for
-    Texture blackCube;               ///< 1x1, for scenes without an environment
+    Texture blackCube; ///< 1x1, for scenes without an environment
+    /// 1x1, see unsetTexture().
+    std::map<std::pair<ParameterType, shader::SamplerFormat>, Texture> standIns;
     std::map<uint32_t, Texture> dfg; ///< split-sum tables by their size
     std::map<std::pair<ToneMapper, uint32_t>, Texture> toneTables;
     backend::BufferHandle instanceIds; ///< 0, 1, 2, ... kObjectsPerWindow - 1
@@ -129,8 +129,9 @@ struct Engine::Impl {
     template <class Write>
     Result<void> change(MaterialInstance instance, std::string_view parameter, Write&& write);
     Result<void> checkTexture(scene::Material const& material, shader::Parameter const& parameter, Texture texture);
-    /// What a sampler shows that the app has not set: opaque white, of the sampler's kind. Made when first asked for.
-    Texture unsetTexture(ParameterType sampler);
+    /// What a sampler shows that the app has not set: opaque white (integers: 1), of the sampler's kind. Made when
+    /// first asked for.
+    Texture unsetTexture(shader::Parameter const& sampler);
     /// None: the texture is larger than the device allows.
     backend::TextureHandle textureHandle(Texture texture) const { return textures.get(texture).handle; }
 

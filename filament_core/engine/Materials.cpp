@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials and their instances: packages -> programs, named parameters -> uniform blocks and bind groups.
+#include "filament_core/base/Log.h"
 #include "filament_core/base/OutOfMemory.h"
 #include "filament_core/base/Result.h"
 #include "filament_core/base/Suggest.h"
@@ -112,6 +113,24 @@ TextureType kindOf(ParameterType sampler) {
     return sampler == ParameterType::Sampler2DArray ? TextureType::Texture2DArray : TextureType::Texture2D;
 }
 
+shader::SamplerFormat samplerFormatOf(Format format) {
+    switch (formatInfo(format).kind) {
+    case FormatKind::UnsignedInteger:
+        return shader::SamplerFormat::Uint;
+    case FormatKind::SignedInteger:
+        return shader::SamplerFormat::Int;
+    default:
+        return shader::SamplerFormat::Float;
+    }
+}
+
+/// The screen's own colour cannot be sampled yet.
+void explainScreenSpace(scene::Material const& material) {
+    if (material.package.reflections != shader::Reflections::ScreenSpace) return;
+    log(Severity::Info, "material '{}': reflections : screenspace shows the environment only in this version",
+        material.name);
+}
+
 Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     auto package = shader::readPackage(desc.package);
     if (!package) {
@@ -125,6 +144,14 @@ Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     material.constants = std::move(*constants);
     material.description = engine::describeMaterial(material);
     return material;
+}
+
+// Whole numbers have nothing between them.
+Sampler unfiltered(Sampler sampler) {
+    sampler.magFilter = sampler.minFilter = Filter::Nearest;
+    if (sampler.mipFilter == MipFilter::Linear) sampler.mipFilter = MipFilter::Nearest;
+    sampler.anisotropy = 1;
+    return sampler;
 }
 
 Sampler filtered(Sampler sampler, TextureFilter filter) {
@@ -151,6 +178,14 @@ void Engine::Impl::useTextureFilter(TextureFilter filter) {
 Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     auto loaded = loadMaterial(desc);
     if (!loaded) return loaded.error();
+    const bool isFlat = loaded->package.interpolation == shader::Interpolation::Flat;
+    if (isFlat && !stream->info().features.lastVertexProvokes) {
+        return fail(ErrorCode::Unsupported,
+                    "material '{}': interpolation : flat takes the last vertex of a triangle, and {} can only take the "
+                    "first (it lacks VK_EXT_provoking_vertex); use interpolation : smooth",
+                    loaded->name, device.device);
+    }
+    explainScreenSpace(*loaded);
     loaded->id = nextMaterialId++;
     return materials.add(std::move(*loaded));
 }
@@ -185,9 +220,13 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
     if (Parameter const* threshold = parent.package.findParameter(shader::kMaskThresholdParameter)) {
         std::memcpy(instance.parameters.data() + threshold->offset, &parent.package.maskThreshold, sizeof(float));
     }
+    if (Parameter const* doubleSided = parent.package.findParameter(shader::kDoubleSidedParameter)) {
+        const uint32_t isDoubleSided = parent.package.doubleSided;
+        std::memcpy(instance.parameters.data() + doubleSided->offset, &isDoubleSided, sizeof(isDoubleSided));
+    }
     for (Parameter const& parameter : parent.package.parameters) {
         if (shader::isTexture(parameter.type))
-            instance.textures.push_back({ textureHandle(unsetTexture(parameter.type)), {} });
+            instance.textures.push_back({ textureHandle(unsetTexture(parameter)), {} });
     }
     dirtyInstances.push_back(draft.handle()); // the last that may fail
     instance.id = nextInstanceId++;
@@ -235,9 +274,19 @@ Result<void> Engine::Impl::checkTexture(scene::Material const& material, Paramet
                     material.name, declared);
     }
     engine::TextureState const& state = textures.get(texture);
-    if (state.desc.type == kindOf(parameter.type)) return {};
-    return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is {}, but texture '{}' is {}",
-                parameter.name, material.name, declared, state.name, kindName(state.desc.type));
+    if (state.desc.type != kindOf(parameter.type)) {
+        return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is {}, but texture '{}' is {}",
+                    parameter.name, material.name, declared, state.name, kindName(state.desc.type));
+    }
+    // A sampler reads what it is declared for: the APIs leave the rest undefined.
+    static constexpr const char* kFormats[] = { "float", "int", "uint" };
+    const shader::SamplerFormat format = samplerFormatOf(state.desc.format);
+    if (format == parameter.format) return {};
+    return fail(ErrorCode::InvalidArgument,
+                "parameter '{}' of material '{}' is a sampler of format {}, and texture '{}' has the format {}, which "
+                "is read with format : {}",
+                parameter.name, material.name, kFormats[static_cast<size_t>(parameter.format)], state.name,
+                formatInfo(state.desc.format).name, kFormats[static_cast<size_t>(format)]);
 }
 
 Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, Texture texture, Sampler sampler) {
@@ -247,7 +296,7 @@ Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, T
     if (!parameter) return unknownParameter(*instance.material, name);
     if (Result<void> fits = checkTexture(*instance.material, *parameter, texture); !fits) return fits;
     TextureHandle shown = textureHandle(texture);
-    if (!shown) shown = textureHandle(unsetTexture(parameter->type));
+    if (!shown) shown = textureHandle(unsetTexture(*parameter));
     markDirty(handle);
     instance.textures[textureSlot(package, *parameter)] = { shown, sampler };
     instance.texturesDirty = true;
@@ -279,6 +328,23 @@ MaterialDescription const& Engine::describe(Material material) const {
     return mImpl->materials.get(material).description;
 }
 
+Result<void> Engine::setDoubleSided(MaterialInstance handle, bool doubleSided) {
+    scene::MaterialInstance& instance = mImpl->instances.get(handle);
+    shader::MaterialPackage const& package = instance.material->package;
+    Parameter const* parameter = package.findParameter(shader::kDoubleSidedParameter);
+    if (!parameter && !package.doubleSided) {
+        return fail(ErrorCode::InvalidArgument,
+                    "material '{}' was compiled for one side: say doubleSided : true or doubleSided : false in it, and "
+                    "its instances can choose",
+                    instance.material->name);
+    }
+    if (parameter) {
+        if (Result<void> done = set(handle, parameter->name, ParameterValue(doubleSided)); !done) return done;
+    }
+    instance.cullingDisabled = doubleSided;
+    return {};
+}
+
 void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {
     mImpl->instances.get(handle).cullingDisabled = disabled;
 }
@@ -304,9 +370,11 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
         for (Parameter const& parameter : package.parameters) {
             if (!shader::isTexture(parameter.type)) continue;
             const scene::TextureBinding bound = instance.textures[slot++];
+            const bool isFloat = parameter.format == shader::SamplerFormat::Float;
+            const Sampler sampler = isFloat ? filtered(bound.sampler, textureFilter) : unfiltered(bound.sampler);
             entries[count++] = { .binding = parameter.binding,
                                  .texture = bound.texture,
-                                 .sampler = samplers.get(filtered(bound.sampler, textureFilter), commands) };
+                                 .sampler = samplers.get(sampler, commands) };
         }
         NewHandle group(*stream, stream->allocateBindGroup());
         commands.record(CmdCreateBindGroup{

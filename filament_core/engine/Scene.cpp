@@ -62,9 +62,9 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                     indices.type };
     FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
                     "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
-    const Renderable renderable =
-            scene::addRenderable(mImpl->data, { geometry, &engine.instances.get(desc.material), desc.boundsMin,
-                                                desc.boundsMax, desc.worldFromObject, desc.culled, desc.name });
+    const Renderable renderable = scene::addRenderable(
+            mImpl->data, { geometry, &engine.instances.get(desc.material), desc.boundsMin, desc.boundsMax,
+                           desc.worldFromObject, desc.culled, desc.name, desc.instanceIndex });
     if (desc.node) scene::attach(mImpl->data, renderable, desc.node);
     return renderable;
 }

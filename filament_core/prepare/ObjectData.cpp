@@ -2,6 +2,7 @@
 #include "filament_core/prepare/ObjectData.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace filament::prepare {
 namespace {
@@ -16,7 +17,7 @@ inline void write(shader::ObjectData& object, scene::Placement const& placement,
     object.row0 = float4(placement.rows[0], origin.x);
     object.row1 = float4(placement.rows[1], origin.y);
     object.row2 = float4(placement.rows[2], origin.z);
-    object.flags = float4(placement.side, 0, 0, 0);
+    object.flags = float4(std::copysign(1.0f, placement.side), std::abs(placement.side) - 1.0f, 0, 0);
 }
 
 } // namespace

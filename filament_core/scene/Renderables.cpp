@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/scene/Renderables.h"
 
+#include <cmath>
 #include <utility>
 
 namespace filament::scene {
 namespace {
 
-Placement placementOf(Affine const& world) {
+Placement placementOf(Affine const& world, float indexAndOne) {
     Placement placement;
     for (size_t row = 0; row < 3; ++row) placement.rows[row] = float3(world.linearRow(row));
-    placement.side = glm::determinant(linearPart(world)) < 0 ? -1.0f : 1.0f;
+    placement.side = glm::determinant(linearPart(world)) < 0 ? -indexAndOne : indexAndOne;
     placement.translation = world.translation();
     return placement;
 }
@@ -51,7 +52,8 @@ Renderable add(Renderables& renderables, RenderableInput const& input) {
     renderables.bounds.add();
     renderables.flags.push_back(static_cast<uint8_t>(flags));
     renderables.drawable.push_back(drawable);
-    renderables.placement.emplace_back();
+    FILAMENT_ASSERT(input.instanceIndex < 1u << 24, "an instance index is below 2^24, where floats are whole numbers");
+    renderables.placement.push_back({ .side = static_cast<float>(input.instanceIndex + 1) });
     renderables.objectBounds.push_back(boxFromMinMax(input.boundsMin, input.boundsMax));
     renderables.name.push_back(input.name);
     place(renderables, renderables.count() - 1, input.worldFromObject);
@@ -71,7 +73,7 @@ void remove(Renderables& renderables, Renderable renderable) {
 
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {
     CenteredBox const& bounds = renderables.objectBounds[at];
-    const Placement placement = placementOf(worldFromObject);
+    const Placement placement = placementOf(worldFromObject, std::abs(renderables.placement[at].side));
     renderables.placement[at] = placement;
     renderables.bounds.set(at, transformPoint(worldFromObject, double3(bounds.center)),
                            worldHalfExtent(worldFromObject, bounds.halfExtent));

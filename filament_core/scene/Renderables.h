@@ -38,7 +38,7 @@ struct BoundsColumns {
 /// because it meets the camera first.
 struct alignas(64) Placement {
     std::array<float3, 3> rows{}; ///< of the linear part
-    float side = 1;               ///< -1 if it mirrors
+    float side = 1;               ///< 1 + the instance index; negative if it mirrors
     double3 translation{ 0.0 };
 };
 static_assert(sizeof(Placement) == 64, "one cache line a renderable");
@@ -70,6 +70,7 @@ struct RenderableInput {
     double4x4 worldFromObject{ 1.0 };
     bool culled = true;
     std::string name;
+    uint32_t instanceIndex = 0; ///< < 2^24
 };
 
 Renderable add(Renderables& renderables, RenderableInput const& input);

@@ -38,6 +38,8 @@ constexpr Contradiction kContradictions[] = {
          return d.fullScreenTriangle && d.package.vertexDomain != VertexDomain::Device;
      },
       "fullScreenTriangle", "fullScreenTriangle needs vertexDomain : device" },
+    { [](MaterialDefinition const& d) { return d.package.instanced && d.fullScreenTriangle; }, "instanced",
+      "a full-screen triangle has no instances; leave out instanced" },
     { [](MaterialDefinition const& d) {
          return d.find("blendFunction") != nullptr && d.package.blending != Blending::Custom;
      },
@@ -48,6 +50,10 @@ constexpr Contradiction kContradictions[] = {
       "blending", "blending : custom needs a blendFunction : { srcRGB : ..., srcA : ..., dstRGB : ..., dstA : ... }" },
     { [](MaterialDefinition const& d) { return hasTwoPasses(d) && !blends(d.package.blending); }, "transparency",
       "two passes are for what is blended; set a blending, for instance transparent" },
+    { [](MaterialDefinition const& d) {
+         return d.package.transparency == TransparencyMode::TwoPassesOneSide && !d.package.depthCulling;
+     },
+      "transparency", "twoPassesOneSide finds out what is nearest by the depth test; leave out depthCulling : false" },
     { [](MaterialDefinition const& d) { return hasTwoPasses(d) && refracts(d); }, "transparency",
       "two passes are for materials that do not refract; leave out transparency or refractionMode" },
     { [](MaterialDefinition const& d) { return refracts(d) && isUnlit(d); }, "refractionMode",

@@ -37,7 +37,8 @@ const char* glslPrecision(Precision precision) {
 }
 
 std::string samplerType(Parameter const& parameter) {
-    return (parameter.format == SamplerFormat::Int ? "i" : "") + std::string(glslType(parameter.type));
+    static constexpr const char* kPrefixes[] = { "", "i", "u" };
+    return kPrefixes[static_cast<size_t>(parameter.format)] + std::string(glslType(parameter.type));
 }
 
 bool takesPrecision(ParameterType type) { return type > ParameterType::Bool4; }
@@ -112,8 +113,8 @@ void declareVariables(StageText& out, MaterialDefinition const& definition) {
     for (uint32_t i = 0; i < definition.variables.size(); ++i) {
         Variable const& variable = definition.variables[i];
         out.originate(variable.at);
-        out.line(fmt::format("layout(location = {}) VARYING {}vec4 variable_{};", kFirstVariableLocation + i,
-                             glslPrecision(variable.precision), variable.name));
+        out.line(fmt::format("layout(location = {}) INTERPOLATION VARYING {}vec4 variable_{};",
+                             kFirstVariableLocation + i, glslPrecision(variable.precision), variable.name));
     }
 }
 

@@ -72,7 +72,12 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     out.define(vertexDomainDefine(package.vertexDomain));
     defineIf(out, definition.flipUv, "FLIP_UV");
     defineIf(out, definition.fullScreenTriangle, "FULL_SCREEN_TRIANGLE");
-    defineIf(out, package.doubleSided, "DOUBLE_SIDED");
+    const bool isSwitched = package.findParameter(kDoubleSidedParameter) != nullptr;
+    defineIf(out, isSwitched, "DOUBLE_SIDED_BY_PARAMETER");
+    defineIf(out, package.doubleSided && !isSwitched, "DOUBLE_SIDED");
+    defineIf(out, package.instanced, "INSTANCED");
+    defineIf(out, needs.instanceIndex, "NEEDS_INSTANCE_INDEX");
+    out.define("INTERPOLATION", package.interpolation == Interpolation::Flat ? "flat" : "smooth");
     defineIf(out, needsAttribute(definition, kAttributeColor), "HAS_COLOR");
     defineIf(out, needsAttribute(definition, kAttributeUv0), "HAS_UV0");
     defineIf(out, needsAttribute(definition, kAttributeUv1), "HAS_UV1");
@@ -89,6 +94,7 @@ void defineFragment(StageText& out, MaterialDefinition const& definition, uint16
     defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
     defineIf(out, (variantKey & kVariantHalf) != 0, "HALF_PRECISION");
     defineIf(out, definition.package.alphaToCoverage, "ALPHA_TO_COVERAGE");
+    defineIf(out, definition.package.shadowMultiplier, "SHADOW_MULTIPLIER");
     out.define(postLightingDefine(definition.package.postLightingBlending));
     defineIf(out, definition.specularAmbientOcclusion != SpecularAmbientOcclusion::None, "SPECULAR_AMBIENT_OCCLUSION");
     defineIf(out, definition.specularAmbientOcclusion == SpecularAmbientOcclusion::BentNormals,
@@ -238,6 +244,16 @@ bool mentionsAny(CodeScan const& code, std::initializer_list<std::string_view> w
     return std::ranges::any_of(words, [&](std::string_view word) { return code.mentions(word); });
 }
 
+/// Neither error of the GLSL compiler would say what to do.
+Result<void> checkInstanceIndex(MaterialDefinition const& definition, CodeScan const& fragment,
+                                CodeScan const& vertex) {
+    if (definition.package.instanced) return {};
+    const bool isInVertex = vertex.mentions("getInstanceIndex");
+    if (!isInVertex && !fragment.mentions("getInstanceIndex")) return {};
+    return errorAt(isInVertex ? definition.vertex->at : definition.fragment.at,
+                   "this block calls getInstanceIndex(); that needs the property instanced : true");
+}
+
 Result<void> checkBlocks(MaterialDefinition const& definition, CodeScan const& fragment, CodeScan const& vertex) {
     if (definition.package.domain == MaterialDomain::PostProcess) {
         return expectFunction(fragment, "postProcess", definition.fragment,
@@ -245,6 +261,7 @@ Result<void> checkBlocks(MaterialDefinition const& definition, CodeScan const& f
     }
     Result<void> done =
             expectFunction(fragment, "material", definition.fragment, "void material(inout MaterialInputs material)");
+    if (done) done = checkInstanceIndex(definition, fragment, vertex);
     if (done && definition.package.shading != ShadingModel::Unlit) {
         done = expectFunction(fragment, "prepareMaterial", definition.fragment,
                               "material(), which must call prepareMaterial(material)");
@@ -276,6 +293,7 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     needs.clipSpaceTransform =
             definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");
     needs.luminance = fragment.mentions("luminance");
+    needs.instanceIndex = fragment.mentions("getInstanceIndex");
     return needs;
 }
 

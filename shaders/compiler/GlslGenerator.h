@@ -15,8 +15,9 @@ namespace filament::shader {
 struct MaterialNeeds {
     bool worldPosition = false, normal = false, tangent = false;
     bool clipSpaceTransform = false;
-    bool luminance = false; ///< calls luminance() of the colour library
-    uint64_t terms = 0;     ///< bit n: the term of materialMembers()[n] (findTerms())
+    bool instanceIndex = false; ///< getInstanceIndex() in the fragment stage
+    bool luminance = false;     ///< calls luminance() of the colour library
+    uint64_t terms = 0;         ///< bit n: the term of materialMembers()[n] (findTerms())
 
     bool has(std::string_view term) const;
 };

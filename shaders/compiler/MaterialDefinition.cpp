@@ -50,21 +50,31 @@ Result<void> readProperties(JsonValue const& material, MaterialDefinition& out) 
 
 bool blends(Blending blending) { return blending != Blending::Opaque && blending != Blending::Masked; }
 
+void addHiddenParameter(MaterialDefinition& out, std::string_view name, ParameterType type) {
+    out.package.parameters.push_back({ .name = std::string(name), .type = type });
+    out.parameterSources.push_back({});
+}
+
+/// A material that says `doubleSided` can be switched at run time. Where it culls back faces whenever it is not
+/// double-sided, nobody sees whether those were turned around, and no parameter has to say so.
+bool needsDoubleSidedParameter(MaterialDefinition const& definition) {
+    const bool isSurface = definition.package.domain == MaterialDomain::Surface;
+    const bool cullsBack = definition.find("culling") == nullptr || definition.package.culling == Culling::Back;
+    return isSurface && definition.find("doubleSided") && !(definition.package.doubleSided && cullsBack);
+}
+
 /// Defaults that follow from other properties.
 void completeDefaults(MaterialDefinition& out) {
     MaterialPackage& package = out.package;
     if (!out.find("depthWrite")) package.depthWrite = !blends(package.blending);
     if (!out.find("alphaToCoverage")) package.alphaToCoverage = package.blending == Blending::Masked;
-    if (!out.find("culling") && package.doubleSided) package.culling = Culling::None;
     if (package.domain == MaterialDomain::PostProcess) {
         if (!out.find("culling")) package.culling = Culling::None;
         if (!out.find("shadingModel")) package.shading = ShadingModel::Unlit;
         package.vertexDomain = VertexDomain::Device;
     }
-    if (package.blending == Blending::Masked) {
-        package.parameters.push_back({ .name = std::string(kMaskThresholdParameter), .type = ParameterType::Float });
-        out.parameterSources.push_back({});
-    }
+    if (package.blending == Blending::Masked) addHiddenParameter(out, kMaskThresholdParameter, ParameterType::Float);
+    if (needsDoubleSidedParameter(out)) addHiddenParameter(out, kDoubleSidedParameter, ParameterType::Bool);
 }
 
 } // namespace

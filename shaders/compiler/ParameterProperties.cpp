@@ -67,6 +67,7 @@ Result<void> readFormat(JsonValue const& value, Parameter& out) {
     static constexpr std::pair<std::string_view, SamplerFormat> kFormats[] = {
         { "float", SamplerFormat::Float },
         { "int", SamplerFormat::Int },
+        { "uint", SamplerFormat::Uint },
     };
     if (!isTexture(out.type) || out.type == ParameterType::SubpassInput)
         return errorAt(value.at, fmt::format("only samplers have a format, and '{}' is none", out.name));

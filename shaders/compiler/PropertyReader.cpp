@@ -42,8 +42,8 @@ Result<void> readIdentifier(JsonValue const& value, std::string_view what, std::
     std::string const& name = value.text;
     const bool isIdentifier = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&
                               std::ranges::all_of(name, isIdentifierCharacter);
-    const bool isReserved =
-            name.starts_with("gl_") || name.find("__") != std::string::npos || name == kMaskThresholdParameter;
+    const bool isReserved = name.starts_with("gl_") || name.find("__") != std::string::npos ||
+                            name == kMaskThresholdParameter || name == kDoubleSidedParameter;
     if (!isIdentifier || isReserved || name.size() > 128) {
         return errorAt(value.at, fmt::format("{} \"{}\" is not a usable GLSL identifier", what, name.substr(0, 128)));
     }

@@ -19,22 +19,8 @@ constexpr Gap kGaps[] = {
       "the shading model cloth" },
     { [](MaterialDefinition const& d) { return d.package.refractionMode != RefractionMode::None; }, "refractionMode",
       "refraction" },
-    { [](MaterialDefinition const& d) { return d.package.reflections == Reflections::ScreenSpace; }, "reflections",
-      "reflection of the picture" },
-    // The pipelines draw each object once.
-    { [](MaterialDefinition const& d) { return d.package.transparency != TransparencyMode::Default; }, "transparency",
-      "transparency in two passes" },
-    // Vulkan takes the first vertex of a triangle and OpenGL ES the last.
-    { [](MaterialDefinition const& d) { return d.package.interpolation == Interpolation::Flat; }, "interpolation",
-      "flat interpolation" },
-    { [](MaterialDefinition const& d) { return d.package.instanced; }, "instanced", "getInstanceIndex()" },
-    { [](MaterialDefinition const& d) { return d.package.shadowMultiplier; }, "shadowMultiplier", "a shadow" },
     { [](MaterialDefinition const& d) { return d.customSurfaceShading; }, "customSurfaceShading",
       "customSurfaceShading" },
-    { [](MaterialDefinition const& d) {
-         return std::ranges::count(d.package.parameters, SamplerFormat::Int, &Parameter::format) > 0;
-     },
-      "parameters", "a sampler of format int" },
 };
 
 } // namespace

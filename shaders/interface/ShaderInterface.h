@@ -64,7 +64,7 @@ inline constexpr uint32_t kObjectsPerWindow = 256;
 /// One instance: the rows of the affine transform from object to camera-relative world space.
 struct ObjectData {
     float4 row0, row1, row2;
-    float4 flags; ///< x: +1, or -1 if the transform mirrors (flips the bitangent and the front face); yzw: unused
+    float4 flags; ///< x: +1, or -1 if the transform mirrors (flips the bitangent and the front face); y: instance index; zw: unused
 };
 
 struct ObjectUniforms {

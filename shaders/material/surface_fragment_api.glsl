@@ -44,6 +44,9 @@ vec2 getUV0() { return vertex_uv01.xy; }
 #if defined(HAS_UV1)
 vec2 getUV1() { return vertex_uv01.zw; }
 #endif
+#if defined(NEEDS_INSTANCE_INDEX)
+int getInstanceIndex() { return vertex_instanceIndex; }
+#endif
 #if defined(BLEND_MODE_MASKED)
 float getMaskThreshold() { return materialParams._maskThreshold; }
 #endif
@@ -64,9 +67,12 @@ void computeShadingGeometry() {
 #else
     vec3 t = vec3(0.0), b = vec3(0.0);
 #endif
-#if defined(DOUBLE_SIDED)
+#if defined(DOUBLE_SIDED) || defined(DOUBLE_SIDED_BY_PARAMETER)
     // The back of a surface is the same surface seen from behind: its whole frame looks the other way.
     float side = gl_FrontFacing ? 1.0 : -1.0;
+#if defined(DOUBLE_SIDED_BY_PARAMETER)
+    if (!materialParams._doubleSided) side = 1.0;
+#endif
     n *= side;
     t *= side;
     b *= side;

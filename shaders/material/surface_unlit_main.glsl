@@ -1,6 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Fragment stage of unlit surface materials, entry point: the base colour as it is, no light and no exposure.
 
+#if defined(SHADOW_MULTIPLIER)
+// The share of the sun that a shadow takes: what the material gives is the colour of a full shadow (materials guide,
+// 4.2.29). Nothing casts shadows yet, so that an invisible shadow plane is invisible.
+const float kShadowing = 0.0;
+#endif
+
 void main() {
     MaterialInputs inputs;
     initMaterial(inputs);
@@ -9,6 +15,9 @@ void main() {
     applyMask(inputs.baseColor);
     vec4 color = vec4(inputs.baseColor.rgb, outputAlpha(inputs.baseColor.a));
     addEmissive(inputs, color);
+#if defined(SHADOW_MULTIPLIER)
+    color *= kShadowing;
+#endif
     blendPostLighting(inputs, color);
     fragment_color = color;
 }

@@ -23,13 +23,17 @@ layout(location = kAttributeUv0) in vec2 mesh_uv0;
 #if defined(HAS_UV1)
 layout(location = kAttributeUv1) in vec2 mesh_uv1;
 #endif
-#if defined(VERTEX_DOMAIN_OBJECT)
+#if defined(VERTEX_DOMAIN_OBJECT) || defined(INSTANCED)
 layout(location = kAttributeInstance) in uint mesh_instance;
 #endif
 
 vec4 getPosition() { return vec4(meshPosition(), 1.0); }
 int getVertexIndex() { return gl_VertexIndex; }
 int getEyeIndex() { return 0; }
+#if defined(INSTANCED)
+// The index that the application gave the renderable: which renderables share a draw call does not show.
+int getInstanceIndex() { return int(objectUniforms.objects[mesh_instance].flags.y); }
+#endif
 
 #if defined(VERTEX_DOMAIN_OBJECT)
 

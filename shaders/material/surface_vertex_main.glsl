@@ -47,6 +47,9 @@ void main() {
 #elif defined(HAS_UV1)
     vertex_uv01 = vec4(0.0, 0.0, inputs.uv1);
 #endif
+#if defined(NEEDS_INSTANCE_INDEX)
+    vertex_instanceIndex = getInstanceIndex();
+#endif
     MATERIAL_WRITE_VARIABLES(inputs)
 
 #if defined(HAS_CLIP_SPACE_TRANSFORM)

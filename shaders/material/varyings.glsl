@@ -1,19 +1,23 @@
 // SPDX-License-Identifier: Apache-2.0
 // What goes from the vertex to the fragment stage; VARYING is `out` or `in`. Only what the material reads exists.
-// The compiler adds the material's own variables at locations 5 and up.
+// The compiler adds the material's own variables at locations 5 to 8. INTERPOLATION is `smooth` or `flat`: with `flat` a
+// triangle has the normal, the colour and the variables of its last vertex; positions and texture coordinates stay smooth.
 
 #if defined(NEEDS_WORLD_POSITION)
 layout(location = 0) VARYING vec3 vertex_worldPosition;
 #endif
 #if defined(NEEDS_NORMAL)
-layout(location = 1) VARYING vec3 vertex_worldNormal;
+layout(location = 1) INTERPOLATION VARYING vec3 vertex_worldNormal;
 #endif
 #if defined(NEEDS_TANGENT)
-layout(location = 2) VARYING vec4 vertex_worldTangent; // w: sign of the bitangent
+layout(location = 2) INTERPOLATION VARYING vec4 vertex_worldTangent; // w: sign of the bitangent
 #endif
 #if defined(HAS_COLOR)
-layout(location = 3) VARYING vec4 vertex_color;
+layout(location = 3) INTERPOLATION VARYING vec4 vertex_color;
 #endif
 #if defined(HAS_UV0) || defined(HAS_UV1)
 layout(location = 4) VARYING vec4 vertex_uv01;
+#endif
+#if defined(NEEDS_INSTANCE_INDEX)
+layout(location = 9) flat VARYING int vertex_instanceIndex;
 #endif

@@ -128,6 +128,8 @@ struct MaterialPackage {
 
 /// Name of the parameter that holds the mask threshold of masked materials; its default is package.maskThreshold.
 inline constexpr std::string_view kMaskThresholdParameter = "_maskThreshold";
+/// Name of the bool that says whether back faces are turned around; its default is MaterialPackage::doubleSided.
+inline constexpr std::string_view kDoubleSidedParameter = "_doubleSided";
 
 Result<MaterialPackage> readPackage(std::span<const std::byte> bytes);
 std::vector<std::byte> writePackage(MaterialPackage const& package);

@@ -124,7 +124,7 @@ bool readParameters(ByteReader in, std::vector<Parameter>& out) {
         parameter.arraySize = in.u32();
         parameter.offset = in.u32();
         parameter.binding = in.u8();
-        if (!readEnum(in, parameter.format, SamplerFormat::Int)) return false;
+        if (!readEnum(in, parameter.format, SamplerFormat::Uint)) return false;
         if (!readEnum(in, parameter.precision, Precision::High)) return false;
         out.push_back(std::move(parameter));
     }

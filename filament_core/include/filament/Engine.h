@@ -128,9 +128,13 @@ public:
     /// Elements [first, first + values.size()) of an array; the others stay. InvalidArgument also for those it lacks.
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
                      uint32_t first = 0);
-    /// InvalidArgument also for a texture of another kind than the sampler's.
+    /// InvalidArgument also for a texture of another kind than the sampler's, or of another format: samplers of format
+    /// int or uint take integers, and never filter.
     Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler = {});
-    /// Raster state that may change at run time. `doubleSided` only if the material was compiled for it.
+    /// Draws and shades both sides, or what the material's `culling` leaves. InvalidArgument if the material was
+    /// compiled without the property doubleSided.
+    Result<void> setDoubleSided(MaterialInstance instance, bool doubleSided);
+    /// Draws both sides; how they are shaded stays.
     void setCullingDisabled(MaterialInstance instance, bool disabled);
 
     void destroy(Texture texture);

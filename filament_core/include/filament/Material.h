@@ -30,7 +30,7 @@ enum class ParameterType : uint8_t {
 /// As the guide spells it: "float3", "samplerCubemap".
 const char* toString(ParameterType type);
 
-enum class SamplerFormat : uint8_t { Float, Int };
+enum class SamplerFormat : uint8_t { Float, Int, Uint };
 enum class Precision : uint8_t { Default, Low, Medium, High };
 
 /// A set of what scene and view may ask of a material: the names of variantFilter (4.2.6).

@@ -31,6 +31,7 @@ struct RenderableDesc {
     float3 boundsMin{ 0 }, boundsMax{ 0 }; ///< of the positions, in object space
     double4x4 worldFromObject{ 1.0 };      ///< affine; with a node: stays the identity
     Node node{};                           ///< the renderable stands where this node stands; none: at worldFromObject
+    uint32_t instanceIndex = 0;            ///< < 2^24; what getInstanceIndex() of materials with `instanced` gives
     bool culled = true;                    ///< false: drawn even when its box is out of view
     std::string name{};
 };

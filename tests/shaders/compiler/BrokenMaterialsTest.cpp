@@ -75,6 +75,13 @@ constexpr Broken kContradictions[] = {
       "a.mat:2: two passes are for what is blended; set a blending, for instance transparent" },
     { "material {\n blending : fade,\n transparency : twoPassesOneSide,\n refractionMode : cubemap }" GOOD_FRAGMENT,
       "a.mat:3: two passes are for materials that do not refract; leave out transparency or refractionMode" },
+    { "material {\n blending : fade, transparency : twoPassesOneSide,\n depthCulling : false }" GOOD_FRAGMENT,
+      "a.mat:2: twoPassesOneSide finds out what is nearest by the depth test; leave out depthCulling : false" },
+    { "material { shadingModel : unlit, vertexDomain : device, fullScreenTriangle : true,\n instanced : true "
+      "}" GOOD_FRAGMENT,
+      "a.mat:2: a full-screen triangle has no instances; leave out instanced" },
+    { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.roughness = float(getInstanceIndex());"),
+      "a.mat:2: this block calls getInstanceIndex(); that needs the property instanced : true" },
     { "material {\n blending : fade,\n refractionMode : cubemap }" GOOD_FRAGMENT,
       "a.mat:3: what refracts is drawn opaque, because it shows what is behind it by itself; leave out blending" },
     { "material {\n shadingModel : unlit,\n refractionMode : cubemap }" GOOD_FRAGMENT,

@@ -122,7 +122,9 @@ TEST(Properties, SpellMatricesAsTheGuideDoes) {
 
 TEST(Properties, KeepTheFormatOfSamplers) {
     const MaterialPackage package = packageOf("parameters : [ { type : sampler2d, format : int, name : ids }, "
-                                              "{ type : sampler2dArray, format : float, name : layers } ]");
+                                              "{ type : sampler2dArray, format : float, name : layers }, "
+                                              "{ type : samplerCubemap, format : uint, name : flags } ]");
+    EXPECT_EQ(package.findParameter("flags")->format, SamplerFormat::Uint);
     EXPECT_EQ(package.findParameter("ids")->format, SamplerFormat::Int);
     EXPECT_EQ(package.findParameter("layers")->format, SamplerFormat::Float);
 }

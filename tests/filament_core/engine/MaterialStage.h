@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+/// MaterialStage: an engine with materials from .mat text and a few meshes, for pictures whose colours are known.
+///   onBothApis() builds the same stage on Vulkan and on OpenGL ES, with validation on, expects that nobody reports an
+///   error and that both pictures have the same bits, and returns the picture: scene-linear half floats.
+#pragma once
+
+#include "shaders/compiler/MaterialCompiler.h"
+#include "tests/filament_core/engine/RenderFixture.h"
+
+#include <array>
+#include <vector>
+
+namespace filament::test {
+
+struct StageVertex {
+    float3 position{ 0 };
+    float4 tangents{ 0, 0, 0, 1 }; ///< the frame of a plane that looks at +z
+    float4 color{ 1 };
+    float2 uv{ 0 };
+};
+
+/// A square around the z axis that covers the whole picture, of one colour.
+struct Square {
+    float z = 0;
+    float4 color{ 1 };
+    bool facesCamera = true;
+    float halfSide = 8;
+};
+
+class MaterialStage {
+public:
+    explicit MaterialStage(Engine& stageEngine) : engine(stageEngine), scene(stageEngine) {
+        view.camera = Camera::lookAt({ 0, 0, 4 }, { 0, 0, 0 }, { .verticalFovDegrees = 45 });
+        view.size = { 8, 8 };
+        view.clearColor = float4(0, 0, 0, 1);
+    }
+
+    /// None, and a failure, where the text does not compile.
+    MaterialInstance material(std::string_view text, std::vector<MaterialConstant> constants = {}) {
+        const Result<shader::MaterialPackage> package = shader::compileMaterial(text, "stage.mat");
+        if (!package) {
+            ADD_FAILURE() << package.error().message;
+            return {};
+        }
+        const std::vector<std::byte> bytes = shader::writePackage(*package);
+        Result<Material> material = engine.create(MaterialDesc{ .package = bytes, .constants = std::move(constants) });
+        if (!material) {
+            ADD_FAILURE() << material.error().message;
+            return {};
+        }
+        mMaterials.push_back(engine.own(*material));
+        mInstances.push_back(engine.own(engine.createInstance(*material)));
+        return mInstances.back();
+    }
+
+    /// One renderable; its squares are drawn in this order.
+    Renderable add(MaterialInstance instance, std::vector<Square> const& squares, double4x4 const& world = double4x4(1),
+                   uint32_t instanceIndex = 0) {
+        std::vector<StageVertex> vertices;
+        std::vector<uint16_t> indices;
+        for (Square const& square : squares) {
+            const auto first = static_cast<uint16_t>(vertices.size());
+            for (const float2 corner : { float2(0, 0), float2(1, 0), float2(1, 1), float2(0, 1) }) {
+                const float2 at = (corner * 2.0f - 1.0f) * square.halfSide;
+                vertices.push_back({ .position = float3(at, square.z), .color = square.color, .uv = corner });
+            }
+            for (const int corner : { 0, 1, 2, 0, 2, 3 })
+                indices.push_back(static_cast<uint16_t>(first + (square.facesCamera ? corner : 3 - corner)));
+        }
+        return add(instance, vertices, indices, world, instanceIndex);
+    }
+
+    Renderable add(MaterialInstance instance, std::vector<StageVertex> const& vertices,
+                   std::vector<uint16_t> const& indices, double4x4 const& world, uint32_t instanceIndex = 0) {
+        using enum Attribute;
+        mVertices.push_back(engine.own(engine.create(
+                VertexBufferDesc{ .vertexCount = static_cast<uint32_t>(vertices.size()),
+                                  .stride = sizeof(StageVertex),
+                                  .attributes = { { Position, VertexFormat::Float3, offsetof(StageVertex, position) },
+                                                  { Tangents, VertexFormat::Float4, offsetof(StageVertex, tangents) },
+                                                  { Color, VertexFormat::Float4, offsetof(StageVertex, color) },
+                                                  { Uv0, VertexFormat::Float2, offsetof(StageVertex, uv) } },
+                                  .data = std::as_bytes(std::span(vertices)),
+                                  .name = "stage" })));
+        mIndices.push_back(
+                engine.own(engine.create(IndexBufferDesc{ .indexCount = static_cast<uint32_t>(indices.size()),
+                                                          .data = std::as_bytes(std::span(indices)),
+                                                          .name = "stage" })));
+        return scene.add({ .vertices = mVertices.back(),
+                           .indices = mIndices.back(),
+                           .material = instance,
+                           .boundsMin = float3(-8),
+                           .boundsMax = float3(8),
+                           .worldFromObject = world,
+                           .instanceIndex = instanceIndex });
+    }
+
+    Texture own(Texture texture) {
+        mTextures.push_back(engine.own(texture));
+        return texture;
+    }
+
+    Engine& engine;
+    View view;
+
+private:
+    std::vector<Owned<Texture>> mTextures;
+    std::vector<Owned<VertexBuffer>> mVertices;
+    std::vector<Owned<IndexBuffer>> mIndices;
+    std::vector<Owned<Material>> mMaterials;
+    std::vector<Owned<MaterialInstance>> mInstances;
+
+public:
+    Scene scene; ///< before what it shows in the order of destruction
+};
+
+/// build(MaterialStage&) puts things on the stage.
+template <class Build>
+Image onBothApis(Build&& build) {
+    std::array<Image, 2> pictures;
+    for (size_t i = 0; i < pictures.size(); ++i) {
+        auto engine = makeEngine(kBothApis[i]);
+        if (!engine) return {};
+        MaterialStage stage(*engine);
+        build(stage);
+        pictures[i] = renderLinear(*engine, stage.scene, stage.view);
+        expectNoErrors(*engine);
+    }
+    EXPECT_FALSE(pictures[0].pixels.empty());
+    EXPECT_EQ(pictures[0].pixels, pictures[1].pixels) << "not the same bits on both APIs";
+    return pictures[0];
+}
+
+inline float4 centerPixel(Image const& image) { return halfPixel(image, image.width / 2, image.height / 2); }
+
+} // namespace filament::test
