@@ -78,6 +78,8 @@ Ticket CommandStream::nextTicket() { return { gLastTicket.fetch_add(1, std::memo
 CommandBuffer& CommandStream::acquire() { return mState->driver.acquire(); }
 void CommandStream::submit(CommandBuffer& commands) { mState->driver.submit(commands); }
 void CommandStream::waitIdle() { mState->driver.waitIdle(); }
+uint64_t CommandStream::submissions() const { return mState->driver.submissions(); }
+uint64_t CommandStream::replayedSubmissions() const { return mState->driver.replayedSubmissions(); }
 uint64_t CommandStream::backPressureNanoseconds() const { return mState->driver.backPressureNanoseconds(); }
 LatencyStatistics CommandStream::latency() const { return mState->driver.latency(); }
 std::vector<FrameTiming> CommandStream::takeTimings() { return mState->mailbox.takeTimings(); }

@@ -106,6 +106,9 @@ public:
     void submit(CommandBuffer& commands);
     /// Waits until everything submitted was replayed and the device is idle.
     void waitIdle();
+    /// How many buffers were submitted, and how many of them the driver thread is done with.
+    uint64_t submissions() const;
+    uint64_t replayedSubmissions() const;
     /// Nanoseconds that acquire() has waited in total.
     uint64_t backPressureNanoseconds() const;
     std::vector<FrameTiming> takeTimings();

@@ -261,6 +261,16 @@ void DriverThread::waitIdle() {
     waitForProgress(lock, [&] { return mIdleReached >= submission; });
 }
 
+uint64_t DriverThread::submissions() const {
+    const std::lock_guard lock(mMutex);
+    return mSubmitted;
+}
+
+uint64_t DriverThread::replayedSubmissions() const {
+    const std::lock_guard lock(mMutex);
+    return mReplayed;
+}
+
 uint64_t DriverThread::backPressureNanoseconds() const {
     const std::lock_guard lock(mMutex);
     return mBackPressure;

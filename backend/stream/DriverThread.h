@@ -37,6 +37,8 @@ public:
 
     DeviceInfo const& info() const { return mInfo; }
     DriverStatistics statistics() const { return mDriver->statistics(); }
+    uint64_t submissions() const;
+    uint64_t replayedSubmissions() const;
     uint64_t backPressureNanoseconds() const;
     LatencyStatistics latency() const;
     ReplayWatch& watch() { return mWatch; }

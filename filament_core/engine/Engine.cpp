@@ -129,7 +129,8 @@ std::vector<DeviceDescription> listDevices() {
 Engine::Impl::Impl(EngineOptions engineOptions, std::unique_ptr<CommandStream> commandStream)
         : options(std::move(engineOptions)), stream(std::move(commandStream)),
           driverPin(jobs::CoreRegistry::ofProcess().reserve(options.driverCore)), jobs(jobOptions(options)),
-          device(descriptionOf(stream->info())), pipelines(*stream, layouts), samplers(*stream) {
+          device(descriptionOf(stream->info())), pipelines(*stream, layouts), compilations(pipelines),
+          samplers(*stream) {
     createDefaultObjects(*this);
 }
 
@@ -158,6 +159,19 @@ void Engine::Impl::flush() {
     drainPending(*commands);
 }
 
+void Engine::Impl::advanceCompilation() {
+    compilations.collect(stream->replayedSubmissions());
+    const bool driverIsIdle = stream->replayedSubmissions() == stream->submissions();
+    if (!compilations.isWaiting() || !driverIsIdle) return; // a busy driver thread takes it with the next frame
+    FrameCommands commands(*stream);
+    drainPending(*commands);
+    recordCompilations(*commands);
+}
+
+void Engine::Impl::recordCompilations(CommandBuffer& commands) {
+    compilations.recordSlice(commands, stream->submissions() + 1);
+}
+
 void Engine::Impl::drainPending(CommandBuffer& commands) {
     if (pending.commandCount() > 0) commands.append(std::move(pending));
     for (MaterialInstance handle : dirtyInstances) updateInstance(instances.get(handle), commands);
@@ -166,14 +180,16 @@ void Engine::Impl::drainPending(CommandBuffer& commands) {
 
 void Engine::Impl::collectErrors() {
     std::vector<DriverError> taken;
+    std::vector<std::string> refusals = pipelines.takeRefusals();
     try {
         taken = stream->takeErrors();
-        errors.reserve(errors.size() + taken.size() + 1);
+        errors.reserve(errors.size() + taken.size() + refusals.size() + 1);
         if (untoldErrors > 0) errors.push_back(fmt::format("out of memory, {} more times", untoldErrors));
         untoldErrors = 0;
         for (DriverError& error : taken) errors.push_back(std::move(error.message));
+        for (std::string& line : refusals) errors.push_back(std::move(line));
     } catch (std::bad_alloc const&) { // next time
-        untoldErrors += static_cast<uint32_t>(taken.size());
+        untoldErrors += static_cast<uint32_t>(taken.size() + refusals.size());
     }
 }
 
@@ -220,6 +236,7 @@ EngineStatistics Engine::statistics() const {
     const DriverStatistics driver = mImpl->stream->statistics();
     return { driver.draws,
              driver.pipelinesCreated,
+             driver.programsCreated,
              driver.pipelinesCreatedInPasses,
              driver.commands,
              driver.deviceBytes,

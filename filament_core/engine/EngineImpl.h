@@ -8,6 +8,7 @@
 #pragma once
 
 #include "backend/stream/CommandStream.h"
+#include "filament_core/engine/CompileQueue.h"
 #include "filament_core/engine/ObjectTable.h"
 #include "filament_core/engine/SamplerCache.h"
 #include "filament_core/passes/Pipelines.h"
@@ -94,6 +95,9 @@ struct Engine::Impl {
     void flush();
     /// Moves everything pending, dirty parameters included, in front of a frame.
     void drainPending(backend::CommandBuffer& commands);
+    /// The next slice of what compile() was asked for, behind a frame / when no frame is on its way. Never waits.
+    void recordCompilations(backend::CommandBuffer& commands);
+    void advanceCompilation();
     void collectErrors();
     /// A line for takeErrors(), as long as there is memory for it.
     void report(std::string_view line) noexcept;
@@ -118,6 +122,7 @@ struct Engine::Impl {
     Texture dfgTable(uint32_t size);
     /// The colours of a tone mapper as a table (ToneTable.h); baked when first asked for, then kept.
     Texture toneTable(ToneMapper mapper, uint32_t size);
+    Result<Compilation> compile(Material material, CompileDesc const& desc);
     Result<Material> createMaterial(MaterialDesc const& desc);
     /// The package of an engine material, exact or plain as EngineOptions::exactShaders says.
     std::span<const std::byte> enginePackage(std::string_view name) const;
@@ -148,6 +153,7 @@ struct Engine::Impl {
 
     scene::GeometryLayouts layouts;
     passes::PipelineCache pipelines;
+    engine::CompileQueue compilations;
     engine::SamplerCache samplers;
 
     engine::ObjectTable<TextureObject, engine::TextureState> textures;

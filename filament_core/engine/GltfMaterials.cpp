@@ -104,7 +104,7 @@ MaterialInstance GltfMaterials::instanceFor(MaterialData const& material, bool h
     const Material parent = materialFor(material, hasVertexColor);
     mModel.instances.push_back({});
     const MaterialInstance instance = mModel.instances.back() = mEngine.createInstance(parent, material.name);
-    mEngine.instances.get(instance).cullingDisabled = material.doubleSided;
+    mEngine.instances.get(instance).raster.cullingDisabled = material.doubleSided;
     setParameters(instance, material);
     return instance;
 }

@@ -216,7 +216,7 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
     instance.material = &parent;
     instance.name = name.empty() ? parent.name : std::move(name);
     instance.parameters.resize(parent.package.uniformBytes);
-    instance.cullingDisabled = parent.package.doubleSided;
+    instance.raster = scene::initialRaster(parent.package);
     if (Parameter const* threshold = parent.package.findParameter(shader::kMaskThresholdParameter)) {
         std::memcpy(instance.parameters.data() + threshold->offset, &parent.package.maskThreshold, sizeof(float));
     }
@@ -341,12 +341,43 @@ Result<void> Engine::setDoubleSided(MaterialInstance handle, bool doubleSided) {
     if (parameter) {
         if (Result<void> done = set(handle, parameter->name, ParameterValue(doubleSided)); !done) return done;
     }
-    instance.cullingDisabled = doubleSided;
+    instance.raster.cullingDisabled = doubleSided;
     return {};
 }
 
+Result<void> Engine::setMaskThreshold(MaterialInstance handle, float threshold) {
+    scene::Material const& material = *mImpl->instances.get(handle).material;
+    if (!material.package.findParameter(shader::kMaskThresholdParameter)) {
+        return fail(ErrorCode::InvalidArgument, "material '{}' has no mask threshold: only blending : masked cuts out",
+                    material.name);
+    }
+    if (!(threshold >= 0 && threshold <= 1)) {
+        return fail(ErrorCode::InvalidArgument, "material '{}': a mask threshold lies in [0, 1], and {} does not",
+                    material.name, threshold);
+    }
+    return set(handle, shader::kMaskThresholdParameter, ParameterValue(threshold));
+}
+
 void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {
-    mImpl->instances.get(handle).cullingDisabled = disabled;
+    mImpl->instances.get(handle).raster.cullingDisabled = disabled;
+}
+
+void Engine::setCulling(MaterialInstance handle, Culling culling) {
+    scene::RasterState& raster = mImpl->instances.get(handle).raster;
+    raster.culling = culling;
+    raster.cullingDisabled = false;
+}
+
+void Engine::setColorWrite(MaterialInstance handle, bool writes) {
+    mImpl->instances.get(handle).raster.colorWrite = writes;
+}
+
+void Engine::setDepthWrite(MaterialInstance handle, bool writes) {
+    mImpl->instances.get(handle).raster.depthWrite = writes;
+}
+
+void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
+    mImpl->instances.get(handle).raster.depthCulling = tests;
 }
 
 void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuffer& commands) {
@@ -387,6 +418,7 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
 void Engine::destroy(Material material) {
     scene::Material& state = mImpl->materials.get(material);
     FILAMENT_ASSERT(state.instanceCount == 0, "the instances of a material are destroyed before it");
+    mImpl->compilations.forget(state);
     mImpl->pipelines.forget(mImpl->pending, state);
     mImpl->materials.remove(material);
 }

@@ -54,6 +54,7 @@ struct Renderer::Impl {
     Result<void> render(Scene const& scene, View const& view, engine::TextureState const& target) {
         if (!target.handle) return noImage(target.desc.width, target.desc.height);
         try {
+            engine.compilations.collect(engine.stream->replayedSubmissions());
             renderFrame(scene, view, target);
             return {};
         } catch (std::bad_alloc const&) {
@@ -94,6 +95,7 @@ struct Renderer::Impl {
             const InReserve<CmdEndFrame> end{ *commands, { frame } };
             engine.useTextureFilter(view.quality.textureFilter);
             engine.drainPending(*commands);
+            engine.recordCompilations(*commands);
             upload(*commands, *context, tableSize);
             describe(*context, view, target, toneTable);
             plan = compile(graph, transients);
@@ -122,9 +124,52 @@ struct Renderer::Impl {
         context.nearestSampler = sampler(kNearest);
     }
 
+    /// The passes of such a frame, as slots of the pipeline cache, and their own pipelines as wishes.
+    void expect(Scene const& scene, View const& view, engine::TextureState const& target) {
+        const jobs::AdoptedThread seat(engine.jobs);
+        arena.reset();
+        graph.reset();
+        plan = {};
+        FrameContext* context = arena.make<FrameContext>();
+        context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(),
+                                                { view.camera, view.size, view.timeSeconds, view.quality });
+        const TextureHandle toneTable = toneTableOf(view);
+        const FramePasses passes = describe(*context, view, target, toneTable);
+        plan = compile(graph, transients);
+        const uint32_t colorSlot = engine.pipelines.slot(
+                passes::slotOf(context->settings, plan.passLayout(passes.color), plan.subpass(passes.color)));
+        if (context->skybox) wishForPicture(*context->skybox, colorSlot);
+        if (passes.toneMap) {
+            const bool isMerged = plan.passes[passes.toneMap.index()].merge == framegraph::Merge::Merged;
+            const passes::ToneMapMaterials materials = toneMapMaterials(view.colorGrading, toneTable);
+            wishForPicture(isMerged ? *materials.merged : *materials.sampled,
+                           engine.pipelines.slot(passes::fullScreenSlot(plan.passLayout(passes.toneMap),
+                                                                        plan.subpass(passes.toneMap))));
+        }
+        plan = {};
+    }
+
+    void wishForPicture(scene::Material& material, uint32_t slot) {
+        engine.compilations.add({ .material = &material, .wishes = { { .slot = slot, .isFullScreen = true } } },
+                                CompilePriority::Critical);
+    }
+
+    void tryExpect(Scene const& scene, View const& view, engine::TextureState const& target) {
+        try {
+            expect(scene, view, target);
+        } catch (std::bad_alloc const&) {
+            plan = {};
+            engine.reportOutOfMemory("expecting a frame");
+        }
+    }
+
+    struct FramePasses {
+        framegraph::PassId color, toneMap; ///< toneMap: none for scene-linear targets
+    };
+
     /// Which passes the frame has. A scene-linear target takes the colour pass as it is.
-    void describe(FrameContext& context, View const& view, engine::TextureState const& target,
-                  TextureHandle toneTable) {
+    FramePasses describe(FrameContext& context, View const& view, engine::TextureState const& target,
+                         TextureHandle toneTable) {
         FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
         const bool halfIsThere = engine.stream->info().features.halfFloatShaders;
         context.settings = { view.size,
@@ -146,13 +191,13 @@ struct Renderer::Impl {
                                                        .name = "output" },
                                                      framegraph::InitialContents::Undefined);
         if (target.desc.format == Format::RGBA16F) {
-            passes::addColorPass(graph, &context, output);
-            return;
+            return { passes::addColorPass(graph, &context, output), {} };
         }
         const TextureId color = graph.createTexture(
                 { .width = view.size.x, .height = view.size.y, .format = Format::RGBA16F, .name = "color" });
-        passes::addColorPass(graph, &context, color);
-        passes::addToneMapPass(graph, &context, toneMapMaterials(view.colorGrading, toneTable), color, output);
+        const framegraph::PassId colorPass = passes::addColorPass(graph, &context, color);
+        return { colorPass, passes::addToneMapPass(graph, &context, toneMapMaterials(view.colorGrading, toneTable),
+                                                   color, output) };
     }
 
     TextureHandle toneTableOf(View const& view) {
@@ -270,6 +315,15 @@ void Renderer::render(Scene const& scene, View const& view, RenderTarget target)
     FILAMENT_ASSERT(color.desc.width == view.size.x && color.desc.height == view.size.y,
                     "a view has the size of its render target");
     (void)mImpl->render(scene, view, color);
+}
+
+void Renderer::expect(Scene const& scene, View const& view, SwapChain swapChain) {
+    engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
+    mImpl->tryExpect(scene, view, mImpl->engine.textures.get(state.images[state.current]));
+}
+
+void Renderer::expect(Scene const& scene, View const& view, RenderTarget target) {
+    mImpl->tryExpect(scene, view, mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color));
 }
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {

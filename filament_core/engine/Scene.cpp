@@ -2,6 +2,7 @@
 #include <filament/Scene.h>
 
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/Topology.h"
 #include "filament_core/scene/SceneNodes.h"
 
 #include <filament/Environment.h>
@@ -12,22 +13,6 @@ namespace filament {
 namespace {
 
 using scene::LightRecord;
-
-backend::Topology topology(PrimitiveType primitive) {
-    switch (primitive) {
-    case PrimitiveType::Triangles:
-        return backend::Topology::Triangles;
-    case PrimitiveType::TriangleStrip:
-        return backend::Topology::TriangleStrip;
-    case PrimitiveType::Lines:
-        return backend::Topology::Lines;
-    case PrimitiveType::LineStrip:
-        return backend::Topology::LineStrip;
-    case PrimitiveType::Points:
-        return backend::Topology::Points;
-    }
-    return backend::Topology::Triangles;
-}
 
 float3 unitDirection(float3 direction) {
     const float length = glm::length(direction);
@@ -56,7 +41,7 @@ Renderable Scene::add(RenderableDesc const& desc) {
                     "a renderable's indices lie inside of its index buffer");
     const scene::Geometry geometry{ vertices.handle,
                                     indices.handle,
-                                    engine.layouts.intern({ vertices.layout, topology(desc.primitive) }),
+                                    engine.layouts.intern({ vertices.layout, engine::topology(desc.primitive) }),
                                     desc.firstIndex,
                                     desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
                                     indices.type };

@@ -21,8 +21,7 @@ ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
     PipelineCache& pipelines = *context.pipelines;
     prepare::FramePacket const& packet = context.packet;
     PassSettings const& settings = context.settings;
-    const uint32_t slot = pipelines.slot(
-            { pass.passLayout(), pass.subpass(), settings.shading, settings.depthRange, settings.precision });
+    const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
     ChosenPipelines chosen;
     chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, packet.opaque, packet.variant);
     chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, packet.blended, packet.variant);
@@ -45,7 +44,7 @@ void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines
 
 } // namespace
 
-void addColorPass(FrameGraph& graph, FrameContext const* context, TextureId color) {
+framegraph::PassId addColorPass(FrameGraph& graph, FrameContext const* context, TextureId color) {
     const PassSettings settings = context->settings;
     const framegraph::TextureDesc like = graph.texture(color).desc;
     const TextureId depth = graph.createTexture({ .width = like.width,
@@ -59,7 +58,7 @@ void addColorPass(FrameGraph& graph, FrameContext const* context, TextureId colo
                                                                             .format = like.format,
                                                                             .samples = settings.samples,
                                                                             .name = "samples" });
-    graph.addPass(
+    return graph.addPass(
             "color",
             [&](PassBuilder& pass) {
                 const float4 clear = settings.clearColor;

@@ -10,6 +10,7 @@ namespace filament::passes {
 
 /// Declares the pass; it writes every pixel of `color`, which is single-sampled. With settings.samples > 1 it draws
 /// into a multisampled picture and resolves into `color`.
-void addColorPass(framegraph::FrameGraph& graph, FrameContext const* context, framegraph::TextureId color);
+framegraph::PassId addColorPass(framegraph::FrameGraph& graph, FrameContext const* context,
+                                framegraph::TextureId color);
 
 } // namespace filament::passes

@@ -21,6 +21,14 @@ struct PassSettings {
     ShadingPrecision precision = ShadingPrecision::Full;
 };
 
+/// Where the scene's surfaces are drawn / a picture is drawn over the whole target.
+inline PassSlot slotOf(PassSettings const& settings, backend::PassLayout const& layout, uint8_t subpass) {
+    return { layout, subpass, settings.shading, settings.depthRange, settings.precision };
+}
+inline PassSlot fullScreenSlot(backend::PassLayout const& layout, uint8_t subpass) {
+    return { .layout = layout, .subpass = subpass, .isFullScreen = true };
+}
+
 struct FrameContext {
     prepare::FramePacket packet{};
     PassSettings settings{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/Pipelines.h"
 
-#include "filament_core/base/Log.h"
+#include "filament_core/base/Result.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <algorithm>
@@ -13,7 +13,8 @@ using namespace backend;
 
 constexpr uint32_t kNoGeometry = 0xFFF;
 
-// always 1 | pass 2 bits | material 20 | geometry layout 12 | slot 12 | variant 8 | culling off 1 | mirrored 1
+// always 1 | unused 2 bits | raster state 5 | pass 2 | material 20 | geometry layout 12 | slot 12 | variant 8 | culling
+// off 1 | mirrored 1
 uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint8_t variant, bool cullingDisabled,
                  bool mirrored) {
     FILAMENT_ASSERT(material < 1u << 20 && geometryLayout <= kNoGeometry && slot < 4096,
@@ -34,16 +35,28 @@ uint16_t withPrecision(scene::Material const& material, uint8_t variant, Shading
     return precision == ShadingPrecision::Half && material.package.findVariant(half) ? half : variant;
 }
 
-uint64_t makeKey(uint32_t slot, PipelineUse const& use) {
-    scene::Material const& material = *use.instance.material;
-    return static_cast<uint64_t>(use.pass) << 54 |
-           makeKey(material.id, use.geometryLayout, slot, neededVariant(material, use.variant),
-                   use.instance.cullingDisabled, use.mirrored);
+// All but cullingDisabled.
+uint64_t rasterBits(scene::RasterState const& raster) {
+    return static_cast<uint64_t>(raster.culling) | static_cast<uint64_t>(raster.colorWrite) << 2 |
+           static_cast<uint64_t>(raster.depthWrite) << 3 | static_cast<uint64_t>(raster.depthCulling) << 4;
 }
 
-CullMode cullMode(shader::MaterialPackage const& package, bool cullingDisabled) {
-    if (cullingDisabled) return CullMode::None;
-    switch (package.culling) {
+uint64_t makeKey(uint32_t slot, PipelineUse const& use) {
+    scene::Material const& material = *use.instance.material;
+    return rasterBits(use.instance.raster) << 56 | static_cast<uint64_t>(use.pass) << 54 |
+           makeKey(material.id, use.geometryLayout, slot, neededVariant(material, use.variant),
+                   use.instance.raster.cullingDisabled, use.mirrored);
+}
+
+uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
+    return makeKey(material.id, kNoGeometry, slot, 0, true, false);
+}
+
+uint32_t programKey(uint16_t variant, ShadingKey shading) { return static_cast<uint32_t>(shading) << 16 | variant; }
+
+CullMode cullMode(scene::RasterState const& raster) {
+    if (raster.cullingDisabled) return CullMode::None;
+    switch (raster.culling) {
     case shader::Culling::None:
         return CullMode::None;
     case shader::Culling::Front:
@@ -56,8 +69,8 @@ CullMode cullMode(shader::MaterialPackage const& package, bool cullingDisabled) 
     return CullMode::Back;
 }
 
-bool drawsNothing(shader::MaterialPackage const& package, bool cullingDisabled) {
-    return package.culling == shader::Culling::FrontAndBack && !cullingDisabled;
+bool drawsNothing(scene::RasterState const& raster) {
+    return raster.culling == shader::Culling::FrontAndBack && !raster.cullingDisabled;
 }
 
 // Colours are pre-multiplied (DESIGN: conventions); coverage accumulates in alpha.
@@ -105,6 +118,8 @@ void usePass(PipelineDesc& desc, shader::TransparencyMode transparency, prepare:
     }
 }
 
+constexpr VariantSet variantSet(uint32_t bits) { return static_cast<VariantSet>(bits) & VariantSet::All; }
+
 // The geometry's own attributes, then the instance index in the next buffer slot.
 VertexLayout withInstanceIndex(VertexLayout layout) {
     FILAMENT_ASSERT(layout.bufferCount < kMaxVertexBuffers && layout.attributeCount < kMaxVertexAttributes,
@@ -117,6 +132,18 @@ VertexLayout withInstanceIndex(VertexLayout layout) {
 
 } // namespace
 
+std::string missingVariant(std::string_view material, shader::MaterialPackage const& package, uint32_t variant) {
+    const VariantSet filtered = variantSet(package.filteredVariants) & variantSet(variant);
+    if (filtered == VariantSet::None) {
+        return fmt::format("material '{}' has no variant '{}': it is not drawn; compile it again with the matc of this "
+                           "engine",
+                           material, toString(variantSet(variant)));
+    }
+    return fmt::format("material '{}': variant '{}' is asked for, but it was compiled without '{}' (variantFilter): it "
+                       "is not drawn; compile it without that filter",
+                       material, toString(variantSet(variant)), toString(filtered));
+}
+
 uint32_t PipelineCache::slot(PassSlot const& slot) {
     const auto found = std::find(mSlots.begin(), mSlots.end(), slot);
     if (found != mSlots.end()) return static_cast<uint32_t>(found - mSlots.begin());
@@ -126,16 +153,12 @@ uint32_t PipelineCache::slot(PassSlot const& slot) {
 
 ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& material, uint16_t variant,
                                         ShadingKey shading) {
-    const uint32_t key = static_cast<uint32_t>(shading) << 16 | variant;
+    const uint32_t key = programKey(variant, shading);
     for (scene::MaterialProgram const& program : material.programs) {
         if (program.key == key) return program.handle;
     }
     shader::Variant const* code = material.package.findVariant(variant);
-    if (!code) {
-        log(Severity::Warning, "material '{}' was compiled without variant {} (variantFilter): it is not drawn",
-            material.name, variant);
-        return {};
-    }
+    if (!code) return refuse(material, variant, missingVariant(material.name, material.package, variant));
     material.programs.push_back({ key, {} });
     try {
         material.programs.back().handle = createProgram(setup, material, *code, shading);
@@ -144,6 +167,42 @@ ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& m
         throw;
     }
     return material.programs.back().handle;
+}
+
+PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Material const& material,
+                                                   uint8_t variant) const {
+    PassSlot const& at = mSlots[slot];
+    return { withPrecision(material, neededVariant(material, variant), at.precision),
+             isLit(material) ? at.shading : ShadingKey{ 0 } };
+}
+
+void PipelineCache::prepareProgram(CommandBuffer& setup, uint32_t slot, scene::Material& material, uint8_t variant) {
+    (void)surfaceProgram(setup, slot, material, variant);
+}
+
+bool PipelineCache::hasProgram(uint32_t slot, scene::Material const& material, uint8_t variant) const {
+    const ProgramChoice choice = choose(slot, material, variant);
+    const uint32_t key = programKey(choice.variant, choice.shading);
+    return std::ranges::count(material.programs, key, &scene::MaterialProgram::key) > 0;
+}
+
+ProgramHandle PipelineCache::surfaceProgram(CommandBuffer& setup, uint32_t slot, scene::Material& material,
+                                            uint8_t variant) {
+    const ProgramChoice choice = choose(slot, material, variant);
+    if (material.package.domain == shader::MaterialDomain::Surface)
+        return programFor(setup, material, choice.variant, choice.shading);
+    return refuse(material, choice.variant,
+                  fmt::format("material '{}' is of domain postprocess: it draws pictures, not the surfaces of "
+                              "renderables; leave out 'domain' in its definition",
+                              material.name));
+}
+
+/// Told once for each variant, however many pipelines would have needed it.
+ProgramHandle PipelineCache::refuse(scene::Material& material, uint16_t variant, std::string why) {
+    if (std::ranges::count(material.refusedVariants, variant) > 0) return {};
+    mRefusals.push_back(std::move(why));
+    material.refusedVariants.push_back(variant);
+    return {};
 }
 
 ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material const& material,
@@ -161,11 +220,11 @@ ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material
     return program.keep();
 }
 
-PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
-                                     uint32_t geometryLayout, bool mirrored) const {
+PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const& material,
+                                     scene::RasterState const& raster, uint32_t geometryLayout, bool mirrored) const {
     shader::MaterialPackage const& package = material.package;
     PipelineDesc desc{ .pass = slot.layout, .subpass = slot.subpass, .debugName = material.name };
-    desc.raster.cull = cullMode(package, cullingDisabled);
+    desc.raster.cull = cullMode(raster);
     desc.raster.frontFace = mirrored ? FrontFace::Clockwise : FrontFace::CounterClockwise;
     desc.raster.alphaToCoverage = package.alphaToCoverage && slot.layout.samples > 1;
     if (geometryLayout != kNoGeometry) {
@@ -173,14 +232,14 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         desc.raster.topology = mLayouts[geometryLayout].topology;
     }
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
-    if (hasDepth && package.depthCulling) {
+    if (hasDepth && raster.depthCulling) {
         // Equal passes too: the sky sits exactly at the far plane, decals exactly on their surface.
         desc.depthStencil.depthCompare =
                 slot.depthRange == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
-        desc.depthStencil.depthWrite = package.depthWrite && !drawsNothing(package, cullingDisabled);
+        desc.depthStencil.depthWrite = raster.depthWrite && !drawsNothing(raster);
     }
     BlendState blend = blendState(package);
-    if (!package.colorWrite || drawsNothing(package, cullingDisabled)) blend.writeMask = 0;
+    if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
     desc.blend.fill(blend);
     return desc;
 }
@@ -203,24 +262,28 @@ PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, P
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
 
     scene::Material& material = *use.instance.material;
-    const ShadingKey shading = isLit(material) ? mSlots[slot].shading : ShadingKey{ 0 };
-    const uint16_t needed = withPrecision(material, neededVariant(material, use.variant), mSlots[slot].precision);
-    const ProgramHandle program = programFor(setup, material, needed, shading);
+    const ProgramHandle program = surfaceProgram(setup, slot, material, use.variant);
     if (!program) {
-        mPipelines.insert({ key, {}, material.id }); // warn once
+        mPipelines.insert({ key, {}, material.id }); // not asked again
         return {};
     }
-    PipelineDesc desc =
-            describe(mSlots[slot], material, use.instance.cullingDisabled, use.geometryLayout, use.mirrored);
+    PipelineDesc desc = describe(mSlots[slot], material, use.instance.raster, use.geometryLayout, use.mirrored);
     usePass(desc, material.package.transparency, use.pass);
     desc.program = program;
     return create(setup, key, desc, material.id);
 }
 
+std::optional<PipelineHandle> PipelineCache::findFullscreen(uint32_t slot, scene::Material const& material) const {
+    PipelineTable::Entry const* entry = mPipelines.find(fullscreenKey(slot, material));
+    return entry ? std::optional(entry->handle) : std::nullopt;
+}
+
 PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t slot, scene::Material& material) {
-    const uint64_t key = makeKey(material.id, kNoGeometry, slot, 0, true, false);
+    const uint64_t key = fullscreenKey(slot, material);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
-    PipelineDesc desc = describe(mSlots[slot], material, true, kNoGeometry, false);
+    scene::RasterState raster = scene::initialRaster(material.package);
+    raster.cullingDisabled = true;
+    PipelineDesc desc = describe(mSlots[slot], material, raster, kNoGeometry, false);
     desc.program = programFor(setup, material, 0, 0);
     FILAMENT_ASSERT(desc.program, "a full-screen material has variant 0");
     return create(setup, key, desc, material.id);

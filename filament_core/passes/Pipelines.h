@@ -3,7 +3,8 @@
 /// here, when first asked for, and never inside a pass: passes choose their pipelines before they record.
 ///   Thread  the app thread. find(): any number at a time, while nothing is made.
 ///   Memory  one table entry a combination; lookups allocate nothing.
-///   Fails   a variant that the material filtered out gives no pipeline and one warning naming material and variant.
+///   Fails   a material without the variant that is asked for, or of another domain, gives no pipeline, and once a line
+///           in takeRefusals() that says what is missing.
 #pragma once
 
 #include "backend/stream/CommandStream.h"
@@ -14,6 +15,10 @@
 
 #include <cstdint>
 #include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 namespace filament::passes {
@@ -25,6 +30,7 @@ struct PassSlot {
     ShadingKey shading = 0;
     DepthRange depthRange = DepthRange::Reversed;
     ShadingPrecision precision = ShadingPrecision::Full;
+    bool isFullScreen = false; ///< no geometry of the scene is drawn there
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 
@@ -37,6 +43,9 @@ struct PipelineUse {
     prepare::DrawPass pass = prepare::DrawPass::Only;
 };
 
+/// The line for a variant (a set of VariantBits) that a package lacks, naming both and the filter.
+std::string missingVariant(std::string_view material, shader::MaterialPackage const& package, uint32_t variant);
+
 class PipelineCache {
 public:
     PipelineCache(backend::CommandStream& stream, scene::GeometryLayouts const& layouts)
@@ -44,6 +53,7 @@ public:
 
     /// Interns a pass; the result goes into pipelineFor(). Cheap for the few passes of a frame.
     uint32_t slot(PassSlot const& slot);
+    std::span<const PassSlot> slots() const { return mSlots; }
 
     /// What pipelineFor() answers, if it has answered that before.
     std::optional<backend::PipelineHandle> find(uint32_t slot, PipelineUse const& use) const;
@@ -54,25 +64,44 @@ public:
     /// For full-screen materials: no vertices, no depth test unless the material asks for one.
     backend::PipelineHandle fullscreenPipeline(backend::CommandBuffer& setup, uint32_t slot, scene::Material& material);
 
+    std::optional<backend::PipelineHandle> findFullscreen(uint32_t slot, scene::Material const& material) const;
+
+    /// The program alone, for a pass; made if it does not exist yet.
+    void prepareProgram(backend::CommandBuffer& setup, uint32_t slot, scene::Material& material, uint8_t variant);
+    bool hasProgram(uint32_t slot, scene::Material const& material, uint8_t variant) const;
+
+    /// What could not be drawn since the last call, a line each.
+    std::vector<std::string> takeRefusals() { return std::exchange(mRefusals, {}); }
+
     /// Destroys programs and pipelines of one material.
     void forget(backend::CommandBuffer& commands, scene::Material& material);
 
     size_t size() const { return mPipelines.size(); }
 
 private:
+    struct ProgramChoice {
+        uint16_t variant = 0;
+        ShadingKey shading = 0;
+    };
+    ProgramChoice choose(uint32_t slot, scene::Material const& material, uint8_t variant) const;
     backend::ProgramHandle programFor(backend::CommandBuffer& setup, scene::Material& material, uint16_t variant,
                                       ShadingKey shading);
     backend::ProgramHandle createProgram(backend::CommandBuffer& setup, scene::Material const& material,
                                          shader::Variant const& code, ShadingKey shading);
-    backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material, bool cullingDisabled,
-                                   uint32_t geometryLayout, bool mirrored) const;
+    backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material,
+                                   scene::RasterState const& raster, uint32_t geometryLayout, bool mirrored) const;
     backend::PipelineHandle create(backend::CommandBuffer& setup, uint64_t key, backend::PipelineDesc const& desc,
                                    uint32_t material);
+
+    backend::ProgramHandle surfaceProgram(backend::CommandBuffer& setup, uint32_t slot, scene::Material& material,
+                                          uint8_t variant);
+    backend::ProgramHandle refuse(scene::Material& material, uint16_t variant, std::string why);
 
     backend::CommandStream& mStream;
     scene::GeometryLayouts const& mLayouts;
     std::vector<PassSlot> mSlots;
     PipelineTable mPipelines;
+    std::vector<std::string> mRefusals;
 };
 
 } // namespace filament::passes

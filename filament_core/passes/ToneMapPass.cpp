@@ -18,7 +18,7 @@ struct Chosen {
 Chosen choose(PassContext& pass, FrameContext const& context, ToneMapMaterials materials, TextureId color) {
     const bool merged = pass.isMerged(color);
     scene::Material& material = merged ? *materials.merged : *materials.sampled;
-    const uint32_t slot = context.pipelines->slot({ pass.passLayout(), pass.subpass() });
+    const uint32_t slot = context.pipelines->slot(fullScreenSlot(pass.passLayout(), pass.subpass()));
     std::array<BindGroupEntry, 2> entries{};
     entries[0] = { .binding = material.package.findParameter("color")->binding,
                    .texture = pass.texture(color),
@@ -36,9 +36,9 @@ Chosen choose(PassContext& pass, FrameContext const& context, ToneMapMaterials m
 
 } // namespace
 
-void addToneMapPass(FrameGraph& graph, FrameContext const* context, ToneMapMaterials materials, TextureId color,
-                    TextureId display) {
-    graph.addPass(
+framegraph::PassId addToneMapPass(FrameGraph& graph, FrameContext const* context, ToneMapMaterials materials,
+                                  TextureId color, TextureId display) {
+    return graph.addPass(
             "tone map",
             [&](PassBuilder& pass) {
                 pass.readInput(color);

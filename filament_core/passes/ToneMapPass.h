@@ -15,7 +15,8 @@ struct ToneMapMaterials {
     backend::TextureHandle table{};     ///< of materials that look colours up (ToneTable.h); none: they compute them
 };
 
-void addToneMapPass(framegraph::FrameGraph& graph, FrameContext const* context, ToneMapMaterials materials,
-                    framegraph::TextureId color, framegraph::TextureId display);
+framegraph::PassId addToneMapPass(framegraph::FrameGraph& graph, FrameContext const* context,
+                                  ToneMapMaterials materials, framegraph::TextureId color,
+                                  framegraph::TextureId display);
 
 } // namespace filament::passes

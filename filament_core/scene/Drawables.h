@@ -34,6 +34,7 @@ struct GeometryLayout {
 class GeometryLayouts {
 public:
     uint32_t intern(GeometryLayout const& layout);
+    uint32_t size() const { return static_cast<uint32_t>(mLayouts.size()); }
     GeometryLayout const& operator[](uint32_t index) const { return mLayouts[index]; }
 
 private:

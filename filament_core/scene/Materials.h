@@ -28,6 +28,7 @@ struct Material {
     shader::MaterialPackage package;
     std::vector<backend::ConstantValue> constants;
     std::vector<MaterialProgram> programs; ///< made when first needed
+    std::vector<uint16_t> refusedVariants; ///< asked for and not there; told once
     uint32_t instanceCount = 0;
     MaterialDescription description;
 
@@ -36,6 +37,19 @@ struct Material {
     }
     bool hasTwoPasses() const { return package.transparency != shader::TransparencyMode::Default && isBlended(); }
 };
+
+/// What an instance may change of how its material's triangles become pixels.
+struct RasterState {
+    shader::Culling culling = shader::Culling::Back;
+    bool cullingDisabled = false; ///< both faces, whatever `culling` says
+    bool colorWrite = true, depthWrite = true, depthCulling = true;
+    friend bool operator==(RasterState const&, RasterState const&) = default;
+};
+
+/// As the material says.
+inline RasterState initialRaster(shader::MaterialPackage const& package) {
+    return { package.culling, package.doubleSided, package.colorWrite, package.depthWrite, package.depthCulling };
+}
 
 struct TextureBinding {
     backend::TextureHandle texture;
@@ -48,7 +62,7 @@ struct MaterialInstance {
     std::string name;
     std::vector<std::byte> parameters;    ///< the MaterialParams block, std140
     std::vector<TextureBinding> textures; ///< parallel to the package's texture parameters, in their order
-    bool cullingDisabled = false;
+    RasterState raster{};
     bool parametersDirty = true;
     bool texturesDirty = true;
     backend::BufferHandle buffer; ///< none while the material has no block

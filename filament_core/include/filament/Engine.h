@@ -80,6 +80,7 @@ struct FrameLatency {
 struct EngineStatistics {
     uint64_t draws = 0;
     uint64_t pipelinesCreated = 0;
+    uint64_t programsCreated = 0;
     uint64_t pipelinesCreatedInPasses = 0;
     uint64_t commands = 0;
     uint64_t deviceBytes = 0;
@@ -117,6 +118,13 @@ public:
     SwapChain create(SwapChainDesc const& desc);
     /// Corrupt or Unsupported package; an unknown constant is NotFound with the nearest name.
     Result<Material> create(MaterialDesc const& desc);
+    /// Prepares programs and pipelines of a material before it is first drawn: on the driver thread, a slice with each
+    /// frame, or with progress() when none is drawn; the app thread waits for none of it. Pipelines are made for the
+    /// instances' raster states, the vertices of CompileDesc, and the passes of the frames drawn so far or announced
+    /// by Renderer::expect(). InvalidArgument names material, variant and filter if a variant was filtered out.
+    Result<Compilation> compile(Material material, CompileDesc const& desc = {});
+    /// How far it is; hands out the next slice if the driver thread has nothing to do.
+    CompileProgress progress(Compilation compilation);
     /// Parameters start at zero, textures at opaque white.
     MaterialInstance createInstance(Material material, std::string name = {});
 
@@ -136,6 +144,14 @@ public:
     Result<void> setDoubleSided(MaterialInstance instance, bool doubleSided);
     /// Draws both sides; how they are shaded stays.
     void setCullingDisabled(MaterialInstance instance, bool disabled);
+    /// Of this instance, instead of what the material says. What is drawn from the next frame on; a state that is new
+    /// makes a pipeline, unless compile() knew an instance that had it.
+    void setCulling(MaterialInstance instance, Culling culling);
+    void setColorWrite(MaterialInstance instance, bool writes);
+    void setDepthWrite(MaterialInstance instance, bool writes);
+    void setDepthCulling(MaterialInstance instance, bool tests); ///< false: over whatever is there, and leaves no depth
+    /// In [0, 1]; InvalidArgument for materials that are not masked.
+    Result<void> setMaskThreshold(MaterialInstance instance, float threshold);
 
     void destroy(Texture texture);
     void destroy(VertexBuffer buffer);

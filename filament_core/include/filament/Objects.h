@@ -15,6 +15,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <functional>
 #include <span>
 #include <string>
 #include <variant>
@@ -31,6 +32,12 @@ using IndirectLight = Handle<struct IndirectLightObject>;
 using Skybox = Handle<struct SkyboxObject>;
 using RenderTarget = Handle<struct RenderTargetObject>;
 using SwapChain = Handle<struct SwapChainObject>;
+
+/// Names what Engine::compile() was asked for.
+struct Compilation {
+    uint64_t id = 0;
+    explicit operator bool() const { return id != 0; }
+};
 using Renderable = Handle<struct RenderableObject>; ///< of one Scene
 using Light = Handle<struct LightObject>;           ///< of one Scene
 using Node = Handle<struct NodeObject>;             ///< of one Scene
@@ -113,6 +120,34 @@ using ParameterArray =
                      std::span<const int32_t>, std::span<const int2>, std::span<const int3>, std::span<const int4>,
                      std::span<const uint32_t>, std::span<const uint2>, std::span<const uint3>, std::span<const uint4>,
                      std::span<const float3x3>, std::span<const float4x4>>;
+
+/// Who goes first when several materials are to be compiled, and how much of it goes with one frame.
+enum class CompilePriority : uint8_t {
+    Low,      ///< one program or pipeline a frame, when nothing else waits
+    Normal,   ///< two
+    High,     ///< four
+    Critical, ///< sixteen: something is about to be drawn with it
+};
+
+struct CompileProgress {
+    uint32_t done = 0, total = 0; ///< programs and pipelines that did not exist before
+    bool isComplete() const { return done == total; }
+    friend bool operator==(CompileProgress const&, CompileProgress const&) = default;
+};
+
+/// What to prepare before the first draw: the programs of all variants asked for, and pipelines for every kind of
+/// vertices and every kind of pass in which they may be drawn.
+struct CompileDesc {
+    CompilePriority priority = CompilePriority::Normal;
+    /// Every combination of these that the package has. Naming one that was filtered out is an error; All never is.
+    VariantSet variants = VariantSet::All;
+    /// Vertex formats to expect; empty: those of everything that was added to a scene so far.
+    std::vector<VertexBuffer> vertices{};
+    PrimitiveType primitive = PrimitiveType::Triangles; ///< of `vertices`
+    bool mirrored = false;                              ///< also for transforms that mirror
+    /// Called on the app thread, from within Renderer::render() or Engine::progress(), when some of it has been done.
+    std::function<void(CompileProgress const&)> onProgress{};
+};
 
 /// Pre-filtered environment: irradiance and specular reflections of everything far away.
 struct IndirectLightDesc {

@@ -71,6 +71,11 @@ public:
     void render(Scene const& scene, View const& view, SwapChain swapChain);
     void render(Scene const& scene, View const& view, RenderTarget target);
 
+    /// Makes the passes of frames like this one known to Engine::compile(), and asks for their own pipelines, without
+    /// drawing: what is in the scene does not matter, its environment does.
+    void expect(Scene const& scene, View const& view, SwapChain swapChain);
+    void expect(Scene const& scene, View const& view, RenderTarget target);
+
     /// Asks for the pixels rendered last; poll takePixels(). A ticket of 0: out of memory. Pixels that never come, of
     /// an image that the device refused or on a lost device, are an image without bytes, or the error of waitPixels().
     PixelTicket readPixels(SwapChain swapChain);

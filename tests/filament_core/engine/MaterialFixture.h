@@ -29,9 +29,9 @@ inline Owned<Material> loadMaterial(Engine& engine, std::string_view text,
 }
 
 /// A square of 2 x 2 metres in the plane z = 0 around the origin, its front towards +z; position, tangents and uv0.
-class Square {
+class SquareMesh {
 public:
-    explicit Square(Engine& engine) {
+    explicit SquareMesh(Engine& engine) {
         struct Vertex {
             float3 position;
             float4 tangents;
@@ -66,6 +66,8 @@ public:
                            .worldFromObject = world });
     }
 
+    VertexBuffer vertices() const { return mVertices; }
+
     /// The square fills it.
     static View view(uint2 size = { 16, 16 }) {
         return { .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 80 }), .size = size };
@@ -78,10 +80,10 @@ private:
 
 /// The pixel in the middle of a picture of the square, scene-linear.
 inline float4 shownBy(Engine& engine, MaterialInstance material) {
-    const Square square(engine);
+    const SquareMesh square(engine);
     Scene scene(engine);
     square.add(scene, material);
-    const Image image = renderLinear(engine, scene, Square::view());
+    const Image image = renderLinear(engine, scene, SquareMesh::view());
     return image.pixels.empty() ? float4(-1) : halfPixel(image, 8, 8);
 }
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/base/Log.h"
 #include "tests/filament_core/passes/DrawFixture.h"
 
 #include <gmock/gmock.h>
@@ -65,21 +64,23 @@ TEST(ChoosePipelines, ASecondFrameMakesNothing) {
     EXPECT_EQ(second.commandCount(), 0u);
 }
 
-TEST(ChoosePipelines, AFilteredVariantGivesNoneAndOneWarning) {
+TEST(ChoosePipelines, AFilteredVariantGivesNoneAndOneRefusal) {
     DrawFixture fixture(1, 4, 1);
     fixture.materials[0].name = "filtered";
-    std::vector<std::string> lines;
-    const LogSink before = setLogSink([&](Severity, std::string_view line) { lines.emplace_back(line); });
+    fixture.materials[0].package.filteredVariants = shader::kVariantSun | shader::kVariantFog;
     const std::vector<DrawCall> draws = fixture.randomDraws(100, 7);
     CommandBuffer setup;
     for (int frame = 0; frame < 2; ++frame) {
         EXPECT_THAT(fixture.choose(draws, setup, nullptr, shader::kVariantSun), testing::Each(PipelineHandle{}));
     }
-    setLogSink(before);
     EXPECT_EQ(setup.commandCount(), 0u);
-    // front and back faces are two pipelines
-    EXPECT_THAT(lines, testing::SizeIs(2));
-    EXPECT_THAT(lines[0], testing::HasSubstr("material 'filtered' was compiled without variant 1"));
+    EXPECT_THAT(
+            fixture.pipelines->takeRefusals(),
+            testing::ElementsAre("material 'filtered': variant 'directionalLighting' is asked for, but it was compiled "
+                                 "without 'directionalLighting' (variantFilter): it is not drawn; compile it without "
+                                 "that filter"))
+            << "front and back faces are two pipelines, and one line";
+    EXPECT_THAT(fixture.pipelines->takeRefusals(), testing::IsEmpty());
 }
 
 TEST(ChoosePipelines, UnlitMaterialsShareOnePipelineBetweenVariants) {
@@ -155,7 +156,7 @@ TEST(PipelineCache, TwoSidesDrawTheBackFacesAndThenTheFrontFaces) {
 
 TEST(PipelineCache, CullingOfBothFacesLeavesNoTraceInTheDepthBuffer) {
     DrawFixture fixture(1, 1, 1);
-    fixture.materials[0].package.culling = shader::Culling::FrontAndBack;
+    fixture.instances[0].raster.culling = shader::Culling::FrontAndBack;
     PassSlot slot{ .layout = { .depthFormat = Format::D32F } };
     slot.layout.subpasses[0].usesDepth = true;
     fixture.slot = fixture.pipelines->slot(slot);
@@ -165,6 +166,48 @@ TEST(PipelineCache, CullingOfBothFacesLeavesNoTraceInTheDepthBuffer) {
     ASSERT_EQ(descs.size(), 1u);
     EXPECT_FALSE(descs[0].depthStencil.depthWrite);
     EXPECT_EQ(descs[0].blend[0].writeMask, 0);
+}
+
+TEST(PipelineCache, EveryRasterStateOfAnInstanceHasAPipelineOfItsOwn) {
+    DrawFixture fixture(1, 1, 1);
+    PassSlot slot{ .layout = { .depthFormat = Format::D32F } };
+    slot.layout.subpasses[0].usesDepth = true;
+    fixture.slot = fixture.pipelines->slot(slot);
+    std::vector<scene::RasterState> states;
+    for (const shader::Culling culling :
+         { shader::Culling::None, shader::Culling::Front, shader::Culling::Back, shader::Culling::FrontAndBack }) {
+        for (uint32_t flags = 0; flags < 16; ++flags)
+            states.push_back({ culling, (flags & 1) != 0, (flags & 2) != 0, (flags & 4) != 0, (flags & 8) != 0 });
+    }
+    CommandBuffer setup;
+    std::map<PipelineHandle, size_t> pipelines;
+    for (size_t i = 0; i < states.size(); ++i) {
+        fixture.instances[0].raster = states[i];
+        const PipelineHandle pipeline = fixture.choose(std::vector{ fixture.draw(0, 0, 0) }, setup)[0];
+        ASSERT_TRUE(pipelines.emplace(pipeline, i).second) << i;
+    }
+    const auto descs = createdBy(setup).descs;
+    ASSERT_EQ(descs.size(), states.size());
+    for (size_t i = 0; i < states.size(); ++i) {
+        const bool isVisible = states[i].culling != shader::Culling::FrontAndBack || states[i].cullingDisabled;
+        EXPECT_EQ(descs[i].blend[0].writeMask != 0, states[i].colorWrite && isVisible) << i;
+        EXPECT_EQ(descs[i].depthStencil.depthCompare != CompareOp::None, states[i].depthCulling) << i;
+        EXPECT_EQ(descs[i].depthStencil.depthWrite, states[i].depthCulling && states[i].depthWrite && isVisible) << i;
+    }
+}
+
+TEST(PipelineCache, AMaterialForPicturesIsRefusedAsASurfaceAndSaysSoOnce) {
+    DrawFixture fixture(1, 1, 1);
+    fixture.materials[0].package.domain = shader::MaterialDomain::PostProcess;
+    CommandBuffer setup;
+    for (int frame = 0; frame < 2; ++frame) {
+        EXPECT_THAT(fixture.choose(std::vector{ fixture.draw(0, 0, 0), fixture.draw(0, 0, 1, true) }, setup),
+                    testing::Each(PipelineHandle{}));
+    }
+    EXPECT_EQ(setup.commandCount(), 0u);
+    EXPECT_THAT(
+            fixture.pipelines->takeRefusals(),
+            testing::ElementsAre(testing::HasSubstr("is of domain postprocess: it draws pictures, not the surfaces")));
 }
 
 TEST(PipelineCache, ForgettingAMaterialDestroysWhatWasMadeOfItAndNothingElse) {

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+/// CompileQueue: programs and pipelines that are wanted before something is drawn with them, handed to the driver
+/// thread in slices.
+///   In      wishes: a material with the states of its instances, vertex layouts, variants, passes.
+///   Out     creations recorded into frames; how many of them have been replayed.
+///   Order   priorities from the highest, then first come, first served. One slice is under way at a time: the next
+///           one goes when the driver thread is done with it, so that no frame waits behind more than one.
+///   Thread  the app thread.
+///   Memory  16 bytes a wish until it is done; 16 bytes a compilation for good.
+///   Fails   add() and recordSlice(): std::bad_alloc, and what was not recorded still waits.
+#pragma once
+
+#include "filament_core/passes/Pipelines.h"
+
+#include <filament/Objects.h>
+
+#include <array>
+#include <deque>
+#include <functional>
+#include <vector>
+
+namespace filament::engine {
+
+/// A pipeline, or (without geometry) a program alone, or (full screen) a pipeline of a material that has no geometry.
+struct CompileWish {
+    static constexpr uint16_t kNoGeometry = 0xFFFF;
+    uint32_t slot = 0;                     ///< of PipelineCache
+    uint16_t geometryLayout = kNoGeometry; ///< of GeometryLayouts
+    uint16_t state = 0;                    ///< of CompileJob::states
+    uint8_t variant = 0;
+    bool mirrored = false;
+    prepare::DrawPass pass = prepare::DrawPass::Only;
+    bool isFullScreen = false;
+};
+
+struct CompileJob {
+    scene::Material* material = nullptr;
+    std::vector<scene::MaterialInstance> states; ///< no more of instances than what selects pipelines
+    std::vector<CompileWish> wishes;
+    std::function<void(CompileProgress const&)> onProgress;
+};
+
+class CompileQueue {
+public:
+    explicit CompileQueue(passes::PipelineCache& pipelines) : mPipelines(pipelines) {}
+
+    /// Wishes that exist already do not count.
+    Compilation add(CompileJob job, CompilePriority priority);
+    CompileProgress progress(Compilation compilation) const;
+
+    /// Whether recordSlice() would record something now.
+    bool isWaiting() const;
+    /// Into the submission of that number, unless an earlier slice is still under way.
+    void recordSlice(backend::CommandBuffer& commands, uint64_t submission);
+    /// Counts what is done by now, and tells those who asked to be told.
+    void collect(uint64_t replayedSubmissions);
+    /// Nothing more of a material that goes away: what is left of its wishes counts as done.
+    void forget(scene::Material const& material);
+
+private:
+    struct Waiting {
+        uint64_t id = 0;
+        CompileJob job;
+        size_t next = 0; ///< wish
+    };
+    using Queue = std::deque<Waiting>;
+
+    bool exists(CompileJob const& job, CompileWish const& wish) const;
+    void make(backend::CommandBuffer& commands, CompileJob const& job, CompileWish const& wish);
+    Queue* highest();
+    void takeFrom(Queue& queue, backend::CommandBuffer& commands, uint32_t count);
+
+    passes::PipelineCache& mPipelines;
+    std::array<Queue, 4> mQueues;           ///< by priority
+    std::vector<CompileProgress> mProgress; ///< by id - 1
+    struct Recorded {
+        uint64_t id = 0;
+        uint32_t count = 0;
+        std::function<void(CompileProgress const&)> onProgress;
+    };
+    std::vector<Recorded> mSlice; ///< under way
+    uint64_t mSliceSubmission = 0;
+};
+
+} // namespace filament::engine

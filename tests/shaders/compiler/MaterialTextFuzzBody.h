@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// One body for the fuzzer (tests/fuzz/MaterialTextFuzz.cpp) and for the replay test: any text is a material or an
+/// error that says where, up to the GLSL that would be handed to glslang.
+#pragma once
+
+#include "filament_core/base/Assert.h"
+#include "shaders/compiler/GlslGenerator.h"
+#include "shaders/compiler/MaterialDefinition.h"
+#include "shaders/compiler/Reflection.h"
+
+#include <optional>
+#include <string_view>
+
+namespace filament::shader::test {
+
+/// Every include exists and holds the same text: it may include itself.
+inline std::optional<std::string> includedByEverybody(std::string_view) {
+    return "\"culling\" : \"none\", #include \"again.inc\"\n";
+}
+
+/// "file:line: reason"; the file may be an included one, whose name is as odd as the text.
+inline void expectReason(Error const& error) {
+    const size_t reason = error.message.find(": ");
+    FILAMENT_ASSERT(reason != std::string::npos && reason + 2 < error.message.size(),
+                    "every refusal says where and why");
+}
+
+/// Whether GLSL came out.
+inline bool fuzzMaterialText(std::string_view text) {
+    Result<MaterialText> parsed = parseMaterialText(text, "fuzz.mat", includedByEverybody);
+    if (!parsed) return expectReason(parsed.error()), false;
+    const Result<MaterialDefinition> definition = defineMaterial(std::move(*parsed), "fuzz.mat");
+    if (!definition) return expectReason(definition.error()), false;
+    FILAMENT_ASSERT(!parametersAsJson(*definition).empty(), "what is declared can be listed");
+    const Result<MaterialNeeds> needs = findNeeds(*definition, includedByEverybody);
+    if (!needs) return expectReason(needs.error()), false;
+    const Result<std::string> vertex = generateVertex(*definition, *needs, includedByEverybody);
+    const Result<std::string> fragment = generateFragment(*definition, *needs, 0, includedByEverybody);
+    return vertex.ok() && fragment.ok();
+}
+
+} // namespace filament::shader::test
