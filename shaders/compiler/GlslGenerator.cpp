@@ -154,8 +154,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     Result<void> done =
             includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
-    if (done && needs.has("HAS_AMBIENT_OCCLUSION"))
-        done = includeAll(out, { "shaders/lib/ao.glsl", "shaders/lib/occlusion.glsl" });
+    if (done) done = out.include("shaders/lib/occlusion.glsl");
+    if (done && needs.has("HAS_AMBIENT_OCCLUSION")) done = out.include("shaders/lib/ao.glsl");
     if (done && needs.has("HAS_IRIDESCENCE")) done = out.include("shaders/lib/iridescence.glsl");
     if (done) done = out.include("shaders/material/surface_output.glsl");
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface_half.glsl");

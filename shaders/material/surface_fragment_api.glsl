@@ -14,6 +14,9 @@ vec3 shading_normal;
 vec3 shading_view;
 vec3 shading_reflected;
 float shading_NoV;
+#if defined(HAS_NORMAL)
+bool shading_isBumped; // by anything but the geometry's own normal
+#endif
 #if defined(HAS_CLEAR_COAT)
 vec3 shading_clearCoatNormal;
 #endif
@@ -86,6 +89,7 @@ void computeShadingGeometry() {
 void prepareMaterial(const MaterialInputs material) {
 #if defined(NEEDS_NORMAL) && defined(HAS_NORMAL)
     shading_normal = normalizeOrZero(shading_tangentToWorld * material.normal);
+    shading_isBumped = material.normal != vec3(0.0, 0.0, 1.0);
 #endif
 #if defined(HAS_BENT_NORMAL)
     shading_bentNormal = normalizeOrZero(shading_tangentToWorld * material.bentNormal);

@@ -194,6 +194,9 @@ highp vec3 baseOfEnvironment(Surface surface) {
     vec3 specular = surface.specularAlbedo * environmentRadiance(direction, surface.perceptualRoughness);
     specular = seenReflection(specular, surface.visibility, surface.nov, reflected, surface.alpha,
             surface.perceptualRoughness, surface.f0);
+#if defined(HAS_NORMAL)
+    specular = aboveHorizon(specular, shading_isBumped, reflected);
+#endif
     return diffuse + specular;
 }
 
@@ -204,6 +207,9 @@ highp vec3 addSheenOfEnvironment(Surface surface, highp vec3 below) {
     vec3 radiance = environmentRadiance(shading_reflected, sheen.perceptualRoughness);
     radiance = seenReflection(radiance, surface.visibility, surface.nov, shading_reflected, sheen.alpha,
             sheen.perceptualRoughness, sheen.color);
+#if defined(HAS_NORMAL)
+    radiance = aboveHorizon(radiance, shading_isBumped, shading_reflected);
+#endif
     return below * sheenLeaves(sheen) + sheenOfEnvironment(sheen, radiance);
 }
 
@@ -218,6 +224,9 @@ highp vec3 addCoatOfEnvironment(Surface surface, highp vec3 below) {
     vec3 radiance = environmentRadiance(direction, coat.perceptualRoughness) * coatAlbedo(coat);
     radiance = seenReflection(radiance, surface.visibility, coat.nov, reflected, coat.alpha, coat.perceptualRoughness,
             vec3(kCoatF0));
+#if defined(HAS_CLEAR_COAT_NORMAL)
+    radiance = aboveHorizon(radiance, true, reflected);
+#endif
     return below * coatLeaves(coat) + radiance;
 }
 

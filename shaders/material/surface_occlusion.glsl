@@ -47,3 +47,10 @@ vec3 seenReflection(vec3 light, float visibility, float nov, highp vec3 reflecte
 #endif
     return seen;
 }
+
+// Light around a direction that was reflected at a normal of a map: the surface itself hides what comes from below it.
+vec3 aboveHorizon(vec3 light, bool isBumped, highp vec3 reflected) {
+    vec3 seen = light;
+    if (isBumped) seen *= horizonOcclusion(reflected, shading_geometricNormal);
+    return seen;
+}

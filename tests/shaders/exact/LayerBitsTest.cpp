@@ -381,6 +381,20 @@ TEST_F(LayerBits, DiffuseAmbientLightComesFromTheBentNormal) {
     EXPECT_GT(distance(bent, straight), 0.05f);
 }
 
+TEST_F(LayerBits, ReflectionsFadeAsANormalMapTurnsThemBelowTheSurface) {
+    const auto tilted = [](std::string const& x, const char* metal = "m.metallic = 1.0; m.roughness = 0.1;") {
+        return render(furnace(
+                scene(metal, 1, "", "m.normal = normalize(vec3(" + x + ", 0.0, 1.0) * materialParams.amount);")));
+    };
+    const Pixels flat = tilted("0.0"), little = tilted("0.3"), more = tilted("1.0"), steep = tilted("4.0");
+    EXPECT_GT(least(flat), 0.97f);
+    EXPECT_LT(mean(little), mean(flat));
+    EXPECT_LT(mean(more), mean(little) - 0.05);
+    EXPECT_LT(mean(steep), mean(more) - 0.05);
+    const Pixels matt = tilted("4.0", "m.specularFactor = 0.0;");
+    EXPECT_LT(distance(matt, Pixels(matt.size(), 1.0f)), 1e-6f) << "diffuse light comes from everywhere";
+}
+
 // ------------------------------------------------------------------------------------------------ everything at once
 
 constexpr const char* kEverything =
