@@ -9,6 +9,8 @@ const float kMinGrooveAlpha = kMinPerceptualRoughnessMedium * kMinPerceptualRoug
 const float kMinGrooveAlpha = kMinAlpha;
 #endif
 
+const float kGrooveShare = 0.6; // of groovesCompensation()
+
 struct Grooves {
     float amount;            // in [-1, 1]; 0: none, and the rest is of no meaning
     vec3 tangent, bitangent; // of the shading normal, unit; 0 where the geometry has no tangents
@@ -27,6 +29,13 @@ Grooves groovesOf(MaterialInputs material, float alpha) {
     grooves.alpha = anisotropicAlpha(alpha, grooves.amount, kMinGrooveAlpha);
     grooves.view = vec3(dot(tangent, shading_view), dot(bitangent, shading_view), shading_NoV);
     return grooves;
+}
+
+// What energyCompensation() gives is lost by a round lobe of this roughness; a stretched one loses less towards some views.
+// Of lights only: image-based light has a round lobe. The share is a bound over roughness, view and amount, not a fit.
+vec3 groovesCompensation(Grooves grooves, vec3 compensation) {
+    float share = 1.0 - kGrooveShare * max(grooves.amount, -grooves.amount);
+    return 1.0 + (compensation - 1.0) * share;
 }
 
 // D V of one light; nol is positive.

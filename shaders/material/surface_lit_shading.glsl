@@ -111,6 +111,9 @@ void setSpecularAlbedo(inout Surface surface, highp float roughness) {
 #else
     surface.specularAlbedo = specularDfg(surface.f0, dfg) * surface.energyCompensation;
 #endif
+#if defined(HAS_ANISOTROPY)
+    surface.energyCompensation = groovesCompensation(surface.grooves, surface.energyCompensation);
+#endif
 }
 
 #if defined(HAS_DIFFUSE_TRANSMISSION)

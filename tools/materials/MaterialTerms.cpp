@@ -41,6 +41,8 @@ std::vector<MaterialTerm> materialTerms() {
         { "clear coat", with(kCoat) },
         { "clear coat with its normal",
           { { "// BEFORE", std::string("material.clearCoatNormal = ") + (kNormal + 18) }, { "// AFTER", kCoat } } },
+        { "iridescence", with("material.iridescence = materialParams.strength;") },
+        { "diffuse transmission", with("material.diffuseTransmission = materialParams.strength;") },
         { "specular-glossiness", glossy },
         { "cloth", of("cloth", "material.sheenColor = materialParams.tint;") },
         { "cloth with subsurface colour",

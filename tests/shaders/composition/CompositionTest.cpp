@@ -11,6 +11,7 @@
 #include <cstdio>
 #include <set>
 #include <string>
+#include <vector>
 
 namespace filament::shader::composition {
 namespace {
@@ -24,14 +25,25 @@ constexpr double kMetallics[] = { 0.0, 0.5, 1.0 };
 
 double largest(vec3 color) { return std::max(color.x, std::max(color.y, color.z)); }
 
-/// What comes back of light from everywhere, above and below the surface.
-double albedoOf(Composition const& material, Inputs const& inputs, double nov) {
-    const vec3 view = viewAt(nov);
-    const lib64::Quadrature quadrature{ .polar = 160, .azimuth = 180 };
-    const auto upper = [&](vec3 l) { return material.light(inputs, view, l); };
-    const auto lower = [&](vec3 l) { return material.light(inputs, view, vec3(l.x, l.y, -l.z)); };
-    return largest(lib64::integrateUpper(upper, quadrature)) +
-           largest(lib64::integrateUpper(lower, { .polar = 32, .azimuth = 32 }));
+/// Integral of light from above (side 1) or below (-1). Midpoints that crowd around the horizon and around the plane of
+/// the view, where the lobes of grazing views are a hundredth of a radian wide.
+vec3 integrate(Composition const& material, Inputs const& inputs, vec3 view, double side, int polar, int azimuth) {
+    const double pi = lib64::kPiOfTests, toView = std::atan2(view.y, view.x);
+    vec3 sum(0.0);
+    for (int i = 0; i < polar; ++i) {
+        const double t = (i + 0.5) / polar, c = t * t, s = std::sqrt((1 - c) * (1 + c));
+        for (int j = 0; j < azimuth; ++j) {
+            const double u = 2 * (j + 0.5) / azimuth - 1, phi = toView + pi + pi * u * u * u;
+            const double solidAngle = (2 * t / polar) * (3 * pi * u * u * 2 / azimuth);
+            sum += material.light(inputs, view, vec3(s * std::cos(phi), s * std::sin(phi), side * c)) * solidAngle;
+        }
+    }
+    return sum;
+}
+
+/// What comes back of light from everywhere.
+double albedoOf(Composition const& material, Inputs const& inputs, vec3 view) {
+    return largest(integrate(material, inputs, view, 1, 160, 160) + integrate(material, inputs, view, -1, 24, 24));
 }
 
 struct Extremes {
@@ -58,33 +70,66 @@ std::string textOf(Composition const& material, Inputs const& inputs, double nov
            std::to_string(nov);
 }
 
+/// Along the tangent; of what is not round, also across it and between.
+std::vector<vec3> viewsOf(std::string const& name, double nov) {
+    const vec3 along = viewAt(nov);
+    if (name != "anisotropy" && name != "all_layers") return { along };
+    return { along, vec3(0, along.x, nov), vec3(along.x * 0.6, along.x * 0.8, nov) };
+}
+
 Composition const& standard() {
     return *std::ranges::find_if(compositions(), [](auto const& at) { return at.name == std::string("standard"); });
 }
 
-/// Under lights the base adds its diffuse lobe in full to what it reflects, as the reference text has it, so that white
-/// plastic gives more than arrives (docs/energy.md). No layer may add to that, and metals have none of it.
-double mostFromLights(Inputs const& inputs, double nov) {
-    if (inputs.metallic == 1) return lib64::kNoGain;
-    return std::max(lib64::kNoGain, albedoOf(standard(), inputs, nov));
+bool hasCoat(std::string const& name) { return name == "clear_coat" || name == "coat_sheen" || name == "all_layers"; }
+
+/// Kelemen's visibility overestimates a coat that is seen from nearly its own plane. docs/energy.md.
+double mostOf(Composition const& material, double nov) {
+    return hasCoat(material.name) && nov < 0.1 ? 1.08 : lib64::kNoGain;
 }
 
-TEST(Composition, NoLayerAddsLight) {
-    std::printf("| material | metal, lights | others, lights | white sky |\n|---|---|---|---|\n");
+// Metals whole; of others what is reflected and what is scattered apart: under lights the base adds both in full, as
+// the reference text has it, so that white plastic gives more than arrives. docs/energy.md has how much.
+TEST(Composition, NoLobeGivesMoreThanArrivesFromLights) {
+    std::printf("| material | white metal | white plastic |\n|---|---|---|\n");
     for (Composition const& material : compositions()) {
-        Extremes metals, others, sky;
-        forEachWhiteSurface([&](Inputs const& inputs) {
+        Extremes metals, plastics;
+        forEachWhiteSurface([&](Inputs inputs) {
+            if (inputs.metallic == 0.5) return;
             for (const double nov : kCosines) {
-                const double lit = albedoOf(material, inputs, nov);
-                EXPECT_LE(lit, mostFromLights(inputs, nov)) << "lights: " << textOf(material, inputs, nov);
-                (inputs.metallic == 1 ? metals : others).add(lit);
-                const double seen = largest(material.environment(inputs, viewAt(nov)));
-                EXPECT_LE(seen, lib64::kNoGain) << "white sky: " << textOf(material, inputs, nov);
-                sky.add(seen);
+                for (const vec3 view : viewsOf(material.name, nov)) {
+                    inputs.color = vec3(1.0);
+                    const double white = albedoOf(material, inputs, view);
+                    inputs.color = vec3(0.0);
+                    const double black = albedoOf(material, inputs, view);
+                    const bool isMetal = inputs.metallic == 1 && material.name != std::string("specular_glossiness");
+                    (isMetal ? metals : plastics).add(white);
+                    const double most = mostOf(material, nov);
+                    EXPECT_LE(isMetal ? white : black, most) << "reflected: " << textOf(material, inputs, nov);
+                    EXPECT_LE(white - black, most) << "scattered: " << textOf(material, inputs, nov);
+                }
             }
         });
-        std::printf("| %s | %.3f to %.3f | %.3f to %.3f | %.3f to %.3f |\n", material.name, metals.least, metals.most,
-                    others.least, others.most, sky.least, sky.most);
+        if (metals.most == 0) metals = plastics; // knows no metal
+        std::printf("| %s | %.3f to %.3f | %.3f to %.3f |\n", material.name, metals.least, metals.most, plastics.least,
+                    plastics.most);
+    }
+}
+
+TEST(Composition, NoMaterialIsBrighterThanAWhiteSky) {
+    std::printf("| material | white sky |\n|---|---|\n");
+    for (Composition const& material : compositions()) {
+        Extremes sky;
+        forEachWhiteSurface([&](Inputs const& inputs) {
+            for (const double nov : kCosines) {
+                for (const vec3 view : viewsOf(material.name, nov)) {
+                    const double seen = largest(material.environment(inputs, view));
+                    EXPECT_LE(seen, lib64::kNoGain) << textOf(material, inputs, nov);
+                    sky.add(seen);
+                }
+            }
+        });
+        std::printf("| %s | %.3f to %.3f |\n", material.name, sky.least, sky.most);
     }
 }
 
