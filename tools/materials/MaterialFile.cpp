@@ -4,6 +4,8 @@
 #include "filament_core/assets/EnvironmentFile.h"
 #include "shaders/compiler/MaterialCompiler.h"
 
+#include <algorithm>
+#include <cstdlib>
 #include <map>
 #include <mutex>
 #include <optional>
@@ -90,6 +92,8 @@ Result<MaterialShow> readMaterialShow(std::string_view text, std::string_view fi
             show.mesh = value;
         else if (name == "slab")
             show.slab = value == "true";
+        else if (name == "instances")
+            show.instances = static_cast<uint32_t>(std::clamp(std::atoi(value.c_str()), 1, 16));
         else
             show.values.emplace_back(std::move(name), std::move(value));
     }

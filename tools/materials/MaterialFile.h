@@ -3,8 +3,9 @@
 ///   Show    a .mat file may say in one comment line on what it is shown and what its parameters and constants are:
 ///               // show: mesh=sphere tint=1,0.5,0.2 normalMap=brick/normal
 ///           mesh=sphere|plane|box|torus|scroll|screen|billboard (MaterialMeshes.h); slab=true puts a grey block
-///           through the object. Every other key is a parameter or a constant: numbers, true, false, or the name of a
-///           picture (MaterialPictures.h). "name[]" is an array, its elements one after the other.
+///           through the object; instances=N draws N of them, numbered, in a row. Every other key is a parameter or a
+///           constant: numbers, true, false, or the name of a picture (MaterialPictures.h). "name[]" is an array, its
+///           elements one after the other.
 ///   Thread  any.
 ///   Memory  packages are compiled once in a process for each text, and kept.
 ///   Fails   what the compiler says, or Unreadable with the path.
@@ -13,6 +14,7 @@
 #include "filament_core/base/Result.h"
 #include "shaders/package/Package.h"
 
+#include <cstdint>
 #include <filesystem>
 #include <memory>
 #include <string>
@@ -24,6 +26,7 @@ namespace filament::tools {
 struct MaterialShow {
     std::string mesh = "sphere";
     bool slab = false;
+    uint32_t instances = 1;                                  ///< [1, 16]
     std::vector<std::pair<std::string, std::string>> values; ///< parameters and constants, as written
 };
 

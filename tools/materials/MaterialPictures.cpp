@@ -128,10 +128,11 @@ MaterialPicture stripeLayers(Engine& engine, std::string const& name) {
             pixels, { .magFilter = Filter::Linear, .minFilter = Filter::Linear });
 }
 
-MaterialPicture wholeNumbers(Engine& engine, std::string const& name) {
+/// 0 to 63 along u.
+MaterialPicture wholeNumbers(Engine& engine, std::string const& name, Format format) {
     std::vector<std::byte> pixels;
-    for (uint32_t x = 0; x < 256; ++x) pixels.push_back(static_cast<std::byte>(x));
-    return upload(engine, { .format = Format::R8UI, .width = 256, .name = name }, pixels, {});
+    for (uint32_t x = 0; x < 64; ++x) pixels.push_back(static_cast<std::byte>(x));
+    return upload(engine, { .format = format, .width = 64, .name = name }, pixels, {});
 }
 
 } // namespace
@@ -151,11 +152,12 @@ Result<MaterialPicture> makeMaterialPicture(Engine& engine, std::string const& n
     }
     if (name == "gradient/cube") return gradientCube(engine, name);
     if (name == "stripes/layers") return stripeLayers(engine, name);
-    if (name == "number/uint") return wholeNumbers(engine, name);
+    if (name == "numbers/int") return wholeNumbers(engine, name, Format::R8I);
+    if (name == "numbers/uint") return wholeNumbers(engine, name, Format::R8UI);
     return fail(ErrorCode::NotFound,
                 "there is no picture '{}': brick, wood, terrazzo, checker, dimple, lattice, glass, lava or brushed and "
                 "/color, /normal, /surface or /emission; waves/height, waves/normal, waves/occlusion, swirl/direction, "
-                "wedge/thickness, gradient/cube, stripes/layers, number/uint",
+                "wedge/thickness, gradient/cube, stripes/layers, numbers/int, numbers/uint",
                 name);
 }
 

@@ -42,6 +42,12 @@ double4x4 slabPlace() {
     return glm::scale(glm::rotate(double4x4(1.0), 0.35, double3(0, 0, 1)), double3(2.0, 0.22, 0.9));
 }
 
+/// In [-1, 1] of x.
+double4x4 placeInRow(uint32_t index, uint32_t count) {
+    const double size = 1.0 / count;
+    return glm::scale(glm::translate(double4x4(1.0), double3((2.0 * index + 1) * size - 1, 0, 0)), double3(size));
+}
+
 } // namespace
 
 Result<MaterialStand::Geometry> MaterialStand::makeGeometry(Engine& engine, std::string const& name) {
@@ -113,6 +119,7 @@ Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& fi
     stand.mName = file.name;
     stand.mMaterial = engine.own(*material);
     stand.mInstance = engine.own(engine.createInstance(*material, file.name));
+    stand.mInstances = file.show.instances;
     stand.mIsInObjectSpace = file.package.vertexDomain == shader::VertexDomain::Object;
     Result<Geometry> mesh = makeGeometry(engine, meshName.empty() ? file.show.mesh : meshName);
     if (!mesh) return mesh.error();
@@ -125,15 +132,17 @@ Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& fi
 }
 
 void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject) const {
-    const RenderableDesc object{ .vertices = mMesh.vertices,
-                                 .indices = mMesh.indices,
-                                 .material = mInstance,
-                                 .boundsMin = float3(-1),
-                                 .boundsMax = float3(1),
-                                 .worldFromObject = worldFromObject,
-                                 .culled = mIsInObjectSpace,
-                                 .name = mName };
-    scene.add(object);
+    for (uint32_t i = 0; i < mInstances; ++i) {
+        scene.add({ .vertices = mMesh.vertices,
+                    .indices = mMesh.indices,
+                    .material = mInstance,
+                    .boundsMin = float3(-1),
+                    .boundsMax = float3(1),
+                    .worldFromObject = worldFromObject * placeInRow(i, mInstances),
+                    .instanceIndex = i,
+                    .culled = mIsInObjectSpace,
+                    .name = mName });
+    }
     if (!mSlabMaterial.get()) return;
     scene.add({ .vertices = mBox.vertices,
                 .indices = mBox.indices,

@@ -42,6 +42,7 @@ private:
     Owned<MaterialInstance> mInstance, mSlabInstance;
     Geometry mMesh, mBox;
     std::vector<MaterialPicture> mPictures;
+    uint32_t mInstances = 1;
     bool mIsInObjectSpace = true;
 
     static Result<Geometry> makeGeometry(Engine& engine, std::string const& mesh);

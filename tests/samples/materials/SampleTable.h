@@ -16,7 +16,7 @@ enum class Effect : uint8_t { Differs, Brighter, Darker };
 
 struct Sample {
     std::string name;
-    tools::TextEdit without; ///< takes the property away; empty: the sample is the base that others change
+    tools::TextEdit without; ///< takes the property away; empty: nothing shows it yet
     Effect effect = Effect::Differs;
     uint8_t samplesOfAPixel = 1;
     bool hasLamp = true; ///< besides sun and sky
@@ -35,6 +35,14 @@ inline constexpr const char* kPropertiesOfTheGuide[] = {
     "parameters :",
     "precision :",
     "format : float",
+    "format : int",
+    "instanced :",
+    "interpolation :",
+    "transparency : twoPassesOneSide",
+    "transparency : twoPassesTwoSides",
+    "reflections :",
+    "shadowMultiplier :",
+    "transparentShadow :",
     "constants :",
     "variantFilter :",
     "flipUV :",
