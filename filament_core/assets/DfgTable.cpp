@@ -60,6 +60,20 @@ float integrateSheen(float nov, float alpha, uint32_t samples) {
     return sheenAlbedo(nov, charlieSamples(alpha, samples));
 }
 
+// Light directions that are uniform in the hemisphere: the lobe is as wide.
+float integrateVelvet(float nov, float alpha, uint32_t samples) {
+    const float inverseCount = 1.0f / static_cast<float>(samples);
+    const float3 v(std::sqrt(1.0f - nov * nov), 0, nov);
+    float sum = 0;
+    for (uint32_t i = 0; i < samples; ++i) {
+        const float2 u = lib::hammersley(i, inverseCount) + 0.5f * inverseCount;
+        const float nol = u.y, sine = std::sqrt(1.0f - nol * nol), phi = lib::kTwoPi * u.x;
+        const float3 h = glm::normalize(v + float3(sine * std::cos(phi), sine * std::sin(phi), nol));
+        sum += lib::ndfAshikhmin(std::min(h.z, 1.0f), alpha) * lib::visibilityNeubelt(nov, nol) * nol;
+    }
+    return sum * lib::kTwoPi * inverseCount;
+}
+
 Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size, uint32_t samples) {
     FILAMENT_ASSERT(size > 0 && samples > 0, "a DFG table has at least one entry of one sample");
     Image table{ .width = size, .height = size, .format = backend::Format::RGBA16F, .data = {} };
@@ -73,7 +87,8 @@ Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size, uint32_t samples) {
                 const float nov = (static_cast<float>(x) + 0.5f) / static_cast<float>(size);
                 const float2 dfg = integrateDfg(nov, alpha, samples);
                 const uint16_t halves[4] = { halfFromFloat(dfg.x), halfFromFloat(dfg.y),
-                                             halfFromFloat(sheenAlbedo(nov, fibres)), 0 };
+                                             halfFromFloat(sheenAlbedo(nov, fibres)),
+                                             halfFromFloat(integrateVelvet(nov, alpha, samples)) };
                 std::memcpy(table.data.data() + (y * size + x) * sizeof(halves), halves, sizeof(halves));
             }
         }

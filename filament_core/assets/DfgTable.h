@@ -5,10 +5,10 @@
 ///           red = the same weighted by Schlick's (1 - voh)^5. This is the form of Lagarde and Golubev 2018, "The Road
 ///           toward Unified Rendering", which also restores multiple scattering: specularDfg(), energyCompensation().
 ///           blue = what a white sheen of that roughness reflects: Charlie's distribution with Neubelt's visibility,
-///           which exceeds 1 where smooth fibres graze; sheenLimit() and sheenAlbedoScaling() take it. alpha = 0,
-///           unused.
+///           which exceeds 1 where smooth fibres graze; sheenLimit() and sheenAlbedoScaling() take it. alpha = the
+///           same for Ashikhmin's velvet with Neubelt's visibility.
 ///   Thread  runs on the job system; the same bits for any number of workers.
-///   Fails   never.  Cost: 64 x 64 with 512 samples in about 30 ms on two cores.
+///   Fails   never.  Cost: 64 x 64 with 512 samples in about 40 ms on two cores.
 #pragma once
 
 #include "filament_core/assets/Image.h"
@@ -22,6 +22,9 @@ float2 integrateDfg(float nov, float alpha, uint32_t samples);
 
 /// Blue of one entry. Same ranges. Returns values >= 0, up to about 6.
 float integrateSheen(float nov, float alpha, uint32_t samples);
+
+/// Alpha of one entry. Same ranges. Returns [0, 1].
+float integrateVelvet(float nov, float alpha, uint32_t samples);
 
 Image bakeDfgTable(jobs::JobSystem& jobs, uint32_t size = 64, uint32_t samples = 512);
 

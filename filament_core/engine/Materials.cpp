@@ -126,9 +126,12 @@ shader::SamplerFormat samplerFormatOf(Format format) {
 
 /// The screen's own colour cannot be sampled yet.
 void explainScreenSpace(scene::Material const& material) {
-    if (material.package.reflections != shader::Reflections::ScreenSpace) return;
-    log(Severity::Info, "material '{}': reflections : screenspace shows the environment only in this version",
-        material.name);
+    const auto say = [&](const char* property) {
+        log(Severity::Info, "material '{}': {} : screenspace shows the environment only in this version", material.name,
+            property);
+    };
+    if (material.package.reflections == shader::Reflections::ScreenSpace) say("reflections");
+    if (material.package.refractionMode == shader::RefractionMode::ScreenSpace) say("refractionMode");
 }
 
 Result<scene::Material> loadMaterial(MaterialDesc const& desc) {

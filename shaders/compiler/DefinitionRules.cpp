@@ -58,12 +58,22 @@ constexpr Contradiction kContradictions[] = {
       "two passes are for materials that do not refract; leave out transparency or refractionMode" },
     { [](MaterialDefinition const& d) { return refracts(d) && isUnlit(d); }, "refractionMode",
       "an unlit material refracts nothing; use shadingModel : lit" },
+    { [](MaterialDefinition const& d) { return refracts(d) && d.package.shading == ShadingModel::Cloth; },
+      "refractionMode", "the threads of cloth let light through without bending it; use shadingModel : lit" },
+    { [](MaterialDefinition const& d) { return refracts(d) && d.package.shading == ShadingModel::Subsurface; },
+      "refractionMode",
+      "light below a subsurface material is scattered, and its thickness is a share; to refract, use shadingModel : "
+      "lit" },
     { [](MaterialDefinition const& d) { return refracts(d) && blends(d.package.blending); }, "refractionMode",
       "what refracts is drawn opaque, because it shows what is behind it by itself; leave out blending" },
     { [](MaterialDefinition const& d) { return d.package.shadowMultiplier && !isUnlit(d); }, "shadowMultiplier",
       "shadowMultiplier is for shadingModel : unlit; lit materials receive shadows anyway" },
     { [](MaterialDefinition const& d) { return d.customSurfaceShading && d.package.shading != ShadingModel::Lit; },
       "customSurfaceShading", "customSurfaceShading works with shadingModel : lit only" },
+    { [](MaterialDefinition const& d) {
+         return d.find("clothDistribution") != nullptr && d.package.shading != ShadingModel::Cloth;
+     },
+      "clothDistribution", "clothDistribution is for shadingModel : cloth" },
     { [](MaterialDefinition const& d) { return d.package.reflections != Reflections::Default && isUnlit(d); },
       "reflections", "an unlit material reflects nothing; use shadingModel : lit" },
 };

@@ -35,12 +35,25 @@ const char* shadingDefine(ShadingModel model) {
 }
 
 /// The text that fulfils the contract of shading models (shaders/material/README.md).
-std::string_view shadingText(ShadingModel) { return "shaders/material/surface_lit_shading.glsl"; }
+std::string_view shadingText(ShadingModel model) {
+    switch (model) {
+    case ShadingModel::Cloth:
+        return "shaders/material/surface_cloth_shading.glsl";
+    case ShadingModel::Subsurface:
+        return "shaders/material/surface_subsurface_shading.glsl";
+    default:
+        return "shaders/material/surface_lit_shading.glsl";
+    }
+}
 
 const char* vertexDomainDefine(VertexDomain domain) {
     static constexpr const char* kNames[] = { "VERTEX_DOMAIN_OBJECT", "VERTEX_DOMAIN_WORLD", "VERTEX_DOMAIN_VIEW",
                                               "VERTEX_DOMAIN_DEVICE" };
     return kNames[static_cast<size_t>(domain)];
+}
+
+bool refracts(MaterialDefinition const& definition) {
+    return definition.package.refractionMode != RefractionMode::None;
 }
 
 bool needsAttribute(MaterialDefinition const& definition, AttributeLocation location) {
@@ -77,7 +90,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     defineIf(out, package.doubleSided && !isSwitched, "DOUBLE_SIDED");
     defineIf(out, package.instanced, "INSTANCED");
     defineIf(out, needs.instanceIndex, "NEEDS_INSTANCE_INDEX");
-    out.define("INTERPOLATION", package.interpolation == Interpolation::Flat ? "flat" : "smooth");
+    out.define("INTERPOLATION", package.interpolation == Interpolation::Flat ? "flat" : "");
     defineIf(out, needsAttribute(definition, kAttributeColor), "HAS_COLOR");
     defineIf(out, needsAttribute(definition, kAttributeUv0), "HAS_UV0");
     defineIf(out, needsAttribute(definition, kAttributeUv1), "HAS_UV1");
@@ -96,6 +109,11 @@ void defineFragment(StageText& out, MaterialDefinition const& definition, uint16
     defineIf(out, definition.package.alphaToCoverage, "ALPHA_TO_COVERAGE");
     defineIf(out, definition.package.shadowMultiplier, "SHADOW_MULTIPLIER");
     out.define(postLightingDefine(definition.package.postLightingBlending));
+    const bool isThin = definition.package.refractionType == RefractionType::Thin;
+    defineIf(out, refracts(definition), "REFRACTION");
+    defineIf(out, refracts(definition) && isThin, "REFRACTION_THIN");
+    defineIf(out, definition.customSurfaceShading, "CUSTOM_SURFACE_SHADING");
+    defineIf(out, definition.clothDistribution == ClothDistribution::Ashikhmin, "CLOTH_ASHIKHMIN");
     defineIf(out, definition.specularAmbientOcclusion != SpecularAmbientOcclusion::None, "SPECULAR_AMBIENT_OCCLUSION");
     defineIf(out, definition.specularAmbientOcclusion == SpecularAmbientOcclusion::BentNormals,
              "SPECULAR_OCCLUSION_BENT_NORMALS");
@@ -157,6 +175,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done) done = out.include("shaders/lib/occlusion.glsl");
     if (done && needs.has("HAS_AMBIENT_OCCLUSION")) done = out.include("shaders/lib/ao.glsl");
     if (done && needs.has("HAS_IRIDESCENCE")) done = out.include("shaders/lib/iridescence.glsl");
+    if (done && refracts(definition))
+        done = includeAll(out, { "shaders/lib/specular.glsl", "shaders/lib/refraction.glsl" });
     if (done) done = out.include("shaders/material/surface_output.glsl");
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface_half.glsl");
     if (!done) return done;
@@ -166,9 +186,11 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     for (Layer const& layer : kLayers) {
         if (done && needs.has(layer.term)) done = out.include(layer.text);
     }
-    if (!done) return done;
-    return includeAll(out, { shadingText(definition.package.shading), "shaders/material/surface_lights.glsl",
-                             "shaders/material/surface_main.glsl" });
+    if (done && refracts(definition)) done = out.include("shaders/material/surface_refraction.glsl");
+    if (done) done = out.include(shadingText(definition.package.shading));
+    if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface_custom_light.glsl");
+    if (done) done = includeAll(out, { "shaders/material/surface_lights.glsl", "shaders/material/surface_main.glsl" });
+    return done;
 }
 
 /// Everything before the author's code.
@@ -184,6 +206,7 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     declareVariables(out, definition);
     declareMaterialInputs(out, definition);
     if (needs.luminance) done = out.include("shaders/lib/color.glsl");
+    if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface_custom_api.glsl");
     if (done) done = out.include("shaders/material/surface_fragment_api.glsl");
     return done;
 }
@@ -265,6 +288,11 @@ Result<void> checkBlocks(MaterialDefinition const& definition, CodeScan const& f
     if (done && definition.package.shading != ShadingModel::Unlit) {
         done = expectFunction(fragment, "prepareMaterial", definition.fragment,
                               "material(), which must call prepareMaterial(material)");
+    }
+    if (done && definition.customSurfaceShading) {
+        done = expectFunction(fragment, "surfaceShading", definition.fragment,
+                              "vec3 surfaceShading(const MaterialInputs materialInputs, const ShadingData shadingData, "
+                              "const LightData lightData), as customSurfaceShading : true says");
     }
     if (done && definition.vertex) {
         done = expectFunction(vertex, "materialVertex", *definition.vertex,

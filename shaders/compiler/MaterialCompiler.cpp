@@ -8,7 +8,6 @@
 #include "shaders/compiler/MaterialAnalysis.h"
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/Reflection.h"
-#include "shaders/compiler/ShaderTextGaps.h"
 #include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -46,7 +45,6 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     prepared.includes = withEngineFiles(options.includes);
     Result<MaterialDefinition> definition = define(text, fileName, prepared.includes);
     if (!definition) return definition.error();
-    if (Result<void> possible = checkShaderText(*definition); !possible) return possible.error();
     prepared.definition = std::move(*definition);
     Result<MaterialNeeds> needs = findNeeds(prepared.definition, prepared.includes);
     if (!needs) return needs.error();

@@ -4,7 +4,6 @@
 ///   Thread  any. Fails: InvalidArgument with "file:line: reason": misspelt names with a suggestion, values out of
 ///           range, properties that contradict each other (DefinitionRules.h), more samplers than the feature level
 ///           has.
-///   Not     whether the shader text can do what is asked for: that is ShaderTextGaps.h.
 #pragma once
 
 #include "shaders/compiler/Jsonish.h"
@@ -34,6 +33,7 @@ struct SpecularAntiAliasing {
 };
 
 enum class SpecularAmbientOcclusion : uint8_t { None, Simple, BentNormals };
+enum class ClothDistribution : uint8_t { Charlie, Ashikhmin };
 
 /// A property that the author wrote, and where.
 struct GivenProperty {
@@ -53,6 +53,7 @@ struct MaterialDefinition {
     bool multiBounceAmbientOcclusion = true; ///< the guide's default on desktops
     SpecularAmbientOcclusion specularAmbientOcclusion = SpecularAmbientOcclusion::Simple;
     bool customSurfaceShading = false;
+    ClothDistribution clothDistribution = ClothDistribution::Charlie;
     SpecularAntiAliasing specularAntiAliasing;
     std::vector<GivenProperty> given; ///< in the order of the file
     std::optional<GlslBlock> vertex;

@@ -126,6 +126,12 @@ struct Words<MaterialQuality> {
                                                        { "high", MaterialQuality::High } };
 };
 
+template <>
+struct Words<ClothDistribution> {
+    static constexpr Word<ClothDistribution> kList[] = { { "charlie", ClothDistribution::Charlie },
+                                                         { "ashikhmin", ClothDistribution::Ashikhmin } };
+};
+
 template <class T>
 Result<void> readValue(JsonValue const& value, std::string_view name, T& out) {
     if constexpr (std::is_same_v<T, bool>) {
@@ -200,7 +206,7 @@ Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name
     return {};
 }
 
-// In the order of the guide; domain, fullScreenTriangle and halfPrecision are this engine's own.
+// In the order of the guide; domain, fullScreenTriangle, halfPrecision and clothDistribution are this engine's own.
 constexpr std::array kProperties{
     StateProperty{ "name", readName },
     StateProperty{ "domain", readState<&MaterialPackage::domain> },
@@ -237,6 +243,7 @@ constexpr std::array kProperties{
     StateProperty{ "specularAntiAliasingVariance", readFilter<&SpecularAntiAliasing::variance> },
     StateProperty{ "specularAntiAliasingThreshold", readFilter<&SpecularAntiAliasing::threshold> },
     StateProperty{ "customSurfaceShading", readSetting<&MaterialDefinition::customSurfaceShading> },
+    StateProperty{ "clothDistribution", readSetting<&MaterialDefinition::clothDistribution> },
 };
 
 } // namespace

@@ -53,6 +53,19 @@ float thinPathLength(float nov, float ior, float thickness) {
 // The transmittance is what is left. f in [0, 1]. Returns [f, 1].
 vec3 thinReflectance(vec3 f) { return 2.0f * f / (1.0f + f); }
 
+// A thin layer with a colour that light takes on at each crossing, t: what its far side adds to the reflectance f of the near
+// one, and what passes. All bounces: (1-f)^2 f t^2 and (1-f)^2 t, times the sum of the powers of f^2 t^2.
+// f, tint in [0, 1]. Return [0, 1 - f], and no more than that together.
+const float kMinThinDenominator = 1e-6f;
+vec3 thinFarReflectance(vec3 f, vec3 tint) {
+    vec3 once = (vec3(1.0f) - f) * tint;
+    return f * once * once / max(vec3(1.0f) - f * f * tint * tint, vec3(kMinThinDenominator));
+}
+vec3 thinTransmittance(vec3 f, vec3 tint) {
+    vec3 through = vec3(1.0f) - f;
+    return through * through * tint / max(vec3(1.0f) - f * f * tint * tint, vec3(kMinThinDenominator));
+}
+
 // The roughness at which the scene behind is looked up: without a change of index nothing scatters. In the form of
 // KHR_materials_transmission's implementation notes. Returns [0, perceptualRoughness].
 float refractionPerceptualRoughness(float perceptualRoughness, float ior) {

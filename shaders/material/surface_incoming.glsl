@@ -5,6 +5,11 @@
 struct Light {
     vec3 direction;   // to the light, unit
     vec3 illuminance; // at normal incidence
+#if defined(CUSTOM_SURFACE_SHADING)
+    highp vec3 color; // what is attenuated
+    highp float attenuation;
+    highp vec3 position;
+#endif
 };
 
 highp vec3 environmentFromWorld(highp vec3 direction) {

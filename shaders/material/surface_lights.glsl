@@ -16,7 +16,15 @@ highp vec3 punctualLights(Surface surface) {
             attenuation *= spotAttenuation(direction, light.directionScale.xyz, light.directionScale.w, light.offset.x);
             if (attenuation <= 0.0) continue; // outside of the cone
         }
-        sum += shadeLight(surface, Light(direction, light.colorIntensity.rgb * attenuation));
+        Light arriving;
+        arriving.direction = direction;
+        arriving.illuminance = light.colorIntensity.rgb * attenuation;
+#if defined(CUSTOM_SURFACE_SHADING)
+        arriving.color = light.colorIntensity.rgb;
+        arriving.attenuation = attenuation;
+        arriving.position = light.positionRange.xyz;
+#endif
+        sum += shadeLight(surface, arriving);
     }
     return sum;
 }
@@ -25,7 +33,15 @@ highp vec3 punctualLights(Surface surface) {
 
 void addLights(Surface surface, inout highp vec3 sum) {
 #if defined(VARIANT_SUN)
-    sum += shadeLight(surface, Light(frameUniforms.sunDirection.xyz, frameUniforms.sunIlluminance.rgb));
+    Light sun;
+    sun.direction = frameUniforms.sunDirection.xyz;
+    sun.illuminance = frameUniforms.sunIlluminance.rgb;
+#if defined(CUSTOM_SURFACE_SHADING)
+    sun.color = frameUniforms.sunIlluminance.rgb;
+    sun.attenuation = 1.0;
+    sun.position = vertex_worldPosition + sun.direction;
+#endif
+    sum += shadeLight(surface, sun);
 #endif
 #if defined(VARIANT_PUNCTUAL)
     sum += punctualLights(surface);

@@ -9,6 +9,9 @@
 #endif
 
 struct Surface {
+#if defined(CUSTOM_SURFACE_SHADING)
+    MaterialInputs inputs;    // for the author's surfaceShading()
+#endif
     vec3 diffuse;             // albedo of the diffuse lobe, times alpha if the material is transparent
     vec3 f0;
     float f90;
@@ -25,6 +28,10 @@ struct Surface {
 #endif
 #if defined(HAS_ANISOTROPY)
     Grooves grooves;
+#endif
+#if defined(REFRACTION)
+    Refraction refraction;
+    vec3 through;             // share of the light behind that arrives
 #endif
 #if defined(HAS_DIFFUSE_TRANSMISSION)
     vec3 transmitted;         // albedo of the diffuse lobe behind the surface
@@ -68,6 +75,19 @@ void setReflectances(MaterialInputs material, vec3 baseColor, inout Surface surf
 
 #endif
 
+#if defined(REFRACTION)
+
+// What bends light, where both are given.
+float iorOf(MaterialInputs material) {
+#if defined(HAS_REFLECTANCE) && !defined(HAS_IOR)
+    return iorFromReflectance(material.reflectance);
+#else
+    return material.ior;
+#endif
+}
+
+#endif
+
 // Nothing real reflects less than 2 %; darker f0 means that the material wants no reflection at all. Lagarde and de
 // Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
 float f90Of(vec3 f0) { return saturate(dot(f0, vec3(50.0 * 0.33))); }
@@ -106,7 +126,7 @@ void coverReflectances(inout Surface surface) {
 void setSpecularAlbedo(inout Surface surface, highp float roughness) {
     vec2 dfg = splitSumTerm(shading_NoV, roughness);
     surface.energyCompensation = energyCompensationTerm(surface.f0, dfg);
-#if defined(HAS_SPECULAR_WEIGHTS) || defined(HAS_CLEAR_COAT)
+#if defined(HAS_SPECULAR_WEIGHTS) || defined(HAS_CLEAR_COAT) || defined(REFRACTION)
     surface.specularAlbedo = specularDfg(surface.f0, surface.f90, dfg) * surface.energyCompensation;
 #else
     surface.specularAlbedo = specularDfg(surface.f0, dfg) * surface.energyCompensation;
@@ -127,11 +147,30 @@ void setTransmission(MaterialInputs material, inout Surface surface) {
 #endif
     surface.transmitted = albedo * part;
     surface.diffuse *= 1.0 - part;
+#if defined(REFRACTION)
+    surface.transmitted *= 1.0 - surface.refraction.transmission;
+#endif
+}
+
+#endif
+
+#if defined(REFRACTION)
+
+// Both interfaces: what the far one of a thin layer sends back comes out with what the near one reflects.
+void setThrough(inout Surface surface) {
+    surface.through = transmittedShare(surface.refraction, surface.specularAlbedo);
+    vec3 far = farReflectedShare(surface.refraction, surface.specularAlbedo);
+    surface.energyCompensation *= 1.0 + far / max(surface.specularAlbedo, vec3(1e-4));
+    surface.specularAlbedo += far;
 }
 
 #endif
 
 void setLayers(MaterialInputs material, inout Surface surface) {
+#if defined(REFRACTION)
+    surface.refraction = refractionOf(material, surface.diffuse, roughnessOf(material), iorOf(material));
+    surface.diffuse *= 1.0 - surface.refraction.transmission; // goes through instead
+#endif
 #if defined(HAS_IRIDESCENCE)
     surface.film = filmOf(material);
 #endif
@@ -155,6 +194,9 @@ void setLayers(MaterialInputs material, inout Surface surface) {
 Surface surfaceOf(MaterialInputs material) {
     vec3 baseColor = shadedBaseColor(material.baseColor);
     Surface surface;
+#if defined(CUSTOM_SURFACE_SHADING)
+    surface.inputs = material;
+#endif
     surface.normal = shading_normal;
     surface.view = shading_view;
     surface.nov = shading_NoV;
@@ -167,6 +209,9 @@ Surface surfaceOf(MaterialInputs material) {
     setLayers(material, surface);
     coverReflectances(surface);
     setSpecularAlbedo(surface, roughness);
+#if defined(REFRACTION)
+    setThrough(surface);
+#endif
     surface.visibility = ambientVisibility(material);
     return surface;
 }
@@ -190,6 +235,9 @@ highp vec3 baseOfEnvironment(Surface surface) {
 #if defined(HAS_DIFFUSE_TRANSMISSION)
     vec3 behind = surface.transmitted * environmentIrradiance(-openNormal(surface.normal));
     diffuse += seenDiffuse(behind * (1.0 - surface.specularAlbedo), surface.visibility, surface.transmitted);
+#endif
+#if defined(REFRACTION)
+    if (surface.refraction.transmission > 0.0) diffuse += surface.through * environmentBehind(surface.refraction);
 #endif
 
     highp vec3 reflected = reflectedOf(surface);
@@ -294,6 +342,8 @@ highp vec3 addCoatOfLight(Surface surface, Light light, highp vec3 below) {
 
 #endif
 
+#if !defined(CUSTOM_SURFACE_SHADING)
+
 // One way out of each function: an early return costs a loop in the code that the drivers see.
 highp vec3 shadeLight(Surface surface, Light light) {
     highp vec3 reflected = vec3(0.0);
@@ -319,8 +369,15 @@ highp vec3 shadeLight(Surface surface, Light light) {
         reflected = surface.transmitted * diffuseLambert() * light.illuminance * behind;
     }
 #endif
+#if defined(REFRACTION_THIN)
+    if (surface.refraction.transmission > 0.0) {
+        reflected += surface.through * lightThrough(surface.refraction, surface.normal, surface.view, surface.nov, light);
+    }
+#endif
 #if defined(HAS_CLEAR_COAT)
     if (surface.coat.strength > 0.0) reflected = addCoatOfLight(surface, light, reflected);
 #endif
     return reflected;
 }
+
+#endif

@@ -35,15 +35,16 @@ public:
         view.clearColor = float4(0, 0, 0, 1);
     }
 
-    /// None, and a failure, where the text does not compile.
-    MaterialInstance material(std::string_view text, std::vector<MaterialConstant> constants = {}) {
-        const Result<shader::MaterialPackage> package = shader::compileMaterial(text, "stage.mat");
+    /// None, and a failure, where the text does not compile. Variants that a test does not need only take time.
+    MaterialInstance material(std::string_view text, uint16_t filteredVariants = 0) {
+        const Result<shader::MaterialPackage> package =
+                shader::compileMaterial(text, "stage.mat", { .filteredVariants = filteredVariants });
         if (!package) {
             ADD_FAILURE() << package.error().message;
             return {};
         }
         const std::vector<std::byte> bytes = shader::writePackage(*package);
-        Result<Material> material = engine.create(MaterialDesc{ .package = bytes, .constants = std::move(constants) });
+        Result<Material> material = engine.create(MaterialDesc{ .package = bytes });
         if (!material) {
             ADD_FAILURE() << material.error().message;
             return {};
@@ -95,6 +96,9 @@ public:
                            .instanceIndex = instanceIndex });
     }
 
+    /// Lives as long as the scene.
+    void keep(std::shared_ptr<void> object) { mKept.push_back(std::move(object)); }
+
     Texture own(Texture texture) {
         mTextures.push_back(engine.own(texture));
         return texture;
@@ -104,6 +108,7 @@ public:
     View view;
 
 private:
+    std::vector<std::shared_ptr<void>> mKept;
     std::vector<Owned<Texture>> mTextures;
     std::vector<Owned<VertexBuffer>> mVertices;
     std::vector<Owned<IndexBuffer>> mIndices;

@@ -88,6 +88,16 @@ constexpr Broken kContradictions[] = {
       "a.mat:3: an unlit material refracts nothing; use shadingModel : lit" },
     { "material {\n shadowMultiplier : true }" GOOD_FRAGMENT,
       "a.mat:2: shadowMultiplier is for shadingModel : unlit; lit materials receive shadows anyway" },
+    { "material {\n shadingModel : cloth,\n refractionMode : cubemap }" GOOD_FRAGMENT,
+      "a.mat:3: the threads of cloth let light through without bending it; use shadingModel : lit" },
+    { "material {\n shadingModel : subsurface,\n refractionMode : cubemap }" GOOD_FRAGMENT,
+      "a.mat:3: light below a subsurface material is scattered, and its thickness is a share; to refract, use "
+      "shadingModel : lit" },
+    { "material {\n clothDistribution : ashikhmin }" GOOD_FRAGMENT,
+      "a.mat:2: clothDistribution is for shadingModel : cloth" },
+    { "material { customSurfaceShading : true }\n" GOOD_FRAGMENT,
+      "a.mat:2: this block must define vec3 surfaceShading(const MaterialInputs materialInputs, const ShadingData "
+      "shadingData, const LightData lightData), as customSurfaceShading : true says" },
     { "material {\n customSurfaceShading : true, shadingModel : cloth }" GOOD_FRAGMENT,
       "a.mat:2: customSurfaceShading works with shadingModel : lit only" },
     { "material {\n reflections : screenspace, shadingModel : unlit }" GOOD_FRAGMENT,

@@ -140,8 +140,8 @@ TEST(MaterialCompiler, SuggestsTheNameThatWasProbablyMeant) {
 }
 
 TEST(MaterialCompiler, SaysWhichKnownFeaturesItLacks) {
-    for (const char* properties : { "refractionMode : cubemap", "shadingModel : cloth", "customSurfaceShading : true",
-                                    "parameters : [ { name : a, type : sampler3d } ]" }) {
+    for (const char* properties : { "parameters : [ { name : a, type : sampler3d } ]",
+                                    "parameters : [ { name : a, type : samplerCubemapArray } ]" }) {
         const Error error = errorOf(withProperties(properties));
         EXPECT_EQ(error.code, ErrorCode::Unsupported) << properties;
         EXPECT_THAT(error.message, HasSubstr("wood.mat:2: "));

@@ -45,7 +45,7 @@ constexpr Default kDefaults[] = {
     { "colorWrite", "true" },
     { "depthWrite", "true" },
     { "depthCulling", "true" },
-    { "doubleSided", "false" },
+    { "doubleSided", "" }, // saying it at all lets instances switch it
     { "alphaToCoverage", "false" },
     { "reflections", "default" },
     { "shadowMultiplier", "false" },
@@ -57,6 +57,7 @@ constexpr Default kDefaults[] = {
     { "specularAntiAliasingVariance", "0.15" },
     { "specularAntiAliasingThreshold", "0.2" },
     { "customSurfaceShading", "false" },
+    { "clothDistribution", "" }, // only with shadingModel : cloth
 };
 
 /// The lists of the guide, empty or with what is there anyway.

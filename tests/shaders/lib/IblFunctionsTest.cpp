@@ -143,6 +143,24 @@ TEST(IblFunctions, NoEntryOfTheTableReflectsMoreThanArrives) {
     }
 }
 
+// Alpha of the table, against the lobe integrated over light directions.
+TEST(IblFunctions, TheAlbedoOfVelvetIsTheOneThatBruteForceFinds) {
+    for (const float alpha : { kMinAlpha, 0.04f, 0.25f, 0.6f, 1.0f }) {
+        for (const float nov : { 0.01f, 0.2f, 0.6f, 1.0f }) {
+            const vec3 v(std::sqrt(1 - nov * nov), 0, nov);
+            const double exact = integrateHemisphere(
+                    [&](vec3 l) {
+                        const float noh = min(glm::normalize(v + l).z, 1.0f);
+                        return ndfAshikhmin(noh, alpha) * visibilityNeubelt(nov, l.z) * l.z;
+                    },
+                    1000, 400, 1);
+            EXPECT_NEAR(assets::integrateVelvet(nov, alpha, 4096), exact, 2e-3) << alpha << ' ' << nov;
+            EXPECT_NEAR(assets::integrateVelvet(nov, alpha, 512), exact, 8e-3) << alpha << ' ' << nov;
+            EXPECT_LT(exact, 1.0);
+        }
+    }
+}
+
 // Blue, against the lobe integrated over light directions; and all entries are where the table says.
 TEST(IblFunctions, TheTablesBlueIsTheAlbedoOfASheenThatBruteForceFinds) {
     jobs::JobSystem jobs({ .workers = 0 });

@@ -72,6 +72,27 @@ TEST(Refraction, ThinLayersAreCrossedAlongTheBentRay) {
     EXPECT_EQ(thinPathLength(0.0, 1.0, 0.5), 16) << "along the surface, where it would be infinite";
 }
 
+// Every bounce by itself, the tint at each crossing.
+TEST(Refraction, AThinLayerWithAColorReflectsAndTransmitsTheSumOfAllBounces) {
+    for (const double f : { 0.0, 0.04, 0.3, 0.9 }) {
+        for (const double tint : { 0.0, 0.25, 0.8, 1.0 }) {
+            double inside = (1 - f) * tint, passed = 0, far = 0; // at the far interface
+            for (int bounce = 0; bounce < 400; ++bounce) {
+                passed += inside * (1 - f);
+                inside *= f * tint; // at the near one
+                far += inside * (1 - f);
+                inside *= f * tint;
+            }
+            EXPECT_NEAR(thinTransmittance(vec3(f), vec3(tint)).x, passed, 1e-9);
+            EXPECT_NEAR(thinFarReflectance(vec3(f), vec3(tint)).x, far, 1e-9);
+        }
+        const double together = (thinTransmittance(vec3(f), vec3(1.0)) + thinFarReflectance(vec3(f), vec3(1.0))).x;
+        EXPECT_NEAR(together, 1 - f, 1e-9) << "clear glass loses nothing";
+        EXPECT_NEAR((thinFarReflectance(vec3(f), vec3(1.0)) + f).x, thinReflectance(vec3(f)).x, 1e-9);
+    }
+    EXPECT_LE(thinTransmittance(vec3(1.0), vec3(1.0)).x, 0.0);
+}
+
 // Every bounce by itself: f, then (1-f)^2 f (f^2)^k.
 TEST(Refraction, AThinLayerReflectsTheSumOfAllBounces) {
     for (const double f : { 0.04, 0.3, 0.9 }) {

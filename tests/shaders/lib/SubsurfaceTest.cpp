@@ -27,6 +27,7 @@ TEST(Cloth, ScattersAtMostWhatArrivesAndLessWhereItIsBlackInside) {
     EXPECT_GT(albedo.x, albedo.y);
     EXPECT_GT(albedo.y, albedo.z);
     EXPECT_GT(albedo.z, 0.5);
+    EXPECT_LT(glm::distance(albedo, clothScatterAlbedo(vec3(1.0, 0.5, 0.0))), 1e-3) << "its closed form";
 }
 
 TEST(Cloth, TheDefaultSheenIsTheRootOfTheBaseColour) {

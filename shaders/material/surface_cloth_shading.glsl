@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// Cloth: fibres that stand out of the surface over a diffuse lobe (materials guide, 3.3; shaders/lib/cloth.glsl). Fulfils the
+// contract of shading models: README.md.
+
+#include "shaders/lib/sheen.glsl"
+#include "shaders/lib/cloth.glsl"
+
+struct Surface {
+    vec3 diffuse;         // times alpha if the material is transparent
+    vec3 sheenColor;
+    vec3 subsurfaceColor; // 0: light does not reach through the threads
+    highp float perceptualRoughness;
+    float alpha;
+    float sheenAlbedo;    // of white fibres, for the view
+    float visibility;     // ambient occlusion
+    vec3 normal, view;
+    float nov;
+};
+
+// What white fibres reflect under a cosine to view or light: channels of the table that have no fit.
+float clothAlbedoTerm(highp float cosine, highp float perceptualRoughness) {
+#if defined(CLOTH_ASHIKHMIN)
+    return textureLod(viewDfg, vec2(cosine, perceptualRoughness), 0.0).w;
+#else
+    return textureLod(viewDfg, vec2(cosine, perceptualRoughness), 0.0).z;
+#endif
+}
+
+Surface surfaceOf(MaterialInputs material) {
+    Surface surface;
+    surface.normal = shading_normal;
+    surface.view = shading_view;
+    surface.nov = shading_NoV;
+    surface.diffuse = shadedBaseColor(material.baseColor);
+#if defined(HAS_SHEEN_COLOR)
+    surface.sheenColor = saturate(material.sheenColor);
+#else
+    surface.sheenColor = clothSheenColor(saturate(surface.diffuse));
+#endif
+#if defined(HAS_SUBSURFACE_COLOR)
+    surface.subsurfaceColor = saturate(material.subsurfaceColor);
+#else
+    surface.subsurfaceColor = vec3(0.0);
+#endif
+    surface.perceptualRoughness = shadedRoughness(material.roughness);
+    surface.alpha = alphaFromPerceptual(surface.perceptualRoughness);
+    surface.sheenAlbedo = clothAlbedoTerm(shading_NoV, surface.perceptualRoughness);
+    surface.visibility = ambientVisibility(material);
+    return surface;
+}
+
+highp vec3 shadeEnvironment(Surface surface) {
+    vec3 diffuse = surface.diffuse * environmentIrradiance(openNormal(surface.normal)) *
+            sheenAlbedoScaling(surface.sheenColor, surface.sheenAlbedo);
+#if defined(HAS_SUBSURFACE_COLOR)
+    diffuse *= clothScatterAlbedo(surface.subsurfaceColor);
+#endif
+    diffuse = seenDiffuse(diffuse, surface.visibility, surface.diffuse);
+    highp vec3 direction = dominantSpecularDirection(surface.normal, shading_reflected, surface.alpha);
+    vec3 specular = surface.sheenColor * (surface.sheenAlbedo * sheenLimit(surface.sheenAlbedo)) *
+            environmentRadiance(direction, surface.perceptualRoughness);
+    specular = seenReflection(specular, surface.visibility, surface.nov, shading_reflected, surface.alpha,
+            surface.perceptualRoughness, surface.sheenColor);
+    return diffuse + specular;
+}
+
+float clothDistribution(float noh, float alpha) {
+#if defined(CLOTH_ASHIKHMIN)
+    return ndfAshikhmin(noh, alpha);
+#else
+    return ndfCharlie(noh, alpha);
+#endif
+}
+
+// With its cosine.
+vec3 clothDiffuse(Surface surface, float cosine, float nol, float voh) {
+#if defined(HAS_SUBSURFACE_COLOR)
+    return diffuseCloth(cosine, surface.subsurfaceColor);
+#else
+    return vec3(diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness) * nol);
+#endif
+}
+
+// The lesser of what view and light say about fibres keeps both directions alike.
+highp vec3 shadeLight(Surface surface, Light light) {
+    highp vec3 reflected = vec3(0.0);
+    float cosine = dot(surface.normal, light.direction);
+#if defined(HAS_SUBSURFACE_COLOR)
+    float leastCosine = -kClothWrap;
+#else
+    float leastCosine = 0.0;
+#endif
+    if (cosine > leastCosine) {
+        float nol = saturate(cosine);
+        vec3 halfway = normalizeOrZero(surface.view + light.direction);
+        float noh = saturate(dot(surface.normal, halfway));
+        float voh = saturate(dot(surface.view, halfway));
+        float lightAlbedo = clothAlbedoTerm(nol, surface.perceptualRoughness);
+        float limit = min(sheenLimit(surface.sheenAlbedo), sheenLimit(lightAlbedo));
+        float scaling = min(sheenAlbedoScaling(surface.sheenColor, surface.sheenAlbedo),
+                sheenAlbedoScaling(surface.sheenColor, lightAlbedo));
+        vec3 sheen = surface.sheenColor *
+                (finite(clothDistribution(noh, surface.alpha) * visibilityNeubelt(surface.nov, nol)) * limit * nol);
+        vec3 diffuse = surface.diffuse * scaling * clothDiffuse(surface, cosine, nol, voh);
+        reflected = (diffuse + sheen) * light.illuminance;
+    }
+    return reflected;
+}

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Light from behind a surface, for models that let it through: its direction, its blur, its colour. The environment stands
+// for the scene behind. In 32 bits wherever the lighting is: directions are.
+
+struct Refraction {
+    vec3 tint;         // what remains of light that goes through, without the interfaces: base colour and absorption
+    float transmission;
+    float ior;
+    float dispersion;
+    float perceptualRoughness; // of the view of what is behind
+};
+
+// Lengths are metres of the world. Where no distance is known absorption is a share (materials guide, 3.1.22).
+vec3 absorbedOnTheWay(MaterialInputs material, float ior) {
+    vec3 remains = vec3(1.0);
+#if defined(HAS_ABSORPTION)
+#if defined(REFRACTION_THIN) && defined(HAS_MICRO_THICKNESS)
+    remains = transmittance(material.absorption, thinPathLength(shading_NoV, ior, material.microThickness));
+#elif !defined(REFRACTION_THIN) && defined(HAS_THICKNESS)
+    remains = transmittance(material.absorption, solidPathLength(shading_NoV, ior, material.thickness));
+#else
+    remains = transmittanceWithoutThickness(material.absorption);
+#endif
+#endif
+    return remains;
+}
+
+// color: of the diffuse lobe, whose place what goes through takes.
+Refraction refractionOf(MaterialInputs material, vec3 color, float perceptualRoughness, float ior) {
+    Refraction refraction;
+    refraction.transmission = saturate(material.transmission);
+    refraction.ior = max(ior, 1.0);
+    refraction.tint = color * absorbedOnTheWay(material, refraction.ior);
+    refraction.perceptualRoughness = refractionPerceptualRoughness(saturate(perceptualRoughness), refraction.ior);
+#if defined(HAS_DISPERSION)
+    refraction.dispersion = max(material.dispersion, 0.0);
+#else
+    refraction.dispersion = 0.0;
+#endif
+    return refraction;
+}
+
+// The share of the light behind that arrives, both interfaces included. f: albedo of the near interface.
+vec3 transmittedShare(Refraction refraction, vec3 f) {
+#if defined(REFRACTION_THIN)
+    return refraction.transmission * thinTransmittance(f, refraction.tint);
+#else
+    return refraction.transmission * (1.0 - f) * refraction.tint;
+#endif
+}
+
+// What the far interface adds to the albedo f of the near one. A ball's is left out: what it reflects leaves elsewhere.
+vec3 farReflectedShare(Refraction refraction, vec3 f) {
+#if defined(REFRACTION_THIN)
+    return refraction.transmission * thinFarReflectance(f, refraction.tint);
+#else
+    return vec3(0.0);
+#endif
+}
+
+#if defined(REFRACTION_THIN)
+// A light behind a thin layer, with its cosine: what a light mirrored to the front would reflect, if all of it were reflected,
+// in the form of KHR_materials_transmission's implementation notes. Balls gather light in a point, which nothing shows here.
+vec3 lightThrough(Refraction refraction, vec3 normal, vec3 view, float nov, Light light) {
+    vec3 seen = vec3(0.0);
+    float cosine = dot(normal, light.direction);
+    if (cosine < 0.0) {
+        vec3 halfway = normalizeOrZero(view + light.direction - normal * (2.0 * cosine));
+        float alpha = alphaFromPerceptual(clampedRoughness(refraction.perceptualRoughness));
+        float dv = distributionTerm(normal, halfway, alpha) * visibilityTerm(nov, min(-cosine, 1.0), alpha);
+        seen = (finite(dv) * -cosine) * light.illuminance;
+    }
+    return seen;
+}
+#endif
+
+// The environment behind, before frameUniforms.ambient.x.
+vec3 environmentBehind(Refraction refraction) {
+#if defined(REFRACTION_THIN)
+    return environmentRadiance(-shading_view, refraction.perceptualRoughness);
+#else
+    float roughness = refraction.perceptualRoughness;
+    vec3 radiance = environmentRadiance(refractedSolid(shading_normal, shading_view, refraction.ior), roughness);
+#if defined(HAS_DISPERSION)
+    if (refraction.dispersion > 0.0) { // green stays where it was
+        vec3 ior = dispersedIor(refraction.ior, refraction.dispersion);
+        radiance.r = environmentRadiance(refractedSolid(shading_normal, shading_view, ior.r), roughness).r;
+        radiance.b = environmentRadiance(refractedSolid(shading_normal, shading_view, ior.b), roughness).b;
+    }
+#endif
+    return radiance;
+#endif
+}

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// The standard model over a medium that light crosses (materials guide, 3.2; shaders/lib/subsurface.glsl). Fulfils the contract
+// of shading models: README.md.
+
+#include "shaders/lib/subsurface.glsl"
+
+struct Surface {
+    vec3 diffuse;             // without what is scattered below; times alpha if the material is transparent
+    vec3 scatter;             // albedo of what is scattered below; a metal scatters nothing
+    float thickness;          // [0, 1]: 1 lets nothing through
+    float power;
+    vec3 f0;
+    float f90;
+    float metallic;
+    highp float perceptualRoughness;
+    float alpha;
+    vec3 energyCompensation;
+    vec3 specularAlbedo;
+    float visibility;         // ambient occlusion
+    vec3 normal, view;
+    float nov;
+};
+
+Surface surfaceOf(MaterialInputs material) {
+    vec3 baseColor = shadedBaseColor(material.baseColor);
+    Surface surface;
+    surface.normal = shading_normal;
+    surface.view = shading_view;
+    surface.nov = shading_NoV;
+    surface.thickness = saturate(material.thickness);
+    surface.power = material.subsurfacePower;
+    surface.scatter = saturate(material.subsurfaceColor) * (1.0 - material.metallic);
+    surface.diffuse = diffuseColor(baseColor, material.metallic) *
+            subsurfaceDiffuseScaling(surface.scatter, surface.thickness);
+    surface.metallic = material.metallic;
+    surface.f0 = f0FromBaseColor(baseColor, material.metallic, material.reflectance);
+    surface.f90 = saturate(dot(surface.f0, vec3(50.0 * 0.33))); // as in the standard model
+    highp float roughness = shadedRoughness(material.roughness);
+    surface.perceptualRoughness = roughness;
+    surface.alpha = alphaFromPerceptual(roughness);
+    vec2 dfg = splitSumTerm(shading_NoV, roughness);
+    surface.energyCompensation = energyCompensationTerm(surface.f0, dfg);
+    surface.specularAlbedo = specularDfg(surface.f0, dfg) * surface.energyCompensation;
+    surface.visibility = ambientVisibility(material);
+    return surface;
+}
+
+// Half of what is scattered comes around the surface, the other half straight through the object.
+highp vec3 shadeEnvironment(Surface surface) {
+    vec3 irradiance = environmentIrradiance(openNormal(surface.normal));
+    vec3 through = environmentRadiance(-shading_view, subsurfaceForwardRoughness(surface.power));
+    vec3 scattered = surface.scatter * (0.5 * (1.0 - surface.thickness)) * (irradiance + through);
+    vec3 albedo = surface.diffuse + surface.scatter * (1.0 - surface.thickness);
+    vec3 inside = (surface.diffuse * irradiance + scattered) * (1.0 - surface.specularAlbedo);
+    inside = seenDiffuse(inside, surface.visibility, albedo);
+
+    highp vec3 direction = dominantSpecularDirection(surface.normal, shading_reflected, surface.alpha);
+    vec3 specular = surface.specularAlbedo * environmentRadiance(direction, surface.perceptualRoughness);
+    specular = seenReflection(specular, surface.visibility, surface.nov, shading_reflected, surface.alpha,
+            surface.perceptualRoughness, surface.f0);
+    return inside + specular;
+}
+
+highp vec3 shadeLight(Surface surface, Light light) {
+    float cosine = dot(surface.normal, light.direction);
+    float lov = dot(surface.view, light.direction);
+    vec3 reflected = surface.scatter * subsurfaceScatter(cosine, lov, surface.thickness, surface.power);
+    float nol = saturate(cosine);
+    if (nol > 0.0) {
+        vec3 halfway = normalizeOrZero(surface.view + light.direction);
+        float voh = saturate(dot(surface.view, halfway));
+        float dv = distributionTerm(surface.normal, halfway, surface.alpha) *
+                visibilityTerm(surface.nov, nol, surface.alpha);
+        vec3 f = fresnelTerm(surface.f0, surface.f90, surface.metallic, voh);
+        vec3 specular = finite(dv) * f * surface.energyCompensation;
+        float diffuse = diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness);
+        reflected += (surface.diffuse * diffuse + specular) * nol;
+    }
+    return reflected * light.illuminance;
+}
