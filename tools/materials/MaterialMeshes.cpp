@@ -73,7 +73,7 @@ SurfacePoint planePoint(float u, float v) { return { { 2 * u - 1, 2 * v - 1, 0 }
 
 /// A sheet rolled up around y, so that both of its sides are seen.
 SurfacePoint scrollPoint(float u, float v) {
-    const float angle = 2 * kPi * (1.35f * u + 0.4f), radius = 0.35f + 0.55f * u;
+    const float angle = 2 * kPi * (1.35f * u - 0.15f), radius = 0.35f + 0.55f * u;
     const float3 out(std::sin(angle), 0, std::cos(angle)), along(std::cos(angle), 0, -std::sin(angle));
     const float3 tangent = along * (radius * 2 * kPi * 1.35f) + out * 0.55f;
     return { out * radius + float3(0, 1.6f * v - 0.8f, 0), glm::cross(tangent, float3(0, 1, 0)), tangent };
