@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // A clear coat: a second, dielectric and isotropic lobe of index 1.5 above everything else, and what it does to the
 // layers below. Light passes it twice, so the base gets transmission on the way in times transmission on the way out.
+//   Before it  brdf.glsl.
 //   strength   how much of the surface is coated, in [0, 1]; 0 leaves the base as it is.
 
 const float kCoatIor = 1.5f;
@@ -10,6 +11,13 @@ const float kCoatF0 = 0.04f; // of that index in air
 // Coupled Specular-Matte BRDF Model with Importance Sampling", section 3: G / (4 nol nov) = 1 / (4 voh^2).
 // voh in [0, 1]. Returns 1/sr, >= 0.25, finite for voh = 0.
 float visibilityKelemen(float voh) { return 0.25f / max(voh * voh, kMinVisibilityDenominator); }
+
+// Kelemen's term knows no masking: where the view grazes, a coat of roughness 0.3 would send back 7 % of what arrives too
+// much. What GGX's masking leaves bounds it; for a narrow lobe and its mirror direction both are the same.
+// nov, nol, voh in [0, 1], alpha in [kMinAlpha, 1]. Returns 1/sr, finite.
+float visibilityCoat(float nov, float nol, float voh, float alpha) {
+    return min(visibilityKelemen(voh), visibilitySmithGgxCorrelatedFast(nov, nol, alpha));
+}
 
 // What the coat reflects: Schlick's term (fresnelSchlick()) of index 1.5. cosine: to the facet for a lobe, to the normal
 // for a whole layer. All in [0, 1].

@@ -38,7 +38,7 @@ float coatLeavesOfLight(Coat coat, float nol) {
 }
 
 // The coat's own lobe for one light, before nol.
-float coatOfLight(Coat coat, vec3 halfway, float voh) {
-    return finite(distributionTerm(coat.normal, halfway, coat.alpha) * finite(visibilityKelemen(voh))) *
-            coatFresnel(voh, coat.strength);
+float coatOfLight(Coat coat, vec3 halfway, float nol, float voh) {
+    float v = finite(visibilityCoat(coat.nov, nol, voh, coat.alpha));
+    return finite(distributionTerm(coat.normal, halfway, coat.alpha) * v) * coatFresnel(voh, coat.strength);
 }

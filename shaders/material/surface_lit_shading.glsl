@@ -335,7 +335,8 @@ highp vec3 addCoatOfLight(Surface surface, Light light, highp vec3 below) {
     if (cosine > 0.0) {
         vec3 halfway = normalizeOrZero(surface.view + light.direction);
         float voh = saturate(dot(surface.view, halfway));
-        reflected += coatOfLight(coat, halfway, voh) * light.illuminance * saturate(cosine);
+        float nol = saturate(cosine);
+        reflected += coatOfLight(coat, halfway, nol, voh) * light.illuminance * nol;
     }
     return reflected;
 }

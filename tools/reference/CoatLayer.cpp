@@ -38,8 +38,8 @@ double CoatLayer::evaluate(double3 light, LightSource source) const {
     if (local.z <= 0 || length < 1e-12) return 0;
     const double3 halfway = sum / length;
     const double voh = lib::saturate(glm::dot(mView, halfway));
-    const double visibility =
-            isExact() ? lib::visibilitySmithGgxCorrelated(mView.z, local.z, mAlpha) : lib::visibilityKelemen(voh);
+    const double visibility = isExact() ? lib::visibilitySmithGgxCorrelated(mView.z, local.z, mAlpha)
+                                        : lib::visibilityCoat(mView.z, std::min(local.z, 1.0), voh, mAlpha);
     const double fresnel =
             mFresnel == FresnelTerm::Schlick ? lib::coatFresnel(voh, 1.0) : lib::fresnelComplex(voh, kCoatIor, 0.0);
     return ggx(halfway, double2(mAlpha)) * visibility * fresnel * local.z * mStrength;

@@ -52,19 +52,31 @@ public:
     StackBrdf(Base base, double roughness)
             : mBase(base), mAlpha(alphaFromPerceptual(roughness)), mStretched(anisotropicAlpha(mAlpha, 0.7, kMinAlpha)),
               mPlastic([this](vec3 v, vec3 l) { return ggx(v, l) * fresnelSchlick(vec3(0.04), 1.0, voh(v, l)).x; }),
-              mFibres([this](vec3 v, vec3 l) { return fibres(v, l); }) {}
+              mFibres([this](vec3 v, vec3 l) { return fibres(v, l); }),
+              mCoatGrazing([](vec3 v, vec3 l) { return smoothCoat(v, l) * pow5(1 - voh(v, l)); }),
+              mCoatAll(smoothCoat) {}
 
     double operator()(vec3 v, vec3 l, Above above) const {
         const double fuzz = std::min(sheenLimit(mFibres(v.z)), sheenLimit(mFibres(l.z))) * fibres(v, l);
         const double below =
                 above.sheen > 0 ? above.sheen * fuzz + keptBySheen(v, l, above.sheen) * base(v, l) : base(v, l);
         const vec3 h = glm::normalize(v + l);
-        const double alpha = 0.09; // a coat of roughness 0.3
-        const double coat = ndfGgx(h.z, alpha) * visibilityKelemen(dot(v, h)) * coatFresnel(dot(v, h), above.coat);
-        return below * coatAttenuation(v.z, l.z, above.coat) + coat;
+        const double coat = ndfGgx(h.z, kCoatAlpha) * visibilityCoat(v.z, l.z, dot(v, h), kCoatAlpha) *
+                            coatFresnel(dot(v, h), above.coat);
+        return below * std::min(leftByCoat(v.z, above.coat), leftByCoat(l.z, above.coat)) + coat;
     }
 
 private:
+    static constexpr double kCoatAlpha = 0.09; // roughness 0.3
+
+    /// What the split-sum table is made of.
+    static double smoothCoat(vec3 v, vec3 l) {
+        const double noh = std::min(glm::normalize(v + l).z, 1.0);
+        return ndfGgx(noh, kCoatAlpha) * visibilitySmithGgxCorrelated(v.z, l.z, kCoatAlpha);
+    }
+    double leftByCoat(double cosine, double strength) const {
+        return coatTransmissionFromDfg(vec2(mCoatGrazing(cosine), mCoatAll(cosine)), strength);
+    }
     static double voh(vec3 v, vec3 l) { return dot(v, glm::normalize(v + l)); }
     double ggx(vec3 v, vec3 l) const {
         const vec3 h = glm::normalize(v + l);
@@ -95,7 +107,7 @@ private:
     Base mBase;
     double mAlpha;
     vec2 mStretched;
-    Albedo mPlastic, mFibres;
+    Albedo mPlastic, mFibres, mCoatGrazing, mCoatAll;
 };
 
 TEST(Layers, NoStackReflectsMoreThanArrives) {
