@@ -18,7 +18,8 @@ std::vector<vec4> bake() {
         for (int x = 0; x < kSize; ++x) {
             const float nov = (static_cast<float>(x) + 0.5f) / kSize;
             const float2 dfg = assets::integrateDfg(nov, alpha, kSamples);
-            table.emplace_back(dfg.x, dfg.y, assets::integrateSheen(nov, alpha, kSamples), 0.0);
+            table.emplace_back(dfg.x, dfg.y, assets::integrateSheen(nov, alpha, kSamples),
+                               assets::integrateVelvet(nov, alpha, kSamples));
         }
     }
     return table;
