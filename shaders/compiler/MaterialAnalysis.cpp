@@ -193,12 +193,6 @@ Result<void> findTerms(MaterialDefinition const& definition, IncludeResolver con
     for (size_t i = 0; i < probed.size(); ++i) {
         MaterialMember const& member = materialMembers()[probed[i]];
         if (!isTermIn(member, definition, arrivals[i])) continue;
-        if (!member.hasText) {
-            return errorAt(definition.fragment.at,
-                           fmt::format("this block sets material.{}, which is known but not supported by this version",
-                                       member.name),
-                           ErrorCode::Unsupported);
-        }
         needs.terms |= termBit(probed[i]);
         needs.tangent |= member.isTangential;
     }

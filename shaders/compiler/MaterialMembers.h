@@ -30,7 +30,6 @@ struct MaterialMember {
     std::string_view term;          ///< the macro that the texts test; empty: none
     std::array<float, 4> neutral{}; ///< NaN: any value is
     bool isPrepared = false;        ///< prepareMaterial() takes it: what is written behind that has no effect
-    bool hasText = false;           ///< shaders/material can do it
     bool isTangential = isPrepared; ///< what it says is said in tangent space: needs tangents
 };
 

@@ -158,10 +158,13 @@ void setTransmission(MaterialInputs material, inout Surface surface) {
 
 // Both interfaces: what the far one of a thin layer sends back comes out with what the near one reflects.
 void setThrough(inout Surface surface) {
-    surface.through = transmittedShare(surface.refraction, surface.specularAlbedo);
-    vec3 far = farReflectedShare(surface.refraction, surface.specularAlbedo);
-    surface.energyCompensation *= 1.0 + far / max(surface.specularAlbedo, vec3(1e-4));
-    surface.specularAlbedo += far;
+    surface.through = vec3(0.0);
+    if (surface.refraction.transmission > 0.0) {
+        surface.through = transmittedShare(surface.refraction, surface.specularAlbedo);
+        vec3 far = farReflectedShare(surface.refraction, surface.specularAlbedo);
+        surface.energyCompensation *= 1.0 + far / max(surface.specularAlbedo, vec3(1e-4));
+        surface.specularAlbedo += far;
+    }
 }
 
 #endif

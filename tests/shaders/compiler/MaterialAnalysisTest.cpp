@@ -121,17 +121,5 @@ TEST(MaterialAnalysis, GivesTheSamePackageForEveryNeutralMemberAsForNone) {
     EXPECT_GE(neutral, 8u);
 }
 
-TEST(MaterialAnalysis, SaysWhichMemberTheShaderTextLacks) {
-    const Result<MaterialPackage> package =
-            compileMaterial("material {}\nfragment {\nvoid material(inout MaterialInputs m) {\nprepareMaterial(m);\n"
-                            "m.clearCoat = 1.0;\n} }",
-                            "a.mat");
-    const bool isThere = std::ranges::any_of(materialMembers(), [](MaterialMember const& member) {
-        return member.name == "clearCoat" && member.hasText;
-    });
-    EXPECT_EQ(package ? ErrorCode::Internal : package.error().code,
-              isThere ? ErrorCode::Internal : ErrorCode::Unsupported);
-}
-
 } // namespace
 } // namespace filament::shader
