@@ -66,11 +66,11 @@ DRIVER_TEST(Texture, EveryUncompressedFormatIsSampledAsItsDefinitionSays) {
         if (isCompressed(format) || hasDepth(format)) continue;
         SCOPED_TRACE(info.name);
         const Bytes texels = randomTexels(format, 8, random);
-        const char* const sampler = info.kind == FormatKind::UnsignedInteger
-                                            ? "layout(set = 1, binding = 0) uniform highp usampler2D image;"
-                                    : info.kind == FormatKind::SignedInteger
-                                            ? "layout(set = 1, binding = 0) uniform highp isampler2D image;"
-                                            : kSampler2D;
+        const std::string_view sampler = info.kind == FormatKind::UnsignedInteger
+                                                 ? "layout(set = 1, binding = 0) uniform highp usampler2D image;"
+                                         : info.kind == FormatKind::SignedInteger
+                                                 ? "layout(set = 1, binding = 0) uniform highp isampler2D image;"
+                                                 : kSampler2D;
         const std::vector<Rgba> seen =
                 paintRow(gpu, 8, sampler, "result = vec4(texture(image, vec2((i + 0.5) / 8.0, 0.5)));",
                          gpu.image(format, 8, 1, texels), nearest);
