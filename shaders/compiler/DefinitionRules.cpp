@@ -13,6 +13,11 @@ bool isUnlit(MaterialDefinition const& definition) { return definition.package.s
 bool refracts(MaterialDefinition const& definition) {
     return definition.package.refractionMode != RefractionMode::None;
 }
+/// The models of surface_lit_shading.glsl.
+bool hasStandardText(MaterialDefinition const& definition) {
+    const ShadingModel model = definition.package.shading;
+    return model == ShadingModel::Lit || model == ShadingModel::SpecularGlossiness;
+}
 bool isPost(MaterialDefinition const& definition) { return definition.package.domain == MaterialDomain::PostProcess; }
 bool hasTwoPasses(MaterialDefinition const& definition) {
     return definition.package.transparency != TransparencyMode::Default;
@@ -32,8 +37,8 @@ constexpr Contradiction kContradictions[] = {
       "a material of the domain postprocess has no vertex block" },
     { [](MaterialDefinition const& d) { return isPost(d) && (d.requiredAttributes != 0 || !d.variables.empty()); },
       "domain", "a material of the domain postprocess reads no attributes and has no variables" },
-    { [](MaterialDefinition const& d) { return d.halfPrecision && d.package.shading != ShadingModel::Lit; },
-      "halfPrecision", "halfPrecision is for lit materials: nothing else is computed in 16 bits" },
+    { [](MaterialDefinition const& d) { return d.halfPrecision && !hasStandardText(d); }, "halfPrecision",
+      "halfPrecision is for lit materials and specularGlossiness: nothing else is computed in 16 bits" },
     { [](MaterialDefinition const& d) {
          return d.fullScreenTriangle && d.package.vertexDomain != VertexDomain::Device;
      },

@@ -327,13 +327,15 @@ TEST_F(LayerBits, SpecularGlossinessSaysTheStandardModelInOtherWords) {
     EXPECT_LT(distance(metal, specular), 1e-6f * most(metal));
     const Pixels white = render(furnace(scene("m.specularColor = vec3(amount);", 0.3f, model)));
     EXPECT_LT(most(white), 1.005f) << "what is reflected is taken from the diffuse lobe";
-    const Pixels coated =
-            render(furnace(scene(std::string(kBlack) + "m.specularColor = vec3(1.0); m.glossiness = 0.5;"
-                                                       "m.clearCoat = amount; m.sheenColor = vec3(amount);"
-                                                       "m.anisotropy = 0.5 * amount;",
-                                 1, model)));
+    MaterialScene layered = furnace(scene(std::string(kBlack) + "m.specularColor = vec3(1.0); m.glossiness = 0.5;"
+                                                                "m.clearCoat = amount; m.sheenColor = vec3(amount);"
+                                                                "m.anisotropy = 0.5 * amount;",
+                                          1, model + ", halfPrecision : true"));
+    const Pixels coated = render(layered);
     EXPECT_LT(most(coated), 1.005f);
     EXPECT_GT(least(coated), 0.9f);
+    layered.variant |= kVariantHalf;
+    EXPECT_LT(distance(render(layered), coated), 0.01f) << "16 bits are close";
 }
 
 // ------------------------------------------------------------------------------------------------ occlusion
