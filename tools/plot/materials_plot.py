@@ -7,15 +7,7 @@ import numpy as np
 
 from style import BLUE, ORANGE, RED, BadInput, field, finite, load_json
 
-BACKENDS = (("Vulkan", BLUE), ("OpenGL ES", ORANGE))
-
-
-def backend_of(row, name, where):
-    """The backend's figures, under any of the names that it goes by."""
-    for key in (name, name.lower(), "gles" if name != "Vulkan" else "vulkan", "Gles" if name != "Vulkan" else "Vulkan"):
-        if key in row:
-            return field(row, key, dict, where)
-    raise BadInput(f"{where}: '{name}' is missing or of the wrong type")
+BACKENDS = (("vulkan", "Vulkan", BLUE), ("gles", "OpenGL ES", ORANGE))
 
 
 def draw_reference(axes, y, text):
@@ -36,11 +28,11 @@ def draw(path, title):
         raise BadInput(f"{path}: has no rows")
     figure, axes = plt.subplots(figsize=(8, 0.42 * len(rows) + 1.4))
     places = np.arange(len(rows))
-    for offset, (name, color) in zip((-0.2, 0.2), BACKENDS):
+    for offset, (key, name, color) in zip((-0.2, 0.2), BACKENDS):
         ratios, lows, highs = [], [], []
         for i, row in enumerate(rows):
             where = f"{path}: row {i}"
-            figures = backend_of(row if isinstance(row, dict) else {}, name, where)
+            figures = field(row, key, dict, where)
             ratios.append(finite(figures, "ratio", where))
             lows.append(finite(figures, "low", where))
             highs.append(finite(figures, "high", where))
@@ -61,6 +53,6 @@ def draw(path, title):
     axes.grid(axis="x")
     axes.set_xlabel("time of a full screen, x the standard model")
     axes.set_title(title or "What a material's terms cost")
-    axes.legend(loc="lower right")
+    axes.legend(loc="upper right")
     figure.tight_layout()
     return figure

@@ -166,6 +166,25 @@ class Pictures(Plot):
         self.assertIn("25 others", self.texts("jobs", {"traceEvents": events}))
 
 
+def materials():
+    both = {"ms": 9, "ratio": 1.5, "low": 1.4, "high": 1.6}
+    return {"kind": "materials", "rows": [{"name": "clear coat", "reference": "2 to 3", "vulkan": both, "gles": both}]}
+
+
+class MaterialPictures(Plot):
+    def test_terms_backends_ratios_and_the_reference_are_named(self):
+        texts = self.texts("materials", materials())
+        for words in ("clear coat", "Vulkan", "OpenGL ES", "1.50", "reference text"):
+            self.assertIn(words, texts)
+
+    def test_what_cannot_be_drawn_is_refused(self):
+        self.assert_refused("materials", bench(), "is not a file of material_bench")
+        self.assert_refused("materials", {**materials(), "rows": []}, "has no rows")
+        broken = materials()
+        del broken["rows"][0]["gles"]
+        self.assert_refused("materials", broken, "row 0: 'gles'")
+
+
 class AccuracyPictures(Plot):
     def test_every_effect_and_the_whole_frames_are_drawn(self):
         self.assertEqual(self.run_plot("accuracy", accuracy(), output="plots"), (0, ""))
