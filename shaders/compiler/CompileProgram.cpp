@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/CompileProgram.h"
 
+#include "filament_core/base/Assert.h"
 #include "shaders/compiler/CanonicalOrder.h"
 #include "shaders/compiler/ExactLowering.h"
 #include "shaders/compiler/ForbidReordering.h"
@@ -57,6 +58,24 @@ Result<void> writeStage(Words const& lowered, bool half, ProgramCompileOptions c
 }
 
 } // namespace
+
+Result<StageShader> compileStage(std::string_view glsl, backend::ShaderStage stage,
+                                 ProgramCompileOptions const& options) {
+    FILAMENT_ASSERT(options.layout, "a stage by itself is numbered by a layout that is given");
+    const bool isVertex = stage == backend::ShaderStage::Vertex;
+    const std::string_view name = isVertex ? options.vertexName : options.fragmentName;
+    Result<Words> lowered = lowerStage(glsl, stage, name, options);
+    if (!lowered) return lowered.error();
+    Result<StageResources> used = reflectStage(*lowered, stage, options.dynamicUniformBuffers);
+    if (!used) return used.error();
+    const Result<void> contained = checkContains(*options.layout, used->layout);
+    if (!contained) return fail(contained.error().code, "{}: {}", name, contained.error().message);
+    StageShader shader{ .vertexInputs = used->vertexInputs };
+    Result<void> written = writeStage(*lowered, !isVertex && options.halfFragment, options, *options.layout,
+                                      shader.spirv, shader.essl);
+    if (!written) return written.error();
+    return shader;
+}
 
 Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
                                       ProgramCompileOptions const& options) {

@@ -58,6 +58,17 @@ struct ProgramShaders {
     uint32_t vertexInputs = 0; ///< bit n: attribute location n is read
 };
 
+struct StageShader {
+    std::vector<uint32_t> spirv;
+    std::string essl;
+    uint32_t vertexInputs = 0; ///< of a vertex stage
+};
+
+/// One stage by itself, with options.layout. Programs whose stages are equal share what this gives: the other stage has
+/// no influence on it.
+Result<StageShader> compileStage(std::string_view glsl, backend::ShaderStage stage,
+                                 ProgramCompileOptions const& options);
+
 Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
                                       ProgramCompileOptions const& options = {});
 

@@ -134,11 +134,21 @@ void declareCustomAttributes(StageText& out, MaterialDefinition const& definitio
     }
 }
 
-Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
+/// Joints 5 to 8 have the places of two custom attributes; materials that use those have four joints a vertex.
+void defineDeformation(StageText& out, MaterialDefinition const& definition) {
+    out.define("VARIANT_SKINNING");
+    const bool placesAreFree =
+            !needsAttribute(definition, kAttributeJoints1) && !needsAttribute(definition, kAttributeWeights1);
+    defineIf(out, placesAreFree, "EIGHT_JOINTS");
+}
+
+Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
                                   IncludeResolver const& includes) {
+    const bool deforms = (variantKey & kVariantSkinning) != 0;
     StageText out(includes);
     beginStage(out, "out");
     defineSurface(out, definition, needs);
+    if (deforms) defineDeformation(out, definition);
     defineIf(out, definition.vertex.has_value(), "HAS_MATERIAL_VERTEX");
     defineVariableMacros(out, definition);
     Result<void> done =
@@ -148,7 +158,9 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     declareInterface(out, definition);
     declareVariables(out, definition);
     declareCustomAttributes(out, definition);
-    done = out.include("shaders/material/surface_vertex_api.glsl");
+    if (deforms)
+        done = includeAll(out, { "shaders/interface/deformation.glsl", "shaders/material/surface_deform.glsl" });
+    if (done) done = out.include("shaders/material/surface_vertex_api.glsl");
     if (done && definition.vertex) done = out.block(*definition.vertex);
     if (done) done = out.include("shaders/material/surface_vertex_main.glsl");
     if (!done) return done.error();
@@ -344,9 +356,10 @@ Result<std::string> generateProbe(MaterialDefinition const& definition, Material
 }
 
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
-                                   IncludeResolver const& includes) {
-    return definition.package.domain == MaterialDomain::PostProcess ? postVertex(includes)
-                                                                    : surfaceVertex(definition, needs, includes);
+                                   uint16_t variantKey, IncludeResolver const& includes) {
+    return definition.package.domain == MaterialDomain::PostProcess
+                   ? postVertex(includes)
+                   : surfaceVertex(definition, needs, variantKey, includes);
 }
 
 Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,

@@ -25,8 +25,11 @@ struct MaterialNeeds {
 /// What the names in the code say: getters and the functions that must be there. The terms come from findTerms().
 Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes);
 
+/// The bits of a variant that change the text of its vertex stage; the others change the fragment stage.
+inline constexpr uint16_t kVertexVariantBits = kVariantSkinning;
+
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
-                                   IncludeResolver const& includes);
+                                   uint16_t variantKey, IncludeResolver const& includes);
 Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                      uint16_t variantKey, IncludeResolver const& includes);
 

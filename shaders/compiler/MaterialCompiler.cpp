@@ -10,6 +10,7 @@
 #include "shaders/compiler/Reflection.h"
 #include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/ViewLayout.h"
 
 #include <algorithm>
 #include <optional>
@@ -54,62 +55,76 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     prepared.layout = materialLayout(prepared.definition);
     MaterialPackage& package = prepared.definition.package;
     package.filteredVariants |= options.filteredVariants;
-    prepared.keys = variantKeys(selectableBits(package.domain, package.shading, prepared.definition.halfPrecision),
-                                package.filteredVariants);
+    prepared.keys = variantKeys(selectableBits(prepared.definition), package.filteredVariants);
     return prepared;
 }
 
-struct StagePair {
-    std::string vertex, fragment;
+/// Variants whose stages have the same text share them: a stage is compiled once.
+struct Stage {
+    backend::ShaderStage stage = backend::ShaderStage::Vertex;
+    uint16_t key = 0; ///< the bits that its text depends on
+    std::optional<Result<StageShader>> compiled{};
 };
 
-Result<StagePair> generate(Prepared const& prepared, uint16_t key) {
-    Result<std::string> vertex = generateVertex(prepared.definition, prepared.needs, prepared.includes);
-    if (!vertex) return vertex.error();
-    Result<std::string> fragment = generateFragment(prepared.definition, prepared.needs, key, prepared.includes);
-    if (!fragment) return fragment.error();
-    return StagePair{ std::move(*vertex), std::move(*fragment) };
+std::vector<Stage> distinctStages(std::span<const uint16_t> keys) {
+    std::vector<Stage> stages;
+    const auto add = [&](backend::ShaderStage stage, uint16_t key) {
+        const auto isSame = [&](Stage const& known) { return known.stage == stage && known.key == key; };
+        if (std::ranges::none_of(stages, isSame)) stages.push_back({ stage, key });
+    };
+    for (const uint16_t key : keys) {
+        add(backend::ShaderStage::Vertex, key & kVertexVariantBits);
+        add(backend::ShaderStage::Fragment, key & static_cast<uint16_t>(~kVertexVariantBits));
+    }
+    return stages;
 }
 
-struct CompiledVariant {
-    Variant variant;
-    uint32_t vertexInputs = 0;
-};
-
-Result<CompiledVariant> compileVariant(Prepared const& prepared, uint16_t key, CompileOptions const& options) {
-    Result<StagePair> stages = generate(prepared, key);
-    if (!stages) return stages.error();
-    Result<ProgramShaders> shaders = compileProgram(stages->vertex, stages->fragment,
-                                                    { .exact = options.exact,
-                                                      .halfFragment = (key & kVariantHalf) != 0,
-                                                      .optimization = options.optimization,
-                                                      .spirv = options.spirv,
-                                                      .essl = options.essl,
-                                                      .layout = prepared.layout,
-                                                      .vertexName = prepared.definition.fileName,
-                                                      .fragmentName = prepared.definition.fileName });
-    if (!shaders) return shaders.error();
-    CompiledVariant compiled{ .vertexInputs = shaders->vertexInputs };
-    compiled.variant = { .key = key,
-                         .vertexSpirv = std::move(shaders->vertexSpirv),
-                         .fragmentSpirv = std::move(shaders->fragmentSpirv),
-                         .vertexEssl = std::move(shaders->vertexEssl),
-                         .fragmentEssl = std::move(shaders->fragmentEssl) };
-    return compiled;
+Stage& stageOf(std::vector<Stage>& stages, backend::ShaderStage stage, uint16_t key) {
+    const auto bits = static_cast<uint16_t>(stage == backend::ShaderStage::Vertex ? key & kVertexVariantBits
+                                                                                  : key & ~kVertexVariantBits);
+    return *std::ranges::find_if(stages, [&](Stage const& known) { return known.stage == stage && known.key == bits; });
 }
 
-using Compiled = std::vector<std::optional<Result<CompiledVariant>>>;
+Result<std::string> generate(Prepared const& prepared, Stage const& stage) {
+    return stage.stage == backend::ShaderStage::Vertex
+                   ? generateVertex(prepared.definition, prepared.needs, stage.key, prepared.includes)
+                   : generateFragment(prepared.definition, prepared.needs, stage.key, prepared.includes);
+}
 
-Compiled compileVariants(Prepared const& prepared, CompileOptions const& options) {
-    Compiled results(prepared.keys.size());
+/// The uniforms of groups 0 and 2 have dynamic offsets.
+std::vector<SetBinding> dynamicBuffers() {
+    return { { kGroupView, kBindingFrame },
+             { kGroupView, kBindingObjects },
+             { kGroupView, kBindingLights },
+             { kGroupDeformation, kBindingBones },
+             { kGroupDeformation, kBindingMorph } };
+}
+
+Result<StageShader> compileOne(Prepared const& prepared, Stage const& stage, CompileOptions const& options) {
+    Result<std::string> text = generate(prepared, stage);
+    if (!text) return text.error();
+    return compileStage(*text, stage.stage,
+                        { .exact = options.exact,
+                          .halfFragment = (stage.key & kVariantHalf) != 0,
+                          .optimization = options.optimization,
+                          .spirv = options.spirv,
+                          .essl = options.essl,
+                          .dynamicUniformBuffers = dynamicBuffers(),
+                          .layout = programLayout(prepared.layout, stage.key),
+                          .vertexName = prepared.definition.fileName,
+                          .fragmentName = prepared.definition.fileName });
+}
+
+std::vector<Stage> compileStages(Prepared const& prepared, CompileOptions const& options) {
+    std::vector<Stage> stages = distinctStages(prepared.keys);
     const auto compileRange = [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) results[i] = compileVariant(prepared, prepared.keys[i], options);
+        for (size_t i = begin; i < end; ++i) stages[i].compiled = compileOne(prepared, stages[i], options);
     };
     if (options.jobs)
-        jobs::parallelFor<"compile variant">(*options.jobs, results.size(), 1, compileRange);
+        jobs::parallelFor<"compile stage">(*options.jobs, stages.size(), 1, compileRange);
     else
-        compileRange(0, results.size());
-    return results;
+        compileRange(0, stages.size());
+    return stages;
 }
 
 } // namespace
@@ -118,7 +133,7 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
                                         CompileOptions const& options) {
     Result<Prepared> prepared = prepare(text, fileName, options);
     if (!prepared) return prepared.error();
-    Compiled variants = compileVariants(*prepared, options);
+    std::vector<Stage> stages = compileStages(*prepared, options);
 
     MaterialPackage package = prepared->definition.package;
     package.layout = prepared->layout;
@@ -126,12 +141,13 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     for (size_t i = 0; i < members.size(); ++i) {
         if ((prepared->needs.terms & termBit(i)) != 0) package.terms.emplace_back(members[i].name);
     }
-    for (std::optional<Result<CompiledVariant>>& compiled :
-         variants) { // the error of the lowest key, whoever was first
-        Result<CompiledVariant>& result = *compiled;
-        if (!result) return withSuggestion(result.error(), prepared->definition);
-        package.requiredAttributes |= result->vertexInputs;
-        package.variants.push_back(std::move(result->variant));
+    for (const uint16_t key : prepared->keys) { // the error of the lowest key, whoever was first
+        Result<StageShader> const& vertex = *stageOf(stages, backend::ShaderStage::Vertex, key).compiled;
+        if (!vertex) return withSuggestion(vertex.error(), prepared->definition);
+        Result<StageShader> const& fragment = *stageOf(stages, backend::ShaderStage::Fragment, key).compiled;
+        if (!fragment) return withSuggestion(fragment.error(), prepared->definition);
+        if ((key & kVariantSkinning) == 0) package.requiredAttributes |= vertex->vertexInputs;
+        package.variants.push_back({ key, vertex->spirv, fragment->spirv, vertex->essl, fragment->essl });
     }
     package.requiredAttributes &= ~(1u << kAttributeInstance); // comes from the engine, not from the geometry
     return package;
@@ -161,10 +177,13 @@ Result<std::string> preprocessMaterial(std::string_view text, std::string_view f
     if (!prepared) return prepared.error();
     std::string out;
     for (const uint16_t key : prepared->keys) {
-        Result<StagePair> stages = generate(*prepared, key);
-        if (!stages) return stages.error();
-        out += fmt::format("// ==== variant {} vertex\n{}\n// ==== variant {} fragment\n{}\n", key, stages->vertex, key,
-                           stages->fragment);
+        for (const backend::ShaderStage stage : { backend::ShaderStage::Vertex, backend::ShaderStage::Fragment }) {
+            std::vector<Stage> of = distinctStages({ &key, 1 });
+            Result<std::string> glsl = generate(*prepared, stageOf(of, stage, key));
+            if (!glsl) return glsl.error();
+            out += fmt::format("// ==== variant {} {}\n{}\n", key,
+                               stage == backend::ShaderStage::Vertex ? "vertex" : "fragment", *glsl);
+        }
     }
     return out;
 }

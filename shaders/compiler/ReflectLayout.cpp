@@ -122,6 +122,18 @@ bool covers(BindingDesc const& have, BindingDesc const& need) {
 
 } // namespace
 
+Result<StageResources> reflectStage(std::span<const uint32_t> spirv, ShaderStage stage,
+                                    std::optional<std::vector<SetBinding>> const& dynamicBuffers) {
+    try {
+        StageResources resources;
+        Result<void> read = StageReader(spirv, stage, resources).read(dynamicBuffers);
+        if (!read) return read.error();
+        return resources;
+    } catch (std::exception const& error) { // SPIRV-Cross throws on what it does not know
+        return fail(ErrorCode::Unsupported, "the shader cannot be reflected: {}", error.what());
+    }
+}
+
 Result<StageResources> reflectResources(std::span<const uint32_t> vertexSpirv, std::span<const uint32_t> fragmentSpirv,
                                         std::optional<std::vector<SetBinding>> const& dynamicBuffers) {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Reads the bind group layout and the vertex inputs out of the SPIR-V of both stages.
+/// Reads the bind group layout and the vertex inputs out of the SPIR-V of one stage or both.
 ///   Thread  any. Cost: two parses.
 ///   Fails   InvalidArgument: a set or binding beyond the limits, the same binding declared as two different things,
 ///           a resource kind that no BindingType stands for (storage buffers, separate samplers, arrays of samplers).
@@ -20,6 +20,8 @@ struct StageResources {
 };
 
 /// `dynamicBuffers` as in ProgramCompileOptions.
+Result<StageResources> reflectStage(std::span<const uint32_t> spirv, backend::ShaderStage stage,
+                                    std::optional<std::vector<SetBinding>> const& dynamicBuffers);
 Result<StageResources> reflectResources(std::span<const uint32_t> vertexSpirv, std::span<const uint32_t> fragmentSpirv,
                                         std::optional<std::vector<SetBinding>> const& dynamicBuffers);
 

@@ -3,9 +3,14 @@
 
 namespace filament::shader {
 
-uint16_t selectableBits(MaterialDomain domain, ShadingModel shading, bool halfPrecision) {
-    if (domain != MaterialDomain::Surface || shading == ShadingModel::Unlit) return 0;
-    return static_cast<uint16_t>(kVariantSun | kVariantPunctual | (halfPrecision ? kVariantHalf : 0));
+uint16_t selectableBits(MaterialDefinition const& definition) {
+    MaterialPackage const& package = definition.package;
+    if (package.domain != MaterialDomain::Surface) return 0;
+    const bool isDeformable = package.vertexDomain == VertexDomain::Object && !definition.fullScreenTriangle;
+    const int geometry = isDeformable ? kVariantSkinning : 0;
+    if (package.shading == ShadingModel::Unlit) return static_cast<uint16_t>(geometry);
+    const int lighting = kVariantSun | kVariantPunctual | (definition.halfPrecision ? kVariantHalf : 0);
+    return static_cast<uint16_t>(geometry | lighting);
 }
 
 std::vector<uint16_t> variantKeys(uint16_t selectable, uint16_t filteredBits) {

@@ -25,12 +25,15 @@ enum AttributeLocation : uint8_t {
     kAttributeJoints = 5,   ///< uint4
     kAttributeWeights = 6,  ///< float4
     kAttributeCustom0 = 7,  ///< float4, 7..14
+    kAttributeJoints1 = 13,  ///< uint4, joints 5 to 8 of a vertex: the place of custom6
+    kAttributeWeights1 = 14, ///< float4, their weights: the place of custom7
     kAttributeInstance = 15, ///< uint, per instance: index into ObjectUniforms::objects of the bound window
 };
 
 // ---- bind groups
 inline constexpr uint32_t kGroupView = 0;     ///< what all draws of a view share
 inline constexpr uint32_t kGroupMaterial = 1; ///< MaterialParams block (binding 0) and the material's samplers (1..)
+inline constexpr uint32_t kGroupDeformation = 2; ///< of variants with kVariantSkinning only; read by the vertex stage only
 
 enum ViewBinding : uint8_t {
     kBindingFrame = 0,       ///< FrameUniforms, dynamic
@@ -85,6 +88,34 @@ struct LightUniforms {
     std::array<LightData, kMaxPunctualLights> lights;
 };
 
+// ---- deformation: skins and morph targets (shaders/interface/deformation.glsl)
+enum DeformationBinding : uint8_t {
+    kBindingBones = 0,       ///< BoneUniforms, dynamic
+    kBindingMorph = 1,       ///< MorphUniforms, dynamic
+    kBindingMorphDeltas = 2, ///< sampler2D, RGBA32F: see kMorphTextureWidth
+};
+
+inline constexpr uint32_t kMaxBones = 256;
+inline constexpr uint32_t kMaxMorphTargets = 256;
+
+/// The rows of the affine transform from where a vertex was bound to object space.
+struct BoneData {
+    float4 row0, row1, row2;
+};
+
+struct BoneUniforms {
+    std::array<BoneData, kMaxBones> bones; // 12 KiB
+};
+
+/// Texel ((target * vertices + vertex) * texels) of the deltas, row after row of kMorphTextureWidth: the position's
+/// difference, then the normal's, then the tangent's, as many as there are.
+inline constexpr uint32_t kMorphTextureWidth = 4096;
+
+struct MorphUniforms {
+    float4 shape; ///< x: entries of `targets`; y: texels a vertex and target, 1 to 3; z: vertices; w: joint sets, 0 to 2
+    std::array<float4, kMaxMorphTargets> targets; ///< those whose weight is not 0; x: weight; y: target; zw: unused
+};
+
 // ---- specialisation constants that the material compiler declares in every lit material, besides the author's own
 /// An int named quality_<name>; 0, its default, is the default of <filament/Quality.h>, whose enumerators it counts.
 struct QualityConstant {
@@ -115,6 +146,7 @@ inline constexpr std::array kQualityConstants{
 };
 
 // clang-format on
+static_assert(sizeof(BoneUniforms) == 12288 && sizeof(MorphUniforms) <= 16384);
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(LightUniforms) == 16384);
 static_assert(sizeof(FrameUniforms) % 16 == 0);
 

@@ -9,7 +9,11 @@ vec3 meshPosition() {
 }
 #else
 layout(location = kAttributePosition) in vec3 mesh_position;
+#if defined(VARIANT_SKINNING)
+vec3 meshPosition() { return deformedPosition; }
+#else
 vec3 meshPosition() { return mesh_position; }
+#endif
 #endif
 #if defined(NEEDS_NORMAL)
 layout(location = kAttributeTangents) in vec4 mesh_tangents;

@@ -4,6 +4,9 @@
 void main() {
     MaterialVertexInputs inputs;
     MATERIAL_CLEAR_VARIABLES(inputs)
+#if defined(VARIANT_SKINNING)
+    deformPosition(mesh_position);
+#endif
 #if defined(HAS_COLOR)
     inputs.color = mesh_color;
 #endif
@@ -16,6 +19,9 @@ void main() {
 #if defined(NEEDS_NORMAL)
     vec3 normal, tangent, bitangent;
     tangentFrame(mesh_tangents, normal, tangent, bitangent);
+#if defined(VARIANT_SKINNING)
+    float deformationSign = deformFrame(normal, tangent);
+#endif
     inputs.worldNormal = normalizeOrZero(normalToWorld(normal));
 #endif
 #if defined(HAS_CLIP_SPACE_TRANSFORM)
@@ -36,6 +42,9 @@ void main() {
 #if defined(NEEDS_TANGENT)
     vertex_worldTangent = vec4(normalizeOrZero(directionToWorld(tangent)),
             mesh_tangents.w < 0.0 ? -bitangentSign() : bitangentSign());
+#if defined(VARIANT_SKINNING)
+    vertex_worldTangent.w *= deformationSign;
+#endif
 #endif
 #if defined(HAS_COLOR)
     vertex_color = inputs.color;

@@ -65,7 +65,7 @@ enum VariantBit : uint16_t {
     kVariantSun = 1,            ///< directionalLighting
     kVariantPunctual = 2,       ///< dynamicLighting
     kVariantShadowReceiver = 4, ///< *
-    kVariantSkinning = 8,       ///< *
+    kVariantSkinning = 8,       ///< skinning: the vertex stage applies skins and morph targets
     kVariantFog = 16,           ///< *
     kVariantVsm = 32,           ///< *
     kVariantSsr = 64,           ///< *
@@ -112,12 +112,12 @@ struct MaterialPackage {
     bool shadowMultiplier = false, transparentShadow = false;
     float maskThreshold = 0.4f;
     uint16_t filteredVariants = 0;   ///< VariantBits that the material was compiled without
-    uint32_t requiredAttributes = 0; ///< bit n: AttributeLocation n is read
+    uint32_t requiredAttributes = 0; ///< bit n: AttributeLocation n is read, skins apart
     uint32_t uniformBytes = 0;       ///< size of the MaterialParams block, a multiple of 16; 0: none
     std::vector<Parameter> parameters;
     std::vector<Constant> constants;
     std::vector<std::string> terms;  ///< members of MaterialInputs that the code sets: the others cost nothing
-    backend::ProgramLayout layout{}; ///< the same for all variants
+    backend::ProgramLayout layout{}; ///< groups 0 and 1, the same for all variants; see programLayout()
     std::vector<Variant> variants;   ///< ascending by key
     friend bool operator==(MaterialPackage const&, MaterialPackage const&) = default;
 

@@ -23,4 +23,23 @@ backend::BindGroupLayout viewGroupLayout(MaterialDomain domain) {
     return layout;
 }
 
+backend::BindGroupLayout deformationGroupLayout() {
+    using backend::BindingType;
+    using backend::ShaderStage;
+    backend::BindGroupLayout layout;
+    const auto add = [&](uint8_t binding, BindingType type) {
+        layout.bindings[layout.count++] = { .binding = binding, .type = type, .stages = ShaderStage::Vertex };
+    };
+    add(kBindingBones, BindingType::DynamicUniformBuffer);
+    add(kBindingMorph, BindingType::DynamicUniformBuffer);
+    add(kBindingMorphDeltas, BindingType::SampledTexture);
+    return layout;
+}
+
+backend::ProgramLayout programLayout(backend::ProgramLayout const& material, uint16_t variantKey) {
+    backend::ProgramLayout layout = material;
+    if ((variantKey & kVariantSkinning) != 0) layout[kGroupDeformation] = deformationGroupLayout();
+    return layout;
+}
+
 } // namespace filament::shader

@@ -29,6 +29,8 @@ std::string interfaceText() {
 /// Reflects a fragment shader that reads every block and texture of the interface.
 class Interface : public ::testing::Test {
 protected:
+    explicit Interface(std::vector<uint32_t> spirv = compiled()) : mCompiler(std::move(spirv)) {}
+
     static std::vector<uint32_t> compiled() {
         const Result<std::vector<uint32_t>> spirv = spirvFromGlsl(interfaceText() + R"(
             layout(location = 0) out vec4 color;
@@ -63,7 +65,7 @@ protected:
         return mCompiler.get_type(mCompiler.get_type(block.member_types[0]).parent_type);
     }
 
-    spirv_cross::Compiler mCompiler{ compiled() };
+    spirv_cross::Compiler mCompiler;
 };
 
 #define MEMBER(type, name)                                                                                             \
@@ -111,6 +113,67 @@ TEST_F(Interface, EveryResourceIsInTheViewLayout) {
             EXPECT_EQ(std::ranges::count(used, binding, &backend::BindingDesc::binding), 1) << resource.name;
         }
     }
+}
+
+/// The vertex stage of what is deformed reads every block and texture of group 2.
+class DeformationInterface : public Interface {
+protected:
+    DeformationInterface() : Interface(compiled()) {}
+
+    static std::string text() {
+        const auto own = embeddedSource("shaders/interface/deformation.glsl");
+        EXPECT_TRUE(own);
+        return std::string(own.value_or(""));
+    }
+
+    static std::vector<uint32_t> compiled() {
+        const Result<std::vector<uint32_t>> spirv = spirvFromGlsl("#version 450\n" + text() + R"(
+            layout(location = 0) in vec4 position;
+            void main() {
+                gl_Position = boneUniforms.bones[1].row0 + morphUniforms.shape + morphUniforms.targets[1]
+                        + texelFetch(morphDeltas, ivec2(0), 0);
+            })",
+                                                                  backend::ShaderStage::Vertex, "deformation");
+        EXPECT_TRUE(spirv) << (spirv ? "" : spirv.error().message);
+        return spirv ? *spirv : std::vector<uint32_t>{};
+    }
+};
+
+TEST_F(DeformationInterface, BlocksAgree) {
+    const auto& bones = mCompiler.get_type(block(kBindingBones).base_type_id);
+    expectMembers(bones, { MEMBER(BoneUniforms, bones) });
+    EXPECT_EQ(mCompiler.get_declared_struct_size(bones), sizeof(BoneUniforms));
+    expectMembers(record(bones), { MEMBER(BoneData, row0), MEMBER(BoneData, row1), MEMBER(BoneData, row2) });
+    const auto& morph = mCompiler.get_type(block(kBindingMorph).base_type_id);
+    expectMembers(morph, { MEMBER(MorphUniforms, shape), MEMBER(MorphUniforms, targets) });
+    EXPECT_EQ(mCompiler.get_declared_struct_size(morph), sizeof(MorphUniforms));
+}
+
+TEST_F(DeformationInterface, EveryResourceIsInTheGroupsLayoutForTheVertexStage) {
+    const backend::BindGroupLayout layout = deformationGroupLayout();
+    const spirv_cross::ShaderResources resources = mCompiler.get_shader_resources();
+    ASSERT_EQ(layout.count, resources.uniform_buffers.size() + resources.sampled_images.size());
+    for (auto const& list : { resources.uniform_buffers, resources.sampled_images }) {
+        for (auto const& resource : list) {
+            EXPECT_EQ(mCompiler.get_decoration(resource.id, spv::DecorationDescriptorSet), kGroupDeformation);
+            const uint32_t binding = mCompiler.get_decoration(resource.id, spv::DecorationBinding);
+            const auto used = std::span(layout.bindings).first(layout.count);
+            EXPECT_EQ(std::ranges::count(used, binding, &backend::BindingDesc::binding), 1) << resource.name;
+        }
+    }
+    for (uint32_t i = 0; i < layout.count; ++i) EXPECT_EQ(layout.bindings[i].stages, backend::ShaderStage::Vertex);
+}
+
+TEST_F(DeformationInterface, ConstantsAgree) {
+    const auto expect = [&](const char* name, uint32_t value) {
+        const std::string line = std::string("const int ") + name + " = " + std::to_string(value) + ";";
+        EXPECT_NE(text().find(line), std::string::npos) << line;
+    };
+    expect("kAttributeJoints1", kAttributeJoints1);
+    expect("kAttributeWeights1", kAttributeWeights1);
+    expect("kMaxBones", kMaxBones);
+    expect("kMaxMorphTargets", kMaxMorphTargets);
+    expect("kMorphTextureWidth", kMorphTextureWidth);
 }
 
 TEST(InterfaceLocations, AttributeLocationsAgree) {

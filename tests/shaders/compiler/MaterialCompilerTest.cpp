@@ -225,17 +225,49 @@ TEST(MaterialCompiler, CompilesEveryVariantThatAStateCanSelectAndNoOther) {
         for (Variant const& variant : package->variants) found.push_back(variant.key);
         return found;
     };
-    EXPECT_EQ(keys("shadingModel : lit"), (std::vector<int>{ 0, 1, 2, 3 }));
-    EXPECT_EQ(keys("shadingModel : unlit"), (std::vector<int>{ 0 }));
+    EXPECT_EQ(keys("shadingModel : lit"), (std::vector<int>{ 0, 1, 2, 3, 8, 9, 10, 11 }));
+    EXPECT_EQ(keys("shadingModel : unlit"), (std::vector<int>{ 0, kVariantSkinning }));
+    EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : device"), (std::vector<int>{ 0 }))
+            << "only what is given in object space can be deformed";
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ dynamicLighting, skinning ]"),
               (std::vector<int>{ 0, kVariantSun }));
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ directionalLighting ]", kVariantPunctual),
-              (std::vector<int>{ 0 }));
+              (std::vector<int>{ 0, kVariantSkinning }));
+}
+
+TEST(MaterialCompiler, DeformsInTheVertexStageAlone) {
+    const Result<MaterialPackage> all = compile(withProperties("shadingModel : lit"));
+    const Result<MaterialPackage> still = compile(withProperties("shadingModel : lit, variantFilter : [ skinning ]"));
+    ASSERT_TRUE(all) << all.error().message;
+    ASSERT_TRUE(still);
+    EXPECT_EQ(all->requiredAttributes, still->requiredAttributes) << "what has no skin needs no joints";
+    EXPECT_EQ(all->layout, still->layout);
+    EXPECT_EQ(all->layout[kGroupDeformation].count, 0);
+    for (Variant const& variant : still->variants) {
+        EXPECT_EQ(variant, *all->findVariant(variant.key)) << "what is not deformed keeps its code";
+        Variant const* deformed = all->findVariant(variant.key | kVariantSkinning);
+        ASSERT_TRUE(deformed);
+        EXPECT_EQ(deformed->fragmentSpirv, variant.fragmentSpirv);
+        EXPECT_EQ(deformed->fragmentEssl, variant.fragmentEssl);
+        EXPECT_NE(deformed->vertexSpirv, variant.vertexSpirv);
+        EXPECT_EQ(test::validationErrors(deformed->vertexSpirv), "");
+    }
+}
+
+TEST(MaterialCompiler, GivesUpJointsFiveToEightForCustomAttributesInTheirPlaces) {
+    const auto vertexOf = [](std::string_view properties) {
+        const Result<MaterialPackage> package = compile(withProperties(properties));
+        EXPECT_TRUE(package) << (package ? "" : package.error().message);
+        return package ? package->findVariant(kVariantSkinning)->vertexEssl : std::string();
+    };
+    EXPECT_THAT(vertexOf("shadingModel : unlit"), HasSubstr("mesh_weights1"));
+    EXPECT_THAT(vertexOf("shadingModel : unlit, requires : [ custom6 ]"), Not(HasSubstr("mesh_weights1")));
 }
 
 TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsTheOtherVariantsAsTheyWere) {
-    const Result<MaterialPackage> plain = compile(withProperties("shadingModel : lit"));
-    const Result<MaterialPackage> both = compile(withProperties("shadingModel : lit, halfPrecision : true"));
+    const Result<MaterialPackage> plain = compile(withProperties("shadingModel : lit, variantFilter : [ skinning ]"));
+    const Result<MaterialPackage> both =
+            compile(withProperties("shadingModel : lit, halfPrecision : true, variantFilter : [ skinning ]"));
     ASSERT_TRUE(plain);
     ASSERT_TRUE(both) << both.error().message;
     ASSERT_EQ(both->variants.size(), 8u);

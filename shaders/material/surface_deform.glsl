@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// Skins and morph targets in the vertex stage, of variants with kVariantSkinning: first the targets, then the skin
+// (glTF 2.0, sections 3.7.2.2 and 3.7.3.3). What the rest of the stage calls the mesh is what comes out of here.
+// The result is finite whatever the bones are: a normal or tangent that a bone collapses stays as it was.
+
+layout(location = kAttributeJoints) in uvec4 mesh_joints;
+layout(location = kAttributeWeights) in vec4 mesh_weights;
+#if defined(EIGHT_JOINTS)
+layout(location = kAttributeJoints1) in uvec4 mesh_joints1;
+layout(location = kAttributeWeights1) in vec4 mesh_weights1;
+#endif
+
+vec3 deformedPosition;
+vec4 skinRow0, skinRow1, skinRow2; // of the matrix from the bound vertex to object space
+
+// The texel of one target and this vertex. `part`: 0 position, 1 normal, 2 tangent.
+vec3 morphDelta(int target, int part) {
+    int texels = int(morphUniforms.shape.y), vertices = int(morphUniforms.shape.z);
+    int at = (target * vertices + gl_VertexIndex) * texels + part;
+    return texelFetch(morphDeltas, ivec2(at % kMorphTextureWidth, at / kMorphTextureWidth), 0).xyz;
+}
+
+vec3 morphed(vec3 value, int part) {
+    int count = int(morphUniforms.shape.x);
+    for (int i = 0; i < count; ++i) {
+        vec4 target = morphUniforms.targets[i];
+        value += target.x * morphDelta(int(target.y), part);
+    }
+    return value;
+}
+
+void addBone(uint joint, float weight) {
+    BoneRecord bone = boneUniforms.bones[min(joint, uint(kMaxBones - 1))];
+    skinRow0 += weight * bone.row0;
+    skinRow1 += weight * bone.row1;
+    skinRow2 += weight * bone.row2;
+}
+
+void addBones(uvec4 joints, vec4 weights) {
+    addBone(joints.x, weights.x);
+    addBone(joints.y, weights.y);
+    addBone(joints.z, weights.z);
+    addBone(joints.w, weights.w);
+}
+
+bool hasSkin() { return morphUniforms.shape.w > 0.0; }
+
+vec3 normalizeOr(vec3 v, vec3 fallback) {
+    float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
+    if (!(largest > 1e-30)) return fallback;
+    vec3 scaled = v / largest; // so that the square neither vanishes nor overflows
+    return scaled * inversesqrt(dot(scaled, scaled));
+}
+
+void deformPosition(vec3 position) {
+    deformedPosition = morphed(position, 0);
+    if (!hasSkin()) return;
+    skinRow0 = skinRow1 = skinRow2 = vec4(0.0);
+    addBones(mesh_joints, mesh_weights);
+#if defined(EIGHT_JOINTS)
+    if (morphUniforms.shape.w > 1.0) addBones(mesh_joints1, mesh_weights1);
+#endif
+    vec4 p = vec4(deformedPosition, 1.0);
+    deformedPosition = vec3(dot(skinRow0, p), dot(skinRow1, p), dot(skinRow2, p));
+}
+
+// After deformPosition(). Normals go with the cofactor matrix, the inverse transpose times the determinant. Returns -1
+// where the bones mirror, else 1.
+float deformFrame(inout vec3 normal, inout vec3 tangent) {
+    if (morphUniforms.shape.y > 1.0) normal = morphed(normal, 1);
+    if (morphUniforms.shape.y > 2.0) tangent = morphed(tangent, 2);
+    if (!hasSkin()) return 1.0;
+    vec3 cofactor0 = cross(skinRow1.xyz, skinRow2.xyz);
+    vec3 cofactor1 = cross(skinRow2.xyz, skinRow0.xyz);
+    vec3 cofactor2 = cross(skinRow0.xyz, skinRow1.xyz);
+    float mirror = dot(skinRow0.xyz, cofactor0) < 0.0 ? -1.0 : 1.0;
+    vec3 turned = vec3(dot(cofactor0, normal), dot(cofactor1, normal), dot(cofactor2, normal)) * mirror;
+    vec3 along = vec3(dot(skinRow0.xyz, tangent), dot(skinRow1.xyz, tangent), dot(skinRow2.xyz, tangent));
+    normal = normalizeOr(turned, normal);
+    tangent = normalizeOr(along, tangent);
+    return mirror;
+}
