@@ -142,6 +142,7 @@ Engine::Impl::~Impl() {
     reportLeaks(skyboxes, "skybox");
     reportLeaks(instances, "material instance");
     reportLeaks(materials, "material");
+    reportLeaks(morphTargets, "morph targets");
     reportLeaks(vertexBuffers, "vertex buffer");
     reportLeaks(indexBuffers, "index buffer");
     reportLeaks(textures, "texture");

@@ -50,6 +50,12 @@ struct IndexBufferState {
     std::string name;
 };
 
+struct MorphTargetsState {
+    Texture texture; ///< none: too large for the device
+    scene::MorphTargets targets{};
+    std::string name;
+};
+
 struct IndirectLightState {
     scene::IndirectLightState light{};
     std::string name;
@@ -110,6 +116,7 @@ struct Engine::Impl {
     Texture createTexture(TextureDesc const& desc);
     VertexBuffer createVertexBuffer(VertexBufferDesc const& desc);
     IndexBuffer createIndexBuffer(IndexBufferDesc const& desc);
+    MorphTargets createMorphTargets(MorphTargetsDesc const& desc);
     SwapChain createSwapChain(SwapChainDesc const& desc);
     MaterialInstance createInstance(Material material, std::string name);
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
@@ -117,6 +124,7 @@ struct Engine::Impl {
                      uint32_t first);
     Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler);
     void destroy(Texture texture);
+    void destroy(MorphTargets targets);
     void destroy(SwapChain swapChain);
     /// The split-sum table of a size in [16, 256]; baked when first asked for, then kept.
     Texture dfgTable(uint32_t size);
@@ -159,6 +167,7 @@ struct Engine::Impl {
     engine::ObjectTable<TextureObject, engine::TextureState> textures;
     engine::ObjectTable<VertexBufferObject, engine::VertexBufferState> vertexBuffers;
     engine::ObjectTable<IndexBufferObject, engine::IndexBufferState> indexBuffers;
+    engine::ObjectTable<MorphTargetsObject, engine::MorphTargetsState> morphTargets;
     engine::ObjectTable<MaterialObject, scene::Material> materials;
     engine::ObjectTable<MaterialInstanceObject, scene::MaterialInstance> instances;
     engine::ObjectTable<IndirectLightObject, engine::IndirectLightState> indirectLights;

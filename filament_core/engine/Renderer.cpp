@@ -120,6 +120,7 @@ struct Renderer::Impl {
                       .bilinear = sampler(kBilinear) });
         context.viewGroup = data.viewGroup();
         context.postGroup = data.postGroup();
+        context.deformations = data.deformations();
         context.instanceIds = engine.defaults.instanceIds;
         context.nearestSampler = sampler(kNearest);
     }

@@ -4,15 +4,48 @@
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/Topology.h"
 #include "filament_core/scene/SceneNodes.h"
+#include "filament_core/scene/SceneSkins.h"
 
 #include <filament/Environment.h>
 
+#include <algorithm>
 #include <cmath>
 
 namespace filament {
 namespace {
 
 using scene::LightRecord;
+
+bool hasAttribute(backend::VertexLayout const& layout, Attribute attribute) {
+    const auto attributes = std::span(layout.attributes).first(layout.attributeCount);
+    return std::ranges::count(attributes, static_cast<uint8_t>(attribute), &backend::VertexAttribute::location) > 0;
+}
+
+uint8_t jointSets(backend::VertexLayout const& layout) {
+    FILAMENT_ASSERT(hasAttribute(layout, Attribute::Joints) && hasAttribute(layout, Attribute::Weights),
+                    "the vertices of a renderable with a skin have joints and weights");
+    return hasAttribute(layout, Attribute::Joints1) && hasAttribute(layout, Attribute::Weights1) ? 2 : 1;
+}
+
+scene::Deformation deformationOf(Scene::Impl const& scene, RenderableDesc const& desc) {
+    engine::VertexBufferState const& vertices = scene.engine.vertexBuffers.get(desc.vertices);
+    scene::Deformation deformation{ .skin = desc.skin, .restBounds = { desc.boundsMin, desc.boundsMax } };
+    if (desc.skin) {
+        FILAMENT_ASSERT(scene.data.deformations.skin(desc.skin).node == desc.node,
+                        "a renderable hangs at the node of its skin");
+        deformation.jointSets = jointSets(vertices.layout);
+        for (BoneBounds const& bounds : desc.boneBounds) deformation.boneBounds.push_back({ bounds.min, bounds.max });
+    }
+    if (desc.morphTargets) {
+        deformation.morph = &scene.engine.morphTargets.get(desc.morphTargets).targets;
+        FILAMENT_ASSERT(deformation.morph->vertexCount == vertices.vertexCount,
+                        "morph targets have as many vertices as the vertex buffer that they go with");
+        deformation.weights = desc.morphWeights;
+        for (float& weight : deformation.weights) weight = std::isfinite(weight) ? weight : 0.0f;
+        deformation.weights.resize(deformation.morph->targetCount);
+    }
+    return deformation;
+}
 
 float3 unitDirection(float3 direction) {
     const float length = glm::length(direction);
@@ -47,9 +80,19 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                     indices.type };
     FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
                     "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
-    const Renderable renderable = scene::addRenderable(
-            mImpl->data, { geometry, &engine.instances.get(desc.material), desc.boundsMin, desc.boundsMax,
-                           desc.worldFromObject, desc.culled, desc.name, desc.instanceIndex });
+    const scene::RenderableInput input{ geometry,
+                                        &engine.instances.get(desc.material),
+                                        desc.boundsMin,
+                                        desc.boundsMax,
+                                        desc.worldFromObject,
+                                        desc.culled,
+                                        desc.name,
+                                        desc.instanceIndex };
+    // Vertices that are not in object space have no bones there.
+    const bool isDeformed = (desc.skin || desc.morphTargets) &&
+                            input.material->material->package.vertexDomain == shader::VertexDomain::Object;
+    const Renderable renderable = isDeformed ? scene::addDeformed(mImpl->data, input, deformationOf(*mImpl, desc))
+                                             : scene::addRenderable(mImpl->data, input);
     if (desc.node) scene::attach(mImpl->data, renderable, desc.node);
     return renderable;
 }
@@ -87,6 +130,26 @@ Light Scene::add(SpotLight const& light, Node node) {
                       .innerConeRadians = light.innerConeRadians,
                       .outerConeRadians = light.outerConeRadians },
                     node);
+}
+
+Skin Scene::add(SkinDesc const& desc) {
+    FILAMENT_ASSERT(desc.joints.size() == desc.jointFromBind.size(), "a skin has one matrix for each of its joints");
+    FILAMENT_ASSERT(desc.joints.empty() != (desc.boneCount == 0), "a skin has joints or a number of bones");
+    scene::SkinData data{ .node = desc.node, .joints = { desc.joints.begin(), desc.joints.end() } };
+    for (float4x4 const& matrix : desc.jointFromBind)
+        data.jointFromBind.push_back(scene::affineFrom(double4x4(matrix)));
+    data.bones.assign(desc.boneCount, scene::boneFrom(scene::kIdentity));
+    return scene::addSkin(mImpl->data, std::move(data));
+}
+
+void Scene::remove(Skin skin) { scene::removeSkin(mImpl->data, skin); }
+
+void Scene::setBones(Skin skin, std::span<const float4x4> objectFromBind) {
+    scene::setBones(mImpl->data, skin, objectFromBind);
+}
+
+void Scene::setMorphWeights(Renderable renderable, std::span<const float> weights) {
+    scene::setMorphWeights(mImpl->data, renderable, weights);
 }
 
 void Scene::remove(Renderable renderable) { scene::removeRenderable(mImpl->data, renderable); }

@@ -36,7 +36,7 @@ void recordSky(CommandBuffer& commands, FrameContext const& context, PipelineHan
 }
 
 void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines const& chosen) {
-    const DrawContext draws{ context.viewGroup, context.instanceIds };
+    const DrawContext draws{ context.viewGroup, context.instanceIds, context.deformations };
     recordDrawRanges(pass, draws, context.packet.opaque, chosen.opaque);
     if (chosen.sky) recordSky(pass.commands(), context, chosen.sky);
     recordDrawRanges(pass, draws, context.packet.blended, chosen.blended);

@@ -2,6 +2,7 @@
 #include "filament_core/passes/DrawRecorder.h"
 
 #include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/Package.h"
 
 #include <atomic>
 
@@ -21,6 +22,7 @@ public:
         if (pipeline != mPipeline) {
             mCommands.record(CmdBindPipeline{ pipeline });
             mPipeline = pipeline;
+            mDeformation = scene::kNotDeformed; // group 2 does not outlive a change of the groups before it
         }
         const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
         if (window != mWindow) {
@@ -30,6 +32,10 @@ public:
         if (draw.material->group != mMaterial) {
             mCommands.record(CmdBindGroup{ draw.material->group, shader::kGroupMaterial });
             mMaterial = draw.material->group;
+        }
+        if (draw.deformation != mDeformation && draw.deformation != scene::kNotDeformed) {
+            mCommands.record(mContext.deformations[draw.deformation]);
+            mDeformation = draw.deformation;
         }
         bindGeometry(*draw.geometry);
     }
@@ -52,6 +58,7 @@ private:
     PipelineHandle mPipeline;
     uint32_t mWindow = ~0u;
     BindGroupHandle mMaterial;
+    uint32_t mDeformation = scene::kNotDeformed;
     BufferHandle mVertices, mIndices;
     IndexType mIndexType = IndexType::UInt16;
 };
@@ -61,11 +68,13 @@ constexpr PipelineHandle kMissing{ ~0u };
 
 bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
     return a.material == b.material && a.geometry->layout == b.geometry->layout && a.mirrored == b.mirrored &&
-           a.pass == b.pass;
+           a.pass == b.pass && (a.deformation == scene::kNotDeformed) == (b.deformation == scene::kNotDeformed);
 }
 
+/// `variant`: what the scene selects; the geometry's own part comes on top.
 PipelineUse useOf(DrawCall const& draw, uint8_t variant) {
-    return { *draw.material, draw.geometry->layout, variant, draw.mirrored, draw.pass };
+    const uint8_t own = draw.deformation == scene::kNotDeformed ? 0 : shader::kVariantSkinning;
+    return { *draw.material, draw.geometry->layout, static_cast<uint8_t>(variant | own), draw.mirrored, draw.pass };
 }
 
 /// What the cache has; only reads it. False if it lacks some.

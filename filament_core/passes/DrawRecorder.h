@@ -28,6 +28,7 @@ std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext
 struct DrawContext {
     backend::BindGroupHandle viewGroup;
     backend::BufferHandle instanceIds;
+    std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
 };
 
 /// One range, as if nothing were bound. Draws without a pipeline are skipped.

@@ -36,6 +36,7 @@ struct FrameContext {
     PipelineCache* pipelines = nullptr;
     backend::BindGroupHandle viewGroup, postGroup;
     backend::BufferHandle instanceIds;
+    std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
     backend::SamplerHandle nearestSampler;
     scene::Material* skybox = nullptr; ///< full-screen material; used when the packet has a sky
 };

@@ -101,6 +101,7 @@ void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::
     commands.record(CmdUpdateBuffer{ set.frame, 0, bytesOf(packet.frame) });
     if (!packet.lights.empty()) commands.record(CmdUpdateBuffer{ set.lights, 0, std::as_bytes(packet.lights) });
     uploadObjects(jobs, commands, set, packet.objects);
+    set.deformation.upload(mStream, jobs, commands, packet.deformations);
 }
 
 CmdBindGroup FrameData::bindView(BindGroupHandle group, uint32_t object) {
@@ -115,6 +116,7 @@ void FrameData::destroy(CommandBuffer& commands) {
         release(commands, set.frame);
         release(commands, set.lights);
         release(commands, set.objects);
+        set.deformation.destroy(mStream, commands);
         set = {};
     }
 }

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "backend/stream/CommandStream.h"
+#include "filament_core/passes/DeformationBuffer.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "jobsystem/JobSystem.h"
 
@@ -35,6 +36,8 @@ public:
     backend::BindGroupHandle viewGroup() const { return mSets[mCurrent].view; }
     /// Group 0 of post-process materials: the frame block only.
     backend::BindGroupHandle postGroup() const { return mSets[mCurrent].post; }
+    /// By slot of scene::Deformations; those that are not visible are not set.
+    std::span<const backend::CmdBindGroup> deformations() const { return mSets[mCurrent].deformation.groups(); }
     /// Dynamic offsets of viewGroup() for the window that holds `object`.
     static backend::CmdBindGroup bindView(backend::BindGroupHandle group, uint32_t object);
 
@@ -44,6 +47,7 @@ private:
         uint32_t windows = 0; ///< capacity of `objects`
         ViewTextures textures{};
         backend::BindGroupHandle view, post;
+        DeformationBuffer deformation;
     };
 
     backend::BufferHandle createBuffer(backend::CommandBuffer& commands, uint64_t bytes, const char* name);

@@ -3,6 +3,7 @@
 
 #include "filament_core/base/Result.h"
 #include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/ViewLayout.h"
 
 #include <algorithm>
 
@@ -27,7 +28,9 @@ uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint
 // Lights and shading select nothing in an unlit material.
 bool isLit(scene::Material const& material) { return material.package.shading != shader::ShadingModel::Unlit; }
 
-uint8_t neededVariant(scene::Material const& material, uint8_t variant) { return isLit(material) ? variant : 0; }
+uint8_t neededVariant(scene::Material const& material, uint8_t variant) {
+    return isLit(material) ? variant : static_cast<uint8_t>(variant & shader::kVariantSkinning);
+}
 
 // Materials without such variants are lit in full.
 uint16_t withPrecision(scene::Material const& material, uint8_t variant, ShadingPrecision precision) {
@@ -212,7 +215,9 @@ ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material
         for (ConstantValue const& constant : shadingConstants(shading)) constants.push_back(constant);
     }
     const bool spirv = mStream.info().shaderLanguage == ShaderLanguage::SpirV;
-    ProgramDesc desc{ .constants = constants, .layout = material.package.layout, .debugName = material.name };
+    ProgramDesc desc{ .constants = constants,
+                      .layout = shader::programLayout(material.package.layout, code.key),
+                      .debugName = material.name };
     desc.vertex = spirv ? std::as_bytes(std::span(code.vertexSpirv)) : std::as_bytes(std::span(code.vertexEssl));
     desc.fragment = spirv ? std::as_bytes(std::span(code.fragmentSpirv)) : std::as_bytes(std::span(code.fragmentEssl));
     NewHandle program(mStream, mStream.allocateProgram());

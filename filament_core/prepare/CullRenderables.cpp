@@ -25,8 +25,6 @@ struct Seen8 {
 };
 
 // Both ends in one word that only falls: the nearest step, and above it how far the farthest is from the last.
-constexpr uint16_t kNoSpan = 0xFFFF;
-
 // Relaxed: the result does not depend on the order, and the end of the loop publishes it. Steps instead of exact depths
 // make changes rare: a draw has a few dozen of them, not one for each of its renderables.
 void extend(uint16_t& shared, uint32_t step) {
@@ -120,7 +118,7 @@ VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables co
     const auto slots = arena.arrayForOverwrite<SortItem>(renderables.count());
     const auto spans = arena.arrayForOverwrite<uint16_t>(drawOf(renderables.drawables.limit(), false));
     const auto tallies = arena.arrayForOverwrite<Tally>(ranges);
-    std::ranges::fill(spans, kNoSpan);
+    std::ranges::fill(spans, VisibleItems::kNoSpan);
     jobs::parallelFor<"cull">(jobs, renderables.count(), kCullRange, [&](size_t begin, size_t end) {
         const RangeCuller culler(renderables, space, spans);
         tallies[begin / kCullRange] = culler.cull(begin, end, &slots[begin]);

@@ -21,11 +21,13 @@ namespace filament::prepare {
 inline constexpr size_t kCullRange = 2048;
 
 struct VisibleItems {
+    static constexpr uint16_t kNoSpan = 0xFFFF; ///< of draws that have nothing visible
     std::span<const SortItem> slots;  ///< those of range r begin at r * kCullRange; their keys are depthBits()
     std::span<const uint32_t> firsts; ///< how many are visible before range r; one entry more than ranges
     std::span<const uint16_t> spans;  ///< by draw; read them with spanOf()
 
     uint32_t count() const { return firsts.back(); }
+    bool isSeen(uint32_t draw) const { return spans[draw] != kNoSpan; }
     DepthSpan spanOf(uint32_t draw) const { return { spans[draw] & 0xFFu, 0xFFu - (spans[draw] >> 8) }; }
 };
 

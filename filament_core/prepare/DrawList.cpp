@@ -37,7 +37,8 @@ DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first
              static_cast<uint32_t>(first),
              static_cast<uint32_t>(end - first),
              isMirrored(draw),
-             isDrawnTwice(draw) ? DrawPass::First : DrawPass::Only };
+             isDrawnTwice(draw) ? DrawPass::First : DrawPass::Only,
+             drawable.deformation };
 }
 
 // Returns the triangles of the range.

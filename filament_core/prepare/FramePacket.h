@@ -39,6 +39,24 @@ struct DrawCall {
     uint32_t instanceCount = 1;
     bool mirrored = false;
     DrawPass pass = DrawPass::Only; ///< First and Second of an object follow each other
+    uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places
+};
+
+inline constexpr uint32_t kNowhere = ~0u;
+
+/// Of one deformation: byte offsets into the buffer of the frame; kNowhere: it is not visible.
+struct DeformationPlace {
+    uint32_t bones = kNowhere, weights = kNowhere;
+    backend::TextureHandle deltas; ///< none: no morph targets
+};
+
+/// Skins and morph weights of what is visible; writeDeformations() (DeformationData.h) makes them what shaders see.
+struct DeformationList {
+    std::span<const scene::Deformation> deformations;
+    std::span<const scene::SkinData> skins;
+    std::span<const DeformationPlace> places; ///< by slot of `deformations`
+    std::span<const uint32_t> bones;          ///< by index of `skins`: where its block begins, or kNowhere
+    uint32_t bytes = 0;                       ///< of all blocks; 0: nothing visible is deformed
 };
 
 struct PacketCounts {
@@ -57,6 +75,7 @@ struct FramePacket {
     shader::FrameUniforms frame{};
     std::span<const shader::LightData> lights;
     ObjectList objects;
+    DeformationList deformations;
     std::span<const DrawCall> opaque;  ///< opaque and masked, roughly front to back
     std::span<const DrawCall> blended; ///< back to front
     uint8_t variant = 0;               ///< shader::VariantBit set that the scene's lights select

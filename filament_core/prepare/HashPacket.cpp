@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/base/Hash.h"
+#include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/ObjectData.h"
 
 #include <array>
@@ -18,7 +19,21 @@ uint64_t hashDraw(DrawCall const& draw, uint64_t seed) {
     seed = hashAll(seed, geometry.vertices.bits, geometry.indices.bits, geometry.layout, geometry.firstIndex,
                    geometry.indexCount, geometry.indexType);
     return hashAll(seed, draw.material->material->id, draw.material->id, draw.firstObject, draw.instanceCount,
-                   draw.mirrored, draw.pass);
+                   draw.mirrored, draw.pass, draw.deformation);
+}
+
+uint64_t hashDeformations(DeformationList const& list, uint64_t seed) {
+    for (size_t i = 0; i < list.places.size(); ++i) {
+        DeformationPlace const& place = list.places[i];
+        if (place.weights == kNowhere) continue;
+        const shader::MorphUniforms weights = morphUniforms(list.deformations[i]);
+        seed = hashAll(seed, i, place.bones, place.weights, place.deltas.bits);
+        seed = hashBytes(std::as_bytes(std::span(&weights, 1)).first(morphBytes(list.deformations[i])), seed);
+    }
+    for (size_t i = 0; i < list.bones.size(); ++i) {
+        if (list.bones[i] != kNowhere) seed = hashBytes(std::as_bytes(std::span(list.skins[i].bones)), seed);
+    }
+    return seed;
 }
 
 uint64_t hashCounts(PacketCounts const& counts, uint64_t seed) {
@@ -38,6 +53,7 @@ uint64_t hashPacket(FramePacket const& packet) {
                 objectData(packet.objects.placements[item.renderable], packet.objects.cameraWorld);
         hash = hashBytes(std::as_bytes(std::span(&object, 1)), hash);
     }
+    hash = hashDeformations(packet.deformations, hash);
     for (DrawCall const& draw : packet.opaque) hash = hashDraw(draw, hash);
     for (DrawCall const& draw : packet.blended) hash = hashDraw(draw, hash);
     hash = hashAll(hash, packet.opaque.size(), packet.blended.size(), packet.variant, packet.specular.bits,

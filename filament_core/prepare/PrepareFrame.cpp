@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/PrepareFrame.h"
 
+#include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/DrawList.h"
 #include "filament_core/prepare/SelectLights.h"
 #include "filament_core/prepare/SortItems.h"
@@ -40,6 +41,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
 
     packet.variant = variantFor(packet.counts);
     packet.objects = { order, renderables.placement, view.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
+    packet.deformations = placeDeformations(arena, scene, visible);
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
     packet.specular = scene.indirectLight.specular;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// updateTransforms: brings world transforms up to date with what the user changed, and what hangs at nodes with them.
+/// updateTransforms: brings world transforms up to date with what the user changed, and what hangs at nodes with them,
+/// skins last: their bones are where the joints are then.
 ///   In      the nodes of a scene and which of them changed.   Out: their world transforms, the placement and bounds of
 ///           renderables, the positions and directions of lights.
 ///   Thread  the app thread, which works along; a level of more than kTransformGrain changed nodes is shared with the

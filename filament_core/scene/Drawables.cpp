@@ -30,7 +30,8 @@ size_t Drawables::Hash::operator()(Drawable const& drawable) const noexcept {
     Geometry const& geometry = drawable.geometry;
     const uint64_t buffers = static_cast<uint64_t>(geometry.vertices.bits) << 32 | geometry.indices.bits;
     const uint64_t range = static_cast<uint64_t>(geometry.firstIndex) << 32 | geometry.indexCount;
-    return hashCombine(hashCombine(buffers, range), reinterpret_cast<uintptr_t>(drawable.material));
+    const uint64_t own = hashCombine(reinterpret_cast<uintptr_t>(drawable.material), drawable.deformation);
+    return hashCombine(hashCombine(buffers, range), own);
 }
 
 uint32_t Drawables::acquire(Drawable const& drawable) {

@@ -41,9 +41,14 @@ private:
     std::vector<GeometryLayout> mLayouts;
 };
 
+/// Of Drawable::deformation.
+inline constexpr uint32_t kNotDeformed = ~0u;
+
+/// What is deformed is drawn alone: no two renderables have the same deformation.
 struct Drawable {
     Geometry geometry{};
     MaterialInstance const* material = nullptr;
+    uint32_t deformation = kNotDeformed; ///< a slot of Deformations
     friend bool operator==(Drawable const&, Drawable const&) = default;
 };
 

@@ -46,7 +46,7 @@ void BoundsColumns::remove(uint32_t gap) {
 }
 
 Renderable add(Renderables& renderables, RenderableInput const& input) {
-    const uint32_t drawable = renderables.drawables.acquire({ input.geometry, input.material });
+    const uint32_t drawable = renderables.drawables.acquire({ input.geometry, input.material, input.deformation });
     const Renderable handle = renderables.index.add();
     const int flags = (input.culled ? kCulled : 0) | (input.geometry.indexCount == 0 ? kNoIndices : 0);
     renderables.bounds.add();
@@ -78,12 +78,31 @@ void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject)
     renderables.bounds.set(at, transformPoint(worldFromObject, double3(bounds.center)),
                            worldHalfExtent(worldFromObject, bounds.halfExtent));
     const int kept = renderables.flags[at] & ~(kMirrored | kCollapsed);
-    const int changed = (placement.side < 0 ? kMirrored : 0) | (isPoint(placement) ? kCollapsed : 0);
+    const bool mirrored = (placement.side < 0) != ((kept & kBonesMirror) != 0);
+    const int changed = (mirrored ? kMirrored : 0) | (isPoint(placement) ? kCollapsed : 0);
     renderables.flags[at] = static_cast<uint8_t>(kept | changed);
 }
 
 void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject) {
     place(renderables, at, affineFrom(worldFromObject));
+}
+
+void setObjectBounds(Renderables& renderables, uint32_t at, CenteredBox const& bounds, bool bonesMirror) {
+    renderables.objectBounds[at] = bounds;
+    const int others = renderables.flags[at] & ~kBonesMirror;
+    renderables.flags[at] = static_cast<uint8_t>(others | (bonesMirror ? kBonesMirror : 0));
+}
+
+Affine worldFromObject(Renderables const& renderables, uint32_t at) {
+    Placement const& placement = renderables.placement[at];
+    double4x4 world(1.0);
+    for (int row = 0; row < 3; ++row) {
+        for (int column = 0; column < 3; ++column) {
+            world[column][row] = static_cast<double>(placement.rows[static_cast<size_t>(row)][column]);
+        }
+    }
+    world[3] = double4(placement.translation, 1);
+    return affineFrom(world);
 }
 
 } // namespace filament::scene

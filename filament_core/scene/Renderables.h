@@ -45,9 +45,10 @@ static_assert(sizeof(Placement) == 64, "one cache line a renderable");
 
 enum RenderableFlag : uint8_t {
     kCulled = 1,    ///< may be dropped when its box is out of view
-    kMirrored = 2,  ///< the transform turns front faces into back faces
+    kMirrored = 2,  ///< transform and bones together turn front faces into back faces
     kNoIndices = 4, ///< its geometry is empty
     kCollapsed = 8, ///< the transform makes it a point, which has nothing to draw
+    kBonesMirror = 16,
 };
 
 struct Renderables {
@@ -71,10 +72,21 @@ struct RenderableInput {
     bool culled = true;
     std::string name;
     uint32_t instanceIndex = 0; ///< < 2^24
+    uint32_t deformation = kNotDeformed;
 };
 
 Renderable add(Renderables& renderables, RenderableInput const& input);
 void remove(Renderables& renderables, Renderable renderable);
+
+/// The slot of Deformations that the renderable at position `at` has, or kNotDeformed.
+inline uint32_t deformationAt(Renderables const& renderables, uint32_t at) {
+    return renderables.drawables[renderables.drawable[at]].deformation;
+}
+
+/// What place() finds next: the box in object space, and whether the bones mirror.
+void setObjectBounds(Renderables& renderables, uint32_t at, CenteredBox const& bounds, bool bonesMirror);
+/// Its transform as place() left it: the linear part as floats.
+Affine worldFromObject(Renderables const& renderables, uint32_t at);
 
 /// Writes everything that follows from a transform: placement, bounds and flags of the renderable at position `at`.
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject);

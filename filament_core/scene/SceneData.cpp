@@ -1,14 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/scene/SceneData.h"
 
+#include "filament_core/scene/SceneSkins.h"
+
 #include <cmath>
 
 namespace filament::scene {
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input) { return add(scene.renderables, input); }
 
+Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation deformation) {
+    const Skin skin = deformation.skin;
+    input.deformation = scene.deformations.add(std::move(deformation));
+    const Renderable renderable = addRenderable(scene, input);
+    scene.deformations.bind(input.deformation, renderable);
+    if (skin) scene.deformations.markStale(skin); // its bounds come with the next update
+    placeDeformed(scene, input.deformation);
+    return renderable;
+}
+
 void removeRenderable(SceneData& scene, Renderable renderable) {
+    const uint32_t deformation = deformationAt(scene.renderables, scene.renderables.index.at(renderable));
     remove(scene.renderables, renderable);
+    if (deformation != kNotDeformed) scene.deformations.remove(deformation);
     scene.atNodes.renderables.detach(renderable);
 }
 

@@ -5,6 +5,7 @@
 #pragma once
 
 #include "filament_core/scene/Attachments.h"
+#include "filament_core/scene/Deformations.h"
 #include "filament_core/scene/Materials.h"
 #include "filament_core/scene/Renderables.h"
 #include "filament_core/scene/Transforms.h"
@@ -44,6 +45,7 @@ struct LightPose {
 struct NodeContents {
     Attachments<RenderableObject> renderables;
     Attachments<LightObject> lights;
+    Attachments<SkinObject> skins;
     std::vector<LightPose> lightPoses; ///< by handle index
 };
 
@@ -76,12 +78,15 @@ struct SceneData {
     Lights lights;
     Transforms transforms; ///< of the nodes
     NodeContents atNodes;
+    Deformations deformations;
     IndirectLightState indirectLight; ///< specular: none means no indirect light
     SkyboxState skybox;               ///< cube: none means no skybox
 };
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input);
 void removeRenderable(SceneData& scene, Renderable renderable);
+/// A renderable that a skin or morph targets move. `deformation.renderable` is filled in.
+Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation deformation);
 /// place() of Renderables.h, by handle. What hangs at a node is moved by its node.
 void setTransform(SceneData& scene, Renderable renderable, double4x4 const& worldFromObject);
 Light addLight(SceneData& scene, LightRecord const& light);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/scene/SceneNodes.h"
 
+#include "filament_core/scene/SceneSkins.h"
+
 #include <cmath>
 
 namespace filament::scene {
@@ -46,14 +48,19 @@ Node nodeOf(SceneData const& scene, Light light) {
 }
 
 void removeNode(SceneData& scene, Node node) {
-    for (const uint32_t slot : scene.transforms.remove(node)) {
+    const std::vector<uint32_t> slots = scene.transforms.remove(node);
+    for (const uint32_t slot : slots) {
         while (const Renderable renderable = scene.atNodes.renderables.first(slot)) removeRenderable(scene, renderable);
         while (const Light light = scene.atNodes.lights.first(slot)) removeLight(scene, light);
+    }
+    for (const uint32_t slot : slots) {
+        while (const Skin skin = scene.atNodes.skins.first(slot)) removeSkin(scene, skin);
     }
 }
 
 void placeAttached(SceneData& scene, uint32_t slot) {
     Affine const& world = scene.transforms.worldAt(slot);
+    if (scene.deformations.isMoving()) scene.deformations.noteMoved(slot);
     scene.atNodes.renderables.forEach(slot, [&](Renderable renderable) {
         place(scene.renderables, scene.renderables.index.at(renderable), world);
     });

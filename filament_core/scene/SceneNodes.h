@@ -19,7 +19,7 @@ void attach(SceneData& scene, Light light, Node node);
 Node nodeOf(SceneData const& scene, Renderable renderable);
 Node nodeOf(SceneData const& scene, Light light);
 
-/// The node, all nodes below it, and every renderable and light that hangs at one of them.
+/// The node, all nodes below it, and every renderable, light and skin that hangs at one of them.
 void removeNode(SceneData& scene, Node node);
 
 /// Moves what hangs at the node in `slot` to where the node was found by the last update.

@@ -55,6 +55,11 @@ public:
     Node find(std::string_view name, Node root) const;
     uint32_t count() const { return mCount; }
 
+    /// False: it was removed, or never there.
+    bool isAlive(Node node) const { return node && node.index() < mLinks.size() && mLinks[node.index()].node == node; }
+    /// All slots are below.
+    size_t slotLimit() const { return mLinks.size(); }
+
     uint32_t slotOf(Node node) const {
         FILAMENT_ASSERT(node && node.index() < mLinks.size() && mLinks[node.index()].node == node,
                         "the handle names a node that was removed or never added");

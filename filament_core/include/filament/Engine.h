@@ -112,6 +112,7 @@ public:
     Texture create(TextureDesc const& desc);
     VertexBuffer create(VertexBufferDesc const& desc);
     IndexBuffer create(IndexBufferDesc const& desc);
+    MorphTargets create(MorphTargetsDesc const& desc);
     IndirectLight create(IndirectLightDesc const& desc);
     Skybox create(SkyboxDesc const& desc);
     RenderTarget create(RenderTargetDesc const& desc);
@@ -156,6 +157,7 @@ public:
     void destroy(Texture texture);
     void destroy(VertexBuffer buffer);
     void destroy(IndexBuffer buffer);
+    void destroy(MorphTargets targets);
     void destroy(Material material); ///< its instances must be destroyed first
     void destroy(MaterialInstance instance);
     void destroy(IndirectLight light);

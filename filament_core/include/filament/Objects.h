@@ -29,6 +29,7 @@ using IndexBuffer = Handle<struct IndexBufferObject>;
 using Material = Handle<struct MaterialObject>;
 using MaterialInstance = Handle<struct MaterialInstanceObject>;
 using IndirectLight = Handle<struct IndirectLightObject>;
+using MorphTargets = Handle<struct MorphTargetsObject>;
 using Skybox = Handle<struct SkyboxObject>;
 using RenderTarget = Handle<struct RenderTargetObject>;
 using SwapChain = Handle<struct SwapChainObject>;
@@ -40,6 +41,7 @@ struct Compilation {
 };
 using Renderable = Handle<struct RenderableObject>; ///< of one Scene
 using Light = Handle<struct LightObject>;           ///< of one Scene
+using Skin = Handle<struct SkinObject>;             ///< of one Scene
 using Node = Handle<struct NodeObject>;             ///< of one Scene
 
 enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube };
@@ -64,10 +66,12 @@ enum class Attribute : uint8_t {
     Tangents = 1, ///< float4: quaternion of the tangent frame (x tangent, z normal); w < 0: bitangent flipped
     Color = 2,    ///< float4, linear
     Uv0 = 3,
-    Uv1 = 4, ///< float2
-    Joints = 5,
-    Weights = 6,
-    Custom0 = 7, ///< float4; Custom0 + 7 is the last
+    Uv1 = 4,       ///< float2
+    Joints = 5,    ///< uint4: bones of the skin
+    Weights = 6,   ///< float4: how much each of them counts; their sum is 1
+    Custom0 = 7,   ///< float4; Custom0 + 7 is the last
+    Joints1 = 13,  ///< uint4: bones 5 to 8 of a vertex, in the place of Custom0 + 6
+    Weights1 = 14, ///< float4, in the place of Custom0 + 7; the sum of all eight is 1
 };
 
 struct AttributeDesc {
@@ -83,6 +87,25 @@ struct VertexBufferDesc {
     std::vector<AttributeDesc> attributes{};
     std::span<const std::byte> data{}; ///< vertexCount * stride bytes
     std::string name{};
+};
+
+/// Differences from the vertices of a mesh, one a vertex. What is empty does not change; a tangent keeps its
+/// handedness.
+struct MorphTargetDesc {
+    std::span<const float3> positions{}, normals{}, tangents{};
+};
+
+/// What RenderableDesc::morphWeights weighs. Copied before the call returns: 16 bytes a vertex, target and kind of
+/// difference that any target has.
+struct MorphTargetsDesc {
+    uint32_t vertexCount = 0;               ///< > 0, of the vertex buffer that it goes with
+    std::vector<MorphTargetDesc> targets{}; ///< 1 to 256
+    std::string name{};
+};
+
+/// Where the vertices are that a bone moves, before it moves them. Empty (min > max): it moves none.
+struct BoneBounds {
+    float3 min{ 3e38f }, max{ -3e38f };
 };
 
 enum class IndexFormat : uint8_t { UInt16, UInt32 };

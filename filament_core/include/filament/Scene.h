@@ -13,13 +13,26 @@
 #include <filament/Node.h>
 
 #include <memory>
+#include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace filament {
 
 class Model;
 class Environment;
+
+/// Up to 256 bones. A vertex goes to the weighted mean of where its bones put it; normals and tangents follow. Where
+/// bones collapse something it stays finite; where they mirror, the right faces are drawn.
+struct SkinDesc {
+    /// Object space is its space: renderables with this skin hang here, and the skin is removed with it. None: the
+    /// world, for renderables without a node.
+    Node node{};
+    std::span<const Node> joints{};            ///< 1 to 256 nodes, which the bones follow from now on; or none
+    std::span<const float4x4> jointFromBind{}; ///< one a joint: from where the mesh was bound into the joint's space
+    uint32_t boneCount = 0;                    ///< without joints: 1 to 256, set by Scene::setBones
+};
 
 struct RenderableDesc {
     VertexBuffer vertices{};
@@ -32,6 +45,10 @@ struct RenderableDesc {
     double4x4 worldFromObject{ 1.0 };      ///< affine; with a node: stays the identity
     Node node{};                           ///< the renderable stands where this node stands; none: at worldFromObject
     uint32_t instanceIndex = 0;            ///< < 2^24; what getInstanceIndex() of materials with `instanced` gives
+    Skin skin{};                           ///< the vertices have Attribute::Joints and Weights, perhaps Joints1 too
+    std::vector<BoneBounds> boneBounds{};  ///< one a bone: makes culling exact; empty: the bounds above for all
+    MorphTargets morphTargets{};           ///< of as many vertices as the vertex buffer has
+    std::vector<float> morphWeights{};     ///< at first; what is missing is 0
     bool culled = true;                    ///< false: drawn even when its box is out of view
     std::string name{};
 };
@@ -59,12 +76,23 @@ public:
     /// Of a renderable without a node.
     void setTransform(Renderable renderable, double4x4 const& worldFromObject);
 
+    /// Bones that follow nodes, or are set by hand: then they start at the identity. A joint that is removed leaves its
+    /// bone where it was. What follows joints is brought up to date by the next frame, on the workers.
+    Skin add(SkinDesc const& desc);
+    /// After the renderables that have it.
+    void remove(Skin skin);
+    /// Of a skin without joints, one matrix for each of its bones, into the object space of its renderables. What is
+    /// not finite counts as a zero scale.
+    void setBones(Skin skin, std::span<const float4x4> objectFromBind);
+    /// Of a renderable with morph targets. Any finite numbers; a target of weight 0 costs nothing.
+    void setMorphWeights(Renderable renderable, std::span<const float> weights);
+
     /// A copy of the model: its nodes below one new root, which stands at `worldFromModel` and has the model's name,
     /// its renderables and lights at them. Moving or removing the root moves or removes all of it.
     Node add(Model const& model, double4x4 const& worldFromModel = double4x4(1.0));
 
     Node add(NodeDesc const& desc);
-    /// The node and all below it, with every renderable and light that hangs there; their handles end.
+    /// The node and all below it, with every renderable, light and skin that hangs there; their handles end.
     void remove(Node node);
     /// Takes effect at once for worldFromNode(), and for what hangs at or below the node with the next frame.
     void setTransform(Node node, double4x4 const& parentFromNode);
@@ -87,7 +115,7 @@ public:
     void setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians = 0); ///< {}: none
     void setSkybox(Skybox skybox, Lux illuminance, float rotationRadians = 0);              ///< {}: none
 
-    Box bounds() const; ///< of all renderables
+    Box bounds() const; ///< of all renderables; it holds what bones and morph targets move, and may be larger
     uint32_t renderableCount() const;
     uint32_t lightCount() const;
     uint32_t nodeCount() const;
