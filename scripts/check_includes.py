@@ -47,7 +47,7 @@ BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 
 # The public interface: value types below every room, except for the headers whose objects are the engine's.
 PUBLIC = "filament_core/include/filament"
-PUBLIC_ENGINE = ["filament.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
+PUBLIC_ENGINE = ["filament.h", "Animator.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
 PUBLIC_USERS = ["filament_core/engine", "tools", "samples", "tests", "bench"]
 
 # library header: the rooms that may include it, and their tests. Everything else of a library's kind is free (the standard, POSIX, fmt).

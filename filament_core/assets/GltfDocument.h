@@ -6,6 +6,7 @@
 #pragma once
 
 #include "filament_core/assets/ModelData.h"
+#include "filament_core/assets/NodePose.h"
 
 #include <array>
 #include <cstddef>
@@ -110,13 +111,33 @@ struct GltfInstancing {
 struct GltfNode {
     std::string name;
     double4x4 parentFromNode{ 1.0 };
+    NodePose pose{};        ///< of the same transform
+    bool hasMatrix = false; ///< the pose was taken out of a matrix
     std::vector<uint32_t> children;
     uint32_t mesh = kNone, skin = kNone, light = kNone;
     std::vector<float> weights;
     std::optional<GltfInstancing> instancing;
 };
 
+struct GltfAnimationSampler {
+    uint32_t input = kNone, output = kNone; ///< accessors
+    Interpolation interpolation = Interpolation::Linear;
+};
+
+struct GltfAnimationChannel {
+    uint32_t sampler = 0;  ///< of its animation
+    uint32_t node = kNone; ///< kNone: what an extension says
+    AnimationPath path = AnimationPath::Translation;
+};
+
+struct GltfAnimation {
+    std::string name;
+    std::vector<GltfAnimationSampler> samplers;
+    std::vector<GltfAnimationChannel> channels;
+};
+
 struct GltfSkin {
+    std::string name;
     uint32_t inverseBindMatrices = kNone;
     std::vector<uint32_t> joints; ///< nodes
 };
@@ -158,7 +179,7 @@ struct GltfDocument {
     std::vector<GltfImage> images;
     std::vector<LightData> lights;
     std::vector<uint32_t> roots; ///< of the default scene
-    bool hasAnimations = false;
+    std::vector<GltfAnimation> animations;
 
     /// Bytes of each view; filled by loadBuffers(). They point into the file or into `ownedBytes`.
     std::vector<std::span<const std::byte>> viewBytes;

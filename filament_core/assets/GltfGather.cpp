@@ -50,6 +50,12 @@ VertexFormat uvFormat(GltfAccessor const& accessor) {
     }
 }
 
+VertexFormat weightFormat(GltfAccessor const& accessor) {
+    if (accessor.normalized && accessor.component == ComponentType::UByte) return VertexFormat::UByte4N;
+    if (accessor.normalized && accessor.component == ComponentType::UShort) return VertexFormat::UShort4N;
+    return VertexFormat::Float4;
+}
+
 /// Where the attributes of a primitive come from: accessors, or a Draco stream with accessors that describe it.
 class AttributeSource {
 public:
@@ -148,6 +154,11 @@ void chooseFormats(GltfDocument const& document, GltfAttributes const& attribute
         if (attributes.uv[set] == kNone) continue;
         geometry.uvFormats[set] = uvFormat(document.accessors[attributes.uv[set]]);
     }
+    // One format for both sets: what both have, or floats.
+    const uint32_t first = attributes.weights[0], second = attributes.weights[1];
+    if (first == kNone) return;
+    const VertexFormat format = weightFormat(document.accessors[first]);
+    if (second == kNone || weightFormat(document.accessors[second]) == format) geometry.weightFormat = format;
 }
 
 void gatherIndices(GltfDocument const& document, GltfPrimitive const& primitive, AttributeSource const& source,
@@ -197,6 +208,11 @@ void reorderVertices(GltfGeometry& geometry, std::span<const uint32_t> sources) 
     for (auto& uvs : geometry.uvs) reorder(uvs);
     for (auto& joints : geometry.joints) reorder(joints);
     for (auto& weights : geometry.weights) reorder(weights);
+    for (MorphTargetData& target : geometry.targets) {
+        reorder(target.positions);
+        reorder(target.normals);
+        reorder(target.tangents);
+    }
 }
 
 } // namespace filament::assets

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfGeometry: one primitive on its way from the file to the GPU, one array per attribute, everything as floats.
-///   The steps, in order: gather, make a list, morph, drop unused vertices, skin, flat normals, tangents, pack. Each is
-///   a function below; each takes the primitive as the step before left it. Quantised attributes keep the format of the
-///   file: 8- and 16-bit integers survive the trip through floats exactly, and pack() writes them back.
-///   Thread  one primitive on one thread; the document is only read.
-///   Fails   through the diagnostics; later steps must not run then.
+///   The steps, in order: gather, make a list, morph, drop unused vertices, skin, flat normals, tangents, pack.
+///   Morphing and skinning are done here, for the rest pose, or kept for the device. Each is a function below; each
+///   takes the primitive as the step before left it. Quantised attributes keep the format of the file: 8- and 16-bit
+///   integers survive the trip through floats exactly, and pack() writes them back. Thread  one primitive on one
+///   thread; the document is only read. Fails   through the diagnostics; later steps must not run then.
 #pragma once
 
 #include "filament_core/assets/GltfDiagnostics.h"
@@ -28,6 +28,7 @@ struct GltfGeometry {
     std::array<std::vector<float2>, GltfAttributes::kUvSets> uvs;
     std::array<std::vector<JointIndices>, GltfAttributes::kJointSets> joints;
     std::array<std::vector<float4>, GltfAttributes::kJointSets> weights;
+    std::vector<MorphTargetData> targets; ///< left to the device: one difference a vertex, or none
     std::vector<uint32_t> indices;
     backend::Topology topology = backend::Topology::Triangles;
     bool wasIndexed = false; ///< false: equal vertices are worth looking for
@@ -36,6 +37,9 @@ struct GltfGeometry {
     backend::VertexFormat colorFormat = backend::VertexFormat::Float4;
     std::array<backend::VertexFormat, GltfAttributes::kUvSets> uvFormats{ backend::VertexFormat::Float2,
                                                                           backend::VertexFormat::Float2 };
+
+    backend::VertexFormat weightFormat = backend::VertexFormat::Float4;
+    bool isSkinned = false; ///< left to the device: joints and weights are packed, too
 
     uint32_t vertexCount() const { return static_cast<uint32_t>(positions.size()); }
 };
@@ -52,6 +56,24 @@ void applyMorphTargets(GltfDocument const& document, GltfPrimitive const& primit
 /// Moves the vertices to where the joints hold them (section 3.7.3.3). A skin that mirrors turns the triangles around.
 void applySkin(std::span<const float4x4> worldFromBind, std::string const& path, GltfGeometry& geometry,
                GltfDiagnostics& diagnostics);
+
+/// Whether the device can take the morph targets; a warning if not.
+bool canKeepTargets(GltfPrimitive const& primitive, GltfGeometry const& geometry, std::string const& path,
+                    GltfDiagnostics& diagnostics);
+
+/// Reads the morph targets, for the device to apply. Differences of what the geometry lacks are left out.
+void keepMorphTargets(GltfDocument const& document, GltfPrimitive const& primitive, GltfGeometry& geometry,
+                      GltfDiagnostics& diagnostics);
+
+/// Makes joints and weights ready for the device: every joint exists, the weights of a vertex sum to 1.
+void keepSkin(size_t jointCount, std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics);
+
+/// By joint: where the vertices are that it moves.
+std::vector<BoundsData> boundsOfBones(GltfGeometry const& geometry);
+
+/// Where the vertices are in the rest pose, with what the geometry leaves to the device.
+BoundsData boundsAtRest(GltfGeometry const& geometry, std::span<const float> weights,
+                        std::span<const float4x4> worldFromBind);
 
 /// Checks the indices and turns strips, fans and loops into lists (section 3.7.2.1).
 void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics);

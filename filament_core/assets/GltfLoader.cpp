@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/GltfLoader.h"
 
+#include "filament_core/assets/GltfAnimation.h"
 #include "filament_core/assets/GltfBuffers.h"
 #include "filament_core/assets/GltfContainer.h"
 #include "filament_core/assets/GltfMeshes.h"
@@ -73,7 +74,7 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextu
 }
 
 void warnAboutAnimations(GltfDocument const& document, GltfDiagnostics& diagnostics) {
-    if (!document.hasAnimations) return;
+    if (document.animations.empty()) return;
     diagnostics.warn("animations, also of skins and morph targets, are not played: the model is drawn at rest");
 }
 
@@ -99,7 +100,7 @@ ModelData load(std::span<const std::byte> file, std::filesystem::path const& bas
     Progress structure(options, GltfStage::Structure, 1);
     GltfDocument document = loadDocument(file, baseDirectory, jobs, diagnostics);
     if (!diagnostics.ok()) return {};
-    GltfScene scene = planScene(document, diagnostics);
+    GltfScene scene = planScene(document, options.deformation, diagnostics);
     std::vector<GltfPrimitiveJob> primitives = listPrimitives(document, scene, diagnostics);
     if (!diagnostics.ok()) return {};
     structure.step();
@@ -108,10 +109,13 @@ ModelData load(std::span<const std::byte> file, std::filesystem::path const& bas
     GltfTextures textures = planTextures(document, usedMaterials(document, scene), newMaterial, diagnostics);
     loadContent(document, scene, textures, primitives, baseDirectory, jobs, options);
     mergeDiagnostics(textures, primitives, diagnostics);
-    warnAboutAnimations(document, diagnostics);
+    ModelData model;
+    if (options.deformation == GltfDeformation::Kept)
+        model.animations = readAnimations(document, scene, diagnostics);
+    else
+        warnAboutAnimations(document, diagnostics);
     if (!diagnostics.ok()) return {};
 
-    ModelData model;
     model.name = options.name;
     model.images = collectImages(textures);
     model.materials = std::move(textures.materials);
@@ -122,6 +126,7 @@ ModelData load(std::span<const std::byte> file, std::filesystem::path const& bas
         }
     }
     model.nodes = std::move(scene.nodes);
+    model.skins = std::move(scene.skins);
     model.lights = std::move(document.lights);
     model.warnings = diagnostics.takeWarnings();
     return model;

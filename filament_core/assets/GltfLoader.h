@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfLoader: a glTF 2.0 file, .gltf or .glb, as ModelData.
 ///   In      any file; nothing about it is trusted. External buffers and images lie beside or below it (see GltfUri.h).
-///   Out     the default scene at rest: default morph weights and the skins' rest pose are applied. Only what the scene
+///   Out     the default scene. Default morph weights and the skins' rest pose are applied; or
+///   (GltfOptions::deformation)
+///           skins, morph targets and animations are kept as data. Only what the scene
 ///           shows is loaded: meshes, materials and images that nothing drawn uses are left out.
 ///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization,
 ///           KHR_texture_transform, KHR_materials_unlit, KHR_materials_emissive_strength, KHR_lights_punctual,
 ///           EXT_mesh_gpu_instancing. Other extensions are named in ModelData::warnings, once each, and the material
 ///           without them is drawn.
-///   Does not  play animations, read KTX2 or WebP, or use material variants.
+///   Does not  read KTX2 or WebP, or use material variants.
 ///   Thread  any; images and primitives are decoded as jobs, this thread joins in. The result does not depend on the
 ///           number of workers.
 ///   Memory  the file, then about twice the result while it runs.
@@ -36,6 +38,7 @@ struct GltfOptions {
     std::function<void(GltfStage stage, size_t done, size_t total)> progress = {};
     uint32_t maxTextureSize = 0; ///< texels; larger images start at a smaller mip level. 0: no limit
     GeometryStorage storage{};
+    GltfDeformation deformation = GltfDeformation::AtRest;
     std::string name = "model"; ///< what messages call a file in memory; loadGltf() fills it in
 };
 

@@ -22,21 +22,35 @@ void replaceOverflow(std::string const& path, GltfGeometry& geometry, GltfDiagno
         diagnostics.warn("{}: {} coordinates overflow after morphing and skinning, and became 0", path, broken);
 }
 
+void morph(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
+           std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
+    if (request.keepsTargets && canKeepTargets(primitive, geometry, path, diagnostics))
+        keepMorphTargets(document, primitive, geometry, diagnostics);
+    else
+        applyMorphTargets(document, primitive, request.weights, geometry, diagnostics);
+}
+
 PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
                     GeometryStorage const& storage, std::string const& path, GltfDiagnostics& diagnostics) {
     GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
     if (!diagnostics.ok() || geometry.positions.empty()) return {};
     makeList(primitive.draco ? GltfMode::Triangles : primitive.mode, path, geometry, diagnostics);
-    if (diagnostics.ok()) applyMorphTargets(document, primitive, request.weights, geometry, diagnostics);
+    if (diagnostics.ok()) morph(document, request, primitive, path, geometry, diagnostics);
     if (!diagnostics.ok() || geometry.indices.empty()) return {};
     dropUnusedVertices(geometry);
-    if (request.skin != kNone) applySkin(request.worldFromBind, path, geometry, diagnostics);
+    if (request.keepsSkin)
+        keepSkin(request.worldFromBind.size(), path, geometry, diagnostics);
+    else if (request.skin != kNone)
+        applySkin(request.worldFromBind, path, geometry, diagnostics);
     if (!diagnostics.ok()) return {};
     replaceOverflow(path, geometry, diagnostics);
     addFlatNormals(geometry);
     if (const uint32_t uvSet = normalMapUvSet(document, primitive.material); uvSet != kNone)
         addTangents(geometry, uvSet);
-    return packGeometry(std::move(geometry), storage);
+    const BoundsData restBounds = boundsAtRest(geometry, request.weights, request.worldFromBind);
+    PrimitiveData packed = packGeometry(std::move(geometry), storage);
+    packed.restBounds = restBounds;
+    return packed;
 }
 
 } // namespace

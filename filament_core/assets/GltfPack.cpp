@@ -188,11 +188,41 @@ void weldEqualVertices(std::vector<uint32_t>& indices, PrimitiveData& primitive)
     primitive.vertexCount = static_cast<uint32_t>(unique);
 }
 
+struct SkinOffsets {
+    std::array<uint16_t, GltfAttributes::kJointSets> joints{}, weights{};
+};
+
+SkinOffsets addJoints(GltfGeometry const& geometry, Interleaver& interleaver) {
+    constexpr std::array<uint8_t, 2> kJoints{ shader::kAttributeJoints, shader::kAttributeJoints1 };
+    constexpr std::array<uint8_t, 2> kWeights{ shader::kAttributeWeights, shader::kAttributeWeights1 };
+    SkinOffsets at;
+    for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
+        if (geometry.joints[set].empty()) continue;
+        at.joints[set] = interleaver.addAttribute(kJoints[set], VertexFormat::UByte4); // a skin has 256 joints at most
+        at.weights[set] = interleaver.addAttribute(kWeights[set], geometry.weightFormat);
+    }
+    return at;
+}
+
+void writeJoints(GltfGeometry const& geometry, SkinOffsets const& at, Interleaver& interleaver) {
+    for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
+        interleaver.write(geometry.weights[set], at.weights[set], geometry.weightFormat);
+        for (size_t i = 0; i < geometry.joints[set].size(); ++i) {
+            const glm::u8vec4 joints(geometry.joints[set][i]);
+            std::memcpy(interleaver.at(i, at.joints[set]), &joints, sizeof joints);
+        }
+    }
+}
+
 } // namespace
 
 PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage) {
     PrimitiveData primitive;
-    storePositions(storage.positions, geometry, primitive);
+    const bool isDeformed = geometry.isSkinned || !geometry.targets.empty();
+    // Bones and differences are in the space of the file: positions stay in it.
+    storePositions(isDeformed && storage.positions == PositionStorage::Unorm16 ? PositionStorage::AsAuthored
+                                                                               : storage.positions,
+                   geometry, primitive);
     primitive.topology = geometry.topology;
     primitive.vertexCount = geometry.vertexCount();
     primitive.hasTangents = !geometry.normals.empty();
@@ -209,6 +239,7 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
     const uint16_t color = add(primitive.hasColor, shader::kAttributeColor, geometry.colorFormat);
     const uint16_t uv0 = add(primitive.hasUv0, shader::kAttributeUv0, geometry.uvFormats[0]);
     const uint16_t uv1 = add(primitive.hasUv1, shader::kAttributeUv1, geometry.uvFormats[1]);
+    const SkinOffsets skin = geometry.isSkinned ? addJoints(geometry, interleaver) : SkinOffsets{};
     interleaver.allocate();
     interleaver.write(geometry.positions, position, geometry.positionFormat);
     interleaver.write(framesOf(geometry, storage.tangents), frame, formatOf(storage.tangents));
@@ -216,8 +247,14 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
     interleaver.write(geometry.uvs[0], uv0, geometry.uvFormats[0]);
     interleaver.write(geometry.uvs[1], uv1, geometry.uvFormats[1]);
 
+    if (geometry.isSkinned) writeJoints(geometry, skin, interleaver);
+    primitive.isSkinned = geometry.isSkinned;
+    primitive.boneBounds = boundsOfBones(geometry);
+
     findBounds(geometry.positions, primitive);
-    if (!geometry.wasIndexed) weldEqualVertices(geometry.indices, primitive);
+    primitive.morphTargets = std::move(geometry.targets);
+    // Vertices that are equal now may part later.
+    if (!geometry.wasIndexed && primitive.morphTargets.empty()) weldEqualVertices(geometry.indices, primitive);
     packIndices(geometry.indices, primitive);
     return primitive;
 }

@@ -3,8 +3,6 @@
 
 #include "filament_core/assets/GltfJson.h"
 
-#include <glm/gtc/quaternion.hpp>
-
 #include <cstring>
 
 namespace filament::assets {
@@ -173,7 +171,7 @@ GltfMesh parseMesh(JsonNode const& node, Counts const& counts) {
 }
 
 /// Section 3.5.3: a matrix, or translation * rotation * scale.
-double4x4 parseTransform(JsonNode const& node) {
+void parseTransform(JsonNode const& node, GltfNode& parsed) {
     std::array<double, 16> m{};
     if (node["matrix"].numbers(m)) {
         double4x4 matrix;
@@ -183,36 +181,34 @@ double4x4 parseTransform(JsonNode const& node) {
             node.diagnostics().warn("{}.matrix: its last row is not 0 0 0 1 and was ignored", node.path());
         }
         for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1 : 0;
-        return matrix;
+        parsed.parentFromNode = matrix;
+        parsed.pose = poseFrom(matrix);
+        parsed.hasMatrix = true;
+        return;
     }
     std::array<double, 3> t{ 0, 0, 0 }, s{ 1, 1, 1 };
     std::array<double, 4> r{ 0, 0, 0, 1 };
     node["translation"].numbers(t);
     node["rotation"].numbers(r);
     node["scale"].numbers(s);
-    glm::dquat rotation(r[3], r[0], r[1], r[2]);
-    const double length2 = glm::dot(rotation, rotation);
+    const double length2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3];
     if (!(length2 > 1e-12)) {
         node.diagnostics().warn("{}.rotation: has no length and was ignored", node.path());
-        rotation = glm::dquat(1, 0, 0, 0);
-    } else {
-        rotation *= 1.0 / std::sqrt(length2);
+        r = { 0, 0, 0, 1 };
     }
-    double4x4 matrix(glm::mat3_cast(rotation));
-    for (int axis = 0; axis < 3; ++axis) matrix[axis] *= s[static_cast<size_t>(axis)];
-    matrix[3] = double4(t[0], t[1], t[2], 1);
-    return matrix;
+    parsed.pose = { { t[0], t[1], t[2] }, { r[0], r[1], r[2], r[3] }, { s[0], s[1], s[2] } };
+    parsed.parentFromNode = matrixFrom(parsed.pose);
 }
 
 GltfNode parseNode(JsonNode const& node, Counts const& counts) {
     GltfNode parsed{ .name = node["name"].text(),
-                     .parentFromNode = parseTransform(node),
                      .children = {},
                      .mesh = node["mesh"].index(counts.meshes, "meshes"),
                      .skin = node["skin"].index(counts.skins, "skins"),
                      .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
                      .weights = node["weights"].numberList(),
                      .instancing = {} };
+    parseTransform(node, parsed);
     for (JsonNode const& child : node["children"].elements()) {
         parsed.children.push_back(child.requiredIndex(counts.nodes, "nodes"));
     }
@@ -226,11 +222,33 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
 }
 
 GltfSkin parseSkin(JsonNode const& node, Counts const& counts) {
-    GltfSkin skin{ node["inverseBindMatrices"].index(counts.accessors, "accessors"), {} };
+    GltfSkin skin{ node["name"].text(), node["inverseBindMatrices"].index(counts.accessors, "accessors"), {} };
     for (JsonNode const& joint : node["joints"].elements()) {
         skin.joints.push_back(joint.requiredIndex(counts.nodes, "nodes"));
     }
     return skin;
+}
+
+GltfAnimation parseAnimation(JsonNode const& node, Counts const& counts) {
+    GltfAnimation animation{ .name = node["name"].text(), .samplers = {}, .channels = {} };
+    for (JsonNode const& sampler : node["samplers"].elements()) {
+        animation.samplers.push_back(
+                { sampler["input"].requiredIndex(counts.accessors, "accessors"),
+                  sampler["output"].requiredIndex(counts.accessors, "accessors"),
+                  enumFromText(sampler["interpolation"], std::array{ "STEP", "LINEAR", "CUBICSPLINE" },
+                               Interpolation::Linear) });
+    }
+    for (JsonNode const& channel : node["channels"].elements()) {
+        const JsonNode target = channel["target"];
+        GltfAnimationChannel parsed{ .sampler = channel["sampler"].requiredIndex(animation.samplers.size(), "samplers"),
+                                     .node = target["node"].index(counts.nodes, "nodes") };
+        if (parsed.node != kNone) {
+            parsed.path = enumFromText(target["path"], std::array{ "translation", "rotation", "scale", "weights" },
+                                       AnimationPath::Translation);
+        }
+        animation.channels.push_back(parsed);
+    }
+    return animation;
 }
 
 GltfImage parseImage(JsonNode const& node, Counts const& counts) {
@@ -334,7 +352,7 @@ void parseElements(JsonNode const& root, GltfDocument& document) {
                             node["source"].index(counts.images, "images") };
     });
     document.lights = parseAll<LightData>(root.extension("KHR_lights_punctual")["lights"], parseGltfLight);
-    document.hasAnimations = root["animations"].elementCount() > 0;
+    document.animations = parseAll<GltfAnimation>(root["animations"], with(parseAnimation));
 }
 
 } // namespace

@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/Accessor.h"
 #include "filament_core/assets/TangentFrame.h"
+#include "shaders/interface/ShaderInterface.h"
 
 #include <glm/gtc/quaternion.hpp>
 
@@ -67,9 +68,10 @@ std::vector<float4x4> jointTransforms(GltfDocument const& document, uint32_t ski
 /// Finds or adds the mesh requests of a scene.
 class RequestList {
 public:
-    RequestList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfScene& scene,
-                GltfDiagnostics& diagnostics)
-            : mDocument(document), mWorldFromNode(worldFromNode), mScene(scene), mDiagnostics(diagnostics) {}
+    RequestList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfDeformation deformation,
+                GltfScene& scene, GltfDiagnostics& diagnostics)
+            : mDocument(document), mWorldFromNode(worldFromNode), mDeformation(deformation), mScene(scene),
+              mDiagnostics(diagnostics) {}
 
     uint32_t requestFor(GltfNode const& node) {
         std::vector<float> const& weights = node.weights.empty() ? mDocument.meshes[node.mesh].weights : node.weights;
@@ -77,16 +79,29 @@ public:
         const auto [entry, isNew] = mKnown.try_emplace({ node.mesh, node.skin, weights }, next);
         if (!isNew) return entry->second;
         GltfMeshRequest request{ node.mesh, node.skin, weights, {} };
+        request.keepsTargets = mDeformation == GltfDeformation::Kept;
         if (node.skin != kNone) {
             request.worldFromBind = jointTransforms(mDocument, node.skin, mWorldFromNode, mDiagnostics);
+            request.keepsSkin = keepsSkin(node.skin);
         }
         mScene.meshes.push_back(std::move(request));
         return next;
     }
 
 private:
+    bool keepsSkin(uint32_t skin) {
+        const size_t joints = mDocument.skins[skin].joints.size();
+        if (mDeformation == GltfDeformation::AtRest || joints <= shader::kMaxBones) {
+            return mDeformation == GltfDeformation::Kept;
+        }
+        mDiagnostics.warn("skins[{}]: has {} joints, more than {}: what it moves is drawn at rest", skin, joints,
+                          shader::kMaxBones);
+        return false;
+    }
+
     GltfDocument const& mDocument;
     std::vector<double4x4> const& mWorldFromNode;
+    GltfDeformation mDeformation;
     GltfScene& mScene;
     GltfDiagnostics& mDiagnostics;
     std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> mKnown;
@@ -132,51 +147,117 @@ void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, Reques
     GltfNode const& source = document.nodes[index];
     const uint32_t mesh = requests.requestFor(source);
     NodeData own{ .name = source.name, .mesh = mesh, .morphWeights = scene.meshes[mesh].weights };
+    std::vector<uint32_t>& meshNodes = scene.meshNodes[index];
     if (source.skin != kNone) {
+        if (scene.meshes[mesh].keepsSkin) own.skin = source.skin; // of the file: see collectSkins()
+        meshNodes.push_back(static_cast<uint32_t>(scene.nodes.size()));
         scene.nodes.push_back(std::move(own));
         return;
     }
     if (!source.instancing) {
         scene.nodes[at].mesh = mesh;
         scene.nodes[at].morphWeights = std::move(own.morphWeights);
+        meshNodes.push_back(at);
         return;
     }
     own.parent = at;
     for (double4x4 const& nodeFromInstance : instanceTransforms(*source.instancing, document, index, diagnostics)) {
         own.parentFromNode = nodeFromInstance;
+        own.pose = poseFrom(nodeFromInstance);
         own.worldFromNode = scene.nodes[at].worldFromNode * nodeFromInstance;
+        meshNodes.push_back(static_cast<uint32_t>(scene.nodes.size()));
         scene.nodes.push_back(own);
+    }
+}
+
+/// Adds nodes of the file with all that hangs below them.
+class NodeList {
+public:
+    NodeList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfScene& scene,
+             GltfDiagnostics& diagnostics)
+            : mDocument(document), mWorldFromNode(worldFromNode), mScene(scene), mDiagnostics(diagnostics) {}
+
+    /// `requests`: null for what is not shown, only followed by joints.
+    void add(std::vector<uint32_t> const& roots, RequestList* requests) {
+        push(roots, kNone);
+        while (!mOpen.empty() && mDiagnostics.ok()) {
+            const auto [node, parent] = mOpen.back();
+            mOpen.pop_back();
+            GltfNode const& source = mDocument.nodes[node];
+            const auto added = static_cast<uint32_t>(mScene.nodes.size());
+            mScene.nodeOf[node] = added;
+            mScene.nodes.push_back({ .name = source.name,
+                                     .parent = parent,
+                                     .parentFromNode = source.parentFromNode,
+                                     .worldFromNode = mWorldFromNode[node],
+                                     .light = requests ? source.light : kNone,
+                                     .morphWeights = {},
+                                     .pose = source.pose });
+            if (requests && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);
+            push(source.children, added);
+        }
+    }
+
+private:
+    struct Open {
+        uint32_t node, parent; // of the document; of the scene
+    };
+    void push(std::vector<uint32_t> const& nodes, uint32_t parent) {
+        for (size_t i = nodes.size(); i-- > 0;) mOpen.push_back({ nodes[i], parent });
+    }
+
+    GltfDocument const& mDocument;
+    std::vector<double4x4> const& mWorldFromNode;
+    GltfScene& mScene;
+    GltfDiagnostics& mDiagnostics;
+    std::vector<Open> mOpen;
+};
+
+std::vector<uint32_t> parentsOf(GltfDocument const& document) {
+    std::vector<uint32_t> parents(document.nodes.size(), kNone);
+    for (uint32_t i = 0; i < document.nodes.size(); ++i) {
+        for (const uint32_t child : document.nodes[i].children) parents[child] = i;
+    }
+    return parents;
+}
+
+/// The skins that nodes keep; those nodes get their numbers.
+void collectSkins(GltfDocument const& document, NodeList& nodes, GltfScene& scene, GltfDiagnostics& diagnostics) {
+    std::map<uint32_t, uint32_t> known; // of the file -> of the scene
+    const std::vector<uint32_t> parents = parentsOf(document);
+    const size_t shown = scene.nodes.size();
+    for (size_t i = 0; i < shown && diagnostics.ok(); ++i) {
+        const uint32_t source = scene.nodes[i].skin;
+        if (source == kNone) continue;
+        const auto [entry, isNew] = known.try_emplace(source, static_cast<uint32_t>(scene.skins.size()));
+        scene.nodes[i].skin = entry->second;
+        if (!isNew) continue;
+        GltfSkin const& skin = document.skins[source];
+        SkinData data{ skin.name,
+                       {},
+                       readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics) };
+        data.jointFromBind.resize(skin.joints.size(), float4x4(1.0f));
+        for (uint32_t joint : skin.joints) {
+            uint32_t top = joint;
+            while (parents[top] != kNone) top = parents[top];
+            if (scene.nodeOf[joint] == kNone) nodes.add({ top }, nullptr);
+            data.joints.push_back(scene.nodeOf[joint]);
+        }
+        scene.skins.push_back(std::move(data));
     }
 }
 
 } // namespace
 
-GltfScene planScene(GltfDocument const& document, GltfDiagnostics& diagnostics) {
+GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, GltfDiagnostics& diagnostics) {
     GltfScene scene;
+    scene.nodeOf.resize(document.nodes.size(), kNone);
+    scene.meshNodes.resize(document.nodes.size());
     const std::vector<double4x4> worldFromNode = worldTransforms(document, diagnostics);
-    RequestList requests(document, worldFromNode, scene, diagnostics);
-    struct Open {
-        uint32_t node, parent; // of the document; of the scene
-    };
-    std::vector<Open> open;
-    const auto push = [&](std::vector<uint32_t> const& nodes, uint32_t parent) {
-        for (size_t i = nodes.size(); i-- > 0;) open.push_back({ nodes[i], parent });
-    };
-    push(document.roots, kNone);
-    while (!open.empty() && diagnostics.ok()) {
-        const auto [node, parent] = open.back();
-        open.pop_back();
-        GltfNode const& source = document.nodes[node];
-        const auto added = static_cast<uint32_t>(scene.nodes.size());
-        scene.nodes.push_back({ .name = source.name,
-                                .parent = parent,
-                                .parentFromNode = source.parentFromNode,
-                                .worldFromNode = worldFromNode[node],
-                                .light = source.light,
-                                .morphWeights = {} });
-        if (source.mesh != kNone) placeMesh(document, node, added, requests, scene, diagnostics);
-        push(source.children, added);
-    }
+    RequestList requests(document, worldFromNode, deformation, scene, diagnostics);
+    NodeList nodes(document, worldFromNode, scene, diagnostics);
+    nodes.add(document.roots, &requests);
+    collectSkins(document, nodes, scene, diagnostics);
     return scene;
 }
 

@@ -7,7 +7,8 @@
 ///           own, one of the same name follows the file's: a child for each instance of EXT_mesh_gpu_instancing, a root
 ///           for a skinned mesh, whose place does not depend on its node (section 3.7.3.3).
 ///   Thread  one. Cost: linear in the nodes.
-///   Limits  2^20 instances of EXT_mesh_gpu_instancing a node.
+///           Joints outside of the default scene come with the nodes above and below them, without their meshes.
+///   Limits  2^20 instances of EXT_mesh_gpu_instancing a node; skins of more than 256 joints are not kept.
 ///   Fails   Corrupt: a transform that is not finite, a skin without joints, instance attributes of different length.
 #pragma once
 
@@ -22,14 +23,19 @@ struct GltfMeshRequest {
     uint32_t mesh = kNone;
     uint32_t skin = kNone;
     std::vector<float> weights;
-    std::vector<float4x4> worldFromBind; ///< per joint; empty without a skin
+    std::vector<float4x4> worldFromBind;          ///< per joint, at rest; empty without a skin
+    bool keepsSkin = false, keepsTargets = false; ///< else: the vertices are moved to where they are at rest
 };
 
 struct GltfScene {
     std::vector<NodeData> nodes;
     std::vector<GltfMeshRequest> meshes;
+    std::vector<SkinData> skins; ///< those that requests keep
+
+    std::vector<uint32_t> nodeOf;                 ///< by node of the file: into `nodes`, or kNone
+    std::vector<std::vector<uint32_t>> meshNodes; ///< by node of the file: where its mesh stands
 };
 
-GltfScene planScene(GltfDocument const& document, GltfDiagnostics& diagnostics);
+GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, GltfDiagnostics& diagnostics);
 
 } // namespace filament::assets

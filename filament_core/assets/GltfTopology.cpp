@@ -46,6 +46,26 @@ float3 flatNormal(float3 p0, float3 p1, float3 p2) {
     return length > 0 ? float3(normal / length) : float3(0, 0, 1);
 }
 
+/// Of triangles whose corners follow each other.
+std::vector<float3> flatNormals(std::vector<float3> const& corners) {
+    std::vector<float3> normals(corners.size());
+    for (size_t i = 0; i + 2 < corners.size(); i += 3) {
+        std::fill_n(&normals[i], 3, flatNormal(corners[i], corners[i + 1], corners[i + 2]));
+    }
+    return normals;
+}
+
+/// The normals of a target are those of its own triangles (section 3.7.2.2).
+void addFlatNormals(GltfGeometry const& geometry, MorphTargetData& target) {
+    target.tangents.clear();
+    target.normals.clear();
+    if (target.positions.empty()) return;
+    std::vector<float3> moved = geometry.positions;
+    for (size_t i = 0; i < moved.size(); ++i) moved[i] += target.positions[i];
+    target.normals = flatNormals(moved);
+    for (size_t i = 0; i < moved.size(); ++i) target.normals[i] -= geometry.normals[i];
+}
+
 } // namespace
 
 void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
@@ -103,11 +123,8 @@ void addFlatNormals(GltfGeometry& geometry) {
     reorderVertices(geometry, corners);
     geometry.indices.resize(corners.size());
     std::iota(geometry.indices.begin(), geometry.indices.end(), 0u);
-    geometry.normals.resize(corners.size());
-    for (size_t i = 0; i + 2 < corners.size(); i += 3) {
-        auto const* p = &geometry.positions[i];
-        std::fill_n(&geometry.normals[i], 3, flatNormal(p[0], p[1], p[2]));
-    }
+    geometry.normals = flatNormals(geometry.positions);
+    for (MorphTargetData& target : geometry.targets) addFlatNormals(geometry, target);
     geometry.wasIndexed = false;
 }
 

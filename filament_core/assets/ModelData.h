@@ -6,7 +6,9 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
+#include "filament_core/assets/Animation.h"
 #include "filament_core/assets/Image.h"
+#include "filament_core/assets/NodePose.h"
 #include "filament_core/math/Math.h"
 
 #include <filament/Quality.h>
@@ -45,17 +47,34 @@ struct MaterialData {
     bool unlit = false;
 };
 
+/// Who applies skins and morph targets.
+enum class GltfDeformation : uint8_t {
+    AtRest, ///< the loader, once: the vertices are those of the rest pose
+    Kept,   ///< the device, every frame
+};
+
 /// How vertices are stored (<filament/Quality.h>).
 struct GeometryStorage {
     PositionStorage positions = PositionStorage::AsAuthored;
     TangentStorage tangents = TangentStorage::Snorm16;
 };
 
+/// A closed box; empty where min > max.
+struct BoundsData {
+    float3 min{ 3e38f }, max{ -3e38f };
+    void add(float3 point) { min = glm::min(min, point), max = glm::max(max, point); }
+};
+
+/// Differences from the vertices of a primitive; an empty list: no difference.
+struct MorphTargetData {
+    std::vector<float3> positions, normals, tangents;
+};
+
 /// One draw's worth of geometry. Positions and all other attributes are interleaved in one stream.
 struct PrimitiveData {
     backend::Topology topology = backend::Topology::Triangles;
     backend::VertexLayout
-            layout{}; ///< buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4)
+            layout{}; ///< buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4, ...)
     std::vector<std::byte> vertices;
     std::vector<std::byte> indices; ///< always indexed
     backend::IndexType indexType = backend::IndexType::UInt16;
@@ -66,6 +85,12 @@ struct PrimitiveData {
     float positionScale = 1;
     bool hasColor = false, hasUv0 = false, hasUv1 = false;
     bool hasTangents = false; ///< false: no normals could be made either (points, lines)
+
+    // What the loader leaves to the device (GltfDeformation::Kept)
+    bool isSkinned = false;               ///< vertices have joints and weights, whose sum is 1
+    std::vector<BoundsData> boneBounds{}; ///< by joint, of the vertices that it moves; as far as the last of those
+    std::vector<MorphTargetData> morphTargets{};
+    BoundsData restBounds{}; ///< in the space that positions end in, with the weights and joints of the rest pose
 };
 
 struct MeshData {
@@ -92,7 +117,15 @@ struct NodeData {
     double4x4 worldFromNode{ 1.0 }; ///< of the rest pose: the product from the root down
     uint32_t mesh = kNone;
     uint32_t light = kNone;
-    std::vector<float> morphWeights; ///< applied by the loader to the rest pose already
+    std::vector<float> morphWeights; ///< of the rest pose; GltfDeformation::AtRest: applied by the loader already
+    uint32_t skin = kNone;           ///< into ModelData::skins; moves the skinned primitives of `mesh`
+    NodePose pose{};                 ///< parentFromNode in parts: where animations start
+};
+
+struct SkinData {
+    std::string name;
+    std::vector<uint32_t> joints; ///< into ModelData::nodes
+    std::vector<float4x4> jointFromBind;
 };
 
 struct ModelData {
@@ -102,7 +135,9 @@ struct ModelData {
     std::vector<MeshData> meshes;
     std::vector<NodeData> nodes; ///< of the default scene, parents before children
     std::vector<LightData> lights;
-    std::vector<std::string> warnings; ///< one line each: unsupported extensions, repaired values
+    std::vector<SkinData> skins;           ///< with GltfDeformation::Kept
+    std::vector<AnimationData> animations; ///< with GltfDeformation::Kept
+    std::vector<std::string> warnings;     ///< one line each: unsupported extensions, repaired values
 };
 
 } // namespace filament::assets

@@ -3,9 +3,11 @@
 
 #include "filament_core/assets/GltfLoader.h"
 #include "filament_core/base/OutOfMemory.h"
+#include "filament_core/base/Suggest.h"
 #include "filament_core/engine/GltfMaterials.h"
 #include "filament_core/engine/ModelImpl.h"
 
+#include <algorithm>
 #include <cmath>
 #include <map>
 #include <utility>
@@ -42,6 +44,7 @@ public:
     std::unique_ptr<Model::Impl> build() {
         mModel->name = mData.name;
         mModel->warnings = mData.warnings;
+        mModel->animations = mData.animations;
         uploadImages();
         uploadMeshes();
         placeNodes();
@@ -53,6 +56,8 @@ private:
         RenderableDesc desc{};
         double4x4 meshFromPositions{ 1.0 };
         bool isScaled = false;
+        bool isSkinned = false;
+        Box restBounds{}; ///< in the space of the mesh, or of its skin
     };
 
     void uploadImages() {
@@ -75,8 +80,11 @@ private:
             for (PrimitiveData const& primitive : mesh.primitives) {
                 MaterialInstance& instance = instances[{ primitive.material, primitive.hasColor }];
                 if (!instance) instance = materials.instanceFor(materialOf(primitive), primitive.hasColor);
-                parts.push_back({ upload(primitive, instance, mesh.name), meshFromPositions(primitive),
-                                  primitive.positionScale != 1 || primitive.positionOffset != float3(0) });
+                parts.push_back({ upload(primitive, instance, mesh.name),
+                                  meshFromPositions(primitive),
+                                  primitive.positionScale != 1 || primitive.positionOffset != float3(0),
+                                  primitive.isSkinned,
+                                  { double3(primitive.restBounds.min), double3(primitive.restBounds.max) } });
             }
         }
     }
@@ -111,30 +119,61 @@ private:
                  .primitive = primitiveType(primitive.topology),
                  .boundsMin = primitive.boundsMin,
                  .boundsMax = primitive.boundsMax,
+                 .boneBounds = boneBounds(primitive),
+                 .morphTargets = uploadTargets(primitive, name),
                  .name = name };
+    }
+
+    static std::vector<BoneBounds> boneBounds(PrimitiveData const& primitive) {
+        std::vector<BoneBounds> bounds;
+        for (assets::BoundsData const& bone : primitive.boneBounds) bounds.push_back({ bone.min, bone.max });
+        return bounds;
+    }
+
+    MorphTargets uploadTargets(PrimitiveData const& primitive, std::string const& name) {
+        if (primitive.morphTargets.empty()) return {};
+        MorphTargetsDesc desc{ .vertexCount = primitive.vertexCount, .name = name };
+        for (assets::MorphTargetData const& target : primitive.morphTargets) {
+            desc.targets.push_back({ target.positions, target.normals, target.tangents });
+        }
+        mModel->morphTargets.push_back({});
+        return mModel->morphTargets.back() = mEngine.createMorphTargets(desc);
     }
 
     void placeNodes() {
         for (uint32_t i = 0; i < mData.nodes.size(); ++i) {
             assets::NodeData const& node = mData.nodes[i];
             const uint32_t parent = node.parent == kNone ? Model::Impl::kRoot : node.parent;
-            mModel->nodes.push_back({ node.name, parent, node.parentFromNode });
-            if (node.mesh != kNone) {
-                for (Part const& part : mMeshes[node.mesh]) placePart(part, i, node.worldFromNode);
-            }
+            mModel->nodes.push_back({ node.name, parent, node.parentFromNode, node.pose });
+            if (node.mesh != kNone) placeMesh(node, i);
             if (node.light != kNone) mModel->lights.push_back({ lightOf(mData.lights[node.light]), i });
         }
         // Behind the nodes of the file, whose parents are numbers.
         for (Model::Impl::PartNode& node : mScalingNodes) mModel->nodes.push_back(std::move(node));
     }
 
+    void placeMesh(assets::NodeData const& node, uint32_t at) {
+        uint32_t skin = Model::Impl::kNoSkin;
+        if (node.skin != kNone && std::ranges::any_of(mMeshes[node.mesh], &Part::isSkinned)) {
+            assets::SkinData const& source = mData.skins[node.skin];
+            skin = static_cast<uint32_t>(mModel->skins.size());
+            mModel->skins.push_back({ at, source.joints, source.jointFromBind });
+        }
+        for (Part const& part : mMeshes[node.mesh]) {
+            placePart(part, at, node.worldFromNode);
+            Model::Impl::PartRenderable& placed = mModel->renderables.back();
+            if (part.isSkinned) placed.skin = skin;
+            if (placed.desc.morphTargets) placed.desc.morphWeights = node.morphWeights;
+        }
+    }
+
     /// Positions that fill a unit cube hang at a node of their own, which makes them as large as they are.
     void placePart(Part const& part, uint32_t node, double4x4 const& worldFromNode) {
-        growBounds(part.desc, worldFromNode * part.meshFromPositions);
+        growBounds(part.restBounds, worldFromNode);
         uint32_t at = node;
         if (part.isScaled) {
             at = static_cast<uint32_t>(mData.nodes.size() + mScalingNodes.size());
-            mScalingNodes.push_back({ part.desc.name + " positions", node, part.meshFromPositions });
+            mScalingNodes.push_back({ part.desc.name + " positions", node, part.meshFromPositions, {} });
         }
         mModel->renderables.push_back({ part.desc, at });
     }
@@ -145,8 +184,8 @@ private:
         return matrix;
     }
 
-    void growBounds(RenderableDesc const& part, double4x4 const& modelFromPart) {
-        const CenteredBox box = boxFromMinMax(part.boundsMin, part.boundsMax);
+    void growBounds(Box const& part, double4x4 const& modelFromPart) {
+        const CenteredBox box = boxFromMinMax(float3(part.min), float3(part.max));
         const double3 center(modelFromPart * double4(double3(box.center), 1.0));
         const double3 half(transformedHalfExtent(modelFromPart, box.halfExtent));
         mModel->bounds.min = glm::min(mModel->bounds.min, center - half);
@@ -192,6 +231,7 @@ Model::Impl::~Impl() {
     };
     destroyAll(instances);
     destroyAll(materials);
+    destroyAll(morphTargets);
     destroyAll(vertexBuffers);
     destroyAll(indexBuffers);
     destroyAll(textures);
@@ -206,12 +246,38 @@ std::string const& Model::name() const { return mImpl->name; }
 Box Model::bounds() const { return mImpl->bounds; }
 size_t Model::renderableCount() const { return mImpl->renderables.size(); }
 std::vector<std::string> const& Model::warnings() const { return mImpl->warnings; }
+uint32_t Model::animationCount() const { return static_cast<uint32_t>(mImpl->animations.size()); }
+
+std::string const& Model::animationName(uint32_t animation) const {
+    FILAMENT_ASSERT(animation < animationCount(), "an animation is one of the model's");
+    return mImpl->animations[animation].name;
+}
+
+double Model::animationSeconds(uint32_t animation) const {
+    FILAMENT_ASSERT(animation < animationCount(), "an animation is one of the model's");
+    return mImpl->animations[animation].durationSeconds;
+}
+
+Result<uint32_t> Model::findAnimation(std::string_view name) const {
+    std::vector<std::string_view> names;
+    for (assets::AnimationData const& animation : mImpl->animations) {
+        if (animation.name == name) return static_cast<uint32_t>(names.size());
+        names.push_back(animation.name);
+    }
+    if (names.empty()) return fail(ErrorCode::NotFound, "{} has no animations, so none is '{}'", mImpl->name, name);
+    std::string known;
+    for (const std::string_view other : names) known += fmt::format("{}'{}'", known.empty() ? "" : ", ", other);
+    return fail(ErrorCode::NotFound, "{} has no animation '{}' among {}{}", mImpl->name, name, known,
+                suggestion(name, names));
+}
 
 namespace {
 
 Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path const& path,
                                           GltfLoadOptions const& options) {
-    assets::GltfOptions loaderOptions{ .storage = { options.positions, options.tangents } };
+    assets::GltfOptions loaderOptions{ .storage = { options.positions, options.tangents },
+                                       .deformation = options.deformable ? assets::GltfDeformation::Kept
+                                                                         : assets::GltfDeformation::AtRest };
     if (options.progress) {
         loaderOptions.progress = [&](assets::GltfStage stage, size_t done, size_t total) {
             options.progress(stage == assets::GltfStage::Structure ? "reading" : "decoding", done, total);

@@ -2,6 +2,8 @@
 /// Model::Impl: what loadGltf made, owned until the model is destroyed.
 #pragma once
 
+#include "filament_core/assets/Animation.h"
+#include "filament_core/assets/NodePose.h"
 #include "filament_core/engine/EngineImpl.h"
 
 #include <filament/Gltf.h>
@@ -15,14 +17,23 @@ namespace filament {
 struct Model::Impl {
     static constexpr uint32_t kRoot = ~0u; ///< the node that a copy of the model hangs below
 
+    static constexpr uint32_t kNoSkin = ~0u;
+
     struct PartNode {
         std::string name;
         uint32_t parent = kRoot; ///< into `nodes`, before this one
         double4x4 parentFromNode{ 1.0 };
+        assets::NodePose pose{}; ///< the same in parts
+    };
+    struct PartSkin {
+        uint32_t node = kRoot;        ///< into `nodes`: where the renderables hang
+        std::vector<uint32_t> joints; ///< into `nodes`
+        std::vector<float4x4> jointFromBind;
     };
     struct PartRenderable {
-        RenderableDesc desc;   ///< its node is that of a copy: none yet
-        uint32_t node = kRoot; ///< into `nodes`
+        RenderableDesc desc;     ///< its node and skin are those of a copy: none yet
+        uint32_t node = kRoot;   ///< into `nodes`
+        uint32_t skin = kNoSkin; ///< into `skins`
     };
     struct PartLight {
         std::variant<SunLight, PointLight, SpotLight> light; ///< in the node's space
@@ -35,12 +46,15 @@ struct Model::Impl {
     Engine::Impl& engine;
     std::string name;
     std::vector<PartNode> nodes; ///< parents before children
+    std::vector<PartSkin> skins;
     std::vector<PartRenderable> renderables;
+    std::vector<assets::AnimationData> animations; ///< their nodes are those of `nodes`
     std::vector<PartLight> lights;
     std::vector<std::string> warnings;
     Box bounds;
 
     std::vector<Texture> textures;
+    std::vector<MorphTargets> morphTargets;
     std::vector<VertexBuffer> vertexBuffers;
     std::vector<IndexBuffer> indexBuffers;
     std::vector<Material> materials;

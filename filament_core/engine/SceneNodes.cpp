@@ -20,9 +20,17 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
     for (Model::Impl::PartNode const& node : parts.nodes) {
         nodes.push_back(add(NodeDesc{ at(node.parent), node.parentFromNode, node.name }));
     }
+    std::vector<Skin> skins;
+    std::vector<Node> joints;
+    for (Model::Impl::PartSkin const& skin : parts.skins) {
+        joints.clear();
+        for (const uint32_t joint : skin.joints) joints.push_back(at(joint));
+        skins.push_back(add(SkinDesc{ at(skin.node), joints, skin.jointFromBind }));
+    }
     for (Model::Impl::PartRenderable const& part : parts.renderables) {
         RenderableDesc desc = part.desc;
         desc.node = at(part.node);
+        if (part.skin != Model::Impl::kNoSkin) desc.skin = skins[part.skin];
         add(desc);
     }
     for (Model::Impl::PartLight const& part : parts.lights) {

@@ -22,6 +22,9 @@ using LoadProgress = std::function<void(std::string_view stage, size_t done, siz
 struct GltfLoadOptions {
     PositionStorage positions = PositionStorage::AsAuthored;
     TangentStorage tangents = TangentStorage::Snorm16;
+    /// False: skins and morph targets are applied once, for the rest pose, and animations are left out: cheaper to
+    /// draw.
+    bool deformable = true;
     LoadProgress progress{};
 };
 
@@ -32,9 +35,16 @@ public:
     ~Model();
 
     std::string const& name() const;
-    Box bounds() const; ///< of all parts, in model space
+    Box bounds() const; ///< of all parts at rest, in model space
     size_t renderableCount() const;
     std::vector<std::string> const& warnings() const; ///< unsupported extensions, repaired values
+
+    // Animations are played by an Animator (<filament/Animator.h>).
+    uint32_t animationCount() const;
+    std::string const& animationName(uint32_t animation) const; ///< may be empty, need not be unique
+    double animationSeconds(uint32_t animation) const;          ///< when its last key is
+    /// The first of this name; NotFound says which there are.
+    Result<uint32_t> findAnimation(std::string_view name) const;
 
     struct Impl;
     Impl const& impl() const { return *mImpl; }

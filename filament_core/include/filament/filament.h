@@ -2,6 +2,7 @@
 /// The whole public API. Start at Engine.h; samples/hello is the shortest complete program.
 #pragma once
 
+#include <filament/Animator.h>
 #include <filament/Backend.h>
 #include <filament/Box.h>
 #include <filament/Camera.h>

@@ -4,6 +4,7 @@
 #pragma once
 
 #include "filament_core/assets/GltfLoader.h"
+#include "shaders/interface/ShaderInterface.h"
 
 #include <algorithm>
 #include <cmath>
@@ -38,7 +39,9 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
     if (p.indices.size() != p.indexCount * indexBytes) return "index bytes";
     if (p.layout.buffers[0].stride % 4 != 0) return "stride";
     for (uint32_t i = 0; i < p.layout.attributeCount; ++i) {
-        if (backend::vertexFormatInfo(p.layout.attributes[i].format).integer) return "integer attribute";
+        const uint8_t location = p.layout.attributes[i].location;
+        const bool isJoints = location == shader::kAttributeJoints || location == shader::kAttributeJoints1;
+        if (backend::vertexFormatInfo(p.layout.attributes[i].format).integer != isJoints) return "integer attribute";
     }
     for (size_t i = 0; i < p.indexCount; ++i) {
         uint32_t index = 0; // little-endian: two bytes are the low half
@@ -49,6 +52,14 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
     if (p.material != kNone && p.material >= model.materials.size()) return "material index";
     for (int axis = 0; axis < 3; ++axis) {
         if (!std::isfinite(p.boundsMin[axis]) || !(p.boundsMin[axis] <= p.boundsMax[axis])) return "bounds";
+        if (!(p.restBounds.min[axis] <= p.restBounds.max[axis])) return "bounds at rest";
+    }
+    if (p.boneBounds.size() > shader::kMaxBones || p.morphTargets.size() > shader::kMaxMorphTargets)
+        return "deformation limits";
+    for (MorphTargetData const& target : p.morphTargets) {
+        for (auto const* list : { &target.positions, &target.normals, &target.tangents }) {
+            if (!list->empty() && list->size() != p.vertexCount) return "morph target";
+        }
     }
     return nullptr;
 }
@@ -68,6 +79,25 @@ inline const char* brokenPromise(ModelData const& model, NodeData const& node) {
     return nullptr;
 }
 
+inline const char* brokenPromise(ModelData const& model, SkinData const& skin) {
+    if (skin.joints.empty() || skin.joints.size() > shader::kMaxBones) return "joint count";
+    if (skin.joints.size() != skin.jointFromBind.size()) return "bind matrices";
+    return std::ranges::all_of(skin.joints, [&](uint32_t joint) { return joint < model.nodes.size(); }) ? nullptr
+                                                                                                        : "joints";
+}
+
+inline const char* brokenPromise(ModelData const& model, AnimationData const& animation) {
+    std::vector<double> value;
+    for (AnimationChannel const& channel : animation.channels) {
+        if (channel.node >= model.nodes.size() || channel.sampler >= animation.samplers.size()) return "channel";
+        AnimationSampler const& sampler = animation.samplers[channel.sampler];
+        value.resize(sampler.width);
+        for (const double seconds : { -1.0, 0.0, animation.durationSeconds / 3, animation.durationSeconds, 1e9 })
+            sampleAnimation(sampler, seconds, value);
+    }
+    return std::isfinite(animation.durationSeconds) ? nullptr : "duration";
+}
+
 /// The first promise of ModelData.h that the model breaks; null if it keeps all.
 inline const char* brokenPromise(ModelData const& model) {
     const char* broken = nullptr;
@@ -79,6 +109,8 @@ inline const char* brokenPromise(ModelData const& model) {
     check(model.images);
     check(model.materials);
     check(model.nodes);
+    check(model.skins);
+    check(model.animations);
     for (MeshData const& mesh : model.meshes) check(mesh.primitives);
     return broken;
 }
@@ -87,8 +119,11 @@ inline const char* brokenPromise(ModelData const& model) {
 inline bool fuzzGltf(std::span<const std::byte> file, std::filesystem::path const& baseDirectory = "no such folder") {
     jobs::JobSystem jobs({ .workers = 0 });
     const Result<ModelData> model = loadGltfFromMemory(file, baseDirectory, jobs);
-    const char* broken = nullptr;
-    if (model) broken = brokenPromise(*model);
+    const Result<ModelData> kept =
+            loadGltfFromMemory(file, baseDirectory, jobs, { .deformation = GltfDeformation::Kept });
+    const char* broken = kept ? brokenPromise(*kept) : nullptr;
+    if (!broken && !kept && kept.error().message.empty()) broken = "message";
+    if (model && !broken) broken = brokenPromise(*model);
     if (!model && (model.error().message.empty() || model.error().message.find('\n') != std::string::npos))
         broken = "message";
     if (broken) {

@@ -42,6 +42,32 @@ TEST(GltfGeometry, LoopsCloseAndLineStripsDoNot) {
     EXPECT_THAT(cornersOf(strip), ElementsAre(kA, kB, kB, kC, kC, kD));
 }
 
+TEST(GltfGeometry, StripsThatStitchWithRepeatedIndicesStayFinite) {
+    TestFile file = TestFile::triangle();
+    file.primitive()["mode"] = 5;
+    file.indices({ 0, 1, 2, 2, 0, 0, 1, 2 });
+    const PrimitiveData primitive = onlyPrimitive(file);
+    EXPECT_EQ(primitive.indexCount, 18u) << "triangles without area are drawn as nothing";
+    for (uint32_t i = 0; i < primitive.vertexCount; ++i) {
+        const float4 frame = vertexValue(primitive, shader::kAttributeTangents, i);
+        EXPECT_EQ(frame - frame, float4(0));
+    }
+    file.indices({ 0, 1, 2, 65535, 0, 1, 2 }); // glTF has no primitive restart
+    EXPECT_THAT(file.load().error().message, HasSubstr("65535 is out of range"));
+}
+
+TEST(GltfGeometry, InstancesMayHaveNormalisedIntegersAsRotations) {
+    TestFile file = TestFile::triangle();
+    const size_t bytes = file.add(std::vector<int8_t>{ 0, 0, 127, 0, 0, 0, 0, 127 }, kByte, "VEC4", 4, true);
+    const size_t scales = file.add(std::vector<float>{ 1, 1, 1, 2, 2, 2 }, kFloat, "VEC3", 3);
+    file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"] = { { "ROTATION", bytes },
+                                                                                     { "SCALE", scales } };
+    const ModelData model = loaded(file);
+    ASSERT_EQ(model.nodes.size(), 3u);
+    EXPECT_NEAR(model.nodes[1].parentFromNode[0].x, -1, 1e-9) << "half a turn about z";
+    EXPECT_NEAR(model.nodes[2].parentFromNode[1].y, 2, 1e-9);
+}
+
 TEST(GltfGeometry, PointsHaveNoTangentFrameUnlessTheFileGivesNormals) {
     TestFile file = fourPoints(0);
     EXPECT_FALSE(onlyPrimitive(file).hasTangents);
