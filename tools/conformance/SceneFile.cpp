@@ -74,6 +74,13 @@ void readGeometry(JsonReader& reader, GltfLoadOptions& options) {
     reader.choice("tangents", options.tangents, "snorm16, snorm8 or float", tangentStorageFromName);
 }
 
+void readAnimation(JsonReader& reader, SceneSpec& spec) {
+    reader.read("index", spec.animation, 0, 1000);
+    double seconds = 0;
+    reader.read("seconds", seconds, -1e6, 1e6);
+    spec.animationSeconds = seconds;
+}
+
 void readCamera(JsonReader& reader, SceneSpec& spec) {
     double3 eye(0.0);
     if (reader.has("eye")) {
@@ -144,6 +151,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
         reader.complain("model", "a scene needs one: a path, \"asset:PATH\" or { \"objects\": [...] }");
     reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
     reader.object("geometry", [&](JsonReader& r) { readGeometry(r, spec.modelOptions); });
+    reader.object("animation", [&](JsonReader& r) { readAnimation(r, spec); });
     reader.objects("suns", [&](JsonReader& r) { readSun(r, spec); });
     reader.objects("points", [&](JsonReader& r) { readPoint(r, spec); });
     reader.objects("spots", [&](JsonReader& r) { readSpot(r, spec); });

@@ -43,6 +43,8 @@ struct SceneSpec {
     EnvironmentSettings environmentSettings{};
     EnvironmentLoadOptions environmentOptions{ .faceSize = 64, .samples = 128 };
     GltfLoadOptions modelOptions{};
+    std::optional<double> animationSeconds; ///< none: the model is at rest
+    uint32_t animation = 0;                 ///< which one of the file
     std::vector<LightSpec> lights;
     std::vector<double4x4> copies; ///< where the model stands; never empty
     double3 origin{ 0.0 };         ///< of everything: model, lights, camera

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Stage.h"
 
+#include "filament_core/base/Result.h"
+
+#include <filament/Animator.h>
 #include <fmt/core.h>
 
 namespace filament::conformance {
@@ -69,13 +72,21 @@ Result<void> Stage::loadSky(SceneSpec const& spec) {
     return {};
 }
 
-void Stage::placeModel(SceneSpec const& spec) {
+Result<void> Stage::placeModel(SceneSpec const& spec) {
     for (double4x4 const& copy : placedCopies(spec)) {
-        if (mMaterial)
+        if (mMaterial) {
             mMaterial->addTo(*mScene, copy);
-        else
-            mScene->add(*mModel, copy);
+            continue;
+        }
+        const Node root = mScene->add(*mModel, copy);
+        if (!spec.animationSeconds) continue;
+        if (spec.animation >= mModel->animationCount()) {
+            return fail(ErrorCode::NotFound, "{}: animation.index: {} of {} animations", spec.name, spec.animation,
+                        mModel->animationCount());
+        }
+        Animator(*mModel, *mScene, root).apply(spec.animation, *spec.animationSeconds);
     }
+    return {};
 }
 
 Result<void> Stage::set(SceneSpec const& spec) {
@@ -83,7 +94,7 @@ Result<void> Stage::set(SceneSpec const& spec) {
     if (Result<void> loaded = loadModel(spec); !loaded) return loaded;
     if (Result<void> loaded = loadSky(spec); !loaded) return loaded;
     mScene.emplace(mEngine);
-    placeModel(spec);
+    if (Result<void> placed = placeModel(spec); !placed) return placed;
     for (LightSpec const& light : placedLights(spec))
         std::visit([&](auto const& placed) { mScene->add(placed); }, light);
     if (!spec.environment.empty()) mScene->setEnvironment(*mEnvironment, spec.environmentSettings);

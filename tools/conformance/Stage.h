@@ -51,7 +51,7 @@ private:
     Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture);
 
     Result<void> loadModel(SceneSpec const& spec);
-    void placeModel(SceneSpec const& spec);
+    Result<void> placeModel(SceneSpec const& spec);
     Result<void> loadSky(SceneSpec const& spec);
 
     const StageOptions mOptions;

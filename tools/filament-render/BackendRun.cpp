@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/BackendRun.h"
 
+#include "tools/common/CommandLine.h"
 #include "tools/common/Console.h"
 #include "tools/filament-render/HeapCounter.h"
 #include "tools/materials/MaterialStand.h"
 
+#include <filament/Animator.h>
 #include <filament/Environment.h>
 #include <filament/Gltf.h>
 #include <filament/Scene.h>
@@ -46,7 +48,8 @@ View viewOf(Options const& options) {
     return { .camera = cameraOf(options),
              .size = options.size,
              .colorGrading = options.colorGrading,
-             .quality = options.quality };
+             .quality = options.quality,
+             .timeSeconds = options.seconds.value_or(0) };
 }
 
 Result<Engine> createEngine(Options const& options, Backend backend) {
@@ -78,6 +81,21 @@ std::vector<double4x4> placesOf(uint32_t copies, double4x4 const& worldFromModel
         places.push_back(grid * worldFromModel);
     }
     return places;
+}
+
+/// The animation that the command line means; none: the model stays at rest.
+Result<std::optional<uint32_t>> animationOf(Options const& options, Model const& model) {
+    const uint32_t count = model.animationCount();
+    if (options.animation.empty()) {
+        return options.seconds && count > 0 ? std::optional<uint32_t>(0) : std::optional<uint32_t>();
+    }
+    if (count > 0) {
+        const auto index = wholeNumber(options.animation, 0, count - 1);
+        if (index) return std::optional(*index);
+    }
+    const Result<uint32_t> named = model.findAnimation(options.animation);
+    if (!named) return fail(named.error().code, "--animation {}: {}", options.animation, named.error().message);
+    return std::optional(*named);
 }
 
 /// Everything between a living engine and its first picture, in the order in which it must end.
@@ -133,7 +151,12 @@ Result<void> Stage::loadModel(BackendRun& run, std::filesystem::path const& path
     run.modelName = mModel->name();
     run.warnings = mModel->warnings();
     const double4x4 worldFromModel = mOptions.fit ? fitToUnitCube(mModel->bounds()) : double4x4(1.0);
-    for (double4x4 const& place : placesOf(mOptions.copies, worldFromModel)) mScene.add(*mModel, place);
+    const Result<std::optional<uint32_t>> animation = animationOf(mOptions, *mModel);
+    if (!animation) return animation.error();
+    for (double4x4 const& place : placesOf(mOptions.copies, worldFromModel)) {
+        const Node copy = mScene.add(*mModel, place);
+        if (*animation) Animator(*mModel, mScene, copy).apply(**animation, mOptions.seconds.value_or(0));
+    }
     return {};
 }
 

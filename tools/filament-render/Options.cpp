@@ -5,6 +5,8 @@
 
 #include <CLI/CLI.hpp>
 
+#include <cmath>
+
 namespace filament::tools {
 namespace {
 
@@ -13,7 +15,7 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 /// The words of the options that only this program has.
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
-                affinity = "none", requireDevice, budget, costs, measureCosts;
+                affinity = "none", requireDevice, budget, costs, measureCosts, time, animation;
     std::vector<std::string> values;
 };
 
@@ -83,11 +85,22 @@ Result<void> convertValues(Words const& words, Options& options) {
     return {};
 }
 
+Result<void> convertTime(Words const& words, Options& options) {
+    options.animation = words.animation;
+    if (words.time.empty()) return {};
+    options.seconds = finiteNumber(words.time);
+    if (!options.seconds || std::abs(*options.seconds) > 1e6)
+        return invalidOption("--time", words.time, "seconds from -1e6 to 1e6");
+    return {};
+}
+
 void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--backend", words.backend, "vulkan, gles or both (default)")->default_str("both");
     app.add_option("--frames", words.frames, "frames to draw; the last one is saved (1)");
     app.add_option("--copies", words.copies, "draw the model so many times, on a grid (1)");
     app.add_option("--parameter", words.values, "NAME=VALUE: a parameter or constant of a material (repeatable)");
+    app.add_option("--time", words.time, "SECONDS: where the animation stands, and the time that materials see (0)");
+    app.add_option("--animation", words.animation, "NAME or INDEX of the animation to pose (with --time the first)");
     app.add_option("--tolerance", words.tolerance, "largest difference in 1/255 that still counts as equal (0)");
     app.add_option("--format", words.format, "png, or exr: scene-linear half floats before the tone mapper (png)");
     app.add_flag("--timing", options.timing, "print what start and frames cost");
@@ -123,7 +136,7 @@ Result<std::optional<Options>> parseOptions(int argc, const char* const* argv) {
     options.requireDevice = words.requireDevice;
     options.traceJobs = words.traceJobs;
     if (const Result<void> done = convertSceneOptions(sceneWords, options); !done) return done.error();
-    for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues }) {
+    for (auto convert : { convertChoices, convertCounts, convertThreads, convertBudget, convertValues, convertTime }) {
         if (const Result<void> done = convert(words, options); !done) return done.error();
     }
     return std::optional(std::move(options));

@@ -25,6 +25,8 @@ struct Options : SceneOptions {
     uint32_t copies = 1;                                     ///< of the model, on a grid
     uint32_t tolerance = 0;                                  ///< in 1/255
     PictureFormat format = PictureFormat::Png;
+    std::optional<double> seconds; ///< of the animation and of what materials see as time; none: at rest, 0
+    std::string animation;         ///< name or index; empty: the first, if there is a time
     bool timing = false, explain = false, trace = false;
     std::filesystem::path traceJobs; ///< empty: none
     int workers = -1;                ///< as EngineOptions::workers

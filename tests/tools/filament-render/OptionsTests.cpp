@@ -47,6 +47,15 @@ TEST(Options, WithoutArgumentsAreThoseOfTheManual) {
     EXPECT_EQ(options.out, "out");
 }
 
+TEST(Options, ATimeIsAnyFiniteNumberOfSecondsAndAnAnimationAnyWord) {
+    EXPECT_FALSE(parsed({}).seconds);
+    const Options options = parsed({ "--time", "-0.25", "--animation", "Walk" });
+    EXPECT_EQ(options.seconds, -0.25);
+    EXPECT_EQ(options.animation, "Walk");
+    EXPECT_THAT(refused({ "--time", "soon" }), HasSubstr("--time: 'soon'"));
+    EXPECT_THAT(refused({ "--time", "inf" }), HasSubstr("seconds from -1e6 to 1e6"));
+}
+
 TEST(Options, WhatIsChosenWhenFilesAreLoadedIsSetByNameAsWell) {
     const auto options =
             parsed({ "--set", "environment.format=RGBM", "--set", "environment.roughnessMapping=linear", "--set",
