@@ -38,7 +38,7 @@ struct DrawCall {
     uint32_t firstObject = 0;
     uint32_t instanceCount = 1;
     bool mirrored = false;
-    DrawPass pass = DrawPass::Only; ///< First and Second of an object follow each other
+    DrawPass pass = DrawPass::Only;             ///< First and Second of an object follow each other
     uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places
 };
 
