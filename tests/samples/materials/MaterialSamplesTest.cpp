@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Every material under samples/materials is drawn on both APIs: the same bits, nothing that a validation layer objects
 // to, and what the material shows is to be seen: without it the picture is another one.
-// Writes <build>/material-samples/NAME.png.
+// Writes <build>/material-samples/NAME.png, and all of them as sheet.png.
 #include "tests/samples/materials/SampleStage.h"
 #include "tests/samples/materials/SampleTable.h"
 
@@ -54,6 +54,17 @@ TEST_P(MaterialSamples, LookTheSameOnBothApisAndShowWhatTheyAreFor) {
 
 INSTANTIATE_TEST_SUITE_P(All, MaterialSamples, testing::ValuesIn(samples()),
                          [](auto const& test) { return test.param.name; });
+
+class Sheet : public testing::Environment {
+    void TearDown() override { saveSheet(); }
+};
+const testing::Environment* const gSheet = testing::AddGlobalTestEnvironment(new Sheet); // owned by gtest
+
+TEST(SampleFolder, IsListedInItsReadme) {
+    const std::string readme = textOf(fs::path(kSampleFolder) / "README.md");
+    for (fs::path const& file : sampleFiles())
+        EXPECT_NE(readme.find("`" + file.filename().string() + "`"), std::string::npos) << file.filename();
+}
 
 TEST(SampleFolder, HasAtLeastThirtyMaterialsAndEachIsDrawn) {
     std::set<std::string> drawn, files;

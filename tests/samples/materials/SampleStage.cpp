@@ -9,12 +9,15 @@
 
 #include <cmath>
 #include <cstring>
+#include <map>
 
 namespace filament::samples {
 namespace {
 
 namespace fs = std::filesystem;
 using namespace conformance;
+
+std::map<std::string, Image> gSaved; ///< by name
 
 fs::path workFolder() { return fs::path(FILAMENT_BINARY_DIR) / "material-samples"; }
 
@@ -92,7 +95,26 @@ float spread(Picture const& picture) {
 }
 
 void save(std::string const& name, Picture const& picture) {
-    const Result<void> saved = savePng(workFolder() / (name + ".png"), displayed(picture));
+    const Image& shown = gSaved[name] = displayed(picture);
+    const Result<void> saved = savePng(workFolder() / (name + ".png"), shown);
+    EXPECT_TRUE(saved.ok()) << (saved.ok() ? "" : saved.error().message);
+}
+
+void saveSheet() {
+    constexpr uint32_t kColumns = 9, kSide = 96;
+    const auto rows = (static_cast<uint32_t>(gSaved.size()) + kColumns - 1) / kColumns;
+    Image sheet{ .width = kColumns * kSide, .height = rows * kSide };
+    sheet.pixels.resize(size_t{ sheet.width } * sheet.height * 4);
+    uint32_t index = 0;
+    for (auto const& [name, image] : gSaved) {
+        const uint32_t left = index % kColumns * kSide, top = index / kColumns * kSide;
+        for (uint32_t y = 0; y < std::min(kSide, image.height); ++y) {
+            std::memcpy(&sheet.pixels[(size_t{ top + y } * sheet.width + left) * 4],
+                        &image.pixels[size_t{ y } * image.width * 4], size_t{ std::min(kSide, image.width) } * 4);
+        }
+        ++index;
+    }
+    const Result<void> saved = savePng(workFolder() / "sheet.png", sheet);
     EXPECT_TRUE(saved.ok()) << (saved.ok() ? "" : saved.error().message);
 }
 

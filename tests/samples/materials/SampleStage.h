@@ -25,5 +25,7 @@ size_t differingPixels(Picture const& a, Picture const& b);
 double mean(Picture const& picture);
 float spread(Picture const& picture); ///< standard deviation
 void save(std::string const& name, Picture const& picture);
+/// All that were saved by this process, in the order of the alphabet, row by row: sheet.png.
+void saveSheet();
 
 } // namespace filament::samples

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <iterator>
 #include <span>
 #include <string>
 
@@ -130,6 +131,10 @@ constexpr Broken kCode[] = {
     { "material { shadingModel : unlit }\nvertex {\n}\n" GOOD_FRAGMENT,
       "a.mat:2: this block must define void materialVertex(inout MaterialVertexInputs material)" },
 };
+
+static_assert(std::size(kSyntax) + std::size(kValues) + std::size(kContradictions) + std::size(kMisspelt) +
+                      std::size(kCode) >=
+              40);
 
 void expectMessages(std::span<const Broken> materials) {
     for (Broken const& broken : materials) {
