@@ -186,7 +186,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
     if (done) done = out.include("shaders/lib/occlusion.glsl");
     if (done && needs.has("HAS_AMBIENT_OCCLUSION")) done = out.include("shaders/lib/ao.glsl");
-    if (done && needs.has("HAS_IRIDESCENCE")) done = out.include("shaders/lib/iridescence.glsl");
+    if (done && needs.has("HAS_IRIDESCENCE"))
+        done = includeAll(out, { "shaders/lib/iridescence.glsl", "shaders/lib/refraction.glsl" });
     if (done && refracts(definition))
         done = includeAll(out, { "shaders/lib/specular.glsl", "shaders/lib/refraction.glsl" });
     if (done) done = out.include("shaders/material/surface_output.glsl");

@@ -19,13 +19,19 @@ Film filmOf(MaterialInputs material) {
     return film;
 }
 
-highp vec3 filmReflectance(Film film, highp float cosine) {
+// cosine: in what lies above.
+highp vec3 reflectanceBelow(Film film, highp float cosine) {
     return fresnelIridescent(film.outsideIor, film.ior, film.baseF0, film.thickness, cosine);
+}
+
+// cosine: in air. Below a coat light is steeper, else films of a lesser index than the coat's would reflect it totally.
+highp vec3 filmReflectance(Film film, highp float cosine) {
+    return reflectanceBelow(film, refractedCosine(cosine, film.outsideIor));
 }
 
 // For lobes that take an f0. Where everything is reflected it cannot be told: the film stays as it is a little before.
 const float kMinFilmCosine = 0.03125;
 highp vec3 filmF0(Film film, highp float nov) {
-    highp float cosine = max(nov, kMinFilmCosine);
-    return f0FromFresnel(filmReflectance(film, cosine), cosine);
+    highp float cosine = max(refractedCosine(nov, film.outsideIor), kMinFilmCosine);
+    return f0FromFresnel(reflectanceBelow(film, cosine), cosine);
 }

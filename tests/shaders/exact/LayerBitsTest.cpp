@@ -255,6 +255,15 @@ TEST_F(LayerBits, AFilmColorsAMetalAndGainsNothing) {
     EXPECT_GT(distance(render(lights(scene(metal, 350)), 0), render(lights(scene(metal, 520)), 0)), 0.02f);
 }
 
+TEST_F(LayerBits, AFilmBelowACoatOfAGreaterIndexReflectsNoLightTotally) {
+    const std::string coated = std::string(kBlack) + "m.metallic = 1.0; m.roughness = 0.1; m.clearCoat = amount; "
+                                                     "m.clearCoatRoughness = 0.1;";
+    const Pixels none = render(furnace(scene(coated)));
+    const Pixels filmed = render(furnace(scene(coated + "m.iridescence = 1.0; m.iridescenceIor = 1.2;")));
+    EXPECT_GT(distance(none, filmed), 0.02f);
+    EXPECT_LT(distance(none, filmed), 0.3f);
+}
+
 TEST_F(LayerBits, AFilmOfNoThicknessOrStrengthIsNone) {
     const std::string metal = "m.baseColor.rgb = vec3(0.6, 0.5, 0.2); m.metallic = 1.0; m.roughness = 0.4; ";
     const Pixels none = render(lights(furnace(scene(metal))));
