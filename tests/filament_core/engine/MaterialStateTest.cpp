@@ -168,7 +168,8 @@ fragment { void material(inout MaterialInputs material) { prepareMaterial(materi
         }
         stage.add(instance, vertices, { 0, 1, 2, 0, 2, 3 }, double4x4(1.0));
         stage.scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 100'000 } });
-        stage.view.camera.lens.verticalFovDegrees = 1; // nearly parallel rays: the view does not change either
+        // Nearly parallel rays: the view does not change either.
+        stage.view.camera = Camera::lookAt({ 0, 0, 400 }, { 0, 0, 0 }, { .verticalFovDegrees = 1 });
     });
     const float4 below = halfPixel(picture, 6, 6), above = halfPixel(picture, 1, 1);
     EXPECT_NEAR(halfPixel(picture, 4, 6).x, below.x, 1e-3f);

@@ -419,6 +419,7 @@ TEST(CustomShading, TheGuidesToonHasFiveShadesUnderASunAndItsAmbientBehind) {
     expectNear(toonUnder(sun(0.5f)), base * 0.6f, 1e-3f);
     expectNear(toonUnder(sun(0.1f)), base * 0.2f, 1e-3f);
     expectNear(toonUnder(sun(-0.5f)), base * 0.1f, 1e-3f);
+    expectNear(toonUnder(sun(-0.5f), toon("return vec3(lightData.NdotL + 0.25);")), float3(0.25f), 1e-3f);
 }
 
 TEST(CustomShading, APunctualLightComesWithItsAttenuationAndItsPosition) {
