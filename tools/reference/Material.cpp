@@ -59,7 +59,7 @@ void evaluateLit(Part const& part, Varyings const& varyings, double3 baseColor, 
     surface.metallic = metallic;
     surface.diffuse = lib::diffuseColor(baseColor, metallic);
     surface.f0 = lib::f0FromBaseColor(baseColor, metallic, kReflectance);
-    surface.f90 = lib::saturate(lib::dot(surface.f0, double3(50.0 * 0.33))); // as surface_lit_shading.glsl
+    surface.f90 = lib::saturate(lib::dot(surface.f0, double3(50.0 * 0.33))); // as surface_lit_surface.glsl
     surface.perceptualRoughness = lib::clampPerceptualRoughness(roughness);
     if (has(material.occlusion)) {
         const double occlusion = fetch(part, material.occlusion, varyings).x;
