@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+/// LayerBits: materials of a few lines, drawn on both devices, which must agree to the bit.
+#pragma once
+
+#include "tests/shaders/exact/MaterialRig.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+
+namespace filament::shader::test {
+
+/// One colour channel of the pixels that the object covers.
+using Pixels = std::vector<float>;
+
+class LayerBits : public ::testing::Test {
+protected:
+    struct Rigs {
+        std::unique_ptr<MaterialRig> vulkan = MaterialRig::make(backend::BackendType::Vulkan);
+        std::unique_ptr<MaterialRig> gles = MaterialRig::make(backend::BackendType::Gles);
+    };
+
+    static Rigs& rigs() {
+        static auto* const made = new Rigs; // ends with the process: drivers do not like static destruction
+        return *made;
+    }
+
+    void SetUp() override {
+        if (!rigs().vulkan || !rigs().gles) GTEST_SKIP() << "needs a Vulkan and an OpenGL ES device";
+    }
+
+    /// `code` runs behind prepareMaterial(), `before` ahead of it; `amount` is the parameter materialParams.amount.
+    static MaterialScene scene(std::string const& code, float amount = 1, std::string const& properties = "",
+                               std::string const& before = "") {
+        MaterialScene scene;
+        scene.source = "material { parameters : [ { name : amount, type : float } ],\n" + properties +
+                       " }\nfragment { void material(inout MaterialInputs m) {\n" + before + "\nprepareMaterial(m);\n" +
+                       "float amount = materialParams.amount;\n" + code + "\n} }";
+        scene.parameters = { { "amount", { amount } } };
+        scene.frame.exposure.x = 1;
+        return scene;
+    }
+
+    /// White light from everywhere.
+    static MaterialScene furnace(MaterialScene scene) {
+        scene.frame.ambient = { 1, 0, 3, 0 };
+        scene.frame.irradianceSh[0] = { 1, 1, 1, 0 };
+        return scene;
+    }
+
+    /// A sun, and lights around the surface of which one grazes it.
+    static MaterialScene lights(MaterialScene scene) {
+        scene.variant = kVariantSun | kVariantPunctual;
+        scene.frame.sunDirection = { 0.36f, 0.48f, 0.8f, 1 };
+        scene.frame.sunIlluminance = { 3, 2.5f, 2, 0 };
+        scene.lights = {
+            { { 0.5f, 0.4f, -1.2f, 0.04f }, { 2, 1, 0.5f, 0 }, { 0, 0, -1, 0 }, {} },
+            { { -0.6f, -0.4f, -1.0f, 0 }, { 0.5f, 2, 1, 1 }, { 0.3f, 0.2f, -0.93f, 4 }, { -3, 0, 0, 0 } },
+            { { 1.5f, 0.1f, -1.95f, 0 }, { 1, 1, 1, 0 }, { 0, 0, -1, 0 }, {} },
+        };
+        return scene;
+    }
+
+    /// Renders on both, expects finite values and, but for variants in 16 bits, equal bits. Returns one channel of what
+    /// is covered.
+    static Pixels render(MaterialScene const& scene, size_t channel = 0) {
+        const Result<std::vector<float>> vulkan = rigs().vulkan->render(scene), gles = rigs().gles->render(scene);
+        EXPECT_TRUE(vulkan) << (vulkan ? "" : vulkan.error().message) << scene.source;
+        EXPECT_TRUE(gles) << (gles ? "" : gles.error().message) << scene.source;
+        if (!vulkan || !gles) return {};
+        const bool mustAgree = (scene.variant & kVariantHalf) == 0; // each driver rounds to 16 bits where it likes
+        const bool agree = std::memcmp(vulkan->data(), gles->data(), vulkan->size() * sizeof(float)) == 0;
+        EXPECT_TRUE(agree || !mustAgree) << "the APIs differ:\n" << scene.source;
+        for (auto const* picture : { &*vulkan, &*gles }) {
+            EXPECT_TRUE(std::ranges::all_of(*picture, [](float value) { return std::isfinite(value); }))
+                    << scene.source;
+        }
+        Pixels pixels;
+        for (size_t i = 0; i < vulkan->size(); i += 4) {
+            if ((*vulkan)[i + 3] != 0.0f) pixels.push_back((*vulkan)[i + channel]);
+        }
+        EXPECT_GT(pixels.size(), 3000u);
+        return pixels;
+    }
+
+    static double mean(Pixels const& pixels) {
+        double sum = 0;
+        for (const float value : pixels) sum += static_cast<double>(value);
+        return sum / static_cast<double>(std::max<size_t>(pixels.size(), 1));
+    }
+    static float most(Pixels const& pixels) { return pixels.empty() ? 0 : std::ranges::max(pixels); }
+    static float least(Pixels const& pixels) { return pixels.empty() ? 0 : std::ranges::min(pixels); }
+
+    /// The largest difference.
+    static float distance(Pixels const& a, Pixels const& b) {
+        EXPECT_EQ(a.size(), b.size());
+        float largest = 0;
+        for (size_t i = 0; i < std::min(a.size(), b.size()); ++i) largest = std::max(largest, std::abs(a[i] - b[i]));
+        return largest;
+    }
+};
+
+inline constexpr const char* kBlack = "m.baseColor.rgb = vec3(0.0);";
+
+} // namespace filament::shader::test
