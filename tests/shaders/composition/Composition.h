@@ -14,6 +14,7 @@ namespace filament::shader::composition {
 struct Inputs {
     vec3 color{ 1.0 }, tint{ 1.0 }; ///< of the base; of what lies above, below or behind
     double metallic = 0, roughness = 0.5, strength = 1, smallRoughness = 0.3;
+    double coat = 1, sheen = 1, grooves = 1, film = 1, through = 1; ///< of combinations.mat alone
     bool energyCompensation = true;
 };
 

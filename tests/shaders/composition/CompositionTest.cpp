@@ -42,8 +42,8 @@ vec3 integrate(Composition const& material, Inputs const& inputs, vec3 view, dou
 }
 
 /// What comes back of light from everywhere.
-double albedoOf(Composition const& material, Inputs const& inputs, vec3 view) {
-    return largest(integrate(material, inputs, view, 1, 160, 160) + integrate(material, inputs, view, -1, 24, 24));
+double albedoOf(Composition const& material, Inputs const& inputs, vec3 view, int steps = 160) {
+    return largest(integrate(material, inputs, view, 1, steps, steps) + integrate(material, inputs, view, -1, 24, 24));
 }
 
 struct Extremes {
@@ -73,7 +73,7 @@ std::string textOf(Composition const& material, Inputs const& inputs, double nov
 /// Along the tangent; of what is not round, also across it and between.
 std::vector<vec3> viewsOf(std::string const& name, double nov) {
     const vec3 along = viewAt(nov);
-    if (name != "anisotropy" && name != "all_layers") return { along };
+    if (name != "anisotropy" && name != "all_layers" && name != "combinations") return { along };
     return { along, vec3(0, along.x, nov), vec3(along.x * 0.6, along.x * 0.8, nov) };
 }
 
@@ -123,6 +123,38 @@ TEST(Composition, NoMaterialIsBrighterThanAWhiteSky) {
             }
         });
         std::printf("| %s | %.3f to %.3f |\n", material.name, sky.least, sky.most);
+    }
+}
+
+// Coat, sheen, grooves, film and transmission, on or off.
+TEST(Composition, NoCombinationOfLayersGivesMoreThanArrives) {
+    constexpr int kCombinations = 32, kSteps = 96;
+    Composition const& material = *std::ranges::find_if(
+            compositions(), [](auto const& at) { return at.name == std::string("combinations"); });
+    for (int layers = 0; layers < kCombinations; ++layers) {
+        Inputs inputs{ .coat = double(layers & 1),
+                       .sheen = double(layers >> 1 & 1),
+                       .grooves = double(layers >> 2 & 1),
+                       .film = double(layers >> 3 & 1),
+                       .through = double(layers >> 4 & 1) };
+        for (inputs.metallic = 0; inputs.metallic <= 1; ++inputs.metallic) {
+            for (const double roughness : { 0.4, 1.0 }) {
+                for (const double nov : { 0.05, 0.2, 0.7 }) {
+                    const vec3 view = viewsOf(material.name, nov).back();
+                    inputs.roughness = roughness;
+                    inputs.color = vec3(1.0);
+                    const double white = albedoOf(material, inputs, view, kSteps);
+                    EXPECT_LE(largest(material.environment(inputs, view)), lib64::kNoGain)
+                            << "sky: layers " << layers << ' ' << textOf(material, inputs, nov);
+                    inputs.color = vec3(0.0);
+                    const double black = albedoOf(material, inputs, view, kSteps);
+                    EXPECT_LE(inputs.metallic == 1 ? white : black, lib64::kNoGain)
+                            << "reflected: layers " << layers << ' ' << textOf(material, inputs, nov);
+                    EXPECT_LE(white - black, lib64::kNoGain)
+                            << "scattered: layers " << layers << ' ' << textOf(material, inputs, nov);
+                }
+            }
+        }
     }
 }
 
