@@ -308,7 +308,7 @@ std::vector<Played> playedModels() {
              { "MorphStressTest/MorphStressTest.glb", { 0.3, 1.7, 6.2 } },
              { "AnimatedMorphCube/AnimatedMorphCube.glb", { 0.2, 1.5, 3.0 } },
              { "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf", { 0.2, 1.5, 3.0 } },
-             { "BoxAnimated/BoxAnimated.glb", { 0.5, 1.6, 3.0 } } };
+             { "BoxAnimated/BoxAnimated.glb", { 0.2, 1.6, 3.5 } } };
 }
 
 class AnimatedModel : public testing::TestWithParam<Played> {
