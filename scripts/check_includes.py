@@ -37,7 +37,7 @@ ROOMS = {
                              "backend/stream", "shaders/package", "shaders/interface"],
     "filament_core/engine": ["base", "math", "scene", "assets", "prepare", "passes", "framegraph", "jobsystem",
                              "backend/api", "backend/stream", "backend/layers", "backend/null", "backend/create",
-                             "shaders/package", "shaders/interface"],
+                             "shaders/package", "shaders/interface", "shaders/lib"],
 }
 SHORT = {room.removeprefix("filament_core/"): room for room in ROOMS if room.startswith("filament_core/")}
 

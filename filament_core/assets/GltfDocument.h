@@ -92,6 +92,7 @@ struct GltfMorphTarget {
 struct GltfPrimitive {
     GltfAttributes attributes;
     uint32_t indices = kNone, material = kNone;
+    std::vector<VariantMaterial> variants;
     GltfMode mode = GltfMode::Triangles;
     std::vector<GltfMorphTarget> targets;
     std::optional<GltfDraco> draco;
@@ -149,10 +150,17 @@ struct GltfTextureInfo {
     bool hasTransform = false;
 };
 
+/// Two maps that share a texture once they are loaded (MaterialData.h: TexturePair).
+struct GltfTexturePair {
+    GltfTextureInfo first, second;
+};
+
 /// `values` holds everything but its texture references, which the loader fills in from the infos.
 struct GltfMaterial {
     MaterialData values;
     GltfTextureInfo baseColor, metallicRoughness, normal, occlusion, emissive;
+    GltfTextureInfo clearCoatNormal, anisotropy, specularGlossiness;
+    GltfTexturePair clearCoat, sheen, specular, iridescence, transmission, diffuseTransmission;
 };
 
 struct GltfTexture {
@@ -178,7 +186,8 @@ struct GltfDocument {
     std::vector<backend::SamplerDesc> samplers;
     std::vector<GltfImage> images;
     std::vector<LightData> lights;
-    std::vector<uint32_t> roots; ///< of the default scene
+    std::vector<std::string> variants; ///< KHR_materials_variants: their names
+    std::vector<uint32_t> roots;       ///< of the default scene
     std::vector<GltfAnimation> animations;
 
     /// Bytes of each view; filled by loadBuffers(). They point into the file or into `ownedBytes`.

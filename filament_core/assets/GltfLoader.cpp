@@ -46,6 +46,7 @@ std::vector<bool> usedMaterials(GltfDocument const& document, GltfScene const& s
     for (GltfMeshRequest const& request : scene.meshes) {
         for (GltfPrimitive const& primitive : document.meshes[request.mesh].primitives) {
             if (primitive.material != kNone) used[primitive.material] = true;
+            for (VariantMaterial const& variant : primitive.variants) used[variant.material] = true;
         }
     }
     return used;
@@ -55,12 +56,18 @@ std::vector<bool> usedMaterials(GltfDocument const& document, GltfScene const& s
 void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextures& textures,
                  std::vector<GltfPrimitiveJob>& primitives, std::filesystem::path const& baseDirectory,
                  jobs::JobSystem& jobs, GltfOptions const& options) {
-    Progress progress(options, GltfStage::Content, textures.jobs.size() + primitives.size());
+    Progress progress(options, GltfStage::Content, textures.jobs.size() + textures.packs.size() + primitives.size());
     const jobs::AdoptedThread seat(jobs);
     jobs::JobGroup group(jobs);
     for (GltfImageJob& job : textures.jobs) {
         group.run<"decode image">([&document, &baseDirectory, &options, &progress, &job] {
             decodeImageJob(document, baseDirectory, options.maxTextureSize, job);
+            progress.step();
+        });
+    }
+    for (GltfPackJob& job : textures.packs) {
+        group.run<"pack images">([&document, &baseDirectory, &options, &progress, &job] {
+            packImagesJob(document, baseDirectory, options.maxTextureSize, job);
             progress.step();
         });
     }
@@ -81,6 +88,7 @@ void warnAboutAnimations(GltfDocument const& document, GltfDiagnostics& diagnost
 void mergeDiagnostics(GltfTextures& textures, std::vector<GltfPrimitiveJob>& primitives, GltfDiagnostics& diagnostics) {
     for (GltfPrimitiveJob& job : primitives) diagnostics.merge(std::move(job.diagnostics));
     for (GltfImageJob& job : textures.jobs) diagnostics.merge(std::move(job.diagnostics));
+    for (GltfPackJob& job : textures.packs) diagnostics.merge(std::move(job.diagnostics));
 }
 
 GltfDocument loadDocument(std::span<const std::byte> file, std::filesystem::path const& baseDirectory,
@@ -123,11 +131,13 @@ ModelData load(std::span<const std::byte> file, std::filesystem::path const& bas
     for (MeshData& mesh : model.meshes) {
         for (PrimitiveData& primitive : mesh.primitives) {
             if (primitive.material != kNone) primitive.material = newMaterial[primitive.material];
+            for (VariantMaterial& variant : primitive.variants) variant.material = newMaterial[variant.material];
         }
     }
     model.nodes = std::move(scene.nodes);
     model.skins = std::move(scene.skins);
     model.lights = std::move(document.lights);
+    model.variants = std::move(document.variants);
     model.warnings = diagnostics.takeWarnings();
     return model;
 }

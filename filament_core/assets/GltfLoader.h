@@ -6,10 +6,11 @@
 ///           skins, morph targets and animations are kept as data. Only what the scene
 ///           shows is loaded: meshes, materials and images that nothing drawn uses are left out.
 ///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization,
-///           KHR_texture_transform, KHR_materials_unlit, KHR_materials_emissive_strength, KHR_lights_punctual,
-///           EXT_mesh_gpu_instancing. Other extensions are named in ModelData::warnings, once each, and the material
-///           without them is drawn.
-///   Does not  read KTX2 or WebP, or use material variants.
+///           KHR_texture_transform, KHR_lights_punctual, EXT_mesh_gpu_instancing, KHR_materials_anisotropy, clearcoat,
+///           diffuse_transmission, dispersion, emissive_strength, ior, iridescence, pbrSpecularGlossiness, sheen,
+///           specular, transmission, unlit, variants, volume. Other extensions are named in ModelData::warnings, once
+///           each, and the material without them is drawn.
+///   Does not  read KTX2 or WebP.
 ///   Thread  any; images and primitives are decoded as jobs, this thread joins in. The result does not depend on the
 ///           number of workers.
 ///   Memory  the file, then about twice the result while it runs.

@@ -9,10 +9,24 @@
 namespace filament::assets {
 namespace {
 
-/// The texture coordinates that the material's normal map reads, kNone without one.
-uint32_t normalMapUvSet(GltfDocument const& document, uint32_t material) {
-    if (material == kNone || document.materials[material].normal.texture == kNone) return kNone;
-    return document.materials[material].normal.uvSet;
+/// The texture coordinates along which tangents run, if a material of the primitive needs any, else kNone. Of several
+/// maps the normal map decides, as KHR_materials_anisotropy has it.
+uint32_t tangentUvSet(GltfDocument const& document, GltfPrimitive const& primitive) {
+    std::vector<uint32_t> materials;
+    if (primitive.material != kNone) materials.push_back(primitive.material);
+    for (VariantMaterial const& variant : primitive.variants) materials.push_back(variant.material);
+    uint32_t uvSet = kNone;
+    const auto take = [&](GltfTextureInfo const& map, bool isUsed) {
+        if (uvSet == kNone && isUsed && map.texture != kNone) uvSet = map.uvSet;
+    };
+    for (const uint32_t index : materials) take(document.materials[index].normal, true);
+    for (const uint32_t index : materials) {
+        GltfMaterial const& material = document.materials[index];
+        take(material.anisotropy, material.values.anisotropy.isUsed());
+        take(material.clearCoatNormal, material.values.clearCoat.isUsed());
+        if (uvSet == kNone && material.values.anisotropy.isUsed()) uvSet = 0;
+    }
+    return uvSet;
 }
 
 void replaceOverflow(std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics) {
@@ -45,8 +59,7 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     if (!diagnostics.ok()) return {};
     replaceOverflow(path, geometry, diagnostics);
     addFlatNormals(geometry);
-    if (const uint32_t uvSet = normalMapUvSet(document, primitive.material); uvSet != kNone)
-        addTangents(geometry, uvSet);
+    if (const uint32_t uvSet = tangentUvSet(document, primitive); uvSet != kNone) addTangents(geometry, uvSet);
     const BoundsData restBounds = boundsAtRest(geometry, request.weights, request.worldFromBind);
     PrimitiveData packed = packGeometry(std::move(geometry), storage);
     packed.restBounds = restBounds;
@@ -96,7 +109,9 @@ std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene cons
     for (GltfMeshRequest const& request : scene.meshes) meshes.push_back({ document.meshes[request.mesh].name, {} });
     for (GltfPrimitiveJob& job : jobs) {
         if (job.data.indexCount == 0) continue;
-        job.data.material = document.meshes[scene.meshes[job.request].mesh].primitives[job.primitive].material;
+        GltfPrimitive const& primitive = document.meshes[scene.meshes[job.request].mesh].primitives[job.primitive];
+        job.data.material = primitive.material;
+        job.data.variants = primitive.variants;
         meshes[job.request].primitives.push_back(std::move(job.data));
     }
     return meshes;

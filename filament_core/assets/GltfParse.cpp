@@ -19,9 +19,10 @@ struct Counts {
               nodes(root["nodes"].elementCount()), skins(root["skins"].elementCount()),
               materials(root["materials"].elementCount()), textures(root["textures"].elementCount()),
               samplers(root["samplers"].elementCount()), images(root["images"].elementCount()),
-              lights(root.extension("KHR_lights_punctual")["lights"].elementCount()) {}
+              lights(root.extension("KHR_lights_punctual")["lights"].elementCount()),
+              variants(root.extension("KHR_materials_variants")["variants"].elementCount()) {}
 
-    size_t buffers, views, accessors, meshes, nodes, skins, materials, textures, samplers, images, lights;
+    size_t buffers, views, accessors, meshes, nodes, skins, materials, textures, samplers, images, lights, variants;
 };
 
 template <class Enum, size_t N>
@@ -147,6 +148,7 @@ GltfPrimitive parsePrimitive(JsonNode const& node, Counts const& counts) {
     primitive.attributes = parseAttributes(node["attributes"], counts.accessors, "accessors");
     primitive.indices = node["indices"].index(counts.accessors, "accessors");
     primitive.material = node["material"].index(counts.materials, "materials");
+    primitive.variants = parseVariantMaterials(node, counts.materials, counts.variants);
     const uint64_t mode = node["mode"].integer(4);
     if (mode > 6) node.diagnostics().refuse(ErrorCode::Corrupt, "{}.mode: {} is not one of 0..6", node.path(), mode);
     primitive.mode = static_cast<GltfMode>(mode % 7);
@@ -352,6 +354,8 @@ void parseElements(JsonNode const& root, GltfDocument& document) {
                             node["source"].index(counts.images, "images") };
     });
     document.lights = parseAll<LightData>(root.extension("KHR_lights_punctual")["lights"], parseGltfLight);
+    document.variants = parseAll<std::string>(root.extension("KHR_materials_variants")["variants"],
+                                              [](JsonNode const& node) { return node["name"].text(); });
     document.animations = parseAll<GltfAnimation>(root["animations"], with(parseAnimation));
 }
 

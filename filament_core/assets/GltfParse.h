@@ -21,6 +21,9 @@ GltfDocument parseGltf(std::span<const std::byte> json, GltfDiagnostics& diagnos
 
 // ---- steps, in their own files
 GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount);
+/// KHR_materials_variants of a primitive. Mappings of a variant that has one already are left out, with a warning.
+std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, size_t materialCount,
+                                                   size_t variantCount);
 backend::SamplerDesc parseGltfSampler(JsonNode const& node);
 LightData parseGltfLight(JsonNode const& node);
 void warnAboutExtensions(JsonNode const& root, GltfDiagnostics& diagnostics);

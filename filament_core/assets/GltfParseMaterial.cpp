@@ -1,21 +1,37 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/GltfJson.h"
-#include "filament_core/assets/GltfParse.h"
+#include "filament_core/assets/GltfParseMaterial.h"
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 namespace filament::assets {
 namespace {
 
-constexpr float kMaxFloat = std::numeric_limits<float>::max();
-
-// What the loader understands completely.
-constexpr std::array<std::string_view, 9> kSupportedExtensions{
-    "KHR_draco_mesh_compression",      "EXT_meshopt_compression", "KHR_meshopt_compression",
-    "KHR_mesh_quantization",           "KHR_texture_transform",   "KHR_materials_unlit",
-    "KHR_materials_emissive_strength", "KHR_lights_punctual",     "EXT_mesh_gpu_instancing"
+// What the loader understands completely. KHR_xmp: notes about the file, which change nothing.
+constexpr std::array<std::string_view, 23> kSupportedExtensions{
+    "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+    "EXT_mesh_gpu_instancing",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
 };
 
 /// KHR_texture_transform: uv' = T * R * S * uv. The extension's GLSL turns the other way than its text and its test
@@ -25,44 +41,6 @@ float3x3 textureTransform(std::array<double, 2> offset, double rotation, std::ar
     const double c = std::cos(rotation), s = std::sin(rotation);
     return { float3(c * scale[0], -s * scale[0], 0), float3(s * scale[1], c * scale[1], 0),
              float3(offset[0], offset[1], 1) };
-}
-
-GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
-    GltfTextureInfo info;
-    if (!node.exists()) return info;
-    info.texture = node["index"].requiredIndex(textureCount, "textures");
-    uint64_t uvSet = node["texCoord"].integer(0);
-    if (const JsonNode transform = node.extension("KHR_texture_transform"); transform.exists()) {
-        std::array<double, 2> offset{ 0, 0 }, scale{ 1, 1 };
-        transform["offset"].numbers(offset);
-        transform["scale"].numbers(scale);
-        info.uvTransform = textureTransform(offset, transform["rotation"].number(0), scale);
-        info.hasTransform = info.uvTransform != float3x3(1.0f);
-        uvSet = transform["texCoord"].integer(uvSet);
-    }
-    if (uvSet >= GltfAttributes::kUvSets) {
-        node.diagnostics().warn("{}.texCoord: set {} is not read, set 0 is used instead", node.path(), uvSet);
-        uvSet = 0;
-    }
-    info.uvSet = static_cast<uint32_t>(uvSet);
-    return info;
-}
-
-/// Components outside [low, high] are clamped, with one warning.
-template <size_t N>
-std::array<float, N> parseFactors(JsonNode const& node, double fallback, double low, double high) {
-    std::array<double, N> values;
-    values.fill(fallback);
-    node.numbers(values);
-    std::array<float, N> factors;
-    for (size_t i = 0; i < N; ++i) {
-        const double clamped = std::clamp(values[i], low, high);
-        if (clamped != values[i]) {
-            node.diagnostics().warn("{}: {} is outside [{}, {}] and was clamped", node.path(), values[i], low, high);
-        }
-        factors[i] = static_cast<float>(clamped);
-    }
-    return factors;
 }
 
 AlphaMode parseAlphaMode(JsonNode const& node) {
@@ -90,6 +68,27 @@ backend::WrapMode parseWrap(JsonNode const& node) {
 
 } // namespace
 
+GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
+    GltfTextureInfo info;
+    if (!node.exists()) return info;
+    info.texture = node["index"].requiredIndex(textureCount, "textures");
+    uint64_t uvSet = node["texCoord"].integer(0);
+    if (const JsonNode transform = node.extension("KHR_texture_transform"); transform.exists()) {
+        std::array<double, 2> offset{ 0, 0 }, scale{ 1, 1 };
+        transform["offset"].numbers(offset);
+        transform["scale"].numbers(scale);
+        info.uvTransform = textureTransform(offset, transform["rotation"].number(0), scale);
+        info.hasTransform = info.uvTransform != float3x3(1.0f);
+        uvSet = transform["texCoord"].integer(uvSet);
+    }
+    if (uvSet >= GltfAttributes::kUvSets) {
+        node.diagnostics().warn("{}.texCoord: set {} is not read, set 0 is used instead", node.path(), uvSet);
+        uvSet = 0;
+    }
+    info.uvSet = static_cast<uint32_t>(uvSet);
+    return info;
+}
+
 GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount) {
     GltfMaterial material;
     MaterialData& values = material.values;
@@ -108,12 +107,12 @@ GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount) {
     values.alphaMode = parseAlphaMode(node["alphaMode"]);
     values.alphaCutoff = node["alphaCutoff"].numberInRange(0.5f, 0, kMaxFloat);
     values.doubleSided = node["doubleSided"].boolean(false);
-    values.unlit = node.extension("KHR_materials_unlit").exists();
     material.baseColor = parseTextureInfo(core["baseColorTexture"], textureCount);
     material.metallicRoughness = parseTextureInfo(core["metallicRoughnessTexture"], textureCount);
     material.normal = parseTextureInfo(node["normalTexture"], textureCount);
     material.occlusion = parseTextureInfo(node["occlusionTexture"], textureCount);
     material.emissive = parseTextureInfo(node["emissiveTexture"], textureCount);
+    parseMaterialExtensions(node, textureCount, material);
     return material;
 }
 

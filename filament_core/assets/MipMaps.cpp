@@ -1,55 +1,19 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/MipMaps.h"
 
+#include "filament_core/assets/ChannelTransfer.h"
 #include "filament_core/base/Assert.h"
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstring>
-#include <memory>
 
 namespace filament::assets {
 namespace {
 
 constexpr uint32_t kChannels = 4;
 constexpr uint32_t kAlpha = 3;
-
-/// 8 bits <-> 16 bits of linear light. One step of sRGB near black is 20 steps of 1/65535, so nothing is lost.
-struct Transfer {
-    std::array<uint16_t, 256> linearFromCode;
-    std::array<uint8_t, 65536> codeFromLinear;
-};
-
-/// IEC 61966-2-1.
-double linearFromSrgb(double code) { return code <= 0.04045 ? code / 12.92 : std::pow((code + 0.055) / 1.055, 2.4); }
-
-/// codeFromLinear[v] is the code whose value is nearest to v.
-std::unique_ptr<Transfer> makeTransfer(double (*linearFromUnit)(double)) {
-    auto transfer = std::make_unique<Transfer>();
-    for (size_t code = 0; code < 256; ++code) {
-        const double linear = linearFromUnit(static_cast<double>(code) / 255.0);
-        transfer->linearFromCode[code] = static_cast<uint16_t>(std::lround(linear * 65535.0));
-    }
-    size_t code = 0;
-    for (size_t linear = 0; linear < 65536; ++linear) {
-        // twice the middle between two codes, so that it is an integer
-        while (code < 255 && 2 * linear > size_t{ transfer->linearFromCode[code] } + transfer->linearFromCode[code + 1])
-            ++code;
-        transfer->codeFromLinear[linear] = static_cast<uint8_t>(code);
-    }
-    return transfer;
-}
-
-Transfer const& colorTransfer() {
-    static const std::unique_ptr<Transfer> kTransfer = makeTransfer(linearFromSrgb);
-    return *kTransfer;
-}
-
-Transfer const& dataTransfer() {
-    static const std::unique_ptr<Transfer> kTransfer = makeTransfer([](double value) { return value; });
-    return *kTransfer;
-}
 
 /// A level in 16-bit linear light.
 struct Level {
@@ -59,8 +23,8 @@ struct Level {
 
 /// How the image stores its channels.
 struct Encoding {
-    Transfer const& color;
-    Transfer const& alpha;
+    ChannelTransfer const& color;
+    ChannelTransfer const& alpha;
 };
 
 void decodeRow(std::byte const* codes, uint32_t width, Encoding const& encoding, uint16_t* texels) {

@@ -8,6 +8,7 @@
 #include "backend/api/Descriptions.h"
 #include "filament_core/assets/Animation.h"
 #include "filament_core/assets/Image.h"
+#include "filament_core/assets/MaterialData.h"
 #include "filament_core/assets/NodePose.h"
 #include "filament_core/math/Math.h"
 
@@ -19,33 +20,6 @@
 #include <vector>
 
 namespace filament::assets {
-
-inline constexpr uint32_t kNone = ~0u;
-
-struct TextureRef {
-    uint32_t image = kNone; ///< into ModelData::images; kNone: the factor alone
-    backend::SamplerDesc sampler{};
-    uint32_t uvSet = 0;           ///< 0 or 1
-    float3x3 uvTransform{ 1.0f }; ///< KHR_texture_transform as uv' = (M * (u, v, 1)).xy
-    bool hasTransform = false;
-};
-
-enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
-
-/// glTF 2.0 metallic-roughness. Colours are linear Rec. 709.
-struct MaterialData {
-    std::string name;
-    float4 baseColorFactor{ 1.0f };
-    float metallicFactor = 1, roughnessFactor = 1;
-    float normalScale = 1, occlusionStrength = 1;
-    float3 emissiveFactor{ 0.0f };
-    float emissiveStrength = 1; ///< KHR_materials_emissive_strength: multiplies emissiveFactor
-    TextureRef baseColor, metallicRoughness, normal, occlusion, emissive;
-    AlphaMode alphaMode = AlphaMode::Opaque;
-    float alphaCutoff = 0.5f;
-    bool doubleSided = false;
-    bool unlit = false;
-};
 
 /// Who applies skins and morph targets.
 enum class GltfDeformation : uint8_t {
@@ -70,6 +44,12 @@ struct MorphTargetData {
     std::vector<float3> positions, normals, tangents;
 };
 
+/// KHR_materials_variants: what a primitive looks like in a variant of its model.
+struct VariantMaterial {
+    uint32_t variant = 0;  ///< into ModelData::variants
+    uint32_t material = 0; ///< into ModelData::materials
+};
+
 /// One draw's worth of geometry. Positions and all other attributes are interleaved in one stream.
 struct PrimitiveData {
     backend::Topology topology = backend::Topology::Triangles;
@@ -80,6 +60,7 @@ struct PrimitiveData {
     backend::IndexType indexType = backend::IndexType::UInt16;
     uint32_t vertexCount = 0, indexCount = 0;
     uint32_t material = kNone;                   ///< kNone: glTF's default material
+    std::vector<VariantMaterial> variants;       ///< what takes its place; at most one a variant
     float3 boundsMin{ 0.0f }, boundsMax{ 0.0f }; ///< of the stored positions
     float3 positionOffset{ 0.0f };               ///< position of the file = offset + scale * stored position
     float positionScale = 1;
@@ -137,6 +118,7 @@ struct ModelData {
     std::vector<LightData> lights;
     std::vector<SkinData> skins;           ///< with GltfDeformation::Kept
     std::vector<AnimationData> animations; ///< with GltfDeformation::Kept
+    std::vector<std::string> variants;     ///< KHR_materials_variants: their names
     std::vector<std::string> warnings;     ///< one line each: unsupported extensions, repaired values
 };
 

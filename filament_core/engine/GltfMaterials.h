@@ -3,7 +3,7 @@
 /// exactly the maps that the material uses. Equal specialisations share one material.
 #pragma once
 
-#include "filament_core/assets/ModelData.h"
+#include "filament_core/engine/GltfMaterialSettings.h"
 #include "filament_core/engine/ModelImpl.h"
 
 #include <map>
@@ -13,19 +13,19 @@ namespace filament {
 
 class GltfMaterials {
 public:
-    /// `textures[i]` is images[i] of the model.
-    GltfMaterials(Engine::Impl& engine, Model::Impl& model, std::span<const Texture> textures)
+    /// `textures[i]` is images[i] of the model, once they are uploaded.
+    GltfMaterials(Engine::Impl& engine, Model::Impl& model, std::vector<Texture> const& textures)
             : mEngine(engine), mModel(model), mTextures(textures) {}
 
-    MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor);
+    /// `scale`: metres in the file's scene for a metre of the mesh; volumes are as thick as that makes them.
+    MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale);
 
 private:
-    Material materialFor(assets::MaterialData const& material, bool hasVertexColor);
-    void setParameters(MaterialInstance instance, assets::MaterialData const& material);
+    Material materialFor(GltfMaterialSettings const& settings);
 
     Engine::Impl& mEngine;
     Model::Impl& mModel;
-    std::span<const Texture> mTextures;
+    std::vector<Texture> const& mTextures;
     std::map<std::string, Material> mMaterials; ///< by package and constants
 };
 

@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <map>
+#include <tuple>
 #include <utility>
 
 namespace filament {
@@ -39,12 +40,14 @@ PrimitiveType primitiveType(backend::Topology topology) {
 class ModelBuilder {
 public:
     ModelBuilder(Engine& engine, ModelData const& data)
-            : mEngine(engine.impl()), mData(data), mModel(std::make_unique<Model::Impl>(engine)) {}
+            : mEngine(engine.impl()), mData(data), mModel(std::make_unique<Model::Impl>(engine)),
+              mMaterials(mEngine, *mModel, mModel->textures) {}
 
     std::unique_ptr<Model::Impl> build() {
         mModel->name = mData.name;
         mModel->warnings = mData.warnings;
         mModel->animations = mData.animations;
+        mModel->variants = mData.variants;
         uploadImages();
         uploadMeshes();
         placeNodes();
@@ -54,6 +57,7 @@ public:
 private:
     struct Part {
         RenderableDesc desc{};
+        PrimitiveData const* primitive = nullptr;
         double4x4 meshFromPositions{ 1.0 };
         bool isScaled = false;
         bool isSkinned = false;
@@ -73,14 +77,14 @@ private:
     }
 
     void uploadMeshes() {
-        GltfMaterials materials(mEngine, *mModel, mModel->textures);
-        std::map<std::pair<uint32_t, bool>, MaterialInstance> instances; // one a material, with and without colours
         for (assets::MeshData const& mesh : mData.meshes) {
             std::vector<Part>& parts = mMeshes.emplace_back();
             for (PrimitiveData const& primitive : mesh.primitives) {
-                MaterialInstance& instance = instances[{ primitive.material, primitive.hasColor }];
-                if (!instance) instance = materials.instanceFor(materialOf(primitive), primitive.hasColor);
-                parts.push_back({ upload(primitive, instance, mesh.name),
+                // In the order of the meshes, which the order of draws follows.
+                if (!materialOf(primitive.material).transmission.isSolid())
+                    instanceFor(primitive.material, primitive.hasColor, double4x4(1.0));
+                parts.push_back({ upload(primitive, mesh.name),
+                                  &primitive,
                                   meshFromPositions(primitive),
                                   primitive.positionScale != 1 || primitive.positionOffset != float3(0),
                                   primitive.isSkinned,
@@ -89,12 +93,7 @@ private:
         }
     }
 
-    assets::MaterialData const& materialOf(PrimitiveData const& primitive) const {
-        static const assets::MaterialData defaultMaterial{ .name = "glTF default" };
-        return primitive.material == kNone ? defaultMaterial : mData.materials[primitive.material];
-    }
-
-    RenderableDesc upload(PrimitiveData const& primitive, MaterialInstance instance, std::string const& name) {
+    RenderableDesc upload(PrimitiveData const& primitive, std::string const& name) {
         VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount,
                                    .stride = primitive.layout.buffers[0].stride,
                                    .data = primitive.vertices,
@@ -115,7 +114,6 @@ private:
                                             .name = name });
         return { .vertices = mModel->vertexBuffers.back(),
                  .indices = mModel->indexBuffers.back(),
-                 .material = instance,
                  .primitive = primitiveType(primitive.topology),
                  .boundsMin = primitive.boundsMin,
                  .boundsMax = primitive.boundsMax,
@@ -175,7 +173,35 @@ private:
             at = static_cast<uint32_t>(mData.nodes.size() + mScalingNodes.size());
             mScalingNodes.push_back({ part.desc.name + " positions", node, part.meshFromPositions, {} });
         }
-        mModel->renderables.push_back({ part.desc, at });
+        PrimitiveData const& primitive = *part.primitive;
+        Model::Impl::PartRenderable& placed = mModel->renderables.emplace_back();
+        placed.desc = part.desc;
+        placed.node = at;
+        placed.desc.material = instanceFor(primitive.material, primitive.hasColor, worldFromNode);
+        for (assets::VariantMaterial const& variant : primitive.variants) {
+            placed.variants.push_back(
+                    { variant.variant, instanceFor(variant.material, primitive.hasColor, worldFromNode) });
+        }
+    }
+
+    assets::MaterialData const& materialOf(uint32_t index) const {
+        static const assets::MaterialData defaultMaterial{ .name = "glTF default" };
+        return index == kNone ? defaultMaterial : mData.materials[index];
+    }
+
+    /// One a material, with and without vertex colours, and where it has a volume one a size of it.
+    MaterialInstance instanceFor(uint32_t index, bool hasColor, double4x4 const& worldFromNode) {
+        assets::MaterialData const& material = materialOf(index);
+        const float scale = material.transmission.isSolid() ? scaleOf(worldFromNode) : 1.0f;
+        MaterialInstance& instance = mInstances[{ index, hasColor, scale }];
+        if (!instance) instance = mMaterials.instanceFor(material, hasColor, scale);
+        return instance;
+    }
+
+    /// KHR_materials_volume: a thickness is in the space of the mesh, and grows with its nodes. Of different scales
+    /// along the axes the geometric mean: that of a volume.
+    static float scaleOf(double4x4 const& worldFromNode) {
+        return static_cast<float>(std::cbrt(std::abs(glm::determinant(double3x3(worldFromNode)))));
     }
 
     static double4x4 meshFromPositions(PrimitiveData const& primitive) {
@@ -216,6 +242,8 @@ private:
     Engine::Impl& mEngine;
     ModelData const& mData;
     std::unique_ptr<Model::Impl> mModel;
+    GltfMaterials mMaterials;
+    std::map<std::tuple<uint32_t, bool, float>, MaterialInstance> mInstances;
     std::vector<std::vector<Part>> mMeshes; // by mesh of the file, one an own primitive
     std::vector<Model::Impl::PartNode> mScalingNodes;
 };
@@ -245,6 +273,7 @@ Model::~Model() = default;
 std::string const& Model::name() const { return mImpl->name; }
 Box Model::bounds() const { return mImpl->bounds; }
 size_t Model::renderableCount() const { return mImpl->renderables.size(); }
+std::vector<std::string> const& Model::variantNames() const { return mImpl->variants; }
 std::vector<std::string> const& Model::warnings() const { return mImpl->warnings; }
 uint32_t Model::animationCount() const { return static_cast<uint32_t>(mImpl->animations.size()); }
 

@@ -30,10 +30,15 @@ struct Model::Impl {
         std::vector<uint32_t> joints; ///< into `nodes`
         std::vector<float4x4> jointFromBind;
     };
+    struct PartVariant {
+        uint32_t variant = 0; ///< into `variants`
+        MaterialInstance material;
+    };
     struct PartRenderable {
         RenderableDesc desc;     ///< its node and skin are those of a copy: none yet
         uint32_t node = kRoot;   ///< into `nodes`
         uint32_t skin = kNoSkin; ///< into `skins`
+        std::vector<PartVariant> variants;
     };
     struct PartLight {
         std::variant<SunLight, PointLight, SpotLight> light; ///< in the node's space
@@ -50,7 +55,7 @@ struct Model::Impl {
     std::vector<PartRenderable> renderables;
     std::vector<assets::AnimationData> animations; ///< their nodes are those of `nodes`
     std::vector<PartLight> lights;
-    std::vector<std::string> warnings;
+    std::vector<std::string> variants, warnings;
     Box bounds;
 
     std::vector<Texture> textures;

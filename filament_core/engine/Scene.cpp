@@ -62,7 +62,7 @@ Light addLight(scene::SceneData& data, LightRecord const& record, Node node) {
 
 } // namespace
 
-Scene::Scene(Engine& engine) : mImpl(new Impl{ engine.impl(), {} }) {}
+Scene::Scene(Engine& engine) : mImpl(new Impl{ engine.impl(), {}, {} }) {}
 Scene::Scene(Scene&&) noexcept = default;
 Scene::~Scene() = default;
 

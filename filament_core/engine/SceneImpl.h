@@ -2,7 +2,7 @@
 /// Scene::Impl: the arrays of a scene and the engine whose handles they came from.
 #pragma once
 
-#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/ModelImpl.h"
 #include "filament_core/prepare/UpdateTransforms.h"
 #include "filament_core/scene/SceneData.h"
 
@@ -11,6 +11,13 @@
 namespace filament {
 
 struct Scene::Impl {
+    /// What a copy of a model is made of, for what changes it as a whole. Only of models with variants.
+    struct ModelCopy {
+        Node root;
+        Model::Impl const* model = nullptr;
+        std::vector<Renderable> renderables; ///< parallel to the model's; some may be removed already
+    };
+
     /// The data after all changes of nodes: what frames and bounds are made from.
     scene::SceneData const& upToDate() const {
         prepare::updateTransforms(engine.jobs, data);
@@ -19,6 +26,7 @@ struct Scene::Impl {
 
     Engine::Impl& engine;
     mutable scene::SceneData data; ///< what is derived from nodes is written when somebody asks for it
+    std::vector<ModelCopy> copies;
 };
 
 } // namespace filament

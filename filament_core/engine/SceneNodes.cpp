@@ -27,19 +27,26 @@ Node Scene::add(Model const& model, double4x4 const& worldFromModel) {
         for (const uint32_t joint : skin.joints) joints.push_back(at(joint));
         skins.push_back(add(SkinDesc{ at(skin.node), joints, skin.jointFromBind }));
     }
+    std::vector<Renderable> renderables;
+    renderables.reserve(parts.renderables.size());
     for (Model::Impl::PartRenderable const& part : parts.renderables) {
         RenderableDesc desc = part.desc;
         desc.node = at(part.node);
         if (part.skin != Model::Impl::kNoSkin) desc.skin = skins[part.skin];
-        add(desc);
+        renderables.push_back(add(desc));
     }
     for (Model::Impl::PartLight const& part : parts.lights) {
         std::visit([&](auto const& light) { add(light, at(part.node)); }, part.light);
     }
+    if (!parts.variants.empty()) mImpl->copies.push_back({ root, &parts, std::move(renderables) });
     return root;
 }
 
-void Scene::remove(Node node) { scene::removeNode(mImpl->data, node); }
+void Scene::remove(Node node) {
+    scene::removeNode(mImpl->data, node);
+    std::erase_if(mImpl->copies,
+                  [&](Impl::ModelCopy const& copy) { return !mImpl->data.transforms.contains(copy.root); });
+}
 
 void Scene::setTransform(Node node, double4x4 const& parentFromNode) {
     mImpl->data.transforms.setTransform(node, parentFromNode);

@@ -43,6 +43,12 @@ public:
         return position;
     }
 
+    bool contains(Handle<Tag> handle) const {
+        if (!handle || handle.index() >= mDense.size()) return false;
+        const uint32_t position = mDense[handle.index()];
+        return position < size() && mOwners[position] == handle;
+    }
+
     uint32_t size() const { return static_cast<uint32_t>(mOwners.size()); }
 
 private:

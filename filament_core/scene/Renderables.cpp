@@ -71,6 +71,15 @@ void remove(Renderables& renderables, Renderable renderable) {
     closeGap(renderables.name, gap);
 }
 
+void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material) {
+    uint32_t& drawable = renderables.drawable[renderables.index.at(renderable)];
+    Drawable changed = renderables.drawables[drawable];
+    changed.material = &material;
+    const uint32_t before = drawable;
+    drawable = renderables.drawables.acquire(changed);
+    renderables.drawables.release(before);
+}
+
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {
     CenteredBox const& bounds = renderables.objectBounds[at];
     const Placement placement = placementOf(worldFromObject, std::abs(renderables.placement[at].side));

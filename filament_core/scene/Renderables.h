@@ -77,6 +77,8 @@ struct RenderableInput {
 
 Renderable add(Renderables& renderables, RenderableInput const& input);
 void remove(Renderables& renderables, Renderable renderable);
+/// Without memory for it everything stays as it was.
+void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material);
 
 /// The slot of Deformations that the renderable at position `at` has, or kNotDeformed.
 inline uint32_t deformationAt(Renderables const& renderables, uint32_t at) {

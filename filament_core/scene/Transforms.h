@@ -72,6 +72,7 @@ public:
     void markUnplaced(Node node);
     /// Slots of nodes that stayed where they are but have something new.
     std::vector<uint32_t> const& takeUnplaced();
+    bool contains(Node node) const { return node && node.index() < mLinks.size() && nodeAt(node.index()) == node; }
     Node nodeAt(uint32_t slot) const { return mLinks[slot].node; }
     /// As of the last update.
     Affine const& worldAt(uint32_t slot) const { return mWorld[slot]; }

@@ -26,6 +26,7 @@ namespace filament::tools {
 
 struct SceneOptions {
     std::filesystem::path model;       ///< empty: the showcase
+    std::string variant;               ///< of KHR_materials_variants; empty: the materials of the file
     std::filesystem::path environment; ///< empty: none, or the showcase's sky
     uint2 size{ 1280, 720 };
     bool fit = true;

@@ -156,6 +156,8 @@ Result<void> Stage::loadModel(BackendRun& run, std::filesystem::path const& path
     for (double4x4 const& place : placesOf(mOptions.copies, worldFromModel)) {
         const Node copy = mScene.add(*mModel, place);
         if (*animation) Animator(*mModel, mScene, copy).apply(**animation, mOptions.seconds.value_or(0));
+        if (mOptions.variant.empty()) continue;
+        if (const Result<void> done = mScene.setVariant(copy, mOptions.variant); !done) return done.error();
     }
     return {};
 }

@@ -3,6 +3,7 @@
 // Exit status 0: rendered and written.
 #include "filament_core/assets/GltfLoader.h"
 #include "filament_core/assets/HdrReader.h"
+#include "filament_core/assets/ModelVariants.h"
 #include "tools/common/Console.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/reference/Output.h"
@@ -31,6 +32,7 @@ Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, 
     showProgress("loading the model");
     Result<assets::ModelData> model = assets::loadGltf(files->model, jobs);
     if (!model) return model.error();
+    if (const Result<void> done = assets::selectVariant(*model, options.variant); !done) return done.error();
     warnings = model->warnings;
     ReferenceScene scene;
     const double4x4 fit = options.fit ? fitToUnitCube(modelBounds(*model)) : double4x4(1.0);

@@ -37,6 +37,8 @@ public:
     std::string const& name() const;
     Box bounds() const; ///< of all parts at rest, in model space
     size_t renderableCount() const;
+    /// Of KHR_materials_variants, for Scene::setVariant().
+    std::vector<std::string> const& variantNames() const;
     std::vector<std::string> const& warnings() const; ///< unsupported extensions, repaired values
 
     // Animations are played by an Animator (<filament/Animator.h>).

@@ -73,6 +73,8 @@ public:
     Light add(SpotLight const& light, Node node = {});
     void remove(Renderable renderable);
     void remove(Light light);
+    /// Seen from the next frame on.
+    void setMaterial(Renderable renderable, MaterialInstance material);
     /// Of a renderable without a node.
     void setTransform(Renderable renderable, double4x4 const& worldFromObject);
 
@@ -90,6 +92,12 @@ public:
     /// A copy of the model: its nodes below one new root, which stands at `worldFromModel` and has the model's name,
     /// its renderables and lights at them. Moving or removing the root moves or removes all of it.
     Node add(Model const& model, double4x4 const& worldFromModel = double4x4(1.0));
+
+    /// KHR_materials_variants: gives the renderables of one copy of a model, by the root that add() returned, the
+    /// materials that the variant names for them, and those that it does not name their own; "": their own to all.
+    /// Materials are made by loadGltf(): this only swaps them. Fails with InvalidArgument for a name that the model
+    /// does not have (Model::variantNames()); nothing changes then.
+    Result<void> setVariant(Node copy, std::string_view variant);
 
     Node add(NodeDesc const& desc);
     /// The node and all below it, with every renderable, light and skin that hangs there; their handles end.

@@ -22,13 +22,54 @@ inline const char* brokenPromise(ModelData const& model, Image const& image) {
     return model.images.empty() ? "image list" : nullptr;
 }
 
+inline std::vector<TextureRef> texturesOf(MaterialData const& m) {
+    std::vector<TextureRef> textures{ m.baseColor,
+                                      m.metallicRoughness,
+                                      m.normal,
+                                      m.occlusion,
+                                      m.emissive,
+                                      m.clearCoat.maps.texture,
+                                      m.clearCoat.normal,
+                                      m.sheen.maps.texture,
+                                      m.specular.maps.texture,
+                                      m.anisotropy.map,
+                                      m.iridescence.maps.texture,
+                                      m.transmission.maps.texture,
+                                      m.diffuseTransmission.maps.texture };
+    if (m.specularGlossiness) textures.push_back(m.specularGlossiness->map);
+    return textures;
+}
+
+inline std::vector<float> unitFactorsOf(MaterialData const& m) {
+    return { m.metallicFactor,
+             m.roughnessFactor,
+             m.clearCoat.factor,
+             m.clearCoat.roughness,
+             m.sheen.color.x,
+             m.sheen.roughness,
+             m.specular.factor,
+             m.anisotropy.strength,
+             m.iridescence.factor,
+             m.transmission.factor,
+             m.transmission.attenuationColor.z,
+             m.diffuseTransmission.factor };
+}
+
 inline const char* brokenPromise(ModelData const& model, MaterialData const& m) {
-    for (TextureRef const* texture : { &m.baseColor, &m.metallicRoughness, &m.normal, &m.occlusion, &m.emissive }) {
-        if (texture->image != kNone && texture->image >= model.images.size()) return "image index";
-        if (texture->uvSet > 1) return "uv set";
+    for (TextureRef const& texture : texturesOf(m)) {
+        if (texture.image != kNone && texture.image >= model.images.size()) return "image index";
+        if (texture.uvSet > 1) return "uv set";
     }
-    if (!(m.metallicFactor >= 0 && m.metallicFactor <= 1 && m.roughnessFactor >= 0 && m.roughnessFactor <= 1))
-        return "factor";
+    for (TexturePair const& pair : { m.clearCoat.maps, m.sheen.maps, m.specular.maps, m.iridescence.maps,
+                                     m.transmission.maps, m.diffuseTransmission.maps }) {
+        if ((pair.hasFirst || pair.hasSecond) != (pair.texture.image != kNone)) return "texture pair";
+    }
+    for (const float factor : unitFactorsOf(m)) {
+        if (!(factor >= 0 && factor <= 1)) return "factor";
+    }
+    if (!(m.ior >= 1 && m.ior <= kOpaqueIor)) return "index of refraction";
+    if (!(m.transmission.attenuationDistanceMeters > 0 && m.transmission.dispersion <= 100)) return "volume";
+    if (m.unlit && m.specularGlossiness) return "shading model";
     return std::isfinite(m.emissiveStrength) && m.emissiveStrength >= 0 ? nullptr : "emissive strength";
 }
 
@@ -50,6 +91,9 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
     }
     if (p.topology == backend::Topology::Triangles && (p.indexCount % 3 != 0 || !p.hasTangents)) return "triangles";
     if (p.material != kNone && p.material >= model.materials.size()) return "material index";
+    for (VariantMaterial const& variant : p.variants) {
+        if (variant.variant >= model.variants.size() || variant.material >= model.materials.size()) return "variant";
+    }
     for (int axis = 0; axis < 3; ++axis) {
         if (!std::isfinite(p.boundsMin[axis]) || !(p.boundsMin[axis] <= p.boundsMax[axis])) return "bounds";
         if (!(p.restBounds.min[axis] <= p.restBounds.max[axis])) return "bounds at rest";

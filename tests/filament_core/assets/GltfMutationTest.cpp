@@ -22,7 +22,23 @@ struct Specimen {
 
 Specimen specimenFrom(Json const& root, Bytes binary) { return { root.dump(), std::move(binary) }; }
 
-/// Textures of both kinds, lights, morph targets, a skin, sparse data, strips: a bit of everything.
+constexpr const char* kExtensions = R"({
+    "KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatTexture": { "index": 0 },
+        "clearcoatRoughnessTexture": { "index": 1 }, "clearcoatNormalTexture": { "index": 0 } },
+    "KHR_materials_sheen": { "sheenColorFactor": [ 1, 1, 1 ], "sheenColorTexture": { "index": 0 },
+        "sheenRoughnessTexture": { "index": 1, "texCoord": 1 } },
+    "KHR_materials_specular": { "specularFactor": 0.5, "specularColorFactor": [ 2, 2, 2 ] },
+    "KHR_materials_anisotropy": { "anisotropyStrength": 0.5, "anisotropyRotation": 1 },
+    "KHR_materials_iridescence": { "iridescenceFactor": 1, "iridescenceThicknessTexture": { "index": 0 } },
+    "KHR_materials_ior": { "ior": 1.4 }, "KHR_materials_transmission": { "transmissionFactor": 1 },
+    "KHR_materials_volume": { "thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [ 0.5, 0.5, 0.5 ] },
+    "KHR_materials_dispersion": { "dispersion": 1 },
+    "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 } })";
+constexpr const char* kGlossiness = R"({ "KHR_materials_pbrSpecularGlossiness": {
+    "diffuseFactor": [ 1, 0, 1, 0.5 ], "glossinessFactor": 0.5, "specularGlossinessTexture": { "index": 0 } } })";
+
+/// Textures of both kinds, layers and variants, lights, morph targets, a skin, sparse data, strips: a bit of
+/// everything.
 Specimen writtenSpecimen() {
     TestFile file = TestFile::triangle();
     file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1 });
@@ -45,10 +61,18 @@ Specimen writtenSpecimen() {
     const std::vector<std::byte> pixels(5 * 3 * 4, std::byte{ 77 });
     file.root["images"] = { { { "bufferView", file.addView(glbImageFromPixels("i", 5, 3, pixels)->file) } } };
     file.root["samplers"] = { { { "minFilter", 9984 } } };
-    file.root["textures"] = { { { "source", 0 }, { "sampler", 0 } } };
+    const std::vector<std::byte> others(2 * 4, std::byte{ 99 });
+    file.root["images"].push_back({ { "bufferView", file.addView(glbImageFromPixels("j", 2, 1, others)->file) } });
+    file.root["textures"] = { { { "source", 0 }, { "sampler", 0 } }, { { "source", 1 }, { "sampler", 0 } } };
     file.root["materials"] = Json::parse(R"([ { "normalTexture": { "index": 0, "scale": 0.5 },
         "pbrMetallicRoughness": { "baseColorTexture": { "index": 0, "extensions": { "KHR_texture_transform": {
         "offset": [ 0.5, 0 ], "rotation": 1, "scale": [ 2, 2 ] } } } } } ])");
+    file.root["materials"].push_back({ { "extensions", Json::parse(kExtensions) } });
+    file.root["materials"].push_back({ { "extensions", Json::parse(kGlossiness) } });
+    file.root["extensions"]["KHR_materials_variants"]["variants"] =
+            Json::parse(R"([ { "name": "a" }, { "name": "b" } ])");
+    file.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
+            Json::parse(R"([ { "material": 1, "variants": [ 0 ] }, { "material": 2, "variants": [ 1 ] } ])");
     file.primitive()["material"] = 0;
     file.root["skins"] = Json::parse(R"([ { "joints": [ 1 ] } ])");
     file.root["nodes"] = Json::parse(R"([ { "mesh": 0, "skin": 0, "children": [ 1 ] }, { "scale": [ 1, 2, 3 ],

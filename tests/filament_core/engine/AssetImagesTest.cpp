@@ -27,7 +27,15 @@ constexpr std::array kModels{ "FlightHelmet/FlightHelmet.gltf",
                               "Box-Draco/Box.gltf",
                               "BoxMeshopt/BoxMeshopt.glb",
                               "LightsPunctualLamp/LightsPunctualLamp.gltf",
-                              "LittlestTokyo/LittlestTokyo.glb" };
+                              "LittlestTokyo/LittlestTokyo.glb",
+                              "ClearCoatTest/ClearCoatTest.glb",
+                              "SpecularTest/SpecularTest.glb",
+                              "AnisotropyStrengthTest/AnisotropyStrengthTest.glb",
+                              "AnisotropyRotationTest/AnisotropyRotationTest.glb",
+                              "SpecularGlossiness13/Material_SpecularGlossiness_13.gltf",
+                              "TransmissionTest/TransmissionTest.glb",
+                              "AttenuationTest/AttenuationTest.glb",
+                              "DispersionTest/DispersionTest.glb" };
 constexpr std::array kEnvironments{ "studio_small_03_1k.hdr", "st_fagans_interior_1k.hdr",
                                     "spiaggia_di_mondello_1k.hdr" };
 

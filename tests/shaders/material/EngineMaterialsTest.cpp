@@ -22,7 +22,8 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
     for (const std::string_view name : engineMaterialNames()) {
         const MaterialPackage package = read(name);
         EXPECT_EQ(package.name, name);
-        const size_t lighting = package.shading == ShadingModel::Lit ? 8 : 1; // sun, punctual lights, half precision
+        const size_t lit = name.starts_with("gltf_lit_") ? 8 : 4; // sun, punctual lights; half precision
+        const size_t lighting = package.shading == ShadingModel::Unlit ? 1 : lit;
         const bool isDeformable =
                 package.domain == MaterialDomain::Surface && package.vertexDomain == VertexDomain::Object;
         const size_t expected = isDeformable ? 2 * lighting : lighting;
@@ -39,9 +40,10 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
 
 TEST(EngineMaterials, AreAnEmptySpanForAnUnknownName) { EXPECT_TRUE(engineMaterial("gltf_lit").empty()); }
 
-TEST(EngineMaterials, OfferTheLoaderTheSameInterfaceInAllLitGltfMaterials) {
-    const MaterialPackage opaque = read("gltf_lit_opaque");
-    for (const char* other : { "gltf_lit_masked", "gltf_lit_blended" }) {
+void expectTheSameInterface(std::string const& family, std::initializer_list<const char*> others) {
+    const MaterialPackage opaque = read(family + "_opaque");
+    for (const char* suffix : others) {
+        const std::string other = family + suffix;
         const MaterialPackage package = read(other);
         EXPECT_EQ(package.constants, opaque.constants) << other;
         for (Parameter const& parameter : opaque.parameters) {
@@ -50,6 +52,13 @@ TEST(EngineMaterials, OfferTheLoaderTheSameInterfaceInAllLitGltfMaterials) {
             EXPECT_EQ(*found, parameter);
         }
     }
+}
+
+TEST(EngineMaterials, OfferTheLoaderTheSameInterfaceInAllMaterialsOfAGltfFamily) {
+    for (const char* family : { "gltf_lit", "gltf_layered", "gltf_specular_glossiness" })
+        expectTheSameInterface(family, { "_masked", "_blended" });
+    for (const char* family : { "gltf_transmissive_thin", "gltf_transmissive_solid" })
+        expectTheSameInterface(family, { "_masked" });
     EXPECT_NE(read("gltf_lit_masked").findParameter("_maskThreshold"), nullptr);
     EXPECT_EQ(read("gltf_lit_blended").blending, Blending::Transparent);
     EXPECT_FALSE(read("gltf_lit_blended").depthWrite);

@@ -126,6 +126,10 @@ TEST_F(CommandLine, AMaterialIsShownWithTheValuesOfItsFileAndOfTheCommandLine) {
 
 TEST_F(CommandLine, AModelThatIsNotThereIsNamed) { expectRefused("missing.glb --size 32x32", { "missing.glb" }); }
 
+TEST_F(CommandLine, AVariantThatTheModelDoesNotHaveIsNamed) {
+    expectRefused("triangle.gltf --variant red --size 32x32", { "triangle.gltf", "no variants", "'red'" });
+}
+
 TEST_F(CommandLine, AFolderIsNotAModel) {
     std::filesystem::create_directories(sFolder / "folder.glb");
     expectRefused("folder.glb --size 32x32", { "folder.glb" });
@@ -221,10 +225,27 @@ TEST_F(CommandLine, LinearPicturesAreHalfFloatsWithTheSameBitsAsWell) {
 TEST_F(CommandLine, HelpListsTheOptionsAndSucceeds) {
     const Outcome outcome = run("--help");
     EXPECT_EQ(outcome.status, 0);
-    for (const char* option : { "--environment", "--backend", "--size",        "--frames",       "--no-fit",
-                                "--eye",         "--at",      "--fov",         "--exposure",     "--ibl-intensity",
-                                "--sun",         "--skybox",  "--tone-mapper", "--dither",       "--out",
-                                "--format",      "--timing",  "--explain",     "--list-devices", "--require-device",
+    for (const char* option : { "--variant",
+                                "--environment",
+                                "--backend",
+                                "--size",
+                                "--frames",
+                                "--no-fit",
+                                "--eye",
+                                "--at",
+                                "--fov",
+                                "--exposure",
+                                "--ibl-intensity",
+                                "--sun",
+                                "--skybox",
+                                "--tone-mapper",
+                                "--dither",
+                                "--out",
+                                "--format",
+                                "--timing",
+                                "--explain",
+                                "--list-devices",
+                                "--require-device",
                                 "--tolerance" }) {
         EXPECT_THAT(outcome.output, HasSubstr(option));
     }

@@ -95,6 +95,8 @@ TEST(Options, AWrongQualityNamesWhatWouldBeRight) {
 
 TEST(Options, AllReachTheirFields) {
     const Options options = parsed({ "a b.glb",
+                                     "--variant",
+                                     "dark wood",
                                      "--environment",
                                      "sky.hdr",
                                      "--backend",

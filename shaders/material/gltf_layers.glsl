@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// The layers of the KHR_materials extensions on top of gltfSurface(). What a material does not use is neutral: a constant
+// that the driver knows when it makes the pipeline, and so takes the layer out.
+// Maps stand before the parameters that they are multiplied by: lavapipe of Mesa 22.3 collects the parameters that a
+// condition depends on from left to right, and stops the process where it finds, after one, what is no parameter.
+// Whoever includes this has gltfDiffuseTransmissionMaps() before it.
+
+void gltfClearCoat(inout MaterialInputs material) {
+    material.clearCoat = 0.0;
+    if (materialConstants_hasClearCoat) {
+        vec4 maps = vec4(1.0); // red: coat, green: its roughness
+        if (materialConstants_hasClearCoatMap || materialConstants_hasClearCoatRoughnessMap) {
+            maps = texture(materialParams_clearCoatMap, mapUv(materialConstants_clearCoatUv,
+                    materialConstants_clearCoatTransform, materialParams.clearCoatUvMatrix));
+        }
+        material.clearCoat = (materialConstants_hasClearCoatMap ? maps.r : 1.0) * materialParams.clearCoat;
+        material.clearCoatRoughness =
+                (materialConstants_hasClearCoatRoughnessMap ? maps.g : 1.0) * materialParams.clearCoatRoughness;
+    }
+}
+
+vec3 gltfClearCoatNormal() {
+    vec2 uv = mapUv(materialConstants_clearCoatNormalUv, materialConstants_clearCoatNormalTransform,
+            materialParams.clearCoatNormalUvMatrix);
+    vec3 n = texture(materialParams_clearCoatNormalMap, uv).xyz * 2.0 - 1.0;
+    return vec3(n.xy * materialParams.clearCoatNormalScale, n.z);
+}
+
+void gltfSheen(inout MaterialInputs material) {
+    if (materialConstants_hasSheen) {
+        vec4 maps = vec4(1.0); // RGB: colour, alpha: roughness
+        if (materialConstants_hasSheenColorMap || materialConstants_hasSheenRoughnessMap) {
+            maps = texture(materialParams_sheenMap, mapUv(materialConstants_sheenUv, materialConstants_sheenTransform,
+                    materialParams.sheenUvMatrix));
+        }
+        material.sheenColor = (materialConstants_hasSheenColorMap ? maps.rgb : vec3(1.0)) * materialParams.sheenColor;
+        material.sheenRoughness = (materialConstants_hasSheenRoughnessMap ? maps.a : 1.0) * materialParams.sheenRoughness;
+    }
+}
+
+void gltfSpecular(inout MaterialInputs material) {
+    if (materialConstants_hasIor) material.ior = materialParams.ior;
+    if (materialConstants_hasSpecular) {
+        vec4 maps = vec4(1.0); // RGB: colour, alpha: factor
+        if (materialConstants_hasSpecularColorMap || materialConstants_hasSpecularFactorMap) {
+            maps = texture(materialParams_specularMap, mapUv(materialConstants_specularUv,
+                    materialConstants_specularTransform, materialParams.specularUvMatrix));
+        }
+        material.specularColorFactor =
+                (materialConstants_hasSpecularColorMap ? maps.rgb : vec3(1.0)) * materialParams.specularColorFactor;
+        material.specularFactor = (materialConstants_hasSpecularFactorMap ? maps.a : 1.0) * materialParams.specularFactor;
+    }
+}
+
+// KHR_materials_anisotropy makes the direction along the tangent rougher: alpha t = mix(alpha, 1, strength^2), and leaves
+// the other as it is. The guide's anisotropy a stretches one and narrows the other: alpha (1 + a), alpha (1 - a). Both say
+// the same two roughnesses if alpha becomes their mean and a their difference over their sum.
+void gltfAnisotropy(inout MaterialInputs material) {
+    if (materialConstants_hasAnisotropy) {
+        vec2 turn = materialParams.anisotropyRotation;
+        vec2 direction = turn;
+        float amount = 1.0;
+        if (materialConstants_hasAnisotropyMap) {
+            vec3 map = texture(materialParams_anisotropyMap, mapUv(materialConstants_anisotropyUv,
+                    materialConstants_anisotropyTransform, materialParams.anisotropyUvMatrix)).xyz;
+            vec2 authored = map.xy * 2.0 - 1.0;
+            direction = vec2(authored.x * turn.x - authored.y * turn.y, authored.x * turn.y + authored.y * turn.x);
+            amount = map.z;
+        }
+        float strength = amount * materialParams.anisotropyStrength;
+        float across = material.roughness * material.roughness;
+        float along = mix(across, 1.0, strength * strength);
+        float sum = along + across;
+        material.anisotropy = strength > 0.0 ? (along - across) / sum : 0.0;
+        material.anisotropyDirection = vec3(direction, 0.0);
+        material.roughness = strength > 0.0 ? sqrt(0.5 * sum) : material.roughness;
+    }
+}
+
+void gltfIridescence(inout MaterialInputs material) {
+    if (materialConstants_hasIridescence) {
+        vec4 maps = vec4(1.0); // red: factor, green: from the minimum to the maximum
+        if (materialConstants_hasIridescenceMap || materialConstants_hasIridescenceThicknessMap) {
+            maps = texture(materialParams_iridescenceMap, mapUv(materialConstants_iridescenceUv,
+                    materialConstants_iridescenceTransform, materialParams.iridescenceUvMatrix));
+        }
+        vec2 range = materialParams.iridescenceThickness;
+        material.iridescence = (materialConstants_hasIridescenceMap ? maps.r : 1.0) * materialParams.iridescence;
+        material.iridescenceIor = materialParams.iridescenceIor;
+        material.iridescenceThickness =
+                materialConstants_hasIridescenceThicknessMap ? mix(range.x, range.y, maps.g) : range.y;
+    }
+}
+
+void gltfDiffuseTransmission(inout MaterialInputs material) {
+    if (materialConstants_hasDiffuseTransmission) {
+        vec4 maps = gltfDiffuseTransmissionMaps();
+        material.diffuseTransmissionColor = maps.rgb * materialParams.diffuseTransmissionColor;
+        material.diffuseTransmission = maps.a * materialParams.diffuseTransmission;
+    }
+}
+
+void gltfNormals(inout MaterialInputs material) {
+    if (materialConstants_hasNormalMap) material.normal = gltfNormal();
+    if (materialConstants_hasClearCoatNormalMap) material.clearCoatNormal = gltfClearCoatNormal();
+}
+
+void gltfLayers(inout MaterialInputs material) {
+    gltfClearCoat(material);
+    gltfSheen(material);
+    gltfSpecular(material);
+    gltfAnisotropy(material);
+    gltfIridescence(material);
+    gltfDiffuseTransmission(material);
+}

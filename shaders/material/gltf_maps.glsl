@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// Maps that all lit glTF materials have: normals, occlusion, emission. glTF 2.0 specification, 3.9.3.
+
+vec3 gltfNormal() {
+    vec2 uv = mapUv(materialConstants_normalUv, materialConstants_normalTransform, materialParams.normalUvMatrix);
+    vec3 n = texture(materialParams_normalMap, uv).xyz * 2.0 - 1.0;
+    return vec3(n.xy * materialParams.normalScale, n.z);
+}
+
+float gltfOcclusion() {
+    vec2 uv = mapUv(materialConstants_occlusionUv, materialConstants_occlusionTransform, materialParams.occlusionUvMatrix);
+    return texture(materialParams_occlusionMap, uv).r;
+}
+
+float occlusionOf(float texel) { return 1.0 + materialParams.occlusionStrength * (texel - 1.0); }
+
+// Weight 0: glTF scenes are authored against a white of 1, not against nits under an exposure.
+vec4 gltfEmissive() {
+    vec4 emissive = vec4(materialParams.emissiveFactor, 0.0);
+    if (materialConstants_hasEmissiveMap) {
+        vec2 uv = mapUv(materialConstants_emissiveUv, materialConstants_emissiveTransform,
+                materialParams.emissiveUvMatrix);
+        emissive.rgb *= texture(materialParams_emissiveMap, uv).rgb;
+    }
+    return emissive;
+}
