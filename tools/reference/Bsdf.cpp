@@ -22,14 +22,14 @@ bool hasCoat(SurfaceSample const& surface) { return surface.coat.strength > 0 &&
 
 SurfaceSample underCoat(SurfaceSample surface, CoatLayer const& coat) {
     surface.view = coat.viewInside();
-    surface.f0 = lib::f0UnderCoat(surface.coat.bareF0, 1.0);
-    surface.f90 = lib::saturate(lib::dot(surface.f0, double3(50.0 * 0.33)));
+    surface.f0 = f0BelowCoat(surface.coat.bareF0, 1.0);
+    surface.f90 = f90Of(surface.f0);
     return surface;
 }
 
 SurfaceSample withoutCoat(SurfaceSample surface) {
     surface.f0 = surface.coat.bareF0;
-    surface.f90 = lib::saturate(lib::dot(surface.f0, double3(50.0 * 0.33)));
+    surface.f90 = f90Of(surface.f0);
     return surface;
 }
 
@@ -55,6 +55,13 @@ double pdfOfBase(Base const& base, double3 light) {
 
 } // namespace
 
+double f90Of(double3 f0) { return lib::saturate(lib::dot(f0, double3(50.0 * 0.33))); }
+
+double3 f0BelowCoat(double3 bareF0, double strength) {
+    const double3 covered = lib::f0UnderCoat(bareF0, 1.0) * glm::min(bareF0 * 50.0, 1.0);
+    return glm::mix(bareF0, covered, strength);
+}
+
 Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion, bool isBall)
         : mNormal(surface.normal), mBase(baseOf(surface, model, useOcclusion)) {
     TransmissionSample const& below = surface.transmission;
@@ -67,7 +74,8 @@ Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusi
         }
     }
     if (surface.sheen.color != double3(0.0) && !below.isFromInside && withSpecular) mSheen.emplace(surface, model);
-    if (below.color != double3(0.0) && withSpecular) mTransmission.emplace(surface, model, isBall);
+    if (below.color != double3(0.0) && withSpecular)
+        mTransmission.emplace(surface, model, isBall, specularAlbedoOf(mBase));
     if (model.lobes != LobeChoice::Specular) mBehind = surface.diffuseTransmission.color;
     chooseChances();
 }
@@ -105,7 +113,7 @@ double3 Bsdf::harmonicAlbedo() const {
 }
 
 double3 Bsdf::evaluate(double3 light, LightSource source) const {
-    double3 sum = coatedAt(light, source) + behindAt(light);
+    double3 sum = coatedAt(light, source) + behindAt(light, source);
     if (mCoat) sum += mCoat->evaluate(light, source);
     return sum;
 }
@@ -139,12 +147,17 @@ double3 Bsdf::coatedAt(double3 light, LightSource source) const {
     return sum;
 }
 
-double3 Bsdf::behindAt(double3 light) const {
+// As the engine: a light from behind passes the coat, and neither the sheen nor the base's reflection.
+double3 Bsdf::behindAt(double3 light, LightSource source) const {
     double3 sum(0.0);
-    if (mTransmission) sum += mTransmission->evaluate(light);
-    sum += mBehind * (lib::diffuseLambert() * std::max(-glm::dot(light, mNormal), 0.0));
     const double sheen = mSheen ? mSheen->scalingOfView() : 1;
-    return sum * (sheen * (mCoat ? mCoat->attenuationOfView() : 1));
+    if (mTransmission) sum += mTransmission->evaluate(light, source) * sheen;
+    if (const double cosine = -glm::dot(light, mNormal); cosine > 0) {
+        const bool isAmbient = source == LightSource::Ambient;
+        const double3 coupling = isAmbient ? (1.0 - specularAlbedoOf(mBase)) * sheen : double3(1.0);
+        sum += mBehind * (lib::diffuseLambert() * cosine) * glm::max(coupling, 0.0);
+    }
+    return mCoat ? sum * mCoat->attenuation(light, source) : sum;
 }
 
 double3 Bsdf::straightShare() const {

@@ -50,7 +50,7 @@ private:
     void chooseChances();
     double3 baseAt(double3 light, LightSource source) const; ///< with the sheen's share taken off, without the coat's
     double3 coatedAt(double3 light, LightSource source) const;
-    double3 behindAt(double3 light) const;
+    double3 behindAt(double3 light, LightSource source) const;
     std::optional<double3> sampleOf(Part part, double2 u, double choice) const;
     double pdfOf(Part part, double3 light) const;
     bool isRefractedByCoat() const { return mCoat && mCoat->isExact(); }

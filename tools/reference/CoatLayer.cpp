@@ -40,8 +40,8 @@ double CoatLayer::evaluate(double3 light, LightSource source) const {
     const double voh = lib::saturate(glm::dot(mView, halfway));
     const double visibility = isExact() ? lib::visibilitySmithGgxCorrelated(mView.z, local.z, mAlpha)
                                         : lib::visibilityCoat(mView.z, std::min(local.z, 1.0), voh, mAlpha);
-    const double fresnel =
-            mFresnel == FresnelTerm::Schlick ? lib::coatFresnel(voh, 1.0) : lib::fresnelComplex(voh, kCoatIor, 0.0);
+    const double fresnel = mFresnel == FresnelTerm::Schlick ? lib::coatFresnel(voh, 1.0)
+                                                            : lib::fresnelComplex(voh, lib::kCoatIor, 0.0);
     return ggx(halfway, double2(mAlpha)) * visibility * fresnel * local.z * mStrength;
 }
 
@@ -64,26 +64,25 @@ double CoatLayer::pdf(double3 light) const {
 }
 
 double CoatLayer::attenuation(double3 light, LightSource source) const {
-    const double view = 1 - mStrength * (1 - mViewTransmission);
-    if (source == LightSource::Ambient) return view;
-    const double nol = std::max(mFrame.toLocal(light).z, 0.0);
-    return std::min(view, 1 - mStrength * (1 - transmission(std::min(nol, 1.0))));
+    if (source == LightSource::Ambient) return attenuationOfView();
+    const double cosine = std::min(std::abs(mFrame.toLocal(light).z), 1.0);
+    return std::min(attenuationOfView(), 1 - mStrength * (1 - transmission(cosine)));
 }
 
 double3 CoatLayer::viewInside() const {
-    const double3 local = mView / kCoatIor;
-    return mFrame.toWorld({ local.x, local.y, lib::refractedCosine(mView.z, kCoatIor) });
+    const double3 local = mView / lib::kCoatIor;
+    return mFrame.toWorld({ local.x, local.y, lib::refractedCosine(mView.z, lib::kCoatIor) });
 }
 
 std::optional<double3> CoatLayer::inside(double3 light) const {
     const double3 local = mFrame.toLocal(light);
     if (local.z <= 0) return {};
-    return mFrame.toWorld(
-            { local.x / kCoatIor, local.y / kCoatIor, lib::refractedCosine(std::min(local.z, 1.0), kCoatIor) });
+    return mFrame.toWorld({ local.x / lib::kCoatIor, local.y / lib::kCoatIor,
+                            lib::refractedCosine(std::min(local.z, 1.0), lib::kCoatIor) });
 }
 
 std::optional<double3> CoatLayer::outside(double3 lightInside) const {
-    const double3 local = mFrame.toLocal(lightInside) * kCoatIor;
+    const double3 local = mFrame.toLocal(lightInside) * lib::kCoatIor;
     const double cos2 = 1 - local.x * local.x - local.y * local.y;
     if (local.z <= 0 || cos2 <= 0) return {};
     return mFrame.toWorld({ local.x, local.y, std::sqrt(cos2) });
@@ -91,7 +90,7 @@ std::optional<double3> CoatLayer::outside(double3 lightInside) const {
 
 double CoatLayer::spread(double3 light) const {
     const double nol = std::clamp(mFrame.toLocal(light).z, 0.0, 1.0);
-    return nol / (kCoatIor * kCoatIor * lib::refractedCosine(nol, kCoatIor));
+    return nol / (lib::kCoatIor * lib::kCoatIor * lib::refractedCosine(nol, lib::kCoatIor));
 }
 
 double3 CoatLayer::combined(LobeValues const& below, double3 specularAlbedo, double3 light) const {
@@ -99,7 +98,7 @@ double3 CoatLayer::combined(LobeValues const& below, double3 specularAlbedo, dou
     const double through = transmission(nol) * mViewTransmission;
     const double back = std::sqrt((1 - transmission(nol)) * (1 - mViewTransmission));
     const double3 specular = below.specular * spread(light) / (1.0 - back * specularAlbedo);
-    const double3 diffuse = below.diffuse * (spread(light) * kCoatIor * kCoatIor / mMeanTransmission);
+    const double3 diffuse = below.diffuse * (spread(light) * lib::kCoatIor * lib::kCoatIor / mMeanTransmission);
     return (specular + diffuse) * through;
 }
 

@@ -33,7 +33,7 @@ public:
     /// CoatTerm::Engine: the factor of everything below, for light of one direction.
     double attenuation(double3 light, LightSource source) const;
     /// The same for light that leaves through the surface's other side.
-    double attenuationOfView() const { return mViewTransmission; }
+    double attenuationOfView() const { return 1 - mStrength * (1 - mViewTransmission); }
 
     // CoatTerm::Exact, for the part of the surface that is coated.
     double strength() const { return mStrength; }

@@ -134,7 +134,7 @@ AlbedoTable<double> const& coatTable() {
     static const AlbedoTable<double> sTable(kCoatCosines, kCoatRoughnesses, [](double nov, double roughness) {
         static const std::vector<Node> sNodes = gaussLegendre(kQuadrature);
         return integrate(nov, lib::alphaFromPerceptual(roughness), sNodes, kQuadrature,
-                         [](double voh) { return lib::fresnelComplex(voh, kCoatIor, 0.0); });
+                         [](double voh) { return lib::fresnelComplex(voh, lib::kCoatIor, 0.0); });
     });
     return sTable;
 }

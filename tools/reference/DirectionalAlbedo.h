@@ -19,8 +19,6 @@ double2 integrateDirectionalAlbedo(double nov, double alpha, int radii = 32, int
 /// perceptualRoughness in [0.045, 1].
 double2 directionalAlbedo(double nov, double perceptualRoughness);
 
-inline constexpr double kCoatIor = 1.5; ///< kCoatF0 of shaders/lib/coat.glsl
-
 /// What a clear coat reflects by Fresnel's equations, and the same of light from everywhere. A table of its own, made
 /// at the first call.
 double coatAlbedo(double nov, double perceptualRoughness);

@@ -80,6 +80,8 @@ SurfaceSample surfaceAt(Part const& part, TrianglePoint const& point, double3 vi
     surface.geometricNormal = varyings.faceNormal * side;
     surface.view = view;
     surface.normal = shadingNormal(part, varyings, side);
+    surface.tangent = double3(varyings.tangent) * side;
+    surface.uv = varyings.uvs[0];
     // Embree's floats: 2^-24 of the coordinates and, for the distance along a ray, some 2^-23 of the triangle's size.
     const double3 size = glm::abs(varyings.position);
     surface.selfAvoidance = 0x1p-20 * (std::max({ size.x, size.y, size.z }) + varyings.longestEdge);

@@ -16,7 +16,8 @@ namespace {
 enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kPerBounce };
 constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21;
 
-constexpr uint32_t kRouletteFrom = 4; // bounces that are never ended by chance
+constexpr uint32_t kRouletteFrom = 4;      // events that never end a path by chance
+constexpr uint32_t kMostEvents = 1u << 16; // what a path's numbers have room for
 
 double powerHeuristic(double pdf, double otherPdf) {
     const double a = pdf * pdf, b = otherPdf * otherPdf;
@@ -39,15 +40,17 @@ struct PathTracer::Path {
     Hit hit{};
     bool isCamera = true;
     double3 throughput{ 1.0 };
-    double bsdfPdf = 0; // of the direction, once the path was reflected
-    uint32_t bounce = 0, layers = 0;
+    double bsdfPdf = 0;  // of the direction, once the path was reflected
+    uint32_t bounce = 0; // reflections, on either side of a surface
+    uint32_t events = 0; // those, and what went through surfaces
+    uint32_t layers = 0;
     PassedTriangles passed{};
     int color = -1;             // the only one it carries, since light was dispersed
     double spread = 1;          // index^2 of what it is in: radiance there is so much larger
     bool isBehindGlass = false; // went straight through since it was reflected: shadow rays do not
 
     double2 pair(BounceDimension dimension) const {
-        return numbers.pair(kFirstBounce + bounce * kPerBounce + dimension);
+        return numbers.pair(kFirstBounce + events * kPerBounce + dimension);
     }
 };
 
@@ -140,7 +143,8 @@ double3 PathTracer::lightAt(Path& path, SurfaceSample const& surface, Bsdf const
     if (!mScene.environment().isBlack()) {
         if (mSettings.sampling != Sampling::Bsdf) sum += environmentSample(path, surface, bsdf);
         if (mSettings.integrator == Integrator::Unoccluded) sum += unoccludedBsdfSample(path, bsdf);
-        sum += bsdf.harmonicAlbedo() * mScene.environment().harmonicIrradiance(surface.normal);
+        const double3 open = mUseOcclusion && surface.bentNormal ? *surface.bentNormal : surface.normal;
+        sum += bsdf.harmonicAlbedo() * mScene.environment().harmonicIrradiance(open);
     }
     if (!mScene.directLights().empty()) sum += directSample(path, surface, bsdf);
     return sum * mExposure;
@@ -217,13 +221,15 @@ bool PathTracer::reflect(Path& path, SurfaceSample const& surface, Bsdf const& b
     if (!(largest > 0)) return false;
     const bool entersOrLeaves = !surface.transmission.isThin && glm::dot(sample.direction, surface.geometricNormal) < 0;
     if (entersOrLeaves) path.spread = surface.transmission.isFromInside ? 1 : lib::sq(surface.transmission.ior);
-    if (path.bounce >= kRouletteFrom && largest * path.spread < 1) {
+    if (path.events >= kRouletteFrom && largest * path.spread < 1) {
         const double survival = std::min(largest * path.spread, 0.95);
         if (path.pair(kRoulette).x >= survival) return false;
         path.throughput /= survival;
     }
     path.passed.count = 0;
-    ++path.bounce;
+    const bool goesThrough = sample.isStraight || glm::dot(sample.direction, surface.geometricNormal) < 0;
+    if (!goesThrough) ++path.bounce;
+    if (++path.events >= kMostEvents) return false;
     if (sample.isStraight) {
         path.isBehindGlass = true;
         path.ray = { .origin = surface.rayOrigin(path.ray.direction), .direction = path.ray.direction };

@@ -2,7 +2,7 @@
 /// PathTracer: the radiance along one camera ray, estimated from one sample's numbers.
 ///   Method  unidirectional paths; at every surface one light sample each of the environment and of the direct lights,
 ///           the environment combined with the BSDF's sample by the power heuristic (Veach 1997, "Robust Monte Carlo
-///           Methods for Light Transport Simulation", section 9.2). Russian roulette from the fifth reflection on.
+///           Methods for Light Transport Simulation", section 9.2). Russian roulette from the fifth event on.
 ///           Blended surfaces are chosen or passed by chance, with the weights that keep the mean.
 ///   Inside  a path may enter solids; the way inside is absorbed. Shadow rays stop at them: what lies behind is found
 ///   by

@@ -87,7 +87,8 @@ struct ReferenceSettings {
     Integrator integrator = Integrator::Path;
     uint32_t samplesPerPixel = 256; ///< [1, 2^20]: rounded up to whole passes
     float relativeError = 0;        ///< > 0: stop when RenderStatistics::relativeError is below it
-    uint32_t maxBounces = 64;       ///< [1, 4096] reflections; Russian roulette ends most paths much earlier
+    uint32_t maxBounces =
+            64; ///< [1, 4096] reflections, going through does not count; Russian roulette ends most paths much earlier
     uint32_t seed = 1;
     PixelFilter filter = PixelFilter::Box;
     Sampling sampling = Sampling::Both;

@@ -5,6 +5,7 @@
 #include "tools/reference/DirectionalAlbedo.h"
 
 #include <algorithm>
+#include <cmath>
 
 namespace filament::reference {
 
@@ -18,7 +19,36 @@ Frame frameOf(SurfaceSample const& surface) {
     return isStretched(surface) ? Frame(surface.normal, surface.tangent) : Frame(surface.normal);
 }
 
+// The engine takes it for 1 but where a layer's text is in.
+double f90OfSplitSum(SurfaceSample const& surface) {
+    return surface.coat.strength > 0 || surface.transmission.color != double3(0.0) ? surface.f90 : 1;
+}
+
+// What a stretched lobe loses: shaders/material/surface_anisotropy.glsl, groovesCompensation().
+double3 compensationOfGrooves(double3 compensation, double anisotropy) {
+    constexpr double kGrooveShare = 0.6;
+    return 1.0 + (compensation - 1.0) * (1 - kGrooveShare * std::abs(anisotropy));
+}
+
+// What the far side of a sheet adds to the albedo of the near one: surface_refraction.glsl, farReflectedShare().
+double3 farReflectedShare(SurfaceSample const& surface, double nov, double3 f) {
+    TransmissionSample const& below = surface.transmission;
+    if (!below.isThin || below.color == double3(0.0)) return double3(0.0);
+    const double path = lib::thinPathLength(nov, below.ior, below.thickness);
+    return lib::thinFarReflectance(f, below.color * lib::transmittance(below.absorption, path));
+}
+
 } // namespace
+
+// As shaders/material/surface_occlusion.glsl, without bounces between what occludes.
+double StandardLobes::specularOcclusionOf(SurfaceSample const& surface) const {
+    if (surface.bentNormal) {
+        const double3 mirrored(-mView.x, -mView.y, mView.z);
+        const double cosine = glm::dot(mFrame.toLocal(*surface.bentNormal), mirrored);
+        return lib::specularOcclusionCones(surface.occlusion, cosine, mRoughness);
+    }
+    return lib::specularOcclusion(mView.z, surface.occlusion, lib::alphaFromPerceptual(mRoughness));
+}
 
 StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion)
         : mModel(model), mInterface(surface, model.fresnel), mFrame(frameOf(surface)),
@@ -34,7 +64,7 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     if (surface.transmission.isFromInside) specularAlbedo = mInterface.reflectance(mView.z);
     if (useOcclusion) {
         mAmbientDiffuse = double3(surface.occlusion);
-        mAmbientSpecular = lib::specularOcclusion(mView.z, surface.occlusion, lib::alphaFromPerceptual(mRoughness));
+        mAmbientSpecular = specularOcclusionOf(surface);
     }
     if (model.lobes == LobeChoice::Specular) mDiffuse = double3(0.0);
     if (model.lobes == LobeChoice::Diffuse) mCompensation = double3(0.0);
@@ -46,13 +76,19 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     const bool samplesDiffuse = diffuse > 0 && model.diffuseLight == DiffuseLight::Integral;
     mSpecularChance = samplesDiffuse ? std::clamp(specular / (specular + diffuse), 0.1, 0.9) : 1;
     if (model.lobes == LobeChoice::Diffuse) mSpecularChance = 0;
-    if (model.specularLight == SpecularLight::SplitSum && model.lobes != LobeChoice::Diffuse) usePrefiltered(dfg);
+    if (model.specularLight == SpecularLight::SplitSum && model.lobes != LobeChoice::Diffuse)
+        usePrefiltered(surface, dfg);
+    if (model.lobes != LobeChoice::Diffuse) mCompensation = compensationOfGrooves(mCompensation, surface.anisotropy);
 }
 
-void StandardLobes::usePrefiltered(double2 dfg) {
+// As shaders/material/surface_anisotropy.glsl for a stretched lobe: looked up along a bent normal.
+void StandardLobes::usePrefiltered(SurfaceSample const& surface, double2 dfg) {
     mLobe.emplace(mRoughness, mModel.splitSumLevels);
-    mLobeAlbedo = lib::specularDfg(mInterface.f0(), dfg) * mCompensation * mAmbientSpecular;
-    const double3 mirrored(-mView.x, -mView.y, mView.z);
+    mLobeAlbedo = lib::specularDfg(surface.f0, f90OfSplitSum(surface), dfg) * mCompensation;
+    mLobeAlbedo = (mLobeAlbedo + farReflectedShare(surface, mView.z, mLobeAlbedo)) * mAmbientSpecular;
+    const double3 bent =
+            lib::anisotropicNormal({ 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, mView, surface.anisotropy, mRoughness);
+    const double3 mirrored = 2 * glm::dot(bent, mView) * bent - mView;
     const double alpha = lib::alphaFromPerceptual(mRoughness);
     mLobeFrame = Frame(glm::normalize(lib::dominantSpecularDirection({ 0, 0, 1 }, mirrored, alpha)));
 }

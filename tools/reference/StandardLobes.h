@@ -41,12 +41,13 @@ public:
     double3 specularAlbedo() const { return mSpecularAlbedo; }
 
 private:
+    double specularOcclusionOf(SurfaceSample const& surface) const;
     double visibility(double3 light) const;
     double diffuseTerm(double nol, double voh) const;
     LobeValues lobesAt(double3 local, LightSource source) const;
     double3 sampleSpecular(double2 u) const; ///< local
     double specularPdf(double3 light) const;
-    void usePrefiltered(double2 dfg);
+    void usePrefiltered(SurfaceSample const& surface, double2 dfg);
 
     BsdfModel mModel;
     Interface mInterface;

@@ -66,8 +66,12 @@ struct SurfaceSample {
     double metallic = 0; ///< edge tint of the exact Fresnel term
     double perceptualRoughness = 1;
     double occlusion = 1; ///< of the material's map, [0, 1]
+    std::optional<double3>
+            bentNormal; ///< where light comes from that is not occluded; occlusion is then a cone around it
+    double2 uv{ 0.0 };  ///< of the first set
 
     double2 stretchedAlpha{ 0.0 }; ///< of an anisotropic lobe, along the tangent and across; 0: round
+    double anisotropy = 0;         ///< [-1, 1]: by how much the engine bends its reflections
     double3 tangent{ 1, 0, 0 };    ///< of that lobe; made perpendicular to the normal by who uses it
     CoatSample coat{};
     SheenSample sheen{};
@@ -87,5 +91,12 @@ struct SurfaceSample {
         return position + geometricNormal * (side * selfAvoidance);
     }
 };
+
+// As shaders/material/surface_lit_shading.glsl.
+
+/// What grazing light finds: what reflects less than 2 % wants no reflection at all.
+double f90Of(double3 f0);
+/// Of a base of this f0 in air, as far as it is coated.
+double3 f0BelowCoat(double3 bareF0, double strength);
 
 } // namespace filament::reference

@@ -20,29 +20,46 @@ double alphaOfTransmission(SurfaceSample const& surface) {
 
 } // namespace
 
-TransmissionLobe::TransmissionLobe(SurfaceSample const& surface, BsdfModel const& model, bool isBall)
-        : mKind(Kind::Solid), mInterface(surface, model.fresnel), mFrame(surface.normal),
-          mView(liftedAboveHorizon(mFrame.toLocal(surface.view))),
-          mAlpha(lib::alphaFromPerceptual(surface.perceptualRoughness)) {
+TransmissionLobe::TransmissionLobe(SurfaceSample const& surface, BsdfModel const& model, bool isBall,
+                                   double3 specularAlbedo)
+        : mKind(surface.transmission.isThin ? Kind::Thin : Kind::Solid), mInterface(surface, model.fresnel),
+          mFrame(surface.normal), mView(liftedAboveHorizon(mFrame.toLocal(surface.view))),
+          mAlpha(lib::alphaFromPerceptual(surface.perceptualRoughness)), mIsThin(surface.transmission.isThin) {
     TransmissionSample const& below = surface.transmission;
     mAlbedo = mInterface.transmittance(mView.z);
     mEta = below.isFromInside ? 1 / below.ior : below.ior;
-    if (below.isThin) {
-        mKind = Kind::Thin;
-        mAlpha = double2(alphaOfTransmission(surface));
-    } else if (isBall) {
-        mKind = Kind::Ball;
-        mBallLobe.emplace(alphaOfTransmission(surface));
-        const double3 iors = lib::dispersedIor(below.ior, below.dispersion);
-        for (int i = 0; i < 3; ++i) {
-            mBallFrames[static_cast<size_t>(i)] =
-                    Frame(glm::normalize(lib::refractedSolid({ 0, 0, 1 }, mView, iors[i])));
-        }
-        const double path = lib::solidPathLength(mView.z, below.ior, below.thickness);
-        mAlbedo *= lib::transmittance(below.absorption, path);
-    } else if (std::abs(below.ior - 1) < kLeastIndexStep) {
+    if (mIsThin) mAlpha = double2(alphaOfTransmission(surface));
+    if (mIsThin ? model.specularLight == SpecularLight::SplitSum : isBall) {
+        lookUp(surface, specularAlbedo);
+    } else if (!mIsThin && std::abs(below.ior - 1) < kLeastIndexStep) {
         mKind = Kind::Straight;
     }
+}
+
+// As shaders/material/surface_refraction.glsl.
+void TransmissionLobe::lookUp(SurfaceSample const& surface, double3 f) {
+    TransmissionSample const& below = surface.transmission;
+    mKind = Kind::LookUp;
+    mLookUpLobe.emplace(alphaOfTransmission(surface));
+    if (mIsThin) {
+        const double path = lib::thinPathLength(mView.z, below.ior, below.thickness);
+        mAlbedo = lib::thinTransmittance(f, below.color * lib::transmittance(below.absorption, path));
+        mLookUpFrames.fill(Frame(-mView));
+        return;
+    }
+    const double path = lib::solidPathLength(mView.z, below.ior, below.thickness);
+    mAlbedo = glm::max(1.0 - f, 0.0) * below.color * lib::transmittance(below.absorption, path);
+    const double3 iors = lib::dispersedIor(below.ior, below.dispersion);
+    for (int i = 0; i < 3; ++i) {
+        mLookUpFrames[static_cast<size_t>(i)] = Frame(glm::normalize(lib::refractedSolid({ 0, 0, 1 }, mView, iors[i])));
+    }
+}
+
+double3 TransmissionLobe::throughSheet(double3 local) const {
+    const double3 above = mirrored(local), h = glm::normalize(mView + above);
+    const double visibility = lib::visibilitySmithGgxCorrelated(mView.z, std::min(above.z, 1.0), mAlpha.x);
+    const double voh = lib::saturate(glm::dot(mView, h));
+    return mInterface.transmittance(voh) * (ggx(h, mAlpha) * visibility * above.z);
 }
 
 // Ibid., eq. 16, towards the side of the view.
@@ -53,21 +70,16 @@ double3 TransmissionLobe::halfway(double3 local) const {
     return sum.z < 0 ? -sum / length : sum / length;
 }
 
-double3 TransmissionLobe::evaluate(double3 light) const {
+double3 TransmissionLobe::evaluate(double3 light, LightSource source) const {
     const double3 local = mFrame.toLocal(light);
     if (mKind == Kind::Straight) return double3(0.0);
-    if (mKind == Kind::Ball) {
+    if (mKind == Kind::LookUp && source == LightSource::Ambient) {
         double3 value;
-        for (int i = 0; i < 3; ++i) value[i] = mBallLobe->value(mBallFrames[static_cast<size_t>(i)].toLocal(local));
+        for (int i = 0; i < 3; ++i) value[i] = mLookUpLobe->value(mLookUpFrames[static_cast<size_t>(i)].toLocal(local));
         return mAlbedo * value;
     }
-    if (local.z >= 0) return double3(0.0);
-    if (mKind == Kind::Thin) {
-        const double3 above = mirrored(local), h = glm::normalize(mView + above);
-        const double visibility = lib::visibilitySmithGgxCorrelated(mView.z, std::min(above.z, 1.0), mAlpha.x);
-        const double voh = lib::saturate(glm::dot(mView, h));
-        return mInterface.transmittance(voh) * (ggx(h, mAlpha) * visibility * above.z);
-    }
+    if (local.z >= 0 || (mKind == Kind::LookUp && !mIsThin)) return double3(0.0);
+    if (mIsThin) return throughSheet(local);
     const double3 h = halfway(local);
     const double voh = glm::dot(mView, h), loh = glm::dot(local, h);
     if (voh <= 0 || loh >= 0) return double3(0.0);
@@ -79,10 +91,10 @@ double3 TransmissionLobe::evaluate(double3 light) const {
 }
 
 std::optional<double3> TransmissionLobe::sample(double2 u) const {
-    if (mKind == Kind::Ball) {
+    if (mKind == Kind::LookUp) {
         const auto color = std::min(static_cast<size_t>(u.y * 3), size_t(2));
         const double2 rest(u.x, u.y * 3 - static_cast<double>(color));
-        return glm::normalize(mFrame.toWorld(mBallFrames[color].toWorld(mBallLobe->sample(rest))));
+        return glm::normalize(mFrame.toWorld(mLookUpFrames[color].toWorld(mLookUpLobe->sample(rest))));
     }
     const double3 h = sampleVisibleNormal(mView, mAlpha, u);
     const double voh = glm::dot(mView, h);
@@ -101,9 +113,9 @@ std::optional<double3> TransmissionLobe::sample(double2 u) const {
 double TransmissionLobe::pdf(double3 light) const {
     const double3 local = mFrame.toLocal(light);
     if (mKind == Kind::Straight) return 0;
-    if (mKind == Kind::Ball) {
+    if (mKind == Kind::LookUp) {
         double sum = 0;
-        for (Frame const& frame : mBallFrames) sum += mBallLobe->pdf(frame.toLocal(local)) / 3;
+        for (Frame const& frame : mLookUpFrames) sum += mLookUpLobe->pdf(frame.toLocal(local)) / 3;
         return sum;
     }
     if (local.z >= 0) return 0;

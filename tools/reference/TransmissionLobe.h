@@ -4,8 +4,10 @@
 ///           radiance is spread over the square of the relative index. Without a change of index: straight on.
 ///   Thin    the lobe of reflection, mirrored to the other side, as wide as the engine takes it to be
 ///           (refractionPerceptualRoughness()); both sides and all bounces between them (Interface).
-///   Ball    Integrator::Unoccluded traces one surface only: a solid is the ball that the engine takes it for
-///           (shaders/lib/refraction.glsl), its lobe the pre-filtered one around the direction that leaves it.
+///   Look-up Integrator::Unoccluded traces one surface only: a solid is the ball that the engine takes it for
+///           (shaders/material/surface_refraction.glsl), its lobe the pre-filtered one around the direction that leaves
+///           it. With SpecularLight::SplitSum a sheet is looked through in the same way. Lights are not looked up: none
+///           shines through a ball.
 ///   Space   world. Thread: a value. Memory: none.
 #pragma once
 
@@ -15,11 +17,11 @@ namespace filament::reference {
 
 class TransmissionLobe {
 public:
-    /// `isBall`: solids as the engine has them.
-    TransmissionLobe(SurfaceSample const& surface, BsdfModel const& model, bool isBall);
+    /// `isBall`: solids as the engine has them. `specularAlbedo`: of the base, what look-ups take for its reflectance.
+    TransmissionLobe(SurfaceSample const& surface, BsdfModel const& model, bool isBall, double3 specularAlbedo);
 
     /// f * |cos|; zero above the surface. All zero if isStraight().
-    double3 evaluate(double3 light) const;
+    double3 evaluate(double3 light, LightSource source) const;
     std::optional<double3> sample(double2 u) const;
     double pdf(double3 light) const;
     /// About how much of all light goes through.
@@ -31,9 +33,11 @@ public:
     double3 straightShare() const { return mAlbedo; }
 
 private:
-    enum class Kind : uint8_t { Thin, Solid, Ball, Straight };
+    enum class Kind : uint8_t { Thin, Solid, LookUp, Straight };
     double3 mirrored(double3 local) const { return { local.x, local.y, -local.z }; }
     double3 halfway(double3 local) const; ///< of a solid, above the surface
+    double3 throughSheet(double3 local) const;
+    void lookUp(SurfaceSample const& surface, double3 specularAlbedo);
 
     Kind mKind;
     Interface mInterface;
@@ -42,8 +46,9 @@ private:
     double2 mAlpha;
     double mEta = 1; // index of the other side over that of the view's
     double3 mAlbedo{ 0.0 };
-    std::array<Frame, 3> mBallFrames; // a colour each, in local space
-    std::optional<PrefilteredLobe> mBallLobe;
+    bool mIsThin;
+    std::array<Frame, 3> mLookUpFrames; // a colour each, in local space
+    std::optional<PrefilteredLobe> mLookUpLobe;
 };
 
 } // namespace filament::reference
