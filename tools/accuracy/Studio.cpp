@@ -117,25 +117,42 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     const Result<Equipment*> used = equipment(settings);
     if (!used) return used.error();
     Engine& engine = (*used)->engine;
-    Result<std::shared_ptr<Model>> loaded = model(**used, spec, settings);
-    if (!loaded) return loaded.error();
-    Result<std::shared_ptr<Environment>> sky = environment(**used, spec, settings);
-    if (!sky) return sky.error();
-    Scene scene(engine);
-    for (double4x4 const& copy : placedCopies(spec)) scene.add(**loaded, copy);
+    Result<TakeParts> parts = partsOf(**used, spec, settings);
+    if (!parts) return parts.error();
+    Scene& scene = parts->scene;
     for (conformance::LightSpec const& light : placedLights(spec))
         std::visit([&](auto const& placed) { scene.add(placed); }, light);
-    if (*sky) scene.setEnvironment(**sky, spec.environmentSettings);
-    View view = spec.view;
+    if (parts->environment) scene.setEnvironment(*parts->environment, spec.environmentSettings);
+    View& view = parts->view;
+    view = spec.view;
     view.size = size;
     view.quality = settings.quality;
     view.samples = settings.samples;
     view.colorGrading = settings.colorGrading;
     view.camera = cameraOf(spec, scene.bounds());
-    const SwapChain target = engine.create(SwapChainDesc{
-            .size = size, .imageCount = 1, .format = linear ? Format::RGBA16F : Format::RGBA8, .name = "accuracy" });
-    return std::make_unique<Take>(engine, (*used)->renderer,
-                                  TakeParts{ *loaded, *sky, std::move(scene), view, engine.own(target) });
+    parts->target = engine.own(engine.create(SwapChainDesc{
+            .size = size, .imageCount = 1, .format = linear ? Format::RGBA16F : Format::RGBA8, .name = "accuracy" }));
+    return std::make_unique<Take>(engine, (*used)->renderer, std::move(*parts));
+}
+
+/// What is drawn, without lights.
+Result<TakeParts> Studio::partsOf(Equipment& used, SceneSpec const& spec, Settings const& settings) {
+    TakeParts parts{ .scene = Scene(used.engine) };
+    Result<std::shared_ptr<Environment>> sky = environment(used, spec, settings);
+    if (!sky) return sky.error();
+    parts.environment = std::move(*sky);
+    if (conformance::isMaterialModel(spec)) {
+        Result<tools::MaterialStand> stand = conformance::makeMaterialModel(used.engine, spec);
+        if (!stand) return stand.error();
+        parts.material = std::make_shared<tools::MaterialStand>(std::move(*stand));
+        for (double4x4 const& copy : placedCopies(spec)) parts.material->addTo(parts.scene, copy);
+        return parts;
+    }
+    Result<std::shared_ptr<Model>> loaded = model(used, spec, settings);
+    if (!loaded) return loaded.error();
+    parts.model = std::move(*loaded);
+    for (double4x4 const& copy : placedCopies(spec)) parts.scene.add(*parts.model, copy);
+    return parts;
 }
 
 Result<double> Studio::timeEnvironment(SceneSpec const& spec, Settings const& settings) {

@@ -10,6 +10,7 @@
 
 #include "tools/accuracy/Picture.h"
 #include "tools/accuracy/Settings.h"
+#include "tools/conformance/MaterialModel.h"
 #include "tools/conformance/SceneAssets.h"
 
 #include <filament/Renderer.h>
@@ -32,9 +33,10 @@ struct Loaded {
 
 /// What a take draws, and what that needs to stay.
 struct TakeParts {
-    std::shared_ptr<Model> model;
-    std::shared_ptr<Environment> environment; ///< may be none
-    Scene scene;                              ///< ends before model and environment
+    std::shared_ptr<Model> model;                   ///< or
+    std::shared_ptr<tools::MaterialStand> material; ///< where the scene's model is a material
+    std::shared_ptr<Environment> environment;       ///< may be none
+    Scene scene;                                    ///< ends before model and environment
     View view;
     Owned<SwapChain> target;
 };
@@ -75,6 +77,7 @@ private:
     struct Equipment; // one engine and what it has loaded
     Studio(Backend backend, conformance::SceneFolders const& folders);
     Result<Equipment*> equipment(Settings const& settings);
+    Result<TakeParts> partsOf(Equipment& used, conformance::SceneSpec const& spec, Settings const& settings);
     Result<std::shared_ptr<Model>> model(Equipment& used, conformance::SceneSpec const& spec, Settings const& settings);
     Result<std::shared_ptr<Environment>> environment(Equipment& used, conformance::SceneSpec const& spec,
                                                      Settings const& settings);

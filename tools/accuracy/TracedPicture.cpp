@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/GltfLoader.h"
 #include "filament_core/assets/HdrReader.h"
+#include "tools/conformance/MaterialModel.h"
 
 #include <type_traits>
 
@@ -27,17 +28,32 @@ void add(ReferenceScene& scene, LightSpec const& light) {
             light);
 }
 
+Result<reference::ReferenceModel> modelOf(SceneSpec const& spec, conformance::SceneFolders const& folders,
+                                          jobs::JobSystem& jobs, MaterialFeatures* features) {
+    if (conformance::isMaterialModel(spec)) {
+        Result<TracedMaterial> traced = tracedMaterialOf(spec);
+        if (!traced) return traced.error();
+        if (features) *features = traced->features;
+        return std::move(traced->model);
+    }
+    const Result<std::filesystem::path> path = modelFile(spec, folders);
+    if (!path) return path.error();
+    Result<assets::ModelData> model = assets::loadGltf(*path, jobs);
+    if (!model) return model.error();
+    return reference::ReferenceModel{ std::make_shared<assets::ModelData>(std::move(*model)) };
+}
+
 } // namespace
 
 Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, conformance::SceneFolders const& folders,
-                                        jobs::JobSystem& jobs) {
-    const Result<std::filesystem::path> modelPath = modelFile(spec, folders);
-    if (!modelPath) return modelPath.error();
-    Result<assets::ModelData> model = assets::loadGltf(*modelPath, jobs);
+                                        jobs::JobSystem& jobs, MaterialFeatures* features) {
+    Result<reference::ReferenceModel> model = modelOf(spec, folders, jobs, features);
     if (!model) return model.error();
-    const auto shared = std::make_shared<assets::ModelData>(std::move(*model));
     ReferenceScene scene;
-    for (double4x4 const& copy : placedCopies(spec)) scene.models.push_back({ shared, copy });
+    for (double4x4 const& copy : placedCopies(spec)) {
+        model->worldFromModel = copy;
+        scene.models.push_back(*model);
+    }
     for (LightSpec const& light : placedLights(spec)) add(scene, light);
 
     const Result<std::filesystem::path> skyPath = environmentFile(spec, folders);

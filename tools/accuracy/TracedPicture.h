@@ -6,14 +6,16 @@
 #pragma once
 
 #include "tools/accuracy/Picture.h"
+#include "tools/accuracy/TracedMaterial.h"
 #include "tools/conformance/SceneAssets.h"
 #include "tools/reference/Reference.h"
 
 namespace filament::accuracy {
 
-/// Model, lights and environment of a scene file, as the path tracer takes them.
+/// Model, lights and environment of a scene file, as the path tracer takes them. `features`: what its material has.
 Result<reference::ReferenceScene> referenceSceneOf(conformance::SceneSpec const& spec,
-                                                   conformance::SceneFolders const& folders, jobs::JobSystem& jobs);
+                                                   conformance::SceneFolders const& folders, jobs::JobSystem& jobs,
+                                                   MaterialFeatures* features = nullptr);
 
 /// The terms that a set of choices stands for.
 reference::BsdfModel bsdfOf(Quality const& quality);

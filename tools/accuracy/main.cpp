@@ -55,6 +55,8 @@ int compare(Options const& options) {
         return failed(fail(ErrorCode::Internal, "the path tracer contradicts a closed form, see above"));
     if (!std::ranges::all_of(results->rows, &RowResult::isExplained))
         return failed(fail(ErrorCode::Internal, "more than a row allows is unexplained, see above"));
+    if (!std::ranges::all_of(results->rows, &RowResult::isWithinLimit))
+        return failed(fail(ErrorCode::Internal, "an approximation changes more than its row allows, see above"));
     return 0;
 }
 

@@ -20,18 +20,26 @@ void readWords(JsonReader& reader, const char* key, Words& words) {
 
 bool isMaterialModel(SceneSpec const& spec) { return spec.model.is_object() && spec.model.contains("material"); }
 
-Result<tools::MaterialStand> makeMaterialModel(Engine& engine, SceneSpec const& spec) {
-    std::string path, mesh;
-    Words edits, values;
+Result<MaterialModelFile> readMaterialModel(SceneSpec const& spec) {
+    std::string path;
+    MaterialModelFile model;
+    Words edits;
     JsonReader reader(spec.model, spec.name + ": model");
     reader.read("material", path);
-    reader.read("mesh", mesh);
+    reader.read("mesh", model.mesh);
     readWords(reader, "edits", edits);
-    readWords(reader, "values", values);
+    readWords(reader, "values", model.values);
     if (const Result<void> done = reader.finish(); !done) return done.error();
-    const Result<std::shared_ptr<const tools::MaterialFile>> file = tools::readMaterialFile(spec.folder / path, edits);
+    Result<std::shared_ptr<const tools::MaterialFile>> file = tools::readMaterialFile(spec.folder / path, edits);
     if (!file) return file.error();
-    return tools::MaterialStand::make(engine, **file, values, mesh);
+    model.file = std::move(*file);
+    return model;
+}
+
+Result<tools::MaterialStand> makeMaterialModel(Engine& engine, SceneSpec const& spec) {
+    const Result<MaterialModelFile> model = readMaterialModel(spec);
+    if (!model) return model.error();
+    return tools::MaterialStand::make(engine, *model->file, model->values, model->mesh);
 }
 
 } // namespace filament::conformance

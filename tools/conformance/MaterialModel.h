@@ -12,7 +12,15 @@
 
 namespace filament::conformance {
 
+/// What such a scene says.
+struct MaterialModelFile {
+    std::shared_ptr<const tools::MaterialFile> file; ///< compiled
+    std::string mesh;                                ///< empty: the file's
+    tools::MaterialValues values;
+};
+
 bool isMaterialModel(SceneSpec const& spec);
+Result<MaterialModelFile> readMaterialModel(SceneSpec const& spec);
 Result<tools::MaterialStand> makeMaterialModel(Engine& engine, SceneSpec const& spec);
 
 } // namespace filament::conformance

@@ -26,8 +26,7 @@ class RowMaker {
 public:
     RowMaker(ComparisonRow const& row, SceneSpec const& scene, Studio& studio, ComparisonOptions const& options,
              jobs::JobSystem& jobs)
-            : mScene(scene), mStudio(studio), mOptions(options), mJobs(jobs),
-              mRungs(ladder(!scene.environment.empty())) {
+            : mScene(scene), mStudio(studio), mOptions(options), mJobs(jobs) {
         mResult.row = row;
         mResult.size = options.size;
     }
@@ -49,12 +48,24 @@ public:
 
 private:
     Result<void> open() {
-        Result<reference::ReferenceScene> scene = referenceSceneOf(mScene, mOptions.folders, mJobs);
+        LadderScene has{ .hasEnvironment = !mScene.environment.empty() };
+        Result<reference::ReferenceScene> scene = referenceSceneOf(mScene, mOptions.folders, mJobs, &has.material);
         if (!scene) return scene.error();
+        mRungs = ladder(has);
+        if (const Result<void> known = checkStep(); !known) return known.error();
         Result<reference::TracedScenePtr> prepared = reference::prepare(*scene, mJobs);
         if (!prepared) return prepared.error();
         mTraced = std::move(*prepared);
         return {};
+    }
+
+    Result<void> checkStep() const {
+        if (mResult.row.step.empty()) return {};
+        std::vector<std::string_view> known;
+        for (Rung const& rung : mRungs) known.push_back(rung.name);
+        if (std::ranges::find(known, mResult.row.step) != known.end()) return {};
+        return fail(ErrorCode::NotFound, "step: this scene's ladder has no '{}'{}", mResult.row.step,
+                    suggestion(mResult.row.step, known));
     }
 
     Result<std::unique_ptr<Take>> take(Rung const& rung, bool linear) {
@@ -162,6 +173,8 @@ ComparisonRow readRow(JsonReader& reader) {
     reader.read("samples", row.samples, 2, 1u << 20);
     reader.read("unexplained", row.unexplained, 0, 1);
     reader.read("set", row.set);
+    reader.read("step", row.step);
+    reader.read("limit", row.limit, 0, 1);
     if (row.name.empty()) reader.complain("name", "a row has one");
     if (row.scene.empty()) reader.complain("scene", "a row names one");
     Settings scratch;
@@ -198,6 +211,11 @@ Result<std::vector<ComparisonRow>> readComparisonRows(std::filesystem::path cons
         if (const Result<void> done = reader.finish(); !done) return done.error();
     }
     return rows;
+}
+
+double RowResult::stepError() const {
+    const auto step = std::ranges::find(steps, row.step, &StepResult::name);
+    return step == steps.end() ? 0 : step->own;
 }
 
 Result<ComparisonResults> comparePictures(ComparisonOptions const& options, ComparisonProgress const& progress) {

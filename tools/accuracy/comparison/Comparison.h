@@ -26,6 +26,8 @@ struct ComparisonRow {
     uint32_t samples = 256;         ///< a pixel, of the reference
     double unexplained = 0.02;      ///< most relative RMS difference that may stay without a name, beyond the noise
     std::vector<std::string> set{}; ///< settings of the engine, for all rungs
+    std::string step{};             ///< that the row is about
+    double limit = 1;               ///< most that this step may change, relative RMS
 };
 
 struct StepResult {
@@ -49,6 +51,9 @@ struct RowResult {
     std::vector<StepResult> steps, alternatives;
     std::vector<Picture> pictures; ///< of the rungs, the path tracer's last
     bool isExplained() const { return unexplained <= row.unexplained; }
+    /// RMS of the step that the row is about; 0 if it is about none.
+    double stepError() const;
+    bool isWithinLimit() const { return stepError() <= row.limit; }
 };
 
 struct ComparisonResults {

@@ -37,7 +37,9 @@ Json jsonOf(StepResult const& step) {
 constexpr const char* kHowToAdd =
         R"(<p class="small">A row is an object in <code>tools/accuracy/comparison/rows.json</code>:
 <code>{ "name": "metals-sun", "title": "Metals under a sun", "scene": "metals/sun", "samples": 256, "unexplained": 0.01 }</code>;
-scenes are files of <code>comparison/scenes</code> as in <a href="conformance.md">conformance.md</a>. A new approximation of the
+scenes are files of <code>comparison/scenes</code> as in <a href="conformance.md">conformance.md</a>; a material's values are
+traced by their names (<code>TracedMaterial.h</code>). A row about one approximation names its <code>"step"</code> and the most
+that it may change, <code>"limit"</code>. A new approximation of the
 engine is a rung of <code>comparison/Ladder.cpp</code>.</p>)";
 
 Json jsonOf(ClosedForm const& form) {
@@ -65,6 +67,8 @@ Json jsonOf(RowResult const& result) {
              { "tracedNoise", result.tracedNoise },
              { "unexplained", result.unexplained },
              { "unexplainedLimit", result.row.unexplained },
+             { "step", result.row.step },
+             { "stepLimit", result.row.limit },
              { "referenceSeconds", result.seconds },
              { "steps", std::move(steps) },
              { "alternatives", std::move(others) } };
@@ -155,6 +159,11 @@ std::string notesOf(RowResult const& result) {
             result.isExplained() ? "" : "<b>More than allowed is unexplained.</b>", escapedHtml(result.row.scene),
             result.size.x, result.size.y, result.row.samples, percent(result.noise), percent(result.tracedNoise),
             percent(result.unexplained), percent(result.row.unexplained), result.flip, percent(result.eightBits));
+    if (!result.row.step.empty()) {
+        html += fmt::format(" This row is about the step <code>{}</code>: {}, at most {} allowed{}.",
+                            escapedHtml(result.row.step), percent(result.stepError()), percent(result.row.limit),
+                            result.isWithinLimit() ? "" : ": <b>too much</b>");
+    }
     for (StepResult const& other : result.alternatives)
         html += fmt::format(" {}: {} RMS, {} mean ({}).", escapedHtml(other.title), percent(other.own),
                             signedPercent(other.bias), escapedHtml(other.approximate));
@@ -235,6 +244,10 @@ std::string textOf(ComparisonResults const& results) {
         text += fmt::format("{}: RMS {}, mean {}, noise {}, unexplained {} of at most {}{}\n", row.row.name,
                             percent(row.rms), signedPercent(row.bias), percent(row.noise), percent(row.unexplained),
                             percent(row.row.unexplained), row.isExplained() ? "" : "  TOO MUCH");
+        if (!row.row.step.empty()) {
+            text += fmt::format("    {}: {} of at most {}{}\n", row.row.step, percent(row.stepError()),
+                                percent(row.row.limit), row.isWithinLimit() ? "" : "  TOO MUCH");
+        }
         for (StepResult const& step : row.steps) {
             text += fmt::format("    {:<18} changes {:>8}  mean {:>8}  share {:>6.1f} %  left {:>8}\n", step.name,
                                 percent(step.own), signedPercent(step.bias), step.share * 100, percent(step.left));

@@ -7,10 +7,12 @@ namespace filament::accuracy {
 namespace {
 
 using reference::BsdfModel;
+using reference::CoatTerm;
 using reference::CouplingTerm;
 using reference::DiffuseLight;
 using reference::EnergyTerm;
 using reference::Integrator;
+using reference::SheenTerm;
 using reference::SpecularLight;
 
 constexpr uint32_t kSupersampling = 8;
@@ -33,7 +35,7 @@ std::vector<Rung> allRungs() {
           .approximate = "environment of 256 texels a face, each integrating 512 pieces of the sky; albedo table of 64 "
                          "texels a side",
           .exact = "512 texels, 1024 pieces; 256 texels",
-          .needsEnvironment = true },
+          .needs = Needs::Environment },
         { .supersampling = kSupersampling,
           .set = finestTables(),
           .name = kUnexplained,
@@ -49,7 +51,7 @@ std::vector<Rung> allRungs() {
           .title = "Roughness between levels",
           .approximate = "a mix of the two nearest of six pre-filtered roughnesses",
           .exact = "the environment pre-filtered for every roughness",
-          .needsEnvironment = true },
+          .needs = Needs::Environment },
         { .kind = RungKind::Reference,
           .integrator = Integrator::Unoccluded,
           .bsdf = { .specularLight = SpecularLight::SplitSum, .diffuseLight = DiffuseLight::Harmonics },
@@ -57,7 +59,7 @@ std::vector<Rung> allRungs() {
           .title = "Split sum",
           .approximate = "the environment filtered by the lobe as seen along the normal, times the lobe's albedo",
           .exact = "the integral of environment and lobe",
-          .needsEnvironment = true },
+          .needs = Needs::Environment },
         { .kind = RungKind::Reference,
           .integrator = Integrator::Unoccluded,
           .bsdf = { .diffuseLight = DiffuseLight::Harmonics },
@@ -65,13 +67,21 @@ std::vector<Rung> allRungs() {
           .title = "Spherical harmonics",
           .approximate = "irradiance by three bands",
           .exact = "the integral over the hemisphere",
-          .needsEnvironment = true },
+          .needs = Needs::Environment },
         { .kind = RungKind::Reference,
           .integrator = Integrator::Unoccluded,
           .name = "occlusion",
           .title = "Missing shadows",
           .approximate = "nothing blocks light but the material's occlusion map",
-          .exact = "rays find what blocks it" },
+          .exact = "rays find what blocks it",
+          .needs = Needs::NoRefraction },
+        { .kind = RungKind::Reference,
+          .integrator = Integrator::Unoccluded,
+          .name = "refraction",
+          .title = "One look-up for what lies behind",
+          .approximate = "a solid is a ball that touches the point, its inside a colour; nothing blocks light",
+          .exact = "rays are refracted where they enter and where they leave, and absorbed between",
+          .needs = Needs::Refraction },
         { .kind = RungKind::Reference,
           .maxBounces = 1,
           .name = "interreflection",
@@ -85,19 +95,55 @@ std::vector<Rung> allRungs() {
           .exact = "it gets the rest" },
         { .kind = RungKind::Reference,
           .bsdf = { .coupling = CouplingTerm::Always },
+          .name = "sheen",
+          .title = "Sheen's single-lobe energy",
+          .approximate = "the base keeps what the sheen does not send to the viewer, or of a light the lesser share",
+          .exact = "so much that white on white reflects all light, in both directions alike",
+          .needs = Needs::Sheen },
+        { .kind = RungKind::Reference,
+          .bsdf = { .coupling = CouplingTerm::Always, .sheen = SheenTerm::Exact },
+          .name = "coat",
+          .title = "Clear coat's attenuation",
+          .approximate = "what passes the coat in, times what passes it out; nothing bends, nothing is reflected back",
+          .exact = "two interfaces: refraction, Fresnel's equations, the series of reflections between them",
+          .needs = Needs::Coat },
+        { .kind = RungKind::Reference,
+          .bsdf = { .coupling = CouplingTerm::Always, .coat = CoatTerm::Exact, .sheen = SheenTerm::Exact },
           .name = "schlick",
           .title = "Schlick's Fresnel term",
           .approximate = "Schlick's fit",
           .exact = "Fresnel's equations" },
-        { .kind = RungKind::Reference, .bsdf = { .fresnel = FresnelTerm::Exact, .coupling = CouplingTerm::Always } },
+        { .kind = RungKind::Reference,
+          .bsdf = { .fresnel = FresnelTerm::Exact,
+                    .coupling = CouplingTerm::Always,
+                    .coat = CoatTerm::Exact,
+                    .sheen = SheenTerm::Exact } },
     };
+}
+
+bool isMet(Needs needs, LadderScene const& scene) {
+    switch (needs) {
+    case Needs::Nothing:
+        break;
+    case Needs::Environment:
+        return scene.hasEnvironment;
+    case Needs::Coat:
+        return scene.material.coat;
+    case Needs::Sheen:
+        return scene.material.sheen;
+    case Needs::Refraction:
+        return scene.material.refraction;
+    case Needs::NoRefraction:
+        return !scene.material.refraction;
+    }
+    return true;
 }
 
 } // namespace
 
-std::vector<Rung> ladder(bool hasEnvironment) {
+std::vector<Rung> ladder(LadderScene const& scene) {
     std::vector<Rung> rungs = allRungs();
-    if (!hasEnvironment) std::erase_if(rungs, [](Rung const& rung) { return rung.needsEnvironment; });
+    std::erase_if(rungs, [&](Rung const& rung) { return !isMet(rung.needs, scene); });
     return rungs;
 }
 

@@ -9,6 +9,7 @@
 ///   Thread   any; constants.
 #pragma once
 
+#include "tools/accuracy/TracedMaterial.h"
 #include "tools/reference/Reference.h"
 
 #include <span>
@@ -19,6 +20,15 @@
 namespace filament::accuracy {
 
 enum class RungKind : uint8_t { Engine, Reference };
+
+/// What a scene must have for an approximation to mean anything.
+enum class Needs : uint8_t { Nothing, Environment, Coat, Sheen, Refraction, NoRefraction };
+
+/// What a scene has.
+struct LadderScene {
+    bool hasEnvironment = true;
+    MaterialFeatures material{};
+};
 
 /// One picture of the ladder.
 struct Rung {
@@ -36,14 +46,14 @@ struct Rung {
     std::string_view title{};       ///< "Split sum"
     std::string_view approximate{}; ///< what is done here
     std::string_view exact{};       ///< what the next rung does
-    bool needsEnvironment = false;  ///< without one, this rung is the next one
+    Needs needs = Needs::Nothing;   ///< without it, this rung is the next one
 };
 
 /// The name of the step that should change nothing.
 inline constexpr std::string_view kUnexplained = "unexplained";
 
-/// Top: the engine's frame. Bottom: the path tracer's. Rungs that mean nothing without an environment are left out.
-std::vector<Rung> ladder(bool hasEnvironment);
+/// Top: the engine's frame. Bottom: the path tracer's. Rungs that mean nothing in this scene are left out.
+std::vector<Rung> ladder(LadderScene const& scene);
 
 /// What no rung holds: a change of the whole model, to be seen beside the ladder.
 struct Alternative {
