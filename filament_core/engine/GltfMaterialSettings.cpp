@@ -110,7 +110,8 @@ void setCommonMaps(Settings& settings, MaterialData const& material) {
     settings.map("normal", "hasNormalMap", material.normal);
     settings.map("occlusion", "hasOcclusionMap", material.occlusion);
     settings.map("emissive", "hasEmissiveMap", material.emissive);
-    if (sharesTexel(material.occlusion, material.metallicRoughness)) settings.feature("occlusionInMetallicRoughness");
+    if (!material.specularGlossiness && sharesTexel(material.occlusion, material.metallicRoughness))
+        settings.feature("occlusionInMetallicRoughness");
 }
 
 void setClearCoat(Settings& settings, assets::ClearCoatData const& coat) {
