@@ -10,6 +10,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <memory>
 #include <span>
 #include <string>
@@ -58,6 +59,8 @@ struct DriverStatistics {
     uint64_t draws = 0;
     uint64_t pipelinesCreated = 0;
     uint64_t programsCreated = 0;
+    uint64_t programsFromCache = 0;  ///< of programsCreated: taken from DriverOptions::cacheDirectory, not compiled
+    uint64_t pipelinesFromCache = 0; ///< of pipelinesCreated, as far as the device tells
     uint64_t passes = 0;
     uint64_t pipelinesCreatedInPasses = 0; ///< late creations: each one is a hitch
     uint64_t deviceBytes = 0;              ///< memory now allocated for buffers and textures
@@ -88,6 +91,10 @@ public:
 struct DriverOptions {
     std::string requireDevice; ///< case-insensitive part of DeviceInfo::deviceName; empty: the first usable one
     bool validation = false;   ///< Vulkan layers with synchronization validation; KHR_debug on GLES -> onError
+    /// Where compiled programs are kept from run to run, a file for each device, at most kProgramCacheBytes; empty:
+    /// nowhere. Read when the driver is made, written when it ends.
+    std::filesystem::path cacheDirectory{};
 };
+inline constexpr uint64_t kProgramCacheBytes = 64u << 20;
 
 } // namespace filament::backend

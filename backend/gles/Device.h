@@ -4,8 +4,11 @@
 #pragma once
 
 #include "backend/gles/State.h"
+#include "filament_core/base/BlobStore.h"
 
 #include <fmt/core.h>
+
+#include <optional>
 
 namespace filament::backend::gles {
 
@@ -38,9 +41,10 @@ struct Device {
     bool const messages; ///< validation: KHR_debug messages reach the sink
     DeviceInfo const info;
     State state;
-    DriverStatistics statistics; ///< of this thread; the driver publishes copies
-    bool creating = false;       ///< an error is one of beginCreation(): created() tells it
-    bool lost = false;           ///< the context is gone: nothing works any more
+    std::optional<BlobStore> programs{}; ///< binaries from run to run; none: nobody asked, or the device has none
+    DriverStatistics statistics;         ///< of this thread; the driver publishes copies
+    bool creating = false;               ///< an error is one of beginCreation(): created() tells it
+    bool lost = false;                   ///< the context is gone: nothing works any more
 };
 
 } // namespace filament::backend::gles

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Driver.h"
 
+#include "backend/gles/ProgramBinary.h"
+#include "filament_core/base/Hash.h"
+
 #include <algorithm>
 #include <cctype>
 #include <new>
@@ -43,11 +46,17 @@ Result<OpenDevice> openDevice(Egl const& egl, DisplaySource source, bool debug) 
 
 GlesDriver::GlesDriver(OpenDevice device, DriverOptions const& options, ResultSink& sink)
         : mContext(std::move(device.context)), mDevice(device.gl, device.quirks, sink, options.validation),
-          mCommands(mDevice) {}
+          mCommands(mDevice) {
+    if (options.cacheDirectory.empty() || !hasProgramBinaries(mDevice.gl)) return;
+    const uint64_t identity = hashString(mDevice.info.driverName, hashString(mDevice.info.deviceName));
+    mDevice.programs.emplace(options.cacheDirectory / fmt::format("gles-{:016x}.programs", identity), identity,
+                             kProgramCacheBytes);
+}
 
 GlesDriver::~GlesDriver() {
     try {
-        waitIdle();                   // every ticket that can be answered is
+        waitIdle(); // every ticket that can be answered is
+        if (mDevice.programs) mDevice.programs->save();
     } catch (std::bad_alloc const&) { // then not
     }
     mContext.makeCurrent();

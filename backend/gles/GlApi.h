@@ -25,11 +25,12 @@ namespace filament::backend::gles {
     X(DrawArrays) X(DrawArraysInstanced) X(DrawBuffers) X(DrawElementsInstanced) X(Enable)      \
     X(EnableVertexAttribArray) X(FenceSync) X(Finish) X(Flush) X(FramebufferTexture2D) X(FramebufferTextureLayer) \
     X(FrontFace) X(GenBuffers) X(GenFramebuffers) X(GenQueries) X(GenSamplers) X(GenTextures) X(GenVertexArrays) \
-    X(GetActiveAttrib) X(GetAttribLocation) X(GetError) X(GetFloatv) X(GetIntegerv) X(GetProgramInfoLog)        \
+    X(GetActiveAttrib) X(GetAttribLocation) X(GetError) X(GetFloatv) X(GetIntegerv) X(GetProgramBinary)         \
+    X(GetProgramInfoLog)                                                                                        \
     X(GetProgramInterfaceiv) X(GetProgramResourceiv) X(GetProgramiv) X(GetQueryObjectuiv) X(GetShaderInfoLog)   \
     X(GetShaderiv) X(GetString) X(GetStringi)                                                                   \
     X(InvalidateFramebuffer) X(InvalidateSubFramebuffer) X(LinkProgram) X(MapBufferRange) X(PixelStorei)        \
-    X(PolygonOffset) X(ReadBuffer) X(ReadPixels) X(SamplerParameterf) X(SamplerParameteri) X(Scissor)           \
+    X(PolygonOffset) X(ProgramBinary) X(ProgramParameteri) X(ReadBuffer) X(ReadPixels) X(SamplerParameterf) X(SamplerParameteri) X(Scissor)           \
     X(ShaderSource) X(StencilFuncSeparate) X(StencilMask) X(StencilMaskSeparate) X(StencilOpSeparate)           \
     X(TexParameteri) X(TexStorage2D) X(TexStorage2DMultisample) X(TexStorage3D) X(TexSubImage2D)                \
     X(TexSubImage3D) X(UnmapBuffer) X(UseProgram) X(VertexAttrib4f) X(VertexAttribBinding)                      \

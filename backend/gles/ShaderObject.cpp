@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/ShaderObject.h"
 
+#include "backend/gles/ProgramBinary.h"
+#include "filament_core/base/Hash.h"
+
 #include <array>
 #include <string>
 
@@ -47,9 +50,7 @@ GLuint compile(Device& device, GLenum stage, ShaderText text, std::string_view n
     return 0;
 }
 
-} // namespace
-
-GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name) {
+GLuint link(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name) {
     GlApi const& gl = device.gl;
     const GLuint vertexShader = compile(device, GL_VERTEX_SHADER, vertex, name);
     const GLuint fragmentShader = vertexShader ? compile(device, GL_FRAGMENT_SHADER, fragment, name) : 0;
@@ -58,6 +59,7 @@ GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::
         program = gl.CreateProgram();
         gl.AttachShader(program, vertexShader);
         gl.AttachShader(program, fragmentShader);
+        if (device.programs) gl.ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
         gl.LinkProgram(program);
     }
     gl.DeleteShader(vertexShader); // kept by the program; 0 is ignored
@@ -69,6 +71,24 @@ GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::
                  readLog(program, gl.GetProgramiv, gl.GetProgramInfoLog));
     gl.DeleteProgram(program);
     return 0;
+}
+
+uint64_t keyOf(ShaderText vertex, ShaderText fragment) {
+    uint64_t key = 0;
+    for (std::string_view piece : vertex) key = hashString(piece, key);
+    for (std::string_view piece : fragment) key = hashString(piece, hashCombine(key, 1));
+    return key;
+}
+
+} // namespace
+
+GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name) {
+    if (!device.programs) return link(device, vertex, fragment, name);
+    const uint64_t key = keyOf(vertex, fragment);
+    if (const GLuint program = loadProgramBinary(device, key)) return program;
+    const GLuint program = link(device, vertex, fragment, name);
+    if (program) keepProgramBinary(device, key, program);
+    return program;
 }
 
 } // namespace filament::backend::gles

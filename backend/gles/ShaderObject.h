@@ -13,7 +13,7 @@ namespace filament::backend::gles {
 /// Text in pieces, as glShaderSource takes it.
 using ShaderText = std::initializer_list<std::string_view>;
 
-/// The linked program, or 0 (reported under `name`).
+/// The linked program, or 0 (reported under `name`). With Device::programs: from there, if it is there, or kept there.
 GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name);
 
 } // namespace filament::backend::gles

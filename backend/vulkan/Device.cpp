@@ -31,6 +31,7 @@ VkResult createHandle(InstanceFunctions const& fn, PhysicalDevice const& physica
         provoking.pNext = features.pNext;
         features.pNext = &provoking;
     }
+    if (physical.creationFeedback) extensions.push_back(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);
     if (physical.halfFloatShaders) {
         extensions.push_back(VK_KHR_SHADER_FLOAT16_INT8_EXTENSION_NAME);
         half.pNext = features.pNext;

@@ -50,6 +50,7 @@ void Executor::execute(CmdCreatePipeline const& command) {
           DriverErrorKind::ShaderCompile);
     if (!mPipelines.find(command.handle)) return;
     ++mStatistics.pipelinesCreated;
+    mStatistics.pipelinesFromCache += mPipelines.find(command.handle)->isFromCache();
     if (mPass) ++mStatistics.pipelinesCreatedInPasses;
 }
 

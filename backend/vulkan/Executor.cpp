@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Executor.h"
 
+#include "filament_core/base/Hash.h"
+
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -34,12 +36,13 @@ Result<std::unique_ptr<Executor>> Executor::create(DriverOptions const& options,
     if (!choice) return choice.error();
     auto device = Device::create(std::move(*instance), std::move(devices[*choice]));
     if (!device) return device.error();
-    return create(std::move(*device), sink);
+    return create(std::move(*device), sink, options.cacheDirectory);
 }
 
-Result<std::unique_ptr<Executor>> Executor::create(std::unique_ptr<Device> device, ResultSink& sink) {
+Result<std::unique_ptr<Executor>> Executor::create(std::unique_ptr<Device> device, ResultSink& sink,
+                                                   std::filesystem::path const& cacheDirectory) {
     std::unique_ptr<Executor> executor(new Executor(std::move(device), sink));
-    if (Result<void> ready = executor->initialize(); !ready) return ready.error();
+    if (Result<void> ready = executor->initialize(cacheDirectory); !ready) return ready.error();
     return executor;
 }
 
@@ -53,14 +56,11 @@ Executor::Executor(std::unique_ptr<Device> device, ResultSink& sink) : mDevice(s
     mUpload.emplace(*mDevice, *mSubmissions);
 }
 
-Result<void> Executor::initialize() {
+Result<void> Executor::initialize(std::filesystem::path const& cacheDirectory) {
     if (const VkResult result = mSubmissions->initialize(); result != VK_SUCCESS) {
         return errorFromResult(result, "Vulkan: command buffers");
     }
-    const auto cache = make<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
-    if (mDevice->fn().vkCreatePipelineCache(mDevice->handle(), &cache, nullptr, &mPipelineCache) != VK_SUCCESS) {
-        mPipelineCache = VK_NULL_HANDLE; // pipelines are made without one
-    }
+    openPipelineCache(cacheDirectory);
     constexpr uint64_t kZeroBytes = 256;
     auto zeros =
             Buffer::create(*mDevice, { kZeroBytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, MemoryPurpose::Upload, "zeros" });
@@ -75,7 +75,37 @@ Result<void> Executor::initialize() {
 Executor::~Executor() {
     if (!mIsLost && !mPass) submitAtEnd();
     mDevice->fn().vkDeviceWaitIdle(mDevice->handle()); // fails at once if the device is lost
+    keepPipelineCache();
     mDevice->fn().vkDestroyPipelineCache(mDevice->handle(), mPipelineCache, nullptr);
+}
+
+// The data begin with the device's own header: a driver ignores what another one wrote.
+void Executor::openPipelineCache(std::filesystem::path const& directory) {
+    auto info = make<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
+    if (!directory.empty()) {
+        const uint64_t identity = hashString(this->info().driverName, hashString(this->info().deviceName));
+        mKeptPipelines.emplace(directory / fmt::format("vulkan-{:016x}.pipelines", identity), identity,
+                               kProgramCacheBytes);
+        const std::span<const std::byte> data = mKeptPipelines->find(0);
+        info.initialDataSize = data.size();
+        info.pInitialData = data.data();
+    }
+    if (mDevice->fn().vkCreatePipelineCache(mDevice->handle(), &info, nullptr, &mPipelineCache) != VK_SUCCESS)
+        mPipelineCache = VK_NULL_HANDLE; // pipelines are made without one
+}
+
+void Executor::keepPipelineCache() {
+    if (!mKeptPipelines || mPipelineCache == VK_NULL_HANDLE || mIsLost) return;
+    VolkDeviceTable const& fn = mDevice->fn();
+    size_t size = 0;
+    if (fn.vkGetPipelineCacheData(mDevice->handle(), mPipelineCache, &size, nullptr) != VK_SUCCESS) return;
+    try {
+        std::vector<std::byte> data(size);
+        if (fn.vkGetPipelineCacheData(mDevice->handle(), mPipelineCache, &size, data.data()) != VK_SUCCESS) return;
+        mKeptPipelines->put(0, std::span(data).first(size));
+        mKeptPipelines->save();
+    } catch (std::bad_alloc const&) { // then not
+    }
 }
 
 void Executor::submitAtEnd() {

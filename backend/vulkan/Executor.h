@@ -24,6 +24,7 @@
 #include "backend/vulkan/Submissions.h"
 #include "backend/vulkan/Texture.h"
 #include "backend/vulkan/Upload.h"
+#include "filament_core/base/BlobStore.h"
 
 #include <array>
 #include <memory>
@@ -36,7 +37,8 @@ class Executor final : public Driver {
 public:
     static Result<std::unique_ptr<Executor>> create(DriverOptions const& options, ResultSink& sink);
     /// On a device that somebody else chose.
-    static Result<std::unique_ptr<Executor>> create(std::unique_ptr<Device> device, ResultSink& sink);
+    static Result<std::unique_ptr<Executor>> create(std::unique_ptr<Device> device, ResultSink& sink,
+                                                    std::filesystem::path const& cacheDirectory = {});
     ~Executor() override;
 
     DeviceInfo const& info() const override { return mDevice->info(); }
@@ -101,7 +103,9 @@ private:
     };
 
     Executor(std::unique_ptr<Device> device, ResultSink& sink);
-    Result<void> initialize();
+    Result<void> initialize(std::filesystem::path const& cacheDirectory);
+    void openPipelineCache(std::filesystem::path const& directory);
+    void keepPipelineCache();
 
     // frames
     VkCommandBuffer commands(); ///< opened on first use
@@ -139,6 +143,7 @@ private:
     std::optional<Framebuffers> mFramebuffers;
     std::optional<Layouts> mLayouts;
     VkPipelineCache mPipelineCache = VK_NULL_HANDLE;
+    std::optional<BlobStore> mKeptPipelines; ///< the cache's data from run to run; none: nobody asked
     std::unique_ptr<Buffer> mZeros;
     Slots<BufferHandle, Buffer> mBuffers;
     Slots<TextureHandle, Texture> mTextures;

@@ -72,6 +72,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     auto half = make<VkPhysicalDeviceShaderFloat16Int8Features>(
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
+    device.creationFeedback = extensions.has(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);
     if (extensions.has(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) {
         provoking.pNext = features.pNext;
         features.pNext = &provoking;

@@ -208,6 +208,14 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, VkPipelineCac
     info.layout = program.layout().handle;
     info.renderPass = pass;
     info.subpass = desc.subpass;
+    VkPipelineCreationFeedbackEXT whole{};
+    std::array<VkPipelineCreationFeedbackEXT, 2> ofStages{};
+    auto feedback =
+            make<VkPipelineCreationFeedbackCreateInfoEXT>(VK_STRUCTURE_TYPE_PIPELINE_CREATION_FEEDBACK_CREATE_INFO_EXT);
+    feedback.pPipelineCreationFeedback = &whole;
+    feedback.pipelineStageCreationFeedbackCount = info.stageCount;
+    feedback.pPipelineStageCreationFeedbacks = ofStages.data();
+    if (device.physical().creationFeedback) info.pNext = &feedback;
     std::unique_ptr<Pipeline> pipeline(new Pipeline(device, program.layout(), input));
     const VkResult result =
             device.fn().vkCreateGraphicsPipelines(device.handle(), cache, 1, &info, nullptr, &pipeline->mHandle);
@@ -215,6 +223,10 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, VkPipelineCac
         return errorFromResult(result,
                                fmt::format("pipeline '{}' of program '{}' refused", desc.debugName, program.name()));
     }
+    constexpr VkPipelineCreationFeedbackFlagsEXT kHit =
+            VK_PIPELINE_CREATION_FEEDBACK_VALID_BIT_EXT |
+            VK_PIPELINE_CREATION_FEEDBACK_APPLICATION_PIPELINE_CACHE_HIT_BIT_EXT;
+    pipeline->mIsFromCache = (whole.flags & kHit) == kHit;
     device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline->mHandle, desc.debugName);
     return pipeline;
 }

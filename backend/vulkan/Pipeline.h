@@ -70,6 +70,7 @@ public:
     PipelineLayout const& layout() const { return mLayout; }
     uint8_t vertexBufferMask() const { return mVertexBufferMask; }
     bool readsZeros() const { return mReadsZeros; }
+    bool isFromCache() const { return mIsFromCache; } ///< as far as the device tells
 
 private:
     Pipeline(Device& device, PipelineLayout const& layout, VertexInput const& input)
@@ -80,6 +81,7 @@ private:
     VkPipeline mHandle = VK_NULL_HANDLE;
     uint8_t mVertexBufferMask;
     bool mReadsZeros;
+    bool mIsFromCache = false;
 };
 
 } // namespace filament::backend::vulkan

@@ -75,11 +75,13 @@ struct Shapes {
     std::vector<uint16_t> layouts;
     uint16_t stateCount = 0;
     bool mirrored = false;
+    bool anyMayDeform = false; ///< also vertices without joints: morph targets do not show in their layout
 };
 
 void addPipelines(CompileJob& job, Engine::Impl const& engine, Shapes const& shapes, uint32_t slot, uint8_t variant) {
     for (const uint16_t layout : shapes.layouts) {
-        if ((variant & bitsOf(VariantSet::Skinning)) != 0 && !hasJoints(engine.layouts[layout])) continue;
+        const bool deforms = (variant & bitsOf(VariantSet::Skinning)) != 0;
+        if (deforms && !shapes.anyMayDeform && !hasJoints(engine.layouts[layout])) continue;
         for (uint16_t state = 0; state < shapes.stateCount; ++state) {
             for (const bool mirrored : { false, true }) {
                 if (mirrored && !shapes.mirrored) continue;
@@ -122,7 +124,8 @@ Result<Compilation> Engine::Impl::compile(Material handle, CompileDesc const& de
     if (!variants) return variants.error();
     CompileJob job{ .material = &material, .states = instanceStates(*this, material), .onProgress = desc.onProgress };
     addWishes(job, *this, *variants,
-              { geometryLayouts(*this, desc), static_cast<uint16_t>(job.states.size()), desc.mirrored });
+              { geometryLayouts(*this, desc), static_cast<uint16_t>(job.states.size()), desc.mirrored,
+                desc.variants != VariantSet::All && isSubset(VariantSet::Skinning, desc.variants) });
     const Compilation compilation = compilations.add(std::move(job), desc.priority);
     return compilation;
 }

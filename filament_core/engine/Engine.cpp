@@ -6,6 +6,7 @@
 #include "backend/layers/Faulty.h"
 #include "backend/layers/Traced.h"
 #include "backend/layers/Validated.h"
+#include "filament_core/assets/Environment.h"
 #include "filament_core/base/Log.h"
 #include "filament_core/base/OutOfMemory.h"
 #include "filament_core/base/Result.h"
@@ -53,11 +54,16 @@ FrameLatency latencyOf(LatencyStatistics const& latency) {
              milliseconds(latency.backPressure.median), milliseconds(latency.backPressure.p99) };
 }
 
+std::filesystem::path programCache(EngineOptions const& options) {
+    if (!options.cachePrograms) return {};
+    return assets::environmentCacheDirectory({ .cacheDirectory = options.cacheDirectory });
+}
+
 // The driver with the layers that the options ask for around it.
 DriverFactory driverFactory(EngineOptions const& options) {
     return [options](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
         const auto innermost = [&options](ResultSink& results) {
-            const DriverOptions driverOptions{ options.requireDevice, options.validation };
+            const DriverOptions driverOptions{ options.requireDevice, options.validation, programCache(options) };
             auto device = createDriver(backendType(options.backend), driverOptions, results);
             if (device && options.debug.faults) device = faulty(std::move(*device), options.debug.faults, results);
             return device;
@@ -238,6 +244,7 @@ EngineStatistics Engine::statistics() const {
     return { driver.draws,
              driver.pipelinesCreated,
              driver.programsCreated,
+             driver.programsFromCache + driver.pipelinesFromCache,
              driver.pipelinesCreatedInPasses,
              driver.commands,
              driver.deviceBytes,

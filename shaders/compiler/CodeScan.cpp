@@ -40,9 +40,23 @@ std::vector<std::string_view> tokensOf(std::string_view text) {
 } // namespace
 
 CodeScan::CodeScan(std::string_view glsl) {
-    for (const std::string_view token : tokensOf(glsl)) {
-        if (isWordCharacter(token[0])) mWords.emplace(token);
+    const std::vector<std::string_view> tokens = tokensOf(glsl);
+    for (size_t i = 0; i < tokens.size(); ++i) {
+        if (!isWordCharacter(tokens[i][0])) continue;
+        mWords.emplace(tokens[i]);
+        if (i + 1 == tokens.size() || tokens[i + 1] != "(") continue;
+        // Behind a type stands the name of what is declared.
+        const bool isCall =
+                i == 0 || !isWordCharacter(tokens[i - 1][0]) || tokens[i - 1] == "return" || tokens[i - 1] == "else";
+        if (!isCall) mDeclared.emplace(tokens[i]);
+        const auto before = glsl.substr(0, static_cast<size_t>(tokens[i].data() - glsl.data()));
+        if (isCall) mCalls.try_emplace(std::string(tokens[i]), static_cast<uint32_t>(std::ranges::count(before, '\n')));
     }
+}
+
+std::optional<uint32_t> CodeScan::lineOfCall(std::string_view function) const {
+    const auto found = mCalls.find(function);
+    return found == mCalls.end() || mDeclared.contains(function) ? std::nullopt : std::optional(found->second);
 }
 
 } // namespace filament::shader

@@ -4,6 +4,9 @@
 ///   Thread  any, once made. Memory: the words of the text.
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <optional>
 #include <set>
 #include <string>
 #include <string_view>
@@ -15,9 +18,13 @@ public:
     explicit CodeScan(std::string_view glsl);
 
     bool mentions(std::string_view identifier) const { return mWords.contains(identifier); }
+    /// Lines, from 0, to the first call of a function that the text does not declare; nothing if there is none.
+    std::optional<uint32_t> lineOfCall(std::string_view function) const;
 
 private:
     std::set<std::string, std::less<>> mWords;
+    std::map<std::string, uint32_t, std::less<>> mCalls; ///< function -> line
+    std::set<std::string, std::less<>> mDeclared;        ///< functions
 };
 
 } // namespace filament::shader

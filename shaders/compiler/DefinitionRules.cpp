@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/DefinitionRules.h"
 
+#include "shaders/compiler/FeatureLevels.h"
 #include "shaders/package/ViewLayout.h"
 
 #include <algorithm>
@@ -128,7 +129,8 @@ Result<void> checkRules(MaterialDefinition const& definition) {
     for (Contradiction const& contradiction : kContradictions) {
         if (contradiction.isSo(definition)) return definition.errorAbout(contradiction.property, contradiction.message);
     }
-    return checkSamplers(definition);
+    if (Result<void> samplers = checkSamplers(definition); !samplers) return samplers;
+    return checkFeatureLevel(definition);
 }
 
 } // namespace filament::shader

@@ -106,6 +106,7 @@ void defineFragment(StageText& out, MaterialDefinition const& definition, uint16
     defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
     defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
     defineIf(out, (variantKey & kVariantHalf) != 0, "HALF_PRECISION");
+    defineIf(out, definition.package.quality == MaterialQuality::Low, "QUALITY_LOW");
     defineIf(out, definition.package.alphaToCoverage, "ALPHA_TO_COVERAGE");
     defineIf(out, definition.package.shadowMultiplier, "SHADOW_MULTIPLIER");
     out.define(postLightingDefine(definition.package.postLightingBlending));

@@ -46,6 +46,7 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     prepared.includes = withEngineFiles(options.includes);
     Result<MaterialDefinition> definition = define(text, fileName, prepared.includes);
     if (!definition) return definition.error();
+    usePlatformDefaults(options.platform, *definition);
     prepared.definition = std::move(*definition);
     Result<MaterialNeeds> needs = findNeeds(prepared.definition, prepared.includes);
     if (!needs) return needs.error();

@@ -11,6 +11,7 @@
 #include "filament_core/base/Result.h"
 #include "shaders/compiler/CompileProgram.h"
 #include "shaders/compiler/Jsonish.h"
+#include "shaders/compiler/PlatformDefaults.h"
 #include "shaders/package/Package.h"
 
 #include <string>
@@ -27,6 +28,7 @@ struct CompileOptions {
     Optimization optimization = Optimization::Performance;
     bool spirv = true; ///< languages that the package gets
     bool essl = true;
+    Platform platform = Platform::All; ///< whose defaults
     uint16_t filteredVariants = 0; ///< VariantBits never asked for, besides those of the material's own variantFilter
     /// Files besides the engine's own (which are asked first): usually those beside the .mat.
     IncludeResolver includes{};

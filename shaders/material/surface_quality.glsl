@@ -28,6 +28,9 @@ float distributionTerm(vec3 normal, vec3 halfway, float alpha) {
 }
 
 float visibilityTerm(float nov, float nol, float alpha) {
+#if defined(QUALITY_LOW) // the material's own quality: slightly off, whatever the view asks for
+    return finite(visibilitySmithGgxCorrelatedFast(nov, nol, alpha));
+#else
     float v;
     if (quality_specularVisibility == kVisibilityFast) {
         v = visibilitySmithGgxCorrelatedFast(nov, nol, alpha);
@@ -37,6 +40,7 @@ float visibilityTerm(float nov, float nol, float alpha) {
         v = visibilitySmithGgxCorrelated(nov, nol, alpha);
     }
     return finite(v);
+#endif
 }
 
 // f90 is below 1 only where the material wants no reflection (surfaceOf()): that goes for the exact term as well.

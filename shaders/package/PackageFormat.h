@@ -15,7 +15,7 @@ constexpr uint32_t tag(const char (&text)[5]) {
 }
 
 inline constexpr uint32_t kMagic = tag("FMAT");
-inline constexpr uint32_t kVersion = 5;    ///< counts up when old readers would misunderstand a file
+inline constexpr uint32_t kVersion = 6;    ///< counts up when old readers would misunderstand a file
 inline constexpr size_t kHeaderBytes = 16; ///< magic, version, checksum of everything behind the header
 
 inline constexpr uint32_t kSectionGeneral = tag("GENL");
@@ -29,7 +29,8 @@ inline constexpr uint32_t kSectionVariants = tag("VARI");
 inline constexpr uint32_t kMaxParameters = 1024;
 inline constexpr uint32_t kMaxConstants = 1024;
 inline constexpr uint32_t kMaxTerms = 64;
-/// Variants share code, at most so much that reading asks for this many times the bytes of the file.
+/// Code is compressed, and variants share it: unpacked it takes at most this many times the bytes of the file, once as
+/// it lies in the section and once in all variants together.
 inline constexpr size_t kMaxSharing = 32;
 inline constexpr uint32_t kMaxVariants = 512; ///< every set of VariantBits
 

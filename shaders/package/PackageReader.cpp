@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/base/Hash.h"
+#include "filament_core/base/Lz.h"
 #include "shaders/package/ByteReader.h"
 #include "shaders/package/Package.h"
 #include "shaders/package/PackageFormat.h"
@@ -269,8 +270,9 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
     if (!readConstants(section(kSectionConstants), package.constants)) return corrupt("the constants are malformed");
     if (!readTerms(section(kSectionTerms), package.terms)) return corrupt("the terms are malformed");
     if (!readLayout(section(kSectionLayout), package.layout)) return corrupt("the binding layout is malformed");
+    const auto unpacked = decompressBytes((*sections)[kSectionCode], kMaxSharing * bytes.size());
     Code code;
-    if (!readCode(section(kSectionCode), code)) return corrupt("the code of the variants is malformed");
+    if (!unpacked || !readCode(ByteReader(*unpacked), code)) return corrupt("the code of the variants is malformed");
     const CodeReader pieces{ code, kMaxSharing * bytes.size() };
     if (!readVariants(section(kSectionVariants), pieces, package.variants))
         return corrupt("the variants are malformed");

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/base/Hash.h"
+#include "filament_core/base/Lz.h"
 #include "shaders/package/Package.h"
 #include "shaders/package/PackageFormat.h"
 
@@ -181,7 +182,9 @@ std::vector<std::byte> writePackage(MaterialPackage const& package) {
     sections.section(kSectionLayout, layoutSection(package.layout));
     CodePool code;
     const ByteWriter variants = variantSection(package.variants, code);
-    sections.section(kSectionCode, code.section());
+    ByteWriter packed;
+    packed.append(compressBytes(code.section().bytes()));
+    sections.section(kSectionCode, packed);
     sections.section(kSectionVariants, variants);
 
     ByteWriter file;

@@ -27,7 +27,7 @@ struct Arguments {
     std::string input, output;
     std::string api = "all";
     std::string reflect;
-    std::string platform = "all"; // the same code serves all platforms; accepted because build scripts pass it
+    std::string platform = "all";
     std::vector<std::string> filters;
     int threads = 0;
     bool optimizeSize = false, noOptimization = false, inexact = false, preprocess = false, cost = false;
@@ -74,6 +74,8 @@ Result<void> run(Arguments const& arguments) {
 
     jobs::JobSystem jobs({ .workers = arguments.threads > 0 ? arguments.threads - 1 : -1 });
     shader::CompileOptions options{ .exact = !arguments.inexact, .filteredVariants = *filtered, .jobs = &jobs };
+    if (arguments.platform == "mobile") options.platform = shader::Platform::Mobile;
+    if (arguments.platform == "desktop") options.platform = shader::Platform::Desktop;
     options.spirv = arguments.api != "opengl";
     options.essl = arguments.api != "vulkan";
     if (arguments.optimizeSize) options.optimization = shader::Optimization::Size;
@@ -98,7 +100,8 @@ int main(int argc, char** argv) {
     auto* const output = app.add_option("-o,--output", arguments.output, "the package to write");
     app.add_option("-a,--api", arguments.api, "languages in the package")
             ->check(CLI::IsMember({ "opengl", "vulkan", "all" }));
-    app.add_option("-p,--platform", arguments.platform, "accepted for compatibility; one package serves all")
+    app.add_option("-p,--platform", arguments.platform,
+                   "whose defaults of quality and occlusion (one package runs on all)")
             ->check(CLI::IsMember({ "desktop", "mobile", "all" }));
     app.add_option("-v,--variant-filter", arguments.filters, "variants to leave out, separated by commas")
             ->delimiter(',');

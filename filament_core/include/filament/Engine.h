@@ -65,7 +65,10 @@ struct EngineOptions {
     bool traceJobs = false;                 ///< remember what every thread did when: Engine::writeJobTrace()
     bool hashFrames = false;                ///< FrameTimings::packetHash and streamHash, for tests; reads all twice
     std::filesystem::path traceFile{};      ///< write every command as text, for replay; empty: do not
-    std::filesystem::path cacheDirectory{}; ///< baked environments; empty: $XDG_CACHE_HOME/filament_core
+    std::filesystem::path cacheDirectory{}; ///< baked environments, programs; empty: $XDG_CACHE_HOME/filament_core
+    /// Keep what the device makes of programs in cacheDirectory for the next engine on it. For drivers without a cache
+    /// of their own: Mesa has one (backend/gles/README.md has what this adds to it).
+    bool cachePrograms = false;
     EngineDebug debug{};
 };
 
@@ -81,6 +84,7 @@ struct EngineStatistics {
     uint64_t draws = 0;
     uint64_t pipelinesCreated = 0;
     uint64_t programsCreated = 0;
+    uint64_t programsFromCache = 0; ///< of them, or of the pipelines: not compiled (EngineOptions::cachePrograms)
     uint64_t pipelinesCreatedInPasses = 0;
     uint64_t commands = 0;
     uint64_t deviceBytes = 0;

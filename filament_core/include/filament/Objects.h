@@ -163,6 +163,7 @@ struct CompileProgress {
 struct CompileDesc {
     CompilePriority priority = CompilePriority::Normal;
     /// Every combination of these that the package has. Naming one that was filtered out is an error; All never is.
+    /// Skinning, if it is named, is prepared for all vertices (morph targets), otherwise for those with joints.
     VariantSet variants = VariantSet::All;
     /// Vertex formats to expect; empty: those of everything that was added to a scene so far.
     std::vector<VertexBuffer> vertices{};

@@ -15,7 +15,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 
 constexpr const char* kPlaster =
-        R"(material { name : plaster, shadingModel : lit, parameters : [ { type : float, name : roughness } ] }
+        R"(material { name : plaster, shadingModel : lit, variantFilter : [ skinning ], parameters : [ { type : float, name : roughness } ] }
 fragment {
     void material(inout MaterialInputs material) {
         prepareMaterial(material);

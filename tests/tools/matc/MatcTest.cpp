@@ -1,4 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "shaders/package/Package.h"
+
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
@@ -49,6 +51,14 @@ protected:
     }
     std::string path(std::string const& name) const { return (mFolder / name).string(); }
 
+    filament::shader::MaterialPackage package(std::string const& name) const {
+        const std::string bytes = contents(path(name));
+        auto read = filament::shader::readPackage(std::as_bytes(std::span(bytes.data(), bytes.size())));
+        if (read) return std::move(*read);
+        ADD_FAILURE() << name << ": " << read.error().message;
+        return {};
+    }
+
     fs::path mFolder = fs::temp_directory_path() / ("matc_test_" + std::to_string(getpid()));
 };
 
@@ -94,7 +104,7 @@ TEST_F(Matc, CompilesTheStandardMaterialQuicklyIntoASmallPackage) {
     RecordProperty("bytes", static_cast<int>(bytes));
     EXPECT_LT(bytes, 250'000u);
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    EXPECT_LT(seconds.count(), 1.5) << "with other programs on the machine, run this test alone";
+    EXPECT_LT(seconds.count(), 3 * 1.5) << "1.5 s on a quiet machine";
 #endif
 }
 
@@ -112,12 +122,40 @@ TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
     ASSERT_EQ(matc("-o " + path("all") + " " + input).status, 0);
     ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -o " + path("one") + " " + input).status, 0);
     ASSERT_EQ(matc("-a vulkan -o " + path("vulkan") + " " + input).status, 0);
-    EXPECT_LT(contents(path("one")).size() * 3, contents(path("all")).size());
-    EXPECT_THAT(contents(path("all")), HasSubstr("#version 310 es"));
-    EXPECT_EQ(contents(path("vulkan")).find("#version 310 es"), std::string::npos);
+    EXPECT_EQ(package("all").variants.size(), 8u);
+    EXPECT_EQ(package("one").variants.size(), 2u);
+    EXPECT_THAT(package("all").variants[0].fragmentEssl, HasSubstr("#version 310 es"));
+    EXPECT_EQ(package("vulkan").variants[0].fragmentEssl, "");
+    EXPECT_EQ(package("vulkan").variants[0].fragmentSpirv, package("all").variants[0].fragmentSpirv);
     const Outcome misspelt = matc("-v dynamicLightning -o " + path("none") + " " + input);
     EXPECT_EQ(misspelt.status, 1);
     EXPECT_THAT(misspelt.output, HasSubstr("did you mean 'dynamicLighting'?"));
+}
+
+TEST_F(Matc, WritesPackagesForBothApisThatAreNoLargerWhenSizeCounts) {
+    const std::string input = file("waves.mat", R"(material { shadingModel : unlit, requires : [ uv0 ] }
+fragment {
+    float wave(vec2 p) {
+        vec2 q = fract(sin(p * 12.9898) * 43758.5453);
+        return sin(q.x * 7.0 + cos(q.y * 5.0)) * exp(-q.x * q.x) + sqrt(abs(q.y)) * atan(q.x, q.y + 2.0);
+    }
+    void material(inout MaterialInputs m) {
+        prepareMaterial(m);
+        vec2 p = getUV0();
+        m.baseColor.rgb = vec3(wave(p) + wave(p * 2.0), wave(p * 3.0) + wave(p * 5.0), wave(p * 7.0) + wave(p * 11.0));
+    }
+}
+)");
+    ASSERT_EQ(matc("-o " + path("fast") + " " + input).status, 0);
+    const Outcome outcome = matc("-S -o " + path("small") + " " + input);
+    ASSERT_EQ(outcome.status, 0) << outcome.output;
+    const auto words = [&](std::string const& name) { return package(name).variants[0].fragmentSpirv.size(); };
+    std::printf("for speed %zu, for size %zu words\n", words("fast"), words("small"));
+    EXPECT_LE(words("small"), words("fast"));
+    EXPECT_LE(package("small").variants[0].fragmentEssl.size(), package("fast").variants[0].fragmentEssl.size());
+
+    const std::string standard = file("standard.mat", kStandard);
+    EXPECT_EQ(matc("-S -o " + path("standard") + " " + standard).status, 0) << "all that a lit material includes";
 }
 
 TEST_F(Matc, IncludesFilesBesideTheMaterial) {

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the fuzzer of material texts keeps in tests/fuzz/corpus, and edits of it, without clang.
+#include "tests/shaders/compiler/MaterialTextFuzzBody.h"
+
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <random>
+#include <string>
+#include <vector>
+
+namespace filament::shader {
+namespace {
+
+std::vector<std::string> corpus() {
+    std::vector<std::filesystem::path> paths;
+    const std::filesystem::path folder(FILAMENT_SOURCE_DIR "/tests/fuzz/corpus/material_text");
+    for (auto const& entry : std::filesystem::directory_iterator(folder)) paths.push_back(entry.path());
+    std::ranges::sort(paths);
+    std::vector<std::string> texts;
+    for (std::filesystem::path const& path : paths) {
+        std::ifstream file(path, std::ios::binary);
+        texts.emplace_back(std::istreambuf_iterator<char>(file), std::istreambuf_iterator<char>());
+    }
+    return texts;
+}
+
+TEST(MaterialText, OfTheCorpusIsAMaterialOrAnErrorThatSaysWhereAndWhy) {
+    const std::vector<std::string> texts = corpus();
+    ASSERT_GT(texts.size(), 50u);
+    const auto accepted =
+            std::ranges::count_if(texts, [](std::string const& text) { return test::fuzzMaterialText(text); });
+    EXPECT_GT(accepted, 3);
+    EXPECT_LT(accepted, static_cast<ptrdiff_t>(texts.size()));
+}
+
+TEST(MaterialText, SurvivesEditsAnywhere) {
+    const std::vector<std::string> texts = corpus();
+    ASSERT_FALSE(texts.empty());
+    std::mt19937 random(4711);
+    constexpr std::string_view kMarks = "{}[]:,\"'\n#/*-.0aZ\\";
+    size_t accepted = 0;
+    for (int round = 0; round < 5000; ++round) {
+        std::string text = texts[random() % texts.size()];
+        for (uint32_t edits = 1 + random() % 3; edits > 0 && !text.empty(); --edits) {
+            const size_t at = random() % text.size();
+            switch (random() % 3) {
+            case 0:
+                text[at] = kMarks[random() % kMarks.size()];
+                break;
+            case 1:
+                text.erase(at, 1 + random() % 8);
+                break;
+            default:
+                text.insert(at, texts[random() % texts.size()].substr(0, random() % 40));
+                break;
+            }
+        }
+        accepted += test::fuzzMaterialText(text);
+    }
+    EXPECT_GT(accepted, 0u);
+}
+
+} // namespace
+} // namespace filament::shader

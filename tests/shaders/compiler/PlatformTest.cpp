@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// What quality, platform and featureLevel of a material change.
+#include "shaders/compiler/Cost.h"
+#include "shaders/compiler/MaterialCompiler.h"
+
+#include <gtest/gtest.h>
+
+#include <string>
+
+namespace filament::shader {
+namespace {
+
+std::string lit(std::string const& properties, std::string const& line = "") {
+    return "material { name : lit, " + properties +
+           " }\nfragment {\nint ownBits(int x) { return x; }\nvoid material(inout MaterialInputs m) { "
+           "prepareMaterial(m); "
+           "m.ambientOcclusion = 0.5; m.roughness = 0.4; " +
+           line + " } }\n";
+}
+
+MaterialPackage compiled(std::string const& text, Platform platform = Platform::All) {
+    Result<MaterialPackage> package = compileMaterial(text, "lit.mat", { .platform = platform });
+    if (package) return std::move(*package);
+    ADD_FAILURE() << package.error().message;
+    return {};
+}
+
+TEST(Platform, MobileMeansTheDefaultsThatTheGuideGivesForPhones) {
+    const MaterialPackage stated =
+            compiled(lit("quality : low, multiBounceAmbientOcclusion : false, specularAmbientOcclusion : none"));
+    EXPECT_EQ(compiled(lit("doubleSided : false"), Platform::Mobile).quality, MaterialQuality::Low);
+    EXPECT_EQ(writePackage(compiled(lit("shadingModel : lit"), Platform::Mobile)), writePackage(stated));
+    EXPECT_NE(writePackage(compiled(lit("shadingModel : lit"))), writePackage(stated));
+}
+
+TEST(Platform, WhatTheAuthorStatesIsTheSameOnAllOfThem) {
+    const std::string text =
+            lit("quality : normal, multiBounceAmbientOcclusion : true, specularAmbientOcclusion : simple");
+    const MaterialPackage all = compiled(text);
+    EXPECT_EQ(compiled(text, Platform::Mobile), all);
+    EXPECT_EQ(compiled(text, Platform::Desktop), all);
+}
+
+TEST(Platform, DesktopsHaveTheCodeOfAllAndHighQuality) {
+    const MaterialPackage all = compiled(lit("shadingModel : lit"));
+    const MaterialPackage desktop = compiled(lit("shadingModel : lit"), Platform::Desktop);
+    EXPECT_EQ(all.quality, MaterialQuality::Default);
+    EXPECT_EQ(desktop.quality, MaterialQuality::High);
+    EXPECT_EQ(desktop.variants, all.variants);
+}
+
+TEST(MaterialQuality, LowComputesLessAndTheOthersTheSame) {
+    const auto work = [](std::string const& properties) {
+        return countInstructions(compiled(lit(properties)).variants.back().fragmentSpirv).sum();
+    };
+    EXPECT_LT(work("quality : low"), work("quality : default"));
+    EXPECT_EQ(work("quality : normal"), work("quality : default"));
+    EXPECT_EQ(work("quality : high"), work("quality : default"));
+}
+
+TEST(FeatureLevel, FunctionsOfEssl310CompileFromLevelTwoOn) {
+    const std::string use = "m.roughness = float(bitCount(7)) * 0.1;";
+    EXPECT_TRUE(compileMaterial(lit("featureLevel : 2", use), "lit.mat").ok());
+    EXPECT_FALSE(compileMaterial(lit("featureLevel : 1", use), "lit.mat").ok());
+    EXPECT_TRUE(compileMaterial(lit("featureLevel : 1", "m.roughness = float(ownBits(1)) * 0.5;"), "lit.mat").ok())
+            << "functions of the author are no features";
+}
+
+} // namespace
+} // namespace filament::shader
