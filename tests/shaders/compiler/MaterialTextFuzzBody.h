@@ -34,7 +34,7 @@ inline bool fuzzMaterialText(std::string_view text) {
     FILAMENT_ASSERT(!parametersAsJson(*definition).empty(), "what is declared can be listed");
     const Result<MaterialNeeds> needs = findNeeds(*definition, includedByEverybody);
     if (!needs) return expectReason(needs.error()), false;
-    const Result<std::string> vertex = generateVertex(*definition, *needs, includedByEverybody);
+    const Result<std::string> vertex = generateVertex(*definition, *needs, 0, includedByEverybody);
     const Result<std::string> fragment = generateFragment(*definition, *needs, 0, includedByEverybody);
     return vertex.ok() && fragment.ok();
 }
