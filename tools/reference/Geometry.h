@@ -26,6 +26,8 @@ struct Part {
     std::vector<float4> colors;                   ///< empty: white
     std::vector<float2> uvs[2];                   ///< empty: (0, 0)
     std::vector<uint32_t> indices;                ///< three a triangle
+    double sceneFromMesh = 1;                     ///< metres of the file's scene for a metre of the mesh
+    double worldFromScene = 1;                    ///< metres of the world for one of those
     bool isMirrored = false;                      ///< the transform turns the winding around
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What the glTF materials of the engine (shaders/material/gltf_*.glsl) make of a point: textures and factors in, a
-/// SurfaceSample out.
+/// SurfaceSample out, with the KHR_materials extensions but iridescence.
 ///   Normals  as MikkTSpace asks: the interpolated frame is not normalised, the result of the normal map is. Seen from
 ///            behind, a surface's whole frame looks the other way.
 ///   Thread   pure functions.

@@ -133,7 +133,7 @@ using TracedScenePtr = std::unique_ptr<TracedScene const, TracedSceneDeleter>;
 
 /// Fails: InvalidArgument for a missing model or picture and for lights that are not finite.
 Result<TracedScenePtr> prepare(ReferenceScene const& scene, jobs::JobSystem& jobs);
-/// One line each: what the scene holds and no ray can hit (lines, points).
+/// One line each: what the scene holds and no ray can hit (lines, points), and what is left out of its materials.
 std::vector<std::string> const& warnings(TracedScene const& scene);
 
 Result<ReferenceImage> render(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,

@@ -21,7 +21,9 @@ Frame frameOf(SurfaceSample const& surface) {
 
 // The engine takes it for 1 but where a layer's text is in.
 double f90OfSplitSum(SurfaceSample const& surface) {
-    return surface.coat.strength > 0 || surface.transmission.color != double3(0.0) ? surface.f90 : 1;
+    const bool isKnown =
+            surface.splitSumHasF90 || surface.coat.strength > 0 || surface.transmission.color != double3(0.0);
+    return isKnown ? surface.f90 : 1;
 }
 
 // What a stretched lobe loses: shaders/material/surface_anisotropy.glsl, groovesCompensation().

@@ -21,7 +21,14 @@ struct Placement {
     PrimitiveData const* primitive = nullptr;
     double4x4 worldFromObject{ 1.0 };
     SurfaceFinish const* finish = nullptr;
+    double sceneFromMesh = 1, worldFromScene = 1; // lengths
 };
+
+/// What a length becomes, of all directions together.
+double scaleOf(double4x4 const& transform) {
+    const double scale = std::cbrt(std::abs(glm::determinant(double3x3(transform))));
+    return scale > 0 ? scale : 1; // a flat one holds no volume
+}
 
 bool isFinite(double4x4 const& m) {
     bool finite = true;
@@ -133,7 +140,8 @@ private:
                     const bool isSurface = primitive.topology == backend::Topology::Triangles;
                     skipped += !isSurface;
                     if (!isSurface || primitive.indexCount < 3) continue;
-                    placements.push_back({ &model, &primitive, world, &finish });
+                    placements.push_back({ &model, &primitive, world, &finish, scaleOf(node.worldFromNode),
+                                           scaleOf(worldFromModel) });
                     grow(bounds, primitive, world);
                 }
             }
@@ -143,6 +151,10 @@ private:
             mWarnings.push_back(fmt::format("{}: {} primitives of lines or points have no surface and are left out",
                                             model.name, skipped));
         }
+        const auto films = std::ranges::count_if(
+                model.materials, [](assets::MaterialData const& material) { return material.iridescence.isUsed(); });
+        if (films > 0)
+            mWarnings.push_back(fmt::format("{}: the iridescence of {} material(s) is left out", model.name, films));
     }
 
     std::vector<std::string>& mWarnings;
@@ -157,6 +169,8 @@ std::vector<Part> makeParts(std::vector<Placement> const& placements, double3 or
             parts[i].material = &materialOf(*placement.model, *placement.primitive);
             parts[i].images = &placement.model->images;
             parts[i].finish = *placement.finish;
+            parts[i].sceneFromMesh = placement.sceneFromMesh;
+            parts[i].worldFromScene = placement.worldFromScene;
         }
     });
     return parts;

@@ -1,0 +1,34 @@
+// SPDX-License-Identifier: Apache-2.0
+/// MaterialPoint: a point of a glTF material as its shader sees it: maps, and the frame that normal maps turn in.
+///   Space   world. Seen from behind, the whole frame looks the other way.
+///   Memory  refers to its part and varyings, which outlive it. Thread: pure functions.
+#pragma once
+
+#include "tools/reference/Geometry.h"
+
+namespace filament::reference {
+
+inline bool has(assets::TextureRef const& texture) { return texture.image != assets::kNone; }
+
+struct MaterialPoint {
+    Part const& part;
+    Varyings const& varyings;
+    double side = 1; ///< -1: seen from behind
+
+    assets::MaterialData const& material() const { return *part.material; }
+    /// Of a map that is there.
+    double4 fetch(assets::TextureRef const& texture) const;
+    /// Red and green are one map each, of which those that are not there are 1.
+    double2 fetchScalars(assets::TexturePair const& pair) const;
+    /// RGB is one map, alpha the other.
+    double4 fetchColorAndScalar(assets::TexturePair const& pair) const;
+
+    /// From the frame of the tangent, of any length.
+    double3 toWorld(double3 local) const;
+    /// Unit, of the geometry.
+    double3 smoothNormal() const;
+    /// Unit; smoothNormal() where there is no map.
+    double3 mappedNormal(assets::TextureRef const& map, double scale) const;
+};
+
+} // namespace filament::reference
