@@ -4,6 +4,7 @@ find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(Vulkan REQUIRED)
 find_package(PNG REQUIRED)
+find_package(ZLIB REQUIRED)
 find_package(glslang REQUIRED)
 find_package(SPIRV-Tools-opt REQUIRED)
 find_package(spirv_cross_core REQUIRED HINTS /usr/share/spirv_cross_core/cmake)
@@ -44,7 +45,8 @@ target_link_libraries(shader_tools INTERFACE
 
 add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
-    nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG)
+    nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG
+    ZLIB::ZLIB)
 
 # The reference renderer's ray tracer. Its CMake package asks for TBB's headers, which nobody here needs.
 find_path(EMBREE_INCLUDE embree3/rtcore.h REQUIRED)

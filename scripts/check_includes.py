@@ -56,6 +56,7 @@ LIBRARIES = {
     r"EGL/|GLES\d?/|GLES2/|KHR/": ["backend/gles"],
     r"glslang/|SPIRV/|spirv-tools/|spirv_cross/|spirv_\w+\.hpp|spirv/": ["shaders/compiler", "tests"],
     r"tiny_gltf\.h|draco/|meshoptimizer\.h|stb_?image|stb/|tinyexr|png\.h|jpeglib\.h": ["filament_core/assets"],
+    r"zlib\.h": ["shaders/package", "filament_core/assets"],
     r"nlohmann/": ["filament_core/assets", "tools", "tests", "bench"],
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
     r"CLI/": ["tools", "bench"],

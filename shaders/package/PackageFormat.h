@@ -15,7 +15,7 @@ constexpr uint32_t tag(const char (&text)[5]) {
 }
 
 inline constexpr uint32_t kMagic = tag("FMAT");
-inline constexpr uint32_t kVersion = 6;    ///< counts up when old readers would misunderstand a file
+inline constexpr uint32_t kVersion = 7;    ///< counts up when old readers would misunderstand a file
 inline constexpr size_t kHeaderBytes = 16; ///< magic, version, checksum of everything behind the header
 
 inline constexpr uint32_t kSectionGeneral = tag("GENL");
@@ -29,9 +29,10 @@ inline constexpr uint32_t kSectionVariants = tag("VARI");
 inline constexpr uint32_t kMaxParameters = 1024;
 inline constexpr uint32_t kMaxConstants = 1024;
 inline constexpr uint32_t kMaxTerms = 64;
-/// Code is compressed, and variants share it: unpacked it takes at most this many times the bytes of the file, once as
-/// it lies in the section and once in all variants together.
-inline constexpr size_t kMaxSharing = 32;
+/// Code is compressed, and variants share it, so a small file can stand for much of it: at most so many bytes as it
+/// lies in the section, and at most so many in all variants together. Not a multiple of the file: what was read can be
+/// written.
+inline constexpr uint32_t kMaxCodeBytes = 64 << 20;
 inline constexpr uint32_t kMaxVariants = 512; ///< every set of VariantBits
 
 } // namespace filament::shader::format

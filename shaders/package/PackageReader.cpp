@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/base/Hash.h"
-#include "filament_core/base/Lz.h"
 #include "shaders/package/ByteReader.h"
+#include "shaders/package/Deflate.h"
 #include "shaders/package/Package.h"
+#include "shaders/package/PackageError.h"
 #include "shaders/package/PackageFormat.h"
 #include "shaders/package/ParameterLayout.h"
 
@@ -16,10 +17,6 @@ namespace {
 
 using namespace format;
 using Sections = std::map<uint32_t, std::span<const std::byte>>;
-
-Error corrupt(std::string_view what) {
-    return fail(ErrorCode::Corrupt, "material package: {}; compile the material again with matc", what);
-}
 
 /// Sets `value` if the byte is one of the enumerators up to `last`.
 template <class E>
@@ -39,10 +36,10 @@ bool readBool(ByteReader& in, bool& value) {
 
 Result<std::span<const std::byte>> checkHeader(std::span<const std::byte> bytes) {
     ByteReader in(bytes);
-    if (in.u32() != kMagic || in.failed()) return corrupt("this is not a material package (wrong magic)");
+    if (in.u32() != kMagic || in.failed()) return corruptPackage("this is not a material package (wrong magic)");
     const uint32_t version = in.u32();
     const uint64_t checksum = in.u64();
-    if (in.failed()) return corrupt("the file ends within its header");
+    if (in.failed()) return corruptPackage("the file ends within its header");
     if (version != kVersion) {
         return fail(ErrorCode::Unsupported,
                     "material package: version {} is not version {} of this engine; compile the "
@@ -50,7 +47,8 @@ Result<std::span<const std::byte>> checkHeader(std::span<const std::byte> bytes)
                     version, kVersion);
     }
     const auto content = bytes.subspan(kHeaderBytes);
-    if (hashBytes(content) != checksum) return corrupt("the checksum does not match, the file is damaged or cut short");
+    if (hashBytes(content) != checksum)
+        return corruptPackage("the checksum does not match, the file is damaged or cut short");
     return content;
 }
 
@@ -60,12 +58,12 @@ Result<Sections> splitSections(std::span<const std::byte> content) {
     while (!in.atEnd()) {
         const uint32_t tag = in.u32();
         const auto body = in.bytes(in.u32());
-        if (in.failed()) return corrupt("a section is longer than the file");
-        if (!sections.emplace(tag, body).second) return corrupt("a section appears twice");
+        if (in.failed()) return corruptPackage("a section is longer than the file");
+        if (!sections.emplace(tag, body).second) return corruptPackage("a section appears twice");
     }
     for (const uint32_t tag : { kSectionGeneral, kSectionParameters, kSectionConstants, kSectionTerms, kSectionLayout,
                                 kSectionCode, kSectionVariants }) {
-        if (!sections.contains(tag)) return corrupt("a required section is missing");
+        if (!sections.contains(tag)) return corruptPackage("a required section is missing");
     }
     return sections;
 }
@@ -246,10 +244,11 @@ bool fits(Parameter const& parameter, uint32_t uniformBytes) {
 }
 
 Result<void> checkConsistency(MaterialPackage const& package) {
-    if (!namesAreUnique(package.parameters)) return corrupt("two parameters have the same name, or one has none");
-    if (!namesAreUnique(package.constants)) return corrupt("two constants have the same name, or one has none");
+    if (!namesAreUnique(package.parameters))
+        return corruptPackage("two parameters have the same name, or one has none");
+    if (!namesAreUnique(package.constants)) return corruptPackage("two constants have the same name, or one has none");
     for (Parameter const& parameter : package.parameters) {
-        if (!fits(parameter, package.uniformBytes)) return corrupt("a parameter lies outside of its block");
+        if (!fits(parameter, package.uniformBytes)) return corruptPackage("a parameter lies outside of its block");
     }
     return {};
 }
@@ -264,18 +263,20 @@ Result<MaterialPackage> readPackage(std::span<const std::byte> bytes) {
     const auto section = [&](uint32_t tag) { return ByteReader((*sections)[tag]); };
 
     MaterialPackage package;
-    if (!readGeneral(section(kSectionGeneral), package)) return corrupt("the general section is malformed");
+    if (!readGeneral(section(kSectionGeneral), package)) return corruptPackage("the general section is malformed");
     if (!readParameters(section(kSectionParameters), package.parameters))
-        return corrupt("the parameters are malformed");
-    if (!readConstants(section(kSectionConstants), package.constants)) return corrupt("the constants are malformed");
-    if (!readTerms(section(kSectionTerms), package.terms)) return corrupt("the terms are malformed");
-    if (!readLayout(section(kSectionLayout), package.layout)) return corrupt("the binding layout is malformed");
-    const auto unpacked = decompressBytes((*sections)[kSectionCode], kMaxSharing * bytes.size());
+        return corruptPackage("the parameters are malformed");
+    if (!readConstants(section(kSectionConstants), package.constants))
+        return corruptPackage("the constants are malformed");
+    if (!readTerms(section(kSectionTerms), package.terms)) return corruptPackage("the terms are malformed");
+    if (!readLayout(section(kSectionLayout), package.layout)) return corruptPackage("the binding layout is malformed");
+    const Result<std::vector<std::byte>> unpacked = inflateBytes((*sections)[kSectionCode], kMaxCodeBytes);
+    if (!unpacked) return unpacked.error();
     Code code;
-    if (!unpacked || !readCode(ByteReader(*unpacked), code)) return corrupt("the code of the variants is malformed");
-    const CodeReader pieces{ code, kMaxSharing * bytes.size() };
+    if (!readCode(ByteReader(*unpacked), code)) return corruptPackage("the code of the variants is malformed");
+    const CodeReader pieces{ code, kMaxCodeBytes };
     if (!readVariants(section(kSectionVariants), pieces, package.variants))
-        return corrupt("the variants are malformed");
+        return corruptPackage("the variants are malformed");
     if (Result<void> consistent = checkConsistency(package); !consistent) return consistent.error();
     return package;
 }

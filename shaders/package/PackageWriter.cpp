@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/base/Hash.h"
-#include "filament_core/base/Lz.h"
+#include "shaders/package/Deflate.h"
 #include "shaders/package/Package.h"
 #include "shaders/package/PackageFormat.h"
 
@@ -183,7 +183,7 @@ std::vector<std::byte> writePackage(MaterialPackage const& package) {
     CodePool code;
     const ByteWriter variants = variantSection(package.variants, code);
     ByteWriter packed;
-    packed.append(compressBytes(code.section().bytes()));
+    packed.append(deflateBytes(code.section().bytes()));
     sections.section(kSectionCode, packed);
     sections.section(kSectionVariants, variants);
 

@@ -171,6 +171,14 @@ TEST(Package, SaysWhichVersionItWouldNeed) {
     EXPECT_THAT(read.error().message, HasSubstr("version 99"));
 }
 
+TEST(Package, NeedsAFractionOfTheBytesForCodeThatRepeatsItself) {
+    MaterialPackage package = fullPackage();
+    std::string& text = package.variants[0].fragmentEssl;
+    for (int i = 0; i < 2000; ++i) text += "precise highp float _" + std::to_string(i) + " = a * b;\n";
+    EXPECT_LT(writePackage(package).size() * 4, text.size());
+    EXPECT_EQ(readPackage(writePackage(package)).value(), package);
+}
+
 TEST(Package, StoresCodeThatVariantsShareOnce) {
     MaterialPackage package = fullPackage();
     std::mt19937 random(3);
@@ -192,9 +200,9 @@ TEST(Package, RefusesToMultiplyAPieceOfCodeBeyondReason) {
     MaterialPackage package = fullPackage();
     package.variants.clear();
     for (uint16_t key = 0; key <= kAllVariantBits; ++key)
-        package.variants.push_back({ .key = key, .vertexEssl = std::string(100'000, 'v') });
+        package.variants.push_back({ .key = key, .vertexEssl = std::string(150'000, 'v') });
     const Result<MaterialPackage> read = readPackage(writePackage(package));
-    ASSERT_FALSE(read) << "51 megabytes from 113 kilobytes";
+    ASSERT_FALSE(read) << "77 megabytes from some 10 kilobytes";
     EXPECT_EQ(read.error().code, ErrorCode::Corrupt);
 }
 

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+/// corruptPackage(): the error for bytes that are no package; `what` is wrong with them.
+#pragma once
+
+#include "filament_core/base/Result.h"
+
+#include <string_view>
+
+namespace filament::shader {
+
+inline Error corruptPackage(std::string_view what) {
+    return fail(ErrorCode::Corrupt, "material package: {}; compile the material again with matc", what);
+}
+
+} // namespace filament::shader
