@@ -45,6 +45,7 @@ private:
     Device& mDevice;
     BindGroupLayout mLayout;
     uint8_t mDynamicCount;
+    uint32_t mSpares = 0; // descriptors of a set that nothing is bound to
     VkDescriptorSetLayout mHandle = VK_NULL_HANDLE;
     std::vector<VkDescriptorPool> mPools;
     std::vector<VkDescriptorSet> mFree;

@@ -29,6 +29,7 @@ struct PhysicalDevice {
     bool halfFloatShaders = false;
     bool creationFeedback = false;      ///< says whether a pipeline came from a cache
     bool lazilyAllocatedMemory = false; ///< transient attachments may live in tile memory only
+    bool spoilsFourthUniforms = false;  ///< lavapipe: see spareBindings() in Descriptors.cpp
     std::string unusable;               ///< empty, or why this driver cannot run on it
 };
 

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The layers of the KHR_materials extensions on top of gltfSurface(). What a material does not use is neutral: a constant
 // that the driver knows when it makes the pipeline, and so takes the layer out.
-// Maps stand before the parameters that they are multiplied by: lavapipe of Mesa 22.3 collects the parameters that a
-// condition depends on from left to right, and stops the process where it finds, after one, what is no parameter.
 // Whoever includes this has gltfDiffuseTransmissionMaps() before it.
 
 void gltfClearCoat(inout MaterialInputs material) {

@@ -101,6 +101,7 @@ void save(std::string const& name, Picture const& picture) {
 }
 
 void saveSheet() {
+    if (gSaved.empty()) return;
     constexpr uint32_t kColumns = 9, kSide = 96;
     const auto rows = (static_cast<uint32_t>(gSaved.size()) + kColumns - 1) / kColumns;
     Image sheet{ .width = kColumns * kSide, .height = rows * kSide };
