@@ -53,10 +53,7 @@ function(filament_tests folder)
     if(NOT sources)
         return()
     endif()
-    filament_program(${name}_tests SOURCES ${sources} LINK ${ARG_LINK} GTest::gmock GTest::gtest_main)
-    target_compile_definitions(${name}_tests PRIVATE
-        FILAMENT_ASSET_DIR="${FILAMENT_ASSET_DIR}" FILAMENT_SOURCE_DIR="${CMAKE_SOURCE_DIR}"
-        FILAMENT_BINARY_DIR="${CMAKE_BINARY_DIR}")
+    filament_program(${name}_tests SOURCES ${sources} LINK ${ARG_LINK} tool_paths GTest::gmock GTest::gtest_main)
     add_test(NAME ${name} COMMAND ${name}_tests)
     if(ARG_GPU)
         set_tests_properties(${name} PROPERTIES LABELS gpu)

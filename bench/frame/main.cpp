@@ -14,6 +14,8 @@
 #include <cstdio>
 #include <fstream>
 
+#include "tools/paths/Paths.h"
+
 namespace {
 
 using namespace filament;
@@ -95,7 +97,7 @@ void print(Subject const& subject, Backend backend, Measured const& m) {
 int main(int argc, char** argv) {
     CLI::App app("Whole frames of real models on both APIs");
     int frames = 24;
-    std::string size = "1280x720", json, assets = FILAMENT_ASSET_DIR;
+    std::string size = "1280x720", json, assets = tools::assetDir();
     app.add_option("--frames", frames, "frames a measurement")->check(CLI::Range(1, 10'000));
     app.add_option("--size", size, "WxH in pixels");
     app.add_option("--assets", assets, "directory with models/ and environments/");

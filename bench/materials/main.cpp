@@ -9,6 +9,7 @@
 #include "tools/conformance/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"
+#include "tools/paths/Paths.h"
 
 #include <filament/filament.h>
 
@@ -232,8 +233,9 @@ Result<void> write(Options const& options, nlohmann::json const& report) {
     file.close();
     if (!file) return fail(ErrorCode::Unreadable, "cannot write '{}'; does its folder exist?", path);
     if (options.plot.empty()) return {};
-    const std::string command = fmt::format("{} {}/tools/plot/plot.py materials '{}' -o '{}'", FILAMENT_PLOT_PYTHON,
-                                            FILAMENT_SOURCE_DIR, path, options.plot);
+    const std::string command =
+            fmt::format("{} {}/tools/plot/plot.py materials '{}' -o '{}'", tools::plotPython().string(),
+                        tools::sourceDir().string(), path, options.plot);
     if (std::system(command.c_str()) != 0) return fail(ErrorCode::Internal, "'{}' failed", command);
     return {};
 }

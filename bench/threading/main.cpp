@@ -9,6 +9,7 @@
 #include "bench/threading/Placement.h"
 #include "bench/threading/Report.h"
 #include "bench/threading/Workloads.h"
+#include "tools/paths/Paths.h"
 
 #include <CLI/CLI.hpp>
 #include <benchmark/benchmark.h>
@@ -83,10 +84,10 @@ void runWorkload(benchmark::State& state, WorkloadEntry const& entry, Settings c
 
 /// tools/plot draws FILE.json. Its messages go where ours go.
 bool plot(std::string const& json, std::string const& picture) {
+    const std::string python = tools::plotPython(), script = tools::sourceDir() / "tools/plot/plot.py";
     const pid_t child = fork();
     if (child == 0) {
-        execl(FILAMENT_PLOT_PYTHON, FILAMENT_PLOT_PYTHON, FILAMENT_SOURCE_DIR "/tools/plot/plot.py", "bench",
-              json.c_str(), "-o", picture.c_str(), nullptr);
+        execl(python.c_str(), python.c_str(), script.c_str(), "bench", json.c_str(), "-o", picture.c_str(), nullptr);
         _exit(127);
     }
     int status = -1;

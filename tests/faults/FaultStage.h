@@ -7,6 +7,7 @@
 #include "backend/layers/Faulty.h"
 #include "shaders/package/EngineMaterials.h"
 #include "tests/scenes/Sphere.h"
+#include "tools/paths/Paths.h"
 
 #include <filament/filament.h>
 
@@ -26,7 +27,7 @@ namespace filament::test {
 inline bool isStress() { return std::getenv("FILAMENT_STRESS") != nullptr; }
 
 /// What the tests write lies here.
-inline std::filesystem::path faultFolder() { return std::filesystem::path(FILAMENT_BINARY_DIR) / "faults"; }
+inline std::filesystem::path faultFolder() { return tools::buildDir() / "faults"; }
 
 struct StageOptions {
     Backend backend = Backend::Null;

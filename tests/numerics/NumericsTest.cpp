@@ -2,6 +2,7 @@
 // shaders/lib over edge grids: fp32 and fp16 against fp64 of the same text, and a row for every function that the
 // sources define.
 #include "tools/numerics/Report.h"
+#include "tools/paths/Paths.h"
 
 #include <fmt/format.h>
 #include <gmock/gmock.h>
@@ -37,7 +38,7 @@ std::set<std::string> definedFunctions() {
     static const std::regex kFunction(
             R"((?:^|\n)(?:float|vec[234]|bool|int|uint|void|mat[34])\s+(\w+)\(((?:[^()]|\(\w+\))*)\)\s*\{)");
     std::set<std::string> functions;
-    for (auto const& file : std::filesystem::directory_iterator(FILAMENT_SOURCE_DIR "/shaders/lib")) {
+    for (auto const& file : std::filesystem::directory_iterator(tools::sourceDir() / "shaders/lib")) {
         if (file.path().extension() != ".glsl") continue;
         std::ostringstream text;
         text << std::ifstream(file.path()).rdbuf();
@@ -64,7 +65,7 @@ TEST(NumericsTable, CallsTheFunctionThatARowNames) {
 
 TEST(NumericsTable, IsInTheDocumentRowByRow) {
     std::set<std::string> documented, rowed;
-    std::ifstream document(FILAMENT_SOURCE_DIR "/docs/numerics.md");
+    std::ifstream document(tools::sourceDir() / "docs/numerics.md");
     for (std::string line; std::getline(document, line);) {
         if (line.starts_with("| `")) documented.insert(line.substr(3, line.find('`', 3) - 3));
     }
@@ -76,7 +77,7 @@ TEST(NumericsTable, AgreesWithTheSourcesWhere16BitsAreNotEnough) {
     for (Row const& row : rows()) {
         if (row.fp32Only.empty()) continue;
         std::ostringstream text;
-        text << std::ifstream(fmt::format("{}/shaders/lib/{}.glsl", FILAMENT_SOURCE_DIR, row.file)).rdbuf();
+        text << std::ifstream(tools::sourceDir() / "shaders/lib" / (std::string(row.file) + ".glsl")).rdbuf();
         EXPECT_THAT(text.str(), ::testing::HasSubstr("fp32 only")) << row.function;
     }
 }

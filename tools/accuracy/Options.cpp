@@ -2,6 +2,7 @@
 #include "tools/accuracy/Options.h"
 
 #include "tools/common/CommandLine.h"
+#include "tools/paths/Paths.h"
 
 #include <CLI/CLI.hpp>
 
@@ -11,9 +12,9 @@ namespace {
 using tools::invalidOption;
 
 struct Words {
-    std::string effects = FILAMENT_SOURCE_DIR "/tools/accuracy/effects.json";
-    std::string scenes = FILAMENT_SOURCE_DIR "/tools/accuracy/scenes";
-    std::string assets = FILAMENT_ASSET_DIR;
+    std::string effects = tools::sourceDir() / "tools/accuracy/effects.json";
+    std::string scenes = tools::sourceDir() / "tools/accuracy/scenes";
+    std::string assets = tools::assetDir();
     std::string out = "accuracy", page, pictures, frame, size, rounds, plots;
     std::vector<std::string> backends, include, compare;
     bool quick = false;
@@ -71,7 +72,7 @@ Result<void> convertSize(std::string const& word, uint2& size) {
 /// `isAsked`: with or without names.
 void convertComparison(Words const& words, bool isAsked, Options& options) {
     if (!isAsked) return;
-    const std::filesystem::path folder = FILAMENT_SOURCE_DIR "/tools/accuracy/comparison";
+    const std::filesystem::path folder = tools::sourceDir() / "tools/accuracy/comparison";
     ComparisonOptions comparison{ .rows = folder / "rows.json",
                                   .scenes = folder / "scenes",
                                   .folders = options.measure.folders,

@@ -4,6 +4,7 @@
 #include "filament_core/assets/EnvironmentFile.h"
 #include "tools/common/Console.h"
 #include "tools/common/Html.h"
+#include "tools/paths/Paths.h"
 
 #include <fmt/ranges.h>
 
@@ -174,8 +175,8 @@ Result<void> writeText(fs::path const& path, std::string const& text) {
 /// One process for all plots: starting matplotlib costs more than drawing.
 void drawPlots(fs::path const& out) {
     const std::string command =
-            fmt::format("'{}' '{}/tools/plot/plot.py' accuracy '{}' -o '{}'", FILAMENT_PLOT_PYTHON, FILAMENT_SOURCE_DIR,
-                        (out / "results.json").string(), (out / "plots").string());
+            fmt::format("'{}' '{}/tools/plot/plot.py' accuracy '{}' -o '{}'", tools::plotPython().string(),
+                        tools::sourceDir().string(), (out / "results.json").string(), (out / "plots").string());
     if (std::system(command.c_str()) != 0) tools::printWarning("no plots: tools/plot/plot.py failed");
 }
 

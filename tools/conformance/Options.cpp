@@ -3,6 +3,7 @@
 
 #include "tools/common/CommandLine.h"
 #include "tools/conformance/Mutations.h"
+#include "tools/paths/Paths.h"
 
 #include <filament/Quality.h>
 
@@ -35,9 +36,9 @@ std::optional<std::pair<std::string, std::string>> shardOfScheduler() {
 }
 
 struct Words {
-    std::string scenes = FILAMENT_SOURCE_DIR "/tests/conformance/scenes";
-    std::string baselines = FILAMENT_SOURCE_DIR "/tests/conformance/baselines.json";
-    std::string assets = FILAMENT_ASSET_DIR;
+    std::string scenes = tools::sourceDir() / "tests/conformance/scenes";
+    std::string baselines = tools::sourceDir() / "tests/conformance/baselines.json";
+    std::string assets = tools::assetDir();
     std::string out = "conformance", shard = "0/1", threads, mutations;
     std::vector<std::string> backends, merge, set;
 };

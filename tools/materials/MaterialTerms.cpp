@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/materials/MaterialTerms.h"
+#include "tools/paths/Paths.h"
 
 namespace filament::tools {
 namespace {
@@ -59,7 +60,7 @@ std::vector<MaterialTerm> materialTerms() {
 }
 
 Result<std::shared_ptr<const MaterialFile>> readMaterialTerm(MaterialTerm const& term) {
-    auto file = readMaterialFile(FILAMENT_SOURCE_DIR "/tools/materials/terms.mat", term.edits);
+    auto file = readMaterialFile(sourceDir() / "tools/materials/terms.mat", term.edits);
     if (!file) return fail(file.error().code, "{}: {}", term.name, file.error().message);
     return file;
 }

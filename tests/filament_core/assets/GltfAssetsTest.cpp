@@ -5,6 +5,7 @@
 #include "shaders/lib/LibCpp.h"
 #include "tests/filament_core/assets/GltfFuzzBody.h"
 #include "tests/filament_core/assets/GltfTestFile.h"
+#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 
@@ -18,11 +19,10 @@ namespace fs = std::filesystem;
 using testing::ElementsAre;
 using testing::HasSubstr;
 
-fs::path modelFolder() { return fs::path(FILAMENT_ASSET_DIR) / "models"; }
+fs::path modelFolder() { return tools::assetDir() / "models"; }
 
 #define REQUIRE_ASSETS()                                                                                               \
-    if (std::string_view(FILAMENT_ASSET_DIR).empty())                                                                  \
-    GTEST_SKIP() << "needs FILAMENT_ASSET_DIR, the folder of sample models"
+    if (tools::assetDir().empty()) GTEST_SKIP() << "needs FILAMENT_ASSET_DIR, the folder of sample models"
 
 std::vector<fs::path> allModels() {
     std::vector<fs::path> paths;

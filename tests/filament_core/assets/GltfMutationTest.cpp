@@ -5,6 +5,7 @@
 #include "filament_core/assets/GltfWriter.h"
 #include "tests/filament_core/assets/GltfFuzzBody.h"
 #include "tests/filament_core/assets/GltfTestFile.h"
+#include "tools/paths/Paths.h"
 
 #include <chrono>
 #include <random>
@@ -99,13 +100,13 @@ Specimen assetSpecimen(std::filesystem::path const& path) {
 
 std::vector<Specimen> allSpecimens() {
     std::vector<Specimen> specimens{ writtenSpecimen() };
-    if (std::string_view(FILAMENT_ASSET_DIR).empty()) return specimens;
+    if (tools::assetDir().empty()) return specimens;
     for (const char* name :
          { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",
            "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf", "SimpleInstancing/SimpleInstancing.glb",
            "UnlitTest/UnlitTest.glb", "BoxAnimated/BoxAnimated.glb", "RiggedFigure/RiggedFigure.glb",
            "TextureCoordinateTest/TextureCoordinateTest.glb", "VertexColorTest/VertexColorTest.glb" }) {
-        specimens.push_back(assetSpecimen(std::filesystem::path(FILAMENT_ASSET_DIR) / "models" / name));
+        specimens.push_back(assetSpecimen(tools::assetDir() / "models" / name));
     }
     return specimens;
 }

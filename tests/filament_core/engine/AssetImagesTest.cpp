@@ -49,7 +49,7 @@ struct Stage {
         if (!engine) return nullptr;
         auto stage = std::unique_ptr<Stage>(new Stage{ std::move(*engine), {} });
         for (const char* name : kEnvironments) {
-            auto environment = loadEnvironment(stage->engine, test::assetDir() / "environments" / name);
+            auto environment = loadEnvironment(stage->engine, tools::assetDir() / "environments" / name);
             if (!environment) {
                 ADD_FAILURE() << environment.error().message;
                 return nullptr;
@@ -63,7 +63,7 @@ struct Stage {
 class AssetImagesTest : public testing::TestWithParam<const char*> {
 protected:
     static void SetUpTestSuite() {
-        if (test::assetDir().empty()) return;
+        if (tools::assetDir().empty()) return;
         sVulkan = Stage::make(Backend::Vulkan);
         sGles = Stage::make(Backend::Gles);
     }
@@ -73,7 +73,7 @@ protected:
     }
 
     static Result<std::vector<Image>> render(Stage& stage, std::string const& file) {
-        auto model = loadGltf(stage.engine, test::assetDir() / "models" / file);
+        auto model = loadGltf(stage.engine, tools::assetDir() / "models" / file);
         if (!model) return model.error();
         Scene scene(stage.engine);
         scene.add(*model, fitToUnitCube(model->bounds()));
@@ -107,7 +107,7 @@ bool isFlat(Image const& image) {
 }
 
 TEST_P(AssetImagesTest, HasTheSameBitsOnBothApis) {
-    if (test::assetDir().empty())
+    if (tools::assetDir().empty())
         GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
     ASSERT_TRUE(sVulkan && sGles);
     auto vulkan = render(*sVulkan, GetParam());

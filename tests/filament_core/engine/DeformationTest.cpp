@@ -314,7 +314,7 @@ std::vector<Played> playedModels() {
 class AnimatedModel : public testing::TestWithParam<Played> {
 protected:
     void SetUp() override {
-        if (test::assetDir().empty())
+        if (tools::assetDir().empty())
             GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
     }
 
@@ -324,7 +324,7 @@ protected:
         if (!engine) return {};
         std::vector<Image> images;
         {
-            auto model = loadGltf(*engine, test::assetDir() / "models" / played.file, { .deformable = deformable });
+            auto model = loadGltf(*engine, tools::assetDir() / "models" / played.file, { .deformable = deformable });
             if (!model) {
                 ADD_FAILURE() << model.error().message;
                 return {};
@@ -381,11 +381,11 @@ TEST_P(AnimatedModel, RestsWhereTheLoaderWouldPutIt) {
 
 // EXT_mesh_gpu_instancing: 125 boxes.
 TEST(Instancing, InstancesOfAFileAreOneDraw) {
-    if (test::assetDir().empty())
+    if (tools::assetDir().empty())
         GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
     auto engine = Engine::create({ .backend = Backend::Null, .workers = 0 });
     ASSERT_TRUE(engine.ok());
-    auto model = loadGltf(*engine, test::assetDir() / "models/SimpleInstancing/SimpleInstancing.glb");
+    auto model = loadGltf(*engine, tools::assetDir() / "models/SimpleInstancing/SimpleInstancing.glb");
     ASSERT_TRUE(model.ok()) << model.error().message;
     Scene scene(*engine);
     scene.add(*model, fitToUnitCube(model->bounds()));
@@ -399,11 +399,11 @@ TEST(Instancing, InstancesOfAFileAreOneDraw) {
 }
 
 TEST(Animations, NamesThatAModelLacksAreAnsweredWithThoseThatItHas) {
-    if (test::assetDir().empty())
+    if (tools::assetDir().empty())
         GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
     auto engine = Engine::create({ .backend = Backend::Null, .workers = 0 });
     ASSERT_TRUE(engine.ok());
-    auto model = loadGltf(*engine, test::assetDir() / "models/Fox/Fox.glb");
+    auto model = loadGltf(*engine, tools::assetDir() / "models/Fox/Fox.glb");
     ASSERT_TRUE(model.ok()) << model.error().message;
     ASSERT_EQ(model->animationCount(), 3u);
     EXPECT_EQ(model->animationName(1), "Walk");
@@ -417,11 +417,11 @@ TEST(Animations, NamesThatAModelLacksAreAnsweredWithThoseThatItHas) {
 
 // Half way between two animations, and both ends.
 TEST(Animations, CrossFadesBeginAtTheFirstAndEndAtTheSecond) {
-    if (test::assetDir().empty())
+    if (tools::assetDir().empty())
         GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
     auto engine = Engine::create({ .backend = Backend::Null, .workers = 0 });
     ASSERT_TRUE(engine.ok());
-    auto model = loadGltf(*engine, test::assetDir() / "models/Fox/Fox.glb");
+    auto model = loadGltf(*engine, tools::assetDir() / "models/Fox/Fox.glb");
     ASSERT_TRUE(model.ok()) << model.error().message;
     Scene scene(*engine);
     const Node root = scene.add(*model);

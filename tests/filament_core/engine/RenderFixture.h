@@ -3,6 +3,7 @@
 #pragma once
 
 #include "filament_core/math/Half.h"
+#include "tools/paths/Paths.h"
 
 #include <filament/filament.h>
 
@@ -59,7 +60,5 @@ inline float4 bytePixel(Image const& image, uint32_t x, uint32_t y) {
             reinterpret_cast<const uint8_t*>(image.pixels.data()) + (static_cast<size_t>(y) * image.width + x) * 4;
     return float4(p[0], p[1], p[2], p[3]) / 255.0f;
 }
-
-inline std::filesystem::path assetDir() { return FILAMENT_ASSET_DIR; }
 
 } // namespace filament::test

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Draws every row of the table on both APIs. The pictures lie in <build>/hard/.
 #include "tests/numerics/scenes/HardCase.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -33,7 +34,7 @@ std::string fileName(std::string name) {
 }
 
 void save(std::string const& name, Image const& display) {
-    const std::filesystem::path folder = std::filesystem::path(FILAMENT_BINARY_DIR) / "hard";
+    const std::filesystem::path folder = tools::buildDir() / "hard";
     std::filesystem::create_directories(folder);
     const Result<void> saved = savePng(folder / (fileName(name) + ".png"), display);
     EXPECT_TRUE(saved.ok());

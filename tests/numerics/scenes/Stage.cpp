@@ -4,6 +4,7 @@
 #include "filament_core/math/Half.h"
 #include "shaders/package/EngineMaterials.h"
 #include "tests/scenes/Sphere.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -146,7 +147,7 @@ Renderable Stage::add(Mesh const& mesh, double4x4 const& worldFromObject, Look c
 }
 
 void Stage::addFile(std::span<const std::byte> glb) {
-    const std::filesystem::path folder = std::filesystem::path(FILAMENT_BINARY_DIR) / "hard";
+    const std::filesystem::path folder = tools::buildDir() / "hard";
     const std::filesystem::path path = folder / "case.glb";
     std::filesystem::create_directories(folder);
     std::ofstream(path, std::ios::binary)

@@ -61,7 +61,7 @@ class Sheet : public testing::Environment {
 const testing::Environment* const gSheet = testing::AddGlobalTestEnvironment(new Sheet); // owned by gtest
 
 TEST(SampleFolder, IsListedInItsReadme) {
-    const std::string readme = textOf(fs::path(kSampleFolder) / "README.md");
+    const std::string readme = textOf(kSampleFolder / "README.md");
     for (fs::path const& file : sampleFiles())
         EXPECT_NE(readme.find("`" + file.filename().string() + "`"), std::string::npos) << file.filename();
 }

@@ -4,6 +4,7 @@
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/ImageChecks.h"
 #include "tools/conformance/Stage.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -19,7 +20,7 @@ using namespace conformance;
 
 std::map<std::string, Image> gSaved; ///< by name
 
-fs::path workFolder() { return fs::path(FILAMENT_BINARY_DIR) / "material-samples"; }
+fs::path workFolder() { return tools::buildDir() / "material-samples"; }
 
 Stage* stageOf(Backend backend) {
     static std::unique_ptr<Stage> stages[2];

@@ -6,6 +6,7 @@
 
 #include "tests/samples/materials/SampleTable.h"
 #include "tools/materials/MaterialFile.h"
+#include "tools/paths/Paths.h"
 
 #include <filament/Backend.h>
 #include <filament/Image.h>
@@ -14,7 +15,7 @@
 
 namespace filament::samples {
 
-inline constexpr const char* kSampleFolder = FILAMENT_SOURCE_DIR "/samples/materials";
+inline const std::filesystem::path kSampleFolder = tools::sourceDir() / "samples/materials";
 
 using Picture = Image; ///< scene-linear half floats
 

@@ -5,6 +5,7 @@
 #include "tools/conformance/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"
+#include "tools/paths/Paths.h"
 
 #include <filament/filament.h>
 
@@ -33,7 +34,7 @@ struct Extremes {
 class Furnace {
 public:
     explicit Furnace(Backend backend) {
-        const std::filesystem::path work = std::filesystem::path(FILAMENT_BINARY_DIR) / "material-samples";
+        const std::filesystem::path work = tools::buildDir() / "material-samples";
         std::filesystem::create_directories(work);
         auto engine = Engine::create({ .backend = backend, .validation = true, .cacheDirectory = work });
         const conformance::SceneSpec white{ .environment = "white" };

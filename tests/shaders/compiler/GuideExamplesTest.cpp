@@ -2,6 +2,7 @@
 // Every complete example of the materials guide, extracted from its text, compiles as it stands; or it is listed here
 // with what is wrong with it.
 #include "shaders/compiler/MaterialCompiler.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -141,7 +142,7 @@ std::vector<std::string> linesOf(std::filesystem::path const& path) {
 }
 
 TEST(GuideExamples, CompileAsTheyStand) {
-    const std::filesystem::path assets(FILAMENT_ASSET_DIR);
+    const std::filesystem::path assets(tools::assetDir());
     const std::filesystem::path guide = assets.parent_path() / "reference/materials-guide.txt";
     if (assets.empty() || !std::filesystem::exists(guide)) GTEST_SKIP() << "the guide is not here";
     const std::vector<std::string> examples = completeExamples(linesOf(guide));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What the fuzzer of material texts keeps in tests/fuzz/corpus, and edits of it, without clang.
 #include "tests/shaders/compiler/MaterialTextFuzzBody.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -17,7 +18,7 @@ namespace {
 
 std::vector<std::string> corpus() {
     std::vector<std::filesystem::path> paths;
-    const std::filesystem::path folder(FILAMENT_SOURCE_DIR "/tests/fuzz/corpus/material_text");
+    const std::filesystem::path folder(tools::sourceDir() / "tests/fuzz/corpus/material_text");
     for (auto const& entry : std::filesystem::directory_iterator(folder)) paths.push_back(entry.path());
     std::ranges::sort(paths);
     std::vector<std::string> texts;

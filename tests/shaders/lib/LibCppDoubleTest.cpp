@@ -2,6 +2,7 @@
 // The shader library in double precision: it is really double, it is the same library, and it is all of it.
 #include "shaders/lib/LibCppDouble.h"
 #include "shaders/lib/LibCpp.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -22,8 +23,8 @@ std::string textOf(std::filesystem::path const& path) {
     return { std::istreambuf_iterator<char>(file), {} };
 }
 
-const std::filesystem::path kLibrary = FILAMENT_SOURCE_DIR "/shaders/lib";
-const std::filesystem::path kCopies = FILAMENT_BINARY_DIR "/generated/shaders/lib64";
+const std::filesystem::path kLibrary = tools::sourceDir() / "shaders/lib";
+const std::filesystem::path kCopies = tools::buildDir() / "generated/shaders/lib64";
 
 TEST(LibCppDouble, ConstantsKeepTheDigitsOfTheirText) {
     static_assert(std::is_same_v<decltype(lib64::kPi), const double>);

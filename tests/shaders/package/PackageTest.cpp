@@ -4,6 +4,7 @@
 #include "filament_core/base/Hash.h"
 #include "shaders/package/ParameterLayout.h"
 #include "tests/shaders/package/PackageFuzzBody.h"
+#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -143,7 +144,7 @@ TEST(Package, SurvivesRandomMutationsWithAValidChecksum) {
 
 TEST(Package, OfTheFuzzersCorpusIsReadOrRefused) {
     size_t files = 0, accepted = 0;
-    for (auto const& entry : std::filesystem::directory_iterator(FILAMENT_SOURCE_DIR "/tests/fuzz/corpus/package")) {
+    for (auto const& entry : std::filesystem::directory_iterator(tools::sourceDir() / "tests/fuzz/corpus/package")) {
         std::ifstream file(entry.path(), std::ios::binary);
         const std::vector<char> bytes{ std::istreambuf_iterator<char>(file), {} };
         accepted += fuzzPackage(std::as_bytes(std::span(bytes)));

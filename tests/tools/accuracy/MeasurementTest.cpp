@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // Small pictures of real rows, on both APIs.
 #include "tools/accuracy/Measure.h"
+#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 
 namespace filament::accuracy {
 namespace {
 
-const std::filesystem::path kFolder = std::filesystem::path(FILAMENT_SOURCE_DIR) / "tools" / "accuracy";
+const std::filesystem::path kFolder = tools::sourceDir() / "tools" / "accuracy";
 
 Results measuredAll(std::string const& name, std::vector<Backend> backends) {
     const Result<std::vector<Effect>> effects = readEffects(kFolder / "effects.json");
@@ -17,7 +18,7 @@ Results measuredAll(std::string const& name, std::vector<Backend> backends) {
     options.size = options.errorSize = { 96, 54 };
     options.rounds = 2, options.mostTraced = 1;
     options.frame = "sun-chart"; // one material: few pipelines
-    options.folders = { std::filesystem::path(FILAMENT_BINARY_DIR) / "accuracy-test", FILAMENT_ASSET_DIR };
+    options.folders = { tools::buildDir() / "accuracy-test", tools::assetDir() };
     double last = 0;
     const Result<Results> results = measure(*effects, { name }, *scenes, options, [&](std::string const&, double done) {
         EXPECT_GE(done, last);

@@ -5,6 +5,7 @@
 #include "tools/accuracy/Page.h"
 #include "tools/accuracy/SceneLibrary.h"
 #include "tools/accuracy/Settings.h"
+#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 
@@ -17,7 +18,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::filesystem::path kFolder = std::filesystem::path(FILAMENT_SOURCE_DIR) / "tools" / "accuracy";
+const std::filesystem::path kFolder = tools::sourceDir() / "tools" / "accuracy";
 
 Result<std::vector<Effect>> readText(std::string const& text) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "effects-of-a-test.json";

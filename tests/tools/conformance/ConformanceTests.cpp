@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Runner.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -12,10 +13,10 @@ namespace {
 
 Options optionsFor(std::string const& name) {
     Options options;
-    options.scenes = FILAMENT_SOURCE_DIR "/tests/conformance/scenes";
-    options.baselines = FILAMENT_SOURCE_DIR "/tests/conformance/baselines.json";
-    options.assets = FILAMENT_ASSET_DIR;
-    options.out = std::filesystem::path(FILAMENT_BINARY_DIR) / "conformance-tests";
+    options.scenes = tools::sourceDir() / "tests/conformance/scenes";
+    options.baselines = tools::sourceDir() / "tests/conformance/baselines.json";
+    options.assets = tools::assetDir();
+    options.out = tools::buildDir() / "conformance-tests";
     options.threads = false;
     options.bisect = name;
     options.build = "test";
@@ -23,7 +24,7 @@ Options optionsFor(std::string const& name) {
 }
 
 std::vector<SceneSpec> allScenes() {
-    auto scenes = readScenes(FILAMENT_SOURCE_DIR "/tests/conformance/scenes");
+    auto scenes = readScenes(tools::sourceDir() / "tests/conformance/scenes");
     EXPECT_TRUE(scenes.ok()) << (scenes.ok() ? "" : scenes.error().message);
     return scenes.ok() ? std::move(*scenes) : std::vector<SceneSpec>();
 }
@@ -83,7 +84,7 @@ TEST(Exactness, ShadersLeftToTheDriversAreNoticed) {
 }
 
 TEST(SceneFiles, SayQualityByItsNamesAndAMisspeltOneIsAnError) {
-    const std::filesystem::path file = std::filesystem::path(FILAMENT_BINARY_DIR) / "quality-scene.json";
+    const std::filesystem::path file = tools::buildDir() / "quality-scene.json";
     const auto read = [&](const char* quality) {
         std::ofstream(file) << R"({ "model": "a.glb", "quality": )" << quality << " }";
         return readSceneFile(file);

@@ -2,6 +2,7 @@
 #include "tools/conformance/Report.h"
 #include "tests/tools/conformance/Pictures.h"
 #include "tools/conformance/Baselines.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -13,7 +14,7 @@ namespace {
 using Path = std::filesystem::path;
 
 Path freshFolder(const char* name) {
-    const Path folder = Path(FILAMENT_BINARY_DIR) / "conformance-report-tests" / name;
+    const Path folder = tools::buildDir() / "conformance-report-tests" / name;
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder);
     return folder;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program itself, as a user starts it: every bad input ends with one line and a status, never with a crash.
 #include "filament_core/assets/EnvironmentFile.h"
+#include "tools/paths/Paths.h"
 #include "tools/showcase/Showcase.h"
 
 #include <gmock/gmock.h>
@@ -61,7 +62,7 @@ protected:
     /// `environment`: "NAME=value" words for the process.
     static Outcome run(std::string const& arguments, std::string const& environment = "") {
         const std::string command = "cd '" + sFolder.string() + "' && env " + environment + " timeout 120 " +
-                                    FILAMENT_BINARY_DIR "/bin/filament-render " + arguments +
+                                    (tools::buildDir() / "bin/filament-render ").string() + arguments +
                                     " >output 2>errors </dev/null";
         const int status = std::system(command.c_str());
         return { WIFEXITED(status) ? WEXITSTATUS(status) : 128 + WTERMSIG(status), textOf(sFolder / "output"),

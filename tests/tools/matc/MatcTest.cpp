@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/package/Package.h"
+#include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -24,7 +25,7 @@ struct Outcome {
 };
 
 Outcome matc(std::string const& arguments) {
-    const std::string command = std::string(FILAMENT_BINARY_DIR) + "/bin/matc " + arguments + " 2>&1";
+    const std::string command = (filament::tools::buildDir() / "bin/matc ").string() + arguments + " 2>&1";
     Outcome outcome;
     FILE* const pipe = popen(command.c_str(), "r");
     EXPECT_NE(pipe, nullptr);

@@ -5,6 +5,7 @@
 #include "filament_core/assets/EnvironmentFile.h"
 #include "filament_core/assets/HdrReader.h"
 #include "filament_core/assets/ImageWriter.h"
+#include "tools/paths/Paths.h"
 #include "tools/reference/Output.h"
 
 #include <gmock/gmock.h>
@@ -142,8 +143,9 @@ protected:
         std::string text; // standard output and standard error
     };
     Outcome run(std::string const& arguments) const {
-        const std::string command = "cd '" + mFolder.string() +
-                                    "' && '" FILAMENT_BINARY_DIR "/bin/filament-reference' " + arguments + " 2>&1";
+        const std::string command = "cd '" + mFolder.string() + "' && '" +
+                                    (tools::buildDir() / "bin/filament-reference").string() + "' " + arguments +
+                                    " 2>&1";
         std::FILE* const pipe = ::popen(command.c_str(), "r");
         Outcome outcome;
         std::array<char, 512> buffer{};

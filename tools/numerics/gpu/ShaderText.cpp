@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/numerics/gpu/ShaderText.h"
+#include "tools/paths/Paths.h"
 
 #include <fmt/format.h>
 
@@ -70,7 +71,7 @@ void main() {
 } // namespace
 
 Result<std::string> libraryText() {
-    const fs::path folder = FILAMENT_SOURCE_DIR "/shaders/lib";
+    const fs::path folder = tools::sourceDir() / "shaders/lib";
     std::vector<fs::path> files;
     std::error_code error;
     for (fs::directory_iterator it(folder, error), end; it != end; it.increment(error)) {
@@ -80,7 +81,7 @@ Result<std::string> libraryText() {
         const bool mathA = a.stem() == "math", mathB = b.stem() == "math";
         return mathA != mathB ? mathA : a < b;
     });
-    files.emplace_back(FILAMENT_SOURCE_DIR "/tools/numerics/table/Wrappers.glsl");
+    files.emplace_back(tools::sourceDir() / "tools/numerics/table/Wrappers.glsl");
     std::string text;
     for (fs::path const& file : files) {
         const Result<std::string> one = textOf(file);

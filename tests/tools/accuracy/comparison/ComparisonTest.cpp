@@ -3,6 +3,7 @@
 // an engine that shades otherwise.
 #include "tools/accuracy/comparison/ComparisonPage.h"
 #include "tools/common/Html.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -18,10 +19,10 @@ namespace {
 
 namespace fs = std::filesystem;
 
-const fs::path kFolder = FILAMENT_SOURCE_DIR "/tools/accuracy/comparison";
+const fs::path kFolder = tools::sourceDir() / "tools/accuracy/comparison";
 
 fs::path scratch() {
-    const fs::path folder = fs::path(FILAMENT_BINARY_DIR) / "comparison-test";
+    const fs::path folder = tools::buildDir() / "comparison-test";
     fs::create_directories(folder);
     return folder;
 }
