@@ -39,8 +39,9 @@ std::optional<std::vector<char>> contents(fs::path const& path) {
 
 template <class T>
 void append(std::vector<std::byte>& out, T const& value) {
-    const auto bytes = std::as_bytes(std::span(&value, 1));
-    out.insert(out.end(), bytes.begin(), bytes.end());
+    const size_t at = out.size();
+    out.resize(at + sizeof(value));
+    std::memcpy(out.data() + at, &value, sizeof(value));
 }
 
 } // namespace
@@ -122,7 +123,7 @@ void BlobStore::save() {
     std::error_code failed;
     fs::create_directories(mFile.parent_path(), failed);
     fs::path unfinished = mFile;
-    unfinished += "." + std::to_string(getpid());
+    unfinished += fmt::format(".{}", getpid());
     std::ofstream out(unfinished, std::ios::binary);
     out.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
     out.close();

@@ -105,7 +105,9 @@ TEST_P(ProgramCache, TheSecondEngineDrawsTheSamePictureAndCompilesNothingThatThe
                 static_cast<unsigned long long>(second.statistics.programsFromCache),
                 static_cast<unsigned long long>(second.statistics.programsCreated));
     // lavapipe keeps no more than the header of a pipeline cache.
-    if (GetParam() == Backend::Gles) EXPECT_EQ(second.statistics.programsFromCache, second.statistics.programsCreated);
+    if (GetParam() == Backend::Gles) {
+        EXPECT_EQ(second.statistics.programsFromCache, second.statistics.programsCreated);
+    }
     EXPECT_THAT(mLines, IsEmpty());
 }
 

@@ -46,7 +46,7 @@ TEST(MaterialText, SurvivesEditsAnywhere) {
     size_t accepted = 0;
     for (int round = 0; round < 5000; ++round) {
         std::string text = texts[random() % texts.size()];
-        for (uint32_t edits = 1 + random() % 3; edits > 0 && !text.empty(); --edits) {
+        for (auto edits = 1 + random() % 3; edits > 0 && !text.empty(); --edits) {
             const size_t at = random() % text.size();
             switch (random() % 3) {
             case 0:
