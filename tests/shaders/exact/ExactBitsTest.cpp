@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The promise of DESIGN, "The same bits on both APIs", one built-in at a time.
+#include "tests/shaders/exact/BothDevices.h"
 #include "tests/shaders/exact/ExpressionRig.h"
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <bit>
@@ -12,17 +11,6 @@ namespace filament::shader {
 namespace {
 
 using test::ExpressionRig;
-
-/// The devices are made once: a context takes longer than a hundred expressions.
-struct Devices {
-    std::unique_ptr<ExpressionRig> vulkan = ExpressionRig::make(backend::BackendType::Vulkan);
-    std::unique_ptr<ExpressionRig> gles = ExpressionRig::make(backend::BackendType::Gles);
-
-    static Devices& instance() {
-        static auto* const devices = new Devices; // ends with the process: drivers do not like static destruction
-        return *devices;
-    }
-};
 
 struct Comparison {
     size_t different = 0, notANumber = 0, distinct = 0;
@@ -46,21 +34,16 @@ struct Named {
     const char* expression;
 };
 
-class ExactBits : public ::testing::TestWithParam<Named> {
+class ExactBits : public test::BothDevices<ExpressionRig>, public ::testing::WithParamInterface<Named> {
 protected:
-    void SetUp() override {
-        if (!Devices::instance().vulkan || !Devices::instance().gles)
-            GTEST_SKIP() << "needs a Vulkan and an OpenGL ES device";
-    }
-
     static Comparison run(std::string const& expression, bool exact) {
-        const Result<std::vector<uint32_t>> vulkan = Devices::instance().vulkan->values(expression, exact);
-        const Result<std::vector<uint32_t>> gles = Devices::instance().gles->values(expression, exact);
-        EXPECT_TRUE(vulkan) << (vulkan ? "" : vulkan.error().message);
-        EXPECT_TRUE(gles) << (gles ? "" : gles.error().message);
-        if (!vulkan || !gles) return { .different = 1 };
-        EXPECT_EQ(vulkan->size(), gles->size());
-        return compare(*vulkan, *gles);
+        const Result<std::vector<uint32_t>> onVulkan = vulkan().values(expression, exact);
+        const Result<std::vector<uint32_t>> onGles = gles().values(expression, exact);
+        EXPECT_TRUE(onVulkan) << (onVulkan ? "" : onVulkan.error().message);
+        EXPECT_TRUE(onGles) << (onGles ? "" : onGles.error().message);
+        if (!onVulkan || !onGles) return { .different = 1 };
+        EXPECT_EQ(onVulkan->size(), onGles->size());
+        return compare(*onVulkan, *onGles);
     }
 };
 
@@ -137,7 +120,7 @@ INSTANTIATE_TEST_SUITE_P(
 class ExactFormulas : public ExactBits {};
 
 TEST_P(ExactFormulas, SatisfyTheIdentity) {
-    const Result<std::vector<uint32_t>> residual = Devices::instance().vulkan->values(GetParam().expression, true);
+    const Result<std::vector<uint32_t>> residual = vulkan().values(GetParam().expression, true);
     ASSERT_TRUE(residual) << residual.error().message;
     float largest = 0;
     for (const uint32_t bits : *residual) largest = std::max(largest, std::abs(std::bit_cast<float>(bits)));

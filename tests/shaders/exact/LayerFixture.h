@@ -2,35 +2,18 @@
 /// LayerBits: materials of a few lines, drawn on both devices, which must agree to the bit.
 #pragma once
 
-#include "tests/shaders/exact/MaterialRig.h"
-
-#include <gtest/gtest.h>
+#include "tests/shaders/exact/PictureFixture.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace filament::shader::test {
 
 /// One colour channel of the pixels that the object covers.
 using Pixels = std::vector<float>;
 
-class LayerBits : public ::testing::Test {
+class LayerBits : public PictureFixture {
 protected:
-    struct Rigs {
-        std::unique_ptr<MaterialRig> vulkan = MaterialRig::make(backend::BackendType::Vulkan);
-        std::unique_ptr<MaterialRig> gles = MaterialRig::make(backend::BackendType::Gles);
-    };
-
-    static Rigs& rigs() {
-        static auto* const made = new Rigs; // ends with the process: drivers do not like static destruction
-        return *made;
-    }
-
-    void SetUp() override {
-        if (!rigs().vulkan || !rigs().gles) GTEST_SKIP() << "needs a Vulkan and an OpenGL ES device";
-    }
-
     /// `code` runs behind prepareMaterial(), `before` ahead of it; `amount` is the parameter materialParams.amount.
     static MaterialScene scene(std::string const& code, float amount = 1, std::string const& properties = "",
                                std::string const& before = "") {
@@ -63,23 +46,13 @@ protected:
         return scene;
     }
 
-    /// Renders on both, expects finite values and, but for variants in 16 bits, equal bits. Returns one channel of what
-    /// is covered.
+    /// One channel of draw(), of the pixels that the object covers.
     static Pixels render(MaterialScene const& scene, size_t channel = 0) {
-        const Result<std::vector<float>> vulkan = rigs().vulkan->render(scene), gles = rigs().gles->render(scene);
-        EXPECT_TRUE(vulkan) << (vulkan ? "" : vulkan.error().message) << scene.source;
-        EXPECT_TRUE(gles) << (gles ? "" : gles.error().message) << scene.source;
-        if (!vulkan || !gles) return {};
-        const bool mustAgree = (scene.variant & kVariantHalf) == 0; // each driver rounds to 16 bits where it likes
-        const bool agree = std::memcmp(vulkan->data(), gles->data(), vulkan->size() * sizeof(float)) == 0;
-        EXPECT_TRUE(agree || !mustAgree) << "the APIs differ:\n" << scene.source;
-        for (auto const* picture : { &*vulkan, &*gles }) {
-            EXPECT_TRUE(std::ranges::all_of(*picture, [](float value) { return std::isfinite(value); }))
-                    << scene.source;
-        }
+        const std::vector<float> rgba = draw(scene);
+        if (rgba.empty()) return {};
         Pixels pixels;
-        for (size_t i = 0; i < vulkan->size(); i += 4) {
-            if ((*vulkan)[i + 3] != 0.0f) pixels.push_back((*vulkan)[i + channel]);
+        for (size_t i = 0; i < rgba.size(); i += 4) {
+            if (rgba[i + 3] != 0.0f) pixels.push_back(rgba[i + channel]);
         }
         EXPECT_GT(pixels.size(), 3000u);
         return pixels;

@@ -1,49 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // The engine's materials on both devices: the same bits, and the energy that goes in comes out.
-#include "tests/shaders/exact/MaterialRig.h"
-
-#include <gtest/gtest.h>
+#include "tests/shaders/exact/PictureFixture.h"
 
 #include <algorithm>
 #include <cmath>
-#include <cstring>
 
 namespace filament::shader {
 namespace {
 
-using test::MaterialRig;
 using test::MaterialScene;
 
-class MaterialBits : public ::testing::Test {
+class MaterialBits : public test::PictureFixture {
 protected:
-    struct Rigs {
-        std::unique_ptr<MaterialRig> vulkan = MaterialRig::make(backend::BackendType::Vulkan);
-        std::unique_ptr<MaterialRig> gles = MaterialRig::make(backend::BackendType::Gles);
-    };
-
-    static Rigs& rigs() {
-        static auto* const made = new Rigs; // ends with the process: drivers do not like static destruction
-        return *made;
-    }
-
-    void SetUp() override {
-        if (!rigs().vulkan || !rigs().gles) GTEST_SKIP() << "needs a Vulkan and an OpenGL ES device";
-    }
-
-    /// Renders on both, expects equal bits, returns the picture.
-    static std::vector<float> render(MaterialScene const& scene) {
-        const Result<std::vector<float>> vulkan = rigs().vulkan->render(scene), gles = rigs().gles->render(scene);
-        EXPECT_TRUE(vulkan) << (vulkan ? "" : vulkan.error().message);
-        EXPECT_TRUE(gles) << (gles ? "" : gles.error().message);
-        if (!vulkan || !gles) return {};
-        size_t different = 0;
-        for (size_t i = 0; i < vulkan->size(); ++i)
-            different += std::memcmp(&(*vulkan)[i], &(*gles)[i], sizeof(float)) != 0;
-        EXPECT_EQ(different, 0u) << scene.material << " variant " << int{ scene.variant };
-        EXPECT_TRUE(std::ranges::all_of(*vulkan, [](float value) { return std::isfinite(value); }));
-        return *vulkan;
-    }
-
     static MaterialScene whiteFurnace(float metallic, float roughness) {
         MaterialScene scene;
         scene.parameters = { { "baseColorFactor", { 1, 1, 1, 1 } },
@@ -84,7 +52,7 @@ protected:
 TEST_F(MaterialBits, LitMaterialsReturnTheWholeEnergyOfAWhiteFurnace) {
     for (const float metallic : { 0.0f, 1.0f }) {
         for (const float roughness : { 0.1f, 0.4f, 0.7f, 1.0f }) {
-            const std::vector<float> picture = render(whiteFurnace(metallic, roughness));
+            const std::vector<float> picture = draw(whiteFurnace(metallic, roughness));
             ASSERT_FALSE(picture.empty());
             size_t covered = 0;
             for (size_t i = 0; i < picture.size(); i += 4) {
@@ -110,7 +78,7 @@ TEST_F(MaterialBits, EveryVariantWithEveryFeatureHasTheSameBits) {
         MaterialScene scene = everything(each.variant);
         scene.material = each.material;
         scene.parameters["_maskThreshold"] = { 0.75f };
-        const std::vector<float> picture = render(scene);
+        const std::vector<float> picture = draw(scene);
         ASSERT_FALSE(picture.empty());
         const auto [least, most] = std::ranges::minmax(picture);
         EXPECT_GT(most - least, 0.5f) << "the picture must show something";
@@ -121,7 +89,7 @@ TEST_F(MaterialBits, UnlitMaterialsShowTheirColorAndHaveTheSameBits) {
     MaterialScene scene;
     scene.material = "gltf_unlit_opaque";
     scene.parameters["baseColorFactor"] = { 0.25f, 0.5f, 0.75f, 0.5f };
-    const std::vector<float> picture = render(scene);
+    const std::vector<float> picture = draw(scene);
     ASSERT_FALSE(picture.empty());
     const float* const center = &picture[(test::kPictureSide / 2 * test::kPictureSide + test::kPictureSide / 2) * 4];
     EXPECT_EQ(center[0], 0.25f);
@@ -129,7 +97,7 @@ TEST_F(MaterialBits, UnlitMaterialsShowTheirColorAndHaveTheSameBits) {
     EXPECT_EQ(center[2], 0.75f);
     EXPECT_EQ(center[3], 1.0f) << "opaque materials ignore alpha";
     scene.material = "gltf_unlit_blended";
-    const std::vector<float> blended = render(scene);
+    const std::vector<float> blended = draw(scene);
     ASSERT_FALSE(blended.empty());
     EXPECT_EQ(blended[(test::kPictureSide / 2 * test::kPictureSide + test::kPictureSide / 2) * 4], 0.125f)
             << "pre-multiplied";
@@ -137,13 +105,13 @@ TEST_F(MaterialBits, UnlitMaterialsShowTheirColorAndHaveTheSameBits) {
 
 TEST_F(MaterialBits, SunAndPunctualLightsAddUp) {
     MaterialScene scene = everything(0);
-    const std::vector<float> ambient = render(scene);
+    const std::vector<float> ambient = draw(scene);
     scene.variant = kVariantSun;
-    const std::vector<float> sun = render(scene);
+    const std::vector<float> sun = draw(scene);
     scene.variant = kVariantPunctual;
-    const std::vector<float> punctual = render(scene);
+    const std::vector<float> punctual = draw(scene);
     scene.variant = kVariantSun | kVariantPunctual;
-    const std::vector<float> both = render(scene);
+    const std::vector<float> both = draw(scene);
     ASSERT_FALSE(both.empty());
     double added = 0;
     for (size_t i = 0; i < both.size(); ++i) {

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// PictureFixture: pictures of materials on both devices, which must agree to the bit.
+#pragma once
+
+#include "tests/shaders/exact/BothDevices.h"
+#include "tests/shaders/exact/MaterialRig.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace filament::shader::test {
+
+class PictureFixture : public BothDevices<MaterialRig> {
+protected:
+    /// Renders on both, expects finite values and, but for variants in 16 bits, equal bits. Returns the RGBA picture,
+    /// or nothing after an error.
+    static std::vector<float> draw(MaterialScene const& scene) {
+        const Result<std::vector<float>> onVulkan = vulkan().render(scene), onGles = gles().render(scene);
+        EXPECT_TRUE(onVulkan) << (onVulkan ? "" : onVulkan.error().message) << scene.source;
+        EXPECT_TRUE(onGles) << (onGles ? "" : onGles.error().message) << scene.source;
+        if (!onVulkan || !onGles) return {};
+        if ((scene.variant & kVariantHalf) == 0) { // each driver rounds to 16 bits where it likes
+            EXPECT_EQ(differentValues(*onVulkan, *onGles), 0u)
+                    << "variant " << scene.variant << ", " << (scene.source.empty() ? scene.material : scene.source);
+        }
+        for (auto const* each : { &*onVulkan, &*onGles }) {
+            EXPECT_TRUE(std::ranges::all_of(*each, [](float value) { return std::isfinite(value); })) << scene.source;
+        }
+        return *onVulkan;
+    }
+
+private:
+    /// By their bits; missing ones differ.
+    static size_t differentValues(std::vector<float> const& a, std::vector<float> const& b) {
+        size_t different = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
+        for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)
+            different += std::bit_cast<uint32_t>(a[i]) != std::bit_cast<uint32_t>(b[i]);
+        return different;
+    }
+};
+
+} // namespace filament::shader::test
