@@ -60,7 +60,7 @@ struct Stage {
     }
 };
 
-class AssetImagesTest : public testing::TestWithParam<const char*> {
+class AssetImagesTest : public test::AssetTest, public testing::WithParamInterface<const char*> {
 protected:
     static void SetUpTestSuite() {
         if (tools::assetDir().empty()) return;
@@ -93,12 +93,6 @@ protected:
     inline static std::unique_ptr<Stage> sVulkan, sGles;
 };
 
-size_t differingPixels(Image const& a, Image const& b) {
-    size_t count = 0;
-    for (size_t i = 0; i < a.pixels.size(); i += 4) count += std::memcmp(&a.pixels[i], &b.pixels[i], 4) != 0;
-    return count;
-}
-
 bool isFlat(Image const& image) {
     for (size_t i = 4; i < image.pixels.size(); i += 4) {
         if (std::memcmp(&image.pixels[i], &image.pixels[0], 4) != 0) return false;
@@ -107,15 +101,13 @@ bool isFlat(Image const& image) {
 }
 
 TEST_P(AssetImagesTest, HasTheSameBitsOnBothApis) {
-    if (tools::assetDir().empty())
-        GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
     ASSERT_TRUE(sVulkan && sGles);
     auto vulkan = render(*sVulkan, GetParam());
     auto gles = render(*sGles, GetParam());
     ASSERT_TRUE(vulkan.ok()) << vulkan.error().message;
     ASSERT_TRUE(gles.ok()) << gles.error().message;
     for (size_t i = 0; i < kEnvironments.size(); ++i) {
-        EXPECT_EQ(differingPixels((*vulkan)[i], (*gles)[i]), 0u) << kEnvironments[i];
+        EXPECT_EQ(test::differenceOf((*vulkan)[i], (*gles)[i]).pixels, 0u) << kEnvironments[i];
         EXPECT_FALSE(isFlat((*vulkan)[i])) << kEnvironments[i];
     }
     test::expectNoErrors(sVulkan->engine);

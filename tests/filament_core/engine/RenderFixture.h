@@ -9,6 +9,8 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstdlib>
 #include <cstring>
 #include <filesystem>
 #include <memory>
@@ -60,5 +62,34 @@ inline float4 bytePixel(Image const& image, uint32_t x, uint32_t y) {
             reinterpret_cast<const uint8_t*>(image.pixels.data()) + (static_cast<size_t>(y) * image.width + x) * 4;
     return float4(p[0], p[1], p[2], p[3]) / 255.0f;
 }
+
+struct Difference {
+    size_t pixels = 0;
+    int largest = 0; ///< of a component
+};
+
+/// Of two pictures of RGBA8.
+inline Difference differenceOf(Image const& a, Image const& b) {
+    Difference difference;
+    EXPECT_EQ(a.pixels.size(), b.pixels.size());
+    for (size_t i = 0; i + 3 < std::min(a.pixels.size(), b.pixels.size()); i += 4) {
+        int largest = 0;
+        for (size_t c = 0; c < 4; ++c)
+            largest =
+                    std::max(largest, std::abs(static_cast<int>(a.pixels[i + c]) - static_cast<int>(b.pixels[i + c])));
+        difference.pixels += largest > 0;
+        difference.largest = std::max(difference.largest, largest);
+    }
+    return difference;
+}
+
+/// A test of files that lie beside the checkout.
+class AssetTest : public testing::Test {
+protected:
+    void SetUp() override {
+        if (tools::assetDir().empty())
+            GTEST_SKIP() << "FILAMENT_ASSET_DIR is not set: the models are not beside the checkout";
+    }
+};
 
 } // namespace filament::test
