@@ -61,25 +61,6 @@ private:
     Scene mScene;
 };
 
-struct Extremes {
-    float least = 1e9f, most = -1e9f;
-};
-
-Extremes extremes(Image const& image) {
-    Extremes result;
-    for (uint32_t y = 0; y < image.height; ++y) {
-        for (uint32_t x = 0; x < image.width; ++x) {
-            const float4 pixel = test::halfPixel(image, x, y);
-            for (int c = 0; c < 3; ++c) {
-                result.least = std::min(result.least, pixel[c]);
-                result.most = std::max(result.most, pixel[c]);
-                EXPECT_TRUE(std::isfinite(pixel[c]));
-            }
-        }
-    }
-    return result;
-}
-
 class FurnaceTest : public testing::TestWithParam<Backend> {};
 
 TEST_P(FurnaceTest, AWhiteMetalSphereIsInvisibleAtEveryRoughness) {
@@ -88,7 +69,7 @@ TEST_P(FurnaceTest, AWhiteMetalSphereIsInvisibleAtEveryRoughness) {
     Furnace furnace(*engine);
     for (int step = 0; step <= 10; ++step) {
         const float roughness = static_cast<float>(step) / 10;
-        const Extremes pixels = extremes(furnace.render(float4(1), 1, roughness));
+        const test::Extremes pixels = test::extremesOf(furnace.render(float4(1), 1, roughness));
         EXPECT_GE(pixels.least, 0.99f) << "roughness " << roughness;
         EXPECT_LE(pixels.most, 1.01f) << "roughness " << roughness;
     }
@@ -101,7 +82,7 @@ TEST_P(FurnaceTest, ADielectricNeverReflectsMoreThanItReceives) {
     Furnace furnace(*engine);
     for (int step = 0; step <= 4; ++step) {
         const float roughness = static_cast<float>(step) / 4;
-        const Extremes white = extremes(furnace.render(float4(1), 0, roughness));
+        const test::Extremes white = test::extremesOf(furnace.render(float4(1), 0, roughness));
         EXPECT_LE(white.most, 1.0f + 1.0f / 1024) << "roughness " << roughness; // one step of fp16 above 1
         EXPECT_GE(white.least, 0.8f) << "a white dielectric loses little, roughness " << roughness;
     }

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <cmath>
 #include <cstdlib>
 #include <cstring>
 #include <filesystem>
@@ -61,6 +62,26 @@ inline float4 bytePixel(Image const& image, uint32_t x, uint32_t y) {
     const auto* p =
             reinterpret_cast<const uint8_t*>(image.pixels.data()) + (static_cast<size_t>(y) * image.width + x) * 4;
     return float4(p[0], p[1], p[2], p[3]) / 255.0f;
+}
+
+struct Extremes {
+    float least = 1e9f, most = -1e9f;
+};
+
+/// Of the colours of a picture of half floats; expects that all are finite.
+inline Extremes extremesOf(Image const& image) {
+    Extremes found;
+    for (uint32_t y = 0; y < image.height; ++y) {
+        for (uint32_t x = 0; x < image.width; ++x) {
+            const float4 pixel = halfPixel(image, x, y);
+            for (int c = 0; c < 3; ++c) {
+                EXPECT_TRUE(std::isfinite(pixel[c]));
+                found.least = std::min(found.least, pixel[c]);
+                found.most = std::max(found.most, pixel[c]);
+            }
+        }
+    }
+    return found;
 }
 
 struct Difference {

@@ -112,26 +112,8 @@ float3 directionThrough(uint32_t x, uint32_t y, uint32_t side) {
     return glm::normalize(float3(at.x * half, -at.y * half, -1));
 }
 
-struct Extremes {
-    float least = 1e9f, most = -1e9f;
-};
-
-Extremes extremes(Image const& image) {
-    Extremes found;
-    for (uint32_t y = 0; y < image.height; ++y) {
-        for (uint32_t x = 0; x < image.width; ++x) {
-            const float4 pixel = halfPixel(image, x, y);
-            for (int c = 0; c < 3; ++c) {
-                EXPECT_TRUE(std::isfinite(pixel[c]));
-                found.least = std::min(found.least, pixel[c]), found.most = std::max(found.most, pixel[c]);
-            }
-        }
-    }
-    return found;
-}
-
 void expectFurnace(std::string const& material, float least) {
-    const Extremes found = extremes(seenOnSphere(material, kWhiteSky));
+    const test::Extremes found = test::extremesOf(seenOnSphere(material, kWhiteSky));
     EXPECT_LE(found.most, 1.005f) << material;
     EXPECT_GE(found.least, least) << material;
 }
