@@ -34,7 +34,7 @@ Result<void> readType(JsonValue const& value, Parameter& out) {
     JsonValue base = value;
     constexpr std::string_view kTimes = "\xC3\x97"; // the multiplication sign, with which the guide prints float3x3
     if (const size_t times = base.text.find(kTimes); times != std::string::npos)
-        base.text.replace(times, kTimes.size(), "x");
+        base.text.replace(times, kTimes.size(), 1, 'x');
     if (const size_t bracket = base.text.find('['); bracket != std::string::npos) {
         const char* const last = base.text.data() + base.text.size();
         const auto size = std::from_chars(base.text.data() + bracket + 1, last, out.arraySize);
