@@ -3,12 +3,22 @@
 ///   Nearness is the Levenshtein distance, ignoring case: at most a third of the name's length, at least 2.
 #pragma once
 
+#include <ranges>
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace filament {
 
 std::string suggestion(std::string_view name, std::span<const std::string_view> known);
+
+/// The names of things that have one, for suggestion(). Views into the items.
+template <std::ranges::range Items>
+std::vector<std::string_view> namesOf(Items const& items) {
+    std::vector<std::string_view> names;
+    for (auto const& item : items) names.push_back(item.name);
+    return names;
+}
 
 } // namespace filament

@@ -1,30 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/DescribeMaterial.h"
 
+#include "filament_core/engine/ConstantBits.h"
+
 #include <algorithm>
-#include <bit>
 
 namespace filament::engine {
 namespace {
 
-using ConstantData = std::variant<bool, int32_t, float>;
-
-ConstantData constantData(backend::ConstantValue::Type type, uint32_t bits) {
-    switch (type) {
-    case backend::ConstantValue::Type::Bool:
-        return bits != 0;
-    case backend::ConstantValue::Type::Int:
-        return static_cast<int32_t>(bits);
-    case backend::ConstantValue::Type::Float:
-        return std::bit_cast<float>(bits);
-    }
-    return false;
-}
-
 ConstantDescription describe(shader::Constant const& constant, scene::Material const& material) {
     const auto given = std::ranges::find(material.constants, constant.id, &backend::ConstantValue::id);
     const uint32_t bits = given == material.constants.end() ? constant.defaultBits : given->bits;
-    return { constant.name, constantData(constant.type, constant.defaultBits), constantData(constant.type, bits) };
+    return { constant.name, dataOf(constant.type, constant.defaultBits), dataOf(constant.type, bits) };
 }
 
 /// The variants of the scene: how exactly they are computed is a matter of Quality.

@@ -141,7 +141,6 @@ struct Engine::Impl {
     void markDirty(MaterialInstance instance);
     template <class Write>
     Result<void> change(MaterialInstance instance, std::string_view parameter, Write&& write);
-    Result<void> checkTexture(scene::Material const& material, shader::Parameter const& parameter, Texture texture);
     /// What a sampler shows that the app has not set: opaque white (integers: 1), of the sampler's kind. Made when
     /// first asked for.
     Texture unsetTexture(shader::Parameter const& sampler);
