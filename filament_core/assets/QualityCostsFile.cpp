@@ -91,10 +91,8 @@ QualityEffect readEffect(JsonNode const& node) {
     GltfDiagnostics& diagnostics = node.diagnostics();
     QualityEffect effect{ .name = node["name"].text(), .values = {} };
     if (!isChoice(effect.name)) {
-        std::vector<std::string_view> known;
-        for (QualityChoice const& choice : qualityChoices()) known.push_back(choice.name);
         diagnostics.refuse(ErrorCode::InvalidArgument, "{}.name: there is no quality choice '{}'{}", node.path(),
-                           effect.name, suggestion(effect.name, known));
+                           effect.name, suggestion(effect.name, namesOf(qualityChoices())));
         return effect;
     }
     const std::string standard = *qualityValue(Quality{}, effect.name);

@@ -222,8 +222,7 @@ Result<void> check(CostMeasurement const& measurement) {
     if (measurement.rounds < kFewestRounds || measurement.rounds > 1000) {
         return fail(ErrorCode::InvalidArgument, "{} rounds: give {} to 1000", measurement.rounds, kFewestRounds);
     }
-    std::vector<std::string_view> known;
-    for (QualityChoice const& choice : qualityChoices()) known.push_back(choice.name);
+    const std::vector<std::string_view> known = namesOf(qualityChoices());
     for (std::string const& name : measurement.choices) {
         if (std::ranges::find(known, name) == known.end())
             return fail(ErrorCode::NotFound, "there is no quality choice '{}'{}", name, suggestion(name, known));

@@ -212,9 +212,8 @@ std::span<const QualityChoice> qualityChoices() {
 Result<void> setQuality(Quality& quality, std::string_view name, std::string_view value) {
     Field const* field = findField(name);
     if (!field) {
-        std::vector<std::string_view> known;
-        for (QualityChoice const& choice : qualityChoices()) known.push_back(choice.name);
-        return fail(ErrorCode::NotFound, "there is no quality choice '{}'{}", name, suggestion(name, known));
+        return fail(ErrorCode::NotFound, "there is no quality choice '{}'{}", name,
+                    suggestion(name, namesOf(qualityChoices())));
     }
     if (field->set(quality, field->choice.values, value)) return {};
     const std::string expected = field->range.empty() ? joined(field->choice.values) : std::string(field->range);

@@ -85,9 +85,7 @@ constexpr std::array kIntegrals{ Integral{ "directionalAlbedo", directionalAlbed
 Result<ErrorFigures> integralError(std::string const& name, Settings const& settings, jobs::JobSystem& jobs) {
     const auto found = std::ranges::find(kIntegrals, std::string_view(name), &Integral::name);
     if (found != kIntegrals.end()) return found->error(settings, jobs);
-    std::vector<std::string_view> known;
-    for (Integral const& integral : kIntegrals) known.push_back(integral.name);
-    return fail(ErrorCode::NotFound, "there is no integral '{}'{}", name, suggestion(name, known));
+    return fail(ErrorCode::NotFound, "there is no integral '{}'{}", name, suggestion(name, namesOf(kIntegrals)));
 }
 
 } // namespace filament::accuracy

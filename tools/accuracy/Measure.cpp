@@ -217,9 +217,7 @@ Result<Results> measure(std::vector<Effect> const& table, std::vector<std::strin
     for (std::string const& name : chosen) {
         const auto found = std::ranges::find(all, name, &Effect::name);
         if (found == all.end()) {
-            std::vector<std::string_view> known;
-            for (Effect const& effect : all) known.push_back(effect.name);
-            return fail(ErrorCode::NotFound, "there is no effect '{}'{}", name, suggestion(name, known));
+            return fail(ErrorCode::NotFound, "there is no effect '{}'{}", name, suggestion(name, namesOf(all)));
         }
         rows.push_back(*found);
     }

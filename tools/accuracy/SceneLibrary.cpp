@@ -18,9 +18,7 @@ Result<SceneLibrary> SceneLibrary::read(std::filesystem::path const& folder) {
 Result<conformance::SceneSpec const*> SceneLibrary::find(std::string const& name) const {
     const auto found = std::ranges::find(mScenes, name, &conformance::SceneSpec::name);
     if (found != mScenes.end()) return &*found;
-    std::vector<std::string_view> known;
-    for (conformance::SceneSpec const& scene : mScenes) known.push_back(scene.name);
-    return fail(ErrorCode::NotFound, "there is no scene '{}'{}", name, suggestion(name, known));
+    return fail(ErrorCode::NotFound, "there is no scene '{}'{}", name, suggestion(name, namesOf(mScenes)));
 }
 
 } // namespace filament::accuracy

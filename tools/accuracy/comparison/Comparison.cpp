@@ -61,8 +61,7 @@ private:
 
     Result<void> checkStep() const {
         if (mResult.row.step.empty()) return {};
-        std::vector<std::string_view> known;
-        for (Rung const& rung : mRungs) known.push_back(rung.name);
+        const std::vector<std::string_view> known = namesOf(mRungs);
         if (std::ranges::find(known, mResult.row.step) != known.end()) return {};
         return fail(ErrorCode::NotFound, "step: this scene's ladder has no '{}'{}", mResult.row.step,
                     suggestion(mResult.row.step, known));
@@ -184,8 +183,7 @@ ComparisonRow readRow(JsonReader& reader) {
 
 Result<void> keepChosen(std::vector<ComparisonRow>& rows, std::vector<std::string> const& chosen) {
     if (chosen.empty()) return {};
-    std::vector<std::string_view> known;
-    for (ComparisonRow const& row : rows) known.push_back(row.name);
+    const std::vector<std::string_view> known = namesOf(rows);
     for (std::string const& name : chosen) {
         if (std::ranges::find(known, name) == known.end())
             return fail(ErrorCode::NotFound, "--compare: there is no row '{}'{}", name, suggestion(name, known));
