@@ -3,8 +3,9 @@
 
 #include "backend/stream/RecordingGuards.h"
 #include "filament_core/base/OutOfMemory.h"
-#include "filament_core/base/Result.h"
+#include "filament_core/engine/FrameSummary.h"
 #include "filament_core/engine/FrameTimingLog.h"
+#include "filament_core/engine/PixelReads.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/ToneMapPass.h"
@@ -12,7 +13,6 @@
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
-#include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -34,14 +34,12 @@ uint32_t toneTableSize(ToneMapping mapping) {
     return mapping == ToneMapping::Table16 ? 16 : mapping == ToneMapping::Table32 ? 32 : 64;
 }
 
-uint32_t countRunning(CompiledGraph const& plan) { return static_cast<uint32_t>(plan.order.size()); }
-
 } // namespace
 
 struct Renderer::Impl {
     Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
             : engine(owner), options(rendererOptions), data(*owner.stream), graph(arena), transients(*owner.stream),
-              ranges(owner.jobs), timings(owner) {}
+              ranges(owner.jobs), timings(owner), pixels(owner) {}
 
     ~Impl() {
         data.destroy(engine.pending);
@@ -52,7 +50,7 @@ struct Renderer::Impl {
     /// An error: the frame was left out, for lack of memory or of a target. What it made on the way serves the next
     /// one.
     Result<void> render(Scene const& scene, View const& view, engine::TextureState const& target) {
-        if (!target.handle) return noImage(target.desc.width, target.desc.height);
+        if (!target.handle) return engine::noImage(target.desc.width, target.desc.height);
         try {
             engine.compilations.collect(engine.stream->replayedSubmissions());
             renderFrame(scene, view, target);
@@ -63,11 +61,6 @@ struct Renderer::Impl {
             engine.report(error.message);
             return error;
         }
-    }
-
-    static Error noImage(uint32_t width, uint32_t height) {
-        return fail(ErrorCode::DeviceUnavailable,
-                    "the device has no image of {} x {} texels; Engine::takeErrors() names the cause", width, height);
     }
 
     /// The six-line frame of docs/architecture.md, with its measurements.
@@ -105,7 +98,7 @@ struct Renderer::Impl {
         stamps.recorded = clock();
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
-        count(context->packet);
+        summary = engine::summarize(frame, context->packet, plan);
     }
 
     void upload(CommandBuffer& commands, FrameContext& context, uint32_t tableSize) {
@@ -222,49 +215,6 @@ struct Renderer::Impl {
         return entry->second;
     }
 
-    void count(prepare::FramePacket const& packet) {
-        statistics.frame = frame;
-        statistics.renderables = packet.counts.renderables;
-        statistics.visible = packet.counts.visible;
-        statistics.culled = packet.counts.renderables - packet.counts.visible;
-        statistics.draws = static_cast<uint32_t>(packet.opaque.size() + packet.blended.size()) + (packet.sky ? 1 : 0);
-        statistics.triangles = static_cast<uint32_t>(packet.counts.triangles);
-        statistics.lights = packet.counts.lights + (packet.counts.suns ? 1 : 0);
-        statistics.passesRun = countRunning(plan);
-        statistics.passesCulled = static_cast<uint32_t>(plan.passes.size()) - statistics.passesRun;
-        counts = packet.counts;
-        hasSky = static_cast<bool>(packet.sky);
-        hasIndirectLight = static_cast<bool>(packet.specular);
-    }
-
-    PixelTicket read(engine::TextureState const& texture) {
-        return engine.orNone("reading pixels", texture.name, [&]() -> PixelTicket {
-            const Ticket ticket = engine.stream->nextTicket();
-            const Rect all{ 0, 0, texture.desc.width, texture.desc.height };
-            pixels[ticket.value] = { .width = all.width, .height = all.height, .format = texture.desc.format };
-            if (!texture.handle) return { ticket.value }; // never answered, see isRefused()
-            ask(ticket, texture.handle, all);
-            return { ticket.value };
-        });
-    }
-
-    /// Either the request is on its way, or nothing of it is left.
-    void ask(Ticket ticket, TextureHandle texture, Rect const& all) {
-        try {
-            FrameCommands commands(*engine.stream);
-            engine.drainPending(*commands);
-            commands->record(CmdReadTexture{ texture, 0, 0, all, ticket });
-        } catch (std::bad_alloc const&) {
-            pixels.erase(ticket.value);
-            throw;
-        }
-    }
-
-    /// Of an image that the engine did not make: there is nothing to wait for.
-    bool isRefused(Image const& image) const {
-        return std::max(image.width, image.height) > engine.device.maxTextureSize;
-    }
-
     SwapChain imageTargetOf(uint2 size) {
         if (imageTarget && engine.swapChains.get(imageTarget).size == size) return imageTarget;
         if (imageTarget) engine.destroy(std::exchange(imageTarget, {}));
@@ -293,12 +243,10 @@ struct Renderer::Impl {
     std::vector<framegraph::PassTimer> timers;
     engine::FrameTimingLog timings;
     std::map<std::tuple<ToneMapper, bool, bool>, passes::ToneMapMaterials> toneMaps; ///< mapper, dither, from a table
-    std::map<uint64_t, Image> pixels; ///< of read-backs under way: everything but the bytes
+    engine::PixelReads pixels;
     SwapChain imageTarget;
     uint64_t frame = 0;
-    FrameStatistics statistics;
-    prepare::PacketCounts counts;
-    bool hasSky = false, hasIndirectLight = false;
+    engine::FrameSummary summary;
 };
 
 Renderer::Renderer(Engine& engine, RendererOptions const& options) : mImpl(new Impl(engine.impl(), options)) {}
@@ -329,73 +277,28 @@ void Renderer::expect(Scene const& scene, View const& view, RenderTarget target)
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {
     engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
-    return mImpl->read(mImpl->engine.textures.get(state.images[state.current]));
+    return mImpl->pixels.ask(mImpl->engine.textures.get(state.images[state.current]));
 }
 
 PixelTicket Renderer::readPixels(RenderTarget target) {
-    return mImpl->read(mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color));
+    return mImpl->pixels.ask(mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color));
 }
 
-std::optional<Image> Renderer::takePixels(PixelTicket ticket) {
-    if (!ticket) return Image{}; // there was no memory to ask
-    const auto entry = mImpl->pixels.find(ticket.value);
-    FILAMENT_ASSERT(entry != mImpl->pixels.end(), "a ticket is taken once, from the renderer that gave it");
-    auto bytes = mImpl->engine.stream->takeReadback({ ticket.value });
-    const bool neverComes = mImpl->isRefused(entry->second) || mImpl->engine.stream->isDeviceLost();
-    if (!bytes && !neverComes) return std::nullopt;
-    Image image = std::move(entry->second);
-    if (bytes) image.pixels = std::move(*bytes);
-    mImpl->pixels.erase(entry);
-    return image;
-}
-
-Result<Image> Renderer::waitPixels(PixelTicket ticket) {
-    if (!ticket) return outOfMemory("read pixels: not asked");
-    const auto entry = mImpl->pixels.find(ticket.value);
-    FILAMENT_ASSERT(entry != mImpl->pixels.end(), "a ticket is taken once, from the renderer that gave it");
-    Image image = std::move(entry->second);
-    mImpl->pixels.erase(entry);
-    return orOutOfMemory("read pixels", {}, [&]() -> Result<Image> {
-        if (!mImpl->isRefused(image)) {
-            auto bytes = mImpl->engine.stream->waitReadback({ ticket.value });
-            if (!bytes) return bytes.error();
-            image.pixels = std::move(*bytes);
-        }
-        // A read of an image that the device refused is answered without bytes, so that nobody waits for ever.
-        if (image.pixels.empty()) return Impl::noImage(image.width, image.height);
-        return std::move(image);
-    });
-}
+std::optional<Image> Renderer::takePixels(PixelTicket ticket) { return mImpl->pixels.take(ticket); }
+Result<Image> Renderer::waitPixels(PixelTicket ticket) { return mImpl->pixels.wait(ticket); }
 
 Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
     return orOutOfMemory("render to image", {}, [&]() -> Result<Image> {
         engine::SwapChainState& target = mImpl->engine.swapChains.get(mImpl->imageTargetOf(view.size));
         if (Result<void> drawn = mImpl->renderInto(target, scene, view); !drawn) return drawn.error();
-        return waitPixels(mImpl->read(mImpl->engine.textures.get(target.images[target.current])));
+        return waitPixels(mImpl->pixels.ask(mImpl->engine.textures.get(target.images[target.current])));
     });
 }
 
-FrameStatistics Renderer::statistics() const { return mImpl->statistics; }
+FrameStatistics Renderer::statistics() const { return mImpl->summary.statistics; }
 std::vector<FrameTimings> Renderer::takeTimings() { return mImpl->timings.take(); }
 
-std::string Renderer::explain() const {
-    prepare::PacketCounts const& counts = mImpl->counts;
-    std::string text = fmt::format("frame {}: {} of {} renderables drawn, {} triangles in {} draws\n", mImpl->frame,
-                                   counts.visible, counts.renderables, counts.triangles, mImpl->statistics.draws);
-    if (counts.outOfView) text += fmt::format("  {} not drawn: their boxes are out of view\n", counts.outOfView);
-    if (counts.nothingToDraw) text += fmt::format("  {} not drawn: they have no indices\n", counts.nothingToDraw);
-    text += counts.suns ? fmt::format("sun: shaded{}\n", counts.suns > 1 ? ", the brightest of several" : "")
-                        : "sun: not in the shaders, the scene has none\n";
-    text += counts.lights ? fmt::format("punctual lights: {} reach the view, {} do not, {} beyond the limit\n",
-                                        counts.lights, counts.lightsOutOfView, counts.lightsOverLimit)
-                          : fmt::format("punctual lights: not in the shaders, none reaches the view ({} do not)\n",
-                                        counts.lightsOutOfView);
-    text += mImpl->hasIndirectLight ? "indirect light: from the environment\n"
-                                    : "indirect light: none, the scene has no environment\n";
-    text += mImpl->hasSky ? "sky: drawn where nothing covers it\n" : "sky: not drawn, the scene has none\n";
-    if (mImpl->plan.graph) text += framegraph::toText(mImpl->plan);
-    return text;
-}
+std::string Renderer::explain() const { return engine::explain(mImpl->summary, mImpl->plan); }
 
 std::string Renderer::graphviz() const {
     return mImpl->plan.graph ? framegraph::toGraphviz(mImpl->plan) : std::string();

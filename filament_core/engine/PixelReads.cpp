@@ -1,0 +1,83 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/PixelReads.h"
+
+#include "backend/stream/RecordingGuards.h"
+#include "filament_core/base/OutOfMemory.h"
+#include "filament_core/base/Result.h"
+
+#include <algorithm>
+#include <utility>
+
+namespace filament::engine {
+
+using namespace backend;
+
+Error noImage(uint32_t width, uint32_t height) {
+    return fail(ErrorCode::DeviceUnavailable,
+                "the device has no image of {} x {} texels; Engine::takeErrors() names the cause", width, height);
+}
+
+PixelTicket PixelReads::ask(TextureState const& texture) {
+    return mEngine.orNone("reading pixels", texture.name, [&]() -> PixelTicket {
+        const Ticket ticket = mEngine.stream->nextTicket();
+        const Rect all{ 0, 0, texture.desc.width, texture.desc.height };
+        mPending[ticket.value] = { .width = all.width, .height = all.height, .format = texture.desc.format };
+        if (!texture.handle) return { ticket.value }; // never answered, see isRefused()
+        record(ticket, texture.handle, all);
+        return { ticket.value };
+    });
+}
+
+/// Either the request is on its way, or nothing of it is left.
+void PixelReads::record(Ticket ticket, TextureHandle texture, Rect const& all) {
+    try {
+        FrameCommands commands(*mEngine.stream);
+        mEngine.drainPending(*commands);
+        commands->record(CmdReadTexture{ texture, 0, 0, all, ticket });
+    } catch (std::bad_alloc const&) {
+        mPending.erase(ticket.value);
+        throw;
+    }
+}
+
+/// Of an image that the engine did not make: there is nothing to wait for.
+bool PixelReads::isRefused(Image const& image) const {
+    return std::max(image.width, image.height) > mEngine.device.maxTextureSize;
+}
+
+PixelReads::Pending::iterator PixelReads::find(PixelTicket ticket) {
+    const auto entry = mPending.find(ticket.value);
+    FILAMENT_ASSERT(entry != mPending.end(), "a ticket is taken once, from the renderer that gave it");
+    return entry;
+}
+
+std::optional<Image> PixelReads::take(PixelTicket ticket) {
+    if (!ticket) return Image{}; // there was no memory to ask
+    const auto entry = find(ticket);
+    auto bytes = mEngine.stream->takeReadback({ ticket.value });
+    const bool neverComes = isRefused(entry->second) || mEngine.stream->isDeviceLost();
+    if (!bytes && !neverComes) return std::nullopt;
+    Image image = std::move(entry->second);
+    if (bytes) image.pixels = std::move(*bytes);
+    mPending.erase(entry);
+    return image;
+}
+
+Result<Image> PixelReads::wait(PixelTicket ticket) {
+    if (!ticket) return outOfMemory("read pixels: not asked");
+    const auto entry = find(ticket);
+    Image image = std::move(entry->second);
+    mPending.erase(entry);
+    return orOutOfMemory("read pixels", {}, [&]() -> Result<Image> {
+        if (!isRefused(image)) {
+            auto bytes = mEngine.stream->waitReadback({ ticket.value });
+            if (!bytes) return bytes.error();
+            image.pixels = std::move(*bytes);
+        }
+        // A read of an image that the device refused is answered without bytes, so that nobody waits for ever.
+        if (image.pixels.empty()) return noImage(image.width, image.height);
+        return std::move(image);
+    });
+}
+
+} // namespace filament::engine
