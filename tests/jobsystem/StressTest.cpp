@@ -2,11 +2,10 @@
 // Storms: what many threads do to a job system at once, with 1, 2 and 16 workers on however many cores there are. Meant
 // for the thread sanitizer. FILAMENT_STRESS=N makes every storm N times as long.
 #include "tests/jobsystem/JobSystemFixture.h"
+#include "tests/jobsystem/Storm.h"
 
 #include <cstdlib>
 #include <fstream>
-#include <functional>
-#include <latch>
 #include <memory>
 #include <random>
 #include <unistd.h>
@@ -15,23 +14,8 @@
 namespace filament::jobs {
 namespace {
 
-int scaled(int count) {
-    const char* text = std::getenv("FILAMENT_STRESS");
-    return count * std::max(1, text ? std::atoi(text) : 1);
-}
-
-/// Runs body(0), body(1), ... on a thread each, all from the same moment on.
-void onThreads(int count, std::function<void(int)> const& body) {
-    std::latch start(count);
-    std::vector<std::thread> threads;
-    for (int i = 0; i < count; ++i) {
-        threads.emplace_back([&, i] {
-            start.arrive_and_wait();
-            body(i);
-        });
-    }
-    for (std::thread& thread : threads) thread.join();
-}
+using test::onThreads;
+using test::scaled;
 
 void add(std::atomic<int64_t>& to, int64_t value = 1) { to.fetch_add(value, std::memory_order_relaxed); }
 

@@ -2,35 +2,20 @@
 // Many engines in one process: made and ended in parallel, rendering side by side, ended with frames in flight. On the
 // null backend, so that a thread sanitizer sees all of it. FILAMENT_STRESS=N makes it N times as long.
 #include "tests/filament_core/engine/RenderFixture.h"
+#include "tests/jobsystem/Storm.h"
 #include "tests/scenes/Sphere.h"
 
 #include "shaders/package/EngineMaterials.h"
 
 #include <algorithm>
-#include <cstdlib>
-#include <functional>
-#include <latch>
 #include <thread>
 #include <vector>
 
 namespace filament {
 namespace {
 
-int scaled(int count) {
-    const char* text = std::getenv("FILAMENT_STRESS");
-    return count * std::max(1, text ? std::atoi(text) : 1);
-}
-
-void onThreads(int count, std::function<void(int)> const& body) {
-    std::latch start(count);
-    std::vector<std::jthread> threads;
-    for (int i = 0; i < count; ++i) {
-        threads.emplace_back([&, i] {
-            start.arrive_and_wait();
-            body(i);
-        });
-    }
-}
+using test::onThreads;
+using test::scaled;
 
 std::optional<Engine> makeNullEngine(int workers) {
     auto engine = Engine::create({ .backend = Backend::Null, .workers = workers, .hashFrames = true });

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// What storms share: many threads that begin at the same moment, as often as the machine has time for.
+#pragma once
+
+#include <algorithm>
+#include <cstdlib>
+#include <functional>
+#include <latch>
+#include <thread>
+#include <vector>
+
+namespace filament::test {
+
+/// `count`, times the environment's FILAMENT_STRESS.
+inline int scaled(int count) {
+    const char* text = std::getenv("FILAMENT_STRESS");
+    return count * std::max(1, text ? std::atoi(text) : 1);
+}
+
+/// Runs body(0), body(1), ... on a thread each, all from the same moment on. Returns when all are done.
+inline void onThreads(int count, std::function<void(int)> const& body) {
+    std::latch start(count);
+    std::vector<std::jthread> threads;
+    for (int i = 0; i < count; ++i) {
+        threads.emplace_back([&, i] {
+            start.arrive_and_wait();
+            body(i);
+        });
+    }
+}
+
+} // namespace filament::test
