@@ -11,50 +11,39 @@ namespace {
 
 using backend::VertexFormat;
 
-/// The formats that carry an accessor's integers to the shader as floats; three components travel as four.
+/// The formats that carry an accessor's normalized integers to the shader as floats; three components travel as four.
+struct IntegerFormats {
+    VertexFormat byte, ubyte, shorts, ushorts;
+};
+constexpr IntegerFormats kOfPositions{ VertexFormat::Byte4N, VertexFormat::UByte4N, VertexFormat::Short4N,
+                                       VertexFormat::UShort4N };
+constexpr IntegerFormats kOfUvs{ VertexFormat::Byte4N, VertexFormat::UByte4N, VertexFormat::Short2N,
+                                 VertexFormat::UShort2N };
+/// Colours and weights are not negative: what is signed is read as floats.
+constexpr IntegerFormats kOfShares{ VertexFormat::Float4, VertexFormat::UByte4N, VertexFormat::Float4,
+                                    VertexFormat::UShort4N };
+
+VertexFormat formatOf(GltfAccessor const& accessor, IntegerFormats const& integers, VertexFormat floats) {
+    if (!accessor.normalized) return floats;
+    switch (accessor.component) {
+    case ComponentType::Byte:
+        return integers.byte;
+    case ComponentType::UByte:
+        return integers.ubyte;
+    case ComponentType::Short:
+        return integers.shorts;
+    case ComponentType::UShort:
+        return integers.ushorts;
+    default:
+        return floats;
+    }
+}
+
 VertexFormat positionFormat(GltfAccessor const& accessor) {
-    if (!accessor.normalized) return VertexFormat::Float3;
-    switch (accessor.component) {
-    case ComponentType::Byte:
-        return VertexFormat::Byte4N;
-    case ComponentType::UByte:
-        return VertexFormat::UByte4N;
-    case ComponentType::Short:
-        return VertexFormat::Short4N;
-    case ComponentType::UShort:
-        return VertexFormat::UShort4N;
-    default:
-        return VertexFormat::Float3;
-    }
+    return formatOf(accessor, kOfPositions, VertexFormat::Float3);
 }
-
-VertexFormat colorFormat(GltfAccessor const& accessor) {
-    if (accessor.normalized && accessor.component == ComponentType::UByte) return VertexFormat::UByte4N;
-    if (accessor.normalized && accessor.component == ComponentType::UShort) return VertexFormat::UShort4N;
-    return VertexFormat::Float4;
-}
-
-VertexFormat uvFormat(GltfAccessor const& accessor) {
-    if (!accessor.normalized) return VertexFormat::Float2;
-    switch (accessor.component) {
-    case ComponentType::Byte:
-        return VertexFormat::Byte4N;
-    case ComponentType::UByte:
-        return VertexFormat::UByte4N;
-    case ComponentType::Short:
-        return VertexFormat::Short2N;
-    case ComponentType::UShort:
-        return VertexFormat::UShort2N;
-    default:
-        return VertexFormat::Float2;
-    }
-}
-
-VertexFormat weightFormat(GltfAccessor const& accessor) {
-    if (accessor.normalized && accessor.component == ComponentType::UByte) return VertexFormat::UByte4N;
-    if (accessor.normalized && accessor.component == ComponentType::UShort) return VertexFormat::UShort4N;
-    return VertexFormat::Float4;
-}
+VertexFormat uvFormat(GltfAccessor const& accessor) { return formatOf(accessor, kOfUvs, VertexFormat::Float2); }
+VertexFormat shareFormat(GltfAccessor const& accessor) { return formatOf(accessor, kOfShares, VertexFormat::Float4); }
 
 /// Where the attributes of a primitive come from: accessors, or a Draco stream with accessors that describe it.
 class AttributeSource {
@@ -149,7 +138,7 @@ void gatherAttributes(AttributeSource& source, GltfAttributes const& attributes,
 
 void chooseFormats(GltfDocument const& document, GltfAttributes const& attributes, GltfGeometry& geometry) {
     geometry.positionFormat = positionFormat(document.accessors[attributes.position]);
-    if (attributes.color != kNone) geometry.colorFormat = colorFormat(document.accessors[attributes.color]);
+    if (attributes.color != kNone) geometry.colorFormat = shareFormat(document.accessors[attributes.color]);
     for (size_t set = 0; set < GltfAttributes::kUvSets; ++set) {
         if (attributes.uv[set] == kNone) continue;
         geometry.uvFormats[set] = uvFormat(document.accessors[attributes.uv[set]]);
@@ -157,8 +146,8 @@ void chooseFormats(GltfDocument const& document, GltfAttributes const& attribute
     // One format for both sets: what both have, or floats.
     const uint32_t first = attributes.weights[0], second = attributes.weights[1];
     if (first == kNone) return;
-    const VertexFormat format = weightFormat(document.accessors[first]);
-    if (second == kNone || weightFormat(document.accessors[second]) == format) geometry.weightFormat = format;
+    const VertexFormat format = shareFormat(document.accessors[first]);
+    if (second == kNone || shareFormat(document.accessors[second]) == format) geometry.weightFormat = format;
 }
 
 void gatherIndices(GltfDocument const& document, GltfPrimitive const& primitive, AttributeSource const& source,

@@ -119,35 +119,25 @@ GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount) {
 /// Section 3.8.4: OpenGL's numbers. Without filters the choice is ours: trilinear.
 backend::SamplerDesc parseGltfSampler(JsonNode const& node) {
     using backend::Filter, backend::MipFilter;
+    struct MinFilter {
+        uint64_t number;
+        Filter filter;
+        MipFilter mips;
+    };
+    static constexpr MinFilter kMinFilters[] = {
+        { 9728, Filter::Nearest, MipFilter::None },    { 9729, Filter::Linear, MipFilter::None },
+        { 9984, Filter::Nearest, MipFilter::Nearest }, { 9985, Filter::Linear, MipFilter::Nearest },
+        { 9986, Filter::Nearest, MipFilter::Linear },  { 9987, Filter::Linear, MipFilter::Linear },
+    };
     backend::SamplerDesc sampler;
     sampler.magFilter = node["magFilter"].integer(9729) == 9728 ? Filter::Nearest : Filter::Linear;
-    const uint64_t minFilter = node["minFilter"].integer(9987);
-    switch (minFilter) {
-    case 9728:
-        sampler.minFilter = Filter::Nearest;
-        sampler.mipFilter = MipFilter::None;
-        break;
-    case 9729:
-        sampler.minFilter = Filter::Linear;
-        sampler.mipFilter = MipFilter::None;
-        break;
-    case 9984:
-        sampler.minFilter = Filter::Nearest;
-        sampler.mipFilter = MipFilter::Nearest;
-        break;
-    case 9985:
-        sampler.minFilter = Filter::Linear;
-        sampler.mipFilter = MipFilter::Nearest;
-        break;
-    case 9986:
-        sampler.minFilter = Filter::Nearest;
-        sampler.mipFilter = MipFilter::Linear;
-        break;
-    default:
-        if (minFilter != 9987) node.diagnostics().warn("{}.minFilter: unknown, trilinear is used", node.path());
-        sampler.minFilter = Filter::Linear;
-        sampler.mipFilter = MipFilter::Linear;
+    auto const* found = std::ranges::find(kMinFilters, node["minFilter"].integer(9987), &MinFilter::number);
+    if (found == std::end(kMinFilters)) {
+        node.diagnostics().warn("{}.minFilter: unknown, trilinear is used", node.path());
+        --found;
     }
+    sampler.minFilter = found->filter;
+    sampler.mipFilter = found->mips;
     sampler.wrapU = parseWrap(node["wrapS"]);
     sampler.wrapV = parseWrap(node["wrapT"]);
     return sampler;
