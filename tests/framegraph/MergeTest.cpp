@@ -9,6 +9,12 @@ protected:
     /// color -> tone map at the current pixel; returns what became of the tone map.
     Merge outcome(MergeLimits const& limits = {}) { return steps(limits).order.decisions[toneMap].merge; }
 
+    void declareColor(TextureId hdr, TextureId z) {
+        pass("color", [&](PassBuilder& p) {
+            p.writeColor(0, hdr);
+            p.writeDepth(z);
+        });
+    }
     void declareToneMap(TextureId hdr, TextureId out) {
         toneMap = pass("tone map", [&](PassBuilder& p) {
             p.readInput(hdr);
@@ -134,10 +140,7 @@ TEST_F(MergePasses, NotWithMultisampledPasses) {
 
 TEST_F(MergePasses, NotIfTheLaterPassAlsoSamplesWhatTheEarlierOneWrote) {
     const TextureId hdr = color("hdr"), z = depth("z"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) {
-        p.writeColor(0, hdr);
-        p.writeDepth(z);
-    });
+    declareColor(hdr, z);
     toneMap = pass("tone map", [&](PassBuilder& p) {
         p.readInput(hdr);
         p.readSampled(z);
@@ -160,10 +163,7 @@ TEST_F(MergePasses, NotIfTheLaterPassWritesWhatTheEarlierOneSamples) {
 
 TEST_F(MergePasses, NotIfItClearsAnAttachmentInUse) {
     const TextureId hdr = color("hdr"), z = depth("z"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) {
-        p.writeColor(0, hdr);
-        p.writeDepth(z);
-    });
+    declareColor(hdr, z);
     toneMap = pass("tone map", [&](PassBuilder& p) {
         p.readInput(hdr);
         p.writeDepth(z, { .clear = 0.0f });
@@ -174,10 +174,7 @@ TEST_F(MergePasses, NotIfItClearsAnAttachmentInUse) {
 
 TEST_F(MergePasses, NotWithAnotherDepthAttachment) {
     const TextureId hdr = color("hdr"), z = depth("z"), other = depth("other"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) {
-        p.writeColor(0, hdr);
-        p.writeDepth(z);
-    });
+    declareColor(hdr, z);
     toneMap = pass("tone map", [&](PassBuilder& p) {
         p.readInput(hdr);
         p.writeDepth(other);
