@@ -2,50 +2,13 @@
 #include "backend/vulkan/Descriptors.h"
 
 #include "backend/vulkan/Formats.h"
+#include "backend/vulkan/Quirks.h"
 #include "filament_core/base/Hash.h"
 
 #include <algorithm>
 
 namespace filament::backend::vulkan {
 namespace {
-
-uint32_t uniformBuffersIn(BindGroupLayout const& layout, ShaderStage stage, bool dynamicOnly) {
-    const auto bindings = std::span(layout.bindings).first(layout.count);
-    return static_cast<uint32_t>(std::ranges::count_if(bindings, [&](BindingDesc const& each) {
-        const bool isUniform = each.type == BindingType::DynamicUniformBuffer ||
-                               (each.type == BindingType::UniformBuffer && !dynamicOnly);
-        return isUniform && (native(each.stages) & native(stage)) != 0;
-    }));
-}
-
-/// Lavapipe of Mesa 22.3 notes uniforms that decide an `if` in a table of 4 x 32, but writes to [32 b + i] where it
-/// means [4 b + i], b being 1 for the first uniform buffer of the stage. The fourth buffer's notes land upon the counts
-/// behind the table. Where all of a condition is uniform the counts are restored, but `uniform * varying > 0.0` leaves
-/// them spoilt, and the driver reads through a wild pointer when it draws. For later buffers the notes land where no
-/// stage of a graphics pipeline looks. So every stage that sees dynamic buffers here, which are the engine's and come
-/// before those of materials, gets spare ones up to the fourth; nothing is ever bound to them.
-/// Returns how many of `bindings`, which has room for two more, it has filled.
-uint32_t spareBindings(BindGroupLayout const& layout, std::span<VkDescriptorSetLayoutBinding, 2> bindings) {
-    constexpr uint32_t kSpoilt = 4;
-    const auto spare = [&](ShaderStage stage) {
-        const uint32_t used = uniformBuffersIn(layout, stage, false);
-        return uniformBuffersIn(layout, stage, true) == 0 || used >= kSpoilt ? 0 : kSpoilt - used;
-    };
-    const uint32_t vertex = spare(ShaderStage::Vertex);
-    const uint32_t fragment = spare(ShaderStage::Fragment);
-    uint32_t next = 0; // drivers number buffers in the order of bindings: behind all others
-    for (uint32_t i = 0; i < layout.count; ++i) next = std::max(next, layout.bindings[i].binding + 1u);
-    uint32_t count = 0;
-    const auto add = [&](uint32_t descriptors, ShaderStage stages) {
-        if (descriptors == 0) return;
-        bindings[count] = { next + count, VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, descriptors, native(stages), nullptr };
-        ++count;
-    };
-    const uint32_t both = std::min(vertex, fragment);
-    add(both, ShaderStage::Both);
-    add(std::max(vertex, fragment) - both, vertex > fragment ? ShaderStage::Vertex : ShaderStage::Fragment);
-    return count;
-}
 
 /// How many descriptors of each type one set of the layout holds, and of those that spareBindings() adds.
 std::vector<VkDescriptorPoolSize> poolSizes(BindGroupLayout const& layout, uint32_t spares, uint32_t sets) {
@@ -120,7 +83,7 @@ struct DescriptorWrites {
 // ---------------------------------------------------------------------------------------------- set layouts
 
 std::unique_ptr<SetLayout> SetLayout::create(Device& device, BindGroupLayout const& layout) {
-    std::array<VkDescriptorSetLayoutBinding, kMaxBindings + 2> bindings{};
+    std::array<VkDescriptorSetLayoutBinding, kMaxBindings + kMaxSpareBindings> bindings{};
     for (uint32_t i = 0; i < layout.count; ++i) {
         BindingDesc const& binding = layout.bindings[i];
         const ShaderStage stages =
@@ -134,8 +97,8 @@ std::unique_ptr<SetLayout> SetLayout::create(Device& device, BindGroupLayout con
     info.bindingCount = layout.count;
     info.pBindings = bindings.data();
     std::unique_ptr<SetLayout> made(new SetLayout(device, layout));
-    if (device.physical().spoilsFourthUniforms) {
-        const auto spares = std::span(bindings).subspan(layout.count).first<2>();
+    if (device.physical().quirks.spoilsFourthUniforms) {
+        const auto spares = std::span(bindings).subspan(layout.count).first<kMaxSpareBindings>();
         info.bindingCount += spareBindings(layout, spares);
         made->mSpares = spares[0].descriptorCount + spares[1].descriptorCount;
     }

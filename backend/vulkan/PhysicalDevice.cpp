@@ -44,7 +44,7 @@ void readProperties(Instance const& instance, ExtensionList const& extensions, P
     VkPhysicalDeviceProperties const& core = properties.properties;
     VkPhysicalDeviceLimits const& limits = core.limits;
     device.type = core.deviceType;
-    device.spoilsFourthUniforms = driver.driverID == VK_DRIVER_ID_MESA_LLVMPIPE;
+    device.quirks = Quirks::of(driver.driverID);
     device.timestampNanoseconds = limits.timestampPeriod;
     device.copyOffsetAlignment = std::max<uint64_t>(limits.optimalBufferCopyOffsetAlignment, 16);
     if (core.apiVersion < VK_API_VERSION_1_1) device.unusable = "Vulkan 1.0 only";

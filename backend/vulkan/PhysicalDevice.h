@@ -7,6 +7,7 @@
 
 #include "backend/api/Driver.h"
 #include "backend/vulkan/Instance.h"
+#include "backend/vulkan/Quirks.h"
 
 #include <span>
 #include <string>
@@ -29,8 +30,8 @@ struct PhysicalDevice {
     bool halfFloatShaders = false;
     bool creationFeedback = false;      ///< says whether a pipeline came from a cache
     bool lazilyAllocatedMemory = false; ///< transient attachments may live in tile memory only
-    bool spoilsFourthUniforms = false;  ///< lavapipe: see spareBindings() in Descriptors.cpp
-    std::string unusable;               ///< empty, or why this driver cannot run on it
+    Quirks quirks;
+    std::string unusable; ///< empty, or why this driver cannot run on it
 };
 
 /// All devices of the instance, usable or not, in the order of the loader.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Conditions that mix a parameter with what differs from fragment to fragment, written by an author or meant by a layer
-// that is there or not: lavapipe of Mesa 22.3 crashed on them (spareBindings() in backend/vulkan/Descriptors.cpp).
+// that is there or not: lavapipe of Mesa 22.3 crashed on them (backend/vulkan/Quirks.h).
 #include "tests/samples/materials/SampleStage.h"
 
 #include <gtest/gtest.h>
