@@ -15,11 +15,22 @@ void put(Bytes& to, T value) {
     std::memcpy(to.data() + at, &value, sizeof(T));
 }
 
+/// As many components as the format has.
+template <class T>
+void putEach(Bytes& to, Rgba const& color, FormatInfo const& info) {
+    for (uint32_t i = 0; i < info.components; ++i) put(to, static_cast<T>(color[i]));
+}
+
 template <class T>
 T get(const std::byte* from, size_t index) {
     T value;
     std::memcpy(&value, from + index * sizeof(T), sizeof(T));
     return value;
+}
+
+template <class T>
+void getEach(const std::byte* from, Rgba& color, FormatInfo const& info) {
+    for (uint32_t i = 0; i < info.components; ++i) color[i] = static_cast<float>(get<T>(from, i));
 }
 
 double unorm(double value, uint32_t maximum) { return std::round(value * maximum); }
@@ -56,19 +67,19 @@ Bytes encodeTexel(Format format, Rgba const& color) {
         break;
     case Format::R8UI:
     case Format::RGBA8UI:
-        for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<uint8_t>(color[i]));
+        putEach<uint8_t>(bytes, color, info);
         break;
     case Format::R8I:
     case Format::RGBA8I:
-        for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<int8_t>(color[i]));
+        putEach<int8_t>(bytes, color, info);
         break;
     case Format::R32I:
     case Format::RG32I:
-        for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<int32_t>(color[i]));
+        putEach<int32_t>(bytes, color, info);
         break;
     case Format::R32UI:
     case Format::RG32UI:
-        for (uint32_t i = 0; i < info.components; ++i) put(bytes, static_cast<uint32_t>(color[i]));
+        putEach<uint32_t>(bytes, color, info);
         break;
     case Format::RGB10A2:
         put(bytes, static_cast<uint32_t>(unorm(color[0], 1023)) | static_cast<uint32_t>(unorm(color[1], 1023)) << 10 |
@@ -83,7 +94,7 @@ Bytes encodeTexel(Format format, Rgba const& color) {
     case Format::R32F:
     case Format::RG32F:
     case Format::RGBA32F:
-        for (uint32_t i = 0; i < info.components; ++i) put(bytes, color[i]);
+        putEach<float>(bytes, color, info);
         break;
     case Format::R11G11B10F:
         put(bytes, packR11G11B10F({ color[0], color[1], color[2] }));
@@ -109,19 +120,19 @@ Rgba decodeTexel(Format format, const std::byte* bytes) {
         return color;
     case Format::R8UI:
     case Format::RGBA8UI:
-        for (uint32_t i = 0; i < info.components; ++i) color[i] = get<uint8_t>(bytes, i);
+        getEach<uint8_t>(bytes, color, info);
         return color;
     case Format::R8I:
     case Format::RGBA8I:
-        for (uint32_t i = 0; i < info.components; ++i) color[i] = get<int8_t>(bytes, i);
+        getEach<int8_t>(bytes, color, info);
         return color;
     case Format::R32I:
     case Format::RG32I:
-        for (uint32_t i = 0; i < info.components; ++i) color[i] = static_cast<float>(get<int32_t>(bytes, i));
+        getEach<int32_t>(bytes, color, info);
         return color;
     case Format::R32UI:
     case Format::RG32UI:
-        for (uint32_t i = 0; i < info.components; ++i) color[i] = static_cast<float>(get<uint32_t>(bytes, i));
+        getEach<uint32_t>(bytes, color, info);
         return color;
     case Format::RGB10A2: {
         const auto bits = get<uint32_t>(bytes, 0);
@@ -136,7 +147,7 @@ Rgba decodeTexel(Format format, const std::byte* bytes) {
     case Format::R32F:
     case Format::RG32F:
     case Format::RGBA32F:
-        for (uint32_t i = 0; i < info.components; ++i) color[i] = get<float>(bytes, i);
+        getEach<float>(bytes, color, info);
         return color;
     case Format::R11G11B10F: {
         const float3 rgb = unpackR11G11B10F(get<uint32_t>(bytes, 0));
