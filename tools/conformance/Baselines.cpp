@@ -46,7 +46,7 @@ Machine thisMachine(std::string device, std::string driver) {
                                                       { "fma", __builtin_cpu_supports("fma") != 0 },
                                                       { "avx512f", __builtin_cpu_supports("avx512f") != 0 } };
     for (auto const& [name, isThere] : features) {
-        if (isThere) machine.cpuFeatures += (machine.cpuFeatures.empty() ? "" : " ") + std::string(name);
+        if (isThere) machine.cpuFeatures += fmt::format("{}{}", machine.cpuFeatures.empty() ? "" : " ", name);
     }
 #else
     machine.cpuFeatures = "not x86-64";

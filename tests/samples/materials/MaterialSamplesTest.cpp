@@ -63,7 +63,7 @@ const testing::Environment* const gSheet = testing::AddGlobalTestEnvironment(new
 TEST(SampleFolder, IsListedInItsReadme) {
     const std::string readme = textOf(kSampleFolder / "README.md");
     for (fs::path const& file : sampleFiles())
-        EXPECT_NE(readme.find("`" + file.filename().string() + "`"), std::string::npos) << file.filename();
+        EXPECT_NE(readme.find(fmt::format("`{}`", file.filename().string())), std::string::npos) << file.filename();
 }
 
 TEST(SampleFolder, HasAtLeastThirtyMaterialsAndEachIsDrawn) {
