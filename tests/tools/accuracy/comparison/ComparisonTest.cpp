@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // The engine against the path tracer, small: what no approximation explains stays below a limit, and the limit notices
 // an engine that shades otherwise.
+#include "tests/tools/accuracy/comparison/ComparisonFixture.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"
 #include "tools/common/Html.h"
-#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
@@ -16,30 +16,6 @@
 
 namespace filament::accuracy {
 namespace {
-
-namespace fs = std::filesystem;
-
-const fs::path kFolder = tools::sourceDir() / "tools/accuracy/comparison";
-
-fs::path scratch() {
-    const fs::path folder = tools::buildDir() / "comparison-test";
-    fs::create_directories(folder);
-    return folder;
-}
-
-fs::path rowsFile(std::string const& name, std::string const& text) {
-    const fs::path path = scratch() / (name + ".json");
-    std::ofstream(path) << text;
-    return path;
-}
-
-ComparisonOptions smallOptions(fs::path const& rows) {
-    return { .rows = rows,
-             .scenes = kFolder / "scenes",
-             .folders = { scratch() / "work", {} },
-             .size = { 80, 45 },
-             .mostSamples = 64 };
-}
 
 StepResult const& stepOf(RowResult const& row, std::string_view name) {
     return *std::ranges::find(row.steps, name, &StepResult::name);
@@ -102,9 +78,7 @@ TEST(Comparison, AnEngineThatShadesOtherwiseIsNotExplained) {
 
 /// The committed scenes, and one more whose features are `features`.
 fs::path scenesWith(std::string const& features) {
-    const fs::path folder = scratch() / "scenes";
-    fs::remove_all(folder);
-    fs::copy(kFolder / "scenes", folder, fs::copy_options::recursive);
+    const fs::path folder = scenesToChange("scenes");
     std::ofstream(folder / "broken.json") << R"({"model": {"material": "materials/coat.mat", "mesh": "sphere"},
         "camera": {"eye": [0.8, 0.9, 4.6], "at": [0, 0, 0], "fovDegrees": 28},
         "suns": [{"direction": [0.6, -0.5, -0.6], "lux": 100000}],
