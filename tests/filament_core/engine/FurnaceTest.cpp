@@ -2,6 +2,7 @@
 // White furnace: in a constant environment a surface that absorbs nothing is invisible.
 #include "filament_core/engine/GltfMaterials.h"
 #include "tests/filament_core/engine/RenderFixture.h"
+#include "tests/filament_core/engine/WhiteEnvironment.h"
 #include "tests/scenes/Sphere.h"
 
 #include "shaders/package/EngineMaterials.h"
@@ -9,23 +10,11 @@
 namespace filament {
 namespace {
 
-/// A sphere in an environment of radiance 1, exposure undone, so that pixels are radiances.
+/// A sphere in a white environment.
 class Furnace {
 public:
-    explicit Furnace(Engine& engine) : mEngine(engine), mScene(engine) {
-        const std::vector<uint16_t> ones(6 * (16 * 16 + 8 * 8 + 4 * 4 + 2 * 2 + 1) * 4, halfFromFloat(1.0f));
-        mCube = engine.own(engine.create(TextureDesc{ .kind = TextureKind::Cube,
-                                                      .format = Format::RGBA16F,
-                                                      .width = 16,
-                                                      .height = 16,
-                                                      .layers = 6,
-                                                      .levels = 5,
-                                                      .pixels = std::as_bytes(std::span(ones)),
-                                                      .name = "ones" }));
-        IndirectLightDesc light{ .specular = mCube, .specularLevels = 5, .name = "furnace" };
-        light.irradianceSh[0] = float4(1);
-        mLight = engine.own(engine.create(light));
-        mScene.setIndirectLight(mLight, Lux{ 1 / mView.camera.exposure.factor() });
+    explicit Furnace(Engine& engine) : mEngine(engine), mEnvironment(engine), mScene(engine) {
+        mEnvironment.light(mScene, mView.camera);
         const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere());
         mVertices = engine.own(sphere.vertices);
         mIndices = engine.own(sphere.indices);
@@ -52,8 +41,7 @@ public:
 private:
     Engine& mEngine;
     View mView;
-    Owned<Texture> mCube;
-    Owned<IndirectLight> mLight;
+    WhiteEnvironment mEnvironment;
     Owned<VertexBuffer> mVertices;
     Owned<IndexBuffer> mIndices;
     Owned<Material> mMaterial;
