@@ -161,7 +161,7 @@ std::string firstNotFinite(RowResult const& row) {
 void appendOutside(std::string& text, RowResult const& row) {
     text += fmt::format("| `{}` |", titleOf(*row.row));
     for (size_t input = 0; input < kOutsideInputs; ++input) text += fmt::format(" {} |", outsideCell(row, input));
-    text += fmt::format(" {} | {} |\n", firstNotFinite(row), row.row->outsideWhy);
+    text += fmt::format(" {} | {} |\n", firstNotFinite(row), row.row->openOutside);
 }
 
 struct Totals {

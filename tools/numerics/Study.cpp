@@ -152,7 +152,7 @@ std::vector<std::string> violations(Row const& row, Column column, Measurement c
         say(fmt::format("error {:.2g} above its limit {:.2g} at {}: {:.9g} instead of {:.9g}", result.worst,
                         limitOf(row, column), at(result.worstAt), result.worstResult, result.worstTruth));
     const uint32_t nan = result.outside[static_cast<size_t>(OutsideInput::Beyond)].nan;
-    if (row.outside == Outside::NoNaN && nan > 0) say(fmt::format("{} NaN for inputs beyond their intervals", nan));
+    if (row.openOutside.empty() && nan > 0) say(fmt::format("{} NaN for inputs beyond their intervals", nan));
     return found;
 }
 

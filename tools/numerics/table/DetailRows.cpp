@@ -4,10 +4,6 @@
 namespace filament::shader::numerics {
 namespace {
 
-Limits absolute(double single, double half, std::string_view why) {
-    return { .cpp = single, .gpu = single, .half = half, .negligible = 1, .why = why };
-}
-
 std::vector<Row> iridescenceRows() {
     const std::string_view kPhases = "phases reach thousands of radians";
     return {
@@ -32,8 +28,7 @@ std::vector<Row> iridescenceRows() {
           .range = { 0, 1 },
           .noError = "where film and base have the same index, its rounding decides about half a wave",
           .fp32Only = kPhases,
-          .outside = Outside::Open,
-          .outsideWhy = "negative indices divide by zero" },
+          .openOutside = "negative indices divide by zero" },
         { .file = "iridescence",
           .function = "f0FromFresnel(vec3, float)",
           .call = NUMERICS_CALL(f0FromFresnel(u, s.x)),
@@ -54,7 +49,7 @@ std::vector<Row> occlusionRows() {
           .s = { unit("visibility") },
           .range = { 0, 1 },
           .monotone = Monotone::Rising,
-          .limits = { .cpp = 4e-7, .gpu = 4e-7, .half = 4e-3, .why = "a root, a sum and a division" } },
+          .limits = relative(4e-7, 4e-3, "a root, a sum and a division") },
         { .file = "occlusion",
           .function = "specularConeVersine(float)",
           .call = NUMERICS_CALL(specularConeVersine(s.x)),
@@ -74,8 +69,7 @@ std::vector<Row> occlusionRows() {
                       .negligible = 1e-3,
                       .halfNegligible = 0.1,
                       .why = "a root and an arc tangent, which drivers approximate" },
-          .outside = Outside::Open,
-          .outsideWhy = "the root of a negative number" },
+          .openOutside = "the root of a negative number" },
         { .file = "occlusion",
           .function = "coneIntersection(float, float, float)",
           .call = NUMERICS_CALL(coneIntersection(s.y, s.z, s.x)),
@@ -84,8 +78,7 @@ std::vector<Row> occlusionRows() {
           .monotone = Monotone::Rising,
           .limits = absolute(1e-3, 0, "absolute: angles, which drivers approximate"),
           .fp32Only = kAngles,
-          .outside = Outside::Open,
-          .outsideWhy = "the root of a negative number" },
+          .openOutside = "the root of a negative number" },
         { .file = "occlusion",
           .function = "specularOcclusionCones(float, float, float)",
           .call = NUMERICS_CALL(specularOcclusionCones(s.y, s.x, s.z)),
@@ -94,8 +87,7 @@ std::vector<Row> occlusionRows() {
           .monotone = Monotone::Rising,
           .limits = absolute(1e-2, 0, "absolute: the error of acos() over the angle of a narrow cone"),
           .fp32Only = kAngles,
-          .outside = Outside::Open,
-          .outsideWhy = "the root of a negative number" },
+          .openOutside = "the root of a negative number" },
         { .file = "occlusion",
           .function = "horizonOcclusion(vec3, vec3)",
           .call = NUMERICS_CALL(horizonOcclusion(u, v)),
@@ -115,8 +107,7 @@ std::vector<Row> normalRows() {
           .u = colour("texel", 1),
           .range = { -1.001, 1.001 },
           .limits = absolute(1e-6, 1e-2, "a unit vector: the error is relative to its length"),
-          .outside = Outside::Open,
-          .outsideWhy = "overflow of the squares" },
+          .openOutside = "overflow of the squares" },
         { .file = "normals",
           .function = "blendNormalsReoriented(vec3, vec3)",
           .call = NUMERICS_CALL(blendNormalsReoriented(vec3(u.x, u.y, max(u.z, -u.z)), v)),

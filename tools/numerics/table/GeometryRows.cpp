@@ -14,11 +14,7 @@ Row frameRow(std::string_view part, Call call) {
              .call = call,
              .s = { Argument{ .name = "q", .kind = Kind::Rotation, .low = -1, .high = 1 } },
              .range = { -1.005, 1.005 },
-             .limits = { .cpp = 1e-6,
-                         .gpu = 1e-6,
-                         .half = 1e-2,
-                         .negligible = 1,
-                         .why = "a unit vector: the error is relative to its length" } };
+             .limits = absolute(1e-6, 1e-2, "a unit vector: the error is relative to its length") };
 }
 
 /// A direction out of directionFromAngles().
@@ -28,13 +24,8 @@ Row sampleRow(std::string_view function, Call call, std::array<Argument, 4> argu
              .call = call,
              .s = arguments,
              .range = { -1.001, 1.001 },
-             .limits = { .cpp = 1e-6,
-                         .gpu = 1e-6,
-                         .half = 1e-2,
-                         .negligible = 1,
-                         .why = "absolute: roots, and the sine and cosine of 2 pi u" },
-             .outside = Outside::Open,
-             .outsideWhy = "the root of 1 - u.y for u.y above 1" };
+             .limits = absolute(1e-6, 1e-2, "absolute: roots, and the sine and cosine of 2 pi u"),
+             .openOutside = "the root of 1 - u.y for u.y above 1" };
 }
 
 std::vector<Row> lightRows() {
@@ -47,7 +38,7 @@ std::vector<Row> lightRows() {
           .call = NUMERICS_CALL(distanceAttenuation(u, s.x)),
           .u = { .name = "toLight", .kind = Kind::Offset, .low = 0, .high = 1e9 },
           .range = { 0, 10001 },
-          .limits = { .cpp = 4e-7, .gpu = 4e-7, .why = "a sum of squares and a division" },
+          .limits = relative(4e-7, 0, "a sum of squares and a division"),
           .fp32Only = kSquaredMetres },
         { .file = "light",
           .function = "distanceAttenuation(vec3, float)",
@@ -57,10 +48,8 @@ std::vector<Row> lightRows() {
           .u = { .name = "toLight", .kind = Kind::Offset, .low = 0, .high = 1e9 },
           .range = { 0, 1.000001 },
           .monotone = Monotone::Falling,
-          .limits = { .cpp = 1e-6,
-                      .gpu = 1e-6,
-                      .negligible = 1,
-                      .why = "the window cancels at the range: the error is relative to the light without one" },
+          .limits =
+                  absolute(1e-6, 0, "the window cancels at the range: the error is relative to the light without one"),
           .fp32Only = kSquaredMetres },
         { .file = "light",
           .function = "spotAttenuation(vec3, vec3, float, float)",
@@ -69,11 +58,7 @@ std::vector<Row> lightRows() {
           .u = direction("lightDirection"),
           .v = direction("spotDirection"),
           .range = { 0, 1 },
-          .limits = { .cpp = 3e-3,
-                      .gpu = 3e-3,
-                      .half = 3e-2,
-                      .negligible = 1,
-                      .why = "absolute: scale, up to 10^4 here, times the rounding of the cosine" } },
+          .limits = absolute(3e-3, 3e-2, "absolute: scale, up to 10^4 here, times the rounding of the cosine") },
     };
 }
 
@@ -85,14 +70,14 @@ std::vector<Row> sequenceRows() {
           .call = NUMERICS_CALL(radicalInverse(uint(s.x))),
           .s = { integer("i", 0, 4294967040.0) },
           .range = { 0, 0x1.fffffep-1 },
-          .limits = { .cpp = 1e-7, .gpu = 1e-7, .why = "the literal 2^-24 is rounded in its eighth digit" },
+          .limits = relative(1e-7, 0, "the literal 2^-24 is rounded in its eighth digit"),
           .fp32Only = kIntegers },
         { .file = "sampling",
           .function = "hammersley(uint, float)",
           .call = NUMERICS_CALL(hammersley(uint(min(s.x, s.y - 1)), 1 / s.y)),
           .s = { integer("i", 0, 65535), integer("count", 1, 65536) },
           .range = { 0, 1 },
-          .limits = { .cpp = 1e-6, .gpu = 1e-6, .why = "a product and a rounding of the index" },
+          .limits = relative(1e-6, 0, "a product and a rounding of the index"),
           .fp32Only = kIntegers },
     };
 }

@@ -33,9 +33,8 @@ std::vector<Row> anisotropicRows() {
           .s = alphas,
           .u = direction("halfLocal"),
           .range = { 0, 77630 },
-          .limits = { .cpp = 2e-6, .gpu = 2e-6, .half = 2e-2, .why = "twelve roundings, sums of squares only" },
-          .outside = Outside::Open,
-          .outsideWhy = "alpha 0 divides 0 by 0" },
+          .limits = relative(2e-6, 2e-2, "twelve roundings, sums of squares only"),
+          .openOutside = "alpha 0 divides 0 by 0" },
         { .file = "brdf_anisotropic",
           .function = "visibilitySmithGgxAnisotropic(vec3, vec3, vec2)",
           .call = NUMERICS_CALL(visibilitySmithGgxAnisotropic(vec3(u.x, u.y, max(u.z, -u.z)),
@@ -54,13 +53,10 @@ std::vector<Row> anisotropicRows() {
           .call = NUMERICS_CALL(importanceSampleGgxAnisotropic(vec2(s.x, s.y), vec2(s.z, s.w))),
           .s = { fraction("u.x"), fraction("u.y"), alpha("alpha.x", 2), alpha("alpha.y", 2) },
           .range = { -1.002, 1.002 },
-          .limits = { .cpp = 1e-3,
-                      .gpu = 1e-3,
-                      .negligible = 1,
-                      .why = "absolute: the larger alpha over the lesser, up to 1000, times the rounding of 2 pi u" },
+          .limits = absolute(1e-3, 0,
+                             "absolute: the larger alpha over the lesser, up to 1000, times the rounding of 2 pi u"),
           .fp32Only = "up to 250 times the rounding of 2 pi u; samples are drawn on the CPU",
-          .outside = Outside::Open,
-          .outsideWhy = "the root of 1 - u.y for u.y above 1" },
+          .openOutside = "the root of 1 - u.y for u.y above 1" },
         { .file = "brdf_anisotropic",
           .function = "anisotropicNormal(vec3, vec3, vec3, vec3, float, float)",
           .call = NUMERICS_CALL(anisotropicNormal(vec3(0, 0, 1), vec3(1, 0, 0), vec3(0, 1, 0),
@@ -68,18 +64,13 @@ std::vector<Row> anisotropicRows() {
           .s = { number("anisotropy", -1, 1), unit("perceptualRoughness") },
           .u = direction("view"),
           .range = { -1.001, 1.001 },
-          .limits = { .cpp = 1e-5,
-                      .gpu = 1e-5,
-                      .half = 3e-2,
-                      .negligible = 1,
-                      .why = "a unit vector: the error is relative to its length; the bent one is as short as 1/32" } },
+          .limits = absolute(1e-5, 3e-2,
+                             "a unit vector: the error is relative to its length; the bent one is as short as 1/32") },
     };
 }
 
 std::vector<Row> coatRows() {
-    const Limits factor{
-        .cpp = 4e-7, .gpu = 4e-7, .half = 4e-3, .negligible = 1, .why = "absolute: what is reflected is taken from 1"
-    };
+    const Limits factor = absolute(4e-7, 4e-3, "absolute: what is reflected is taken from 1");
     const Argument strength = unit("strength");
     return {
         { .file = "coat",
@@ -145,8 +136,7 @@ std::vector<Row> coatRows() {
           .s = { unit("f0") },
           .range = { 0, 1.0001 },
           .limits = factor,
-          .outside = Outside::Open,
-          .outsideWhy = "the root of a negative f0" },
+          .openOutside = "the root of a negative f0" },
         { .file = "coat",
           .function = "f0UnderCoat(vec3, float)",
           .call = NUMERICS_CALL(f0UnderCoat(u, s.x)),
@@ -154,8 +144,7 @@ std::vector<Row> coatRows() {
           .u = colour("f0", 1),
           .range = { 0, 1.0001 },
           .limits = factor,
-          .outside = Outside::Open,
-          .outsideWhy = "the root of a negative f0" },
+          .openOutside = "the root of a negative f0" },
     };
 }
 
@@ -173,11 +162,7 @@ std::vector<Row> sheenLobeRows() {
           .s = { unit("noh"), alpha() },
           .range = { 0, 79 },
           .monotone = Monotone::Falling,
-          .limits = { .cpp = 1e-4,
-                      .gpu = 1e-4,
-                      .half = 5e-2,
-                      .negligible = 1,
-                      .why = "an exponent of up to 247 times the rounding of a logarithm" } },
+          .limits = absolute(1e-4, 5e-2, "an exponent of up to 247 times the rounding of a logarithm") },
         { .file = "sheen",
           .function = "ndfAshikhmin(float, float)",
           .call = NUMERICS_CALL(ndfAshikhmin(s.x, s.y)),
@@ -188,8 +173,7 @@ std::vector<Row> sheenLobeRows() {
                       .half = 5e-2,
                       .negligible = 0.3,
                       .why = "relative to the uniform part: the exponent multiplies its rounding" },
-          .outside = Outside::Open,
-          .outsideWhy = "alpha 0 divides by zero" },
+          .openOutside = "alpha 0 divides by zero" },
         { .file = "sheen",
           .function = "visibilityNeubelt(float, float)",
           .call = NUMERICS_CALL(visibilityNeubelt(s.x, s.y)),
@@ -204,8 +188,7 @@ std::vector<Row> sheenLobeRows() {
           .range = { -3, 21 },
           .monotone = Monotone::Falling,
           .limits = logLambda,
-          .outside = Outside::Open,
-          .outsideWhy = kRoots },
+          .openOutside = kRoots },
         { .file = "sheen",
           .function = "charlieLogLambda(float, float)",
           .call = NUMERICS_CALL(charlieLogLambda(s.x, s.y)),
@@ -213,16 +196,14 @@ std::vector<Row> sheenLobeRows() {
           .range = { -25, 21 },
           .monotone = Monotone::Falling,
           .limits = logLambda,
-          .outside = Outside::Open,
-          .outsideWhy = kRoots },
+          .openOutside = kRoots },
         { .file = "sheen",
           .function = "visibilityCharlie(float, float, float)",
           .call = NUMERICS_CALL(visibilityCharlie(s.x, s.y, s.z)),
           .s = { inHalf(unit("nov"), 0x1p-14, 1), inHalf(unit("nol"), 0x1p-14, 1), alpha() },
           .range = { 0, 1e12 },
-          .limits = { .cpp = 5e-5, .gpu = 5e-5, .half = 0.1, .why = "the error of an exponent becomes relative" },
-          .outside = Outside::Open,
-          .outsideWhy = kRoots },
+          .limits = relative(5e-5, 0.1, "the error of an exponent becomes relative"),
+          .openOutside = kRoots },
     };
 }
 
@@ -243,19 +224,15 @@ std::vector<Row> sheenRows() {
           .u = colour("sheenColor", 1),
           .range = { 0, 1 },
           .monotone = Monotone::Falling,
-          .limits = { .cpp = 2e-7, .gpu = 2e-7, .half = 2e-3, .negligible = 1, .why = "absolute: taken from 1" } },
+          .limits = absolute(2e-7, 2e-3, "absolute: taken from 1") },
         { .file = "sheen",
           .function = "importanceSampleCharlie(vec2, float)",
           .call = NUMERICS_CALL(importanceSampleCharlie(vec2(s.x, s.y), s.z)),
           .s = { fraction("u.x"), fraction("u.y"), alpha() },
           .range = { -1.001, 1.001 },
-          .limits = { .cpp = 2e-4,
-                      .gpu = 2e-4,
-                      .negligible = 1,
-                      .why = "absolute: the root of what logarithms lose where u is next to 1" },
+          .limits = absolute(2e-4, 0, "absolute: the root of what logarithms lose where u is next to 1"),
           .fp32Only = "the least u has no place in 16 bits, and samples are drawn on the CPU",
-          .outside = Outside::Open,
-          .outsideWhy = "1 + 2 alpha may be 0" },
+          .openOutside = "1 + 2 alpha may be 0" },
     };
     rows.insert(rows.end(), more.begin(), more.end());
     return rows;

@@ -63,14 +63,6 @@ struct Limits {
     std::string_view why;
 };
 
-/// What happens to arguments somewhat outside of their intervals: a step, 0.1, 1, 100 (4 in 16 bits). The largest
-/// numbers, infinities and NaN promise nothing: they overflow, and GLSL leaves min, max and clamp of NaN open. What
-/// came out of all of them is in the table's last column.
-enum class Outside : uint8_t {
-    NoNaN, ///< the result may leave its range, or overflow, but it is a number
-    Open,  ///< anything; the row's `outsideWhy` says for which arguments
-};
-
 struct Call {
     std::string_view text;
     Packed (*single)(glm::vec4 s, glm::vec3 u, glm::vec3 v) = nullptr;
@@ -89,8 +81,11 @@ struct Row {
     Limits limits{};
     std::string_view noError;  ///< the reason why a relative error says nothing
     std::string_view fp32Only; ///< the reason why 16 bits are not enough
-    Outside outside = Outside::NoNaN;
-    std::string_view outsideWhy;
+    /// What arguments somewhat outside of their intervals give: a step, 0.1, 1, 100 (4 in 16 bits). Empty: it may leave
+    /// its range, or overflow, but is a number. Else anything; for which arguments, and why. The largest numbers,
+    /// infinities and NaN promise nothing: they overflow, and GLSL leaves min, max and clamp of NaN open. What came out
+    /// of all of them is in the table's last column.
+    std::string_view openOutside;
 };
 
 /// Every row, by file.
@@ -108,6 +103,15 @@ std::vector<Row> geometryRows(); ///< light, sampling, tangent
 
 /// An argument that the row does not name has an empty interval.
 inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }
+
+/// The same limit for the CPU and for the GPU. half: 0 where fp32Only says that there is none.
+inline Limits relative(double single, double half, std::string_view why) {
+    return { .cpp = single, .gpu = single, .half = half, .why = why };
+}
+/// Of results up to 1, where a smaller one may be what is left of a difference.
+inline Limits absolute(double single, double half, std::string_view why) {
+    return { .cpp = single, .gpu = single, .half = half, .negligible = 1, .why = why };
+}
 
 inline Argument number(std::string_view name, double low, double high) { return { name, Kind::Number, low, high }; }
 inline Argument inHalf(Argument argument, double low, double high) {

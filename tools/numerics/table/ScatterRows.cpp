@@ -4,11 +4,9 @@
 namespace filament::shader::numerics {
 namespace {
 
-Argument ior() { return number("ior", 1, 4); }
+constexpr std::string_view kNoIor = "ior 0 divides by zero";
 
-Limits absolute(double single, double half, std::string_view why) {
-    return { .cpp = single, .gpu = single, .half = half, .negligible = 1, .why = why };
-}
+Argument ior() { return number("ior", 1, 4); }
 
 std::vector<Row> specularRows() {
     return {
@@ -19,24 +17,22 @@ std::vector<Row> specularRows() {
           .range = { 0, 2.5 },
           .monotone = Monotone::Rising,
           .limits = { .cpp = 2e-7, .gpu = 4e-7, .half = 2e-3, .negligible = 1e-12, .why = "a root and a product" },
-          .outside = Outside::Open,
-          .outsideWhy = "the root of a negative f0" },
+          .openOutside = "the root of a negative f0" },
         { .file = "specular",
           .function = "reflectanceFromIor(float)",
           .call = NUMERICS_CALL(reflectanceFromIor(s.x)),
           .s = { inHalf(number("ior", 1, 1e18), 1, 2048) },
           .range = { 0, 2.501 },
           .monotone = Monotone::Rising,
-          .limits = { .cpp = 4e-7, .gpu = 4e-7, .half = 4e-3, .why = "four roundings" },
-          .outside = Outside::Open,
-          .outsideWhy = "ior -1 divides by zero" },
+          .limits = relative(4e-7, 4e-3, "four roundings"),
+          .openOutside = "ior -1 divides by zero" },
         { .file = "specular",
           .function = "iorFromReflectance(float)",
           .call = NUMERICS_CALL(iorFromReflectance(s.x)),
           .s = { unit("reflectance") },
           .range = { 1, 2.335 },
           .monotone = Monotone::Rising,
-          .limits = { .cpp = 4e-7, .gpu = 4e-7, .half = 3e-3, .why = "five roundings" } },
+          .limits = relative(4e-7, 3e-3, "five roundings") },
         { .file = "specular",
           .function = "f0FromSpecular(vec3, float, float, vec3, float)",
           .call = NUMERICS_CALL(f0FromSpecular(u, s.x, s.y, v, s.z)),
@@ -79,8 +75,19 @@ Row bentRow(std::string_view function, Call call, Limits limits) {
              .u = direction("view"),
              .range = { -1.01, 1.01 },
              .limits = limits,
-             .outside = Outside::Open,
-             .outsideWhy = "ior 0 divides by zero" };
+             .openOutside = kNoIor };
+}
+
+/// A cosine or a length of the bent ray.
+Row insideRow(std::string_view function, Call call, Argument third, std::string_view why) {
+    return { .file = "refraction",
+             .function = function,
+             .call = call,
+             .s = { unit("nov"), ior(), third },
+             .range = { 0, 1 },
+             .monotone = Monotone::Rising,
+             .limits = absolute(1e-6, 5e-3, why),
+             .openOutside = kNoIor };
 }
 
 std::vector<Row> directionRows() {
@@ -93,30 +100,15 @@ std::vector<Row> directionRows() {
           .u = direction("incident"),
           .range = { -1.01, 1.01 },
           .noError = "next to total reflection one rounding of the index decides between two directions",
-          .outside = Outside::Open,
-          .outsideWhy = "overflow, inf - inf" },
+          .openOutside = "overflow, inf - inf" },
         bentRow("refractedInside(vec3, vec3, float)",
                 NUMERICS_CALL(refractedInside(vec3(0, 0, 1), vec3(u.x, u.y, max(u.z, -u.z)), s.x)), bent),
         bentRow("refractedSolid(vec3, vec3, float)",
                 NUMERICS_CALL(refractedSolid(vec3(0, 0, 1), vec3(u.x, u.y, max(u.z, -u.z)), s.x)), bent),
-        { .file = "refraction",
-          .function = "refractedCosine(float, float)",
-          .call = NUMERICS_CALL(refractedCosine(s.x, s.y)),
-          .s = { unit("nov"), ior() },
-          .range = { 0, 1 },
-          .monotone = Monotone::Rising,
-          .limits = absolute(1e-6, 5e-3, "absolute: a root and a division"),
-          .outside = Outside::Open,
-          .outsideWhy = "ior 0 divides by zero" },
-        { .file = "refraction",
-          .function = "solidPathLength(float, float, float)",
-          .call = NUMERICS_CALL(solidPathLength(s.x, s.y, s.z)),
-          .s = { unit("nov"), ior(), unit("thickness") },
-          .range = { 0, 1 },
-          .monotone = Monotone::Rising,
-          .limits = absolute(1e-6, 5e-3, "absolute: the error of refractedCosine()"),
-          .outside = Outside::Open,
-          .outsideWhy = "ior 0 divides by zero" },
+        insideRow("refractedCosine(float, float)", NUMERICS_CALL(refractedCosine(s.x, s.y)), {},
+                  "absolute: a root and a division"),
+        insideRow("solidPathLength(float, float, float)", NUMERICS_CALL(solidPathLength(s.x, s.y, s.z)),
+                  unit("thickness"), "absolute: the error of refractedCosine()"),
         { .file = "refraction",
           .function = "thinPathLength(float, float, float)",
           .call = NUMERICS_CALL(thinPathLength(s.x, s.y, s.z)),
@@ -129,9 +121,20 @@ std::vector<Row> directionRows() {
                       .negligible = 1e-20,
                       .halfNegligible = 0.01,
                       .why = "the error of refractedCosine()" },
-          .outside = Outside::Open,
-          .outsideWhy = "ior 0 divides by zero" },
+          .openOutside = kNoIor },
     };
+}
+
+/// Light that has passed the first interface of a thin sheet.
+Row sheetRow(std::string_view function, Call call) {
+    return { .file = "refraction",
+             .function = function,
+             .call = call,
+             .u = colour("f", 1),
+             .v = colour("tint", 1),
+             .range = { 0, 1 },
+             .limits = absolute(1e-6, 3e-3, "absolute: what both interfaces let through cancels where f is almost 1"),
+             .openOutside = "f -2 lets more through than arrives" };
 }
 
 std::vector<Row> transmissionRows() {
@@ -143,26 +146,9 @@ std::vector<Row> transmissionRows() {
           .range = { 0, 1 },
           .monotone = Monotone::Rising,
           .limits = { .cpp = 3e-7, .gpu = 3e-7, .half = 2e-3, .halfNegligible = 1e-3, .why = "three roundings" },
-          .outside = Outside::Open,
-          .outsideWhy = "f -1 divides by zero" },
-        { .file = "refraction",
-          .function = "thinFarReflectance(vec3, vec3)",
-          .call = NUMERICS_CALL(thinFarReflectance(u, v)),
-          .u = colour("f", 1),
-          .v = colour("tint", 1),
-          .range = { 0, 1 },
-          .limits = absolute(1e-6, 3e-3, "absolute: what both interfaces let through cancels where f is almost 1"),
-          .outside = Outside::Open,
-          .outsideWhy = "f -2 lets more through than arrives" },
-        { .file = "refraction",
-          .function = "thinTransmittance(vec3, vec3)",
-          .call = NUMERICS_CALL(thinTransmittance(u, v)),
-          .u = colour("f", 1),
-          .v = colour("tint", 1),
-          .range = { 0, 1 },
-          .limits = absolute(1e-6, 3e-3, "absolute: what both interfaces let through cancels where f is almost 1"),
-          .outside = Outside::Open,
-          .outsideWhy = "f -2 lets more through than arrives" },
+          .openOutside = "f -1 divides by zero" },
+        sheetRow("thinFarReflectance(vec3, vec3)", NUMERICS_CALL(thinFarReflectance(u, v))),
+        sheetRow("thinTransmittance(vec3, vec3)", NUMERICS_CALL(thinTransmittance(u, v))),
         { .file = "refraction",
           .function = "refractionPerceptualRoughness(float, float)",
           .call = NUMERICS_CALL(refractionPerceptualRoughness(s.x, s.y)),
@@ -176,7 +162,7 @@ std::vector<Row> transmissionRows() {
           .s = { ior(), number("dispersion", 0, 8) },
           .range = { 1, 5 },
           .monotone = Monotone::Rising,
-          .limits = { .cpp = 4e-7, .gpu = 4e-7, .half = 3e-3, .why = "four roundings" } },
+          .limits = relative(4e-7, 3e-3, "four roundings") },
         { .file = "refraction",
           .function = "transmittance(vec3, float)",
           .call = NUMERICS_CALL(transmittance(u, s.x)),
@@ -185,8 +171,7 @@ std::vector<Row> transmissionRows() {
           .range = { 0, 1 },
           .monotone = Monotone::Falling,
           .limits = absolute(3e-7, 3e-3, "absolute: the exponent is rounded"),
-          .outside = Outside::Open,
-          .outsideWhy = "the power of e overflows for negative numbers" },
+          .openOutside = "the power of e overflows for negative numbers" },
         { .file = "refraction",
           .function = "transmittanceWithoutThickness(vec3)",
           .call = NUMERICS_CALL(transmittanceWithoutThickness(u)),
@@ -247,8 +232,7 @@ std::vector<Row> subsurfaceRows() {
                       .half = 5e-2,
                       .negligible = 1e-2,
                       .why = "a power of up to 1000 times the rounding of the angle" },
-          .outside = Outside::Open,
-          .outsideWhy = "overflow of the power" },
+          .openOutside = "overflow of the power" },
         { .file = "subsurface",
           .function = "subsurfaceScatter(float, float, float, float)",
           .call = NUMERICS_CALL(subsurfaceScatter(s.x, s.y, s.z, s.w)),
@@ -260,8 +244,7 @@ std::vector<Row> subsurfaceRows() {
                       .half = 5e-2,
                       .negligible = 1e-1,
                       .why = "the error of subsurfaceForward()" },
-          .outside = Outside::Open,
-          .outsideWhy = "thickness 2 wraps to a division by zero" },
+          .openOutside = "thickness 2 wraps to a division by zero" },
         { .file = "subsurface",
           .function = "subsurfaceDiffuseScaling(vec3, float)",
           .call = NUMERICS_CALL(subsurfaceDiffuseScaling(u, s.x)),
