@@ -4,17 +4,13 @@
 ///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and the C++ compiler rounds
 ///           transcendental functions its own way.
 ///   Rules   for the .glsl files: no swizzles but .x .y .z .w, literals end in f, vec3(v4) truncates, built-ins are
-///   those
-///           listed below, functions only.
+///           those of GlslBuiltIns.h, functions only.
 ///   Memory  none. Thread: pure functions.
 #pragma once
 
-#include <filament/Math.h>
+#include "shaders/lib/GlslBuiltIns.h"
 
-#include <glm/common.hpp>
-#include <glm/exponential.hpp>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
+#include <filament/Math.h>
 
 namespace filament::shader::lib {
 
@@ -23,23 +19,7 @@ using glm::vec2;
 using glm::vec3;
 using glm::vec4;
 
-using glm::acos;
-using glm::atan;
-using glm::clamp;
-using glm::cos;
-using glm::cross;
-using glm::dot;
-using glm::exp;
-using glm::exp2;
-using glm::fract;
-using glm::log;
-using glm::log2;
-using glm::max;
-using glm::min;
-using glm::mix;
-using glm::pow;
-using glm::sin;
-using glm::sqrt;
+using namespace glsl;
 
 // GLSL functions have no linkage: internal here, and not every includer calls every one.
 #pragma GCC diagnostic push

@@ -9,10 +9,8 @@
 ///   Memory  none. Thread: pure functions.
 #pragma once
 
-#include <glm/common.hpp>
-#include <glm/exponential.hpp>
-#include <glm/geometric.hpp>
-#include <glm/trigonometric.hpp>
+#include "shaders/lib/GlslBuiltIns.h"
+
 #include <glm/vec2.hpp>
 #include <glm/vec3.hpp>
 #include <glm/vec4.hpp>
@@ -24,23 +22,7 @@ using vec2 = glm::dvec2;
 using vec3 = glm::dvec3;
 using vec4 = glm::dvec4;
 
-using glm::acos;
-using glm::atan;
-using glm::clamp;
-using glm::cos;
-using glm::cross;
-using glm::dot;
-using glm::exp;
-using glm::exp2;
-using glm::fract;
-using glm::log;
-using glm::log2;
-using glm::max;
-using glm::min;
-using glm::mix;
-using glm::pow;
-using glm::sin;
-using glm::sqrt;
+using namespace glsl;
 
 // GLSL functions have no linkage: internal here, and not every includer calls every one.
 #pragma GCC diagnostic push

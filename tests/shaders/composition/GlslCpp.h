@@ -5,13 +5,11 @@
 ///   Not     derivatives (they are 0: a flat surface), images, integers of 32 bits beyond what the texts use.
 #pragma once
 
+#include "shaders/lib/GlslBuiltIns.h"
+
 #include <filament/Math.h>
 
-#include <glm/common.hpp>
-#include <glm/exponential.hpp>
-#include <glm/geometric.hpp>
 #include <glm/matrix.hpp>
-#include <glm/trigonometric.hpp>
 
 namespace filament::shader::composition {
 
@@ -31,34 +29,18 @@ using uvec2 = glm::uvec2;
 using uvec3 = glm::uvec3;
 using uvec4 = glm::uvec4;
 
+using namespace glsl; // what shaders/lib calls, and:
 using glm::abs;
-using glm::acos;
-using glm::atan;
 using glm::ceil;
-using glm::clamp;
-using glm::cos;
-using glm::cross;
-using glm::dot;
-using glm::exp;
-using glm::exp2;
 using glm::floor;
-using glm::fract;
 using glm::inversesqrt;
 using glm::length;
-using glm::log;
-using glm::log2;
-using glm::max;
-using glm::min;
-using glm::mix;
 using glm::mod;
 using glm::normalize;
-using glm::pow;
 using glm::reflect;
 using glm::refract;
 using glm::sign;
-using glm::sin;
 using glm::smoothstep;
-using glm::sqrt;
 using glm::step;
 using glm::tan;
 using glm::transpose;

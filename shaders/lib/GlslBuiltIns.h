@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The built-in functions of GLSL that the shader library calls, for its text as C++. They come from GLM, for float and
+/// for double. `using namespace glsl` makes them known to a namespace that includes GLSL.
+///   Rules   a built-in that is not here may not be used in shaders/lib: C++, and so the tests, would not know it.
+#pragma once
+
+#include <glm/common.hpp>
+#include <glm/exponential.hpp>
+#include <glm/geometric.hpp>
+#include <glm/trigonometric.hpp>
+
+namespace filament::shader::glsl {
+
+using glm::acos;
+using glm::atan;
+using glm::clamp;
+using glm::cos;
+using glm::cross;
+using glm::dot;
+using glm::exp;
+using glm::exp2;
+using glm::fract;
+using glm::log;
+using glm::log2;
+using glm::max;
+using glm::min;
+using glm::mix;
+using glm::pow;
+using glm::sin;
+using glm::sqrt;
+
+} // namespace filament::shader::glsl
