@@ -84,6 +84,7 @@ constexpr std::array kFields{
     enumField<&Quality::fresnel>("fresnel", kFresnelTerms),
     enumField<&Quality::diffuse>("diffuse", kDiffuseTerms),
     enumField<&Quality::energyCompensation>("energyCompensation", kBooleans),
+    enumField<&Quality::diffuseCoupling>("diffuseCoupling", kBooleans),
     enumField<&Quality::splitSum>("splitSum", kSplitSums),
     numberField<&Quality::dfgTableSize, 16, 256>("dfgTableSize", kTableSizes, "a whole number from 16 to 256"),
     enumField<&Quality::diffuseIrradiance>("diffuseIrradiance", kIrradiances),
@@ -113,6 +114,7 @@ Quality lowPreset() {
     Quality quality;
     quality.specularVisibility = SpecularVisibility::Fast;
     quality.energyCompensation = false;
+    quality.diffuseCoupling = false;
     quality.splitSum = SplitSum::Analytic;
     quality.shBands = 2;
     quality.textureFilter = TextureFilter::Bilinear;

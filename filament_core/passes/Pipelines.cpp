@@ -55,7 +55,7 @@ uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
     return makeKey(material.id, kNoGeometry, slot, 0, true, false);
 }
 
-uint32_t programKey(uint16_t variant, ShadingKey shading) { return static_cast<uint32_t>(shading) << 16 | variant; }
+uint64_t programKey(uint16_t variant, ShadingKey shading) { return uint64_t{ shading } << 16 | variant; }
 
 CullMode cullMode(scene::RasterState const& raster) {
     if (raster.cullingDisabled) return CullMode::None;
@@ -156,7 +156,7 @@ uint32_t PipelineCache::slot(PassSlot const& slot) {
 
 ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& material, uint16_t variant,
                                         ShadingKey shading) {
-    const uint32_t key = programKey(variant, shading);
+    const uint64_t key = programKey(variant, shading);
     for (scene::MaterialProgram const& program : material.programs) {
         if (program.key == key) return program.handle;
     }
@@ -185,7 +185,7 @@ void PipelineCache::prepareProgram(CommandBuffer& setup, uint32_t slot, scene::M
 
 bool PipelineCache::hasProgram(uint32_t slot, scene::Material const& material, uint8_t variant) const {
     const ProgramChoice choice = choose(slot, material, variant);
-    const uint32_t key = programKey(choice.variant, choice.shading);
+    const uint64_t key = programKey(choice.variant, choice.shading);
     return std::ranges::count(material.programs, key, &scene::MaterialProgram::key) > 0;
 }
 

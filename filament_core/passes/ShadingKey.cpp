@@ -22,7 +22,8 @@ std::array<uint32_t, shader::kQualityConstants.size()> choices(Quality const& qu
              static_cast<uint32_t>(quality.splitSum),
              static_cast<uint32_t>(irradiance),
              light.isRgbm ? 1u : 0u,
-             static_cast<uint32_t>(light.mapping) };
+             static_cast<uint32_t>(light.mapping),
+             quality.diffuseCoupling ? 0u : 1u };
 }
 
 } // namespace

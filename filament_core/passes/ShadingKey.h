@@ -15,7 +15,7 @@
 
 namespace filament::passes {
 
-using ShadingKey = uint16_t;
+using ShadingKey = uint32_t;
 
 /// `light`: how the environment of the scene is stored, which selects programs as well.
 ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& light = {});

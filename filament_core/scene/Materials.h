@@ -18,7 +18,7 @@ namespace filament::scene {
 
 /// A program of a material; the pipeline cache chooses the keys.
 struct MaterialProgram {
-    uint32_t key = 0;
+    uint64_t key = 0;
     backend::ProgramHandle handle;
 };
 

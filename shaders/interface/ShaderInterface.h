@@ -132,6 +132,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityDiffuseIrradiance = 1005,
     kQualityEnvironmentEncoding = 1006, ///< 1: RGBM (of the environment, not of the view)
     kQualityRoughnessMapping = 1007,    ///< (of the environment)
+    kQualityWithoutDiffuseCoupling = 1008, ///< 1: lights give the diffuse lobe what is reflected, too
 };
 
 inline constexpr std::array kQualityConstants{
@@ -143,6 +144,7 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "diffuseIrradiance", kQualityDiffuseIrradiance },
     QualityConstant{ "environmentEncoding", kQualityEnvironmentEncoding },
     QualityConstant{ "roughnessMapping", kQualityRoughnessMapping },
+    QualityConstant{ "withoutDiffuseCoupling", kQualityWithoutDiffuseCoupling },
 };
 
 // clang-format on

@@ -130,8 +130,25 @@ vec3 diffuseColor(vec3 baseColor, float metallic) { return baseColor * (1.0f - m
 vec3 energyCompensation(vec3 f0, vec2 dfg) { return vec3(1.0f) + f0 * (1.0f / dfg.y - 1.0f); }
 
 // Directional albedo of the specular lobe, one bounce: the second factor of the split sum.
-// dfg.x <= dfg.y: the integrals weighted by Schlick's (1 - voh)^5 and by 1. Multiply by energyCompensation() as well.
-vec3 specularDfg(vec3 f0, vec2 dfg) { return mix(vec3(dfg.x), vec3(dfg.y), f0); }
-
-// The same where grazing light is not reflected wholly. f90 in [0, 1]; 1 gives the same bits as above.
+// dfg.x <= dfg.y: the integrals weighted by Schlick's (1 - voh)^5 and by 1. f90 in [0, 1]: how much of grazing light is
+// reflected. Multiply by energyCompensation() as well.
 vec3 specularDfg(vec3 f0, float f90, vec2 dfg) { return vec3(dfg.x * f90) + (dfg.y - dfg.x) * f0; }
+
+// The two values of the split-sum table averaged over all directions, weighted by the cosine; a fit of the integrals, 0.001 and
+// 0.003 off. alpha in [0, 1].
+vec2 dfgAverage(float alpha) {
+    float weighted = 1.0f / (20.58f + alpha * (59.03f + alpha * 286.2f));
+    float lost = alpha * (0.1269f + alpha * (1.8562f - alpha * (2.2382f - alpha * 0.8483f)));
+    return vec2(weighted, 1.0f - lost);
+}
+
+// Light that a diffuse lobe sends on crosses the specular lobe above it twice, on its way in and out. One direction's factor
+// is what that lobe's directional albedo leaves; the product of both, over what is left of all directions, is reciprocal, and
+// specular and diffuse lobe together reflect what arrives. Kelemen and Szirmay-Kalos 2001, "A Microfacet Based Coupled
+// Specular-Matte BRDF Model with Importance Sampling", equation 5. diffuseEntry() is the one, diffuseExit() the other with the average.
+// albedo, averageAlbedo: of the specular lobe, all bounces; slightly more than 1 counts as 1. Where it reflects all but a 16th on
+// average, some of the rest is lost: the quotient would have no bits left.
+vec3 diffuseEntry(vec3 albedo) { return max(vec3(1.0f) - albedo, vec3(0.0f)); }
+vec3 diffuseExit(vec3 albedo, vec3 averageAlbedo) {
+    return diffuseEntry(albedo) / max(vec3(1.0f) - averageAlbedo, vec3(0.0625f));
+}

@@ -9,7 +9,8 @@ const float kMinGrooveAlpha = kMinPerceptualRoughnessMedium * kMinPerceptualRoug
 const float kMinGrooveAlpha = kMinAlpha;
 #endif
 
-const float kGrooveShare = 0.6; // of groovesCompensation()
+const float kGrooveShare = 0.6;  // of groovesCompensation()
+const float kGrooveSmooth = 0.5, kGrooveAcross = 0.03; // of groovesRoughness()
 
 struct Grooves {
     float amount;            // in [-1, 1]; 0: none, and the rest is of no meaning
@@ -36,6 +37,20 @@ Grooves groovesOf(MaterialInputs material, float alpha) {
 vec3 groovesCompensation(Grooves grooves, vec3 compensation) {
     float share = 1.0 - kGrooveShare * max(grooves.amount, -grooves.amount);
     return 1.0 + (compensation - 1.0) * share;
+}
+
+// The perceptual roughness of a round lobe that reflects as much towards this direction, or slightly more: what counts of a
+// stretched one is the roughness along the direction (Heitz 2014, "Understanding the Masking-Shadowing Function in
+// Microfacet-Based BRDFs", section 5.3), but less than that where facets lean across it, and never nothing. Both shares are
+// bounds for dielectrics over roughness, direction and amount: at most 0.004 is reflected beyond.
+highp float groovesRoughness(Grooves grooves, vec3 direction) {
+    vec2 part = vec2(dot(grooves.tangent, direction), dot(grooves.bitangent, direction));
+    part = part * part;
+    part = part / max(part.x + part.y, 0.0009765625); // 2^-10
+    vec2 squared = grooves.alpha * grooves.alpha;
+    float amount = max(grooves.amount, -grooves.amount);
+    float along = 1.0 - kGrooveSmooth * amount, across = kGrooveAcross * amount;
+    return sqrt(sqrt(along * along * dot(part, squared) + across * across * dot(part.yx, squared)));
 }
 
 // D V of one light; nol is positive.

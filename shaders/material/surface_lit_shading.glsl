@@ -143,7 +143,7 @@ highp vec3 shadeLight(Surface surface, Light light) {
         float dv = specularOfLight(surface, halfway, light.direction, nol);
         vec3 specular = dv * fresnelOfLight(surface, voh) * surface.energyCompensation;
         float diffuse = diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness);
-        vec3 lobes = surface.diffuse * diffuse + specular;
+        vec3 lobes = surface.diffuse * diffuseLeft(surface, light.direction, nol) * diffuse + specular;
 #if defined(HAS_SHEEN)
         if (hasSheen(surface.sheen)) {
             vec4 sheen = sheenOfLight(surface.sheen, surface.nov, nol, saturate(dot(surface.normal, halfway)));
@@ -155,7 +155,11 @@ highp vec3 shadeLight(Surface surface, Light light) {
 #if defined(HAS_DIFFUSE_TRANSMISSION)
     else {
         float behind = saturate(-dot(surface.normal, light.direction));
-        reflected = surface.transmitted * diffuseLambert() * light.illuminance * behind;
+        vec3 left = diffuseLeft(surface, light.direction, behind);
+        reflected = surface.transmitted * left * diffuseLambert() * light.illuminance * behind;
+#if defined(HAS_SHEEN)
+        reflected *= sheenLeaves(surface.sheen); // crossed on the way out alone
+#endif
     }
 #endif
 #if defined(REFRACTION_THIN)

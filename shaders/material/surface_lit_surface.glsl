@@ -19,6 +19,7 @@ struct Surface {
     float alpha;              // of the distribution: perceptualRoughness^2
     vec3 energyCompensation;
     vec3 specularAlbedo;      // of the whole hemisphere, with all bounces
+    vec3 diffuseExit;         // factor of the diffuse lobe under lights that depends on the view
     float visibility;         // ambient occlusion
     vec3 normal, view;        // what prepareMaterial() found, in the precision of the lighting
     float nov;
@@ -125,15 +126,13 @@ void coverReflectances(inout Surface surface) {
 void setSpecularAlbedo(inout Surface surface, highp float roughness) {
     vec2 dfg = splitSumTerm(shading_NoV, roughness);
     surface.energyCompensation = energyCompensationTerm(surface.f0, dfg);
-#if defined(HAS_SPECULAR_WEIGHTS) || defined(HAS_CLEAR_COAT) || defined(REFRACTION)
     surface.specularAlbedo = specularDfg(surface.f0, surface.f90, dfg) * surface.energyCompensation;
-#else
-    surface.specularAlbedo = specularDfg(surface.f0, dfg) * surface.energyCompensation;
-#endif
 #if defined(HAS_ANISOTROPY)
     surface.energyCompensation = groovesCompensation(surface.grooves, surface.energyCompensation);
 #endif
 }
+
+#include "shaders/material/surface_lit_coupling.glsl"
 
 #if defined(HAS_DIFFUSE_TRANSMISSION)
 
@@ -214,6 +213,7 @@ Surface surfaceOf(MaterialInputs material) {
 #if defined(REFRACTION)
     setThrough(surface);
 #endif
+    surface.diffuseExit = diffuseExitOf(surface);
     surface.visibility = ambientVisibility(material);
     return surface;
 }

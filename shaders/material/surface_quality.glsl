@@ -80,6 +80,23 @@ vec3 energyCompensationTerm(vec3 f0, vec2 dfg) {
     return factor;
 }
 
+// Directional albedo of the specular lobe, all bounces.
+vec3 specularAlbedoTerm(vec3 f0, float f90, vec2 dfg) { return specularDfg(f0, f90, dfg) * energyCompensationTerm(f0, dfg); }
+
+// The two factors of the diffuse lobe under lights: towards one direction what the specular lobe leaves, towards the other that
+// over what it leaves on average.
+vec3 diffuseEntryTerm(vec3 albedo) {
+    vec3 share = vec3(1.0);
+    if (quality_withoutDiffuseCoupling == 0) share = diffuseEntry(albedo);
+    return share;
+}
+
+vec3 diffuseExitTerm(vec3 albedo, vec3 averageAlbedo) {
+    vec3 share = vec3(1.0);
+    if (quality_withoutDiffuseCoupling == 0) share = diffuseExit(albedo, averageAlbedo);
+    return share;
+}
+
 vec3 radianceOfTexel(vec4 texel) {
     vec3 radiance;
     if (quality_environmentEncoding == kEncodingRgbm) {

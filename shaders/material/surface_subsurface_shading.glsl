@@ -16,6 +16,7 @@ struct Surface {
     float alpha;
     vec3 energyCompensation;
     vec3 specularAlbedo;
+    vec3 diffuseExit;
     float visibility;         // ambient occlusion
     vec3 normal, view;
     float nov;
@@ -40,7 +41,9 @@ Surface surfaceOf(MaterialInputs material) {
     surface.alpha = alphaFromPerceptual(roughness);
     vec2 dfg = splitSumTerm(shading_NoV, roughness);
     surface.energyCompensation = energyCompensationTerm(surface.f0, dfg);
-    surface.specularAlbedo = specularDfg(surface.f0, dfg) * surface.energyCompensation;
+    surface.specularAlbedo = specularDfg(surface.f0, surface.f90, dfg) * surface.energyCompensation;
+    vec3 average = specularAlbedoTerm(surface.f0, surface.f90, dfgAverage(surface.alpha));
+    surface.diffuseExit = diffuseExitTerm(surface.specularAlbedo, average);
     surface.visibility = ambientVisibility(material);
     return surface;
 }
@@ -64,7 +67,8 @@ highp vec3 shadeEnvironment(Surface surface) {
 highp vec3 shadeLight(Surface surface, Light light) {
     float cosine = dot(surface.normal, light.direction);
     float lov = dot(surface.view, light.direction);
-    vec3 reflected = surface.scatter * subsurfaceScatter(cosine, lov, surface.thickness, surface.power);
+    vec3 scatter = surface.scatter * diffuseEntryTerm(surface.specularAlbedo);
+    vec3 reflected = scatter * subsurfaceScatter(cosine, lov, surface.thickness, surface.power);
     float nol = saturate(cosine);
     if (nol > 0.0) {
         vec3 halfway = normalizeOrZero(surface.view + light.direction);
@@ -74,7 +78,9 @@ highp vec3 shadeLight(Surface surface, Light light) {
         vec3 f = fresnelTerm(surface.f0, surface.f90, surface.metallic, voh);
         vec3 specular = finite(dv) * f * surface.energyCompensation;
         float diffuse = diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness);
-        reflected += (surface.diffuse * diffuse + specular) * nol;
+        vec2 dfg = splitSumTerm(max(nol, kMinNoV), surface.perceptualRoughness);
+        vec3 left = surface.diffuseExit * diffuseEntryTerm(specularAlbedoTerm(surface.f0, surface.f90, dfg));
+        reflected += (surface.diffuse * left * diffuse + specular) * nol;
     }
     return reflected * light.illuminance;
 }

@@ -73,7 +73,9 @@ reference::BsdfModel bsdfOf(Quality const& quality) {
              .fresnel = quality.fresnel,
              .diffuse = quality.diffuse,
              .energy = quality.energyCompensation ? reference::EnergyTerm::Compensated
-                                                  : reference::EnergyTerm::SingleScatter };
+                                                  : reference::EnergyTerm::SingleScatter,
+             .coupling =
+                     quality.diffuseCoupling ? reference::CouplingTerm::Engine : reference::CouplingTerm::AmbientOnly };
 }
 
 Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint32_t samplesPerPixel,

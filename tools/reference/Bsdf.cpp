@@ -41,6 +41,10 @@ double3 specularAlbedoOf(Base const& base) {
     return std::visit([](auto const& lobes) { return lobes.specularAlbedo(); }, base);
 }
 
+double3 diffuseShareOf(Base const& base, double3 light, LightSource source) {
+    return std::visit([&](auto const& lobes) { return lobes.diffuseShare(light, source); }, base);
+}
+
 LobeValues valuesOf(Base const& base, double3 light, LightSource source) {
     return std::visit([&](auto const& lobes) { return lobes.evaluate(light, source); }, base);
 }
@@ -147,15 +151,13 @@ double3 Bsdf::coatedAt(double3 light, LightSource source) const {
     return sum;
 }
 
-// As the engine: a light from behind passes the coat, and neither the sheen nor the base's reflection.
+// As the engine: what comes from behind passes the coat in both directions, the sheen on its way out.
 double3 Bsdf::behindAt(double3 light, LightSource source) const {
     double3 sum(0.0);
     const double sheen = mSheen ? mSheen->scalingOfView() : 1;
     if (mTransmission) sum += mTransmission->evaluate(light, source) * sheen;
     if (const double cosine = -glm::dot(light, mNormal); cosine > 0) {
-        const bool isAmbient = source == LightSource::Ambient;
-        const double3 coupling = isAmbient ? (1.0 - specularAlbedoOf(mBase)) * sheen : double3(1.0);
-        sum += mBehind * (lib::diffuseLambert() * cosine) * glm::max(coupling, 0.0);
+        sum += mBehind * (lib::diffuseLambert() * cosine * sheen) * diffuseShareOf(mBase, light, source);
     }
     return mCoat ? sum * mCoat->attenuation(light, source) : sum;
 }

@@ -16,11 +16,19 @@ enum class EnergyTerm : uint8_t {
     SingleScatter,
 };
 
-/// Whether the diffuse lobe gets what the specular lobe let through, 1 - its albedo towards the viewer, or all.
+/// Whether the diffuse lobe gets only what the specular lobe leaves, by its albedos towards viewer and light
+/// (Coupling.h).
 enum class CouplingTerm : uint8_t {
-    Engine, ///< under the environment and indirect light, but not under suns and punctual lights
-    Always, ///< one surface for all light: never reflects more than it gets
+    Engine, ///< of suns and punctual lights what it leaves in both directions, of other light what towards the viewer
+    AmbientOnly, ///< Quality::diffuseCoupling off: all of suns and punctual lights
+    Always,      ///< in both directions of all light: one surface, reciprocal
     Never,
+};
+
+/// What sends the light: the engine does not treat both alike (CouplingTerm::Engine, occlusion maps).
+enum class LightSource : uint8_t {
+    Ambient, ///< the environment and other surfaces
+    Direct,  ///< suns and punctual lights
 };
 
 /// Which lobes reflect. The two alone add up to both.

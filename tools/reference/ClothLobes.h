@@ -21,6 +21,7 @@ public:
     double3 harmonicAlbedo() const { return double3(0.0); }
     double3 albedo() const;
     double3 specularAlbedo() const { return mSheenColor * std::min(mViewAlbedo, 1.0); }
+    double3 diffuseShare(double3, LightSource) const { return double3(1.0); } ///< nothing is reflected above it
 
 private:
     LobeChoice mChoice;

@@ -149,6 +149,19 @@ double2 directionalAlbedo(double nov, double perceptualRoughness) {
     return glm::clamp(schlickTable().lookUp(nov, perceptualRoughness), 1e-9, 1.0);
 }
 
+double2 averageDirectionalAlbedo(double perceptualRoughness) {
+    constexpr int kEntries = 256; // linear between them: 1e-5
+    static const std::vector<double2> sTable = [] {
+        std::vector<double2> table;
+        for (int i = 0; i <= kEntries; ++i)
+            table.push_back(schlickTable().average(std::max(static_cast<double>(i) / kEntries, 0.045)));
+        return table;
+    }();
+    const double at = std::clamp(perceptualRoughness, 0.0, 1.0) * kEntries;
+    const auto entry = std::min(static_cast<size_t>(at), sTable.size() - 2);
+    return glm::mix(sTable[entry], sTable[entry + 1], at - static_cast<double>(entry));
+}
+
 double coatAlbedo(double nov, double perceptualRoughness) {
     return std::clamp(coatTable().lookUp(nov, perceptualRoughness), 0.0, 1.0);
 }

@@ -18,6 +18,8 @@ double2 integrateDirectionalAlbedo(double nov, double alpha, int radii = 32, int
 
 /// perceptualRoughness in [0.045, 1].
 double2 directionalAlbedo(double nov, double perceptualRoughness);
+/// Over the hemisphere, weighted by twice the cosine.
+double2 averageDirectionalAlbedo(double perceptualRoughness);
 
 /// What a clear coat reflects by Fresnel's equations, and the same of light from everywhere. A table of its own, made
 /// at the first call.

@@ -22,7 +22,6 @@ void weighReflectance(MaterialPoint const& point, double3 baseColor, SurfaceSamp
             f90Of(glm::mix(double3(f0), baseColor, surface.metallic)) * lib::f90FromSpecular(weight, surface.metallic);
     surface.f0 = lib::f0FromSpecular(baseColor, surface.metallic, f0, double3(material.specular.color) * double3(maps),
                                      weight);
-    surface.splitSumHasF90 = true;
 }
 
 /// KHR_materials_anisotropy: rougher along its direction, and as it is across.

@@ -92,7 +92,8 @@ Result<void> convertLobes(Words const& words, Options& options) {
         return done;
     }
     if (auto done = choose("--coupling", words.coupling,
-                           Names<CouplingTerm, 3>{ { { "engine", CouplingTerm::Engine },
+                           Names<CouplingTerm, 4>{ { { "engine", CouplingTerm::Engine },
+                                                     { "ambient-only", CouplingTerm::AmbientOnly },
                                                      { "always", CouplingTerm::Always },
                                                      { "never", CouplingTerm::Never } } },
                            bsdf.coupling);
@@ -165,7 +166,8 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--fresnel", words.fresnel, "schlick or exact (schlick)");
     app.add_option("--diffuse", words.diffuse, "lambert or disney (lambert)");
     app.add_option("--energy", words.energy, "compensated or single-scatter (compensated)");
-    app.add_option("--coupling", words.coupling, "engine, always or never: what the coat takes from the diffuse lobe");
+    app.add_option("--coupling", words.coupling,
+                   "engine, ambient-only, always or never: which light the diffuse lobe gets what is reflected of");
     app.add_option("--lobes", words.lobes, "both, diffuse or specular (both)");
     app.add_option("--specular-light", words.specularLight,
                    "integral or split-sum: how the environment is gathered (integral)");

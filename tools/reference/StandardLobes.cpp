@@ -19,13 +19,6 @@ Frame frameOf(SurfaceSample const& surface) {
     return isStretched(surface) ? Frame(surface.normal, surface.tangent) : Frame(surface.normal);
 }
 
-// The engine takes it for 1 but where a layer's text is in.
-double f90OfSplitSum(SurfaceSample const& surface) {
-    const bool isKnown =
-            surface.splitSumHasF90 || surface.coat.strength > 0 || surface.transmission.color != double3(0.0);
-    return isKnown ? surface.f90 : 1;
-}
-
 // What a stretched lobe loses: shaders/material/surface_anisotropy.glsl, groovesCompensation().
 double3 compensationOfGrooves(double3 compensation, double anisotropy) {
     constexpr double kGrooveShare = 0.6;
@@ -56,13 +49,11 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
         : mModel(model), mInterface(surface, model.fresnel), mFrame(frameOf(surface)),
           mView(liftedAboveHorizon(mFrame.toLocal(surface.view))), mRoughness(surface.perceptualRoughness),
           mAlpha(isStretched(surface) ? surface.stretchedAlpha : double2(lib::alphaFromPerceptual(mRoughness))),
-          mDiffuse(surface.diffuse) {
+          mDiffuse(surface.diffuse), mCoupling(surface, model, mView, mAlpha) {
     const double2 dfg = directionalAlbedo(mView.z, mRoughness);
     const bool isCompensated = model.energy == EnergyTerm::Compensated && !surface.transmission.isFromInside;
     mCompensation = isCompensated ? lib::energyCompensation(surface.f0, dfg) : double3(1.0);
-    // specularDfg() for any f90; the split sum takes it for 1.
-    double3 specularAlbedo = (surface.f0 * (dfg.y - dfg.x) + surface.f90 * dfg.x) * mCompensation;
-    mCoupling = model.coupling == CouplingTerm::Never ? double3(1.0) : glm::max(1.0 - specularAlbedo, 0.0);
+    double3 specularAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation;
     if (surface.transmission.isFromInside) specularAlbedo = mInterface.reflectance(mView.z);
     if (useOcclusion) {
         mAmbientDiffuse = double3(surface.occlusion);
@@ -71,9 +62,9 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     if (model.lobes == LobeChoice::Specular) mDiffuse = double3(0.0);
     if (model.lobes == LobeChoice::Diffuse) mCompensation = double3(0.0);
     if (model.lobes != LobeChoice::Diffuse) mSpecularAlbedo = specularAlbedo;
-    mAlbedo = mDiffuse * mCoupling + mSpecularAlbedo;
+    mAlbedo = mDiffuse * mCoupling.towardsView() + mSpecularAlbedo;
     const double specular = lib::luminance(mSpecularAlbedo);
-    const double diffuse = lib::luminance(mDiffuse * mCoupling);
+    const double diffuse = lib::luminance(mDiffuse * mCoupling.towardsView());
     // A tenth at least for each lobe that is there.
     const bool samplesDiffuse = diffuse > 0 && model.diffuseLight == DiffuseLight::Integral;
     mSpecularChance = samplesDiffuse ? std::clamp(specular / (specular + diffuse), 0.1, 0.9) : 1;
@@ -86,7 +77,7 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
 // As shaders/material/surface_anisotropy.glsl for a stretched lobe: looked up along a bent normal.
 void StandardLobes::usePrefiltered(SurfaceSample const& surface, double2 dfg) {
     mLobe.emplace(mRoughness, mModel.splitSumLevels);
-    mLobeAlbedo = lib::specularDfg(surface.f0, f90OfSplitSum(surface), dfg) * mCompensation;
+    mLobeAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation;
     mLobeAlbedo = (mLobeAlbedo + farReflectedShare(surface, mView.z, mLobeAlbedo)) * mAmbientSpecular;
     const double3 bent =
             lib::anisotropicNormal({ 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, mView, surface.anisotropy, mRoughness);
@@ -96,7 +87,13 @@ void StandardLobes::usePrefiltered(SurfaceSample const& surface, double2 dfg) {
 }
 
 double3 StandardLobes::harmonicAlbedo() const {
-    return mModel.diffuseLight == DiffuseLight::Harmonics ? mDiffuse * mCoupling * mAmbientDiffuse : double3(0.0);
+    if (mModel.diffuseLight != DiffuseLight::Harmonics) return double3(0.0);
+    return mDiffuse * mCoupling.towardsView() * mAmbientDiffuse;
+}
+
+double3 StandardLobes::diffuseShare(double3 light, LightSource source) const {
+    const double3 local = mFrame.toLocal(light);
+    return mCoupling.of({ local.x, local.y, std::min(std::abs(local.z), 1.0) }, source);
 }
 
 double StandardLobes::visibility(double3 light) const {
@@ -142,8 +139,7 @@ LobeValues StandardLobes::lobesAt(double3 local, LightSource source) const {
                 (ggx(halfway, mAlpha) * visibility(local) * local.z) * mInterface.reflectance(voh) * mCompensation;
     }
     if (mModel.diffuseLight == DiffuseLight::Integral || !isAmbient) {
-        values.diffuse = mDiffuse * (diffuseTerm(local.z, voh) * local.z);
-        if (mModel.coupling != CouplingTerm::Engine || isAmbient) values.diffuse *= mCoupling;
+        values.diffuse = mDiffuse * mCoupling.of(local, source) * (diffuseTerm(local.z, voh) * local.z);
     }
     if (isAmbient) {
         values.diffuse *= mAmbientDiffuse;

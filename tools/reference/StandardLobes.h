@@ -5,18 +5,13 @@
 ///   Thread  a value. Memory: none.
 #pragma once
 
+#include "tools/reference/Coupling.h"
 #include "tools/reference/Microfacets.h"
 #include "tools/reference/Prefiltered.h"
 
 #include <optional>
 
 namespace filament::reference {
-
-/// What sends the light: the engine does not treat both alike (CouplingTerm::Engine, occlusion maps).
-enum class LightSource : uint8_t {
-    Ambient, ///< the environment and other surfaces
-    Direct,  ///< suns and punctual lights
-};
 
 /// What the diffuse and the specular lobe of a base reflect; layers above change both in their own ways.
 struct LobeValues {
@@ -39,6 +34,8 @@ public:
     /// About how much of all light both lobes reflect: for choosing between layers.
     double3 albedo() const { return mAlbedo; }
     double3 specularAlbedo() const { return mSpecularAlbedo; }
+    /// The share of light from either side that a diffuse lobe gets. `light`: as above.
+    double3 diffuseShare(double3 light, LightSource source) const;
 
 private:
     double specularOcclusionOf(SurfaceSample const& surface) const;
@@ -57,7 +54,7 @@ private:
     double2 mAlpha; // along tangent and bitangent
     double3 mDiffuse;
     double3 mCompensation;
-    double3 mCoupling;              // of the diffuse lobe, where it applies
+    Coupling mCoupling;
     double3 mAmbientDiffuse{ 1.0 }; // occlusion
     double mAmbientSpecular = 1;    // occlusion
     double mSpecularChance = 0;

@@ -63,8 +63,7 @@ struct SurfaceSample {
     double3 diffuse{ 0.0 }; ///< albedo of the diffuse lobe, times opacity if the material blends
     double3 f0{ 0.04 };
     double f90 = 1;
-    bool splitSumHasF90 = false; ///< the engine's split sum takes it for 1 where a material never weighs it
-    double metallic = 0;         ///< edge tint of the exact Fresnel term
+    double metallic = 0; ///< edge tint of the exact Fresnel term
     double perceptualRoughness = 1;
     double occlusion = 1; ///< of the material's map, [0, 1]
     std::optional<double3>

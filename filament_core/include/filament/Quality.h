@@ -112,6 +112,7 @@ struct Quality {
     FresnelTerm fresnel = FresnelTerm::Schlick;
     DiffuseTerm diffuse = DiffuseTerm::Lambert;
     bool energyCompensation = true; ///< returns what rough metals lose by counting one bounce only
+    bool diffuseCoupling = true;    ///< lights give the diffuse lobe only what the specular lobe leaves of them
     SplitSum splitSum = SplitSum::Table;
     uint16_t dfgTableSize = 64; ///< texels a side, [16, 256]
     DiffuseIrradiance diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;

@@ -31,12 +31,24 @@ Angles angles() {
     return { v.z, kTowardsSun.z, h.z, glm::dot(v, h) };
 }
 
+/// The share of the diffuse lobe that the specular one leaves, one bounce.
+float3 coupling(float3 f0) {
+    const float alpha = lib::alphaFromPerceptual(kRoughness);
+    const auto albedo = [&](float cosine) {
+        return lib::specularDfg(f0, 1, assets::integrateDfg(cosine, alpha, 4096));
+    };
+    const float3 average = lib::specularDfg(f0, 1, lib::dfgAverage(alpha));
+    return lib::diffuseEntry(albedo(angles().nol)) * lib::diffuseExit(albedo(angles().nov), average);
+}
+
 /// Radiance of the patch under the sun of Patch::addSun(), without energy compensation.
 float3 sunlit(float3 color, float metallic, float visibility, float3 fresnel, float diffuse) {
     const Angles at = angles();
     const float d = lib::ndfGgx(at.noh, lib::alphaFromPerceptual(kRoughness));
     const float3 specular = d * visibility * fresnel;
-    return (lib::diffuseColor(color, metallic) * diffuse + specular) * std::numbers::pi_v<float> * at.nol;
+    const float3 scattered =
+            lib::diffuseColor(color, metallic) * coupling(lib::f0FromBaseColor(color, metallic, 0.5f)) * diffuse;
+    return (scattered + specular) * std::numbers::pi_v<float> * at.nol;
 }
 
 float3 schlick(float3 color, float metallic) {
@@ -103,6 +115,15 @@ TEST_P(QualityTest, DisneysDiffuseLobeIsBurleys) {
     const float3 color(kCopper);
     expectNear(sunlitPatch(kCopper, 0, { .diffuse = DiffuseTerm::Disney }),
                sunlit(color, 0, correlated(), schlick(color, 0), diffuse));
+}
+
+TEST_P(QualityTest, WithoutCouplingTheDiffuseLobeGetsWhatIsReflectedAsWell) {
+    const float4 chalk(0.5f, 0.5f, 0.5f, 1);
+    const float3 coupled = sunlitPatch(chalk, 0, {}), whole = sunlitPatch(chalk, 0, { .diffuseCoupling = false });
+    const float missing = 1 - coupling(float3(0.04f)).x;
+    EXPECT_GT(missing, 0.02f);
+    expectNear(whole - coupled,
+               float3(0.5f * lib::diffuseLambert() * missing * std::numbers::pi_v<float> * angles().nol));
 }
 
 // 16 bits keep 11 digits; the terms of the sum are of the same size, so that a few roundings are what is lost.

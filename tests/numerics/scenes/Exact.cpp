@@ -36,7 +36,11 @@ double3 sunOnWall(View const& view, Look const& look, SunLight const& sun, doubl
             lib::ndfGgxFromVectors(normal, halfway, alpha) * lib::visibilitySmithGgxCorrelated(nov, nol, alpha);
     const double3 specular =
             lobe * lib::fresnelSchlick(f0, f90, glm::dot(toViewer, halfway)) * lib::energyCompensation(f0, dfg);
-    const double3 diffuse = lib::diffuseColor(base, look.metallic) * lib::diffuseLambert();
+    const double2 dfgOfLight(assets::integrateDfg(static_cast<float>(nol), static_cast<float>(alpha), 4096));
+    const auto albedo = [&](double2 at) { return lib::specularDfg(f0, f90, at) * lib::energyCompensation(f0, at); };
+    const double3 coupling =
+            lib::diffuseEntry(albedo(dfgOfLight)) * lib::diffuseExit(albedo(dfg), albedo(lib::dfgAverage(alpha)));
+    const double3 diffuse = lib::diffuseColor(base, look.metallic) * lib::diffuseLambert() * coupling;
     const double illuminance = static_cast<double>(sun.illuminance.value) * view.camera.exposure.factor();
     return (diffuse + specular) * double3(sun.color) * illuminance * nol;
 }

@@ -81,29 +81,20 @@ Composition const& standard() {
     return *std::ranges::find_if(compositions(), [](auto const& at) { return at.name == std::string("standard"); });
 }
 
-// Metals whole; of others what is reflected and what is scattered apart: under lights the base adds both in full, as
-// the reference text has it, so that white plastic gives more than arrives. docs/energy.md has how much.
-TEST(Composition, NoLobeGivesMoreThanArrivesFromLights) {
+TEST(Composition, NoMaterialGivesMoreThanArrivesFromLights) {
     std::printf("| material | white metal | white plastic |\n|---|---|---|\n");
     for (Composition const& material : compositions()) {
         Extremes metals, plastics;
-        forEachWhiteSurface([&](Inputs inputs) {
-            if (inputs.metallic == 0.5) return;
+        forEachWhiteSurface([&](Inputs const& inputs) {
             for (const double nov : kCosines) {
                 for (const vec3 view : viewsOf(material.name, nov)) {
-                    inputs.color = vec3(1.0);
                     const double white = albedoOf(material, inputs, view);
-                    inputs.color = vec3(0.0);
-                    const double black = albedoOf(material, inputs, view);
-                    const bool isMetal = inputs.metallic == 1 && material.name != std::string("specular_glossiness");
-                    (isMetal ? metals : plastics).add(white);
-                    EXPECT_LE(isMetal ? white : black, lib64::kNoGain)
-                            << "reflected: " << textOf(material, inputs, nov);
-                    EXPECT_LE(white - black, lib64::kNoGain) << "scattered: " << textOf(material, inputs, nov);
+                    if (inputs.metallic == 1) metals.add(white);
+                    if (inputs.metallic == 0) plastics.add(white);
+                    EXPECT_LE(white, lib64::kNoGain) << textOf(material, inputs, nov);
                 }
             }
         });
-        if (metals.most == 0) metals = plastics; // knows no metal
         std::printf("| %s | %.3f to %.3f | %.3f to %.3f |\n", material.name, metals.least, metals.most, plastics.least,
                     plastics.most);
     }
@@ -118,7 +109,7 @@ TEST(Composition, NoMaterialIsBrighterThanAWhiteSky) {
                 for (const vec3 view : viewsOf(material.name, nov)) {
                     const double seen = largest(material.environment(inputs, view));
                     EXPECT_LE(seen, lib64::kNoGain) << textOf(material, inputs, nov);
-                    sky.add(seen);
+                    if (inputs.metallic != 0.5) sky.add(seen); // loses what both lobes leave, by definition
                 }
             }
         });
@@ -142,16 +133,10 @@ TEST(Composition, NoCombinationOfLayersGivesMoreThanArrives) {
                 for (const double nov : { 0.05, 0.2, 0.7 }) {
                     const vec3 view = viewsOf(material.name, nov).back();
                     inputs.roughness = roughness;
-                    inputs.color = vec3(1.0);
-                    const double white = albedoOf(material, inputs, view, kSteps);
                     EXPECT_LE(largest(material.environment(inputs, view)), lib64::kNoGain)
                             << "sky: layers " << layers << ' ' << textOf(material, inputs, nov);
-                    inputs.color = vec3(0.0);
-                    const double black = albedoOf(material, inputs, view, kSteps);
-                    EXPECT_LE(inputs.metallic == 1 ? white : black, lib64::kNoGain)
-                            << "reflected: layers " << layers << ' ' << textOf(material, inputs, nov);
-                    EXPECT_LE(white - black, lib64::kNoGain)
-                            << "scattered: layers " << layers << ' ' << textOf(material, inputs, nov);
+                    EXPECT_LE(albedoOf(material, inputs, view, kSteps), lib64::kNoGain)
+                            << "lights: layers " << layers << ' ' << textOf(material, inputs, nov);
                 }
             }
         }
@@ -160,7 +145,7 @@ TEST(Composition, NoCombinationOfLayersGivesMoreThanArrives) {
 
 /// Scattering below a surface is not meant to be: a wrapped lobe has no cosine of its own. docs/energy.md.
 bool isReciprocal(std::string const& name) {
-    static const std::set<std::string> kNot{ "cloth", "cloth_subsurface", "subsurface" };
+    static const std::set<std::string> kNot{ "cloth_subsurface", "subsurface" };
     return !kNot.contains(name);
 }
 

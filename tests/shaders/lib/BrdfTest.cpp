@@ -125,7 +125,7 @@ TEST(Brdf, EnergyCompensationMakesAWhiteMetalPassTheFurnaceThatItFailsWithout) {
     EXPECT_LT(albedo, 0.75f);
     const vec3 compensated = albedo * energyCompensation(vec3(1.0f), vec2(0.1f, albedo));
     EXPECT_NEAR(compensated.x, 1.0f, 1e-6f);
-    EXPECT_NEAR(specularDfg(vec3(1.0f), vec2(0.1f, albedo)).x, albedo, 1e-6f) << "split sum of f0 = 1 is dfg.y";
+    EXPECT_NEAR(specularDfg(vec3(1.0f), 1.0f, vec2(0.1f, albedo)).x, albedo, 1e-6f) << "split sum of f0 = 1 is dfg.y";
 }
 
 TEST(Brdf, EnergyCompensationLeavesDielectricsAlmostAlone) {

@@ -210,9 +210,9 @@ TEST(IblFunctions, AWhiteMetalPassesTheFurnaceOnlyWithEnergyCompensation) {
 // Image-based light multiplies the albedo of specularDfg() by energyCompensation() just like other lights.
 TEST(IblFunctions, TheSplitSumOfAWhiteMetalIsTheTablesGreenAndCompensatedOne) {
     const float2 dfg = assets::integrateDfg(0.5f, 0.6f, 1024);
-    EXPECT_FLOAT_EQ(specularDfg(vec3(1.0f), dfg).x, dfg.y);
-    EXPECT_FLOAT_EQ(specularDfg(vec3(0.0f), dfg).x, dfg.x);
-    EXPECT_NEAR((specularDfg(vec3(1.0f), dfg) * energyCompensation(vec3(1.0f), dfg)).x, 1.0f, 1e-6f);
+    EXPECT_FLOAT_EQ(specularDfg(vec3(1.0f), 1.0f, dfg).x, dfg.y);
+    EXPECT_FLOAT_EQ(specularDfg(vec3(0.0f), 1.0f, dfg).x, dfg.x);
+    EXPECT_NEAR((specularDfg(vec3(1.0f), 1.0f, dfg) * energyCompensation(vec3(1.0f), dfg)).x, 1.0f, 1e-6f);
 }
 
 } // namespace

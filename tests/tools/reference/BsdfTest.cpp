@@ -20,6 +20,7 @@ constexpr SpecularVisibility kVisibilities[] = { SpecularVisibility::Correlated,
 TEST(Bsdf, ReflectsTheSameInBothDirectionsWithoutTermsThatDependOnTheView) {
     const BsdfModel models[] = {
         { .energy = EnergyTerm::SingleScatter, .coupling = CouplingTerm::Never },
+        { .energy = EnergyTerm::SingleScatter, .coupling = CouplingTerm::Always },
         { .visibility = SpecularVisibility::Fast,
           .energy = EnergyTerm::SingleScatter,
           .coupling = CouplingTerm::Never },
@@ -87,18 +88,35 @@ TEST(Bsdf, WithCouplingNoSurfaceReflectsMoreThanItGets) {
     }
 }
 
-TEST(Bsdf, TheEngineLightsTheDiffuseLobeOfDirectLightWithoutCoupling) {
+TEST(Bsdf, TheEngineCouplesTheDiffuseLobeToBothDirectionsOfLightsAndToTheViewUnderTheSky) {
     const SurfaceSample surface = surfaceOf(0.5, 0, double3(0.8), directionAt(0.5, 0));
-    const double3 light = inFrame(directionAt(0.8, 2));
+    const double3 light = inFrame(directionAt(0.2, 2));
     const auto reflected = [&](CouplingTerm coupling, LightSource source) {
         return Bsdf(surface, { .coupling = coupling }, false).evaluate(light, source).x;
     };
     EXPECT_EQ(reflected(CouplingTerm::Engine, LightSource::Direct),
-              reflected(CouplingTerm::Never, LightSource::Direct));
+              reflected(CouplingTerm::Always, LightSource::Direct));
     EXPECT_EQ(reflected(CouplingTerm::Engine, LightSource::Ambient),
-              reflected(CouplingTerm::Always, LightSource::Ambient));
-    EXPECT_LT(reflected(CouplingTerm::Always, LightSource::Direct),
-              0.99 * reflected(CouplingTerm::Never, LightSource::Direct));
+              reflected(CouplingTerm::AmbientOnly, LightSource::Ambient));
+    EXPECT_EQ(reflected(CouplingTerm::AmbientOnly, LightSource::Direct),
+              reflected(CouplingTerm::Never, LightSource::Direct));
+    EXPECT_LT(reflected(CouplingTerm::Always, LightSource::Ambient),
+              0.95 * reflected(CouplingTerm::AmbientOnly, LightSource::Ambient))
+            << "a grazing light loses more than the sky does on average";
+    EXPECT_LT(reflected(CouplingTerm::AmbientOnly, LightSource::Ambient),
+              0.95 * reflected(CouplingTerm::Never, LightSource::Ambient));
+}
+
+TEST(Bsdf, CoupledWhitePlasticReflectsAllThatArrives) {
+    for (const double cosine : kCosines) {
+        for (const double roughness : kRoughnesses) {
+            const BsdfModel model{ .coupling = CouplingTerm::Always };
+            const Bsdf bsdf(surfaceOf(roughness, 0, double3(1), directionAt(cosine, 0)), model, false);
+            const double3 albedo =
+                    integrate(cosine, [&](double3 light) { return bsdf.evaluate(light, LightSource::Direct); });
+            EXPECT_NEAR(albedo.x, 1, 4e-3) << cosine << ' ' << roughness;
+        }
+    }
 }
 
 TEST(Bsdf, DiffuseAndSpecularAloneAddUpToBoth) {

@@ -76,8 +76,16 @@ TEST(ClosedForm, ALambertFloorUnderASunShowsAlbedoOverPiTimesTheIlluminanceTimes
     }
 }
 
+/// What a dielectric of alpha 1 reflects of light from everywhere.
+double albedoOfRoughDielectric(double cosine) {
+    const double2 dfg = integrateDirectionalAlbedo(cosine, 1);
+    return (0.04 * (dfg.y - dfg.x) + dfg.x) * (1 + 0.04 * (1 / dfg.y - 1));
+}
+
 TEST(ClosedForm, ARoughDielectricUnderASunShowsBothLobes) {
     ReferenceScene scene = sceneOf(floorPrimitive(), lambert(0.5f));
+    double average = 0; // weighted by the cosine: evenly in its square
+    for (int i = 0; i < 256; ++i) average += albedoOfRoughDielectric(std::sqrt((i + 0.5) / 256)) / 256;
     for (const float tilt : { 0.0f, 0.5f, 1.2f }) {
         scene.suns = { { .directionWorld = { std::sin(tilt), -std::cos(tilt), 0 }, .illuminance = Lux{ 3 } } };
         // alpha = 1: D = 1 / pi, V = 1 / (2 (n.l + n.v)).
@@ -86,7 +94,8 @@ TEST(ClosedForm, ARoughDielectricUnderASunShowsBothLobes) {
         const double fresnel = 0.04 + 0.96 * std::pow(1 - voh, 5);
         const double compensation = 1 + 0.04 * (1 / integrateDirectionalAlbedo(nov, 1).y - 1);
         const double specular = 1 / kPiExact * 0.5 / (nol + nov) * fresnel * compensation;
-        const double expected = (0.5 / kPiExact + specular) * 3 * nol;
+        const double coupling = (1 - albedoOfRoughDielectric(nov)) * (1 - albedoOfRoughDielectric(nol)) / (1 - average);
+        const double expected = (0.5 / kPiExact * coupling + specular) * 3 * nol;
         expectAgrees(
                 estimated(scene, viewFrom(view * 10.0, { 0, 0, 0 }, { 8, 8 }, 0.05f), settingsOf(Integrator::Path, 16)),
                 double3(expected), 2e-4 * expected);

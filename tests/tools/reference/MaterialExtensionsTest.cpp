@@ -201,7 +201,6 @@ TEST(MaterialExtensions, WhatIsNotUsedIsNotThere) {
     EXPECT_EQ(surface.sheen.color, double3(0.0));
     EXPECT_EQ(surface.stretchedAlpha, double2(0.0));
     EXPECT_FALSE(surface.transmits());
-    EXPECT_FALSE(surface.splitSumHasF90);
 }
 
 TEST(MaterialExtensions, TheSizeOfModelAndNodeReachesTheVolume) {

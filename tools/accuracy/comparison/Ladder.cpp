@@ -90,9 +90,10 @@ std::vector<Rung> allRungs() {
           .exact = "every bounce" },
         { .kind = RungKind::Reference,
           .name = "coupling",
-          .title = "Uncoupled lobes",
-          .approximate = "under suns and lamps the diffuse lobe gets what the specular lobe has reflected, too",
-          .exact = "it gets the rest" },
+          .title = "Coupling of the lobes",
+          .approximate = "of the sky's and indirect light the diffuse lobe gets what the specular lobe leaves towards "
+                         "the view",
+          .exact = "what it leaves towards view and light, as of suns and lamps" },
         { .kind = RungKind::Reference,
           .bsdf = { .coupling = CouplingTerm::Always },
           .name = "sheen",

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a light gives the diffuse lobe below the specular one, of the standard model and of specular-glossiness: the albedo of
+// the specular lobe decides, towards the view and towards the light (diffuseEntry() of shaders/lib/brdf.glsl).
+
+// All that is reflected, whatever the roughness of the split-sum terms.
+vec3 reflectedShare(Surface surface, vec3 f0, vec2 dfg) {
+    vec3 albedo = specularAlbedoTerm(f0, surface.f90, dfg);
+#if defined(REFRACTION)
+    albedo += farReflectedShare(surface.refraction, albedo);
+#endif
+    return albedo;
+}
+
+// direction: unit, its cosine in [0, 1].
+vec3 reflectedTowards(Surface surface, vec3 direction, float cosine) {
+    vec3 f0 = surface.f0;
+    highp float roughness = surface.perceptualRoughness;
+#if defined(HAS_IRIDESCENCE)
+    if (surface.film.strength > 0.0) f0 = mix(surface.film.bareF0, filmF0(surface.film, cosine), surface.film.strength);
+#endif
+#if defined(HAS_ANISOTROPY)
+    if (surface.grooves.amount != 0.0) roughness = groovesRoughness(surface.grooves, direction);
+#endif
+    return reflectedShare(surface, f0, splitSumTerm(max(cosine, kMinNoV), roughness));
+}
+
+// Once for all lights.
+vec3 diffuseExitOf(Surface surface) {
+    vec3 albedo = surface.specularAlbedo;
+    vec3 f0 = surface.f0;
+    float alpha = surface.alpha;
+#if defined(HAS_IRIDESCENCE)
+    f0 = surface.film.bareF0;
+#endif
+#if defined(HAS_ANISOTROPY)
+    if (surface.grooves.amount != 0.0) { // the larger roughness has the lesser average: a bound
+        albedo = reflectedTowards(surface, surface.view, surface.nov);
+        alpha = min(max(surface.grooves.alpha.x, surface.grooves.alpha.y), 1.0);
+    }
+#endif
+    vec3 average = reflectedShare(surface, f0, dfgAverage(alpha));
+#if defined(HAS_IRIDESCENCE)
+    average *= 1.0 - surface.film.strength; // not known of what changes with the angle: some light is lost
+#endif
+    return diffuseExitTerm(albedo, average);
+}
+
+// The factor of the diffuse lobe for one light, on either side of the surface. cosine: in [0, 1].
+vec3 diffuseLeft(Surface surface, vec3 direction, float cosine) {
+    return surface.diffuseExit * diffuseEntryTerm(reflectedTowards(surface, direction, cosine));
+}

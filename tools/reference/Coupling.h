@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Coupling: the share of light that the diffuse lobe gets below the specular one (CouplingTerm).
+///   Formula  diffuseEntry() and diffuseExit() of shaders/lib/brdf.glsl with exact albedos; of stretched lobes the
+///            engine's bound, groovesRoughness() of shaders/material/surface_anisotropy.glsl.
+///   Thread   a value. Memory: none. Fails: never.
+#pragma once
+
+#include "tools/reference/BsdfModel.h"
+#include "tools/reference/Microfacets.h"
+
+namespace filament::reference {
+
+class Coupling {
+public:
+    /// `view`: local, z along the normal, in [kMinNov, 1]. `alpha`: along tangent and bitangent.
+    Coupling(SurfaceSample const& surface, BsdfModel const& model, double3 view, double2 alpha);
+
+    /// Of light that is integrated first, as the engine's environment is: what is left towards the view.
+    double3 towardsView() const { return mTowardsView; }
+    /// Of light from one direction: local, z in [0, 1].
+    double3 of(double3 light, LightSource source) const;
+
+private:
+    double3 reflected(double2 dfg) const;
+    double3 reflectedTowards(double3 direction) const;
+
+    double3 mF0;
+    double mF90, mRoughness, mAnisotropy;
+    double2 mAlpha;
+    CouplingTerm mTerm;
+    bool mIsCompensated;
+    double3 mFar{ 0.0 }; ///< colour of what crosses a thin sheet twice; black: there is no far side
+    double3 mTowardsView, mExit;
+};
+
+} // namespace filament::reference
