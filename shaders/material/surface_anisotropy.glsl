@@ -9,7 +9,6 @@ const float kMinGrooveAlpha = kMinPerceptualRoughnessMedium * kMinPerceptualRoug
 const float kMinGrooveAlpha = kMinAlpha;
 #endif
 
-const float kGrooveShare = 0.6;  // of groovesCompensation()
 const float kGrooveSmooth = 0.5, kGrooveAcross = 0.03; // of groovesRoughness()
 
 struct Grooves {
@@ -33,9 +32,11 @@ Grooves groovesOf(MaterialInputs material, float alpha) {
 }
 
 // What energyCompensation() gives is lost by a round lobe of this roughness; a stretched one loses less towards some views.
-// Of lights only: image-based light has a round lobe. The share is a bound over roughness, view and amount, not a fit.
+// Of lights only: image-based light has a round lobe. The share is a bound over roughness, view and amount, not a fit: most
+// of what is not lost is not lost by slight grooves.
 vec3 groovesCompensation(Grooves grooves, vec3 compensation) {
-    float share = 1.0 - kGrooveShare * max(grooves.amount, -grooves.amount);
+    float amount = max(grooves.amount, -grooves.amount);
+    float share = 1.0 - amount * (0.85 - 0.25 * amount);
     return 1.0 + (compensation - 1.0) * share;
 }
 

@@ -21,8 +21,8 @@ Frame frameOf(SurfaceSample const& surface) {
 
 // What a stretched lobe loses: shaders/material/surface_anisotropy.glsl, groovesCompensation().
 double3 compensationOfGrooves(double3 compensation, double anisotropy) {
-    constexpr double kGrooveShare = 0.6;
-    return 1.0 + (compensation - 1.0) * (1 - kGrooveShare * std::abs(anisotropy));
+    const double amount = std::abs(anisotropy);
+    return 1.0 + (compensation - 1.0) * (1 - amount * (0.85 - 0.25 * amount));
 }
 
 // What the far side of a sheet adds to the albedo of the near one: surface_refraction.glsl, farReflectedShare().
