@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/DirectionalAlbedo.h"
 
+#include "filament_core/math/GaussLegendre.h"
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/AlbedoTable.h"
 
@@ -9,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
-#include <utility>
 #include <vector>
 
 namespace filament::reference {
@@ -74,40 +74,16 @@ private:
     double mSqueeze; // of the half of the disc that the view foreshortens
 };
 
-struct Node {
-    double x = 0, weight = 0;
-};
-
-// Nodes on [0, 1] of the quadrature that is exact for polynomials of degree 2 count - 1: Newton's iteration towards the
-// roots of Legendre's polynomial. Press et al. 2007, "Numerical Recipes", section 4.6.1.
-std::vector<Node> gaussLegendre(int count) {
-    std::vector<Node> nodes;
-    for (int i = 0; i < count; ++i) {
-        double x = std::cos(kPi * (i + 0.75) / (count + 0.5)), slope = 1;
-        for (int step = 0; step < 8; ++step) {
-            double value = 1, before = 0;
-            for (int n = 1; n <= count; ++n) {
-                const double next = ((2 * n - 1) * x * value - (n - 1) * before) / n;
-                before = std::exchange(value, next);
-            }
-            slope = count * (x * value - before) / (x * x - 1);
-            x -= value / slope;
-        }
-        nodes.push_back({ (x + 1) / 2, 1 / ((1 - x * x) * slope * slope) });
-    }
-    return nodes;
-}
-
 /// Integral over lights of D V F nol, F = weight(voh).
 template <class Weight>
-auto integrate(double nov, double alpha, std::vector<Node> const& nodes, int azimuths, Weight const& weight) {
+auto integrate(double nov, double alpha, std::vector<QuadratureNode> const& nodes, int azimuths, Weight const& weight) {
     const VisibleNormals normals(nov, alpha);
     const double maskingOfView = masking(nov, alpha);
     decltype(weight(0.0)) sum(0.0);
     for (int j = 0; j < azimuths; ++j) {
         const double azimuth = ((j + 0.5) / azimuths - 0.5) * kPi; // the other half is its mirror image
         const double last = normals.horizon(azimuth);
-        for (Node const& node : nodes) {
+        for (QuadratureNode const& node : nodes) {
             const double angle = node.x * last;
             const Reflection reflection = normals.reflection(angle, azimuth);
             if (reflection.nol <= 0 || reflection.voh <= 0) continue;
@@ -124,7 +100,7 @@ double2 schlickAndWhite(double voh) { return { lib::pow5(1 - voh), 1.0 }; }
 
 AlbedoTable<double2> const& schlickTable() {
     static const AlbedoTable<double2> sTable(kCosines, kRoughnesses, [](double nov, double roughness) {
-        static const std::vector<Node> sNodes = gaussLegendre(kQuadrature);
+        static const std::vector<QuadratureNode> sNodes = gaussLegendre(kQuadrature);
         return integrate(nov, lib::alphaFromPerceptual(roughness), sNodes, kQuadrature, schlickAndWhite);
     });
     return sTable;
@@ -132,7 +108,7 @@ AlbedoTable<double2> const& schlickTable() {
 
 AlbedoTable<double> const& coatTable() {
     static const AlbedoTable<double> sTable(kCoatCosines, kCoatRoughnesses, [](double nov, double roughness) {
-        static const std::vector<Node> sNodes = gaussLegendre(kQuadrature);
+        static const std::vector<QuadratureNode> sNodes = gaussLegendre(kQuadrature);
         return integrate(nov, lib::alphaFromPerceptual(roughness), sNodes, kQuadrature,
                          [](double voh) { return lib::fresnelComplex(voh, lib::kCoatIor, 0.0); });
     });

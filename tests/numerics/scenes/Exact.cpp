@@ -30,13 +30,13 @@ double3 sunOnWall(View const& view, Look const& look, SunLight const& sun, doubl
     const double roughness = lib::clampPerceptualRoughness(look.roughness), alpha = lib::alphaFromPerceptual(roughness);
     const double3 halfway = glm::normalize(toViewer + light);
     const double nol = std::max(glm::dot(normal, light), 0.0), nov = std::max(glm::dot(normal, toViewer), 1e-4);
-    const double2 dfg(assets::integrateDfg(static_cast<float>(nov), static_cast<float>(alpha), 4096));
+    const double2 dfg(assets::integrateDfg(static_cast<float>(nov), static_cast<float>(alpha)));
     const double f90 = lib::saturate(glm::dot(f0, double3(50 * 0.33)));
     const double lobe =
             lib::ndfGgxFromVectors(normal, halfway, alpha) * lib::visibilitySmithGgxCorrelated(nov, nol, alpha);
     const double3 specular =
             lobe * lib::fresnelSchlick(f0, f90, glm::dot(toViewer, halfway)) * lib::energyCompensation(f0, dfg);
-    const double2 dfgOfLight(assets::integrateDfg(static_cast<float>(nol), static_cast<float>(alpha), 4096));
+    const double2 dfgOfLight(assets::integrateDfg(static_cast<float>(nol), static_cast<float>(alpha)));
     const auto albedo = [&](double2 at) { return lib::specularDfg(f0, f90, at) * lib::energyCompensation(f0, at); };
     const double3 coupling =
             lib::diffuseEntry(albedo(dfgOfLight)) * lib::diffuseExit(albedo(dfg), albedo(lib::dfgAverage(alpha)));

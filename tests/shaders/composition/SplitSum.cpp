@@ -7,8 +7,7 @@
 namespace filament::shader::composition {
 namespace {
 
-constexpr int kSize = 64;           // as the engine's
-constexpr uint32_t kSamples = 4096; // the engine takes 512, with an error of up to 1.2 % where rough surfaces graze
+constexpr int kSize = 64; // as the engine's
 
 std::vector<vec4> bake() {
     std::vector<vec4> table;
@@ -17,9 +16,8 @@ std::vector<vec4> bake() {
                     alpha = std::max(roughness * roughness, 0.002025f);
         for (int x = 0; x < kSize; ++x) {
             const float nov = (static_cast<float>(x) + 0.5f) / kSize;
-            const float2 dfg = assets::integrateDfg(nov, alpha, kSamples);
-            table.emplace_back(dfg.x, dfg.y, assets::integrateSheen(nov, alpha, kSamples),
-                               assets::integrateVelvet(nov, alpha, kSamples));
+            const float2 dfg = assets::integrateDfg(nov, alpha);
+            table.emplace_back(dfg.x, dfg.y, assets::integrateSheen(nov, alpha), assets::integrateVelvet(nov, alpha));
         }
     }
     return table;

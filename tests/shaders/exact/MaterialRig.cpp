@@ -144,7 +144,7 @@ void MaterialRig::createShared() {
     mWhiteCube = texture(commands, TextureType::Cube, Format::RGBA32F, 1, bytesOf(std::vector<float>(6 * 4, 1.0f)));
     jobs::JobSystem jobs({ .workers = 1 });
     mDfg = texture(commands, TextureType::Texture2D, Format::RGBA16F, kDfgSide,
-                   assets::bakeDfgTable(jobs, kDfgSide, 512).data);
+                   assets::bakeDfgTable(jobs, kDfgSide).data);
     std::vector<uint8_t> pattern(kPatternSide * kPatternSide * 4);
     std::mt19937 random(12);
     for (uint8_t& byte : pattern) byte = static_cast<uint8_t>(128 + random() % 128); // normals of a map look outwards
