@@ -34,9 +34,7 @@ Angles angles() {
 /// The share of the diffuse lobe that the specular one leaves, one bounce.
 float3 coupling(float3 f0) {
     const float alpha = lib::alphaFromPerceptual(kRoughness);
-    const auto albedo = [&](float cosine) {
-        return lib::specularDfg(f0, 1, assets::integrateDfg(cosine, alpha));
-    };
+    const auto albedo = [&](float cosine) { return lib::specularDfg(f0, 1, assets::integrateDfg(cosine, alpha)); };
     const float3 average = lib::specularDfg(f0, 1, lib::dfgAverage(alpha));
     return lib::diffuseEntry(albedo(angles().nol)) * lib::diffuseExit(albedo(angles().nov), average);
 }
