@@ -53,10 +53,8 @@ inline Result<Engine> makeEngine(StageOptions const& options, std::shared_ptr<ba
 /// Spheres in rows, each at a node below one root, and a sun; pictures of 32 x 32 pixels.
 class FaultStage {
 public:
-    explicit FaultStage(Engine& engine, StageOptions const& options = {}) : mEngine(engine), mScene(engine) {
-        const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere(4, 8));
-        mVertices = engine.own(sphere.vertices);
-        mIndices = engine.own(sphere.indices);
+    explicit FaultStage(Engine& engine, StageOptions const& options = {})
+            : mEngine(engine), mScene(engine), mSphere(engine, scenes::makeSphere(4, 8)) {
         mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
         for (int i = 0; i < options.materials; ++i) {
             mInstances.push_back(engine.own(engine.createInstance(mMaterial)));
@@ -96,20 +94,16 @@ private:
         double4x4 world(1);
         world[3] = double4(at, 1);
         const Node node = mScene.add(NodeDesc{ .parent = mRoot, .parentFromNode = world });
-        mScene.add({ .vertices = mVertices,
-                     .indices = mIndices,
-                     .material = material,
-                     .boundsMin = float3(-1),
-                     .boundsMax = float3(1),
-                     .node = node });
+        RenderableDesc sphere = mSphere.renderable(material);
+        sphere.node = node;
+        mScene.add(sphere);
     }
 
     Engine& mEngine;
     Scene mScene;
     View mView;
     Node mRoot;
-    Owned<VertexBuffer> mVertices;
-    Owned<IndexBuffer> mIndices;
+    scenes::Sphere mSphere;
     Owned<Material> mMaterial;
     std::vector<Owned<MaterialInstance>> mInstances;
     std::optional<Renderer> mRenderer; // ends before what it draws

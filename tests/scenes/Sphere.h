@@ -69,23 +69,34 @@ inline SphereMesh makeSphere(uint32_t rows = 48, uint32_t columns = 96) {
     return mesh;
 }
 
-struct SphereBuffers {
-    VertexBuffer vertices;
-    IndexBuffer indices;
-};
+/// The buffers of a sphere, which live as long as it.
+class Sphere {
+public:
+    Sphere(Engine& engine, SphereMesh const& mesh)
+            : mVertices(engine.own(engine.create(VertexBufferDesc{
+                      .vertexCount = static_cast<uint32_t>(mesh.vertices.size()),
+                      .stride = sizeof(SphereVertex),
+                      .attributes = { { Attribute::Position, VertexFormat::Float3, 0 },
+                                      { Attribute::Tangents, VertexFormat::Float4, offsetof(SphereVertex, tangents) } },
+                      .data = std::as_bytes(std::span(mesh.vertices)),
+                      .name = "sphere" }))),
+              mIndices(engine.own(
+                      engine.create(IndexBufferDesc{ .indexCount = static_cast<uint32_t>(mesh.indices.size()),
+                                                     .data = std::as_bytes(std::span(mesh.indices)),
+                                                     .name = "sphere" }))) {}
 
-inline SphereBuffers uploadSphere(Engine& engine, SphereMesh const& mesh) {
-    const VertexBuffer vertices = engine.create(VertexBufferDesc{
-            .vertexCount = static_cast<uint32_t>(mesh.vertices.size()),
-            .stride = sizeof(SphereVertex),
-            .attributes = { { Attribute::Position, VertexFormat::Float3, 0 },
-                            { Attribute::Tangents, VertexFormat::Float4, offsetof(SphereVertex, tangents) } },
-            .data = std::as_bytes(std::span(mesh.vertices)),
-            .name = "sphere" });
-    const IndexBuffer indices = engine.create(IndexBufferDesc{ .indexCount = static_cast<uint32_t>(mesh.indices.size()),
-                                                               .data = std::as_bytes(std::span(mesh.indices)),
-                                                               .name = "sphere" });
-    return { vertices, indices };
-}
+    RenderableDesc renderable(MaterialInstance material, double4x4 const& worldFromObject = double4x4(1)) const {
+        return { .vertices = mVertices,
+                 .indices = mIndices,
+                 .material = material,
+                 .boundsMin = float3(-1),
+                 .boundsMax = float3(1),
+                 .worldFromObject = worldFromObject };
+    }
+
+private:
+    Owned<VertexBuffer> mVertices;
+    Owned<IndexBuffer> mIndices;
+};
 
 } // namespace filament::scenes

@@ -29,10 +29,8 @@ class Crowd {
 public:
     static constexpr int kSide = 24;
 
-    explicit Crowd(Engine& engine) : mScene(engine), mRenderer(engine), mEngine(engine) {
-        const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere(6, 12));
-        mVertices = engine.own(sphere.vertices);
-        mIndices = engine.own(sphere.indices);
+    explicit Crowd(Engine& engine)
+            : mScene(engine), mRenderer(engine), mEngine(engine), mSphere(engine, scenes::makeSphere(6, 12)) {
         mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
         mInstance = engine.own(engine.createInstance(mMaterial));
         for (int i = 0; i < kSide * kSide; ++i) place({ 2.5 * (i % kSide - kSide / 2), 0, -2.5 * (i / kSide) });
@@ -65,20 +63,14 @@ private:
     void place(double3 at) {
         double4x4 world(1);
         world[3] = double4(at, 1);
-        mScene.add({ .vertices = mVertices,
-                     .indices = mIndices,
-                     .material = mInstance,
-                     .boundsMin = float3(-1),
-                     .boundsMax = float3(1),
-                     .worldFromObject = world });
+        mScene.add(mSphere.renderable(mInstance, world));
     }
 
     Scene mScene;
     View mView;
     Renderer mRenderer;
     Engine& mEngine;
-    Owned<VertexBuffer> mVertices;
-    Owned<IndexBuffer> mIndices;
+    scenes::Sphere mSphere;
     Owned<Material> mMaterial;
     Owned<MaterialInstance> mInstance;
     Owned<SwapChain> mTarget;

@@ -20,10 +20,7 @@ namespace {
 /// A few spheres under a sun, a point light and no environment: small, but with every kind of draw.
 class Spheres {
 public:
-    explicit Spheres(Engine& engine) : scene(engine), mEngine(engine) {
-        const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere(16, 32));
-        mVertices = engine.own(sphere.vertices);
-        mIndices = engine.own(sphere.indices);
+    explicit Spheres(Engine& engine) : scene(engine), mEngine(engine), mSphere(engine, scenes::makeSphere(16, 32)) {
         mOpaque = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
         mBlended = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_blended") }));
         mRed = instance(mOpaque, { 0.8f, 0.1f, 0.1f, 1 });
@@ -52,17 +49,11 @@ private:
         double4x4 world(std::abs(scale));
         world[0][0] = scale; // negative: mirrored
         world[3] = double4(at, 1);
-        scene.add({ .vertices = mVertices,
-                    .indices = mIndices,
-                    .material = material,
-                    .boundsMin = float3(-1),
-                    .boundsMax = float3(1),
-                    .worldFromObject = world });
+        scene.add(mSphere.renderable(material, world));
     }
 
     Engine& mEngine;
-    Owned<VertexBuffer> mVertices;
-    Owned<IndexBuffer> mIndices;
+    scenes::Sphere mSphere;
     Owned<Material> mOpaque, mBlended;
     Owned<MaterialInstance> mRed, mGlass;
 };

@@ -13,19 +13,12 @@ namespace {
 /// A sphere in a white environment.
 class Furnace {
 public:
-    explicit Furnace(Engine& engine) : mEngine(engine), mEnvironment(engine), mScene(engine) {
+    explicit Furnace(Engine& engine)
+            : mEngine(engine), mEnvironment(engine), mSphere(engine, scenes::makeSphere()), mScene(engine) {
         mEnvironment.light(mScene, mView.camera);
-        const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere());
-        mVertices = engine.own(sphere.vertices);
-        mIndices = engine.own(sphere.indices);
         mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
         mInstance = engine.own(engine.createInstance(mMaterial, "white"));
-        mScene.add({ .vertices = mVertices,
-                     .indices = mIndices,
-                     .material = mInstance,
-                     .boundsMin = float3(-1),
-                     .boundsMax = float3(1),
-                     .name = "sphere" });
+        mScene.add(mSphere.renderable(mInstance));
         mView.camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, { .verticalFovDegrees = 45 });
         mView.size = { 96, 96 };
         mView.clearColor = float4(1); // what the skybox of this environment would be
@@ -42,8 +35,7 @@ private:
     Engine& mEngine;
     View mView;
     WhiteEnvironment mEnvironment;
-    Owned<VertexBuffer> mVertices;
-    Owned<IndexBuffer> mIndices;
+    scenes::Sphere mSphere;
     Owned<Material> mMaterial;
     Owned<MaterialInstance> mInstance;
     Scene mScene;

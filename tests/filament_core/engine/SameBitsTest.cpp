@@ -35,10 +35,7 @@ std::vector<Threads> everyKindOfThreads() {
 /// everything that is done in ranges.
 class Field {
 public:
-    Field(Engine& engine, int side) : scene(engine), mEngine(engine) {
-        const scenes::SphereBuffers sphere = scenes::uploadSphere(engine, scenes::makeSphere(4, 8));
-        mVertices = engine.own(sphere.vertices);
-        mIndices = engine.own(sphere.indices);
+    Field(Engine& engine, int side) : scene(engine), mEngine(engine), mSphere(engine, scenes::makeSphere(4, 8)) {
         mOpaque = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
         mBlended = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_blended") }));
         for (int i = 0; i < 5; ++i) mInstances.push_back(engine.own(engine.createInstance(i < 4 ? mOpaque : mBlended)));
@@ -56,17 +53,11 @@ private:
     void place(double x, double z, int i) {
         double4x4 world(0.3);
         world[3] = double4(x, 0.25 * std::sin(i), -z, 1);
-        scene.add({ .vertices = mVertices,
-                    .indices = mIndices,
-                    .material = mInstances[static_cast<size_t>(i * 7 % 5)],
-                    .boundsMin = float3(-1),
-                    .boundsMax = float3(1),
-                    .worldFromObject = world });
+        scene.add(mSphere.renderable(mInstances[static_cast<size_t>(i * 7 % 5)], world));
     }
 
     Engine& mEngine;
-    Owned<VertexBuffer> mVertices;
-    Owned<IndexBuffer> mIndices;
+    scenes::Sphere mSphere;
     Owned<Material> mOpaque, mBlended;
     std::vector<Owned<MaterialInstance>> mInstances;
 };

@@ -183,12 +183,9 @@ TEST_F(SceneNodesDeathTest, NamesTheRuleThatWasBroken) {
     const Model model = load(carScene());
     const Node root = scene.add(model);
     EXPECT_DEATH(scene.setParent(root, scene.findNode("lamp")), "never its own ancestor");
-    RenderableDesc part = { .worldFromObject = movedBy({ 1, 0, 0 }), .node = root };
-    const scenes::SphereBuffers sphere = scenes::uploadSphere(*engine, scenes::makeSphere(4, 8));
-    const Owned<VertexBuffer> vertices = engine->own(sphere.vertices);
-    const Owned<IndexBuffer> indices = engine->own(sphere.indices);
-    part.vertices = sphere.vertices;
-    part.indices = sphere.indices;
+    const scenes::Sphere sphere(*engine, scenes::makeSphere(4, 8));
+    RenderableDesc part = sphere.renderable({}, movedBy({ 1, 0, 0 }));
+    part.node = root;
     EXPECT_DEATH(scene.add(part), "its worldFromObject stays the identity");
 }
 

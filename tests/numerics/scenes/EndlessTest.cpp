@@ -41,16 +41,10 @@ std::optional<Engine> makeEngine(Backend backend) {
 /// One lit sphere.
 class Ball {
 public:
-    explicit Ball(Engine& engine) : scene(engine), mSphere(scenes::uploadSphere(engine, scenes::makeSphere(4, 8))) {
-        mVertices = engine.own(mSphere.vertices);
-        mIndices = engine.own(mSphere.indices);
+    explicit Ball(Engine& engine) : scene(engine), mSphere(engine, scenes::makeSphere(4, 8)) {
         mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
         mInstance = engine.own(engine.createInstance(mMaterial));
-        scene.add({ .vertices = mVertices,
-                    .indices = mIndices,
-                    .material = mInstance,
-                    .boundsMin = float3(-1),
-                    .boundsMax = float3(1) });
+        scene.add(mSphere.renderable(mInstance));
         scene.add(SunLight{});
         view.camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 });
         view.size = { 32, 32 };
@@ -60,9 +54,7 @@ public:
     View view;
 
 private:
-    scenes::SphereBuffers mSphere;
-    Owned<VertexBuffer> mVertices;
-    Owned<IndexBuffer> mIndices;
+    scenes::Sphere mSphere;
     Owned<Material> mMaterial;
     Owned<MaterialInstance> mInstance;
 };
