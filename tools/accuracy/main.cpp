@@ -6,19 +6,16 @@
 #include "tools/accuracy/Page.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"
 #include "tools/common/Console.h"
+#include "tools/common/Program.h"
 
 #include <algorithm>
 #include <chrono>
 #include <cstdio>
-#include <exception>
 
 namespace filament::accuracy {
 namespace {
 
-int failed(Error const& error) {
-    tools::printError(error.message);
-    return 1;
-}
+using tools::failed;
 
 int list(std::vector<Effect> const& effects) {
     for (Effect const& effect : effects) {
@@ -85,14 +82,5 @@ int run(Options const& options) {
 
 int main(int argc, char** argv) {
     using namespace filament;
-    tools::setProgramName("filament-accuracy");
-    tools::routeLogToConsole();
-    try {
-        const auto options = accuracy::parseOptions(argc, argv);
-        if (!options) return accuracy::failed(options.error());
-        return *options ? accuracy::run(**options) : 0;
-    } catch (std::exception const& error) {
-        tools::printError(fmt::format("out of resources ({})", error.what()));
-        return 1;
-    }
+    return tools::runProgram("filament-accuracy", argc, argv, accuracy::parseOptions, accuracy::run);
 }

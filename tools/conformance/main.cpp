@@ -2,20 +2,17 @@
 // filament-conformance [options]: draws every scene on every backend with every number of workers and compares the
 // pictures. Exit status 0: no case failed. 1: some did, or the run could not be made. docs/conformance.md.
 #include "tools/common/Console.h"
+#include "tools/common/Program.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Report.h"
 #include "tools/conformance/Runner.h"
 
 #include <cstdio>
-#include <exception>
 
 namespace filament::conformance {
 namespace {
 
-int failed(Error const& error) {
-    tools::printError(error.message);
-    return 1;
-}
+using tools::failed;
 
 int finish(Options const& options, Results const& results) {
     if (const Result<void> written = writeReport(options.out, results); !written) return failed(written.error());
@@ -75,14 +72,5 @@ int run(Options const& options) {
 
 int main(int argc, char** argv) {
     using namespace filament;
-    tools::setProgramName("filament-conformance");
-    tools::routeLogToConsole();
-    try {
-        const auto options = conformance::parseOptions(argc, argv);
-        if (!options) return conformance::failed(options.error());
-        return *options ? conformance::run(**options) : 0;
-    } catch (std::exception const& error) {
-        tools::printError(fmt::format("out of resources ({})", error.what()));
-        return 1;
-    }
+    return tools::runProgram("filament-conformance", argc, argv, conformance::parseOptions, conformance::run);
 }

@@ -4,6 +4,7 @@
 #include "filament_core/assets/EnvironmentFile.h"
 #include "tools/common/Console.h"
 #include "tools/common/Machine.h"
+#include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/filament-render/BackendRun.h"
 #include "tools/filament-render/Options.h"
@@ -15,16 +16,10 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 #include <span>
 
 namespace filament::tools {
 namespace {
-
-int failed(Error const& error) {
-    printError(error.message);
-    return 1;
-}
 
 int listAllDevices() {
     const std::vector<DeviceDescription> devices = listDevices();
@@ -141,20 +136,13 @@ int render(Options const& options) {
     return comparison && !comparison->within(options.tolerance) ? 1 : 0;
 }
 
+int run(Options const& options) { return options.listDevices ? listAllDevices() : render(options); }
+
 } // namespace
 } // namespace filament::tools
 
 int main(int argc, char** argv) {
-    using namespace filament::tools;
-    setProgramName("filament-render");
-    routeLogToConsole();
-    try {
-        const auto options = parseOptions(argc, argv);
-        if (!options) return failed(options.error());
-        if (!*options) return 0;
-        return (*options)->listDevices ? listAllDevices() : render(**options);
-    } catch (std::exception const& error) {
-        printError(fmt::format("out of resources ({}); try a smaller model or size", error.what()));
-        return 1;
-    }
+    using namespace filament;
+    return tools::runProgram("filament-render", argc, argv, tools::parseOptions, tools::run,
+                             "try a smaller model or size");
 }

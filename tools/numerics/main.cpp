@@ -3,7 +3,7 @@
 // grids in fp32 and fp16 on the CPU and both APIs, against fp64. Exit status 0: every promise is kept. 1: some are not,
 // or the run could not be made. docs/numerics.md.
 #include "tools/common/CommandLine.h"
-#include "tools/common/Console.h"
+#include "tools/common/Program.h"
 #include "tools/numerics/Report.h"
 
 #include <CLI/CLI.hpp>
@@ -14,10 +14,7 @@
 namespace filament::shader::numerics {
 namespace {
 
-int failed(Error const& error) {
-    tools::printError(error.message);
-    return 1;
-}
+using tools::failed;
 
 struct Options {
     std::string only, csv, json, markdown;
@@ -68,6 +65,6 @@ int main(int argc, char** argv) {
     shader::numerics::Options options;
     shader::numerics::declare(app, options);
     const Result<bool> parsed = tools::parseWords(app, argc, argv);
-    if (!parsed) return shader::numerics::failed(parsed.error());
+    if (!parsed) return tools::failed(parsed.error());
     return *parsed ? shader::numerics::run(options) : 0;
 }

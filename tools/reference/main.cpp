@@ -5,6 +5,7 @@
 #include "filament_core/assets/HdrReader.h"
 #include "filament_core/assets/ModelVariants.h"
 #include "tools/common/Console.h"
+#include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"
 #include "tools/reference/Output.h"
 
@@ -13,18 +14,12 @@
 
 #include <algorithm>
 #include <cstdio>
-#include <exception>
 
 namespace filament::reference {
 namespace {
 
-using tools::printError;
+using tools::failed;
 using tools::showProgress;
-
-int failed(Error const& error) {
-    printError(error.message);
-    return 1;
-}
 
 Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings) {
     const Result<showcase::Files> files = tools::chooseFiles(options);
@@ -99,14 +94,6 @@ int run(Options const& options) {
 
 int main(int argc, char** argv) {
     using namespace filament;
-    tools::setProgramName("filament-reference");
-    tools::routeLogToConsole();
-    try {
-        const auto options = reference::parseOptions(argc, argv);
-        if (!options) return reference::failed(options.error());
-        return *options ? reference::run(**options) : 0;
-    } catch (std::exception const& error) {
-        tools::printError(fmt::format("out of resources ({}); try a smaller model or size", error.what()));
-        return 1;
-    }
+    return tools::runProgram("filament-reference", argc, argv, reference::parseOptions, reference::run,
+                             "try a smaller model or size");
 }

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Program: what main() of a tool does besides its job.
+///   Out     the exit status: that of the job; 0 after the help text; 1 after one line on standard error that says what
+///           failed, out of memory included.
+///   Thread  the main thread.
+#pragma once
+
+#include "filament_core/base/Result.h"
+#include "tools/common/Console.h"
+
+#include <exception>
+#include <string_view>
+
+namespace filament::tools {
+
+/// Says so; the exit status.
+inline int failed(Error const& error) {
+    printError(error.message);
+    return 1;
+}
+
+/// parse(argc, argv) gives Result<std::optional<Options>>, none after the help text; run(options) the exit status.
+/// `name`: a string literal. `cure`: what to try where memory runs out.
+template <class Parse, class Run>
+int runProgram(std::string_view name, int argc, const char* const* argv, Parse&& parse, Run&& run,
+               std::string_view cure = {}) {
+    setProgramName(name);
+    routeLogToConsole();
+    try {
+        const auto options = parse(argc, argv);
+        if (!options) return failed(options.error());
+        return *options ? run(**options) : 0;
+    } catch (std::exception const& error) {
+        printError(fmt::format("out of resources ({}){}{}", error.what(), cure.empty() ? "" : "; ", cure));
+        return 1;
+    }
+}
+
+} // namespace filament::tools
