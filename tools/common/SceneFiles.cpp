@@ -14,11 +14,14 @@ Result<void> makeOutFolder(SceneOptions const& options) {
 }
 
 Result<showcase::Files> chooseFiles(SceneOptions const& options) {
-    if (!options.model.empty()) return showcase::Files{ options.model, options.environment };
+    const std::filesystem::path environment = options.environment == "none" ? "" : options.environment;
+    const bool isDark = options.environment.empty() && !options.sun;
+    if (!options.model.empty() && !isDark) return showcase::Files{ options.model, environment };
     showProgress("making the showcase");
     jobs::JobSystem jobs;
     Result<showcase::Files> files = showcase::writeFiles(options.out, jobs);
-    if (files && !options.environment.empty()) files->environment = options.environment;
+    if (files && !options.environment.empty()) files->environment = environment;
+    if (files && !options.model.empty()) files->model = options.model;
     return files;
 }
 

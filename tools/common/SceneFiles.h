@@ -12,7 +12,8 @@ namespace filament::tools {
 /// The folder of the pictures, made if it is missing.
 Result<void> makeOutFolder(SceneOptions const& options);
 
-/// The files of the command line, or the showcase, written into the folder of the pictures.
+/// The files of the command line. Written into the folder of the pictures: the showcase where there is no model, its
+/// sky where neither environment nor sun is asked for. `--environment none` is none.
 Result<showcase::Files> chooseFiles(SceneOptions const& options);
 
 } // namespace filament::tools

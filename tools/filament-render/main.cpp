@@ -96,19 +96,9 @@ Result<void> writeCosts(Options const& options, std::vector<BackendRun> const& r
     return assets::replaceFile(options.measureCosts, std::as_bytes(std::span(text)));
 }
 
-/// A material without an environment stands under the showcase's sky.
-Result<showcase::Files> filesOf(Options const& options) {
-    if (!isMaterialFile(options.model) || !options.environment.empty()) return chooseFiles(options);
-    SceneOptions sky = options;
-    sky.model.clear();
-    Result<showcase::Files> files = chooseFiles(sky);
-    if (files) files->model = options.model;
-    return files;
-}
-
 int render(Options const& options) {
     if (const Result<void> made = makeOutFolder(options); !made) return failed(made.error());
-    const Result<showcase::Files> files = filesOf(options);
+    const Result<showcase::Files> files = chooseFiles(options);
     if (!files) return failed(files.error());
 
     std::vector<std::string> errors;

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program itself, as a user starts it: every bad input ends with one line and a status, never with a crash.
 #include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/HdrReader.h"
 #include "tools/paths/Paths.h"
 #include "tools/showcase/Showcase.h"
 
@@ -221,6 +222,23 @@ TEST_F(CommandLine, LinearPicturesAreHalfFloatsWithTheSameBitsAsWell) {
     EXPECT_THAT(outcome.output, HasSubstr("identical: 100.0000 %"));
     EXPECT_TRUE(std::filesystem::exists(sFolder / "exr" / "vulkan.exr"));
     EXPECT_TRUE(std::filesystem::exists(sFolder / "exr" / "gles.exr"));
+}
+
+TEST_F(CommandLine, AModelThatNothingLightsStandsUnderTheShowcasesSkyUnlessNoneIsAskedFor) {
+    const auto brightest = [](const char* environment) {
+        EXPECT_EQ(run(std::string("triangle.gltf --backend gles --size 32x32 --format exr --out sky ") + environment)
+                          .status,
+                  0);
+        const auto picture = assets::readHdrImage(sFolder / "sky" / "gles.exr");
+        EXPECT_TRUE(picture) << environment;
+        float most = 0;
+        if (picture) {
+            for (const float3 pixel : picture->pixels) most = std::max({ most, pixel.x, pixel.y, pixel.z });
+        }
+        return most;
+    };
+    EXPECT_GT(brightest(""), 0.1f);
+    EXPECT_EQ(brightest("--environment none"), 0.0f);
 }
 
 TEST_F(CommandLine, HelpListsTheOptionsAndSucceeds) {

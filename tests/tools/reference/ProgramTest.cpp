@@ -174,8 +174,8 @@ protected:
 
 TEST_F(Program, WritesPictureErrorsAndReport) {
     writeModel();
-    const Outcome outcome =
-            run("triangle.gltf --size 16x8 --eye 0 0 2 --spp 16 --error-image --tone-mapper linear --out out");
+    const Outcome outcome = run("triangle.gltf --environment none --size 16x8 --eye 0 0 2 --spp 16 --error-image "
+                                "--tone-mapper linear --out out");
     ASSERT_EQ(outcome.status, 0) << outcome.text;
     const auto picture = assets::readHdrImage(mFolder / "out/reference.exr");
     ASSERT_TRUE(picture.ok());
