@@ -47,7 +47,7 @@ std::string nameOf(uint16_t key) {
                                                                   { kVariantHalf, "half" } };
     std::string name;
     for (auto const& [bit, word] : kBits) {
-        if ((key & bit) != 0) name += (name.empty() ? "" : "+") + std::string(word);
+        if ((key & bit) != 0) name += fmt::format("{}{}", name.empty() ? "" : "+", word);
     }
     return name.empty() ? "none" : name;
 }

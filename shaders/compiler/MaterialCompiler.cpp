@@ -161,7 +161,7 @@ Result<std::string> describeTerms(std::string_view text, std::string_view fileNa
     const auto members = materialMembers();
     for (size_t i = 0; i < members.size(); ++i) {
         if ((prepared->needs.terms & termBit(i)) == 0) continue;
-        names += (names.empty() ? "" : " ") + std::string(members[i].term);
+        names += fmt::format("{}{}", names.empty() ? "" : " ", members[i].term);
     }
     return names.empty() ? "no terms" : names;
 }
