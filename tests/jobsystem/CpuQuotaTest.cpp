@@ -22,6 +22,12 @@ constexpr const char* kLegacyMount =
         "33 31 0:30 / /sys/fs/cgroup/cpu,cpuacct rw,nosuid shared:11 - cgroup cgroup rw,cpu,cpuacct\n"
         "34 31 0:31 / /sys/fs/cgroup/cpuset rw,nosuid shared:12 - cgroup cgroup rw,cpuset\n";
 
+/// The two files of a group in version 1.
+void writeQuota(FakeRoot const& root, std::string const& group, const char* quota, const char* period) {
+    root.write("sys/fs/cgroup/" + group + "/cpu.cfs_quota_us", quota);
+    root.write("sys/fs/cgroup/" + group + "/cpu.cfs_period_us", period);
+}
+
 TEST(CpuQuota, IsUnlimitedWhereThereAreNoFilesAtAll) { EXPECT_EQ(cpuQuota(FakeRoot().path()), kUnlimited); }
 
 TEST(CpuQuota, IsTheQuotientOfCpuMaxInVersion2) {
@@ -49,11 +55,9 @@ TEST(CpuQuota, IsTheQuotientOfTwoFilesInVersion1) {
     const FakeRoot root;
     root.write("proc/self/mountinfo", kLegacyMount);
     root.write("proc/self/cgroup", "5:cpuset:/\n4:cpu,cpuacct:/docker/abc\n1:name=systemd:/docker/abc\n");
-    root.write("sys/fs/cgroup/cpu,cpuacct/docker/abc/cpu.cfs_quota_us", "-1\n");
-    root.write("sys/fs/cgroup/cpu,cpuacct/docker/abc/cpu.cfs_period_us", "100000\n");
+    writeQuota(root, "cpu,cpuacct/docker/abc", "-1\n", "100000\n");
     EXPECT_EQ(cpuQuota(root.path()), kUnlimited);
-    root.write("sys/fs/cgroup/cpu,cpuacct/docker/abc/cpu.cfs_quota_us", "50000\n");
-    root.write("sys/fs/cgroup/cpu,cpuacct/docker/abc/cpu.cfs_period_us", "20000\n");
+    writeQuota(root, "cpu,cpuacct/docker/abc", "50000\n", "20000\n");
     EXPECT_EQ(cpuQuota(root.path()), 2.5);
 }
 
@@ -62,8 +66,7 @@ TEST(CpuQuota, TakesTheLesserWhereBothVersionsAreMounted) {
     root.write("proc/self/mountinfo",
                std::string(kLegacyMount) + "41 31 0:38 / /sys/fs/cgroup/unified rw - cgroup2 cgroup2 rw\n");
     root.write("proc/self/cgroup", "4:cpu,cpuacct:/x\n0::/y\n");
-    root.write("sys/fs/cgroup/cpu,cpuacct/x/cpu.cfs_quota_us", "400000");
-    root.write("sys/fs/cgroup/cpu,cpuacct/x/cpu.cfs_period_us", "100000");
+    writeQuota(root, "cpu,cpuacct/x", "400000", "100000");
     root.write("sys/fs/cgroup/unified/y/cpu.max", "700000 100000");
     root.write("sys/fs/cgroup/unified/x/cpu.max", "50000 100000"); // not the process's group in that hierarchy
     EXPECT_EQ(cpuQuota(root.path()), 4.0);
@@ -76,17 +79,14 @@ TEST(CpuQuota, FindsTheGroupBelowAMountThatShowsAPartOfTheHierarchy) {
     const FakeRoot root;
     root.write("proc/self/mountinfo", "33 31 0:30 /docker/abc /sys/fs/cgroup/cpu ro - cgroup cgroup rw,cpu\n");
     root.write("proc/self/cgroup", "4:cpu:/docker/abc\n");
-    root.write("sys/fs/cgroup/cpu/cpu.cfs_quota_us", "200000");
-    root.write("sys/fs/cgroup/cpu/cpu.cfs_period_us", "100000");
+    writeQuota(root, "cpu", "200000", "100000");
     EXPECT_EQ(cpuQuota(root.path()), 2.0);
     root.write("proc/self/cgroup", "4:cpu:/docker/abc/nested\n");
-    root.write("sys/fs/cgroup/cpu/nested/cpu.cfs_quota_us", "100000");
-    root.write("sys/fs/cgroup/cpu/nested/cpu.cfs_period_us", "100000");
+    writeQuota(root, "cpu/nested", "100000", "100000");
     EXPECT_EQ(cpuQuota(root.path()), 1.0);
     // other containers, the first of which only looks alike: what is mounted is as near as one can see
     for (const char* folder : { "def", "other" }) {
-        root.write(std::string("sys/fs/cgroup/cpu/") + folder + "/cpu.cfs_quota_us", "50000");
-        root.write(std::string("sys/fs/cgroup/cpu/") + folder + "/cpu.cfs_period_us", "100000");
+        writeQuota(root, std::string("cpu/") + folder, "50000", "100000");
     }
     for (const char* membership : { "4:cpu:/docker/abcdef\n", "4:cpu:/other\n" }) {
         root.write("proc/self/cgroup", membership);
