@@ -137,6 +137,7 @@ void applyTo(SurfaceSample& surface, Inputs const& in, shader::MaterialPackage c
     if (package.refractionMode == shader::RefractionMode::None) return;
     const bool isThin = package.refractionType == shader::RefractionType::Thin;
     surface.transmission = { .color = surface.diffuse * in.transmission,
+                             .share = (1 - in.metallic) * in.transmission,
                              .isThin = isThin,
                              .ior = in.ior > 0 ? in.ior : lib::iorFromReflectance(in.reflectance),
                              .dispersion = in.dispersion,
@@ -203,7 +204,9 @@ Result<TracedMaterial> tracedMaterialOf(SceneSpec const& spec) {
     traced.model.finish = [inputs, package](SurfaceSample& surface) { applyTo(surface, inputs, package); };
     traced.features = { .coat = inputs.clearCoat > 0,
                         .sheen = inputs.sheenColor != double3(0.0),
-                        .refraction = package.refractionMode != shader::RefractionMode::None };
+                        .refraction = package.refractionMode != shader::RefractionMode::None,
+                        .solid = package.refractionMode != shader::RefractionMode::None &&
+                                 package.refractionType == shader::RefractionType::Solid };
     return traced;
 }
 

@@ -17,7 +17,8 @@ namespace filament::accuracy {
 
 /// What a scene's materials have: which approximations its pictures hold.
 struct MaterialFeatures {
-    bool coat = false, sheen = false, refraction = false;
+    bool coat = false, sheen = false, refraction = false; ///< refraction: through a solid or a sheet
+    bool solid = false;
 };
 
 struct TracedMaterial {

@@ -58,6 +58,12 @@ enum class SheenTerm : uint8_t {
     Exact,  ///< so that a white base under a white sheen reflects all light, in both directions alike
 };
 
+/// How often the base colour of a solid counts for light that enters and leaves.
+enum class SolidTint : uint8_t {
+    EachInterface, ///< KHR_materials_volume: a coloured foil around the volume, which light passes twice
+    Once,          ///< the engine: on the way in
+};
+
 struct BsdfModel {
     SpecularVisibility visibility = SpecularVisibility::Correlated;
     FresnelTerm fresnel = FresnelTerm::Schlick;
@@ -70,6 +76,7 @@ struct BsdfModel {
     DiffuseLight diffuseLight = DiffuseLight::Integral;
     CoatTerm coat = CoatTerm::Engine;
     SheenTerm sheen = SheenTerm::Engine;
+    SolidTint solidTint = SolidTint::EachInterface;
     friend bool operator==(BsdfModel const&, BsdfModel const&) = default;
 };
 

@@ -86,6 +86,7 @@ double addTransmission(MaterialPoint const& point, SurfaceSample& surface) {
     const double2 maps = point.fetchScalars(data.maps);
     const double part = data.factor * maps.x;
     surface.transmission.color = surface.diffuse * part;
+    surface.transmission.share = part * (1 - surface.metallic);
     surface.transmission.ior = point.material().ior;
     if (data.isSolid()) addVolume(point, data.thicknessMeters * maps.y, surface.transmission);
     surface.diffuse *= 1 - part;

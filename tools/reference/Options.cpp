@@ -19,7 +19,7 @@ struct Words {
     std::string integrator = "path", samples = "256", error, maxBounces = "64", seed = "1", filter = "box",
                 occlusion = "auto", visibility = "correlated", fresnel = "schlick", diffuse = "lambert",
                 energy = "compensated", coupling = "engine", lobes = "both", rotation = "0", threads,
-                specularLight = "integral", diffuseLight = "integral";
+                specularLight = "integral", diffuseLight = "integral", solidTint = "each-interface";
 };
 
 template <class T, size_t N>
@@ -100,6 +100,13 @@ Result<void> convertLobes(Words const& words, Options& options) {
         !done) {
         return done;
     }
+    if (auto done = choose(
+                "--solid-tint", words.solidTint,
+                Names<SolidTint, 2>{ { { "each-interface", SolidTint::EachInterface }, { "once", SolidTint::Once } } },
+                bsdf.solidTint);
+        !done) {
+        return done;
+    }
     return choose("--lobes", words.lobes,
                   Names<LobeChoice, 3>{ { { "both", LobeChoice::Both },
                                           { "diffuse", LobeChoice::Diffuse },
@@ -169,6 +176,8 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--coupling", words.coupling,
                    "engine, ambient-only, always or never: which light the diffuse lobe gets what is reflected of");
     app.add_option("--lobes", words.lobes, "both, diffuse or specular (both)");
+    app.add_option("--solid-tint", words.solidTint,
+                   "each-interface or once: how often the base colour of a solid counts (each-interface)");
     app.add_option("--specular-light", words.specularLight,
                    "integral or split-sum: how the environment is gathered (integral)");
     app.add_option("--diffuse-light", words.diffuseLight, "integral or harmonics: the same, diffuse (integral)");

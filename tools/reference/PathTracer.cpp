@@ -77,7 +77,10 @@ double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64
 void PathTracer::enterSurface(Path& path, SurfaceSample& surface) const {
     TransmissionSample& below = surface.transmission;
     if (below.isThin) return;
-    if (below.isFromInside) path.throughput *= lib::transmittance(below.absorption, path.hit.distance);
+    if (below.isFromInside) {
+        path.throughput *= lib::transmittance(below.absorption, path.hit.distance);
+        if (mSettings.bsdf.solidTint == SolidTint::Once) below.color = double3(below.share);
+    }
     if (!(below.dispersion > 0) || mSettings.integrator == Integrator::Unoccluded) return;
     if (path.color < 0) {
         path.color = std::min(static_cast<int>(path.numbers.pair(kColor).x * 3), 2);

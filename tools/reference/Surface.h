@@ -39,6 +39,7 @@ struct ClothSample {
 /// What light that is not reflected does below the surface (shaders/lib/refraction.glsl).
 struct TransmissionSample {
     double3 color{ 0.0 };      ///< of the light that enters, how much goes on; black: none
+    double share = 1;          ///< color without the material's base colour
     bool isThin = true;        ///< both sides of a sheet in one surface; else the boundary of a solid
     bool isFromInside = false; ///< of a solid: the ray comes from within it
     double ior = 1.5;          ///< of the inside, >= 1; for paths of one colour that colour's

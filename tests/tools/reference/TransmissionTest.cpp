@@ -138,6 +138,21 @@ TEST(Solid, APlateAbsorbsByTheLengthOfTheWayInside) {
     }
 }
 
+// KHR_materials_volume: a coloured foil around the plate. What is reflected inside does not pass it.
+TEST(Solid, ABaseColourCountsAtBothInterfacesOrOnceAsInTheEngine) {
+    const double3 color(0.9, 0.6, 0.3);
+    ReferenceScene scene = plateOf({ .color = color });
+    scene.environment = groundOnly(float3(1.0f));
+    for (const double3 eye : kEyes) {
+        const ReferenceView view = viewFrom(eye, { 0, 0, 0 }, { 8, 8 }, 0.05f);
+        const double passed = plateTransmittance(lib::fresnelComplex(cosineOf(eye), 1.5, 0.0), 1);
+        ReferenceSettings settings = pathOf(512);
+        expectAgrees(estimated(scene, view, settings), color * color * passed, 5e-3);
+        settings.bsdf.solidTint = SolidTint::Once;
+        expectAgrees(estimated(scene, view, settings), color * passed, 5e-3);
+    }
+}
+
 // The shift that a plate gives to what lies behind it, and through a smooth ball the direction of the library.
 TEST(Solid, ABallBendsTheViewAsTwoRefractionsDo) {
     ReferenceScene scene = sceneOf(spherePrimitive(512), {});

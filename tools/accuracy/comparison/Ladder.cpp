@@ -13,6 +13,7 @@ using reference::DiffuseLight;
 using reference::EnergyTerm;
 using reference::Integrator;
 using reference::SheenTerm;
+using reference::SolidTint;
 using reference::SpecularLight;
 
 constexpr uint32_t kSupersampling = 8;
@@ -84,6 +85,14 @@ std::vector<Rung> allRungs() {
           .needs = Needs::Refraction },
         { .kind = RungKind::Reference,
           .maxBounces = 1,
+          .bsdf = { .solidTint = SolidTint::Once },
+          .name = "solidTint",
+          .title = "Base colour of solids",
+          .approximate = "light takes on the base colour once, where it enters: color * exp(-absorption * distance)",
+          .exact = "at each interface, as KHR_materials_volume has it",
+          .needs = Needs::Solid },
+        { .kind = RungKind::Reference,
+          .maxBounces = 1,
           .name = "interreflection",
           .title = "Missing inter-reflection",
           .approximate = "light that was reflected once",
@@ -136,6 +145,8 @@ bool isMet(Needs needs, LadderScene const& scene) {
         return scene.material.refraction;
     case Needs::NoRefraction:
         return !scene.material.refraction;
+    case Needs::Solid:
+        return scene.material.solid;
     }
     return true;
 }

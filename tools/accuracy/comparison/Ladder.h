@@ -22,7 +22,7 @@ namespace filament::accuracy {
 enum class RungKind : uint8_t { Engine, Reference };
 
 /// What a scene must have for an approximation to mean anything.
-enum class Needs : uint8_t { Nothing, Environment, Coat, Sheen, Refraction, NoRefraction };
+enum class Needs : uint8_t { Nothing, Environment, Coat, Sheen, Refraction, NoRefraction, Solid };
 
 /// What a scene has.
 struct LadderScene {

@@ -48,10 +48,12 @@ json rowOf(ComparisonRow const& row, std::string const& name, std::string const&
              { "limit", row.limit } };
 }
 
-// Half of the way through the sheet and through the ball, colours that all bend alike, highlights blurred too far.
+// Half of the way through the sheet and through the ball, a colour that counts twice, colours that all bend alike,
+// highlights blurred too far.
 constexpr Break kBreaks[] = {
     { "thin-sky", "= materialParams.microThickness;", "= 0.5 * materialParams.microThickness;" },
     { "solid-sky", "= materialParams.thickness;", "= 0.5 * materialParams.thickness;" },
+    { "solid-tinted-sky", "= materialParams.baseColor;", "= materialParams.baseColor * materialParams.baseColor;" },
     { "dispersing-sky", "= materialParams.dispersion;", "= 0.0;" },
     { "filtered-sun", "specularAntiAliasingVariance : 0.15", "specularAntiAliasingVariance : 0.75" },
 };

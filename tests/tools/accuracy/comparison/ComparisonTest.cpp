@@ -140,7 +140,7 @@ TEST(Comparison, TheCommittedRowsNameScenesThatAreThereAndStepsThatExist) {
     ASSERT_TRUE(rows) << rows.error().message;
     const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
     ASSERT_TRUE(scenes) << scenes.error().message;
-    std::vector<Rung> all = ladder({ .material = { .coat = true, .sheen = true, .refraction = true } });
+    std::vector<Rung> all = ladder({ .material = { .coat = true, .sheen = true, .refraction = true, .solid = true } });
     for (ComparisonRow const& row : *rows) {
         EXPECT_TRUE(scenes->find(row.scene)) << row.name;
         EXPECT_TRUE(row.step.empty() || row.step == "occlusion" ||
@@ -148,7 +148,7 @@ TEST(Comparison, TheCommittedRowsNameScenesThatAreThereAndStepsThatExist) {
                 << row.name;
         EXPECT_FALSE(row.title.empty()) << row.name;
     }
-    for (const char* step : { "coat", "sheen", "splitSum", "oneSample", "occlusion", "refraction" })
+    for (const char* step : { "coat", "sheen", "splitSum", "oneSample", "occlusion", "refraction", "solidTint" })
         EXPECT_TRUE(std::ranges::any_of(*rows, [&](ComparisonRow const& row) { return row.step == step; })) << step;
 }
 
@@ -226,7 +226,8 @@ TEST(Ladder, EveryStepHasANameAndOneOfThemIsTheUnexplained) {
     const LadderScene scenes[] = { { .hasEnvironment = false },
                                    { .hasEnvironment = true },
                                    { .material = { .coat = true, .sheen = true } },
-                                   { .material = { .refraction = true } } };
+                                   { .material = { .refraction = true } },
+                                   { .material = { .refraction = true, .solid = true } } };
     for (LadderScene const& scene : scenes) {
         const std::vector<Rung> rungs = ladder(scene);
         size_t unexplained = 0;
