@@ -35,6 +35,12 @@ double3 farReflectedShare(SurfaceSample const& surface, double nov, double3 f) {
 
 } // namespace
 
+double3 StandardLobes::mirroredView(SurfaceSample const& surface) const {
+    const double3 bent =
+            lib::anisotropicNormal({ 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, mView, surface.anisotropy, mRoughness);
+    return 2 * glm::dot(bent, mView) * bent - mView;
+}
+
 // As shaders/material/surface_occlusion.glsl, without bounces between what occludes.
 double StandardLobes::specularOcclusionOf(SurfaceSample const& surface) const {
     if (surface.bentNormal) {
@@ -58,6 +64,10 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     if (useOcclusion) {
         mAmbientDiffuse = double3(surface.occlusion);
         mAmbientSpecular = specularOcclusionOf(surface);
+        if (surface.unmappedNormal) {
+            const double3 mirrored = mFrame.toWorld(mirroredView(surface));
+            mAmbientSpecular *= lib::horizonOcclusion(mirrored, *surface.unmappedNormal);
+        }
     }
     if (model.lobes == LobeChoice::Specular) mDiffuse = double3(0.0);
     if (model.lobes == LobeChoice::Diffuse) mCompensation = double3(0.0);
@@ -79,11 +89,9 @@ void StandardLobes::usePrefiltered(SurfaceSample const& surface, double2 dfg) {
     mLobe.emplace(mRoughness, mModel.splitSumLevels);
     mLobeAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation;
     mLobeAlbedo = (mLobeAlbedo + farReflectedShare(surface, mView.z, mLobeAlbedo)) * mAmbientSpecular;
-    const double3 bent =
-            lib::anisotropicNormal({ 0, 0, 1 }, { 1, 0, 0 }, { 0, 1, 0 }, mView, surface.anisotropy, mRoughness);
-    const double3 mirrored = 2 * glm::dot(bent, mView) * bent - mView;
     const double alpha = lib::alphaFromPerceptual(mRoughness);
-    mLobeFrame = Frame(glm::normalize(lib::dominantSpecularDirection({ 0, 0, 1 }, mirrored, alpha)));
+    const double3 direction = lib::dominantSpecularDirection({ 0, 0, 1 }, mirroredView(surface), alpha);
+    mLobeFrame = Frame(glm::normalize(direction));
 }
 
 double3 StandardLobes::harmonicAlbedo() const {

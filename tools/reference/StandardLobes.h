@@ -39,6 +39,7 @@ public:
 
 private:
     double specularOcclusionOf(SurfaceSample const& surface) const;
+    double3 mirroredView(SurfaceSample const& surface) const; ///< local; what the engine looks up the environment along
     double visibility(double3 light) const;
     double diffuseTerm(double nol, double voh) const;
     LobeValues lobesAt(double3 local, LightSource source) const;

@@ -57,9 +57,10 @@ struct DiffuseTransmissionSample {
 
 struct SurfaceSample {
     double3 position{ 0.0 };
-    double3 geometricNormal{ 0, 0, 1 }; ///< of the triangle, on the side that the ray came from
-    double3 normal{ 0, 0, 1 };          ///< of the shading: interpolated, then normal-mapped
-    double3 view{ 0, 0, 1 };            ///< towards where the ray came from
+    double3 geometricNormal{ 0, 0, 1 };    ///< of the triangle, on the side that the ray came from
+    double3 normal{ 0, 0, 1 };             ///< of the shading: interpolated, then normal-mapped
+    std::optional<double3> unmappedNormal; ///< that before a normal map tilted it; none: nothing does
+    double3 view{ 0, 0, 1 };               ///< towards where the ray came from
 
     double3 diffuse{ 0.0 }; ///< albedo of the diffuse lobe, times opacity if the material blends
     double3 f0{ 0.04 };

@@ -20,7 +20,7 @@ using lib64::viewAt;
 
 constexpr double kCosines[] = { 0.05, 0.2, 0.5, 0.9 };
 constexpr double kRoughnesses[] = { 0.4, 0.7, 1.0 };
-constexpr double kStrengths[] = { 0.3, 1.0 };
+constexpr double kStrengths[] = { 0.15, 1.0 };
 constexpr double kMetallics[] = { 0.0, 0.5, 1.0 };
 
 double largest(vec3 color) { return std::max(color.x, std::max(color.y, color.z)); }

@@ -119,6 +119,26 @@ TEST(Bsdf, CoupledWhitePlasticReflectsAllThatArrives) {
     }
 }
 
+// As the engine: light mirrored by a normal map fades below the surface that carries the map. Only where nothing else
+// occludes.
+TEST(Bsdf, ANormalMapsReflectionsFadeBelowItsSurface) {
+    SurfaceSample surface = surfaceOf(0.3, 1, double3(0.9), directionAt(0.5, 0));
+    const double3 light = inFrame(directionAt(0.5, 3.14159)), mirrored = inFrame({ -directionAt(0.5, 0).x, 0, 0.5 });
+    const auto reflected = [&](bool useOcclusion) {
+        return Bsdf(surface, {}, useOcclusion).evaluate(light, LightSource::Ambient).x;
+    };
+    const double whole = reflected(true);
+    EXPECT_EQ(whole, reflected(false));
+    surface.unmappedNormal = -mirrored; // wholly below
+    EXPECT_LT(reflected(true), 1e-9 * whole);
+    EXPECT_EQ(reflected(false), whole);
+    surface.unmappedNormal = glm::normalize(surface.normal - mirrored);
+    const double sunk = 1 + glm::dot(mirrored, *surface.unmappedNormal);
+    EXPECT_NEAR(reflected(true) / whole, sunk * sunk, 1e-9);
+    surface.unmappedNormal = mirrored;
+    EXPECT_NEAR(reflected(true) / whole, 1, 1e-9);
+}
+
 TEST(Bsdf, DiffuseAndSpecularAloneAddUpToBoth) {
     for (const LightSource source : { LightSource::Ambient, LightSource::Direct }) {
         const SurfaceSample surface = surfaceOf(0.4, 0.3, double3(0.8, 0.5, 0.2), directionAt(0.5, 0));
