@@ -1,6 +1,10 @@
 # A room is a folder: every .cpp in it belongs to one library of the same name, its headers are included from the
 # repository root, so that the layer is visible at the include.
 
+# A public header lies in the lowest room that uses it; users see one folder, <filament/...>.
+set(FILAMENT_PUBLIC_INCLUDES ${CMAKE_SOURCE_DIR}/base/include ${CMAKE_SOURCE_DIR}/shaders/package/include
+    ${CMAKE_SOURCE_DIR}/filament_core/include)
+
 add_library(filament_options INTERFACE)
 target_compile_options(filament_options INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
@@ -9,7 +13,7 @@ target_compile_options(filament_options INTERFACE
     # gcc 12 sees a temporary's members as uninitialized where a constructor may throw (GCC bug 105562 and its kin)
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)
 target_include_directories(filament_options INTERFACE
-    ${CMAKE_SOURCE_DIR} ${CMAKE_SOURCE_DIR}/filament_core/include)
+    ${CMAKE_SOURCE_DIR} ${FILAMENT_PUBLIC_INCLUDES})
 target_compile_definitions(filament_options INTERFACE GLM_FORCE_XYZW_ONLY GLM_ENABLE_EXPERIMENTAL)
 if(FILAMENT_SANITIZE)
     target_compile_options(filament_options INTERFACE
@@ -17,17 +21,28 @@ if(FILAMENT_SANITIZE)
     target_link_options(filament_options INTERFACE -fsanitize=${FILAMENT_SANITIZE})
 endif()
 
-# filament_core/base -> base, backend/vulkan -> backend_vulkan
+# filament_core/scene -> scene, backend/vulkan -> backend_vulkan
 function(filament_room_name folder result)
     string(REGEX REPLACE "^filament_core/" "" name ${folder})
     string(REPLACE "/" "_" name ${name})
     set(${result} ${name} PARENT_SCOPE)
 endfunction()
 
+# The files of a folder and of its SUBFOLDERS.
+function(filament_glob result folder)
+    cmake_parse_arguments(ARG "" "" "SUBFOLDERS" ${ARGN})
+    set(patterns ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+    foreach(sub IN LISTS ARG_SUBFOLDERS)
+        list(APPEND patterns ${CMAKE_SOURCE_DIR}/${folder}/${sub}/*.cpp)
+    endforeach()
+    file(GLOB sources CONFIGURE_DEPENDS ${patterns})
+    set(${result} ${sources} PARENT_SCOPE)
+endfunction()
+
 function(filament_room folder)
-    cmake_parse_arguments(ARG "" "" "LINK" ${ARGN})
+    cmake_parse_arguments(ARG "" "" "SUBFOLDERS;LINK" ${ARGN})
     filament_room_name(${folder} name)
-    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/${folder}/*.cpp)
+    filament_glob(sources ${folder} SUBFOLDERS ${ARG_SUBFOLDERS})
     if(sources)
         add_library(${name} STATIC ${sources})
         target_link_libraries(${name} PUBLIC filament_options ${ARG_LINK})
@@ -47,9 +62,9 @@ endfunction()
 
 # One test program per mirrored folder: tests/<folder>/*.cpp.
 function(filament_tests folder)
-    cmake_parse_arguments(ARG "GPU" "" "LINK" ${ARGN})
+    cmake_parse_arguments(ARG "GPU" "" "SUBFOLDERS;LINK" ${ARGN})
     string(REPLACE "/" "_" name ${folder})
-    file(GLOB sources CONFIGURE_DEPENDS ${CMAKE_SOURCE_DIR}/tests/${folder}/*.cpp)
+    filament_glob(sources tests/${folder} SUBFOLDERS ${ARG_SUBFOLDERS})
     if(NOT sources)
         return()
     endif()

@@ -15,7 +15,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
-#include "filament_core/base/Arena.h"
+#include "base/Arena.h"
 #include "framegraph/PassContext.h"
 
 #include <array>

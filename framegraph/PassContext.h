@@ -7,7 +7,7 @@
 
 #include "backend/api/Descriptions.h"
 #include "backend/stream/CommandBuffer.h"
-#include "filament_core/base/Arena.h"
+#include "base/Arena.h"
 #include "framegraph/RangeRecorder.h"
 
 #include <algorithm>

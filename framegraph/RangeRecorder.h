@@ -13,7 +13,7 @@
 #pragma once
 
 #include "backend/stream/CommandBuffer.h"
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 #include "jobsystem/JobSystem.h"
 
 #include <algorithm>

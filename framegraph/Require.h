@@ -3,7 +3,7 @@
 ///   Cost  the message is formatted only when the rule is broken.
 #pragma once
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <fmt/core.h>
 

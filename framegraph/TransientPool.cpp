@@ -2,7 +2,7 @@
 #include "framegraph/TransientPool.h"
 
 #include "backend/stream/CommandStream.h"
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <algorithm>
 

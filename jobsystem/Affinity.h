@@ -8,7 +8,7 @@
 ///   Cost    one system call for a thread that is placed; a system without a policy asks nobody.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "jobsystem/AffinityPolicy.h"
 #include "jobsystem/Topology.h"
 

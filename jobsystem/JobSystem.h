@@ -22,7 +22,7 @@
 /// Background jobs may block.
 #pragma once
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 #include "jobsystem/AffinityPolicy.h"
 #include "jobsystem/Cancellation.h"
 #include "jobsystem/Completion.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/JobTrace.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 #include "jobsystem/Affinity.h"
 
 #include <algorithm>

@@ -13,7 +13,7 @@
 ///   names ("M").
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <atomic>
 #include <chrono>

@@ -1,8 +1,9 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the include table of docs/architecture.md: includes point down, and every library has its room.
+"""Checks that includes point down, that every library has its room, and that docs/architecture.md shows this table.
 
   scripts/check_includes.py [--root DIR]     prints file:line: rule for every broken rule; exit status 1 if any
+  scripts/check_includes.py --write          writes the table into docs/architecture.md
 
 A room is a folder; its headers are included from the repository root, so that the layer is visible at the include.
 """
@@ -11,53 +12,72 @@ import pathlib
 import re
 import sys
 
-# room: the rooms that it may include, besides itself. A room that is not listed here does not exist.
+# Bottom up; room: the rooms that it may include, besides itself. What is not listed here is no room.
 ROOMS = {
-    "filament_core/include/filament": [],
-    "filament_core/base": [],
-    "filament_core/math": ["base"],
-    "shaders/interface": ["math"],
-    "shaders/lib": ["shaders/interface", "math"],
+    "base": [],
+    "base/math": ["base"],
     "jobsystem": ["base"],
-    "backend/api": ["base", "math"],
-    "backend/stream": ["base", "math", "backend/api"],
-    "backend/layers": ["base", "math", "backend/api", "backend/stream"],
-    "backend/null": ["base", "math", "backend/api", "backend/stream"],
-    "backend/vulkan": ["base", "math", "backend/api", "backend/stream"],
-    "backend/gles": ["base", "math", "backend/api", "backend/stream"],
+    "backend/api": ["base", "base/math"],
+    "backend/stream": ["base", "base/math", "backend/api"],
+    "backend/layers": ["base", "base/math", "backend/api", "backend/stream"],
+    "backend/null": ["base", "base/math", "backend/api", "backend/stream"],
+    "backend/vulkan": ["base", "base/math", "backend/api", "backend/stream"],
+    "backend/gles": ["base", "base/math", "backend/api", "backend/stream"],
     "backend/create": ["base", "backend/api", "backend/stream", "backend/null", "backend/vulkan", "backend/gles"],
     "framegraph": ["base", "jobsystem", "backend/api", "backend/stream"],
-    "shaders/package": ["base", "math", "backend/api", "shaders/interface"],
-    "shaders/compiler": ["base", "math", "jobsystem", "backend/api", "shaders/package", "shaders/interface"],
-    "filament_core/scene": ["base", "math", "backend/api", "shaders/package", "shaders/interface"],
-    "filament_core/assets": ["base", "math", "scene", "jobsystem", "backend/api", "shaders/package",
-                             "shaders/interface", "shaders/lib"],
-    "filament_core/prepare": ["base", "math", "scene", "jobsystem", "backend/api", "shaders/interface"],
-    "filament_core/passes": ["base", "math", "scene", "prepare", "framegraph", "jobsystem", "backend/api",
-                             "backend/stream", "shaders/package", "shaders/interface"],
-    "filament_core/engine": ["base", "math", "scene", "assets", "prepare", "passes", "framegraph", "jobsystem",
-                             "backend/api", "backend/stream", "backend/layers", "backend/null", "backend/create",
-                             "shaders/package", "shaders/interface", "shaders/lib"],
+    "shaders/interface": ["base/math"],
+    "shaders/lib": ["base", "base/math", "shaders/interface"],
+    "shaders/package": ["base", "base/math", "backend/api", "shaders/interface"],
+    "shaders/compiler": ["base", "base/math", "jobsystem", "backend/api", "shaders/interface", "shaders/package"],
+    "filament_core/include": ["base", "shaders/package"],
+    "filament_core/values": ["base", "base/math", "filament_core/include"],
+    "filament_core/scene": ["base", "base/math", "backend/api", "shaders/interface", "shaders/package",
+                            "filament_core/include"],
+    "filament_core/assets/files": ["base"],
+    "filament_core/assets/image": ["base", "base/math", "jobsystem", "backend/api", "filament_core/include",
+                                   "filament_core/assets/files"],
+    "filament_core/assets/environment": ["base", "base/math", "jobsystem", "backend/api", "shaders/lib", "filament_core/include",
+                                         "filament_core/assets/files", "filament_core/assets/image"],
+    "filament_core/assets/tables": ["base", "base/math", "jobsystem", "backend/api", "shaders/lib", "filament_core/include",
+                                    "filament_core/assets/files", "filament_core/assets/image"],
+    "filament_core/assets/gltf": ["base", "base/math", "jobsystem", "backend/api", "shaders/interface",
+                                  "shaders/package", "filament_core/include", "filament_core/scene",
+                                  "filament_core/assets/files", "filament_core/assets/image"],
+    "filament_core/prepare": ["base", "base/math", "jobsystem", "backend/api", "shaders/interface",
+                              "filament_core/include", "filament_core/scene"],
+    "filament_core/passes": ["base", "base/math", "jobsystem", "backend/api", "backend/stream", "framegraph",
+                             "shaders/interface", "shaders/package", "filament_core/include", "filament_core/scene",
+                             "filament_core/prepare"],
+    "filament_core/engine": ["base", "base/math", "jobsystem", "backend/api", "backend/stream", "backend/layers",
+                             "backend/null", "backend/create", "framegraph", "shaders/interface", "shaders/lib",
+                             "shaders/package", "filament_core/include", "filament_core/scene",
+                             "filament_core/assets/files", "filament_core/assets/image",
+                             "filament_core/assets/environment", "filament_core/assets/tables",
+                             "filament_core/assets/gltf", "filament_core/prepare", "filament_core/passes"],
 }
-SHORT = {room.removeprefix("filament_core/"): room for room in ROOMS if room.startswith("filament_core/")}
 
 # Above the rooms: any room, but a backend only through backend/create; a test may look inside the folder it mirrors.
 USERS = ["tools", "tests", "bench"]
 BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 
-# The public interface: value types below every room, except for the headers whose objects are the engine's.
-PUBLIC = "filament_core/include/filament"
+# A public header lies in the lowest room that uses it; users see one folder, <filament/...>.
+PUBLIC = ["base/include/filament", "shaders/package/include/filament", "filament_core/include/filament"]
+# Public headers whose objects are the engine's; the rest are value types.
 PUBLIC_ENGINE = ["filament.h", "Animator.h", "Engine.h", "Environment.h", "Gltf.h", "Image.h", "Renderer.h", "Scene.h"]
-PUBLIC_USERS = ["filament_core/engine", "tools", "samples", "tests", "bench"]
+PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "tools", "samples", "tests", "bench"]
+
+TABLE_BEGIN, TABLE_END = "<!-- scripts/check_includes.py --write -->\n```\n", "```\n"
 
 # library header: the rooms that may include it, and their tests. Everything else of a library's kind is free (the standard, POSIX, fmt).
 LIBRARIES = {
     r"vulkan/|volk\.h": ["backend/vulkan"],
     r"EGL/|GLES\d?/|GLES2/|KHR/": ["backend/gles"],
     r"glslang/|SPIRV/|spirv-tools/|spirv_cross/|spirv_\w+\.hpp|spirv/": ["shaders/compiler", "tests"],
-    r"tiny_gltf\.h|draco/|meshoptimizer\.h|stb_?image|stb/|tinyexr|png\.h|jpeglib\.h": ["filament_core/assets"],
-    r"zlib\.h": ["shaders/package", "filament_core/assets"],
-    r"nlohmann/": ["filament_core/assets", "tools", "tests", "bench"],
+    r"draco/|meshoptimizer\.h": ["filament_core/assets/gltf"],
+    r"stb_?image|stb/|tinyexr|png\.h|jpeglib\.h": ["filament_core/assets/image", "filament_core/assets/gltf"],
+    r"zlib\.h": ["shaders/package", "filament_core/assets/image", "filament_core/assets/gltf"],
+    r"nlohmann/": ["filament_core/assets/files", "filament_core/assets/gltf", "filament_core/assets/tables", "tools", "tests",
+                   "bench"],
     r"concurrentqueue|blockingconcurrentqueue|hwloc": ["jobsystem"],
     r"CLI/": ["tools", "bench"],
     r"embree\d?/": ["tools"],
@@ -82,6 +102,14 @@ def mirrored(path):
     return path.split("/", 1)[1].rsplit("/", 1)[0] if "/" in path else ""
 
 
+def is_public(path):
+    return any(path.startswith(folder + "/") for folder in PUBLIC)
+
+
+def may_see(room, target_room):
+    return room == target_room or room in USERS or target_room in ROOMS[room]
+
+
 def quoted_rule(root, path, room, target):
     """Why `path` in `room` may not include "target"; None if it may."""
     if GENERATED.match(target):
@@ -89,7 +117,9 @@ def quoted_rule(root, path, room, target):
     if target.startswith(".") or not (root / target).is_file():
         return f'"{target}" is not a path from the repository root'
     target_room = room_of(target)
-    if target_room == PUBLIC:
+    if is_public(path):
+        return f'public headers include only the standard library, GLM and <filament/...>, not "{target}"'
+    if is_public(target):
         return "public headers are included as <filament/...>"
     if target_room == room:
         return None
@@ -102,25 +132,27 @@ def quoted_rule(root, path, room, target):
         if target_room in BEHIND_CREATE and mirrored(path) != target_room:
             return f"{target_room} is behind backend/create; only tests/{target_room} looks inside"
         return None
-    allowed = [SHORT.get(name, name) for name in ROOMS[room]]
-    if target_room not in allowed:
+    if not may_see(room, target_room):
         return f"{room} may not include {target_room}: includes point down (docs/architecture.md)"
     return None
 
 
 def public_rule(root, room, name):
-    if not (root / PUBLIC / name).is_file():
-        return f"<filament/{name}> does not exist"
-    if room in PUBLIC_USERS or room == PUBLIC or name not in PUBLIC_ENGINE:
-        return None
-    return f"<filament/{name}> names the engine; {room} is below it"
+    owners = [room_of(f"{folder}/{name}") for folder in PUBLIC if (root / folder / name).is_file()]
+    if len(owners) != 1:
+        return f"<filament/{name}> " + ("does not exist" if not owners else f"exists {len(owners)} times")
+    if name in PUBLIC_ENGINE and room not in PUBLIC_ENGINE_USERS:
+        return f"<filament/{name}> names the engine; {room} is below it"
+    if room != "samples" and not may_see(room, owners[0]):
+        return f"<filament/{name}> belongs to {owners[0]}, which {room} may not include"
+    return None
 
 
 def library_rule(path, room, target):
     for pattern, rooms in LIBRARIES.items():
         if re.match(pattern, target) and room not in rooms and not (room == "tests" and mirrored(path) in rooms):
             return f"<{target}> belongs to {', '.join(rooms)}"
-    if room == PUBLIC and "/" in target and not target.startswith("glm/"):
+    if is_public(path) and "/" in target and not target.startswith("glm/"):
         return f"public headers include only the standard library and GLM, not <{target}>"
     return None
 
@@ -156,17 +188,76 @@ def source_files(root):
                 yield path
 
 
+def check_order():
+    """The drawing of the table has no arrow that runs up: each room lists only rooms above it in ROOMS."""
+    seen = set()
+    for room, below in ROOMS.items():
+        for name in below:
+            if name not in seen:
+                yield f"{room} lists {name}, which is not below it"
+        seen.add(room)
+
+
+def table():
+    """Bottom up, one room a line; the sub-rooms of assets together where a room sees them all."""
+    width = max(map(len, ROOMS)) + 1
+    lines = []
+    for room, below in ROOMS.items():
+        text, line = [], " ".join(below)
+        while len(line) > 118 - width:
+            cut = line.rindex(" ", 0, 118 - width)
+            text.append(line[:cut])
+            line = line[cut + 1:]
+        text.append(line)
+        lines += [f"{room if i == 0 else '':{width}}{':' if i == 0 else ' '} {part}".rstrip() for i, part in enumerate(text)]
+    lines.append(f"{'tools tests bench':{width}}: any room, a backend only through backend/create; a test also the folder it mirrors")
+    lines.append(f"{'samples':{width}}: the public headers")
+    return "\n".join(lines) + "\n"
+
+
+def split_document(text):
+    """What stands before the table, the table, and what follows; None if the document has no place for one."""
+    begin = text.find(TABLE_BEGIN)
+    end = text.find(TABLE_END, begin + len(TABLE_BEGIN))
+    if begin < 0 or end < 0:
+        return None
+    begin += len(TABLE_BEGIN)
+    return text[:begin], text[begin:end], text[end:]
+
+
+def check_document(root):
+    document = root / "docs/architecture.md"
+    if not document.is_file():
+        return
+    parts = split_document(document.read_text(encoding="utf-8"))
+    if parts is None:
+        yield "docs/architecture.md: has no include table"
+    elif parts[1] != table():
+        yield "docs/architecture.md: its include table is not this script's: run scripts/check_includes.py --write"
+
+
+def write_document(root):
+    document = root / "docs/architecture.md"
+    before, _, after = split_document(document.read_text(encoding="utf-8"))
+    document.write_text(before + table() + after, encoding="utf-8")
+
+
 def main():
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parent.parent)
-    root = parser.parse_args().root.resolve()
-    files = broken = 0
+    parser.add_argument("--write", action="store_true", help="write the table into docs/architecture.md")
+    options = parser.parse_args()
+    root = options.root.resolve()
+    if options.write:
+        write_document(root)
+    broken = [*check_order(), *check_document(root)]
+    files = 0
     for path in source_files(root):
         files += 1
-        for number, rule in check_file(root, path):
-            broken += 1
-            print(f"{path.relative_to(root)}:{number}: {rule}")
-    print(f"include table: {files} files, {broken} broken rules")
+        broken += [f"{path.relative_to(root)}:{number}: {rule}" for number, rule in check_file(root, path)]
+    for line in broken:
+        print(line)
+    print(f"include table: {files} files, {len(broken)} broken rules")
     return 1 if broken or not files else 0
 
 

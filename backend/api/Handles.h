@@ -2,7 +2,7 @@
 /// The names of everything a driver keeps. Made by the recording side (backend/stream), so that creating never waits.
 #pragma once
 
-#include "filament_core/base/Handle.h"
+#include "base/Handle.h"
 
 namespace filament::backend {
 

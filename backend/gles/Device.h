@@ -4,7 +4,7 @@
 #pragma once
 
 #include "backend/gles/State.h"
-#include "filament_core/base/BlobStore.h"
+#include "base/BlobStore.h"
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 #include "backend/gles/Driver.h"
 
 #include "backend/gles/ProgramBinary.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 
 #include <algorithm>
 #include <cctype>

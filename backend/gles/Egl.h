@@ -8,7 +8,7 @@
 ///   Fails   load(), openDisplay(): DeviceUnavailable with the packages to install.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <EGL/egl.h>
 #include <EGL/eglext.h>

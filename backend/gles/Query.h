@@ -7,7 +7,7 @@
 #pragma once
 
 #include "backend/gles/Fence.h"
-#include "filament_core/base/Fifo.h"
+#include "base/Fifo.h"
 
 #include <vector>
 

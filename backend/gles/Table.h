@@ -4,7 +4,7 @@
 ///   Memory  one heap object per resource, so that pointers stay valid while others come and go.
 #pragma once
 
-#include "filament_core/base/Handle.h"
+#include "base/Handle.h"
 
 #include <memory>
 #include <utility>

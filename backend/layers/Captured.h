@@ -13,7 +13,7 @@
 #pragma once
 
 #include "backend/api/Driver.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <cstdint>
 #include <functional>

@@ -5,7 +5,7 @@
 ///   Cost    one hash look-up a call.
 #pragma once
 
-#include "filament_core/base/Handle.h"
+#include "base/Handle.h"
 
 #include <cstdint>
 #include <optional>

@@ -12,7 +12,7 @@
 #pragma once
 
 #include "backend/stream/CommandBuffer.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <cstddef>
 #include <span>

@@ -2,8 +2,8 @@
 #include "backend/layers/Traced.h"
 
 #include "backend/layers/Trace.h"
-#include "filament_core/base/Assert.h"
-#include "filament_core/base/Log.h"
+#include "base/Assert.h"
+#include "base/Log.h"
 
 #include <fstream>
 #include <sstream>

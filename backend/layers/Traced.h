@@ -9,7 +9,7 @@
 
 #include "backend/api/Driver.h"
 #include "backend/stream/CommandStream.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filesystem>
 #include <memory>

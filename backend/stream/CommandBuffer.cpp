@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/stream/CommandBuffer.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <algorithm>
 #include <iterator>

@@ -3,7 +3,7 @@
 
 #include "backend/stream/DriverThread.h"
 #include "backend/stream/ResultMailbox.h"
-#include "filament_core/base/OutOfMemory.h"
+#include "base/OutOfMemory.h"
 
 #include <algorithm>
 #include <atomic>

@@ -10,7 +10,7 @@
 
 #include "backend/api/Driver.h"
 #include "backend/stream/CommandBuffer.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <chrono>
 #include <functional>

@@ -2,9 +2,9 @@
 #include "backend/stream/DriverThread.h"
 
 #include "backend/stream/StreamHash.h"
-#include "filament_core/base/Assert.h"
-#include "filament_core/base/Log.h"
-#include "filament_core/base/OutOfMemory.h"
+#include "base/Assert.h"
+#include "base/Log.h"
+#include "base/OutOfMemory.h"
 
 #include <algorithm>
 #include <chrono>

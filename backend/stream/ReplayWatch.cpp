@@ -2,7 +2,7 @@
 #include "backend/stream/ReplayWatch.h"
 
 #include "backend/stream/CommandFields.h"
-#include "filament_core/base/Log.h"
+#include "base/Log.h"
 
 #include <fmt/core.h>
 

@@ -2,7 +2,7 @@
 #include "backend/stream/StreamHash.h"
 
 #include "backend/stream/CommandFields.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 
 #include <algorithm>
 #include <bit>

@@ -3,7 +3,7 @@
 
 #include "backend/vulkan/Formats.h"
 #include "backend/vulkan/Quirks.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 
 #include <algorithm>
 

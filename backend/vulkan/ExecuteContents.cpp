@@ -2,7 +2,7 @@
 #include "backend/vulkan/Executor.h"
 
 #include "backend/vulkan/Formats.h"
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <cstring>
 

@@ -24,7 +24,7 @@
 #include "backend/vulkan/Submissions.h"
 #include "backend/vulkan/Texture.h"
 #include "backend/vulkan/Upload.h"
-#include "filament_core/base/BlobStore.h"
+#include "base/BlobStore.h"
 
 #include <array>
 #include <memory>

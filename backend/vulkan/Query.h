@@ -12,7 +12,7 @@
 #include "backend/vulkan/Barriers.h"
 #include "backend/vulkan/Buffer.h"
 #include "backend/vulkan/Texture.h"
-#include "filament_core/base/Fifo.h"
+#include "base/Fifo.h"
 
 #include <deque>
 #include <vector>

@@ -7,7 +7,7 @@
 ///   Cost    constant.
 #pragma once
 
-#include "filament_core/base/Fifo.h"
+#include "base/Fifo.h"
 
 #include <cstdint>
 #include <optional>

@@ -6,7 +6,7 @@
 ///   Cost    one index and one comparison a look-up.
 #pragma once
 
-#include "filament_core/base/Handle.h"
+#include "base/Handle.h"
 
 #include <memory>
 #include <utility>

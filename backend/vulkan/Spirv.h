@@ -9,7 +9,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <cstdint>
 #include <span>

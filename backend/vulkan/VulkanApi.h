@@ -4,7 +4,7 @@
 ///   several devices live in one process.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <volk.h>
 

@@ -2,7 +2,7 @@
 // What a job costs: alone, in batches, as a tree of forks, as a chain. Jobs do nothing.
 #include "bench/threading/Workloads.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <fmt/format.h>
 

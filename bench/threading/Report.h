@@ -4,8 +4,8 @@
 ///   Fails   writeJson() says why the file could not be written.
 #pragma once
 
+#include "base/Result.h"
 #include "bench/threading/Workload.h"
-#include "filament_core/base/Result.h"
 
 #include <filesystem>
 #include <span>

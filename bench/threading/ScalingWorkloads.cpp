@@ -2,7 +2,7 @@
 // The same work with 0, 1, 2 ... workers besides the caller; past the number of cores it must not get slower.
 #include "bench/threading/Workloads.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <fmt/format.h>
 

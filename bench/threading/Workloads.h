@@ -4,9 +4,9 @@
 ///   Fails   make() says why a workload cannot run here.
 #pragma once
 
+#include "base/Result.h"
 #include "bench/threading/Runtime.h"
 #include "bench/threading/Workload.h"
-#include "filament_core/base/Result.h"
 
 #include <functional>
 #include <memory>

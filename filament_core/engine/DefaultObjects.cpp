@@ -2,10 +2,10 @@
 #include "filament_core/engine/DefaultObjects.h"
 
 #include "backend/stream/RecordingGuards.h"
-#include "filament_core/assets/DfgTable.h"
-#include "filament_core/assets/ToneTable.h"
-#include "filament_core/base/Assert.h"
-#include "filament_core/base/Result.h"
+#include "base/Assert.h"
+#include "base/Result.h"
+#include "filament_core/assets/tables/DfgTable.h"
+#include "filament_core/assets/tables/ToneTable.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <array>

@@ -8,9 +8,9 @@
 #pragma once
 
 #include "backend/stream/CommandStream.h"
-#include "filament_core/engine/CompileQueue.h"
 #include "filament_core/engine/ObjectTable.h"
 #include "filament_core/engine/SamplerCache.h"
+#include "filament_core/engine/materials/CompileQueue.h"
 #include "filament_core/passes/Pipelines.h"
 #include "filament_core/scene/SceneData.h"
 #include "jobsystem/Affinity.h"

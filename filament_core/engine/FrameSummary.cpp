@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/FrameSummary.h"
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "framegraph/Explain.h"
 
 namespace filament::engine {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/Image.h>
 
-#include "filament_core/assets/ImageWriter.h"
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
+#include "filament_core/assets/image/ImageWriter.h"
 
 namespace filament {
 

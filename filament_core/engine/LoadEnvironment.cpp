@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/Environment.h>
 
-#include "filament_core/assets/Environment.h"
-#include "filament_core/base/OutOfMemory.h"
+#include "base/OutOfMemory.h"
+#include "filament_core/assets/environment/Environment.h"
 #include "filament_core/engine/EngineImpl.h"
 
 #include <new>

@@ -5,7 +5,7 @@
 ///           a handle that was destroyed or never made asserts, naming the type.
 #pragma once
 
-#include "filament_core/base/Handle.h"
+#include "base/Handle.h"
 
 #include <algorithm>
 #include <memory>

@@ -2,8 +2,8 @@
 #include "filament_core/engine/PixelReads.h"
 
 #include "backend/stream/RecordingGuards.h"
-#include "filament_core/base/OutOfMemory.h"
-#include "filament_core/base/Result.h"
+#include "base/OutOfMemory.h"
+#include "base/Result.h"
 
 #include <algorithm>
 #include <utility>

@@ -2,7 +2,7 @@
 /// Scene::Impl: the arrays of a scene and the engine whose handles they came from.
 #pragma once
 
-#include "filament_core/engine/ModelImpl.h"
+#include "filament_core/engine/gltf/ModelImpl.h"
 #include "filament_core/prepare/UpdateTransforms.h"
 #include "filament_core/scene/SceneData.h"
 

@@ -2,8 +2,8 @@
 // The nodes of a Scene, and copies of models, which are made of them.
 #include "filament_core/scene/SceneNodes.h"
 
-#include "filament_core/engine/ModelImpl.h"
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/gltf/ModelImpl.h"
 
 namespace filament {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Textures, buffers, targets: public descriptions -> commands.
 #include "backend/stream/RecordingGuards.h"
-#include "filament_core/base/Log.h"
+#include "base/Log.h"
 #include "filament_core/engine/EngineImpl.h"
 
 #include <algorithm>

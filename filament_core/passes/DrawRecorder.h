@@ -5,7 +5,7 @@
 ///   Cost    bench/filament_core/passes: state that did not change since the last draw is not recorded again.
 #pragma once
 
-#include "filament_core/base/Arena.h"
+#include "base/Arena.h"
 #include "filament_core/passes/FrameData.h"
 #include "filament_core/passes/Pipelines.h"
 #include "filament_core/prepare/FramePacket.h"

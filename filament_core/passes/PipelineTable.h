@@ -8,7 +8,7 @@
 #pragma once
 
 #include "backend/api/Handles.h"
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <algorithm>
 #include <bit>

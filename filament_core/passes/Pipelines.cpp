@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/Pipelines.h"
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/ViewLayout.h"
 

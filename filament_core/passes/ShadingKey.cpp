@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/ShadingKey.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 namespace filament::passes {
 namespace {

@@ -9,7 +9,7 @@
 ///   Fails   never.
 #pragma once
 
-#include "filament_core/base/Arena.h"
+#include "base/Arena.h"
 #include "filament_core/prepare/CullRenderables.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "jobsystem/JobSystem.h"

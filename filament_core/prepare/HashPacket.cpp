@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/ObjectData.h"
 

@@ -11,7 +11,7 @@
 ///   Fails   never. Cost: bench/filament_core/prepare, beside std::sort.
 #pragma once
 
-#include "filament_core/base/Arena.h"
+#include "base/Arena.h"
 #include "filament_core/prepare/SortKey.h"
 #include "jobsystem/JobSystem.h"
 

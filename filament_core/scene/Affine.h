@@ -6,7 +6,7 @@
 ///   Fails   never. What is not finite becomes zero: a point that draws nothing and stays one.
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <array>
 

@@ -5,7 +5,7 @@
 ///   Fails   attaching twice is an assertion.
 #pragma once
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <filament/Handle.h>
 

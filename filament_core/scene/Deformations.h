@@ -12,8 +12,8 @@
 #pragma once
 
 #include "backend/api/Handles.h"
-#include "filament_core/base/Handle.h"
-#include "filament_core/math/Box.h"
+#include "base/Handle.h"
+#include "base/math/Box.h"
 #include "filament_core/scene/Affine.h"
 #include "filament_core/scene/Drawables.h"
 #include "shaders/interface/ShaderInterface.h"

@@ -5,7 +5,7 @@
 ///   Fails   a handle that names nothing (any more) is an assertion.
 #pragma once
 
-#include "filament_core/base/Handle.h"
+#include "base/Handle.h"
 
 #include <cstdint>
 #include <utility>

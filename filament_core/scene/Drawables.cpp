@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/scene/Drawables.h"
 
-#include "filament_core/base/Assert.h"
-#include "filament_core/base/Hash.h"
+#include "base/Assert.h"
+#include "base/Hash.h"
 
 namespace filament::scene {
 namespace {

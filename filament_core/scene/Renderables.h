@@ -8,7 +8,7 @@
 ///           once, each with indices of its own.
 #pragma once
 
-#include "filament_core/math/Box.h"
+#include "base/math/Box.h"
 #include "filament_core/scene/Affine.h"
 #include "filament_core/scene/DenseIndex.h"
 #include "filament_core/scene/Drawables.h"

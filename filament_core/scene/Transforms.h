@@ -14,7 +14,7 @@
 ///   Fails   a stale handle, or a cycle, is an assertion. A transform that is not finite counts as zero.
 #pragma once
 
-#include "filament_core/base/Handle.h"
+#include "base/Handle.h"
 #include "filament_core/scene/Affine.h"
 
 #include <filament/Objects.h>

@@ -7,7 +7,7 @@
 ///   Thread  any. Memory: the module twice. Fails: Internal for a module that SPIRV-Tools cannot read.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <cstdint>
 #include <span>

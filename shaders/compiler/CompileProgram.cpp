@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/CompileProgram.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 #include "shaders/compiler/CanonicalOrder.h"
 #include "shaders/compiler/ExactLowering.h"
 #include "shaders/compiler/ForbidReordering.h"

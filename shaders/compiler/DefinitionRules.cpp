@@ -14,7 +14,7 @@ bool isUnlit(MaterialDefinition const& definition) { return definition.package.s
 bool refracts(MaterialDefinition const& definition) {
     return definition.package.refractionMode != RefractionMode::None;
 }
-/// The models of surface_lit_shading.glsl.
+/// The models of surface/lit_shading.glsl.
 bool hasStandardText(MaterialDefinition const& definition) {
     const ShadingModel model = definition.package.shading;
     return model == ShadingModel::Lit || model == ShadingModel::SpecularGlossiness;

@@ -17,7 +17,7 @@ void declareInterface(StageText& out, MaterialDefinition const& definition);
 /// `VARYING vec4 variable_name` from location 5 on; `VARYING` is defined by the stage.
 void declareVariables(StageText& out, MaterialDefinition const& definition);
 
-/// The macros with which surface_vertex_main.glsl clears and writes the variables.
+/// The macros with which surface/vertex_main.glsl clears and writes the variables.
 void defineVariableMacros(StageText& out, MaterialDefinition const& definition);
 
 } // namespace filament::shader

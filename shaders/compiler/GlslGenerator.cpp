@@ -38,11 +38,11 @@ const char* shadingDefine(ShadingModel model) {
 std::string_view shadingText(ShadingModel model) {
     switch (model) {
     case ShadingModel::Cloth:
-        return "shaders/material/surface_cloth_shading.glsl";
+        return "shaders/material/surface/cloth_shading.glsl";
     case ShadingModel::Subsurface:
-        return "shaders/material/surface_subsurface_shading.glsl";
+        return "shaders/material/surface/subsurface_shading.glsl";
     default:
-        return "shaders/material/surface_lit_shading.glsl";
+        return "shaders/material/surface/lit_shading.glsl";
     }
 }
 
@@ -160,10 +160,10 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     declareVariables(out, definition);
     declareCustomAttributes(out, definition);
     if (deforms)
-        done = includeAll(out, { "shaders/interface/deformation.glsl", "shaders/material/surface_deform.glsl" });
-    if (done) done = out.include("shaders/material/surface_vertex_api.glsl");
+        done = includeAll(out, { "shaders/interface/deformation.glsl", "shaders/material/surface/deform.glsl" });
+    if (done) done = out.include("shaders/material/surface/vertex_api.glsl");
     if (done && definition.vertex) done = out.block(*definition.vertex);
-    if (done) done = out.include("shaders/material/surface_vertex_main.glsl");
+    if (done) done = out.include("shaders/material/surface/vertex_main.glsl");
     if (!done) return done.error();
     return std::move(out).take();
 }
@@ -172,10 +172,10 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
 struct Layer {
     std::string_view term, text;
 };
-constexpr Layer kLayers[] = { { "HAS_ANISOTROPY", "shaders/material/surface_anisotropy.glsl" },
-                              { "HAS_IRIDESCENCE", "shaders/material/surface_iridescence.glsl" },
-                              { "HAS_SHEEN", "shaders/material/surface_sheen.glsl" },
-                              { "HAS_CLEAR_COAT", "shaders/material/surface_coat.glsl" } };
+constexpr Layer kLayers[] = { { "HAS_ANISOTROPY", "shaders/material/surface/anisotropy.glsl" },
+                              { "HAS_IRIDESCENCE", "shaders/material/surface/iridescence.glsl" },
+                              { "HAS_SHEEN", "shaders/material/surface/sheen.glsl" },
+                              { "HAS_CLEAR_COAT", "shaders/material/surface/coat.glsl" } };
 
 /// Behind the author's code. What is not safe in 16 bits comes before the line from which kVariantHalf computes in
 /// them: distances, f0 near 1, derivatives, nits.
@@ -191,19 +191,19 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
         done = includeAll(out, { "shaders/lib/iridescence.glsl", "shaders/lib/refraction.glsl" });
     if (done && refracts(definition))
         done = includeAll(out, { "shaders/lib/specular.glsl", "shaders/lib/refraction.glsl" });
-    if (done) done = out.include("shaders/material/surface_output.glsl");
-    if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface_half.glsl");
+    if (done) done = out.include("shaders/material/surface/output.glsl");
+    if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface/half.glsl");
     if (!done) return done;
-    done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface_quality.glsl",
-                             "shaders/material/surface_incoming.glsl", "shaders/material/surface_parameters.glsl",
-                             "shaders/material/surface_occlusion.glsl" });
+    done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface/quality.glsl",
+                             "shaders/material/surface/incoming.glsl", "shaders/material/surface/parameters.glsl",
+                             "shaders/material/surface/occlusion.glsl" });
     for (Layer const& layer : kLayers) {
         if (done && needs.has(layer.term)) done = out.include(layer.text);
     }
-    if (done && refracts(definition)) done = out.include("shaders/material/surface_refraction.glsl");
+    if (done && refracts(definition)) done = out.include("shaders/material/surface/refraction.glsl");
     if (done) done = out.include(shadingText(definition.package.shading));
-    if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface_custom_light.glsl");
-    if (done) done = includeAll(out, { "shaders/material/surface_lights.glsl", "shaders/material/surface_main.glsl" });
+    if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_light.glsl");
+    if (done) done = includeAll(out, { "shaders/material/surface/lights.glsl", "shaders/material/surface/main.glsl" });
     return done;
 }
 
@@ -220,8 +220,8 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     declareVariables(out, definition);
     declareMaterialInputs(out, definition);
     if (needs.luminance) done = out.include("shaders/lib/color.glsl");
-    if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface_custom_api.glsl");
-    if (done) done = out.include("shaders/material/surface_fragment_api.glsl");
+    if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_api.glsl");
+    if (done) done = out.include("shaders/material/surface/fragment_api.glsl");
     return done;
 }
 
@@ -233,7 +233,7 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     if (done) done = out.block(definition.fragment);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
     if (done && !isLit)
-        done = includeAll(out, { "shaders/material/surface_output.glsl", "shaders/material/surface_unlit_main.glsl" });
+        done = includeAll(out, { "shaders/material/surface/output.glsl", "shaders/material/surface/unlit_main.glsl" });
     if (!done) return done.error();
     return std::move(out).take();
 }

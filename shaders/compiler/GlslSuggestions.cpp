@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/GlslSuggestions.h"
 
-#include "filament_core/base/Suggest.h"
+#include "base/Suggest.h"
 #include "shaders/compiler/MaterialMembers.h"
 
 namespace filament::shader {

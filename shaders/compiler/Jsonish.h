@@ -8,7 +8,7 @@
 ///   Fails   InvalidArgument, "file:line: reason". Never crashes, whatever the bytes.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <cstdint>
 #include <functional>

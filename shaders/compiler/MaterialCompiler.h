@@ -8,7 +8,7 @@
 ///   Cost    about 50 ms a variant.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "shaders/compiler/CompileProgram.h"
 #include "shaders/compiler/Jsonish.h"
 #include "shaders/compiler/PlatformDefaults.h"

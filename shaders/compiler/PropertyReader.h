@@ -3,7 +3,7 @@
 ///   Names of values are compared without regard to case (materials guide, 4.1.1).
 #pragma once
 
-#include "filament_core/base/Suggest.h"
+#include "base/Suggest.h"
 #include "shaders/compiler/Jsonish.h"
 #include "shaders/compiler/MaterialDefinition.h"
 

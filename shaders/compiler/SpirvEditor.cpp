@@ -2,7 +2,7 @@
 #define SPV_ENABLE_UTILITY_CODE // HasResultAndType()
 #include "shaders/compiler/SpirvEditor.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <algorithm>
 #include <bit>

@@ -4,7 +4,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <cstdint>
 #include <span>

@@ -7,7 +7,7 @@
 ///   Light   photometric values are pre-exposed on the CPU: multiplied by 1 / (1.2 * 2^EV100).
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <array>
 #include <cstdint>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/package/Deflate.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 #include "shaders/package/ByteReader.h"
 #include "shaders/package/PackageError.h"
 

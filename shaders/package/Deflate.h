@@ -8,7 +8,7 @@
 ///   Thread  pure functions.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -7,7 +7,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filament/Material.h>
 

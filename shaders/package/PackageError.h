@@ -2,7 +2,7 @@
 /// corruptPackage(): the error for bytes that are no package; `what` is wrong with them.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <string_view>
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 #include "shaders/package/ByteReader.h"
 #include "shaders/package/Deflate.h"
 #include "shaders/package/Package.h"

@@ -4,8 +4,8 @@
 #include "tests/faults/AllocationSweep.h"
 #include "tests/faults/FaultStage.h"
 
-#include "filament_core/assets/GltfWriter.h"
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
 
 #include <filesystem>
 #include <fstream>

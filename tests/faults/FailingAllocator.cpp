@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/faults/FailingAllocator.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <cxxabi.h>
 #include <dlfcn.h>

@@ -5,7 +5,7 @@
 
 #include "backend/create/CreateDriver.h"
 #include "backend/stream/CommandStream.h"
-#include "filament_core/base/Log.h"
+#include "base/Log.h"
 
 #include <chrono>
 #include <mutex>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "tests/filament_core/assets/GltfFuzzBody.h"
+#include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -3,7 +3,7 @@
 /// one line or in a table that is in its ranges and writes out to a fixed point.
 #pragma once
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <filament/QualityCosts.h>
 

@@ -5,7 +5,7 @@
 
 #include "backend/layers/Trace.h"
 #include "backend/layers/Validator.h"
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 
 #include <algorithm>
 #include <cstdint>

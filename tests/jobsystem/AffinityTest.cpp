@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/Affinity.h"
 
-#include "filament_core/base/Log.h"
+#include "base/Log.h"
 #include "tests/jobsystem/FakeMachine.h"
 
 #include <gmock/gmock.h>

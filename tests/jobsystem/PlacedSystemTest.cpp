@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Whole job systems under affinity policies, and their timelines.
-#include "filament_core/base/Log.h"
+#include "base/Log.h"
 #include "jobsystem/Affinity.h"
 #include "jobsystem/JobSystem.h"
 #include "jobsystem/JobTrace.h"

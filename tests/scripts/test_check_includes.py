@@ -1,5 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 """The include checker finds what it is there to find: each bad tree breaks one rule, each good tree none."""
+import importlib
 import pathlib
 import subprocess
 import sys
@@ -7,6 +8,7 @@ import tempfile
 import unittest
 
 SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "check_includes.py"
+TABLE = "<!-- scripts/check_includes.py --write -->\n```\n{}```\n"
 
 
 def check(files):
@@ -30,17 +32,17 @@ class IncludeTable(unittest.TestCase):
 
     def test_an_include_that_points_down_is_fine(self):
         status, output = check({
-            "filament_core/base/Hash.h": "#include <cstdint>\n",
-            "filament_core/scene/Scene.h": '#include "filament_core/base/Hash.h"\n#include "filament_core/scene/Node.h"\n',
+            "base/Hash.h": "#include <cstdint>\n",
+            "filament_core/scene/Scene.h": '#include "base/Hash.h"\n#include "filament_core/scene/Node.h"\n',
             "filament_core/scene/Node.h": "\n",
         })
         self.assertEqual(status, 0, output)
 
     def test_an_include_that_points_up_is_reported_with_file_and_line(self):
         self.assert_broken({
-            "filament_core/base/Hash.h": '\n#include "filament_core/scene/Scene.h"\n',
+            "base/Hash.h": '\n#include "filament_core/scene/Scene.h"\n',
             "filament_core/scene/Scene.h": "\n",
-        }, "filament_core/base/Hash.h:2:", "includes point down")
+        }, "base/Hash.h:2:", "includes point down")
 
     def test_the_two_backends_cannot_see_each_other(self):
         self.assert_broken({
@@ -70,14 +72,63 @@ class IncludeTable(unittest.TestCase):
 
     def test_a_room_below_the_engine_sees_only_the_public_values(self):
         files = {
-            "filament_core/include/filament/Math.h": "#include <glm/vec2.hpp>\n",
+            "base/include/filament/Math.h": "#include <glm/vec2.hpp>\n",
             "filament_core/include/filament/Engine.h": "#include <filament/Math.h>\n",
         }
         status, output = check(files | {"filament_core/engine/E.cpp": "#include <filament/Engine.h>\n",
-                                        "filament_core/base/B.h": "#include <filament/Math.h>\n"})
+                                        "base/B.h": "#include <filament/Math.h>\n"})
         self.assertEqual(status, 0, output)
         self.assert_broken(files | {"filament_core/scene/S.h": "#include <filament/Engine.h>\n"},
                            "filament_core/scene/S.h:1:", "names the engine")
+
+    def test_a_public_header_belongs_to_its_room(self):
+        self.assert_broken({
+            "shaders/package/include/filament/Material.h": "\n",
+            "jobsystem/J.h": "#include <filament/Material.h>\n",
+        }, "jobsystem/J.h:1:", "belongs to shaders/package")
+
+    def test_a_public_name_is_there_once(self):
+        self.assert_broken({
+            "base/include/filament/Math.h": "\n",
+            "filament_core/include/filament/Math.h": "\n",
+            "filament_core/scene/S.h": "#include <filament/Math.h>\n",
+        }, "filament_core/scene/S.h:1:", "exists 2 times")
+
+    def test_a_public_header_includes_nothing_that_is_not_public(self):
+        self.assert_broken({
+            "base/include/filament/Math.h": '#include "base/Hash.h"\n',
+            "base/Hash.h": "\n",
+        }, "base/include/filament/Math.h:1:", "public headers include only")
+
+    def test_a_document_with_another_table_is_reported_and_mended(self):
+        with tempfile.TemporaryDirectory() as folder:
+            root = pathlib.Path(folder)
+            for name, text in {"base/Hash.h": "\n",
+                               "docs/architecture.md": "Rooms\n\n" + TABLE.format("base: everything\n") + "After\n"}.items():
+                (root / name).parent.mkdir(parents=True, exist_ok=True)
+                (root / name).write_text(text, encoding="utf-8")
+            run = lambda *more: subprocess.run([sys.executable, SCRIPT, "--root", root, *more], capture_output=True,
+                                               text=True, check=False)
+            self.assertIn("its include table is not this script's", run().stdout)
+            self.assertEqual(run("--write").returncode, 0)
+            self.assertEqual(run().returncode, 0)
+            text = (root / "docs/architecture.md").read_text(encoding="utf-8")
+            self.assertTrue(text.startswith("Rooms\n\n") and text.endswith("```\nAfter\n"), text)
+            self.assertIn("jobsystem", text)
+
+    def test_a_document_without_a_table_is_reported(self):
+        with tempfile.TemporaryDirectory() as folder:
+            (pathlib.Path(folder) / "docs").mkdir()
+            (pathlib.Path(folder) / "docs/architecture.md").write_text("nothing\n", encoding="utf-8")
+            done = subprocess.run([sys.executable, SCRIPT, "--root", folder], capture_output=True, text=True, check=False)
+            self.assertIn("has no include table", done.stdout)
+
+    def test_no_room_lists_one_that_stands_above_it(self):
+        sys.path.insert(0, str(SCRIPT.parent))
+        checker = importlib.import_module("check_includes")
+        self.assertEqual(list(checker.check_order()), [])
+        checker.ROOMS["base"] = ["framegraph"]
+        self.assertEqual(list(checker.check_order()), ["base lists framegraph, which is not below it"])
 
     def test_a_public_header_includes_only_std_and_glm(self):
         self.assert_broken({"filament_core/include/filament/Log.h": "#include <string>\n#include <fmt/core.h>\n"},
@@ -88,8 +139,8 @@ class IncludeTable(unittest.TestCase):
 
     def test_a_sample_sees_only_the_public_api(self):
         self.assert_broken({
-            "samples/hello/main.cpp": '#include "filament_core/base/Hash.h"\n',
-            "filament_core/base/Hash.h": "\n",
+            "samples/hello/main.cpp": '#include "base/Hash.h"\n',
+            "base/Hash.h": "\n",
         }, "samples/hello/main.cpp:1:", "public headers")
 
     def test_a_source_file_outside_every_room_is_reported(self):

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/Effect.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "tools/accuracy/Settings.h"
 #include "tools/conformance/JsonReader.h"
 

@@ -7,7 +7,7 @@
 ///   Thread   any; pure but for reading the file.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filesystem>
 #include <string>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/Integrals.h"
 
-#include "filament_core/assets/DfgTable.h"
-#include "filament_core/base/Suggest.h"
-#include "filament_core/math/Half.h"
+#include "base/Suggest.h"
+#include "base/math/Half.h"
+#include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/lib/LibCpp.h"
 #include "tools/reference/DirectionalAlbedo.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/Measure.h"
 
-#include "filament_core/base/Suggest.h"
+#include "base/Suggest.h"
 #include "tools/accuracy/References.h"
 #include "tools/accuracy/Timings.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/Page.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "tools/common/Console.h"
 #include "tools/common/Html.h"
 #include "tools/paths/Paths.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/References.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 #include "tools/accuracy/TracedPicture.h"
 
 namespace filament::accuracy {

@@ -8,7 +8,7 @@
 ///   Thread  any.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filament/Environment.h>
 #include <filament/Gltf.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/TracedMaterial.h"
 
-#include "filament_core/base/Suggest.h"
+#include "base/Suggest.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/conformance/MaterialModel.h"
@@ -113,7 +113,7 @@ void occlude(SurfaceSample& surface, double wallHeight, bool hasBentNormal) {
     surface.bentNormal = glm::normalize(surface.tangent * open.x + bitangent * open.y + surface.normal * open.z);
 }
 
-/// As shaders/material/surface_lit_shading.glsl.
+/// As shaders/material/surface/lit_shading.glsl.
 void applyTo(SurfaceSample& surface, Inputs const& in, shader::MaterialPackage const& package) {
     const bool isCloth = package.shading == shader::ShadingModel::Cloth;
     surface.metallic = in.metallic;

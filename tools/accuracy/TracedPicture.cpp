@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/TracedPicture.h"
 
-#include "filament_core/assets/GltfLoader.h"
-#include "filament_core/assets/HdrReader.h"
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/assets/image/HdrReader.h"
 #include "tools/conformance/MaterialModel.h"
 
 #include <type_traits>

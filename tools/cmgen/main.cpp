@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // cmgen: bakes an environment and shows what the engine will look up: cube faces per mip level, spherical harmonics,
 // the DFG table. Exit status 0: done, 1: it failed (one line on standard error), 2: wrong arguments.
-#include "filament_core/assets/DfgTable.h"
-#include "filament_core/assets/Environment.h"
-#include "filament_core/assets/ImageWriter.h"
-#include "filament_core/math/Half.h"
-#include "filament_core/math/Rgbm.h"
-#include "filament_core/math/SharedExponent.h"
+#include "base/math/Half.h"
+#include "base/math/Rgbm.h"
+#include "base/math/SharedExponent.h"
+#include "filament_core/assets/environment/Environment.h"
+#include "filament_core/assets/image/ImageWriter.h"
+#include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/lib/LibCpp.h"
 
 #include <CLI/CLI.hpp>

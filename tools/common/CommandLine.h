@@ -5,7 +5,7 @@
 ///   Thread  pure functions, but for the help text on standard output.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <array>
 #include <optional>

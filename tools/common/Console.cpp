@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/common/Console.h"
 
-#include "filament_core/base/Log.h"
+#include "base/Log.h"
 
 #include <algorithm>
 #include <cstdio>

@@ -5,7 +5,7 @@
 ///   Thread  the main thread.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "tools/common/Console.h"
 
 #include <exception>

@@ -5,7 +5,7 @@
 ///   right.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filament/Camera.h>
 #include <filament/Environment.h>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Baselines.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "tools/conformance/Flip.h"
 #include "tools/conformance/ImageChecks.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/BuiltModel.h"
 
-#include "filament_core/assets/GltfWriter.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
 #include "tools/showcase/Shapes.h"
 #include "tools/showcase/Textures.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/ImageChecks.h"
 
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 
 #include <fmt/format.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/JsonReader.h"
 
-#include "filament_core/base/Suggest.h"
+#include "base/Suggest.h"
 
 #include <algorithm>
 #include <cmath>

@@ -6,7 +6,7 @@
 ///   Thread  one.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filament/Math.h>
 

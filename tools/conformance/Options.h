@@ -3,7 +3,7 @@
 ///   Fails   InvalidArgument in one line that names the option, the value and what would be right.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filament/Engine.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Runner.h"
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 #include "tools/common/Console.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Mutations.h"

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/SceneAssets.h"
 
-#include "filament_core/assets/AnalyticSky.h"
-#include "filament_core/assets/EnvironmentFile.h"
-#include "filament_core/assets/ImageWriter.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
+#include "filament_core/assets/environment/AnalyticSky.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/ImageWriter.h"
 #include "tools/conformance/BuiltModel.h"
 #include "tools/showcase/Showcase.h"
 

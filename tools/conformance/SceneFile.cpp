@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/SceneFile.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/files/FileBytes.h"
 
 #include <glm/ext/matrix_transform.hpp>
 

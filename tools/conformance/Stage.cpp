@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Stage.h"
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filament/Animator.h>
 #include <fmt/core.h>

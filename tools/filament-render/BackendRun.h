@@ -7,7 +7,7 @@
 ///   Fails   DeviceUnavailable and what the loaders say; errors that the device reported while it drew are in `errors`.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "tools/filament-render/Options.h"
 
 #include <filament/QualityBudget.h>

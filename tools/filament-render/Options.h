@@ -3,7 +3,7 @@
 ///   Fails   parseOptions: InvalidArgument in one line that names the option, the value and what would be right.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "tools/common/SceneOptions.h"
 
 #include <filament/Engine.h>

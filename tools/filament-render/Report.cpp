@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/Report.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/files/FileBytes.h"
 
 #include <nlohmann/json.hpp>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-render [MODEL] [options]: one command line, one or two backends, their pictures and the comparison of the
 // two. Exit status 0: everything asked for was drawn and, with two backends, all pixels are equal (within --tolerance).
-#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "tools/common/Console.h"
 #include "tools/common/Machine.h"
 #include "tools/common/Program.h"

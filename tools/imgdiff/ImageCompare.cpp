@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/imgdiff/ImageCompare.h"
 
-#include "filament_core/base/Assert.h"
-#include "filament_core/math/Half.h"
+#include "base/Assert.h"
+#include "base/math/Half.h"
 
 #include <algorithm>
 #include <cmath>

@@ -7,7 +7,7 @@
 ///   Fails   InvalidArgument when sizes, formats or byte counts do not fit each other.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <filament/Image.h>
 

@@ -3,7 +3,7 @@
 ///   Out     the same bytes for any number of threads. Nothing is written if there is an error.
 ///   Status  0: written; 1: the reason is on standard error, as the guide shows it (5.1): "ERROR: file:line: reason"
 ///           with the line of the author's file, and which material was not compiled.
-#include "filament_core/base/Suggest.h"
+#include "base/Suggest.h"
 #include "jobsystem/JobSystem.h"
 #include "shaders/compiler/Cost.h"
 #include "shaders/compiler/MaterialCompiler.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/materials/MaterialFile.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "shaders/compiler/MaterialCompiler.h"
 
 #include <algorithm>

@@ -11,7 +11,7 @@
 ///   Fails   what the compiler says, or Unreadable with the path.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "shaders/package/Package.h"
 
 #include <cstdint>

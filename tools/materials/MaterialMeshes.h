@@ -10,7 +10,7 @@
 ///   Thread  any; pure.
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <array>
 #include <cstdint>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/materials/MaterialPictures.h"
 
-#include "filament_core/base/Result.h"
-#include "filament_core/math/Math.h"
+#include "base/Result.h"
+#include "base/math/Math.h"
 #include "tools/showcase/Textures.h"
 
 #include <cmath>

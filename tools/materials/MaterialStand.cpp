@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/materials/MaterialStand.h"
 
-#include "filament_core/base/Suggest.h"
+#include "base/Suggest.h"
 #include "shaders/package/EngineMaterials.h"
 #include "tools/materials/MaterialMeshes.h"
 #include "tools/materials/MaterialValues.h"

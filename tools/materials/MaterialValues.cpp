@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/materials/MaterialValues.h"
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <cmath>
 #include <cstdlib>

@@ -6,7 +6,7 @@
 ///   Fails   what a compiler or a device says. Cost: seconds with a warm shader cache.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "tools/numerics/table/Measure.h"
 
 #include <array>

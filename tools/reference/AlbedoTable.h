@@ -6,7 +6,7 @@
 ///   Thread  read-only after construction. Memory: sizeof(Value) a node.
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <algorithm>
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// CoatLayer: a clear coat of index 1.5: its lobe, and what it leaves to the layers below.
-///   Engine  shaders/material/surface_coat.glsl: Kelemen's visibility, Schlick's term. Below it everything is
+///   Engine  shaders/material/surface/coat.glsl: Kelemen's visibility, Schlick's term. Below it everything is
 ///           multiplied by the lesser of what passes towards the view and from the light, neither of which bends;
 ///           ambient light by the former.
 ///   Exact   Smith's visibility, Fresnel's equations. Directions bend at the coat; radiance from within is spread over

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Coupling: the share of light that the diffuse lobe gets below the specular one (CouplingTerm).
 ///   Formula  diffuseEntry() and diffuseExit() of shaders/lib/brdf.glsl with exact albedos; of stretched lobes the
-///            engine's bound, groovesRoughness() of shaders/material/surface_anisotropy.glsl.
+///            engine's bound, groovesRoughness() of shaders/material/surface/anisotropy.glsl.
 ///   Thread   a value. Memory: none. Fails: never.
 #pragma once
 

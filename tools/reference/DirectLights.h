@@ -7,7 +7,7 @@
 ///   Memory  80 bytes a light. Thread: read-only after construction.
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <filament/Light.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/DirectionalAlbedo.h"
 
-#include "filament_core/math/GaussLegendre.h"
+#include "base/math/GaussLegendre.h"
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/AlbedoTable.h"
 

@@ -9,8 +9,8 @@
 ///   cell and the picture, shared. Thread: read-only after construction.
 #pragma once
 
-#include "filament_core/assets/HdrImage.h"
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
+#include "filament_core/assets/image/HdrImage.h"
 #include "tools/reference/Distribution.h"
 #include "tools/reference/Prefiltered.h"
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Part: one primitive of a model, placed in the world: triangles for Embree, and what the vertex stage makes of the
-/// attributes (shaders/material/surface_vertex_main.glsl) in double precision.
+/// attributes (shaders/material/surface/vertex_main.glsl) in double precision.
 ///   In      a primitive of triangles and the transform of its node; attributes in any format that the loader packs.
 ///   Out     positions relative to `origin`, as floats: what Embree intersects is what is interpolated.
 ///   Memory  96 bytes a vertex, 12 a triangle. Thread: one part on one thread; then read-only.
 #pragma once
 
-#include "filament_core/assets/ModelData.h"
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
+#include "filament_core/assets/gltf/ModelData.h"
 
 #include <functional>
 #include <vector>

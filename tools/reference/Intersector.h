@@ -7,7 +7,7 @@
 ///   Memory  about 100 bytes a triangle.  Fails: OutOfMemory, DeviceUnavailable with Embree's reason.
 #pragma once
 
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 #include "tools/reference/Geometry.h"
 
 #include <array>

@@ -55,7 +55,7 @@ void evaluateMetallicRoughness(MaterialPoint const& point, double3 baseColor, Su
     addLayers(point, baseColor, roughness, surface);
 }
 
-// KHR_materials_pbrSpecularGlossiness, as shaders/material/gltf_specular_glossiness.glsl.
+// KHR_materials_pbrSpecularGlossiness, as shaders/material/gltf/specular_glossiness.glsl.
 void evaluateSpecularGlossiness(MaterialPoint const& point, double3 baseColor, SurfaceSample& surface) {
     assets::SpecularGlossinessData const& data = *point.material().specularGlossiness;
     const double4 map = has(data.map) ? point.fetch(data.map) : double4(1.0);

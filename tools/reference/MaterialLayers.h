@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the KHR_materials extensions add to a metallic-roughness surface, as shaders/material/gltf_layers.glsl and
-/// gltf_transmission.glsl hand it to the engine's shading.
+/// What the KHR_materials extensions add to a metallic-roughness surface, as shaders/material/gltf/layers.glsl and
+/// gltf/transmission.glsl hand it to the engine's shading.
 ///   Not here  iridescence: TracedScene warns.
 ///   Thread    pure functions.
 #pragma once

@@ -78,7 +78,7 @@ double3 Interface::single(double cosine) const {
         outside = std::sqrt(1 - sine2);
     }
     if (mTerm == FresnelTerm::Schlick) return lib::fresnelSchlick(mF0, mF90, outside);
-    return lib::fresnelExact(mF0, mMetallic, outside) * mF90; // as shaders/material/surface_quality.glsl
+    return lib::fresnelExact(mF0, mMetallic, outside) * mF90; // as shaders/material/surface/quality.glsl
 }
 
 double3 Interface::throughSheet(double cosine) const {

@@ -6,8 +6,8 @@
 ///   Thread  values. Memory: none.
 #pragma once
 
-#include "filament_core/assets/HdrImage.h"
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
+#include "filament_core/assets/image/HdrImage.h"
 
 #include <array>
 

@@ -10,9 +10,9 @@
 ///   Cost    README.md
 #pragma once
 
-#include "filament_core/assets/HdrImage.h"
-#include "filament_core/assets/ModelData.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
+#include "filament_core/assets/gltf/ModelData.h"
+#include "filament_core/assets/image/HdrImage.h"
 #include "jobsystem/JobSystem.h"
 #include "tools/reference/BsdfModel.h"
 

@@ -19,13 +19,13 @@ Frame frameOf(SurfaceSample const& surface) {
     return isStretched(surface) ? Frame(surface.normal, surface.tangent) : Frame(surface.normal);
 }
 
-// What a stretched lobe loses: shaders/material/surface_anisotropy.glsl, groovesCompensation().
+// What a stretched lobe loses: shaders/material/surface/anisotropy.glsl, groovesCompensation().
 double3 compensationOfGrooves(double3 compensation, double anisotropy) {
     const double amount = std::abs(anisotropy);
     return 1.0 + (compensation - 1.0) * (1 - amount * (0.85 - 0.25 * amount));
 }
 
-// What the far side of a sheet adds to the albedo of the near one: surface_refraction.glsl, farReflectedShare().
+// What the far side of a sheet adds to the albedo of the near one: surface/refraction.glsl, farReflectedShare().
 double3 farReflectedShare(SurfaceSample const& surface, double nov, double3 f) {
     TransmissionSample const& below = surface.transmission;
     if (!below.isThin || below.color == double3(0.0)) return double3(0.0);
@@ -41,7 +41,7 @@ double3 StandardLobes::mirroredView(SurfaceSample const& surface) const {
     return 2 * glm::dot(bent, mView) * bent - mView;
 }
 
-// As shaders/material/surface_occlusion.glsl, without bounces between what occludes.
+// As shaders/material/surface/occlusion.glsl, without bounces between what occludes.
 double StandardLobes::specularOcclusionOf(SurfaceSample const& surface) const {
     if (surface.bentNormal) {
         const double3 mirrored(-mView.x, -mView.y, mView.z);
@@ -84,7 +84,7 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     if (model.lobes != LobeChoice::Diffuse) mCompensation = compensationOfGrooves(mCompensation, surface.anisotropy);
 }
 
-// As shaders/material/surface_anisotropy.glsl for a stretched lobe: looked up along a bent normal.
+// As shaders/material/surface/anisotropy.glsl for a stretched lobe: looked up along a bent normal.
 void StandardLobes::usePrefiltered(SurfaceSample const& surface, double2 dfg) {
     mLobe.emplace(mRoughness, mModel.splitSumLevels);
     mLobeAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation;

@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SurfaceSample: all that shading needs to know about the point that a ray hit: the engine's struct Surface
-/// (shaders/material/surface_lit_main.glsl) in double precision, with its geometry. Each further layer is a struct of
+/// (shaders/material/surface/main.glsl) in double precision, with its geometry. Each further layer is a struct of
 /// its own whose default is not there; Bsdf.h stacks them.
 ///   Space   world relative to TracedScene's origin; directions are unit.
 ///   Roughness  perceptual, clamped to what the engine's fp32 shading takes, [0.045, 1].
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <optional>
 
 namespace filament::reference {
 
-/// As in shaders/material/surface_fragment_api.glsl.
+/// As in shaders/material/surface/fragment_api.glsl.
 inline constexpr double kMinNov = 1e-4;
 
 /// Above everything else: dielectric, of index 1.5 (shaders/lib/coat.glsl).
@@ -82,7 +82,7 @@ struct SurfaceSample {
     DiffuseTransmissionSample diffuseTransmission{};
 
     double opacity = 1;          ///< 1 - what passes straight through
-    double3 emitted{ 0.0 };      ///< radiance as it goes into the picture: not exposed, see gltf_lit.glsl
+    double3 emitted{ 0.0 };      ///< radiance as it goes into the picture: not exposed, see gltf/lit.glsl
     bool scatters = true;        ///< false: unlit, emits its colour and reflects nothing
     double selfAvoidance = 1e-6; ///< metres along the geometric normal that keep a new ray off this surface
 
@@ -94,7 +94,7 @@ struct SurfaceSample {
     }
 };
 
-// As shaders/material/surface_lit_shading.glsl.
+// As shaders/material/surface/lit_shading.glsl.
 
 /// What grazing light finds: what reflects less than 2 % wants no reflection at all.
 double f90Of(double3 f0);

@@ -7,7 +7,7 @@
 ///   Thread  pure functions.
 #pragma once
 
-#include "filament_core/assets/ModelData.h"
+#include "filament_core/assets/gltf/ModelData.h"
 
 namespace filament::reference {
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/TracedScene.h"
 
-#include "filament_core/math/Box.h"
+#include "base/math/Box.h"
 #include "tools/reference/Material.h"
 
 #include <algorithm>

@@ -36,7 +36,7 @@ TransmissionLobe::TransmissionLobe(SurfaceSample const& surface, BsdfModel const
     }
 }
 
-// As shaders/material/surface_refraction.glsl.
+// As shaders/material/surface/refraction.glsl.
 void TransmissionLobe::lookUp(SurfaceSample const& surface, double3 f) {
     TransmissionSample const& below = surface.transmission;
     mKind = Kind::LookUp;

@@ -5,7 +5,7 @@
 ///   Thin    the lobe of reflection, mirrored to the other side, as wide as the engine takes it to be
 ///           (refractionPerceptualRoughness()); both sides and all bounces between them (Interface).
 ///   Look-up Integrator::Unoccluded traces one surface only: a solid is the ball that the engine takes it for
-///           (shaders/material/surface_refraction.glsl), its lobe the pre-filtered one around the direction that leaves
+///           (shaders/material/surface/refraction.glsl), its lobe the pre-filtered one around the direction that leaves
 ///           it. With SpecularLight::SplitSum a sheet is looked through in the same way. Lights are not looked up: none
 ///           shines through a ball.
 ///   Space   world. Thread: a value. Memory: none.

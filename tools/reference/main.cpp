@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-reference [MODEL] [options]: the picture that filament-render approximates, from the same command line.
 // Exit status 0: rendered and written.
-#include "filament_core/assets/GltfLoader.h"
-#include "filament_core/assets/HdrReader.h"
-#include "filament_core/assets/ModelVariants.h"
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/assets/gltf/ModelVariants.h"
+#include "filament_core/assets/image/HdrReader.h"
 #include "tools/common/Console.h"
 #include "tools/common/Program.h"
 #include "tools/common/SceneFiles.h"

@@ -4,7 +4,7 @@
 ///   Thread  any; pure functions.  Cost: fractalNoise about 30 ns an octave, cells about 150 ns.
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <cstdint>
 

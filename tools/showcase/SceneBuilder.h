@@ -4,7 +4,7 @@
 ///   Fails   only addPictures(), when the encoder does.
 #pragma once
 
-#include "filament_core/assets/GltfWriter.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
 #include "jobsystem/JobSystem.h"
 #include "tools/showcase/Shapes.h"
 #include "tools/showcase/Textures.h"

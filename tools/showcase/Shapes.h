@@ -6,7 +6,7 @@
 ///   Limits  65 536 vertices a shape, asserted: 16-bit indices are enough.
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <cstdint>
 #include <span>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/showcase/Showcase.h"
 
-#include "filament_core/assets/AnalyticSky.h"
-#include "filament_core/assets/EnvironmentFile.h"
-#include "filament_core/assets/ImageWriter.h"
+#include "filament_core/assets/environment/AnalyticSky.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/ImageWriter.h"
 #include "tools/showcase/SceneBuilder.h"
 
 #include <glm/common.hpp>

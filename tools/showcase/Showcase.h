@@ -10,8 +10,8 @@
 ///   Cost    about 0.3 s on two cores; bench by `filament-render --timing`.
 #pragma once
 
-#include "filament_core/assets/GltfWriter.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
 #include "jobsystem/JobSystem.h"
 
 #include <filesystem>

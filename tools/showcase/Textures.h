@@ -5,7 +5,7 @@
 ///   Thread  any; pure functions.  Cost: 20 to 60 ms for 512 x 512 texels on one core.
 #pragma once
 
-#include "filament_core/math/Math.h"
+#include "base/math/Math.h"
 
 #include <cstddef>
 #include <cstdint>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // What loading a model costs, part by part: mip chains, tangents, and a whole generated file with and without workers.
-#include "filament_core/assets/GltfLoader.h"
-#include "filament_core/assets/GltfWriter.h"
-#include "filament_core/assets/MipMaps.h"
-#include "filament_core/assets/Tangents.h"
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
+#include "filament_core/assets/gltf/Tangents.h"
+#include "filament_core/assets/image/MipMaps.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // What it costs to bake an environment of 1024 x 512, step by step, and to load it again. Without assets: an analytic
 // sky.
-#include "filament_core/assets/AnalyticSky.h"
-#include "filament_core/assets/DfgTable.h"
-#include "filament_core/assets/Environment.h"
-#include "filament_core/assets/ImageWriter.h"
+#include "filament_core/assets/environment/AnalyticSky.h"
+#include "filament_core/assets/environment/Environment.h"
+#include "filament_core/assets/image/ImageWriter.h"
+#include "filament_core/assets/tables/DfgTable.h"
 
 #include <benchmark/benchmark.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/backend/create/Texel.h"
 
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 
 #include <cmath>
 

@@ -2,7 +2,7 @@
 // What a vertex stage reads from each vertex format, and from attributes that are not there.
 #include "tests/backend/create/Gpu.h"
 
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 
 #include <gmock/gmock.h>
 

@@ -4,7 +4,7 @@
 
 #include "backend/null/NullDriver.h"
 #include "backend/stream/CommandStream.h"
-#include "filament_core/base/Log.h"
+#include "base/Log.h"
 
 #include <gtest/gtest.h>
 

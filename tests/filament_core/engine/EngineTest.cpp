@@ -5,7 +5,7 @@
 
 #include "backend/create/CreateDriver.h"
 #include "backend/layers/Traced.h"
-#include "filament_core/base/Log.h"
+#include "base/Log.h"
 #include "shaders/package/EngineMaterials.h"
 
 #include <nlohmann/json.hpp>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // White furnace: in a constant environment a surface that absorbs nothing is invisible.
-#include "filament_core/engine/GltfMaterials.h"
+#include "filament_core/engine/gltf/GltfMaterials.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
 #include "tests/scenes/Sphere.h"

@@ -2,7 +2,7 @@
 /// What the image tests share: an engine on a named backend, pictures as floats, skips in plain words.
 #pragma once
 
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 #include "tools/paths/Paths.h"
 
 #include <filament/filament.h>

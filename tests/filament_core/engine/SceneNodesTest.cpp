@@ -3,7 +3,7 @@
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/scenes/Sphere.h"
 
-#include "filament_core/assets/GltfWriter.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
 
 #include <unistd.h>
 

@@ -3,8 +3,8 @@
 ///   Pictures are those of onBothApis() (MaterialStage.h): scene-linear, and the same bits on both APIs.
 #pragma once
 
-#include "filament_core/assets/IblDirections.h"
-#include "tests/filament_core/engine/MaterialStage.h"
+#include "filament_core/assets/environment/IblDirections.h"
+#include "tests/filament_core/engine/materials/MaterialStage.h"
 #include "tests/scenes/Sphere.h"
 
 #include <cmath>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #pragma once
 
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 
 #include <filament/filament.h>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/UpdateTransforms.h"
 
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "filament_core/scene/SceneNodes.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/numerics/scenes/Exact.h"
 
-#include "filament_core/assets/DfgTable.h"
+#include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/lib/LibCppDouble.h"
 
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // glTF files whose attributes are degenerate: each is drawn without inf and NaN. What is broken instead (wrong counts,
-// indices out of range) is refused: tests/filament_core/assets/GltfBrokenFileTest.cpp.
-#include "tests/filament_core/assets/GltfTestFile.h"
+// indices out of range) is refused: tests/filament_core/assets/gltf/GltfBrokenFileTest.cpp.
+#include "tests/filament_core/assets/gltf/GltfTestFile.h"
 #include "tests/numerics/scenes/HardCase.h"
 
 #include <fmt/format.h>

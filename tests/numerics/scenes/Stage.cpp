@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/numerics/scenes/Stage.h"
 
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 #include "shaders/package/EngineMaterials.h"
 #include "tests/scenes/Sphere.h"
 #include "tools/paths/Paths.h"

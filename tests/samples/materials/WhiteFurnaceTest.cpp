@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // White furnace of every shading model and layer as they are drawn: a sphere that is white all through, in a white
 // environment, is nowhere brighter than what is behind it, on both APIs. Prints what is lost at most.
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 #include "tools/conformance/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
 #include "tools/materials/MaterialTerms.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What a material sets decides what it costs: an unset member and a neutral one change no bit of the package.
 #include "shaders/compiler/MaterialAnalysis.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 #include "shaders/compiler/EmbeddedSources.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/compiler/MaterialMembers.h"

@@ -3,7 +3,7 @@
 /// error that says where, up to the GLSL that would be handed to glslang.
 #pragma once
 
-#include "filament_core/base/Assert.h"
+#include "base/Assert.h"
 #include "shaders/compiler/GlslGenerator.h"
 #include "shaders/compiler/MaterialDefinition.h"
 #include "shaders/compiler/Reflection.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // What is said and means nothing costs nothing: a property at its default and a member at its neutral value give the
 // bytes of a material that does not mention them, whatever the shading model.
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/StateProperties.h"

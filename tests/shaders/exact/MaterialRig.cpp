@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tests/shaders/exact/MaterialRig.h"
 
-#include "filament_core/assets/DfgTable.h"
+#include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/package/EngineMaterials.h"
 #include "shaders/package/ParameterLayout.h"

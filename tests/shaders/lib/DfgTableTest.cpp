@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The table's four integrals against closed forms and against slower ways to integrate.
-#include "filament_core/assets/DfgTable.h"
-#include "filament_core/math/Half.h"
+#include "filament_core/assets/tables/DfgTable.h"
+#include "base/math/Half.h"
 #include "shaders/lib/LibCppDouble.h"
 #include "tests/shaders/lib/Numeric.h"
 

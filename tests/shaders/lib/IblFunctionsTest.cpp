@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/DfgTable.h"
+#include "filament_core/assets/tables/DfgTable.h"
 #include "tests/shaders/lib/Numeric.h"
 
 #include <gtest/gtest.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The terms that <filament/Quality.h> offers beside the defaults, against closed forms and second formulas.
-#include "filament_core/assets/DfgTable.h"
+#include "filament_core/assets/tables/DfgTable.h"
 #include "tests/shaders/lib/Numeric.h"
 
 #include <gtest/gtest.h>

@@ -2,8 +2,8 @@
 /// One body for the fuzzer (tests/fuzz/PackageFuzz.cpp) and for the replay test: any bytes give a package or an error.
 #pragma once
 
-#include "filament_core/base/Assert.h"
-#include "filament_core/base/Hash.h"
+#include "base/Assert.h"
+#include "base/Hash.h"
 #include "shaders/package/Package.h"
 
 #include <cstring>

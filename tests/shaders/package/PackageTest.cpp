@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/package/Package.h"
 
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 #include "shaders/package/ParameterLayout.h"
 #include "tests/shaders/package/PackageFuzzBody.h"
 #include "tools/paths/Paths.h"

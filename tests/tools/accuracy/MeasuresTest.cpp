@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Statistics and distances of pictures against closed forms.
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 #include "tools/accuracy/Picture.h"
 #include "tools/accuracy/Statistics.h"
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The program itself, as a user starts it: every bad input ends with one line and a status, never with a crash.
-#include "filament_core/assets/EnvironmentFile.h"
-#include "filament_core/assets/HdrReader.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/HdrReader.h"
 #include "tools/paths/Paths.h"
 #include "tools/showcase/Showcase.h"
 

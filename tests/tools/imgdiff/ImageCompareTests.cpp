@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/math/Half.h"
+#include "base/math/Half.h"
 #include "tools/imgdiff/ImageCompare.h"
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 // exact integrals where both must agree.
 #include "tests/tools/reference/TestScenes.h"
 
-#include "filament_core/assets/IblBaker.h"
+#include "filament_core/assets/environment/IblBaker.h"
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/Bsdf.h"
 #include "tools/reference/EnvironmentLight.h"

@@ -2,9 +2,9 @@
 // filament-reference from outside: its options, its files, its one-line errors.
 #include "tests/tools/reference/TestScenes.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
-#include "filament_core/assets/HdrReader.h"
-#include "filament_core/assets/ImageWriter.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/HdrReader.h"
+#include "filament_core/assets/image/ImageWriter.h"
 #include "tools/paths/Paths.h"
 #include "tools/reference/Output.h"
 

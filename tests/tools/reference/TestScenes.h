@@ -2,8 +2,8 @@
 /// Models made by hand, skies made by formula, and the statistics that tests of random estimates need.
 #pragma once
 
-#include "filament_core/assets/IblDirections.h"
-#include "filament_core/assets/TangentFrame.h"
+#include "filament_core/assets/environment/IblDirections.h"
+#include "filament_core/assets/gltf/TangentFrame.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "tools/reference/Reference.h"
 

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "filament_core/assets/AnalyticSky.h"
-#include "filament_core/assets/EnvironmentFile.h"
-#include "filament_core/assets/GltfLoader.h"
-#include "filament_core/assets/HdrReader.h"
+#include "filament_core/assets/environment/AnalyticSky.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/assets/image/HdrReader.h"
 #include "tools/showcase/Showcase.h"
 
 #include <gtest/gtest.h>

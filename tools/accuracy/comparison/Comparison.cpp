@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/comparison/Comparison.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
-#include "filament_core/base/Suggest.h"
+#include "base/Suggest.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "tools/accuracy/References.h"
 #include "tools/accuracy/TracedPicture.h"
 #include "tools/conformance/Flip.h"

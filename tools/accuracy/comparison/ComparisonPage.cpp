@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/comparison/ComparisonPage.h"
 
-#include "filament_core/assets/EnvironmentFile.h"
-#include "filament_core/assets/ImageWriter.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/ImageWriter.h"
 #include "tools/common/Html.h"
 
 #include <nlohmann/json.hpp>

@@ -20,7 +20,7 @@ void main() {
 }
 )";
 
-/// As in lit materials whose lighting runs in half precision (shaders/material/surface_half.glsl).
+/// As in lit materials whose lighting runs in half precision (shaders/material/surface/half.glsl).
 constexpr std::string_view kHalfPrelude = R"(
 #define HALF_PRECISION 1
 precision mediump float;

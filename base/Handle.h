@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// HandleAllocator: gives handles out and takes them back.
+///   Thread  any; one short lock per call. Never waits for a driver or a device.
+///   Limits  2^20 live handles; beyond it allocate() asserts, naming the type's limit.
+///   Fails   allocate() throws std::bad_alloc and changes nothing; free() never fails.
+#pragma once
+
+#include "base/Assert.h"
+
+#include <filament/Handle.h>
+
+#include <algorithm>
+#include <cstdint>
+#include <mutex>
+#include <vector>
+
+namespace filament {
+
+template <class Tag>
+class HandleAllocator {
+public:
+    Handle<Tag> allocate() {
+        const std::lock_guard lock(mMutex);
+        if (mFree.empty()) {
+            FILAMENT_ASSERT(mGenerations.size() <= Handle<Tag>::kIndexMask, "at most 2^20 handles of one type");
+            reserveFree(mGenerations.size() + 1);
+            mGenerations.push_back(1);
+            return Handle<Tag>::make(static_cast<uint32_t>(mGenerations.size() - 1), 1);
+        }
+        const uint32_t index = mFree.back();
+        mFree.pop_back();
+        return Handle<Tag>::make(index, mGenerations[index]);
+    }
+
+    /// Takes a handle back; its index is given out again under another generation.
+    void free(Handle<Tag> handle) {
+        const std::lock_guard lock(mMutex);
+        FILAMENT_ASSERT(isLiveLocked(handle), "a handle is freed once, and only by whoever allocated it");
+        uint32_t& generation = mGenerations[handle.index()];
+        generation = generation == Handle<Tag>::kMaxGeneration ? 1 : generation + 1;
+        mFree.push_back(handle.index());
+    }
+
+    bool isLive(Handle<Tag> handle) const {
+        const std::lock_guard lock(mMutex);
+        return isLiveLocked(handle);
+    }
+
+    uint32_t liveCount() const {
+        const std::lock_guard lock(mMutex);
+        return static_cast<uint32_t>(mGenerations.size() - mFree.size());
+    }
+
+private:
+    bool isLiveLocked(Handle<Tag> handle) const {
+        return handle && handle.index() < mGenerations.size() && mGenerations[handle.index()] == handle.generation();
+    }
+
+    // Room for every handle to come back.
+    void reserveFree(size_t count) {
+        if (mFree.capacity() < count) mFree.reserve(std::max(count, 2 * mFree.capacity()));
+    }
+
+    mutable std::mutex mMutex;
+    std::vector<uint32_t> mGenerations; // of the handle given out last, or of the next one
+    std::vector<uint32_t> mFree;
+};
+
+} // namespace filament

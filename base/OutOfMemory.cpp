@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/OutOfMemory.h"
+
+#include "base/Result.h"
+
+namespace filament {
+
+Error outOfMemory(std::string_view doing, std::string_view object) noexcept {
+    try {
+        if (object.empty()) return fail(ErrorCode::OutOfMemory, "{}: out of memory; free some and try again", doing);
+        return fail(ErrorCode::OutOfMemory, "{} '{}': out of memory; free some and try again", doing, object);
+    } catch (std::bad_alloc const&) {
+        return { ErrorCode::OutOfMemory, "out of memory" }; // short enough to lie in the string itself
+    }
+}
+
+} // namespace filament

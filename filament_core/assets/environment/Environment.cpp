@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/environment/Environment.h"
+
+#include "base/Log.h"
+#include "filament_core/assets/environment/EnvironmentCache.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/HdrReader.h"
+
+#include <algorithm>
+#include <bit>
+#include <cstdlib>
+#include <new>
+
+namespace filament::assets {
+namespace {
+
+Result<void> checkOptions(EnvironmentOptions const& options) {
+    if (!std::has_single_bit(options.faceSize) || options.faceSize < 16 || options.faceSize > 2048) {
+        return fail(ErrorCode::InvalidArgument, "environment face size {} is not a power of two in [16, 2048]",
+                    options.faceSize);
+    }
+    if (options.samples < 1 || options.samples > 65536) {
+        return fail(ErrorCode::InvalidArgument, "{} environment samples are not in [1, 65536]", options.samples);
+    }
+    if (!isEnvironmentFormat(options.format)) {
+        return fail(ErrorCode::InvalidArgument,
+                    "environment format {} is none of RGBA16F, R11G11B10F, RGB9E5 and RGBA8",
+                    backend::formatInfo(options.format).name);
+    }
+    return {};
+}
+
+void report(EnvironmentOptions const& options, std::string_view stage, size_t done, size_t total) {
+    if (options.progress) options.progress(stage, done, total);
+}
+
+void warnAboutRepairs(std::filesystem::path const& path, HdrRepairs const& repairs) {
+    if (repairs.total() == 0) return;
+    log(Severity::Warning, "'{}': replaced {} NaN, {} infinite and {} negative components", path.string(),
+        repairs.notANumber, repairs.infinite, repairs.negative);
+}
+
+std::filesystem::path cacheFile(std::filesystem::path const& directory, uint64_t key) {
+    return directory / fmt::format("environment-{:016x}.bin", key);
+}
+
+Result<EnvironmentData> readCached(std::filesystem::path const& file, uint64_t key) {
+    const Result<std::vector<std::byte>> bytes = readFileBytes(file);
+    if (!bytes) return bytes.error();
+    return decodeEnvironment(*bytes, key);
+}
+
+Result<EnvironmentData> bakePicture(std::span<const std::byte> picture, std::filesystem::path const& path,
+                                    jobs::JobSystem& jobs, EnvironmentOptions const& options) {
+    report(options, "decode", 0, 1);
+    const Result<HdrImage> image = decodeHdrImage(picture, path.string());
+    if (!image) return image.error();
+    report(options, "decode", 1, 1);
+    return bakeEnvironment(*image, jobs, options);
+}
+
+Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs::JobSystem& jobs,
+                                         EnvironmentOptions const& options) {
+    const Result<std::vector<std::byte>> picture = readFileBytes(path);
+    if (!picture) return picture.error();
+    const std::filesystem::path directory =
+            options.useCache ? environmentCacheDirectory(options) : std::filesystem::path();
+    if (directory.empty()) return bakePicture(*picture, path, jobs, options);
+
+    const uint64_t key = environmentKey(*picture, options);
+    const std::filesystem::path file = cacheFile(directory, key);
+    Result<EnvironmentData> cached = readCached(file, key);
+    if (cached) return cached;
+    if (cached.error().code == ErrorCode::Corrupt) {
+        log(Severity::Warning, "'{}': {}; baking again", file.string(), cached.error().message);
+    }
+    Result<EnvironmentData> baked = bakePicture(*picture, path, jobs, options);
+    if (!baked) return baked;
+    if (Result<void> written = replaceFile(file, encodeEnvironment(*baked, key)); !written) {
+        log(Severity::Warning, "environment is not cached: {}", written.error().message);
+    }
+    return baked;
+}
+
+Image irradianceOf(IblCube const& cube, jobs::JobSystem& jobs) {
+    constexpr uint32_t kSource = 64; // texels a face: as fine as irradianceCube() wants it
+    const size_t level = std::bit_width(std::max(cube.front().size() / kSource, 1u)) - 1u;
+    const IblCubeLevel irradiance = irradianceCube(cube[level], kIrradianceFaceSize, jobs);
+    return encodeCube(std::span(&irradiance, 1), backend::Format::RGBA16F, jobs).image;
+}
+
+} // namespace
+
+uint32_t skyFaceSize(uint32_t sourceWidth) { return std::clamp(std::bit_ceil((sourceWidth + 3) / 4), 16u, 512u); }
+
+std::filesystem::path environmentCacheDirectory(EnvironmentOptions const& options) {
+    if (!options.cacheDirectory.empty()) return options.cacheDirectory;
+    // XDG Base Directory Specification: a relative or empty value counts as unset.
+    if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/') {
+        return std::filesystem::path(cache) / "filament_core";
+    }
+    if (const char* home = std::getenv("HOME"); home && *home == '/') {
+        return std::filesystem::path(home) / ".cache" / "filament_core";
+    }
+    return {};
+}
+
+Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs,
+                                        EnvironmentOptions const& options) try {
+    if (auto checked = checkOptions(options); !checked) return checked.error();
+    if (image.width == 0 || image.height == 0 || image.pixels.size() != size_t(image.width) * image.height) {
+        return fail(ErrorCode::InvalidArgument, "an environment of {} x {} pixels has {} of them", image.width,
+                    image.height, image.pixels.size());
+    }
+    const uint32_t skySize = skyFaceSize(image.width);
+    report(options, "project", 0, 1);
+    const IblCube cube = cubeFromEquirect(image, std::max(skySize, options.faceSize), jobs);
+    report(options, "project", 1, 1);
+
+    EnvironmentData data;
+    data.statistics.sourceWidth = image.width;
+    data.statistics.sourceHeight = image.height;
+    data.statistics.repairs = image.repairs;
+    data.irradianceSh = irradianceSh(cube.front(), jobs);
+    const std::vector<IblCubeLevel> levels = prefilterSpecular(
+            cube, options.faceSize, options.samples, jobs,
+            [&](size_t done, size_t total) { report(options, "prefilter", done, total); }, options.mapping);
+    data.levelOfRoughnessOne = static_cast<float>(levels.size() - 1);
+    EncodedCube specular = encodeCube(levels, options.format, jobs);
+    const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
+    EncodedCube sky = encodeCube(std::span(cube).subspan(skyLevel, 1), options.format, jobs);
+    data.specular = std::move(specular.image);
+    data.sky = std::move(sky.image);
+    data.irradiance = irradianceOf(cube, jobs);
+    data.statistics.specularLoss = specular.loss;
+    data.statistics.skyLoss = sky.loss;
+    return data;
+} catch (std::bad_alloc const&) {
+    return fail(ErrorCode::OutOfMemory, "not enough memory to bake an environment of {} x {} pixels; make it smaller",
+                image.width, image.height);
+}
+
+Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs::JobSystem& jobs,
+                                        EnvironmentOptions const& options) try {
+    if (auto checked = checkOptions(options); !checked) return checked.error();
+    Result<EnvironmentData> data = loadThroughCache(path, jobs, options);
+    if (data) warnAboutRepairs(path, data->statistics.repairs);
+    return data;
+} catch (std::bad_alloc const&) {
+    return fail(ErrorCode::OutOfMemory, "not enough memory to load '{}'; make it smaller", path.string());
+}
+
+} // namespace filament::assets

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/environment/EnvironmentCache.h"
+
+#include "base/Hash.h"
+
+#include <bit>
+#include <cstddef>
+#include <cstring>
+#include <type_traits>
+
+namespace filament::assets {
+namespace {
+
+static_assert(std::endian::native == std::endian::little, "cached environments are little-endian");
+
+constexpr uint64_t kMagic = 0x31564E454C494600; // "\0FILENV1"
+/// Raised with every change of the baker's results or of this layout.
+constexpr uint32_t kBakerVersion = 3;
+constexpr uint32_t kMaxFaceSize = 2048, kMaxLevels = 16;
+
+struct CubeHeader {
+    uint32_t size, levels, format, reserved;
+    uint64_t clippedTexels;
+    double lostEnergy;
+};
+
+// No padding: it would be written uninitialised and the file would differ from run to run.
+struct FileHeader {
+    uint64_t magic, key, checksum; // the checksum covers all bytes after itself
+    uint32_t sourceWidth, sourceHeight;
+    uint64_t notANumber, infinite, negative;
+    std::array<float, 36> irradianceSh;
+    CubeHeader specular, sky, irradiance;
+};
+static_assert(sizeof(FileHeader) == 3 * 8 + 2 * 4 + 3 * 8 + 36 * 4 + 3 * sizeof(CubeHeader) &&
+              sizeof(CubeHeader) == 32);
+static_assert(std::is_trivially_copyable_v<FileHeader>);
+
+constexpr size_t kChecksummedFrom = 24;
+
+CubeHeader headerOf(Image const& cube, EncodeLoss const& loss) {
+    return { cube.width, cube.levels, static_cast<uint32_t>(cube.format), 0, loss.clippedTexels, loss.lostEnergy };
+}
+
+bool isPlausible(CubeHeader const& cube) {
+    const auto format = static_cast<backend::Format>(cube.format);
+    return cube.size >= 1 && cube.size <= kMaxFaceSize && cube.levels >= 1 && cube.levels <= kMaxLevels &&
+           isEnvironmentFormat(format);
+}
+
+Image emptyImage(CubeHeader const& cube) {
+    return { .width = cube.size,
+             .height = cube.size,
+             .layers = 6,
+             .levels = cube.levels,
+             .format = static_cast<backend::Format>(cube.format),
+             .data = {} };
+}
+
+Error corrupt(const char* reason) { return fail(ErrorCode::Corrupt, "a cached environment {}", reason); }
+
+} // namespace
+
+uint64_t environmentKey(std::span<const std::byte> picture, EnvironmentOptions const& options) {
+    const std::array<uint32_t, 5> choices{ kBakerVersion, options.faceSize, options.samples,
+                                           static_cast<uint32_t>(options.format),
+                                           static_cast<uint32_t>(options.mapping) };
+    return hashCombine(hashBytes(picture), hashValue(choices));
+}
+
+std::vector<std::byte> encodeEnvironment(EnvironmentData const& data, uint64_t key) {
+    EnvironmentStatistics const& statistics = data.statistics;
+    FileHeader header{ kMagic,
+                       key,
+                       0,
+                       statistics.sourceWidth,
+                       statistics.sourceHeight,
+                       statistics.repairs.notANumber,
+                       statistics.repairs.infinite,
+                       statistics.repairs.negative,
+                       {},
+                       headerOf(data.specular, statistics.specularLoss),
+                       headerOf(data.sky, statistics.skyLoss),
+                       headerOf(data.irradiance, {}) };
+    std::memcpy(header.irradianceSh.data(), data.irradianceSh.data(), sizeof(header.irradianceSh));
+    std::vector<std::byte> bytes(sizeof(FileHeader));
+    bytes.reserve(bytes.size() + data.specular.data.size() + data.sky.data.size() + data.irradiance.data.size());
+    std::memcpy(bytes.data(), &header, sizeof(header));
+    for (Image const* image : { &data.specular, &data.sky, &data.irradiance })
+        bytes.insert(bytes.end(), image->data.begin(), image->data.end());
+    const uint64_t checksum = hashBytes(std::span(bytes).subspan(kChecksummedFrom));
+    std::memcpy(bytes.data() + offsetof(FileHeader, checksum), &checksum, sizeof(checksum));
+    return bytes;
+}
+
+Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint64_t key) {
+    FileHeader header;
+    if (bytes.size() < sizeof(header)) return corrupt("is cut short");
+    std::memcpy(&header, bytes.data(), sizeof(header));
+    if (header.magic != kMagic || header.key != key) return corrupt("belongs to something else");
+    if (!isPlausible(header.specular) || !isPlausible(header.sky) || !isPlausible(header.irradiance))
+        return corrupt("has an impossible size");
+    EnvironmentData data;
+    data.specular = emptyImage(header.specular);
+    data.sky = emptyImage(header.sky);
+    data.irradiance = emptyImage(header.irradiance);
+    uint64_t texelBytes = 0;
+    for (Image const* image : { &data.specular, &data.sky, &data.irradiance })
+        texelBytes += image->levelOffset(image->levels);
+    if (bytes.size() != sizeof(header) + texelBytes) return corrupt("is cut short");
+    if (hashBytes(bytes.subspan(kChecksummedFrom)) != header.checksum) return corrupt("does not match its checksum");
+
+    auto texels = bytes.subspan(sizeof(header));
+    for (Image* image : { &data.specular, &data.sky, &data.irradiance }) {
+        const auto own = texels.first(image->levelOffset(image->levels));
+        image->data.assign(own.begin(), own.end());
+        texels = texels.subspan(own.size());
+    }
+    std::memcpy(data.irradianceSh.data(), header.irradianceSh.data(), sizeof(header.irradianceSh));
+    data.levelOfRoughnessOne = static_cast<float>(data.specular.levels - 1);
+    data.statistics = { header.sourceWidth,
+                        header.sourceHeight,
+                        { header.notANumber, header.infinite, header.negative },
+                        { header.specular.clippedTexels, header.specular.lostEnergy },
+                        { header.sky.clippedTexels, header.sky.lostEnergy },
+                        true };
+    return data;
+}
+
+} // namespace filament::assets

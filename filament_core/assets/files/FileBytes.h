@@ -1,0 +1,21 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Whole files: read, and replaced in one step so that no reader ever sees half of one.
+///   Thread  any; two writers of one path leave the file of one of them, complete.
+///   Fails   NotFound, Unreadable (also for directories and files above 4 GiB), with path, reason and cure.
+#pragma once
+
+#include "base/Result.h"
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <vector>
+
+namespace filament::assets {
+
+Result<std::vector<std::byte>> readFileBytes(std::filesystem::path const& path);
+
+/// Writes a temporary file beside `path` and renames it; makes missing directories.
+Result<void> replaceFile(std::filesystem::path const& path, std::span<const std::byte> bytes);
+
+} // namespace filament::assets

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+/// DracoMesh: a mesh decoded from a KHR_draco_mesh_compression stream.
+///   In      the bytes of its buffer view; untrusted.
+///   Out     vertices by attribute id, triangles as indices.
+///   Thread  one mesh on one thread; different meshes on different threads.
+///   Memory  the decoded mesh, until destruction.
+///   Fails   Corrupt, naming the primitive; the mesh is then empty. Exceptions of the library do not pass.
+///   Only Draco.cpp sees the library.
+#pragma once
+
+#include "filament_core/assets/files/Diagnostics.h"
+
+#include <cstddef>
+#include <cstdint>
+#include <memory>
+#include <span>
+#include <string_view>
+#include <vector>
+
+namespace filament::assets {
+
+class DracoMesh {
+public:
+    DracoMesh(std::span<const std::byte> stream, std::string_view path, Diagnostics& diagnostics);
+    ~DracoMesh();
+    DracoMesh(DracoMesh&&) noexcept;
+
+    uint32_t vertexCount() const;
+    std::vector<uint32_t> indices() const;
+
+    /// Components of attribute `id`; 0 if the stream does not have it.
+    uint8_t componentCount(uint32_t id) const;
+    /// vertexCount() * components floats; normalised integers are normalised.
+    void read(uint32_t id, uint8_t components, std::span<float> out) const;
+
+private:
+    struct State;
+    std::unique_ptr<State> mState;
+};
+
+} // namespace filament::assets

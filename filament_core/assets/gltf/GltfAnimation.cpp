@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/gltf/GltfAnimation.h"
+
+#include "filament_core/assets/gltf/Accessor.h"
+
+#include <algorithm>
+#include <map>
+#include <optional>
+#include <utility>
+
+namespace filament::assets {
+namespace {
+
+constexpr uint64_t kMaxNumbers = uint64_t{ 1 } << 26;
+
+uint32_t morphTargetCount(GltfMesh const& mesh) {
+    size_t most = 0;
+    for (GltfPrimitive const& primitive : mesh.primitives) most = std::max(most, primitive.targets.size());
+    return static_cast<uint32_t>(most);
+}
+
+/// Reads one animation; its samplers are read when a channel first needs them.
+class Reader {
+public:
+    Reader(GltfDocument const& document, GltfScene const& scene, uint32_t index, uint64_t& numbersLeft,
+           Diagnostics& diagnostics)
+            : mDocument(document), mScene(scene), mSource(document.animations[index]),
+              mPath(fmt::format("animations[{}]", index)), mNumbersLeft(numbersLeft), mDiagnostics(diagnostics) {}
+
+    AnimationData read() {
+        mData.name = mSource.name;
+        for (size_t i = 0; i < mSource.channels.size() && mDiagnostics.ok(); ++i) readChannel(i);
+        for (AnimationSampler const& sampler : mData.samplers) {
+            mData.durationSeconds = std::max(mData.durationSeconds, static_cast<double>(sampler.times.back()));
+        }
+        return std::move(mData);
+    }
+
+private:
+    void readChannel(size_t index) {
+        GltfAnimationChannel const& channel = mSource.channels[index];
+        if (channel.node == kNone) return; // an extension's target
+        const std::string path = fmt::format("{}.channels[{}]", mPath, index);
+        const bool isWeights = channel.path == AnimationPath::Weights;
+        const uint32_t mesh = mDocument.nodes[channel.node].mesh;
+        const uint32_t width = isWeights ? (mesh == kNone ? 0 : morphTargetCount(mDocument.meshes[mesh]))
+                               : channel.path == AnimationPath::Rotation ? 4
+                                                                         : 3;
+        if (width == 0) {
+            mDiagnostics.warn("{}: nodes[{}] has no morph targets; the channel is left out", path, channel.node);
+            return;
+        }
+        const std::optional<uint32_t> sampler = samplerFor(channel, width, path);
+        if (!sampler) return;
+        const auto add = [&](uint32_t node) { mData.channels.push_back({ *sampler, node, channel.path }); };
+        if (isWeights) {
+            for (const uint32_t node : mScene.meshNodes[channel.node]) add(node);
+        } else if (const uint32_t node = mScene.nodeOf[channel.node]; node != kNone) {
+            add(node);
+        }
+    }
+
+    std::optional<uint32_t> samplerFor(GltfAnimationChannel const& channel, uint32_t width, std::string const& path) {
+        const auto [known, isNew] = mKnown.try_emplace({ channel.sampler, channel.path, width }, std::nullopt);
+        if (!isNew) return known->second;
+        AnimationSampler sampler = readSampler(mSource.samplers[channel.sampler], width);
+        sampler.isRotation = channel.path == AnimationPath::Rotation;
+        if (!mDiagnostics.ok() || !isUsable(sampler, path)) return std::nullopt;
+        mData.samplers.push_back(std::move(sampler));
+        known->second = static_cast<uint32_t>(mData.samplers.size() - 1);
+        return known->second;
+    }
+
+    AnimationSampler readSampler(GltfAnimationSampler const& source, uint32_t width) {
+        AnimationSampler sampler{ .interpolation = source.interpolation, .width = width };
+        const uint64_t keys = mDocument.accessors[source.input].count;
+        GltfAccessor const& output = mDocument.accessors[source.output];
+        const uint64_t numbers = keys + output.count * output.components;
+        if (numbers > mNumbersLeft) {
+            mDiagnostics.refuse(ErrorCode::Unsupported, "{}: the animations have more than {} numbers", mPath,
+                                kMaxNumbers);
+            return sampler;
+        }
+        mNumbersLeft -= numbers;
+        sampler.times = readVectors<float>(mDocument, source.input, "the times of an animation", mDiagnostics);
+        if (!mDiagnostics.ok()) return sampler;
+        const uint8_t components = output.components;
+        if (!checkAccessor(mDocument, source.output, { &components, 1 }, "the values of an animation", mDiagnostics))
+            return sampler;
+        sampler.values.resize(output.count * output.components);
+        readFloats(mDocument, source.output, sampler.values, mDiagnostics);
+        return sampler;
+    }
+
+    bool isUsable(AnimationSampler const& sampler, std::string const& path) {
+        const size_t keys = sampler.times.size();
+        const size_t rows = sampler.interpolation == Interpolation::CubicSpline ? 3 : 1;
+        if (keys == 0 || sampler.values.size() != keys * rows * sampler.width) {
+            mDiagnostics.warn("{}: {} values for {} keys of {} numbers{}; the channel is left out", path,
+                              sampler.values.size(), keys, sampler.width, rows == 3 ? " with their tangents" : "");
+            return false;
+        }
+        for (size_t i = 0; i < keys; ++i) {
+            const bool grows = i == 0 ? sampler.times[0] >= 0 : sampler.times[i] > sampler.times[i - 1];
+            if (grows) continue;
+            mDiagnostics.warn("{}: the time of key {} is {}, which does not grow; the channel is left out", path, i,
+                              sampler.times[i]);
+            return false;
+        }
+        return true;
+    }
+
+    GltfDocument const& mDocument;
+    GltfScene const& mScene;
+    GltfAnimation const& mSource;
+    std::string mPath;
+    uint64_t& mNumbersLeft;
+    Diagnostics& mDiagnostics;
+    AnimationData mData;
+    std::map<std::tuple<uint32_t, AnimationPath, uint32_t>, std::optional<uint32_t>> mKnown;
+};
+
+} // namespace
+
+std::vector<AnimationData> readAnimations(GltfDocument const& document, GltfScene const& scene,
+                                          Diagnostics& diagnostics) {
+    std::vector<AnimationData> animations;
+    uint64_t numbersLeft = kMaxNumbers;
+    for (uint32_t i = 0; i < document.animations.size() && diagnostics.ok(); ++i) {
+        animations.push_back(Reader(document, scene, i, numbersLeft, diagnostics).read());
+    }
+    return animations;
+}
+
+} // namespace filament::assets

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GltfBuffers: fills GltfDocument::viewBytes: every buffer view as a checked span of bytes.
+///   In      the parsed document, the GLB's binary chunk, the model's folder.
+///   Out     spans into the binary chunk or into document.ownedBytes (files, data URIs, decompressed views). A view
+///           whose bytes are missing, because its buffer is a fallback without data, is refused unless it is
+///           compressed.
+///   Thread  one; decompression is spread over `jobs`.
+///   Fails   naming the buffer or the view: "bufferViews[3]: ends at byte 900, buffers[0] has 840".
+#pragma once
+
+#include "filament_core/assets/files/Diagnostics.h"
+#include "filament_core/assets/gltf/GltfContainer.h"
+#include "filament_core/assets/gltf/GltfDocument.h"
+#include "jobsystem/JobSystem.h"
+
+#include <filesystem>
+
+namespace filament::assets {
+
+void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, std::filesystem::path const& baseDirectory,
+                     jobs::JobSystem& jobs, Diagnostics& diagnostics);
+
+} // namespace filament::assets

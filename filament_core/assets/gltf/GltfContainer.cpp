@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/gltf/GltfContainer.h"
+
+#include <cstdint>
+#include <cstring>
+
+namespace filament::assets {
+namespace {
+
+constexpr uint32_t kMagic = 0x46546C67;     // "glTF"
+constexpr uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
+constexpr uint32_t kBinChunk = 0x004E4942;  // "BIN\0"
+constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
+
+uint32_t wordAt(std::span<const std::byte> bytes, size_t offset) {
+    uint32_t word; // GLB is little-endian, as is every platform of ours
+    std::memcpy(&word, bytes.data() + offset, sizeof word);
+    return word;
+}
+
+} // namespace
+
+Result<GltfContainer> openGltfContainer(std::span<const std::byte> file) {
+    if (file.size() < 4 || wordAt(file, 0) != kMagic) return GltfContainer{ .json = file, .binary = {} };
+    if (file.size() < kHeaderBytes) return fail(ErrorCode::Corrupt, "the GLB header is cut off");
+    if (const uint32_t version = wordAt(file, 4); version != 2) {
+        return fail(ErrorCode::Unsupported, "GLB version {} is not 2", version);
+    }
+    const size_t length = wordAt(file, 8);
+    if (length > file.size()) {
+        return fail(ErrorCode::Corrupt, "the GLB header promises {} bytes, the file has {}", length, file.size());
+    }
+    GltfContainer container;
+    size_t at = kHeaderBytes;
+    for (uint32_t chunk = 0; at + kChunkHeaderBytes <= length; ++chunk) {
+        const size_t bytes = wordAt(file, at);
+        const uint32_t type = wordAt(file, at + 4);
+        at += kChunkHeaderBytes;
+        if (bytes > length - at) {
+            return fail(ErrorCode::Corrupt, "GLB chunk {} has {} bytes, only {} are left in the file", chunk, bytes,
+                        length - at);
+        }
+        if (chunk == 0 && type != kJsonChunk) return fail(ErrorCode::Corrupt, "the first GLB chunk is not JSON");
+        if (chunk == 0) container.json = file.subspan(at, bytes);
+        if (chunk == 1 && type == kBinChunk) {
+            container.binary = file.subspan(at, bytes);
+            container.hasBinary = true;
+        }
+        at += bytes;
+    }
+    if (container.json.empty()) return fail(ErrorCode::Corrupt, "the GLB has no JSON chunk");
+    return container;
+}
+
+} // namespace filament::assets

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GltfContainer: the two parts of a glTF file, whichever way it is stored (glTF 2.0, section 4).
+///   In     a whole .glb or .gltf file in memory; which of them is told by the first four bytes.
+///   Out    spans into it; `hasBinary` is false for .gltf and for a .glb without a BIN chunk.
+///   Fails  Corrupt for a chunk that ends behind the file, Unsupported for another container version.
+#pragma once
+
+#include "base/Result.h"
+
+#include <cstddef>
+#include <span>
+
+namespace filament::assets {
+
+struct GltfContainer {
+    std::span<const std::byte> json;
+    std::span<const std::byte> binary;
+    bool hasBinary = false;
+};
+
+Result<GltfContainer> openGltfContainer(std::span<const std::byte> file);
+
+} // namespace filament::assets

@@ -1,0 +1,198 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GltfDocument: the JSON of a glTF 2.0 file as plain structs, before any geometry or image is touched.
+///   Every index between elements was range-checked by the parser: it is valid or kNone. Byte ranges were not: a view
+///   is checked when its buffer is loaded (GltfBuffers.h), an accessor when it is read (Accessor.h).
+///   Section numbers in comments are those of the glTF 2.0.1 specification.
+#pragma once
+
+#include "filament_core/assets/gltf/ModelData.h"
+#include "filament_core/assets/gltf/NodePose.h"
+
+#include <array>
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+namespace filament::assets {
+
+enum class ComponentType : uint8_t { Byte, UByte, Short, UShort, UInt, Float };
+
+/// Bytes of one component.
+constexpr uint32_t componentBytes(ComponentType type) {
+    constexpr std::array<uint8_t, 6> kBytes{ 1, 1, 2, 2, 4, 4 };
+    return kBytes[static_cast<size_t>(type)];
+}
+
+struct GltfBuffer {
+    std::string uri;
+    uint64_t byteLength = 0;
+    bool isFallback = false; ///< EXT_meshopt_compression: may have no data at all
+};
+
+enum class MeshoptMode : uint8_t { Attributes, Triangles, Indices };
+enum class MeshoptFilter : uint8_t { None, Octahedral, Quaternion, Exponential };
+
+/// EXT_meshopt_compression: where the bytes of a view really are.
+struct MeshoptSource {
+    uint32_t buffer = kNone;
+    uint64_t byteOffset = 0, byteLength = 0;
+    uint64_t byteStride = 0, count = 0;
+    MeshoptMode mode = MeshoptMode::Attributes;
+    MeshoptFilter filter = MeshoptFilter::None;
+};
+
+struct GltfBufferView {
+    uint32_t buffer = kNone;
+    uint64_t byteOffset = 0, byteLength = 0;
+    uint32_t byteStride = 0; ///< 0: tightly packed
+    std::optional<MeshoptSource> meshopt;
+};
+
+/// Section 3.6.2.3: `count` elements replaced at increasing indices.
+struct GltfSparse {
+    uint64_t count = 0;
+    uint32_t indicesView = kNone, valuesView = kNone;
+    uint64_t indicesOffset = 0, valuesOffset = 0;
+    ComponentType indicesType = ComponentType::UShort;
+};
+
+struct GltfAccessor {
+    uint32_t view = kNone; ///< kNone: zeros
+    uint64_t byteOffset = 0, count = 0;
+    ComponentType component = ComponentType::Float;
+    uint8_t components = 1; ///< 1..4 or 16
+    bool normalized = false;
+    std::optional<GltfSparse> sparse;
+};
+
+/// Accessor per attribute; kNone: absent.
+struct GltfAttributes {
+    static constexpr uint32_t kUvSets = 2, kJointSets = 2;
+    uint32_t position = kNone, normal = kNone, tangent = kNone, color = kNone;
+    std::array<uint32_t, kUvSets> uv{ kNone, kNone };
+    std::array<uint32_t, kJointSets> joints{ kNone, kNone };
+    std::array<uint32_t, kJointSets> weights{ kNone, kNone };
+};
+
+/// KHR_draco_mesh_compression: the same attributes as ids inside the compressed stream.
+struct GltfDraco {
+    uint32_t view = kNone;
+    GltfAttributes ids;
+};
+
+enum class GltfMode : uint8_t { Points, Lines, LineLoop, LineStrip, Triangles, TriangleStrip, TriangleFan };
+
+struct GltfMorphTarget {
+    uint32_t position = kNone, normal = kNone, tangent = kNone;
+};
+
+struct GltfPrimitive {
+    GltfAttributes attributes;
+    uint32_t indices = kNone, material = kNone;
+    std::vector<VariantMaterial> variants;
+    GltfMode mode = GltfMode::Triangles;
+    std::vector<GltfMorphTarget> targets;
+    std::optional<GltfDraco> draco;
+};
+
+struct GltfMesh {
+    std::string name;
+    std::vector<GltfPrimitive> primitives;
+    std::vector<float> weights;
+};
+
+/// EXT_mesh_gpu_instancing: one transform per instance, below the node's own.
+struct GltfInstancing {
+    uint32_t translation = kNone, rotation = kNone, scale = kNone;
+};
+
+struct GltfNode {
+    std::string name;
+    double4x4 parentFromNode{ 1.0 };
+    NodePose pose{};        ///< of the same transform
+    bool hasMatrix = false; ///< the pose was taken out of a matrix
+    std::vector<uint32_t> children;
+    uint32_t mesh = kNone, skin = kNone, light = kNone;
+    std::vector<float> weights;
+    std::optional<GltfInstancing> instancing;
+};
+
+struct GltfAnimationSampler {
+    uint32_t input = kNone, output = kNone; ///< accessors
+    Interpolation interpolation = Interpolation::Linear;
+};
+
+struct GltfAnimationChannel {
+    uint32_t sampler = 0;  ///< of its animation
+    uint32_t node = kNone; ///< kNone: what an extension says
+    AnimationPath path = AnimationPath::Translation;
+};
+
+struct GltfAnimation {
+    std::string name;
+    std::vector<GltfAnimationSampler> samplers;
+    std::vector<GltfAnimationChannel> channels;
+};
+
+struct GltfSkin {
+    std::string name;
+    uint32_t inverseBindMatrices = kNone;
+    std::vector<uint32_t> joints; ///< nodes
+};
+
+struct GltfTextureInfo {
+    uint32_t texture = kNone;
+    uint32_t uvSet = 0;
+    float3x3 uvTransform{ 1.0f };
+    bool hasTransform = false;
+};
+
+/// Two maps that share a texture once they are loaded (MaterialData.h: TexturePair).
+struct GltfTexturePair {
+    GltfTextureInfo first, second;
+};
+
+/// `values` holds everything but its texture references, which the loader fills in from the infos.
+struct GltfMaterial {
+    MaterialData values;
+    GltfTextureInfo baseColor, metallicRoughness, normal, occlusion, emissive;
+    GltfTextureInfo clearCoatNormal, anisotropy, specularGlossiness;
+    GltfTexturePair clearCoat, sheen, specular, iridescence, transmission, diffuseTransmission;
+};
+
+struct GltfTexture {
+    uint32_t sampler = kNone;
+    uint32_t image = kNone; ///< kNone: the file offers only formats that this loader does not read
+};
+
+/// Exactly one of the two is set.
+struct GltfImage {
+    std::string uri;
+    uint32_t view = kNone;
+};
+
+struct GltfDocument {
+    std::vector<GltfBuffer> buffers;
+    std::vector<GltfBufferView> views;
+    std::vector<GltfAccessor> accessors;
+    std::vector<GltfMesh> meshes;
+    std::vector<GltfNode> nodes;
+    std::vector<GltfSkin> skins;
+    std::vector<GltfMaterial> materials;
+    std::vector<GltfTexture> textures;
+    std::vector<backend::SamplerDesc> samplers;
+    std::vector<GltfImage> images;
+    std::vector<LightData> lights;
+    std::vector<std::string> variants; ///< KHR_materials_variants: their names
+    std::vector<uint32_t> roots;       ///< of the default scene
+    std::vector<GltfAnimation> animations;
+
+    /// Bytes of each view; filled by loadBuffers(). They point into the file or into `ownedBytes`.
+    std::vector<std::span<const std::byte>> viewBytes;
+    std::vector<std::vector<std::byte>> ownedBytes;
+};
+
+} // namespace filament::assets

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GltfLoader: a glTF 2.0 file, .gltf or .glb, as ModelData.
+///   In      any file; nothing about it is trusted. External buffers and images lie beside or below it (see GltfUri.h).
+///   Out     the default scene. Default morph weights and the skins' rest pose are applied; or
+///   (GltfOptions::deformation)
+///           skins, morph targets and animations are kept as data. Only what the scene
+///           shows is loaded: meshes, materials and images that nothing drawn uses are left out.
+///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization,
+///           KHR_texture_transform, KHR_lights_punctual, EXT_mesh_gpu_instancing, KHR_materials_anisotropy, clearcoat,
+///           diffuse_transmission, dispersion, emissive_strength, ior, iridescence, pbrSpecularGlossiness, sheen,
+///           specular, transmission, unlit, variants, volume. Other extensions are named in ModelData::warnings, once
+///           each, and the material without them is drawn.
+///   Does not  read KTX2 or WebP.
+///   Thread  any; images and primitives are decoded as jobs, this thread joins in. The result does not depend on the
+///           number of workers.
+///   Memory  the file, then about twice the result while it runs.
+///   Fails   one line naming file, element and reason: "helmet.gltf: accessors[3]: 24 elements end at byte 300, ...".
+///   Cost    bench/filament_core/assets/GltfBench.cpp
+#pragma once
+
+#include "base/Result.h"
+#include "filament_core/assets/gltf/ModelData.h"
+#include "jobsystem/JobSystem.h"
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+
+namespace filament::assets {
+
+enum class GltfStage : uint8_t {
+    Structure, ///< JSON and buffers
+    Content,   ///< images and primitives, one step each
+};
+
+struct GltfOptions {
+    /// Called after every step, with `done` growing from 0 to `total`; from any worker, but never from two at once.
+    std::function<void(GltfStage stage, size_t done, size_t total)> progress = {};
+    uint32_t maxTextureSize = 0; ///< texels; larger images start at a smaller mip level. 0: no limit
+    GeometryStorage storage{};
+    GltfDeformation deformation = GltfDeformation::AtRest;
+    std::string name = "model"; ///< what messages call a file in memory; loadGltf() fills it in
+};
+
+Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& jobs, GltfOptions options = {});
+
+/// `baseDirectory` is where relative URIs start.
+Result<ModelData> loadGltfFromMemory(std::span<const std::byte> file, std::filesystem::path const& baseDirectory,
+                                     jobs::JobSystem& jobs, GltfOptions const& options = {});
+
+} // namespace filament::assets

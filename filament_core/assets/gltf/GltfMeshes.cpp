@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/gltf/GltfMeshes.h"
+
+#include "filament_core/assets/gltf/Accessor.h"
+#include "filament_core/assets/gltf/GltfGeometry.h"
+
+#include <exception>
+
+namespace filament::assets {
+namespace {
+
+/// The texture coordinates along which tangents run, if a material of the primitive needs any, else kNone. Of several
+/// maps the normal map decides, as KHR_materials_anisotropy has it.
+uint32_t tangentUvSet(GltfDocument const& document, GltfPrimitive const& primitive) {
+    std::vector<uint32_t> materials;
+    if (primitive.material != kNone) materials.push_back(primitive.material);
+    for (VariantMaterial const& variant : primitive.variants) materials.push_back(variant.material);
+    uint32_t uvSet = kNone;
+    const auto take = [&](GltfTextureInfo const& map, bool isUsed) {
+        if (uvSet == kNone && isUsed && map.texture != kNone) uvSet = map.uvSet;
+    };
+    for (const uint32_t index : materials) take(document.materials[index].normal, true);
+    for (const uint32_t index : materials) {
+        GltfMaterial const& material = document.materials[index];
+        take(material.anisotropy, material.values.anisotropy.isUsed());
+        take(material.clearCoatNormal, material.values.clearCoat.isUsed());
+        if (uvSet == kNone && material.values.anisotropy.isUsed()) uvSet = 0;
+    }
+    return uvSet;
+}
+
+void replaceOverflow(std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
+    const std::span<float> numbers(&geometry.positions[0].x, geometry.positions.size() * 3);
+    const size_t broken = replaceNonFinite(numbers);
+    if (broken > 0)
+        diagnostics.warn("{}: {} coordinates overflow after morphing and skinning, and became 0", path, broken);
+}
+
+void morph(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
+           std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
+    if (request.keepsTargets && canKeepTargets(primitive, geometry, path, diagnostics))
+        keepMorphTargets(document, primitive, geometry, diagnostics);
+    else
+        applyMorphTargets(document, primitive, request.weights, geometry, diagnostics);
+}
+
+PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request, GltfPrimitive const& primitive,
+                    GeometryStorage const& storage, std::string const& path, Diagnostics& diagnostics) {
+    GltfGeometry geometry = gatherGeometry(document, primitive, path, diagnostics);
+    if (!diagnostics.ok() || geometry.positions.empty()) return {};
+    makeList(primitive.draco ? GltfMode::Triangles : primitive.mode, path, geometry, diagnostics);
+    if (diagnostics.ok()) morph(document, request, primitive, path, geometry, diagnostics);
+    if (!diagnostics.ok() || geometry.indices.empty()) return {};
+    dropUnusedVertices(geometry);
+    if (request.keepsSkin)
+        keepSkin(request.worldFromBind.size(), path, geometry, diagnostics);
+    else if (request.skin != kNone)
+        applySkin(request.worldFromBind, path, geometry, diagnostics);
+    if (!diagnostics.ok()) return {};
+    replaceOverflow(path, geometry, diagnostics);
+    addFlatNormals(geometry);
+    if (const uint32_t uvSet = tangentUvSet(document, primitive); uvSet != kNone) addTangents(geometry, uvSet);
+    const BoundsData restBounds = boundsAtRest(geometry, request.weights, request.worldFromBind);
+    PrimitiveData packed = packGeometry(std::move(geometry), storage);
+    packed.restBounds = restBounds;
+    return packed;
+}
+
+} // namespace
+
+std::vector<GltfPrimitiveJob> listPrimitives(GltfDocument const& document, GltfScene const& scene,
+                                             Diagnostics& diagnostics) {
+    constexpr uint64_t kMaxVertices = uint64_t{ 1 } << 27, kMaxIndices = uint64_t{ 1 } << 29;
+    std::vector<GltfPrimitiveJob> jobs;
+    uint64_t vertices = 0, indices = 0;
+    for (uint32_t r = 0; r < scene.meshes.size(); ++r) {
+        std::vector<GltfPrimitive> const& primitives = document.meshes[scene.meshes[r].mesh].primitives;
+        for (uint32_t p = 0; p < primitives.size(); ++p) {
+            jobs.push_back({ .request = r, .primitive = p, .data = {}, .diagnostics = {} });
+            const uint32_t position = primitives[p].attributes.position;
+            if (position != kNone) vertices += document.accessors[position].count;
+            if (primitives[p].indices != kNone) indices += document.accessors[primitives[p].indices].count;
+        }
+    }
+    if (vertices > kMaxVertices || indices > kMaxIndices) {
+        diagnostics.refuse(ErrorCode::Unsupported, "the scene has {} vertices and {} indices, beyond {} and {}",
+                           vertices, indices, kMaxVertices, kMaxIndices);
+    }
+    return jobs;
+}
+
+void buildPrimitive(GltfDocument const& document, GltfScene const& scene, GeometryStorage const& storage,
+                    GltfPrimitiveJob& job) {
+    GltfMeshRequest const& request = scene.meshes[job.request];
+    const std::string path = fmt::format("meshes[{}].primitives[{}]", request.mesh, job.primitive);
+    GltfPrimitive const& primitive = document.meshes[request.mesh].primitives[job.primitive];
+    try {
+        job.data = build(document, request, primitive, storage, path, job.diagnostics);
+    } catch (std::bad_alloc const&) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "{}: out of memory; free some and try again", path);
+    } catch (std::exception const& exception) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "{}: {}", path, exception.what());
+    }
+}
+
+std::vector<MeshData> collectMeshes(GltfDocument const& document, GltfScene const& scene,
+                                    std::vector<GltfPrimitiveJob>& jobs) {
+    std::vector<MeshData> meshes;
+    for (GltfMeshRequest const& request : scene.meshes) meshes.push_back({ document.meshes[request.mesh].name, {} });
+    for (GltfPrimitiveJob& job : jobs) {
+        if (job.data.indexCount == 0) continue;
+        GltfPrimitive const& primitive = document.meshes[scene.meshes[job.request].mesh].primitives[job.primitive];
+        job.data.material = primitive.material;
+        job.data.variants = primitive.variants;
+        meshes[job.request].primitives.push_back(std::move(job.data));
+    }
+    return meshes;
+}
+
+} // namespace filament::assets

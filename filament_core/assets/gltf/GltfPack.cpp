@@ -1,0 +1,262 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/math/Half.h"
+#include "filament_core/assets/gltf/GltfGeometry.h"
+#include "filament_core/assets/gltf/TangentFrame.h"
+#include "shaders/interface/ShaderInterface.h"
+
+#include <meshoptimizer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <limits>
+
+namespace filament::assets {
+namespace {
+
+using backend::VertexFormat;
+
+template <class Integer>
+Integer normalizedInteger(float value) {
+    constexpr auto kOne = static_cast<float>(std::numeric_limits<Integer>::max());
+    const float low = std::is_signed_v<Integer> ? -kOne : 0.0f;
+    return static_cast<Integer>(std::lround(std::clamp(value * kOne, low, kOne)));
+}
+
+template <class Integer, int N>
+void writeIntegers(std::byte* target, float const* values) {
+    std::array<Integer, N> integers;
+    for (size_t i = 0; i < N; ++i) integers[i] = normalizedInteger<Integer>(values[i]);
+    std::memcpy(target, integers.data(), sizeof integers);
+}
+
+/// Writes one vertex attribute; `value` has four components.
+using Writer = void (*)(std::byte* target, float const* value);
+
+template <int N>
+void writeFloats(std::byte* target, float const* values) {
+    std::memcpy(target, values, N * sizeof(float));
+}
+
+void writeHalves(std::byte* target, float const* values) {
+    std::array<uint16_t, 4> halves;
+    for (size_t i = 0; i < 4; ++i) halves[i] = halfFromFloat(values[i]);
+    std::memcpy(target, halves.data(), sizeof halves);
+}
+
+Writer writerOf(VertexFormat format) {
+    switch (format) {
+    case VertexFormat::Float2:
+        return writeFloats<2>;
+    case VertexFormat::Float3:
+        return writeFloats<3>;
+    case VertexFormat::Float4:
+        return writeFloats<4>;
+    case VertexFormat::Half4:
+        return writeHalves;
+    case VertexFormat::Byte4N:
+        return writeIntegers<int8_t, 4>;
+    case VertexFormat::UByte4N:
+        return writeIntegers<uint8_t, 4>;
+    case VertexFormat::Short2N:
+        return writeIntegers<int16_t, 2>;
+    case VertexFormat::UShort2N:
+        return writeIntegers<uint16_t, 2>;
+    case VertexFormat::Short4N:
+        return writeIntegers<int16_t, 4>;
+    case VertexFormat::UShort4N:
+        return writeIntegers<uint16_t, 4>;
+    default:
+        FILAMENT_ASSERT(false, "vertices are packed in formats that the shader reads as floats");
+    }
+    return nullptr;
+}
+
+/// Builds the layout attribute by attribute, then fills the stream column by column.
+class Interleaver {
+public:
+    explicit Interleaver(PrimitiveData& primitive) : mPrimitive(primitive), mLayout(primitive.layout) {}
+
+    uint16_t addAttribute(uint8_t location, VertexFormat format) {
+        const uint16_t offset = mLayout.buffers[0].stride;
+        mLayout.attributes[mLayout.attributeCount++] = { .location = location, .format = format, .offset = offset };
+        mLayout.buffers[0].stride = static_cast<uint16_t>(offset + backend::vertexFormatInfo(format).bytes);
+        mLayout.bufferCount = 1;
+        return offset;
+    }
+
+    void allocate() { mPrimitive.vertices.resize(size_t{ mPrimitive.vertexCount } * mLayout.buffers[0].stride); }
+
+    std::byte* at(size_t vertex, uint16_t offset) {
+        return &mPrimitive.vertices[vertex * mLayout.buffers[0].stride + offset];
+    }
+
+    template <class T>
+    void write(std::vector<T> const& values, uint16_t offset, VertexFormat format) {
+        const Writer writer = writerOf(format);
+        for (size_t i = 0; i < values.size(); ++i) {
+            float4 padded(0.0f, 0.0f, 0.0f, 1.0f);
+            std::memcpy(&padded[0], &values[i][0], sizeof(T));
+            writer(at(i, offset), &padded[0]);
+        }
+    }
+
+private:
+    PrimitiveData& mPrimitive;
+    backend::VertexLayout& mLayout;
+};
+
+void findBounds(std::vector<float3> const& positions, PrimitiveData& primitive) {
+    primitive.boundsMin = primitive.boundsMax = positions[0];
+    for (float3 const& position : positions) {
+        primitive.boundsMin = glm::min(primitive.boundsMin, position);
+        primitive.boundsMax = glm::max(primitive.boundsMax, position);
+    }
+}
+
+VertexFormat formatOf(TangentStorage storage) {
+    switch (storage) {
+    case TangentStorage::Snorm16:
+        return VertexFormat::Short4N;
+    case TangentStorage::Snorm8:
+        return VertexFormat::Byte4N;
+    case TangentStorage::Float:
+        break;
+    }
+    return VertexFormat::Float4;
+}
+
+/// w keeps its sign when it is rounded: at least one step of the integers.
+std::vector<float4> framesOf(GltfGeometry const& geometry, TangentStorage storage) {
+    const float leastW = storage == TangentStorage::Snorm8 ? 1.0f / 127 : 1.0f / 32767;
+    std::vector<float4> frames(geometry.normals.size());
+    for (size_t i = 0; i < frames.size(); ++i) {
+        const float4 tangent = geometry.tangents.empty() ? float4(0, 0, 0, 1) : geometry.tangents[i];
+        frames[i] = tangentFrameQuaternion(geometry.normals[i], float3(tangent), tangent.w, leastW);
+    }
+    return frames;
+}
+
+/// Positions into [0, 1]^3, all axes by the same factor: normals and tangents stay what they are.
+void fitUnitCube(GltfGeometry& geometry, PrimitiveData& primitive) {
+    findBounds(geometry.positions, primitive);
+    const float3 size = primitive.boundsMax - primitive.boundsMin;
+    const float largest = std::max({ size.x, size.y, size.z });
+    primitive.positionOffset = primitive.boundsMin;
+    primitive.positionScale = largest > 0 ? largest : 1.0f;
+    for (float3& position : geometry.positions)
+        position = (position - primitive.positionOffset) / primitive.positionScale;
+}
+
+/// What cannot be stored as wanted keeps its floats: beyond the largest half float.
+void storePositions(PositionStorage storage, GltfGeometry& geometry, PrimitiveData& primitive) {
+    if (storage == PositionStorage::AsAuthored) return;
+    if (storage == PositionStorage::Unorm16) {
+        fitUnitCube(geometry, primitive);
+        geometry.positionFormat = VertexFormat::UShort4N;
+        return;
+    }
+    const bool fits = std::ranges::all_of(geometry.positions, [](float3 const& p) {
+        return std::max({ std::abs(p.x), std::abs(p.y), std::abs(p.z) }) <= kMaxHalf;
+    });
+    if (fits) geometry.positionFormat = VertexFormat::Half4;
+}
+
+/// 16 bits while 0xFFFF, which restarts strips on some APIs, stays free.
+void packIndices(std::span<const uint32_t> indices, PrimitiveData& primitive) {
+    const bool isShort = primitive.vertexCount < 65536;
+    primitive.indexType = isShort ? backend::IndexType::UInt16 : backend::IndexType::UInt32;
+    primitive.indexCount = static_cast<uint32_t>(indices.size());
+    primitive.indices.resize(indices.size() * (isShort ? 2 : 4));
+    for (size_t i = 0; i < indices.size(); ++i) {
+        const auto narrow = static_cast<uint16_t>(indices[i]);
+        if (isShort) std::memcpy(&primitive.indices[i * 2], &narrow, 2);
+        if (!isShort) std::memcpy(&primitive.indices[i * 4], &indices[i], 4);
+    }
+}
+
+/// Unindexed vertices repeat: equal ones become one.
+void weldEqualVertices(std::vector<uint32_t>& indices, PrimitiveData& primitive) {
+    const size_t stride = primitive.layout.buffers[0].stride;
+    std::vector<uint32_t> remap(primitive.vertexCount);
+    const size_t unique = meshopt_generateVertexRemap(remap.data(), nullptr, primitive.vertexCount,
+                                                      primitive.vertices.data(), primitive.vertexCount, stride);
+    std::vector<std::byte> vertices(unique * stride);
+    meshopt_remapVertexBuffer(vertices.data(), primitive.vertices.data(), primitive.vertexCount, stride, remap.data());
+    for (uint32_t& index : indices) index = remap[index];
+    primitive.vertices = std::move(vertices);
+    primitive.vertexCount = static_cast<uint32_t>(unique);
+}
+
+struct SkinOffsets {
+    std::array<uint16_t, GltfAttributes::kJointSets> joints{}, weights{};
+};
+
+SkinOffsets addJoints(GltfGeometry const& geometry, Interleaver& interleaver) {
+    constexpr std::array<uint8_t, 2> kJoints{ shader::kAttributeJoints, shader::kAttributeJoints1 };
+    constexpr std::array<uint8_t, 2> kWeights{ shader::kAttributeWeights, shader::kAttributeWeights1 };
+    SkinOffsets at;
+    for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
+        if (geometry.joints[set].empty()) continue;
+        at.joints[set] = interleaver.addAttribute(kJoints[set], VertexFormat::UByte4); // a skin has 256 joints at most
+        at.weights[set] = interleaver.addAttribute(kWeights[set], geometry.weightFormat);
+    }
+    return at;
+}
+
+void writeJoints(GltfGeometry const& geometry, SkinOffsets const& at, Interleaver& interleaver) {
+    for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
+        interleaver.write(geometry.weights[set], at.weights[set], geometry.weightFormat);
+        for (size_t i = 0; i < geometry.joints[set].size(); ++i) {
+            const glm::u8vec4 joints(geometry.joints[set][i]);
+            std::memcpy(interleaver.at(i, at.joints[set]), &joints, sizeof joints);
+        }
+    }
+}
+
+} // namespace
+
+PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage) {
+    PrimitiveData primitive;
+    const bool isDeformed = geometry.isSkinned || !geometry.targets.empty();
+    // Bones and differences are in the space of the file: positions stay in it.
+    storePositions(isDeformed && storage.positions == PositionStorage::Unorm16 ? PositionStorage::AsAuthored
+                                                                               : storage.positions,
+                   geometry, primitive);
+    primitive.topology = geometry.topology;
+    primitive.vertexCount = geometry.vertexCount();
+    primitive.hasTangents = !geometry.normals.empty();
+    primitive.hasColor = !geometry.colors.empty();
+    primitive.hasUv0 = !geometry.uvs[0].empty();
+    primitive.hasUv1 = !geometry.uvs[1].empty();
+
+    Interleaver interleaver(primitive);
+    const auto add = [&](bool exists, uint8_t location, VertexFormat format) {
+        return exists ? interleaver.addAttribute(location, format) : uint16_t{ 0 };
+    };
+    const uint16_t position = add(true, shader::kAttributePosition, geometry.positionFormat);
+    const uint16_t frame = add(primitive.hasTangents, shader::kAttributeTangents, formatOf(storage.tangents));
+    const uint16_t color = add(primitive.hasColor, shader::kAttributeColor, geometry.colorFormat);
+    const uint16_t uv0 = add(primitive.hasUv0, shader::kAttributeUv0, geometry.uvFormats[0]);
+    const uint16_t uv1 = add(primitive.hasUv1, shader::kAttributeUv1, geometry.uvFormats[1]);
+    const SkinOffsets skin = geometry.isSkinned ? addJoints(geometry, interleaver) : SkinOffsets{};
+    interleaver.allocate();
+    interleaver.write(geometry.positions, position, geometry.positionFormat);
+    interleaver.write(framesOf(geometry, storage.tangents), frame, formatOf(storage.tangents));
+    interleaver.write(geometry.colors, color, geometry.colorFormat);
+    interleaver.write(geometry.uvs[0], uv0, geometry.uvFormats[0]);
+    interleaver.write(geometry.uvs[1], uv1, geometry.uvFormats[1]);
+
+    if (geometry.isSkinned) writeJoints(geometry, skin, interleaver);
+    primitive.isSkinned = geometry.isSkinned;
+    primitive.boneBounds = boundsOfBones(geometry);
+
+    findBounds(geometry.positions, primitive);
+    primitive.morphTargets = std::move(geometry.targets);
+    // Vertices that are equal now may part later.
+    if (!geometry.wasIndexed && primitive.morphTargets.empty()) weldEqualVertices(geometry.indices, primitive);
+    packIndices(geometry.indices, primitive);
+    return primitive;
+}
+
+} // namespace filament::assets

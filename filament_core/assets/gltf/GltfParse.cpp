@@ -1,0 +1,377 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/gltf/GltfParse.h"
+
+#include "filament_core/assets/files/JsonTree.h"
+
+#include <cstring>
+
+namespace filament::assets {
+namespace {
+
+constexpr uint64_t kMaxElements = uint64_t{ 1 } << 28;
+constexpr uint64_t kMaxStride = 4096;
+
+/// The arrays of the file by name, so that an index can be checked before its array was read.
+struct Counts {
+    explicit Counts(JsonNode const& root)
+            : buffers(root["buffers"].elementCount()), views(root["bufferViews"].elementCount()),
+              accessors(root["accessors"].elementCount()), meshes(root["meshes"].elementCount()),
+              nodes(root["nodes"].elementCount()), skins(root["skins"].elementCount()),
+              materials(root["materials"].elementCount()), textures(root["textures"].elementCount()),
+              samplers(root["samplers"].elementCount()), images(root["images"].elementCount()),
+              lights(root.extension("KHR_lights_punctual")["lights"].elementCount()),
+              variants(root.extension("KHR_materials_variants")["variants"].elementCount()) {}
+
+    size_t buffers, views, accessors, meshes, nodes, skins, materials, textures, samplers, images, lights, variants;
+};
+
+template <class Enum, size_t N>
+Enum enumFromText(JsonNode const& node, std::array<const char*, N> const& names, Enum fallback) {
+    if (!node.exists()) return fallback;
+    const std::string text = node.text();
+    for (size_t i = 0; i < N; ++i) {
+        if (text == names[i]) return static_cast<Enum>(i);
+    }
+    node.diagnostics().refuse(ErrorCode::Corrupt, "{}: '{}' is not a value that the format knows", node.path(), text);
+    return fallback;
+}
+
+ComponentType componentTypeFromGl(JsonNode const& node) {
+    switch (node.requiredInteger()) {
+    case 5120:
+        return ComponentType::Byte;
+    case 5121:
+        return ComponentType::UByte;
+    case 5122:
+        return ComponentType::Short;
+    case 5123:
+        return ComponentType::UShort;
+    case 5125:
+        return ComponentType::UInt;
+    case 5126:
+        return ComponentType::Float;
+    default:
+        node.diagnostics().refuse(ErrorCode::Corrupt, "{}: must be one of 5120..5123, 5125, 5126", node.path());
+        return ComponentType::Float;
+    }
+}
+
+uint8_t componentCount(JsonNode const& node) {
+    constexpr std::array<std::pair<const char*, uint8_t>, 7> kTypes{
+        { { "SCALAR", 1 }, { "VEC2", 2 }, { "VEC3", 3 }, { "VEC4", 4 }, { "MAT2", 4 }, { "MAT3", 9 }, { "MAT4", 16 } }
+    };
+    const std::string text = node.text();
+    for (auto const& [name, count] : kTypes) {
+        if (text == name) return count;
+    }
+    node.diagnostics().refuse(ErrorCode::Corrupt, "{}: '{}' must be SCALAR, VEC2..VEC4 or MAT2..MAT4", node.path(),
+                              text);
+    return 1;
+}
+
+GltfBuffer parseBuffer(JsonNode const& node) {
+    const bool isFallback = node.extension("EXT_meshopt_compression")["fallback"].boolean(false) ||
+                            node.extension("KHR_meshopt_compression")["fallback"].boolean(false);
+    return { .uri = node["uri"].text(), .byteLength = node["byteLength"].requiredInteger(), .isFallback = isFallback };
+}
+
+std::optional<MeshoptSource> parseMeshopt(JsonNode const& view, Counts const& counts) {
+    JsonNode node = view.extension("EXT_meshopt_compression");
+    if (!node.exists()) node = view.extension("KHR_meshopt_compression"); // same stream format
+    if (!node.exists()) return std::nullopt;
+    return MeshoptSource{
+        .buffer = node["buffer"].requiredIndex(counts.buffers, "buffers"),
+        .byteOffset = node["byteOffset"].integer(0),
+        .byteLength = node["byteLength"].requiredInteger(),
+        .byteStride = node["byteStride"].requiredInteger(),
+        .count = node["count"].requiredInteger(),
+        .mode = enumFromText(node["mode"], std::array{ "ATTRIBUTES", "TRIANGLES", "INDICES" }, MeshoptMode::Attributes),
+        .filter = enumFromText(node["filter"], std::array{ "NONE", "OCTAHEDRAL", "QUATERNION", "EXPONENTIAL" },
+                               MeshoptFilter::None),
+    };
+}
+
+GltfBufferView parseView(JsonNode const& node, Counts const& counts) {
+    const uint64_t stride = node["byteStride"].integer(0);
+    if (stride > kMaxStride) {
+        node.diagnostics().refuse(ErrorCode::Corrupt, "{}.byteStride: {} is beyond {}", node.path(), stride,
+                                  kMaxStride);
+    }
+    return { .buffer = node["buffer"].requiredIndex(counts.buffers, "buffers"),
+             .byteOffset = node["byteOffset"].integer(0),
+             .byteLength = node["byteLength"].requiredInteger(),
+             .byteStride = static_cast<uint32_t>(stride),
+             .meshopt = parseMeshopt(node, counts) };
+}
+
+std::optional<GltfSparse> parseSparse(JsonNode const& node, Counts const& counts) {
+    if (!node.exists()) return std::nullopt;
+    const JsonNode indices = node["indices"], values = node["values"];
+    return GltfSparse{ .count = node["count"].requiredInteger(),
+                       .indicesView = indices["bufferView"].requiredIndex(counts.views, "bufferViews"),
+                       .valuesView = values["bufferView"].requiredIndex(counts.views, "bufferViews"),
+                       .indicesOffset = indices["byteOffset"].integer(0),
+                       .valuesOffset = values["byteOffset"].integer(0),
+                       .indicesType = componentTypeFromGl(indices["componentType"]) };
+}
+
+GltfAccessor parseAccessor(JsonNode const& node, Counts const& counts) {
+    const GltfAccessor accessor{ .view = node["bufferView"].index(counts.views, "bufferViews"),
+                                 .byteOffset = node["byteOffset"].integer(0),
+                                 .count = node["count"].requiredInteger(),
+                                 .component = componentTypeFromGl(node["componentType"]),
+                                 .components = componentCount(node["type"]),
+                                 .normalized = node["normalized"].boolean(false),
+                                 .sparse = parseSparse(node["sparse"], counts) };
+    if (accessor.count > kMaxElements) {
+        node.diagnostics().refuse(ErrorCode::Unsupported, "{}.count: {} elements are beyond the limit of {}",
+                                  node.path(), accessor.count, kMaxElements);
+    }
+    return accessor;
+}
+
+GltfAttributes parseAttributes(JsonNode const& node, size_t count, const char* what) {
+    GltfAttributes attributes;
+    const auto read = [&](const char* name) { return node[name].index(count, what); };
+    attributes.position = read("POSITION");
+    attributes.normal = read("NORMAL");
+    attributes.tangent = read("TANGENT");
+    attributes.color = read("COLOR_0");
+    attributes.uv = { read("TEXCOORD_0"), read("TEXCOORD_1") };
+    attributes.joints = { read("JOINTS_0"), read("JOINTS_1") };
+    attributes.weights = { read("WEIGHTS_0"), read("WEIGHTS_1") };
+    return attributes;
+}
+
+GltfPrimitive parsePrimitive(JsonNode const& node, Counts const& counts) {
+    GltfPrimitive primitive;
+    primitive.attributes = parseAttributes(node["attributes"], counts.accessors, "accessors");
+    primitive.indices = node["indices"].index(counts.accessors, "accessors");
+    primitive.material = node["material"].index(counts.materials, "materials");
+    primitive.variants = parseVariantMaterials(node, counts.materials, counts.variants);
+    const uint64_t mode = node["mode"].integer(4);
+    if (mode > 6) node.diagnostics().refuse(ErrorCode::Corrupt, "{}.mode: {} is not one of 0..6", node.path(), mode);
+    primitive.mode = static_cast<GltfMode>(mode % 7);
+    for (JsonNode const& target : node["targets"].elements()) {
+        const GltfAttributes deltas = parseAttributes(target, counts.accessors, "accessors");
+        primitive.targets.push_back({ deltas.position, deltas.normal, deltas.tangent });
+    }
+    if (const JsonNode draco = node.extension("KHR_draco_mesh_compression"); draco.exists()) {
+        // ids are any unsigned number; whether the stream has them is known once it is decoded
+        primitive.draco = GltfDraco{ draco["bufferView"].requiredIndex(counts.views, "bufferViews"),
+                                     parseAttributes(draco["attributes"], kNone, "ids") };
+    }
+    return primitive;
+}
+
+GltfMesh parseMesh(JsonNode const& node, Counts const& counts) {
+    GltfMesh mesh{ .name = node["name"].text(), .primitives = {}, .weights = node["weights"].numberList() };
+    for (JsonNode const& primitive : node["primitives"].elements()) {
+        mesh.primitives.push_back(parsePrimitive(primitive, counts));
+    }
+    return mesh;
+}
+
+/// Section 3.5.3: a matrix, or translation * rotation * scale.
+void parseTransform(JsonNode const& node, GltfNode& parsed) {
+    std::array<double, 16> m{};
+    if (node["matrix"].numbers(m)) {
+        double4x4 matrix;
+        std::memcpy(&matrix[0][0], m.data(), sizeof m);
+        const double4 lastRow(m[3], m[7], m[11], m[15]);
+        if (glm::length(lastRow - double4(0, 0, 0, 1)) > 1e-6) {
+            node.diagnostics().warn("{}.matrix: its last row is not 0 0 0 1 and was ignored", node.path());
+        }
+        for (int column = 0; column < 4; ++column) matrix[column].w = column == 3 ? 1 : 0;
+        parsed.parentFromNode = matrix;
+        parsed.pose = poseFrom(matrix);
+        parsed.hasMatrix = true;
+        return;
+    }
+    std::array<double, 3> t{ 0, 0, 0 }, s{ 1, 1, 1 };
+    std::array<double, 4> r{ 0, 0, 0, 1 };
+    node["translation"].numbers(t);
+    node["rotation"].numbers(r);
+    node["scale"].numbers(s);
+    const double length2 = r[0] * r[0] + r[1] * r[1] + r[2] * r[2] + r[3] * r[3];
+    if (!(length2 > 1e-12)) {
+        node.diagnostics().warn("{}.rotation: has no length and was ignored", node.path());
+        r = { 0, 0, 0, 1 };
+    }
+    parsed.pose = { { t[0], t[1], t[2] }, { r[0], r[1], r[2], r[3] }, { s[0], s[1], s[2] } };
+    parsed.parentFromNode = matrixFrom(parsed.pose);
+}
+
+GltfNode parseNode(JsonNode const& node, Counts const& counts) {
+    GltfNode parsed{ .name = node["name"].text(),
+                     .children = {},
+                     .mesh = node["mesh"].index(counts.meshes, "meshes"),
+                     .skin = node["skin"].index(counts.skins, "skins"),
+                     .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
+                     .weights = node["weights"].numberList(),
+                     .instancing = {} };
+    parseTransform(node, parsed);
+    for (JsonNode const& child : node["children"].elements()) {
+        parsed.children.push_back(child.requiredIndex(counts.nodes, "nodes"));
+    }
+    if (const JsonNode instancing = node.extension("EXT_mesh_gpu_instancing"); instancing.exists()) {
+        const JsonNode attributes = instancing["attributes"];
+        parsed.instancing = GltfInstancing{ attributes["TRANSLATION"].index(counts.accessors, "accessors"),
+                                            attributes["ROTATION"].index(counts.accessors, "accessors"),
+                                            attributes["SCALE"].index(counts.accessors, "accessors") };
+    }
+    return parsed;
+}
+
+GltfSkin parseSkin(JsonNode const& node, Counts const& counts) {
+    GltfSkin skin{ node["name"].text(), node["inverseBindMatrices"].index(counts.accessors, "accessors"), {} };
+    for (JsonNode const& joint : node["joints"].elements()) {
+        skin.joints.push_back(joint.requiredIndex(counts.nodes, "nodes"));
+    }
+    return skin;
+}
+
+GltfAnimation parseAnimation(JsonNode const& node, Counts const& counts) {
+    GltfAnimation animation{ .name = node["name"].text(), .samplers = {}, .channels = {} };
+    for (JsonNode const& sampler : node["samplers"].elements()) {
+        animation.samplers.push_back(
+                { sampler["input"].requiredIndex(counts.accessors, "accessors"),
+                  sampler["output"].requiredIndex(counts.accessors, "accessors"),
+                  enumFromText(sampler["interpolation"], std::array{ "STEP", "LINEAR", "CUBICSPLINE" },
+                               Interpolation::Linear) });
+    }
+    for (JsonNode const& channel : node["channels"].elements()) {
+        const JsonNode target = channel["target"];
+        GltfAnimationChannel parsed{ .sampler = channel["sampler"].requiredIndex(animation.samplers.size(), "samplers"),
+                                     .node = target["node"].index(counts.nodes, "nodes") };
+        if (parsed.node != kNone) {
+            parsed.path = enumFromText(target["path"], std::array{ "translation", "rotation", "scale", "weights" },
+                                       AnimationPath::Translation);
+        }
+        animation.channels.push_back(parsed);
+    }
+    return animation;
+}
+
+GltfImage parseImage(JsonNode const& node, Counts const& counts) {
+    GltfImage image{ node["uri"].text(), node["bufferView"].index(counts.views, "bufferViews") };
+    if (image.uri.empty() == (image.view == kNone)) {
+        node.diagnostics().refuse(ErrorCode::Corrupt, "{}: needs a uri or a bufferView, and not both", node.path());
+    }
+    return image;
+}
+
+/// A node has one parent at most; links that close a circle leave no way in from a root (section 3.5.2).
+void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
+    std::vector<uint32_t> parents(nodes.size(), kNone);
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        for (const uint32_t child : nodes[i].children) {
+            if (child == kNone) continue; // refused already
+            if (parents[child] != kNone || child == i) {
+                return diagnostics.refuse(ErrorCode::Corrupt,
+                                          "nodes[{}].children: nodes[{}] has another parent already", i, child);
+            }
+            parents[child] = i;
+        }
+    }
+    // Every node must be reached from a parentless one; what is not belongs to a circle.
+    std::vector<uint32_t> open;
+    size_t reached = 0;
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        if (parents[i] == kNone) open.push_back(i);
+    }
+    while (!open.empty()) {
+        const uint32_t node = open.back();
+        open.pop_back();
+        ++reached;
+        open.insert(open.end(), nodes[node].children.begin(), nodes[node].children.end());
+    }
+    if (reached != nodes.size()) diagnostics.refuse(ErrorCode::Corrupt, "nodes: the children links close a circle");
+}
+
+/// The roots of the default scene; a file without scenes shows every parentless node.
+std::vector<uint32_t> parseRoots(JsonNode const& root, std::vector<GltfNode> const& nodes) {
+    const std::vector<JsonNode> scenes = root["scenes"].elements();
+    std::vector<uint32_t> roots;
+    if (!scenes.empty()) {
+        const uint32_t scene = root["scene"].index(scenes.size(), "scenes");
+        for (JsonNode const& node : scenes[scene == kNone ? 0 : scene]["nodes"].elements()) {
+            roots.push_back(node.requiredIndex(nodes.size(), "nodes"));
+        }
+    }
+    std::vector<bool> hasParent(nodes.size(), false), isListed(nodes.size(), false);
+    for (GltfNode const& node : nodes) {
+        for (const uint32_t child : node.children) hasParent[child] = true;
+    }
+    if (scenes.empty()) {
+        for (uint32_t i = 0; i < nodes.size(); ++i) {
+            if (!hasParent[i]) roots.push_back(i);
+        }
+    }
+    for (const uint32_t i : roots) {
+        if (i == kNone) continue; // refused already
+        if (hasParent[i] || isListed[i]) {
+            root.diagnostics().refuse(ErrorCode::Corrupt, "scenes: nodes[{}] is not a root, or is listed twice", i);
+        }
+        isListed[i] = true;
+    }
+    return roots;
+}
+
+void checkVersion(JsonNode const& root) {
+    const std::string version = root["asset"]["version"].text();
+    if (version.starts_with("2.")) return;
+    root.diagnostics().refuse(ErrorCode::Unsupported, "asset.version: '{}', this loader reads glTF 2.x", version);
+}
+
+template <class T, class Parse>
+std::vector<T> parseAll(JsonNode const& array, Parse const& parse) {
+    std::vector<T> parsed;
+    for (JsonNode const& node : array.elements()) {
+        parsed.push_back(parse(node));
+        if (!node.diagnostics().ok()) break;
+    }
+    return parsed;
+}
+
+void parseElements(JsonNode const& root, GltfDocument& document) {
+    const Counts counts(root);
+    const auto with = [&](auto parse) {
+        return [&counts, parse](JsonNode const& node) { return parse(node, counts); };
+    };
+    document.buffers = parseAll<GltfBuffer>(root["buffers"], parseBuffer);
+    document.views = parseAll<GltfBufferView>(root["bufferViews"], with(parseView));
+    document.accessors = parseAll<GltfAccessor>(root["accessors"], with(parseAccessor));
+    document.meshes = parseAll<GltfMesh>(root["meshes"], with(parseMesh));
+    document.nodes = parseAll<GltfNode>(root["nodes"], with(parseNode));
+    document.skins = parseAll<GltfSkin>(root["skins"], with(parseSkin));
+    document.images = parseAll<GltfImage>(root["images"], with(parseImage));
+    document.samplers = parseAll<backend::SamplerDesc>(root["samplers"], parseGltfSampler);
+    document.materials = parseAll<GltfMaterial>(
+            root["materials"], [&](JsonNode const& node) { return parseGltfMaterial(node, counts.textures); });
+    document.textures = parseAll<GltfTexture>(root["textures"], [&](JsonNode const& node) {
+        return GltfTexture{ node["sampler"].index(counts.samplers, "samplers"),
+                            node["source"].index(counts.images, "images") };
+    });
+    document.lights = parseAll<LightData>(root.extension("KHR_lights_punctual")["lights"], parseGltfLight);
+    document.variants = parseAll<std::string>(root.extension("KHR_materials_variants")["variants"],
+                                              [](JsonNode const& node) { return node["name"].text(); });
+    document.animations = parseAll<GltfAnimation>(root["animations"], with(parseAnimation));
+}
+
+} // namespace
+
+GltfDocument parseGltf(std::span<const std::byte> json, Diagnostics& diagnostics) {
+    GltfDocument document;
+    const JsonTree tree(json, diagnostics);
+    if (!diagnostics.ok()) return document;
+    const JsonNode root = tree.root(diagnostics);
+    checkVersion(root);
+    warnAboutExtensions(root, diagnostics);
+    parseElements(root, document);
+    if (diagnostics.ok()) checkForest(document.nodes, diagnostics);
+    if (diagnostics.ok()) document.roots = parseRoots(root, document.nodes);
+    return document;
+}
+
+} // namespace filament::assets

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/gltf/GltfParseMaterial.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament::assets {
+namespace {
+
+// What the loader understands completely. KHR_xmp: notes about the file, which change nothing.
+constexpr std::array<std::string_view, 23> kSupportedExtensions{
+    "KHR_draco_mesh_compression",
+    "EXT_meshopt_compression",
+    "KHR_meshopt_compression",
+    "KHR_mesh_quantization",
+    "KHR_texture_transform",
+    "KHR_lights_punctual",
+    "EXT_mesh_gpu_instancing",
+    "KHR_materials_anisotropy",
+    "KHR_materials_clearcoat",
+    "KHR_materials_diffuse_transmission",
+    "KHR_materials_dispersion",
+    "KHR_materials_emissive_strength",
+    "KHR_materials_ior",
+    "KHR_materials_iridescence",
+    "KHR_materials_pbrSpecularGlossiness",
+    "KHR_materials_sheen",
+    "KHR_materials_specular",
+    "KHR_materials_transmission",
+    "KHR_materials_unlit",
+    "KHR_materials_variants",
+    "KHR_materials_volume",
+    "KHR_xmp",
+    "KHR_xmp_json_ld",
+};
+
+/// KHR_texture_transform: uv' = T * R * S * uv. The extension's GLSL turns the other way than its text and its test
+/// model (TextureTransformTest, the green markers); like every viewer we follow those: a positive angle turns the
+/// image counter-clockwise about (0, 0), so a coordinate turns clockwise in the (u, v) plane.
+float3x3 textureTransform(std::array<double, 2> offset, double rotation, std::array<double, 2> scale) {
+    const double c = std::cos(rotation), s = std::sin(rotation);
+    return { float3(c * scale[0], -s * scale[0], 0), float3(s * scale[1], c * scale[1], 0),
+             float3(offset[0], offset[1], 1) };
+}
+
+AlphaMode parseAlphaMode(JsonNode const& node) {
+    if (!node.exists()) return AlphaMode::Opaque;
+    const std::string text = node.text();
+    if (text == "MASK") return AlphaMode::Mask;
+    if (text == "BLEND") return AlphaMode::Blend;
+    if (text != "OPAQUE") node.diagnostics().warn("{}: '{}' is unknown and is drawn opaque", node.path(), text);
+    return AlphaMode::Opaque;
+}
+
+backend::WrapMode parseWrap(JsonNode const& node) {
+    switch (node.integer(10497)) {
+    case 33071:
+        return backend::WrapMode::ClampToEdge;
+    case 33648:
+        return backend::WrapMode::MirroredRepeat;
+    case 10497:
+        return backend::WrapMode::Repeat;
+    default:
+        node.diagnostics().warn("{}: unknown, repeats", node.path());
+        return backend::WrapMode::Repeat;
+    }
+}
+
+} // namespace
+
+GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
+    GltfTextureInfo info;
+    if (!node.exists()) return info;
+    info.texture = node["index"].requiredIndex(textureCount, "textures");
+    uint64_t uvSet = node["texCoord"].integer(0);
+    if (const JsonNode transform = node.extension("KHR_texture_transform"); transform.exists()) {
+        std::array<double, 2> offset{ 0, 0 }, scale{ 1, 1 };
+        transform["offset"].numbers(offset);
+        transform["scale"].numbers(scale);
+        info.uvTransform = textureTransform(offset, transform["rotation"].number(0), scale);
+        info.hasTransform = info.uvTransform != float3x3(1.0f);
+        uvSet = transform["texCoord"].integer(uvSet);
+    }
+    if (uvSet >= GltfAttributes::kUvSets) {
+        node.diagnostics().warn("{}.texCoord: set {} is not read, set 0 is used instead", node.path(), uvSet);
+        uvSet = 0;
+    }
+    info.uvSet = static_cast<uint32_t>(uvSet);
+    return info;
+}
+
+GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount) {
+    GltfMaterial material;
+    MaterialData& values = material.values;
+    values.name = node["name"].text();
+    const JsonNode core = node["pbrMetallicRoughness"];
+    const auto base = parseFactors<4>(core["baseColorFactor"], 1, 0, 1);
+    values.baseColorFactor = { base[0], base[1], base[2], base[3] };
+    values.metallicFactor = core["metallicFactor"].numberInRange(1, 0, 1);
+    values.roughnessFactor = core["roughnessFactor"].numberInRange(1, 0, 1);
+    const auto emissive = parseFactors<3>(node["emissiveFactor"], 0, 0, 1);
+    values.emissiveFactor = { emissive[0], emissive[1], emissive[2] };
+    values.emissiveStrength =
+            node.extension("KHR_materials_emissive_strength")["emissiveStrength"].numberInRange(1, 0, kMaxFloat);
+    values.normalScale = node["normalTexture"]["scale"].numberInRange(1, -kMaxFloat, kMaxFloat);
+    values.occlusionStrength = node["occlusionTexture"]["strength"].numberInRange(1, 0, 1);
+    values.alphaMode = parseAlphaMode(node["alphaMode"]);
+    values.alphaCutoff = node["alphaCutoff"].numberInRange(0.5f, 0, kMaxFloat);
+    values.doubleSided = node["doubleSided"].boolean(false);
+    material.baseColor = parseTextureInfo(core["baseColorTexture"], textureCount);
+    material.metallicRoughness = parseTextureInfo(core["metallicRoughnessTexture"], textureCount);
+    material.normal = parseTextureInfo(node["normalTexture"], textureCount);
+    material.occlusion = parseTextureInfo(node["occlusionTexture"], textureCount);
+    material.emissive = parseTextureInfo(node["emissiveTexture"], textureCount);
+    parseMaterialExtensions(node, textureCount, material);
+    return material;
+}
+
+/// Section 3.8.4: OpenGL's numbers. Without filters the choice is ours: trilinear.
+backend::SamplerDesc parseGltfSampler(JsonNode const& node) {
+    using backend::Filter, backend::MipFilter;
+    struct MinFilter {
+        uint64_t number;
+        Filter filter;
+        MipFilter mips;
+    };
+    static constexpr MinFilter kMinFilters[] = {
+        { 9728, Filter::Nearest, MipFilter::None },    { 9729, Filter::Linear, MipFilter::None },
+        { 9984, Filter::Nearest, MipFilter::Nearest }, { 9985, Filter::Linear, MipFilter::Nearest },
+        { 9986, Filter::Nearest, MipFilter::Linear },  { 9987, Filter::Linear, MipFilter::Linear },
+    };
+    backend::SamplerDesc sampler;
+    sampler.magFilter = node["magFilter"].integer(9729) == 9728 ? Filter::Nearest : Filter::Linear;
+    auto const* found = std::ranges::find(kMinFilters, node["minFilter"].integer(9987), &MinFilter::number);
+    if (found == std::end(kMinFilters)) {
+        node.diagnostics().warn("{}.minFilter: unknown, trilinear is used", node.path());
+        --found;
+    }
+    sampler.minFilter = found->filter;
+    sampler.mipFilter = found->mips;
+    sampler.wrapU = parseWrap(node["wrapS"]);
+    sampler.wrapV = parseWrap(node["wrapT"]);
+    return sampler;
+}
+
+LightData parseGltfLight(JsonNode const& node) {
+    LightData light;
+    light.name = node["name"].text();
+    const std::string type = node["type"].text();
+    if (type == "directional") {
+        light.type = LightType::Directional;
+    } else if (type == "spot") {
+        light.type = LightType::Spot;
+    } else if (type != "point") {
+        node.diagnostics().refuse(ErrorCode::Corrupt, "{}.type: '{}' must be directional, point or spot", node.path(),
+                                  type);
+    }
+    const auto color = parseFactors<3>(node["color"], 1, 0, kMaxFloat);
+    light.color = { color[0], color[1], color[2] };
+    light.intensity = node["intensity"].numberInRange(1, 0, kMaxFloat);
+    light.rangeMeters = node["range"].numberInRange(0, 0, kMaxFloat);
+    constexpr float kHalfPi = 1.57079633f;
+    light.outerConeRadians = node["spot"]["outerConeAngle"].numberInRange(0.7853982f, 0, kHalfPi);
+    light.innerConeRadians = node["spot"]["innerConeAngle"].numberInRange(0, 0, kHalfPi);
+    if (light.type == LightType::Spot && light.innerConeRadians > light.outerConeRadians) {
+        node.diagnostics().warn("{}.spot: the inner cone is wider than the outer one and was narrowed", node.path());
+        light.innerConeRadians = light.outerConeRadians;
+    }
+    return light;
+}
+
+void warnAboutExtensions(JsonNode const& root, Diagnostics& diagnostics) {
+    const auto isSupported = [](std::string_view name) {
+        return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), name) != kSupportedExtensions.end();
+    };
+    std::vector<std::string> required;
+    for (JsonNode const& node : root["extensionsRequired"].elements()) {
+        required.push_back(node.text());
+        if (isSupported(required.back())) continue;
+        diagnostics.warn("extension {} is required by the file but not supported: what it adds is missing",
+                         required.back());
+    }
+    for (JsonNode const& node : root["extensionsUsed"].elements()) {
+        const std::string name = node.text();
+        const bool wasNamed = std::find(required.begin(), required.end(), name) != required.end();
+        if (!isSupported(name) && !wasNamed) diagnostics.warn("extension {} is not supported and is ignored", name);
+    }
+}
+
+} // namespace filament::assets

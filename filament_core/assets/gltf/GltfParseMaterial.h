@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GltfParseMaterial: what the parser of materials and that of their extensions have in common.
+///   Fails   through the diagnostics of the node.
+#pragma once
+
+#include "filament_core/assets/files/JsonTree.h"
+#include "filament_core/assets/gltf/GltfParse.h"
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+namespace filament::assets {
+
+inline constexpr float kMaxFloat = std::numeric_limits<float>::max();
+
+GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount);
+
+/// Components outside [low, high] are clamped, with one warning.
+template <size_t N>
+std::array<float, N> parseFactors(JsonNode const& node, double fallback, double low, double high) {
+    std::array<double, N> values;
+    values.fill(fallback);
+    node.numbers(values);
+    std::array<float, N> factors;
+    for (size_t i = 0; i < N; ++i) {
+        const double clamped = std::clamp(values[i], low, high);
+        if (clamped != values[i]) {
+            node.diagnostics().warn("{}: {} is outside [{}, {}] and was clamped", node.path(), values[i], low, high);
+        }
+        factors[i] = static_cast<float>(clamped);
+    }
+    return factors;
+}
+
+/// Everything below material.extensions but the emissive strength. What the specifications do not allow together is
+/// left out, with a warning.
+void parseMaterialExtensions(JsonNode const& node, size_t textureCount, GltfMaterial& material);
+
+} // namespace filament::assets

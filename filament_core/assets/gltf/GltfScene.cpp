@@ -1,0 +1,264 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/gltf/GltfScene.h"
+
+#include "filament_core/assets/gltf/Accessor.h"
+#include "filament_core/assets/gltf/TangentFrame.h"
+#include "shaders/interface/ShaderInterface.h"
+
+#include <glm/gtc/quaternion.hpp>
+
+#include <cmath>
+#include <map>
+#include <tuple>
+
+namespace filament::assets {
+namespace {
+
+bool isFinite(double4x4 const& matrix) {
+    double sum = 0; // inf and NaN survive sums of products with 0
+    for (int column = 0; column < 4; ++column) sum += glm::dot(matrix[column], double4(0.0));
+    return std::isfinite(sum);
+}
+
+/// World transforms of all nodes, also of joints outside the scene. The parser proved that the links are a forest.
+std::vector<double4x4> worldTransforms(GltfDocument const& document, Diagnostics& diagnostics) {
+    std::vector<double4x4> worldFromNode(document.nodes.size(), double4x4(1.0));
+    std::vector<bool> isChild(document.nodes.size(), false);
+    for (GltfNode const& node : document.nodes) {
+        for (const uint32_t child : node.children) isChild[child] = true;
+    }
+    std::vector<uint32_t> open;
+    for (uint32_t i = 0; i < document.nodes.size(); ++i) {
+        worldFromNode[i] = document.nodes[i].parentFromNode;
+        if (!isChild[i]) open.push_back(i);
+    }
+    while (!open.empty()) {
+        const uint32_t parent = open.back();
+        open.pop_back();
+        if (!isFinite(worldFromNode[parent])) {
+            diagnostics.refuse(ErrorCode::Corrupt, "nodes[{}]: its transform is not finite", parent);
+        }
+        for (const uint32_t child : document.nodes[parent].children) {
+            worldFromNode[child] = worldFromNode[parent] * document.nodes[child].parentFromNode;
+            open.push_back(child);
+        }
+    }
+    return worldFromNode;
+}
+
+/// Section 3.7.3.3: the node of the mesh does not matter, only its joints do.
+std::vector<float4x4> jointTransforms(GltfDocument const& document, uint32_t skinIndex,
+                                      std::vector<double4x4> const& worldFromNode, Diagnostics& diagnostics) {
+    GltfSkin const& skin = document.skins[skinIndex];
+    const std::vector<float4x4> inverseBind =
+            readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics);
+    if (skin.joints.empty() || (!inverseBind.empty() && inverseBind.size() < skin.joints.size())) {
+        diagnostics.refuse(ErrorCode::Corrupt, "skins[{}]: {} joints and {} inverse bind matrices do not go together",
+                           skinIndex, skin.joints.size(), inverseBind.size());
+        return {};
+    }
+    std::vector<float4x4> transforms;
+    for (size_t i = 0; i < skin.joints.size(); ++i) {
+        const double4x4 bind = inverseBind.empty() ? double4x4(1.0) : double4x4(inverseBind[i]);
+        transforms.emplace_back(worldFromNode[skin.joints[i]] * bind);
+    }
+    return transforms;
+}
+
+/// Finds or adds the mesh requests of a scene.
+class RequestList {
+public:
+    RequestList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfDeformation deformation,
+                GltfScene& scene, Diagnostics& diagnostics)
+            : mDocument(document), mWorldFromNode(worldFromNode), mDeformation(deformation), mScene(scene),
+              mDiagnostics(diagnostics) {}
+
+    uint32_t requestFor(GltfNode const& node) {
+        std::vector<float> const& weights = node.weights.empty() ? mDocument.meshes[node.mesh].weights : node.weights;
+        const auto next = static_cast<uint32_t>(mScene.meshes.size());
+        const auto [entry, isNew] = mKnown.try_emplace({ node.mesh, node.skin, weights }, next);
+        if (!isNew) return entry->second;
+        GltfMeshRequest request{ node.mesh, node.skin, weights, {} };
+        request.keepsTargets = mDeformation == GltfDeformation::Kept;
+        if (node.skin != kNone) {
+            request.worldFromBind = jointTransforms(mDocument, node.skin, mWorldFromNode, mDiagnostics);
+            request.keepsSkin = keepsSkin(node.skin);
+        }
+        mScene.meshes.push_back(std::move(request));
+        return next;
+    }
+
+private:
+    bool keepsSkin(uint32_t skin) {
+        const size_t joints = mDocument.skins[skin].joints.size();
+        if (mDeformation == GltfDeformation::AtRest || joints <= shader::kMaxBones) {
+            return mDeformation == GltfDeformation::Kept;
+        }
+        mDiagnostics.warn("skins[{}]: has {} joints, more than {}: what it moves is drawn at rest", skin, joints,
+                          shader::kMaxBones);
+        return false;
+    }
+
+    GltfDocument const& mDocument;
+    std::vector<double4x4> const& mWorldFromNode;
+    GltfDeformation mDeformation;
+    GltfScene& mScene;
+    Diagnostics& mDiagnostics;
+    std::map<std::tuple<uint32_t, uint32_t, std::vector<float>>, uint32_t> mKnown;
+};
+
+double4x4 transformOf(float3 translation, float4 rotation, float3 scale) {
+    const glm::dquat q(static_cast<double>(rotation.w), static_cast<double>(rotation.x),
+                       static_cast<double>(rotation.y), static_cast<double>(rotation.z));
+    const double length = std::sqrt(glm::dot(q, q));
+    double4x4 matrix = length > 1e-6 ? double4x4(glm::mat3_cast(q * (1.0 / length))) : double4x4(1.0);
+    for (int axis = 0; axis < 3; ++axis) matrix[axis] *= static_cast<double>(scale[axis]);
+    matrix[3] = double4(double3(translation), 1.0);
+    return matrix;
+}
+
+/// EXT_mesh_gpu_instancing: the transforms of the instances.
+std::vector<double4x4> instanceTransforms(GltfInstancing const& source, GltfDocument const& document, uint32_t index,
+                                          Diagnostics& diagnostics) {
+    constexpr size_t kMaxInstances = size_t{ 1 } << 20;
+    const auto translations = readVectors<float3>(document, source.translation, "TRANSLATION", diagnostics);
+    const auto rotations = readVectors<float4>(document, source.rotation, "ROTATION", diagnostics);
+    const auto scales = readVectors<float3>(document, source.scale, "SCALE", diagnostics);
+    const size_t count = std::max({ translations.size(), rotations.size(), scales.size() });
+    const auto fits = [&](size_t size) { return size == 0 || size == count; };
+    if (!fits(translations.size()) || !fits(rotations.size()) || !fits(scales.size()) || count > kMaxInstances) {
+        diagnostics.refuse(ErrorCode::Corrupt,
+                           "nodes[{}]: the instance attributes differ in length, or are more than {}", index,
+                           kMaxInstances);
+        return {};
+    }
+    std::vector<double4x4> transforms;
+    for (size_t i = 0; i < count; ++i) {
+        transforms.push_back(transformOf(translations.empty() ? float3(0.0f) : translations[i],
+                                         rotations.empty() ? float4(0, 0, 0, 1) : rotations[i],
+                                         scales.empty() ? float3(1.0f) : scales[i]));
+    }
+    return transforms;
+}
+
+/// At scene node `at`, which is node `index` of the file, or at nodes of its own.
+void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, RequestList& requests, GltfScene& scene,
+               Diagnostics& diagnostics) {
+    GltfNode const& source = document.nodes[index];
+    const uint32_t mesh = requests.requestFor(source);
+    NodeData own{ .name = source.name, .mesh = mesh, .morphWeights = scene.meshes[mesh].weights };
+    std::vector<uint32_t>& meshNodes = scene.meshNodes[index];
+    if (source.skin != kNone) {
+        if (scene.meshes[mesh].keepsSkin) own.skin = source.skin; // of the file: see collectSkins()
+        meshNodes.push_back(static_cast<uint32_t>(scene.nodes.size()));
+        scene.nodes.push_back(std::move(own));
+        return;
+    }
+    if (!source.instancing) {
+        scene.nodes[at].mesh = mesh;
+        scene.nodes[at].morphWeights = std::move(own.morphWeights);
+        meshNodes.push_back(at);
+        return;
+    }
+    own.parent = at;
+    for (double4x4 const& nodeFromInstance : instanceTransforms(*source.instancing, document, index, diagnostics)) {
+        own.parentFromNode = nodeFromInstance;
+        own.pose = poseFrom(nodeFromInstance);
+        own.worldFromNode = scene.nodes[at].worldFromNode * nodeFromInstance;
+        meshNodes.push_back(static_cast<uint32_t>(scene.nodes.size()));
+        scene.nodes.push_back(own);
+    }
+}
+
+/// Adds nodes of the file with all that hangs below them.
+class NodeList {
+public:
+    NodeList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfScene& scene,
+             Diagnostics& diagnostics)
+            : mDocument(document), mWorldFromNode(worldFromNode), mScene(scene), mDiagnostics(diagnostics) {}
+
+    /// `requests`: null for what is not shown, only followed by joints.
+    void add(std::vector<uint32_t> const& roots, RequestList* requests) {
+        push(roots, kNone);
+        while (!mOpen.empty() && mDiagnostics.ok()) {
+            const auto [node, parent] = mOpen.back();
+            mOpen.pop_back();
+            GltfNode const& source = mDocument.nodes[node];
+            const auto added = static_cast<uint32_t>(mScene.nodes.size());
+            mScene.nodeOf[node] = added;
+            mScene.nodes.push_back({ .name = source.name,
+                                     .parent = parent,
+                                     .parentFromNode = source.parentFromNode,
+                                     .worldFromNode = mWorldFromNode[node],
+                                     .light = requests ? source.light : kNone,
+                                     .morphWeights = {},
+                                     .pose = source.pose });
+            if (requests && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);
+            push(source.children, added);
+        }
+    }
+
+private:
+    struct Open {
+        uint32_t node, parent; // of the document; of the scene
+    };
+    void push(std::vector<uint32_t> const& nodes, uint32_t parent) {
+        for (size_t i = nodes.size(); i-- > 0;) mOpen.push_back({ nodes[i], parent });
+    }
+
+    GltfDocument const& mDocument;
+    std::vector<double4x4> const& mWorldFromNode;
+    GltfScene& mScene;
+    Diagnostics& mDiagnostics;
+    std::vector<Open> mOpen;
+};
+
+std::vector<uint32_t> parentsOf(GltfDocument const& document) {
+    std::vector<uint32_t> parents(document.nodes.size(), kNone);
+    for (uint32_t i = 0; i < document.nodes.size(); ++i) {
+        for (const uint32_t child : document.nodes[i].children) parents[child] = i;
+    }
+    return parents;
+}
+
+/// The skins that nodes keep; those nodes get their numbers.
+void collectSkins(GltfDocument const& document, NodeList& nodes, GltfScene& scene, Diagnostics& diagnostics) {
+    std::map<uint32_t, uint32_t> known; // of the file -> of the scene
+    const std::vector<uint32_t> parents = parentsOf(document);
+    const size_t shown = scene.nodes.size();
+    for (size_t i = 0; i < shown && diagnostics.ok(); ++i) {
+        const uint32_t source = scene.nodes[i].skin;
+        if (source == kNone) continue;
+        const auto [entry, isNew] = known.try_emplace(source, static_cast<uint32_t>(scene.skins.size()));
+        scene.nodes[i].skin = entry->second;
+        if (!isNew) continue;
+        GltfSkin const& skin = document.skins[source];
+        SkinData data{ skin.name,
+                       {},
+                       readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics) };
+        data.jointFromBind.resize(skin.joints.size(), float4x4(1.0f));
+        for (uint32_t joint : skin.joints) {
+            uint32_t top = joint;
+            while (parents[top] != kNone) top = parents[top];
+            if (scene.nodeOf[joint] == kNone) nodes.add({ top }, nullptr);
+            data.joints.push_back(scene.nodeOf[joint]);
+        }
+        scene.skins.push_back(std::move(data));
+    }
+}
+
+} // namespace
+
+GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, Diagnostics& diagnostics) {
+    GltfScene scene;
+    scene.nodeOf.resize(document.nodes.size(), kNone);
+    scene.meshNodes.resize(document.nodes.size());
+    const std::vector<double4x4> worldFromNode = worldTransforms(document, diagnostics);
+    RequestList requests(document, worldFromNode, deformation, scene, diagnostics);
+    NodeList nodes(document, worldFromNode, scene, diagnostics);
+    nodes.add(document.roots, &requests);
+    collectSkins(document, nodes, scene, diagnostics);
+    return scene;
+}
+
+} // namespace filament::assets

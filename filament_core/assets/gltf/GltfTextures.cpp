@@ -1,0 +1,222 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/gltf/GltfTextures.h"
+
+#include "filament_core/assets/gltf/GltfUri.h"
+#include "filament_core/assets/image/MipMaps.h"
+#include "filament_core/assets/image/StbImage.h"
+
+#include <exception>
+#include <map>
+#include <tuple>
+
+namespace filament::assets {
+namespace {
+
+/// Section 3.8.4: without a sampler, repeat; the filters are ours to choose.
+constexpr backend::SamplerDesc kDefaultSampler{ .magFilter = backend::Filter::Linear,
+                                                .minFilter = backend::Filter::Linear,
+                                                .mipFilter = backend::MipFilter::Linear,
+                                                .wrapU = backend::WrapMode::Repeat,
+                                                .wrapV = backend::WrapMode::Repeat };
+
+class TexturePlanner {
+public:
+    TexturePlanner(GltfDocument const& document, GltfTextures& textures, Diagnostics& diagnostics)
+            : mDocument(document), mTextures(textures), mDiagnostics(diagnostics),
+              mJobOfImage(document.images.size(), kNone) {}
+
+    MaterialData resolve(uint32_t index) {
+        mMaterial = index;
+        GltfMaterial const& material = mDocument.materials[index];
+        MaterialData data = material.values;
+        data.baseColor = textureFor(material.baseColor, true);
+        if (data.unlit) return data; // shows the base colour alone
+        data.normal = textureFor(material.normal, false);
+        data.occlusion = textureFor(material.occlusion, false);
+        data.emissive = textureFor(material.emissive, true);
+        if (data.specularGlossiness) {
+            data.specularGlossiness->map = textureFor(material.specularGlossiness, true);
+            return data;
+        }
+        data.metallicRoughness = textureFor(material.metallicRoughness, false);
+        resolveExtensions(material, data);
+        return data;
+    }
+
+private:
+    // Maps of what a material does not use are neither decoded nor uploaded.
+    void resolveExtensions(GltfMaterial const& material, MaterialData& data) {
+        if (data.clearCoat.isUsed()) {
+            data.clearCoat.maps = pairFor(material.clearCoat, PackLayout::RedGreen, "clearcoatRoughnessTexture");
+            data.clearCoat.normal = textureFor(material.clearCoatNormal, false);
+        }
+        if (data.sheen.isUsed())
+            data.sheen.maps = pairFor(material.sheen, PackLayout::ColorAlpha, "sheenRoughnessTexture");
+        if (data.specular.isUsed())
+            data.specular.maps = pairFor(material.specular, PackLayout::ColorAlpha, "specularTexture");
+        if (data.anisotropy.isUsed()) data.anisotropy.map = textureFor(material.anisotropy, false);
+        if (data.iridescence.isUsed())
+            data.iridescence.maps = pairFor(material.iridescence, PackLayout::RedGreen, "iridescenceThicknessTexture");
+        if (data.transmission.isUsed()) {
+            GltfTexturePair maps = material.transmission;
+            if (!data.transmission.isSolid()) maps.second = {};
+            data.transmission.maps = pairFor(maps, PackLayout::RedGreen, "thicknessTexture");
+        }
+        if (!data.diffuseTransmission.isUsed()) return;
+        if (!data.transmission.isUsed()) {
+            data.diffuseTransmission.maps =
+                    pairFor(material.diffuseTransmission, PackLayout::ColorAlpha, "diffuseTransmissionTexture");
+        } else if (material.diffuseTransmission.first.texture != kNone ||
+                   material.diffuseTransmission.second.texture != kNone) {
+            mDiagnostics.warn("materials[{}]: the textures of KHR_materials_diffuse_transmission are left out beside "
+                              "KHR_materials_transmission, as a material has 12",
+                              mMaterial);
+        }
+    }
+
+    TextureRef textureFor(GltfTextureInfo const& info, bool isColor) {
+        TextureRef reference = referenceTo(info);
+        if (reference.image != kNone) reference.image = slotFor(reference.image, isColor);
+        return reference;
+    }
+
+    /// `lesser`: what the second map is called in the file.
+    TexturePair pairFor(GltfTexturePair const& infos, PackLayout layout, const char* lesser) {
+        const bool isColor = layout == PackLayout::ColorAlpha;
+        const TextureRef first = referenceTo(infos.first), second = referenceTo(infos.second);
+        TexturePair pair{ first, first.image != kNone, second.image != kNone };
+        if (!pair.hasFirst && !pair.hasSecond) return pair;
+        if (pair.hasFirst && pair.hasSecond && !isReadAlike(first, second)) {
+            mDiagnostics.warn(
+                    "materials[{}]: {} is left out, as it shares a texture with another map here; give both the "
+                    "same sampler and texture coordinates",
+                    mMaterial, lesser);
+            pair.hasSecond = false;
+        }
+        if (!pair.hasFirst) pair.texture = second;
+        const bool isOne = !pair.hasFirst || !pair.hasSecond || first.image == second.image;
+        pair.texture.image =
+                isOne ? slotFor(pair.texture.image, isColor) : packedSlotFor({ first.image, second.image, layout });
+        return pair;
+    }
+
+    static bool isReadAlike(TextureRef const& a, TextureRef const& b) {
+        return a.sampler == b.sampler && a.uvSet == b.uvSet && a.uvTransform == b.uvTransform;
+    }
+
+    /// With `image` still that of the document; kNone: there is none that this loader reads.
+    TextureRef referenceTo(GltfTextureInfo const& info) {
+        TextureRef reference;
+        if (info.texture == kNone) return reference;
+        GltfTexture const& texture = mDocument.textures[info.texture];
+        if (texture.image == kNone) {
+            mDiagnostics.warn("textures[{}]: has no PNG or JPEG image and is left out", info.texture);
+            return reference;
+        }
+        reference.image = texture.image;
+        reference.sampler = texture.sampler == kNone ? kDefaultSampler : mDocument.samplers[texture.sampler];
+        reference.uvSet = info.uvSet;
+        reference.uvTransform = info.uvTransform;
+        reference.hasTransform = info.hasTransform;
+        return reference;
+    }
+
+    uint32_t slotFor(uint32_t image, bool isColor) {
+        if (mJobOfImage[image] == kNone) {
+            mJobOfImage[image] = static_cast<uint32_t>(mTextures.jobs.size());
+            mTextures.jobs.push_back({ .image = image, .color = {}, .data = {}, .diagnostics = {} });
+        }
+        GltfImageJob& job = mTextures.jobs[mJobOfImage[image]];
+        uint32_t& slot = isColor ? job.colorTexture : job.dataTexture;
+        if (slot == kNone) slot = mTextures.textureCount++;
+        return slot;
+    }
+
+    using Packed = std::tuple<uint32_t, uint32_t, PackLayout>;
+    uint32_t packedSlotFor(Packed const& packed) {
+        const auto [entry, isNew] = mPacked.try_emplace(packed, mTextures.textureCount);
+        if (isNew) {
+            const auto [first, second, layout] = packed;
+            mTextures.packs.push_back({ first, second, layout, mTextures.textureCount++, {}, {} });
+        }
+        return entry->second;
+    }
+
+    GltfDocument const& mDocument;
+    GltfTextures& mTextures;
+    Diagnostics& mDiagnostics;
+    std::vector<uint32_t> mJobOfImage;
+    std::map<Packed, uint32_t> mPacked; // to its slot
+    uint32_t mMaterial = 0;
+};
+
+Result<Image> decode(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t index) {
+    GltfImage const& image = document.images[index];
+    const std::string name = fmt::format("images[{}]", index);
+    if (image.view != kNone) return decodeImage(document.viewBytes[image.view], name);
+    const Result<std::vector<std::byte>> file = readGltfUri(image.uri, baseDirectory);
+    if (!file) return fail(file.error().code, "{}: {}", name, file.error().message);
+    const bool isData = image.uri.starts_with("data:");
+    return decodeImage(*file, isData ? name : fmt::format("{} {}", name, image.uri));
+}
+
+} // namespace
+
+GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const& used, std::vector<uint32_t>& remap,
+                          Diagnostics& diagnostics) {
+    GltfTextures textures;
+    TexturePlanner planner(document, textures, diagnostics);
+    remap.assign(document.materials.size(), kNone);
+    for (uint32_t i = 0; i < document.materials.size(); ++i) {
+        if (!used[i]) continue;
+        remap[i] = static_cast<uint32_t>(textures.materials.size());
+        textures.materials.push_back(planner.resolve(i));
+    }
+    return textures;
+}
+
+void decodeImageJob(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t maxSize,
+                    GltfImageJob& job) {
+    try {
+        Result<Image> image = decode(document, baseDirectory, job.image);
+        if (!image) return job.diagnostics.refuse(image.error());
+        const bool isBoth = job.colorTexture != kNone && job.dataTexture != kNone;
+        if (isBoth) job.data = withMipMaps(*image, false, maxSize);
+        (job.colorTexture != kNone ? job.color : job.data) =
+                withMipMaps(std::move(*image), job.colorTexture != kNone, maxSize);
+    } catch (std::bad_alloc const&) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again", job.image);
+    } catch (std::exception const& exception) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", job.image, exception.what());
+    }
+}
+
+void packImagesJob(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t maxSize,
+                   GltfPackJob& job) {
+    try {
+        Result<Image> first = decode(document, baseDirectory, job.first);
+        if (!first) return job.diagnostics.refuse(first.error());
+        Result<Image> second = decode(document, baseDirectory, job.second);
+        if (!second) return job.diagnostics.refuse(second.error());
+        Image packed = packImages(std::move(*first), std::move(*second), job.layout);
+        job.image = withMipMaps(std::move(packed), job.layout == PackLayout::ColorAlpha, maxSize);
+    } catch (std::bad_alloc const&) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory,
+                               "images[{}] and images[{}]: out of memory; free some and try again", job.first,
+                               job.second);
+    } catch (std::exception const& exception) {
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", job.first, exception.what());
+    }
+}
+
+std::vector<Image> collectImages(GltfTextures& textures) {
+    std::vector<Image> images(textures.textureCount);
+    for (GltfImageJob& job : textures.jobs) {
+        if (job.colorTexture != kNone) images[job.colorTexture] = std::move(job.color);
+        if (job.dataTexture != kNone) images[job.dataTexture] = std::move(job.data);
+    }
+    for (GltfPackJob& job : textures.packs) images[job.texture] = std::move(job.image);
+    return images;
+}
+
+} // namespace filament::assets

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/gltf/GltfGeometry.h"
+#include "filament_core/assets/gltf/TangentFrame.h"
+#include "filament_core/assets/gltf/Tangents.h"
+
+#include <algorithm>
+#include <numeric>
+
+namespace filament::assets {
+namespace {
+
+using backend::Topology;
+using Indices = std::vector<uint32_t>;
+
+/// Section 3.7.2.1: every other triangle of a strip is turned, so that all face the same way.
+Indices listFromStrip(Indices const& strip) {
+    Indices list;
+    for (size_t i = 0; i + 2 < strip.size(); ++i) {
+        list.insert(list.end(), { strip[i], strip[i + 1 + i % 2], strip[i + 2 - i % 2] });
+    }
+    return list;
+}
+
+Indices listFromFan(Indices const& fan) {
+    Indices list;
+    for (size_t i = 1; i + 1 < fan.size(); ++i) list.insert(list.end(), { fan[i], fan[i + 1], fan[0] });
+    return list;
+}
+
+Indices linesFromStrip(Indices const& strip, bool isClosed) {
+    Indices list;
+    for (size_t i = 0; i + 1 < strip.size(); ++i) list.insert(list.end(), { strip[i], strip[i + 1] });
+    if (isClosed && strip.size() > 1) list.insert(list.end(), { strip.back(), strip.front() });
+    return list;
+}
+
+Topology topologyOf(GltfMode mode) {
+    if (mode == GltfMode::Points) return Topology::Points;
+    return mode <= GltfMode::LineStrip ? Topology::Lines : Topology::Triangles;
+}
+
+float3 flatNormal(float3 p0, float3 p1, float3 p2) {
+    // in double: the cross product of float positions neither overflows nor vanishes
+    const double3 normal = glm::cross(double3(p1) - double3(p0), double3(p2) - double3(p0));
+    const double length = std::sqrt(glm::dot(normal, normal));
+    return length > 0 ? float3(normal / length) : float3(0, 0, 1);
+}
+
+/// Of triangles whose corners follow each other.
+std::vector<float3> flatNormals(std::vector<float3> const& corners) {
+    std::vector<float3> normals(corners.size());
+    for (size_t i = 0; i + 2 < corners.size(); i += 3) {
+        std::fill_n(&normals[i], 3, flatNormal(corners[i], corners[i + 1], corners[i + 2]));
+    }
+    return normals;
+}
+
+/// The normals of a target are those of its own triangles (section 3.7.2.2).
+void addFlatNormals(GltfGeometry const& geometry, MorphTargetData& target) {
+    target.tangents.clear();
+    target.normals.clear();
+    if (target.positions.empty()) return;
+    std::vector<float3> moved = geometry.positions;
+    for (size_t i = 0; i < moved.size(); ++i) moved[i] += target.positions[i];
+    target.normals = flatNormals(moved);
+    for (size_t i = 0; i < moved.size(); ++i) target.normals[i] -= geometry.normals[i];
+}
+
+} // namespace
+
+void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics) {
+    Indices& indices = geometry.indices;
+    if (indices.empty()) return;
+    const uint32_t largest = *std::max_element(indices.begin(), indices.end());
+    if (largest >= geometry.positions.size()) {
+        diagnostics.refuse(ErrorCode::Corrupt, "{}.indices: {} is out of range, there are {} vertices", path, largest,
+                           geometry.positions.size());
+        return;
+    }
+    switch (mode) {
+    case GltfMode::LineLoop:
+        indices = linesFromStrip(indices, true);
+        break;
+    case GltfMode::LineStrip:
+        indices = linesFromStrip(indices, false);
+        break;
+    case GltfMode::TriangleStrip:
+        indices = listFromStrip(indices);
+        break;
+    case GltfMode::TriangleFan:
+        indices = listFromFan(indices);
+        break;
+    default:
+        break;
+    }
+    geometry.topology = topologyOf(mode);
+    const size_t corners = geometry.topology == Topology::Triangles ? 3 : geometry.topology == Topology::Lines ? 2 : 1;
+    if (indices.size() % corners != 0) {
+        diagnostics.warn("{}: {} indices are left over and are not drawn", path, indices.size() % corners);
+        indices.resize(indices.size() - indices.size() % corners);
+    }
+    if (indices.empty()) diagnostics.warn("{}: has too few vertices for anything to be drawn", path);
+}
+
+void dropUnusedVertices(GltfGeometry& geometry) {
+    constexpr size_t kWorthIt = 2; // copying costs less than keeping when half of them or more are unused
+    if (geometry.indices.size() * kWorthIt > geometry.positions.size()) return;
+    Indices remap(geometry.positions.size(), kNone), used;
+    for (uint32_t& index : geometry.indices) {
+        if (remap[index] == kNone) {
+            remap[index] = static_cast<uint32_t>(used.size());
+            used.push_back(index);
+        }
+        index = remap[index];
+    }
+    reorderVertices(geometry, used);
+}
+
+void addFlatNormals(GltfGeometry& geometry) {
+    if (geometry.topology != Topology::Triangles || !geometry.normals.empty()) return;
+    geometry.tangents.clear();
+    const Indices corners = std::move(geometry.indices);
+    reorderVertices(geometry, corners);
+    geometry.indices.resize(corners.size());
+    std::iota(geometry.indices.begin(), geometry.indices.end(), 0u);
+    geometry.normals = flatNormals(geometry.positions);
+    for (MorphTargetData& target : geometry.targets) addFlatNormals(geometry, target);
+    geometry.wasIndexed = false;
+}
+
+void addTangents(GltfGeometry& geometry, uint32_t uvSet) {
+    const bool isPossible = geometry.topology == Topology::Triangles && !geometry.normals.empty() &&
+                            !geometry.uvs[uvSet].empty() && geometry.tangents.empty();
+    if (!isPossible) return;
+    for (float3& normal : geometry.normals) normal = normalizedOr(normal, float3(0, 0, 1));
+    TangentOutput output =
+            generateTangents({ geometry.positions, geometry.normals, geometry.uvs[uvSet], geometry.indices });
+    reorderVertices(geometry, output.sources);
+    geometry.tangents = std::move(output.tangents);
+    geometry.indices = std::move(output.indices);
+}
+
+} // namespace filament::assets

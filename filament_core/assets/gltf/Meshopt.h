@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Meshopt: one compressed buffer view of EXT_meshopt_compression (or KHR_, the same streams up to codec version 0).
+///   In      the description and the compressed bytes; untrusted.
+///   Out     count * byteStride bytes. `path` names the view in messages; on failure the result is empty.
+///   Thread  any.
+///   Limits  what the extension allows: strides 4..256 (attributes), 2 or 4 (indices), 4 or 8 (octahedral), 8
+///           (quaternion); and not more than 2048 decoded bytes for one compressed byte, which no valid stream reaches,
+///           so that nothing large is allocated for a small file.
+///   Fails   Corrupt.
+#pragma once
+
+#include "filament_core/assets/files/Diagnostics.h"
+#include "filament_core/assets/gltf/GltfDocument.h"
+
+#include <span>
+#include <string_view>
+
+namespace filament::assets {
+
+std::vector<std::byte> decodeMeshopt(MeshoptSource const& source, std::span<const std::byte> bytes,
+                                     std::string_view path, Diagnostics& diagnostics);
+
+} // namespace filament::assets

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ModelData: a glTF file as plain values, ready to upload. No device, no engine.
+///   Vertices are de-quantised as far as the GPU cannot do it itself, tangent frames are quaternions (MikkTSpace where
+///   the file gives none), colours are linear, texture coordinates keep glTF's origin (v = 0 is the top row).
+///   Indices into the vectors are checked by the loader: every one is valid or kNone.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "base/math/Math.h"
+#include "filament_core/assets/gltf/Animation.h"
+#include "filament_core/assets/gltf/MaterialData.h"
+#include "filament_core/assets/gltf/NodePose.h"
+#include "filament_core/assets/image/Image.h"
+
+#include <filament/Quality.h>
+
+#include <array>
+#include <cstdint>
+#include <string>
+#include <vector>
+
+namespace filament::assets {
+
+/// Who applies skins and morph targets.
+enum class GltfDeformation : uint8_t {
+    AtRest, ///< the loader, once: the vertices are those of the rest pose
+    Kept,   ///< the device, every frame
+};
+
+/// How vertices are stored (<filament/Quality.h>).
+struct GeometryStorage {
+    PositionStorage positions = PositionStorage::AsAuthored;
+    TangentStorage tangents = TangentStorage::Snorm16;
+};
+
+/// A closed box; empty where min > max.
+struct BoundsData {
+    float3 min{ 3e38f }, max{ -3e38f };
+    void add(float3 point) { min = glm::min(min, point), max = glm::max(max, point); }
+};
+
+/// Differences from the vertices of a primitive; an empty list: no difference.
+struct MorphTargetData {
+    std::vector<float3> positions, normals, tangents;
+};
+
+/// KHR_materials_variants: what a primitive looks like in a variant of its model.
+struct VariantMaterial {
+    uint32_t variant = 0;  ///< into ModelData::variants
+    uint32_t material = 0; ///< into ModelData::materials
+};
+
+/// One draw's worth of geometry. Positions and all other attributes are interleaved in one stream.
+struct PrimitiveData {
+    backend::Topology topology = backend::Topology::Triangles;
+    backend::VertexLayout
+            layout{}; ///< buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4, ...)
+    std::vector<std::byte> vertices;
+    std::vector<std::byte> indices; ///< always indexed
+    backend::IndexType indexType = backend::IndexType::UInt16;
+    uint32_t vertexCount = 0, indexCount = 0;
+    uint32_t material = kNone;                   ///< kNone: glTF's default material
+    std::vector<VariantMaterial> variants;       ///< what takes its place; at most one a variant
+    float3 boundsMin{ 0.0f }, boundsMax{ 0.0f }; ///< of the stored positions
+    float3 positionOffset{ 0.0f };               ///< position of the file = offset + scale * stored position
+    float positionScale = 1;
+    bool hasColor = false, hasUv0 = false, hasUv1 = false;
+    bool hasTangents = false; ///< false: no normals could be made either (points, lines)
+
+    // What the loader leaves to the device (GltfDeformation::Kept)
+    bool isSkinned = false;               ///< vertices have joints and weights, whose sum is 1
+    std::vector<BoundsData> boneBounds{}; ///< by joint, of the vertices that it moves; as far as the last of those
+    std::vector<MorphTargetData> morphTargets{};
+    BoundsData restBounds{}; ///< in the space that positions end in, with the weights and joints of the rest pose
+};
+
+struct MeshData {
+    std::string name;
+    std::vector<PrimitiveData> primitives;
+};
+
+enum class LightType : uint8_t { Directional, Point, Spot };
+
+/// KHR_lights_punctual: shines along -Z of its node.
+struct LightData {
+    std::string name;
+    LightType type = LightType::Point;
+    float3 color{ 1.0f };  ///< linear
+    float intensity = 1;   ///< lux (directional) or candela (point, spot)
+    float rangeMeters = 0; ///< 0: unlimited
+    float innerConeRadians = 0, outerConeRadians = 0.7853982f;
+};
+
+struct NodeData {
+    std::string name;
+    uint32_t parent = kNone; ///< into ModelData::nodes, before this one; kNone: a root
+    double4x4 parentFromNode{ 1.0 };
+    double4x4 worldFromNode{ 1.0 }; ///< of the rest pose: the product from the root down
+    uint32_t mesh = kNone;
+    uint32_t light = kNone;
+    std::vector<float> morphWeights; ///< of the rest pose; GltfDeformation::AtRest: applied by the loader already
+    uint32_t skin = kNone;           ///< into ModelData::skins; moves the skinned primitives of `mesh`
+    NodePose pose{};                 ///< parentFromNode in parts: where animations start
+};
+
+struct SkinData {
+    std::string name;
+    std::vector<uint32_t> joints; ///< into ModelData::nodes
+    std::vector<float4x4> jointFromBind;
+};
+
+struct ModelData {
+    std::string name;
+    std::vector<Image> images; ///< with full mip chains; format RGBA8Srgb for colours, RGBA8 for data
+    std::vector<MaterialData> materials;
+    std::vector<MeshData> meshes;
+    std::vector<NodeData> nodes; ///< of the default scene, parents before children
+    std::vector<LightData> lights;
+    std::vector<SkinData> skins;           ///< with GltfDeformation::Kept
+    std::vector<AnimationData> animations; ///< with GltfDeformation::Kept
+    std::vector<std::string> variants;     ///< KHR_materials_variants: their names
+    std::vector<std::string> warnings;     ///< one line each: unsupported extensions, repaired values
+};
+
+} // namespace filament::assets

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/image/HdrReader.h"
+
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/image/HdrDecoders.h"
+
+#include <algorithm>
+#include <cmath>
+#include <exception>
+#include <new>
+
+namespace filament::assets {
+namespace {
+
+Result<HdrImage> decodeByContent(std::span<const std::byte> bytes) {
+    if (isExr(bytes)) return decodeExr(bytes);
+    if (isRgbe(bytes)) return decodeRgbe(bytes);
+    return fail(ErrorCode::Unsupported, "it is neither Radiance .hdr nor OpenEXR");
+}
+
+const char* cureOf(ErrorCode code) {
+    switch (code) {
+    case ErrorCode::Unsupported:
+        return "save it as RGBE .hdr or as a scan-line ZIP .exr";
+    case ErrorCode::OutOfMemory:
+        return "make it smaller";
+    default:
+        return "export or copy it again";
+    }
+}
+
+float repaired(float value, float largestReal, HdrRepairs& repairs) {
+    if (std::isnan(value)) {
+        ++repairs.notANumber;
+        return 0;
+    }
+    if (value < 0) {
+        ++repairs.negative;
+        return 0;
+    }
+    if (value > kMaxRadiance) {
+        ++repairs.infinite;
+        return largestReal;
+    }
+    return value;
+}
+
+} // namespace
+
+std::optional<Error> checkHdrSize(int64_t width, int64_t height) {
+    if (width >= 1 && height >= 1 && width <= kMaxHdrSide && height <= kMaxHdrSide &&
+        static_cast<uint64_t>(width) * static_cast<uint64_t>(height) <= kMaxHdrPixels) {
+        return std::nullopt;
+    }
+    return fail(ErrorCode::Unsupported, "its size {} x {} is not within 1 and {} pixels a side and {} in all", width,
+                height, kMaxHdrSide, kMaxHdrPixels);
+}
+
+void sanitise(HdrImage& image) {
+    float largest = 0;
+    for (float3 const& pixel : image.pixels) {
+        for (const float value : { pixel.x, pixel.y, pixel.z }) {
+            if (value <= kMaxRadiance) largest = std::max(largest, value);
+        }
+    }
+    for (float3& pixel : image.pixels) {
+        pixel = { repaired(pixel.x, largest, image.repairs), repaired(pixel.y, largest, image.repairs),
+                  repaired(pixel.z, largest, image.repairs) };
+    }
+}
+
+Result<HdrImage> decodeHdrImage(std::span<const std::byte> bytes, std::string_view name) try {
+    Result<HdrImage> image = decodeByContent(bytes);
+    if (!image) {
+        const ErrorCode code = image.error().code;
+        return fail(code, "cannot decode '{}': {}; {}", name, image.error().message, cureOf(code));
+    }
+    sanitise(*image);
+    return image;
+} catch (std::bad_alloc const&) {
+    return fail(ErrorCode::OutOfMemory, "cannot decode '{}': not enough memory; {}", name,
+                cureOf(ErrorCode::OutOfMemory));
+} catch (std::exception const& exception) { // out of a library's parser: std::out_of_range and the like
+    return fail(ErrorCode::Corrupt, "cannot decode '{}': {}; {}", name, exception.what(), cureOf(ErrorCode::Corrupt));
+}
+
+Result<HdrImage> readHdrImage(std::filesystem::path const& path) {
+    Result<std::vector<std::byte>> bytes = readFileBytes(path);
+    if (!bytes) return bytes.error();
+    return decodeHdrImage(*bytes, path.string());
+}
+
+} // namespace filament::assets

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Reads high dynamic range pictures: Radiance .hdr (RGBE) and OpenEXR .exr.
+///   In      a file, or its bytes and the name that error messages call it. The content decides, not the extension.
+///   Out     HdrImage, sanitised: NaN, infinite and negative components are replaced and counted in `repairs`.
+///   .hdr    flat, old and new run lengths; rows top-down or bottom-up; EXPOSURE lines are divided out; not XYZE.
+///   .exr    single-part scan lines, half or float; uncompressed, RLE, ZIPS, ZIP here, PIZ by libtinyexr; channels
+///           R, G, B or Y. Not tiled, multi-part, deep or subsampled.
+///   Thread  any; no shared state.
+///   Limits  kMaxHdrSide on a side, kMaxHdrPixels in all; checked before memory is taken.
+///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with file, reason and cure. Never
+///   crashes.
+#pragma once
+
+#include "base/Result.h"
+#include "filament_core/assets/image/HdrImage.h"
+
+#include <filesystem>
+#include <span>
+#include <string_view>
+
+namespace filament::assets {
+
+inline constexpr uint32_t kMaxHdrSide = 16384;
+inline constexpr uint64_t kMaxHdrPixels = uint64_t(1) << 26; ///< 16384 x 4096: 768 MiB of floats
+
+Result<HdrImage> readHdrImage(std::filesystem::path const& path);
+Result<HdrImage> decodeHdrImage(std::span<const std::byte> bytes, std::string_view name);
+
+} // namespace filament::assets

@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/image/ImageWriter.h"
+
+#include "base/Assert.h"
+#include "base/math/Half.h"
+#include "filament_core/assets/files/FileBytes.h"
+
+#include <glm/common.hpp>
+#include <png.h>
+#include <tinyexr.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace filament::assets {
+namespace {
+
+constexpr uint64_t kMaxPngPixels = uint64_t(1) << 28; // 1 GiB of RGBA8
+
+// libpng's simplified interface keeps setjmp inside of the library; png_image_free() is harmless when called twice.
+struct PngImage {
+    png_image value{};
+    PngImage() { value.version = PNG_IMAGE_VERSION; }
+    ~PngImage() { png_image_free(&value); }
+};
+
+Error pngFailure(std::filesystem::path const& path, const char* verb, PngImage const& png) {
+    return fail(ErrorCode::Unreadable, "cannot {} '{}': {}; check the file and the free memory", verb, path.string(),
+                static_cast<const char*>(png.value.message));
+}
+
+// One plane of tightly packed samples, by name.
+struct Plane {
+    char name;
+    std::vector<std::byte> samples;
+};
+
+// OpenEXR wants planes in alphabetical order; `planes` is.
+Result<void> writePlanes(std::filesystem::path const& path, uint32_t width, uint32_t height, std::span<Plane> planes,
+                         int pixelType) {
+    EXRHeader header;
+    InitEXRHeader(&header);
+    EXRImage image;
+    InitEXRImage(&image);
+    const auto count = static_cast<int>(planes.size());
+    std::vector<EXRChannelInfo> channels(planes.size());
+    std::vector<int> types(planes.size(), pixelType);
+    std::vector<unsigned char*> samples;
+    for (size_t i = 0; i < planes.size(); ++i) {
+        channels[i].name[0] = planes[i].name;
+        samples.push_back(reinterpret_cast<unsigned char*>(planes[i].samples.data()));
+    }
+    header.num_channels = image.num_channels = count;
+    header.channels = channels.data();
+    header.pixel_types = types.data();
+    header.requested_pixel_types = types.data();
+    header.compression_type = TINYEXR_COMPRESSIONTYPE_ZIP;
+    image.images = samples.data();
+    image.width = static_cast<int>(width);
+    image.height = static_cast<int>(height);
+
+    unsigned char* memory = nullptr;
+    const char* reason = nullptr;
+    const size_t size = SaveEXRImageToMemory(&image, &header, &memory, &reason);
+    if (size == 0) {
+        const std::string text = reason ? reason : "unknown reason";
+        if (reason) FreeEXRErrorMessage(reason);
+        return fail(ErrorCode::Unreadable, "cannot encode '{}': {}; use another format", path.string(), text);
+    }
+    Result<void> written = replaceFile(path, std::as_bytes(std::span(memory, size)));
+    std::free(memory);
+    return written;
+}
+
+template <class T>
+void append(std::vector<std::byte>& bytes, T value) {
+    const auto* first = reinterpret_cast<const std::byte*>(&value);
+    bytes.insert(bytes.end(), first, first + sizeof(T));
+}
+
+using Rgbe = std::array<uint8_t, 4>;
+
+// The largest component picks the exponent. Mantissas are rounded, because readers do not add Radiance's half step.
+Rgbe rgbeOf(float3 color) {
+    const float3 light = glm::max(color, float3(0.0f));
+    const float largest = std::max({ light.x, light.y, light.z });
+    if (!(largest > 1e-38f)) return {};
+    int exponent = 0;
+    std::frexp(std::min(largest, 1.7e38f), &exponent);
+    const float scale = std::ldexp(1.0f, 8 - exponent);
+    const auto mantissa = [&](float value) { return static_cast<uint8_t>(std::min(value * scale + 0.5f, 255.0f)); };
+    return { mantissa(light.x), mantissa(light.y), mantissa(light.z), static_cast<uint8_t>(exponent + 128) };
+}
+
+// Runs of at least 4 are repeated, everything between is copied, 127 and 128 bytes at a time.
+void appendRuns(std::vector<std::byte>& out, std::span<const uint8_t> values) {
+    const auto runAt = [&](size_t i) {
+        size_t end = i + 1;
+        while (end < values.size() && end - i < 127 && values[end] == values[i]) ++end;
+        return end - i;
+    };
+    for (size_t i = 0; i < values.size();) {
+        const size_t run = runAt(i);
+        if (run >= 4) {
+            out.push_back(static_cast<std::byte>(128 + run));
+            out.push_back(static_cast<std::byte>(values[i]));
+            i += run;
+            continue;
+        }
+        size_t end = i;
+        while (end < values.size() && end - i < 128 && runAt(end) < 4) ++end;
+        out.push_back(static_cast<std::byte>(end - i));
+        for (; i < end; ++i) out.push_back(static_cast<std::byte>(values[i]));
+    }
+}
+
+void appendHdrRow(std::vector<std::byte>& out, std::span<const float3> row) {
+    std::vector<Rgbe> pixels(row.size());
+    std::ranges::transform(row, pixels.begin(), rgbeOf);
+    if (row.size() < 8 || row.size() >= 32768) { // the run-length form cannot say such widths
+        for (Rgbe const& pixel : pixels) append(out, pixel);
+        return;
+    }
+    append(out, Rgbe{ 2, 2, static_cast<uint8_t>(row.size() >> 8), static_cast<uint8_t>(row.size() & 0xFF) });
+    std::vector<uint8_t> component(row.size());
+    for (size_t c = 0; c < 4; ++c) {
+        std::ranges::transform(pixels, component.begin(), [c](Rgbe const& pixel) { return pixel[c]; });
+        appendRuns(out, component);
+    }
+}
+
+} // namespace
+
+Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const std::byte> rgba8) {
+    FILAMENT_ASSERT(width > 0 && height > 0 && rgba8.size() == size_t(width) * height * 4,
+                    "writePng takes width * height * 4 bytes, more than none");
+    PngImage png;
+    png.value.width = width;
+    png.value.height = height;
+    png.value.format = PNG_FORMAT_RGBA;
+    png.value.flags = PNG_IMAGE_FLAG_FAST;
+    // Filters and headers can make noise larger than it was: the bound comes from libpng.
+    png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.value);
+    std::vector<std::byte> bytes(size);
+    if (!png_image_write_to_memory(&png.value, bytes.data(), &size, 0, rgba8.data(), 0, nullptr)) {
+        return pngFailure(path, "encode", png);
+    }
+    return replaceFile(path, std::span(bytes).first(size));
+}
+
+Result<Image> readPng(std::filesystem::path const& path) {
+    const Result<std::vector<std::byte>> bytes = readFileBytes(path);
+    if (!bytes) return bytes.error();
+    PngImage png;
+    if (!png_image_begin_read_from_memory(&png.value, bytes->data(), bytes->size())) {
+        return pngFailure(path, "read", png);
+    }
+    if (uint64_t(png.value.width) * png.value.height > kMaxPngPixels) {
+        return fail(ErrorCode::Unsupported, "cannot read '{}': {} x {} pixels are more than {}; make it smaller",
+                    path.string(), png.value.width, png.value.height, kMaxPngPixels);
+    }
+    png.value.format = PNG_FORMAT_RGBA;
+    Image image{ .width = png.value.width, .height = png.value.height, .data = {} };
+    image.data.resize(image.levelBytes(0));
+    if (!png_image_finish_read(&png.value, nullptr, image.data.data(), 0, nullptr))
+        return pngFailure(path, "read", png);
+    return image;
+}
+
+Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const float3> pixels, ExrPrecision precision) {
+    FILAMENT_ASSERT(width > 0 && height > 0 && pixels.size() == size_t(width) * height,
+                    "writeExr takes width * height pixels, more than none");
+    std::array<Plane, 3> planes{ { { 'B', {} }, { 'G', {} }, { 'R', {} } } };
+    for (int c = 0; c < 3; ++c) {
+        std::vector<std::byte>& samples = planes[static_cast<size_t>(2 - c)].samples;
+        samples.reserve(pixels.size() * 4);
+        for (float3 const& pixel : pixels) {
+            if (precision == ExrPrecision::Half)
+                append(samples, halfFromFloat(pixel[c]));
+            else
+                append(samples, pixel[c]);
+        }
+    }
+    return writePlanes(path, width, height, planes,
+                       precision == ExrPrecision::Half ? TINYEXR_PIXELTYPE_HALF : TINYEXR_PIXELTYPE_FLOAT);
+}
+
+Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const std::byte> rgba16f) {
+    FILAMENT_ASSERT(width > 0 && height > 0 && rgba16f.size() == size_t(width) * height * 8,
+                    "writeExr takes width * height * 8 bytes, more than none");
+    std::array<Plane, 4> planes{ { { 'A', {} }, { 'B', {} }, { 'G', {} }, { 'R', {} } } };
+    for (size_t i = 0; i < rgba16f.size(); i += 8) {
+        for (size_t c = 0; c < 4; ++c) {
+            const auto sample = rgba16f.subspan(i + (3 - c) * 2, 2);
+            planes[c].samples.insert(planes[c].samples.end(), sample.begin(), sample.end());
+        }
+    }
+    return writePlanes(path, width, height, planes, TINYEXR_PIXELTYPE_HALF);
+}
+
+Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image) {
+    FILAMENT_ASSERT(image.width > 0 && image.height > 0 && image.pixels.size() == size_t(image.width) * image.height,
+                    "writeHdr takes width * height pixels, more than none");
+    const std::string header =
+            fmt::format("#?RADIANCE\nFORMAT=32-bit_rle_rgbe\n\n-Y {} +X {}\n", image.height, image.width);
+    const auto headerBytes = std::as_bytes(std::span(header));
+    std::vector<std::byte> bytes(headerBytes.begin(), headerBytes.end());
+    for (uint32_t y = 0; y < image.height; ++y) appendHdrRow(bytes, { &image.at(0, y), image.width });
+    return replaceFile(path, bytes);
+}
+
+} // namespace filament::assets

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Writes pictures: PNG for what a display shows, OpenEXR and Radiance .hdr for scene-linear light. Reads PNG back.
+///   In      tightly packed pixels, row 0 is the top row; the span's size is checked against width and height.
+///   Out     a complete file or none: written beside and renamed. PNG pixels are taken as sRGB codes, not converted.
+///   Thread  any; no shared state.
+///   Memory  a second copy of the picture at most.
+///   Fails   Unreadable with path and reason; an empty picture is the caller's bug.
+///   Cost    PNG uses zlib's fastest level: 1280 x 720 in about 15 ms, files a third larger than at the default level.
+#pragma once
+
+#include "base/Result.h"
+#include "filament_core/assets/image/HdrImage.h"
+#include "filament_core/assets/image/Image.h"
+
+#include <filesystem>
+#include <span>
+
+namespace filament::assets {
+
+/// RGBA8, 4 bytes a pixel.
+Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const std::byte> rgba8);
+
+/// Any PNG as RGBA8, one level.
+Result<Image> readPng(std::filesystem::path const& path);
+
+enum class ExrPrecision : uint8_t { Half, Float };
+
+/// RGB in ZIP-compressed scan lines. Half clamps at 65504.
+Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const float3> pixels, ExrPrecision precision = ExrPrecision::Half);
+/// RGBA16F pixels (8 bytes each) bit for bit, with alpha.
+Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
+                      std::span<const std::byte> rgba16f);
+
+/// RGBE with run lengths: 8 bits of mantissa shared by three components, 1e-38 to 1e38. Negative components become 0.
+Result<void> writeHdr(std::filesystem::path const& path, HdrImage const& image);
+
+} // namespace filament::assets

@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/image/MipMaps.h"
+
+#include "base/Assert.h"
+#include "filament_core/assets/image/ChannelTransfer.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstring>
+
+namespace filament::assets {
+namespace {
+
+constexpr uint32_t kChannels = 4;
+constexpr uint32_t kAlpha = 3;
+
+/// A level in 16-bit linear light.
+struct Level {
+    uint32_t width = 0, height = 0;
+    std::vector<uint16_t> texels;
+};
+
+/// How the image stores its channels.
+struct Encoding {
+    ChannelTransfer const& color;
+    ChannelTransfer const& alpha;
+};
+
+void decodeRow(std::byte const* codes, uint32_t width, Encoding const& encoding, uint16_t* texels) {
+    for (uint32_t x = 0; x < width; ++x, codes += kChannels, texels += kChannels) {
+        for (uint32_t c = 0; c < kAlpha; ++c) texels[c] = encoding.color.linearFromCode[static_cast<size_t>(codes[c])];
+        texels[kAlpha] = encoding.alpha.linearFromCode[static_cast<size_t>(codes[kAlpha])];
+    }
+}
+
+void encodeLevel(Level const& level, Encoding const& encoding, std::byte* codes) {
+    for (size_t i = 0; i < level.texels.size(); i += kChannels) {
+        for (size_t c = 0; c < kAlpha; ++c)
+            codes[i + c] = std::byte{ encoding.color.codeFromLinear[level.texels[i + c]] };
+        codes[i + kAlpha] = std::byte{ encoding.alpha.codeFromLinear[level.texels[i + kAlpha]] };
+    }
+}
+
+/// Two rows to one, both sizes even: the plain mean of four. The compiler makes vector code of it.
+void halveRows(uint16_t const* row0, uint16_t const* row1, uint32_t width, uint16_t* out) {
+    for (uint32_t x = 0; x < width; ++x) {
+        for (uint32_t c = 0; c < kChannels; ++c) {
+            const uint32_t sum = uint32_t{ row0[c] } + row0[c + kChannels] + row1[c] + row1[c + kChannels];
+            out[c] = static_cast<uint16_t>((sum + 2) >> 2);
+        }
+        row0 += 2 * kChannels, row1 += 2 * kChannels, out += kChannels;
+    }
+}
+
+/// The source texels that output texel `i` covers, and how much of each; weights sum to 1.
+struct Taps {
+    uint32_t first = 0, count = 1;
+    std::array<float, 3> weights{ 1, 0, 0 };
+};
+
+/// n texels become m = max(1, n / 2): texel i covers [i n / m, (i + 1) n / m). Of an odd n = 2m + 1 it touches three.
+Taps tapsOf(uint32_t i, uint32_t sourceSize) {
+    if (sourceSize == 1) return {};
+    if (sourceSize % 2 == 0) return { 2 * i, 2, { 0.5f, 0.5f, 0 } };
+    const uint32_t size = sourceSize / 2;
+    const auto total = static_cast<float>(sourceSize);
+    return { 2 * i,
+             3,
+             { static_cast<float>(size - i) / total, static_cast<float>(size) / total,
+               static_cast<float>(i + 1) / total } };
+}
+
+/// Any sizes: weighted means over up to 3 x 3 texels. `row(y)` gives row y of the source.
+template <class Row>
+void resampleRow(Row const& row, uint32_t y, uint32_t sourceWidth, uint32_t sourceHeight, uint32_t width,
+                 uint16_t* out) {
+    const Taps vertical = tapsOf(y, sourceHeight);
+    std::array<uint16_t const*, 3> rows{};
+    for (uint32_t i = 0; i < vertical.count; ++i) rows[i] = row(vertical.first + i);
+    for (uint32_t x = 0; x < width; ++x, out += kChannels) {
+        const Taps horizontal = tapsOf(x, sourceWidth);
+        for (uint32_t c = 0; c < kChannels; ++c) {
+            float sum = 0;
+            for (uint32_t i = 0; i < vertical.count; ++i) {
+                for (uint32_t j = 0; j < horizontal.count; ++j) {
+                    const uint16_t texel = rows[i][(horizontal.first + j) * kChannels + c];
+                    sum += vertical.weights[i] * horizontal.weights[j] * static_cast<float>(texel);
+                }
+            }
+            out[c] = static_cast<uint16_t>(std::min(sum + 0.5f, 65535.0f));
+        }
+    }
+}
+
+/// `row(y)` gives row y of the source; the last three that it gave stay valid.
+template <class Row>
+Level halve(uint32_t sourceWidth, uint32_t sourceHeight, Row const& row) {
+    Level level{ std::max(1u, sourceWidth / 2), std::max(1u, sourceHeight / 2), {} };
+    level.texels.resize(size_t{ level.width } * level.height * kChannels);
+    const bool isEven = sourceWidth % 2 == 0 && sourceHeight % 2 == 0;
+    for (uint32_t y = 0; y < level.height; ++y) {
+        uint16_t* out = &level.texels[size_t{ y } * level.width * kChannels];
+        if (isEven) {
+            halveRows(row(2 * y), row(2 * y + 1), level.width, out);
+        } else {
+            resampleRow(row, y, sourceWidth, sourceHeight, level.width, out);
+        }
+    }
+    return level;
+}
+
+/// Level 1 from the 8-bit level 0, decoding three rows at a time.
+Level halveCodes(Image const& base, Encoding const& encoding) {
+    std::array<std::vector<uint16_t>, 3> decoded;
+    for (auto& row : decoded) row.resize(size_t{ base.width } * kChannels);
+    return halve(base.width, base.height, [&](uint32_t y) {
+        std::vector<uint16_t>& row = decoded[y % 3];
+        decodeRow(&base.data[size_t{ y } * base.width * kChannels], base.width, encoding, row.data());
+        return row.data();
+    });
+}
+
+Level halveLevel(Level const& level) {
+    return halve(level.width, level.height,
+                 [&](uint32_t y) { return &level.texels[size_t{ y } * level.width * kChannels]; });
+}
+
+/// Drops the levels that are larger than `maxSize`.
+void dropLargeLevels(Image& image, uint32_t maxSize) {
+    uint32_t dropped = 0;
+    while (maxSize > 0 && (std::max(image.width, image.height) >> dropped) > maxSize) ++dropped;
+    if (dropped == 0) return;
+    image.data.erase(image.data.begin(), image.data.begin() + static_cast<std::ptrdiff_t>(image.levelOffset(dropped)));
+    image.width = std::max(1u, image.width >> dropped);
+    image.height = std::max(1u, image.height >> dropped);
+    image.levels -= dropped;
+}
+
+} // namespace
+
+Image withMipMaps(Image base, bool isColor, uint32_t maxSize) {
+    FILAMENT_ASSERT(base.format == backend::Format::RGBA8 && base.levels == 1 && base.layers == 1,
+                    "withMipMaps takes one RGBA8 image of one level");
+    FILAMENT_ASSERT(base.data.size() == base.levelBytes(0) && !base.data.empty(), "the image must hold its pixels");
+    const Encoding encoding{ isColor ? colorTransfer() : dataTransfer(), dataTransfer() };
+    Image image = std::move(base);
+    image.format = isColor ? backend::Format::RGBA8Srgb : backend::Format::RGBA8;
+    Level level;
+    if (image.width > 1 || image.height > 1) level = halveCodes(image, encoding);
+    image.levels = backend::fullMipCount(image.width, image.height);
+    image.data.resize(image.levelOffset(image.levels));
+    for (uint32_t i = 1; i < image.levels; ++i) {
+        encodeLevel(level, encoding, &image.data[image.levelOffset(i)]);
+        if (i + 1 < image.levels) level = halveLevel(level);
+    }
+    dropLargeLevels(image, maxSize);
+    return image;
+}
+
+} // namespace filament::assets

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/Animator.h>
+
+#include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/gltf/ModelImpl.h"
+#include "filament_core/scene/SceneSkins.h"
+
+#include <algorithm>
+#include <array>
+
+namespace filament {
+namespace {
+
+using assets::AnimationChannel;
+using assets::AnimationPath;
+using assets::NodePose;
+
+/// What animations move of the nodes of a model.
+struct Pose {
+    std::vector<NodePose> nodes;              ///< by node of the model
+    std::vector<std::vector<double>> weights; ///< of morph targets; empty where there are none
+    std::vector<uint8_t> movesNode, movesWeights;
+
+    explicit Pose(size_t count) : nodes(count), weights(count), movesNode(count), movesWeights(count) {}
+    void forget() {
+        std::ranges::fill(movesNode, uint8_t{ 0 });
+        std::ranges::fill(movesWeights, uint8_t{ 0 });
+    }
+};
+
+Pose restPose(Model::Impl const& model) {
+    Pose pose(model.nodes.size());
+    for (size_t i = 0; i < model.nodes.size(); ++i) pose.nodes[i] = model.nodes[i].pose;
+    for (Model::Impl::PartRenderable const& part : model.renderables) {
+        if (part.desc.morphTargets)
+            pose.weights[part.node].assign(part.desc.morphWeights.begin(), part.desc.morphWeights.end());
+    }
+    return pose;
+}
+
+void apply(AnimationChannel const& channel, assets::AnimationSampler const& sampler, double seconds, Pose& pose) {
+    if (channel.path == AnimationPath::Weights) {
+        pose.weights[channel.node].resize(sampler.width);
+        pose.movesWeights[channel.node] = 1;
+        return assets::sampleAnimation(sampler, seconds, pose.weights[channel.node]);
+    }
+    std::array<double, 4> v{};
+    assets::sampleAnimation(sampler, seconds, std::span(v).first(sampler.width));
+    NodePose& node = pose.nodes[channel.node];
+    pose.movesNode[channel.node] = 1;
+    if (channel.path == AnimationPath::Translation) node.translation = { v[0], v[1], v[2] };
+    if (channel.path == AnimationPath::Rotation) node.rotation = { v[0], v[1], v[2], v[3] };
+    if (channel.path == AnimationPath::Scale) node.scale = { v[0], v[1], v[2] };
+}
+
+/// The node handles of a copy, in the order of the model's nodes: Scene::add() made children in that order.
+std::vector<Node> nodesOfCopy(Model::Impl const& model, scene::Transforms const& transforms, Node root) {
+    std::vector<Node> nodes, nextChild;
+    Node nextOfRoot = transforms.firstChild(root);
+    for (Model::Impl::PartNode const& part : model.nodes) {
+        Node& next = part.parent == Model::Impl::kRoot ? nextOfRoot : nextChild[part.parent];
+        const Node node = next;
+        FILAMENT_ASSERT(node && transforms.name(node) == part.name,
+                        "an animator gets the root that Scene::add(model) returned, with its nodes as they were then");
+        next = transforms.nextSibling(node);
+        nodes.push_back(node);
+        nextChild.push_back(transforms.firstChild(node));
+    }
+    return nodes;
+}
+
+} // namespace
+
+struct Animator::Impl {
+    Impl(Model::Impl const& ofModel, Scene::Impl& inScene, Node root)
+            : model(ofModel), scene(inScene), nodes(nodesOfCopy(ofModel, inScene.data.transforms, root)),
+              rest(restPose(ofModel)), pose(rest), other(rest) {}
+
+    void sample(uint32_t animation, double seconds, Pose& into) const {
+        FILAMENT_ASSERT(animation < model.animations.size(), "an animation is one of the model's");
+        assets::AnimationData const& data = model.animations[animation];
+        for (AnimationChannel const& channel : data.channels) {
+            if (!into.movesNode[channel.node]) into.nodes[channel.node] = rest.nodes[channel.node];
+            filament::apply(channel, data.samplers[channel.sampler], seconds, into);
+        }
+    }
+
+    /// `pose` becomes what lies between it and `other`.
+    void mix(double weight) {
+        for (size_t i = 0; i < nodes.size(); ++i) {
+            if (pose.movesNode[i] || other.movesNode[i]) {
+                pose.nodes[i] = assets::blend(posed(pose, i), posed(other, i), weight);
+                pose.movesNode[i] = 1;
+            }
+            if (pose.movesWeights[i] || other.movesWeights[i]) mixWeights(i, weight);
+        }
+    }
+
+    NodePose const& posed(Pose const& of, size_t i) const { return of.movesNode[i] ? of.nodes[i] : rest.nodes[i]; }
+
+    void mixWeights(size_t i, double weight) {
+        std::vector<double>& a = pose.weights[i];
+        std::vector<double> const& b = other.movesWeights[i] ? other.weights[i] : rest.weights[i];
+        if (!pose.movesWeights[i]) a = rest.weights[i];
+        a.resize(std::max(a.size(), b.size()));
+        for (size_t k = 0; k < a.size(); ++k) a[k] += ((k < b.size() ? b[k] : 0.0) - a[k]) * weight;
+        pose.movesWeights[i] = 1;
+    }
+
+    void write() {
+        for (size_t i = 0; i < nodes.size(); ++i) {
+            if (pose.movesNode[i]) scene.data.transforms.setTransform(nodes[i], assets::matrixFrom(pose.nodes[i]));
+            if (pose.movesWeights[i]) writeWeights(nodes[i], pose.weights[i]);
+        }
+    }
+
+    void writeWeights(Node node, std::vector<double> const& values) {
+        weights.assign(values.begin(), values.end());
+        scene::SceneData& data = scene.data;
+        data.atNodes.renderables.forEach(data.transforms.slotOf(node), [&](Renderable renderable) {
+            const uint32_t slot = deformationAt(data.renderables, data.renderables.index.at(renderable));
+            if (slot != scene::kNotDeformed && data.deformations[slot].morph)
+                scene::setMorphWeights(data, renderable, weights);
+        });
+    }
+
+    Model::Impl const& model;
+    Scene::Impl& scene;
+    std::vector<Node> nodes;
+    Pose rest, pose, other;
+    std::vector<float> weights;
+};
+
+Animator::Animator(Model const& model, Scene& scene, Node root)
+        : mImpl(std::make_unique<Impl>(model.impl(), scene.impl(), root)) {}
+Animator::Animator(Animator&&) noexcept = default;
+Animator& Animator::operator=(Animator&&) noexcept = default;
+Animator::~Animator() = default;
+
+void Animator::apply(uint32_t animation, double seconds) {
+    mImpl->pose.forget();
+    mImpl->sample(animation, seconds, mImpl->pose);
+    mImpl->write();
+}
+
+void Animator::crossFade(uint32_t first, double firstSeconds, uint32_t second, double secondSeconds, double weight) {
+    mImpl->pose.forget();
+    mImpl->other.forget();
+    mImpl->sample(first, firstSeconds, mImpl->pose);
+    mImpl->sample(second, secondSeconds, mImpl->other);
+    mImpl->mix(weight);
+    mImpl->write();
+}
+
+void Animator::rest() {
+    mImpl->pose = mImpl->rest;
+    for (assets::AnimationData const& animation : mImpl->model.animations) {
+        for (AnimationChannel const& channel : animation.channels) {
+            auto& moves = channel.path == AnimationPath::Weights ? mImpl->pose.movesWeights : mImpl->pose.movesNode;
+            moves[channel.node] = 1;
+        }
+    }
+    mImpl->write();
+}
+
+} // namespace filament

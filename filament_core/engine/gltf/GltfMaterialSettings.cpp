@@ -1,0 +1,209 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/gltf/GltfMaterialSettings.h"
+
+#include "shaders/lib/LibCpp.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament {
+namespace {
+
+using assets::AlphaMode;
+using assets::kNone;
+using assets::MaterialData;
+using assets::TexturePair;
+using assets::TextureRef;
+
+constexpr float kMaxHalf = 65504; // shaders may compute in 16 bits
+
+std::string withSuffix(std::string family, AlphaMode mode) {
+    switch (mode) {
+    case AlphaMode::Opaque:
+        return family + "_opaque";
+    case AlphaMode::Mask:
+        return family + "_masked";
+    case AlphaMode::Blend:
+        return family + "_blended";
+    }
+    return family + "_opaque";
+}
+
+bool hasLayers(MaterialData const& m) {
+    return m.ior != 1.5f || m.clearCoat.isUsed() || m.sheen.isUsed() || m.specular.isUsed() || m.anisotropy.isUsed() ||
+           m.iridescence.isUsed() || m.diffuseTransmission.isUsed() || m.transmission.isUsed();
+}
+
+const char* familyOf(MaterialData const& material) {
+    if (material.unlit) return "gltf_unlit";
+    if (material.specularGlossiness) return "gltf_specular_glossiness";
+    if (material.transmission.isSolid()) return "gltf_transmissive_solid";
+    if (material.transmission.isUsed()) return "gltf_transmissive_thin";
+    return hasLayers(material) ? "gltf_layered" : "gltf_lit";
+}
+
+// Occlusion in red, roughness and metallic of the same texture: the usual packing. One fetch serves both.
+bool sharesTexel(TextureRef const& a, TextureRef const& b) {
+    return a.image != kNone && a.image == b.image && a.sampler == b.sampler && a.uvSet == b.uvSet &&
+           a.uvTransform == b.uvTransform;
+}
+
+/// Collects the settings of one material; what is absent leaves no trace.
+class Settings {
+public:
+    explicit Settings(std::string package) { mSettings.package = std::move(package); }
+
+    void constant(const char* name, std::variant<bool, int32_t, float> value) {
+        mSettings.constants.push_back({ name, value });
+    }
+    void feature(const char* has) { constant(has, true); }
+    void parameter(const char* name, ParameterValue const& value) { mSettings.parameters.push_back({ name, value }); }
+
+    void map(const char* stem, const char* has, TextureRef const& texture) {
+        if (texture.image == kNone) return;
+        feature(has);
+        addMap(stem, texture);
+    }
+
+    void maps(const char* stem, const char* hasFirst, const char* hasSecond, TexturePair const& pair) {
+        if (pair.texture.image == kNone) return;
+        if (pair.hasFirst) feature(hasFirst);
+        if (pair.hasSecond) feature(hasSecond);
+        addMap(stem, pair.texture);
+    }
+
+    GltfMaterialSettings take() { return std::move(mSettings); }
+
+private:
+    void addMap(std::string const& stem, TextureRef const& texture) {
+        if (texture.uvSet != 0) mSettings.constants.push_back({ stem + "Uv", static_cast<int32_t>(texture.uvSet) });
+        if (texture.hasTransform) mSettings.constants.push_back({ stem + "Transform", true });
+        mSettings.maps.push_back({ stem, texture });
+    }
+
+    GltfMaterialSettings mSettings;
+};
+
+void setCore(Settings& settings, MaterialData const& material, bool hasVertexColor) {
+    settings.constant("hasVertexColor", hasVertexColor);
+    settings.parameter("baseColorFactor", material.baseColorFactor);
+    if (material.alphaMode == AlphaMode::Mask) settings.parameter("_maskThreshold", material.alphaCutoff);
+    settings.map("baseColor", "hasBaseColorMap", material.baseColor);
+}
+
+void setMetallicRoughness(Settings& settings, MaterialData const& material) {
+    settings.parameter("metallicFactor", material.metallicFactor);
+    settings.parameter("roughnessFactor", material.roughnessFactor);
+    settings.map("metallicRoughness", "hasMetallicRoughnessMap", material.metallicRoughness);
+}
+
+void setSpecularGlossiness(Settings& settings, assets::SpecularGlossinessData const& data) {
+    settings.parameter("specularFactor", data.specularFactor);
+    settings.parameter("glossinessFactor", data.glossinessFactor);
+    settings.map("specularGlossiness", "hasSpecularGlossinessMap", data.map);
+}
+
+void setCommonMaps(Settings& settings, MaterialData const& material) {
+    settings.parameter("normalScale", material.normalScale);
+    settings.parameter("occlusionStrength", material.occlusionStrength);
+    settings.parameter("emissiveFactor", material.emissiveFactor * material.emissiveStrength);
+    settings.map("normal", "hasNormalMap", material.normal);
+    settings.map("occlusion", "hasOcclusionMap", material.occlusion);
+    settings.map("emissive", "hasEmissiveMap", material.emissive);
+    if (!material.specularGlossiness && sharesTexel(material.occlusion, material.metallicRoughness))
+        settings.feature("occlusionInMetallicRoughness");
+}
+
+void setClearCoat(Settings& settings, assets::ClearCoatData const& coat) {
+    if (!coat.isUsed()) return;
+    settings.feature("hasClearCoat");
+    settings.parameter("clearCoat", coat.factor);
+    settings.parameter("clearCoatRoughness", coat.roughness);
+    settings.maps("clearCoat", "hasClearCoatMap", "hasClearCoatRoughnessMap", coat.maps);
+    settings.parameter("clearCoatNormalScale", coat.normalScale);
+    settings.map("clearCoatNormal", "hasClearCoatNormalMap", coat.normal);
+}
+
+void setSheen(Settings& settings, assets::SheenData const& sheen) {
+    if (!sheen.isUsed()) return;
+    settings.feature("hasSheen");
+    settings.parameter("sheenColor", sheen.color);
+    settings.parameter("sheenRoughness", sheen.roughness);
+    settings.maps("sheen", "hasSheenColorMap", "hasSheenRoughnessMap", sheen.maps);
+}
+
+void setSpecular(Settings& settings, MaterialData const& material) {
+    if (material.ior != 1.5f) {
+        settings.feature("hasIor");
+        settings.parameter("ior", material.ior);
+    }
+    if (!material.specular.isUsed()) return;
+    settings.feature("hasSpecular");
+    settings.parameter("specularFactor", material.specular.factor);
+    settings.parameter("specularColorFactor", material.specular.color);
+    settings.maps("specular", "hasSpecularColorMap", "hasSpecularFactorMap", material.specular.maps);
+}
+
+void setAnisotropy(Settings& settings, assets::AnisotropyData const& anisotropy) {
+    if (!anisotropy.isUsed()) return;
+    settings.feature("hasAnisotropy");
+    settings.parameter("anisotropyStrength", anisotropy.strength);
+    const float angle = anisotropy.rotationRadians;
+    settings.parameter("anisotropyRotation", float2(std::cos(angle), std::sin(angle)));
+    settings.map("anisotropy", "hasAnisotropyMap", anisotropy.map);
+}
+
+void setIridescence(Settings& settings, assets::IridescenceData const& film) {
+    if (!film.isUsed()) return;
+    settings.feature("hasIridescence");
+    settings.parameter("iridescence", film.factor);
+    settings.parameter("iridescenceIor", film.ior);
+    settings.parameter("iridescenceThickness", float2(film.thicknessMinNanometers, film.thicknessMaxNanometers));
+    settings.maps("iridescence", "hasIridescenceMap", "hasIridescenceThicknessMap", film.maps);
+}
+
+void setDiffuseTransmission(Settings& settings, assets::DiffuseTransmissionData const& data) {
+    if (!data.isUsed()) return;
+    settings.feature("hasDiffuseTransmission");
+    settings.parameter("diffuseTransmission", data.factor);
+    settings.parameter("diffuseTransmissionColor", data.color);
+    settings.maps("diffuseTransmission", "hasDiffuseTransmissionColorMap", "hasDiffuseTransmissionMap", data.maps);
+}
+
+void setTransmission(Settings& settings, assets::TransmissionData const& data, float scale) {
+    if (!data.isUsed()) return;
+    settings.parameter("transmission", data.factor);
+    settings.maps("transmission", "hasTransmissionMap", "hasThicknessMap", data.maps);
+    if (!data.isSolid()) return;
+    settings.parameter("thickness", std::min(data.thicknessMeters * scale, kMaxHalf));
+    if (data.dispersion > 0) {
+        settings.feature("hasDispersion");
+        settings.parameter("dispersion", data.dispersion);
+    }
+    if (std::isinf(data.attenuationDistanceMeters) || data.attenuationColor == float3(1.0f)) return;
+    const float3 absorption = shader::lib::absorptionAtDistance(data.attenuationColor, data.attenuationDistanceMeters);
+    settings.feature("hasAbsorption");
+    settings.parameter("absorption", glm::min(absorption, float3(kMaxHalf)));
+}
+
+} // namespace
+
+GltfMaterialSettings settingsOf(MaterialData const& material, bool hasVertexColor, float scale) {
+    Settings settings(withSuffix(familyOf(material), material.alphaMode));
+    setCore(settings, material, hasVertexColor);
+    if (material.unlit) return settings.take();
+    material.specularGlossiness ? setSpecularGlossiness(settings, *material.specularGlossiness)
+                                : setMetallicRoughness(settings, material);
+    setCommonMaps(settings, material);
+    if (material.specularGlossiness) return settings.take();
+    setClearCoat(settings, material.clearCoat);
+    setSheen(settings, material.sheen);
+    setSpecular(settings, material);
+    setAnisotropy(settings, material.anisotropy);
+    setIridescence(settings, material.iridescence);
+    setDiffuseTransmission(settings, material.diffuseTransmission);
+    setTransmission(settings, material.transmission, scale);
+    return settings.take();
+}
+
+} // namespace filament

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/gltf/GltfMaterials.h"
+
+#include "base/Log.h"
+
+namespace filament {
+namespace {
+
+std::string keyOf(GltfMaterialSettings const& settings) {
+    std::string key = settings.package;
+    for (MaterialConstant const& constant : settings.constants) {
+        key += '|' + constant.name + '=';
+        key += std::visit([](auto value) { return std::to_string(value); }, constant.value);
+    }
+    return key;
+}
+
+// The engine's own packages know their parameters: a failure is a defect of GltfMaterialSettings.
+void require(Result<void> const& result) {
+    if (!result) log(Severity::Error, "{}", result.error().message);
+    FILAMENT_ASSERT(result.ok(), "the glTF materials have the parameters that GltfMaterialSettings names");
+}
+
+} // namespace
+
+Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
+    Material& shared = mMaterials[keyOf(settings)];
+    if (!shared) {
+        mModel.materials.push_back({}); // whoever makes something here has already a place for it
+        auto created = mEngine.createMaterial(
+                { mEngine.enginePackage(settings.package), settings.constants, settings.package });
+        if (!created) log(Severity::Error, "{}", created.error().message);
+        FILAMENT_ASSERT(created.ok(), "the glTF materials have the constants that GltfMaterialSettings names");
+        shared = mModel.materials.back() = *created;
+    }
+    return shared;
+}
+
+MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale) {
+    const GltfMaterialSettings settings = settingsOf(material, hasVertexColor, scale);
+    const Material parent = materialFor(settings);
+    mModel.instances.push_back({});
+    const MaterialInstance instance = mModel.instances.back() = mEngine.createInstance(parent, material.name);
+    mEngine.instances.get(instance).raster.cullingDisabled = material.doubleSided;
+    for (auto const& [name, value] : settings.parameters) require(mEngine.set(instance, name, value));
+    for (GltfMap const& map : settings.maps) {
+        require(mEngine.set(instance, map.stem + "Map", mTextures[map.texture.image], map.texture.sampler));
+        if (map.texture.hasTransform) require(mEngine.set(instance, map.stem + "UvMatrix", map.texture.uvTransform));
+    }
+    return instance;
+}
+
+} // namespace filament

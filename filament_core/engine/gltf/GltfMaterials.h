@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+/// glTF materials as instances of the engine's glTF materials: a package by shading and blending, specialised to
+/// exactly the maps that the material uses. Equal specialisations share one material.
+#pragma once
+
+#include "filament_core/engine/gltf/GltfMaterialSettings.h"
+#include "filament_core/engine/gltf/ModelImpl.h"
+
+#include <map>
+#include <string>
+
+namespace filament {
+
+class GltfMaterials {
+public:
+    /// `textures[i]` is images[i] of the model, once they are uploaded.
+    GltfMaterials(Engine::Impl& engine, Model::Impl& model, std::vector<Texture> const& textures)
+            : mEngine(engine), mModel(model), mTextures(textures) {}
+
+    /// `scale`: metres in the file's scene for a metre of the mesh; volumes are as thick as that makes them.
+    MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale);
+
+private:
+    Material materialFor(GltfMaterialSettings const& settings);
+
+    Engine::Impl& mEngine;
+    Model::Impl& mModel;
+    std::vector<Texture> const& mTextures;
+    std::map<std::string, Material> mMaterials; ///< by package and constants
+};
+
+} // namespace filament

@@ -1,0 +1,330 @@
+// SPDX-License-Identifier: Apache-2.0
+#include <filament/Gltf.h>
+
+#include "base/OutOfMemory.h"
+#include "base/Suggest.h"
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/engine/gltf/GltfMaterials.h"
+#include "filament_core/engine/gltf/ModelImpl.h"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+#include <tuple>
+#include <utility>
+
+namespace filament {
+namespace {
+
+using assets::kNone;
+using assets::ModelData;
+using assets::PrimitiveData;
+
+PrimitiveType primitiveType(backend::Topology topology) {
+    switch (topology) {
+    case backend::Topology::Triangles:
+        return PrimitiveType::Triangles;
+    case backend::Topology::TriangleStrip:
+        return PrimitiveType::TriangleStrip;
+    case backend::Topology::Lines:
+        return PrimitiveType::Lines;
+    case backend::Topology::LineStrip:
+        return PrimitiveType::LineStrip;
+    case backend::Topology::Points:
+        return PrimitiveType::Points;
+    }
+    return PrimitiveType::Triangles;
+}
+
+/// Uploads one ModelData and places its meshes: each step fills a part of the Model.
+class ModelBuilder {
+public:
+    ModelBuilder(Engine& engine, ModelData const& data)
+            : mEngine(engine.impl()), mData(data), mModel(std::make_unique<Model::Impl>(engine)),
+              mMaterials(mEngine, *mModel, mModel->textures) {}
+
+    std::unique_ptr<Model::Impl> build() {
+        mModel->name = mData.name;
+        mModel->warnings = mData.warnings;
+        mModel->animations = mData.animations;
+        mModel->variants = mData.variants;
+        uploadImages();
+        uploadMeshes();
+        placeNodes();
+        return std::move(mModel);
+    }
+
+private:
+    struct Part {
+        RenderableDesc desc{};
+        PrimitiveData const* primitive = nullptr;
+        double4x4 meshFromPositions{ 1.0 };
+        bool isScaled = false;
+        bool isSkinned = false;
+        Box restBounds{}; ///< in the space of the mesh, or of its skin
+    };
+
+    void uploadImages() {
+        for (assets::Image const& image : mData.images) {
+            mModel->textures.push_back({}); // whoever makes something here has already a place for it
+            mModel->textures.back() = mEngine.createTexture({ .format = image.format,
+                                                              .width = image.width,
+                                                              .height = image.height,
+                                                              .levels = image.levels,
+                                                              .pixels = image.data,
+                                                              .name = mData.name });
+        }
+    }
+
+    void uploadMeshes() {
+        for (assets::MeshData const& mesh : mData.meshes) {
+            std::vector<Part>& parts = mMeshes.emplace_back();
+            for (PrimitiveData const& primitive : mesh.primitives) {
+                // In the order of the meshes, which the order of draws follows.
+                if (!materialOf(primitive.material).transmission.isSolid())
+                    instanceFor(primitive.material, primitive.hasColor, double4x4(1.0));
+                parts.push_back({ upload(primitive, mesh.name),
+                                  &primitive,
+                                  meshFromPositions(primitive),
+                                  primitive.positionScale != 1 || primitive.positionOffset != float3(0),
+                                  primitive.isSkinned,
+                                  { double3(primitive.restBounds.min), double3(primitive.restBounds.max) } });
+            }
+        }
+    }
+
+    RenderableDesc upload(PrimitiveData const& primitive, std::string const& name) {
+        VertexBufferDesc vertices{ .vertexCount = primitive.vertexCount,
+                                   .stride = primitive.layout.buffers[0].stride,
+                                   .data = primitive.vertices,
+                                   .name = name };
+        for (uint32_t i = 0; i < primitive.layout.attributeCount; ++i) {
+            backend::VertexAttribute const& attribute = primitive.layout.attributes[i];
+            vertices.attributes.push_back(
+                    { static_cast<Attribute>(attribute.location), attribute.format, attribute.offset });
+        }
+        const bool wide = primitive.indexType == backend::IndexType::UInt32;
+        mModel->vertexBuffers.push_back({});
+        mModel->indexBuffers.push_back({});
+        mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices);
+        mModel->indexBuffers.back() =
+                mEngine.createIndexBuffer({ .indexCount = primitive.indexCount,
+                                            .format = wide ? IndexFormat::UInt32 : IndexFormat::UInt16,
+                                            .data = primitive.indices,
+                                            .name = name });
+        return { .vertices = mModel->vertexBuffers.back(),
+                 .indices = mModel->indexBuffers.back(),
+                 .primitive = primitiveType(primitive.topology),
+                 .boundsMin = primitive.boundsMin,
+                 .boundsMax = primitive.boundsMax,
+                 .boneBounds = boneBounds(primitive),
+                 .morphTargets = uploadTargets(primitive, name),
+                 .name = name };
+    }
+
+    static std::vector<BoneBounds> boneBounds(PrimitiveData const& primitive) {
+        std::vector<BoneBounds> bounds;
+        for (assets::BoundsData const& bone : primitive.boneBounds) bounds.push_back({ bone.min, bone.max });
+        return bounds;
+    }
+
+    MorphTargets uploadTargets(PrimitiveData const& primitive, std::string const& name) {
+        if (primitive.morphTargets.empty()) return {};
+        MorphTargetsDesc desc{ .vertexCount = primitive.vertexCount, .name = name };
+        for (assets::MorphTargetData const& target : primitive.morphTargets) {
+            desc.targets.push_back({ target.positions, target.normals, target.tangents });
+        }
+        mModel->morphTargets.push_back({});
+        return mModel->morphTargets.back() = mEngine.createMorphTargets(desc);
+    }
+
+    void placeNodes() {
+        for (uint32_t i = 0; i < mData.nodes.size(); ++i) {
+            assets::NodeData const& node = mData.nodes[i];
+            const uint32_t parent = node.parent == kNone ? Model::Impl::kRoot : node.parent;
+            mModel->nodes.push_back({ node.name, parent, node.parentFromNode, node.pose });
+            if (node.mesh != kNone) placeMesh(node, i);
+            if (node.light != kNone) mModel->lights.push_back({ lightOf(mData.lights[node.light]), i });
+        }
+        // Behind the nodes of the file, whose parents are numbers.
+        for (Model::Impl::PartNode& node : mScalingNodes) mModel->nodes.push_back(std::move(node));
+    }
+
+    void placeMesh(assets::NodeData const& node, uint32_t at) {
+        uint32_t skin = Model::Impl::kNoSkin;
+        if (node.skin != kNone && std::ranges::any_of(mMeshes[node.mesh], &Part::isSkinned)) {
+            assets::SkinData const& source = mData.skins[node.skin];
+            skin = static_cast<uint32_t>(mModel->skins.size());
+            mModel->skins.push_back({ at, source.joints, source.jointFromBind });
+        }
+        for (Part const& part : mMeshes[node.mesh]) {
+            placePart(part, at, node.worldFromNode);
+            Model::Impl::PartRenderable& placed = mModel->renderables.back();
+            if (part.isSkinned) placed.skin = skin;
+            if (placed.desc.morphTargets) placed.desc.morphWeights = node.morphWeights;
+        }
+    }
+
+    /// Positions that fill a unit cube hang at a node of their own, which makes them as large as they are.
+    void placePart(Part const& part, uint32_t node, double4x4 const& worldFromNode) {
+        growBounds(part.restBounds, worldFromNode);
+        uint32_t at = node;
+        if (part.isScaled) {
+            at = static_cast<uint32_t>(mData.nodes.size() + mScalingNodes.size());
+            mScalingNodes.push_back({ part.desc.name + " positions", node, part.meshFromPositions, {} });
+        }
+        PrimitiveData const& primitive = *part.primitive;
+        Model::Impl::PartRenderable& placed = mModel->renderables.emplace_back();
+        placed.desc = part.desc;
+        placed.node = at;
+        placed.desc.material = instanceFor(primitive.material, primitive.hasColor, worldFromNode);
+        for (assets::VariantMaterial const& variant : primitive.variants) {
+            placed.variants.push_back(
+                    { variant.variant, instanceFor(variant.material, primitive.hasColor, worldFromNode) });
+        }
+    }
+
+    assets::MaterialData const& materialOf(uint32_t index) const {
+        static const assets::MaterialData defaultMaterial{ .name = "glTF default" };
+        return index == kNone ? defaultMaterial : mData.materials[index];
+    }
+
+    /// One a material, with and without vertex colours, and where it has a volume one a size of it.
+    MaterialInstance instanceFor(uint32_t index, bool hasColor, double4x4 const& worldFromNode) {
+        assets::MaterialData const& material = materialOf(index);
+        const float scale = material.transmission.isSolid() ? scaleOf(worldFromNode) : 1.0f;
+        MaterialInstance& instance = mInstances[{ index, hasColor, scale }];
+        if (!instance) instance = mMaterials.instanceFor(material, hasColor, scale);
+        return instance;
+    }
+
+    /// KHR_materials_volume: a thickness is in the space of the mesh, and grows with its nodes. Of different scales
+    /// along the axes the geometric mean: that of a volume.
+    static float scaleOf(double4x4 const& worldFromNode) {
+        return static_cast<float>(std::cbrt(std::abs(glm::determinant(double3x3(worldFromNode)))));
+    }
+
+    static double4x4 meshFromPositions(PrimitiveData const& primitive) {
+        double4x4 matrix(static_cast<double>(primitive.positionScale));
+        matrix[3] = double4(double3(primitive.positionOffset), 1);
+        return matrix;
+    }
+
+    void growBounds(Box const& part, double4x4 const& modelFromPart) {
+        const CenteredBox box = boxFromMinMax(float3(part.min), float3(part.max));
+        const double3 center(modelFromPart * double4(double3(box.center), 1.0));
+        const double3 half(transformedHalfExtent(modelFromPart, box.halfExtent));
+        mModel->bounds.min = glm::min(mModel->bounds.min, center - half);
+        mModel->bounds.max = glm::max(mModel->bounds.max, center + half);
+    }
+
+    // KHR_lights_punctual: at the origin of its node, along -Z.
+    static std::variant<SunLight, PointLight, SpotLight> lightOf(assets::LightData const& light) {
+        const double3 position(0.0);
+        const float3 direction(0, 0, -1);
+        switch (light.type) {
+        case assets::LightType::Directional:
+            return SunLight{ direction, Lux{ light.intensity }, light.color };
+        case assets::LightType::Point:
+            return PointLight{ position, Candela{ light.intensity }, light.color, light.rangeMeters };
+        case assets::LightType::Spot:
+            break;
+        }
+        return SpotLight{ position,
+                          direction,
+                          Candela{ light.intensity },
+                          light.color,
+                          light.rangeMeters,
+                          light.innerConeRadians,
+                          light.outerConeRadians };
+    }
+
+    Engine::Impl& mEngine;
+    ModelData const& mData;
+    std::unique_ptr<Model::Impl> mModel;
+    GltfMaterials mMaterials;
+    std::map<std::tuple<uint32_t, bool, float>, MaterialInstance> mInstances;
+    std::vector<std::vector<Part>> mMeshes; // by mesh of the file, one an own primitive
+    std::vector<Model::Impl::PartNode> mScalingNodes;
+};
+
+} // namespace
+
+Model::Impl::~Impl() {
+    Engine& owner = Engine::of(engine);
+    const auto destroyAll = [&](auto const& objects) {
+        for (auto object : objects) {
+            if (object) owner.destroy(object); // none: memory ran out while the model was loaded
+        }
+    };
+    destroyAll(instances);
+    destroyAll(materials);
+    destroyAll(morphTargets);
+    destroyAll(vertexBuffers);
+    destroyAll(indexBuffers);
+    destroyAll(textures);
+}
+
+Model::Model(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
+Model::Model(Model&&) noexcept = default;
+Model& Model::operator=(Model&&) noexcept = default;
+Model::~Model() = default;
+
+std::string const& Model::name() const { return mImpl->name; }
+Box Model::bounds() const { return mImpl->bounds; }
+size_t Model::renderableCount() const { return mImpl->renderables.size(); }
+std::vector<std::string> const& Model::variantNames() const { return mImpl->variants; }
+std::vector<std::string> const& Model::warnings() const { return mImpl->warnings; }
+uint32_t Model::animationCount() const { return static_cast<uint32_t>(mImpl->animations.size()); }
+
+std::string const& Model::animationName(uint32_t animation) const {
+    FILAMENT_ASSERT(animation < animationCount(), "an animation is one of the model's");
+    return mImpl->animations[animation].name;
+}
+
+double Model::animationSeconds(uint32_t animation) const {
+    FILAMENT_ASSERT(animation < animationCount(), "an animation is one of the model's");
+    return mImpl->animations[animation].durationSeconds;
+}
+
+Result<uint32_t> Model::findAnimation(std::string_view name) const {
+    std::vector<std::string_view> names;
+    for (assets::AnimationData const& animation : mImpl->animations) {
+        if (animation.name == name) return static_cast<uint32_t>(names.size());
+        names.push_back(animation.name);
+    }
+    if (names.empty()) return fail(ErrorCode::NotFound, "{} has no animations, so none is '{}'", mImpl->name, name);
+    std::string known;
+    for (const std::string_view other : names) known += fmt::format("{}'{}'", known.empty() ? "" : ", ", other);
+    return fail(ErrorCode::NotFound, "{} has no animation '{}' among {}{}", mImpl->name, name, known,
+                suggestion(name, names));
+}
+
+namespace {
+
+Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path const& path,
+                                          GltfLoadOptions const& options) {
+    assets::GltfOptions loaderOptions{ .storage = { options.positions, options.tangents },
+                                       .deformation = options.deformable ? assets::GltfDeformation::Kept
+                                                                         : assets::GltfDeformation::AtRest };
+    if (options.progress) {
+        loaderOptions.progress = [&](assets::GltfStage stage, size_t done, size_t total) {
+            options.progress(stage == assets::GltfStage::Structure ? "reading" : "decoding", done, total);
+        };
+    }
+    auto data = assets::loadGltf(path, engine.impl().jobs, loaderOptions);
+    if (!data) return data.error();
+    std::unique_ptr<Model::Impl> model = ModelBuilder(engine, *data).build();
+    engine.impl().flush(); // the driver thread uploads while the caller goes on
+    return model;
+}
+
+} // namespace
+
+Result<Model> loadGltf(Engine& engine, std::filesystem::path const& path, GltfLoadOptions const& options) {
+    auto model = orOutOfMemory("glTF", path.native(), [&] { return load(engine, path, options); });
+    if (!model) return model.error();
+    return Model(std::move(*model));
+}
+
+} // namespace filament

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Model::Impl: what loadGltf made, owned until the model is destroyed.
+#pragma once
+
+#include "filament_core/assets/gltf/Animation.h"
+#include "filament_core/assets/gltf/NodePose.h"
+#include "filament_core/engine/EngineImpl.h"
+
+#include <filament/Gltf.h>
+#include <filament/Light.h>
+
+#include <variant>
+#include <vector>
+
+namespace filament {
+
+struct Model::Impl {
+    static constexpr uint32_t kRoot = ~0u; ///< the node that a copy of the model hangs below
+
+    static constexpr uint32_t kNoSkin = ~0u;
+
+    struct PartNode {
+        std::string name;
+        uint32_t parent = kRoot; ///< into `nodes`, before this one
+        double4x4 parentFromNode{ 1.0 };
+        assets::NodePose pose{}; ///< the same in parts
+    };
+    struct PartSkin {
+        uint32_t node = kRoot;        ///< into `nodes`: where the renderables hang
+        std::vector<uint32_t> joints; ///< into `nodes`
+        std::vector<float4x4> jointFromBind;
+    };
+    struct PartVariant {
+        uint32_t variant = 0; ///< into `variants`
+        MaterialInstance material;
+    };
+    struct PartRenderable {
+        RenderableDesc desc;     ///< its node and skin are those of a copy: none yet
+        uint32_t node = kRoot;   ///< into `nodes`
+        uint32_t skin = kNoSkin; ///< into `skins`
+        std::vector<PartVariant> variants;
+    };
+    struct PartLight {
+        std::variant<SunLight, PointLight, SpotLight> light; ///< in the node's space
+        uint32_t node = kRoot;
+    };
+
+    explicit Impl(Engine& owner) : engine(owner.impl()) {}
+    ~Impl();
+
+    Engine::Impl& engine;
+    std::string name;
+    std::vector<PartNode> nodes; ///< parents before children
+    std::vector<PartSkin> skins;
+    std::vector<PartRenderable> renderables;
+    std::vector<assets::AnimationData> animations; ///< their nodes are those of `nodes`
+    std::vector<PartLight> lights;
+    std::vector<std::string> variants, warnings;
+    Box bounds;
+
+    std::vector<Texture> textures;
+    std::vector<MorphTargets> morphTargets;
+    std::vector<VertexBuffer> vertexBuffers;
+    std::vector<IndexBuffer> indexBuffers;
+    std::vector<Material> materials;
+    std::vector<MaterialInstance> instances;
+};
+
+} // namespace filament

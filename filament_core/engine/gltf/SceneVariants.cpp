@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// What renderables look like: their materials, one by one or by the variants of their model.
+#include "filament_core/assets/gltf/ModelVariants.h"
+#include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/gltf/ModelImpl.h"
+
+#include <algorithm>
+
+namespace filament {
+namespace {
+
+constexpr uint32_t kNoVariant = ~0u;
+
+MaterialInstance materialIn(Model::Impl::PartRenderable const& part, uint32_t variant) {
+    const auto found = std::ranges::find(part.variants, variant, &Model::Impl::PartVariant::variant);
+    return found == part.variants.end() ? part.desc.material : found->material;
+}
+
+} // namespace
+
+void Scene::setMaterial(Renderable renderable, MaterialInstance material) {
+    scene::setMaterial(mImpl->data.renderables, renderable, mImpl->engine.instances.get(material));
+}
+
+Result<void> Scene::setVariant(Node copy, std::string_view variant) {
+    std::string const& name = mImpl->data.transforms.name(copy);
+    const auto found = std::ranges::find(mImpl->copies, copy, &Impl::ModelCopy::root);
+    if (found == mImpl->copies.end()) {
+        return fail(ErrorCode::InvalidArgument,
+                    "'{}' has no variants, so also none '{}'; give the root of a model with KHR_materials_variants",
+                    name, variant);
+    }
+    Model::Impl const& model = *found->model;
+    uint32_t index = kNoVariant;
+    if (!variant.empty()) {
+        const Result<uint32_t> known = assets::findVariant(model.variants, variant, model.name);
+        if (!known) return known.error();
+        index = *known;
+    }
+    for (size_t i = 0; i < found->renderables.size(); ++i) {
+        const Renderable renderable = found->renderables[i];
+        if (mImpl->data.renderables.index.contains(renderable))
+            setMaterial(renderable, materialIn(model.renderables[i], index));
+    }
+    return {};
+}
+
+} // namespace filament

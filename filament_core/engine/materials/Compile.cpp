@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// Engine::compile(): which programs and pipelines a material may need, as wishes for the compile queue.
+#include "base/OutOfMemory.h"
+#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/Topology.h"
+
+#include <algorithm>
+
+namespace filament {
+namespace {
+
+using engine::CompileJob;
+using engine::CompileWish;
+using prepare::DrawPass;
+
+constexpr uint32_t kJointsAttribute = static_cast<uint32_t>(Attribute::Joints);
+
+constexpr uint16_t bitsOf(VariantSet variants) { return static_cast<uint16_t>(variants); }
+
+/// Keys of the package within the set; how exactly they are computed follows from the pass.
+Result<std::vector<uint8_t>> variantKeys(scene::Material const& material, VariantSet wanted) {
+    shader::MaterialPackage const& package = material.package;
+    if (wanted != VariantSet::All && (bitsOf(wanted) & package.filteredVariants) != 0)
+        return fail(ErrorCode::InvalidArgument, "compile: {}",
+                    passes::missingVariant(material.name, package, bitsOf(wanted)));
+    std::vector<uint8_t> keys;
+    for (shader::Variant const& variant : package.variants) {
+        const bool isOfScene = (variant.key & shader::kVariantHalf) == 0;
+        if (isOfScene && (variant.key & ~bitsOf(wanted)) == 0) keys.push_back(static_cast<uint8_t>(variant.key));
+    }
+    return keys;
+}
+
+bool hasJoints(scene::GeometryLayout const& layout) {
+    const auto attributes = std::span(layout.vertices.attributes).first(layout.vertices.attributeCount);
+    return std::ranges::count(attributes, kJointsAttribute, &backend::VertexAttribute::location) > 0;
+}
+
+/// One state for each way in which the instances draw, that of a new instance at least.
+std::vector<scene::MaterialInstance> instanceStates(Engine::Impl& engine, scene::Material& material) {
+    std::vector<scene::MaterialInstance> states;
+    const auto add = [&](scene::RasterState const& raster) {
+        if (std::ranges::count(states, raster, &scene::MaterialInstance::raster) > 0) return;
+        scene::MaterialInstance& state = states.emplace_back();
+        state.material = &material;
+        state.raster = raster;
+    };
+    add(scene::initialRaster(material.package));
+    engine.instances.forEach([&](scene::MaterialInstance const& instance) {
+        if (instance.material == &material) add(instance.raster);
+    });
+    return states;
+}
+
+std::vector<uint16_t> geometryLayouts(Engine::Impl& engine, CompileDesc const& desc) {
+    std::vector<uint16_t> layouts;
+    for (VertexBuffer buffer : desc.vertices) {
+        const uint32_t layout =
+                engine.layouts.intern({ engine.vertexBuffers.get(buffer).layout, engine::topology(desc.primitive) });
+        layouts.push_back(static_cast<uint16_t>(layout));
+    }
+    if (!desc.vertices.empty()) return layouts;
+    for (uint32_t i = 0; i < engine.layouts.size(); ++i) layouts.push_back(static_cast<uint16_t>(i));
+    return layouts;
+}
+
+std::span<const DrawPass> passesOf(scene::Material const& material) {
+    static constexpr std::array kOne{ DrawPass::Only };
+    static constexpr std::array kTwo{ DrawPass::First, DrawPass::Second };
+    return material.hasTwoPasses() ? std::span<const DrawPass>(kTwo) : std::span<const DrawPass>(kOne);
+}
+
+/// What a wish is made of, besides pass and variant.
+struct Shapes {
+    std::vector<uint16_t> layouts;
+    uint16_t stateCount = 0;
+    bool mirrored = false;
+    bool anyMayDeform = false; ///< also vertices without joints: morph targets do not show in their layout
+};
+
+void addPipelines(CompileJob& job, Engine::Impl const& engine, Shapes const& shapes, uint32_t slot, uint8_t variant) {
+    for (const uint16_t layout : shapes.layouts) {
+        const bool deforms = (variant & bitsOf(VariantSet::Skinning)) != 0;
+        if (deforms && !shapes.anyMayDeform && !hasJoints(engine.layouts[layout])) continue;
+        for (uint16_t state = 0; state < shapes.stateCount; ++state) {
+            for (const bool mirrored : { false, true }) {
+                if (mirrored && !shapes.mirrored) continue;
+                for (const DrawPass pass : passesOf(*job.material))
+                    job.wishes.push_back({ slot, layout, state, variant, mirrored, pass });
+            }
+        }
+    }
+}
+
+/// Programs first: the first pipelines then wait for nothing else.
+void addWishes(CompileJob& job, Engine::Impl& engine, std::span<const uint8_t> variants, Shapes const& shapes) {
+    if (std::ranges::all_of(engine.pipelines.slots(), &passes::PassSlot::isFullScreen))
+        engine.pipelines.slot({}); // no pass is known: programs for the default quality
+    const auto slots = engine.pipelines.slots();
+    for (const uint8_t variant : variants) {
+        for (uint32_t slot = 0; slot < slots.size(); ++slot) {
+            if (!slots[slot].isFullScreen) job.wishes.push_back({ .slot = slot, .variant = variant });
+        }
+    }
+    for (const uint8_t variant : variants) {
+        for (uint32_t slot = 0; slot < slots.size(); ++slot) {
+            const bool isKnown = slots[slot].layout.colorCount > 0 && !slots[slot].isFullScreen;
+            if (isKnown) addPipelines(job, engine, shapes, slot, variant);
+        }
+    }
+}
+
+} // namespace
+
+Result<Compilation> Engine::Impl::compile(Material handle, CompileDesc const& desc) {
+    scene::Material& material = materials.get(handle);
+    if (material.package.domain != MaterialDomain::Surface) {
+        return fail(ErrorCode::InvalidArgument,
+                    "compile: material '{}' is of domain postprocess: renderables cannot "
+                    "have it",
+                    material.name);
+    }
+    auto variants = variantKeys(material, desc.variants);
+    if (!variants) return variants.error();
+    CompileJob job{ .material = &material, .states = instanceStates(*this, material), .onProgress = desc.onProgress };
+    addWishes(job, *this, *variants,
+              { geometryLayouts(*this, desc), static_cast<uint16_t>(job.states.size()), desc.mirrored,
+                desc.variants != VariantSet::All && isSubset(VariantSet::Skinning, desc.variants) });
+    const Compilation compilation = compilations.add(std::move(job), desc.priority);
+    return compilation;
+}
+
+Result<Compilation> Engine::compile(Material material, CompileDesc const& desc) {
+    return orOutOfMemory("compile", {}, [&] { return mImpl->compile(material, desc); });
+}
+
+CompileProgress Engine::progress(Compilation compilation) {
+    try {
+        mImpl->advanceCompilation();
+    } catch (std::bad_alloc const&) {
+        mImpl->reportOutOfMemory("compile: the next slice is tried again later");
+    }
+    return mImpl->compilations.progress(compilation);
+}
+
+} // namespace filament

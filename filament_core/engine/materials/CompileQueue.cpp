@@ -1,0 +1,103 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/materials/CompileQueue.h"
+
+#include <algorithm>
+
+namespace filament::engine {
+namespace {
+
+/// How many creations go with one frame, by priority.
+constexpr std::array<uint32_t, 4> kSliceSizes{ 1, 2, 4, 16 };
+
+passes::PipelineUse useOf(CompileJob const& job, CompileWish const& wish) {
+    return { job.states[wish.state], wish.geometryLayout, wish.variant, wish.mirrored, wish.pass };
+}
+
+} // namespace
+
+bool CompileQueue::exists(CompileJob const& job, CompileWish const& wish) const {
+    if (wish.isFullScreen) return mPipelines.findFullscreen(wish.slot, *job.material).has_value();
+    if (wish.geometryLayout == CompileWish::kNoGeometry)
+        return mPipelines.hasProgram(wish.slot, *job.material, wish.variant);
+    return mPipelines.find(wish.slot, useOf(job, wish)).has_value();
+}
+
+void CompileQueue::make(backend::CommandBuffer& commands, CompileJob const& job, CompileWish const& wish) {
+    if (wish.isFullScreen)
+        (void)mPipelines.fullscreenPipeline(commands, wish.slot, *job.material);
+    else if (wish.geometryLayout == CompileWish::kNoGeometry)
+        mPipelines.prepareProgram(commands, wish.slot, *job.material, wish.variant);
+    else
+        (void)mPipelines.pipelineFor(commands, wish.slot, useOf(job, wish));
+}
+
+Compilation CompileQueue::add(CompileJob job, CompilePriority priority) {
+    std::erase_if(job.wishes, [&](CompileWish const& wish) { return exists(job, wish); });
+    const auto total = static_cast<uint32_t>(job.wishes.size());
+    mProgress.push_back({ 0, total });
+    const uint64_t id = mProgress.size();
+    if (total == 0) return { id };
+    try {
+        mQueues[static_cast<size_t>(priority)].push_back({ id, std::move(job), 0 });
+    } catch (...) {
+        mProgress.pop_back();
+        throw;
+    }
+    return { id };
+}
+
+CompileProgress CompileQueue::progress(Compilation compilation) const {
+    FILAMENT_ASSERT(compilation.id >= 1 && compilation.id <= mProgress.size(),
+                    "a compilation comes from this engine's compile()");
+    return mProgress[compilation.id - 1];
+}
+
+CompileQueue::Queue* CompileQueue::highest() {
+    const auto queue = std::find_if(mQueues.rbegin(), mQueues.rend(), [](Queue const& q) { return !q.empty(); });
+    return queue == mQueues.rend() ? nullptr : &*queue;
+}
+
+bool CompileQueue::isWaiting() const {
+    return mSlice.empty() && std::ranges::any_of(mQueues, [](Queue const& queue) { return !queue.empty(); });
+}
+
+void CompileQueue::recordSlice(backend::CommandBuffer& commands, uint64_t submission) {
+    if (!isWaiting()) return;
+    Queue& queue = *highest();
+    mSliceSubmission = submission;
+    takeFrom(queue, commands, kSliceSizes[static_cast<size_t>(&queue - mQueues.data())]);
+}
+
+void CompileQueue::takeFrom(Queue& queue, backend::CommandBuffer& commands, uint32_t count) {
+    while (count > 0 && !queue.empty()) {
+        Waiting& first = queue.front();
+        mSlice.push_back({ first.id, 0, first.job.onProgress }); // what is recorded is remembered
+        for (; count > 0 && first.next < first.job.wishes.size(); --count) {
+            make(commands, first.job, first.job.wishes[first.next]);
+            ++first.next;
+            ++mSlice.back().count;
+        }
+        if (first.next == first.job.wishes.size()) queue.pop_front();
+    }
+}
+
+void CompileQueue::collect(uint64_t replayedSubmissions) {
+    if (mSlice.empty() || replayedSubmissions < mSliceSubmission) return;
+    const std::vector<Recorded> finished = std::exchange(mSlice, {});
+    for (Recorded const& recorded : finished) mProgress[recorded.id - 1].done += recorded.count;
+    for (Recorded const& recorded : finished) { // may compile and destroy materials
+        if (recorded.onProgress) recorded.onProgress(mProgress[recorded.id - 1]);
+    }
+}
+
+void CompileQueue::forget(scene::Material const& material) {
+    for (Queue& queue : mQueues) {
+        for (Waiting const& waiting : queue) {
+            if (waiting.job.material != &material) continue;
+            mProgress[waiting.id - 1].done += static_cast<uint32_t>(waiting.job.wishes.size() - waiting.next);
+        }
+        std::erase_if(queue, [&](Waiting const& waiting) { return waiting.job.material == &material; });
+    }
+}
+
+} // namespace filament::engine

@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/materials/LoadMaterial.h"
+
+#include "base/Suggest.h"
+#include "filament_core/engine/materials/ConstantBits.h"
+#include "filament_core/engine/materials/DescribeMaterial.h"
+
+#include <utility>
+
+namespace filament::engine {
+namespace {
+
+using backend::ConstantValue;
+
+const char* typeName(ConstantValue::Type type) {
+    switch (type) {
+    case ConstantValue::Type::Bool:
+        return "bool";
+    case ConstantValue::Type::Int:
+        return "int";
+    case ConstantValue::Type::Float:
+        return "float";
+    }
+    return "unknown";
+}
+
+Result<std::vector<ConstantValue>> resolveConstants(shader::MaterialPackage const& package,
+                                                    std::vector<MaterialConstant> const& given) {
+    std::vector<ConstantValue> values;
+    for (MaterialConstant const& constant : given) {
+        shader::Constant const* known = package.findConstant(constant.name);
+        if (!known) {
+            return fail(ErrorCode::NotFound, "material '{}' has no constant '{}'{}", package.name, constant.name,
+                        suggestion(constant.name, namesOf(package.constants)));
+        }
+        if (known->type != typeOf(constant.value)) {
+            return fail(ErrorCode::InvalidArgument, "constant '{}' of material '{}' is {}, but was given {}",
+                        constant.name, package.name, typeName(known->type), typeName(typeOf(constant.value)));
+        }
+        values.push_back({ known->id, bitsOf(constant.value), known->type });
+    }
+    return values;
+}
+
+} // namespace
+
+Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
+    auto package = shader::readPackage(desc.package);
+    if (!package) {
+        return fail(package.error().code, "material package '{}': {}", desc.name, package.error().message);
+    }
+    auto constants = resolveConstants(*package, desc.constants);
+    if (!constants) return constants.error();
+    scene::Material material;
+    material.name = desc.name.empty() ? package->name : desc.name;
+    material.package = std::move(*package);
+    material.constants = std::move(*constants);
+    material.description = describeMaterial(material);
+    return material;
+}
+
+} // namespace filament::engine

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Instances of materials: named parameters -> uniform blocks and bind groups, and what they change of the raster state.
+#include "base/OutOfMemory.h"
+#include "base/Result.h"
+#include "base/Suggest.h"
+#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/materials/Parameters.h"
+#include "filament_core/engine/materials/TextureParameters.h"
+#include "shaders/interface/ShaderInterface.h"
+
+#include <cstring>
+#include <utility>
+
+namespace filament {
+namespace {
+
+using namespace backend;
+using shader::Parameter;
+
+Error unknownParameter(scene::Material const& material, std::string_view name) {
+    return fail(ErrorCode::NotFound, "material '{}' has no parameter '{}'{}", material.name, name,
+                suggestion(name, namesOf(material.package.parameters)));
+}
+
+} // namespace
+
+// Bind groups name their samplers: those of all instances are made anew, and only when the choice changes.
+void Engine::Impl::useTextureFilter(TextureFilter filter) {
+    if (filter == textureFilter) return;
+    instances.forEachHandle([&](MaterialInstance handle, scene::MaterialInstance& instance) {
+        if (instance.textures.empty()) return;
+        markDirty(handle);
+        instance.texturesDirty = true;
+    });
+    textureFilter = filter;
+}
+
+MaterialInstance Engine::Impl::createInstance(Material material, std::string name) {
+    scene::Material& parent = materials.get(material);
+    engine::Draft draft(instances);
+    scene::MaterialInstance& instance = draft.state();
+    instance.material = &parent;
+    instance.name = name.empty() ? parent.name : std::move(name);
+    instance.parameters.resize(parent.package.uniformBytes);
+    instance.raster = scene::initialRaster(parent.package);
+    if (Parameter const* threshold = parent.package.findParameter(shader::kMaskThresholdParameter)) {
+        std::memcpy(instance.parameters.data() + threshold->offset, &parent.package.maskThreshold, sizeof(float));
+    }
+    if (Parameter const* doubleSided = parent.package.findParameter(shader::kDoubleSidedParameter)) {
+        const uint32_t isDoubleSided = parent.package.doubleSided;
+        std::memcpy(instance.parameters.data() + doubleSided->offset, &isDoubleSided, sizeof(isDoubleSided));
+    }
+    for (Parameter const& parameter : parent.package.parameters) {
+        if (shader::isTexture(parameter.type))
+            instance.textures.push_back({ textureHandle(unsetTexture(parameter)), {} });
+    }
+    dirtyInstances.push_back(draft.handle()); // the last that may fail
+    instance.id = nextInstanceId++;
+    ++parent.instanceCount;
+    return draft.keep();
+}
+
+void Engine::Impl::markDirty(MaterialInstance handle) {
+    scene::MaterialInstance const& instance = instances.get(handle);
+    if (!instance.parametersDirty && !instance.texturesDirty) dirtyInstances.push_back(handle);
+}
+
+template <class Write>
+Result<void> Engine::Impl::change(MaterialInstance handle, std::string_view name, Write&& write) {
+    scene::MaterialInstance& instance = instances.get(handle);
+    Parameter const* parameter = instance.material->package.findParameter(name);
+    if (!parameter) return unknownParameter(*instance.material, name);
+    const size_t listed = dirtyInstances.size();
+    markDirty(handle);
+    Result<void> written = write(instance, *parameter);
+    if (written)
+        instance.parametersDirty = true;
+    else
+        dirtyInstances.resize(listed); // never grows: markDirty() added one at most
+    return written;
+}
+
+Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, ParameterValue const& value) {
+    return change(handle, name, [&](scene::MaterialInstance& instance, Parameter const& parameter) {
+        return engine::writeParameter(*instance.material, parameter, value, instance.parameters);
+    });
+}
+
+Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, ParameterArray const& values,
+                               uint32_t first) {
+    return change(handle, name, [&](scene::MaterialInstance& instance, Parameter const& parameter) {
+        return engine::writeParameters(*instance.material, parameter, values, first, instance.parameters);
+    });
+}
+
+Result<void> Engine::Impl::set(MaterialInstance handle, std::string_view name, Texture texture, Sampler sampler) {
+    scene::MaterialInstance& instance = instances.get(handle);
+    shader::MaterialPackage const& package = instance.material->package;
+    Parameter const* parameter = package.findParameter(name);
+    if (!parameter) return unknownParameter(*instance.material, name);
+    if (Result<void> isSampler = engine::checkSampler(*instance.material, *parameter); !isSampler) return isSampler;
+    engine::TextureState const& given = textures.get(texture);
+    if (Result<void> fits = engine::checkTexture(*instance.material, *parameter, given.desc, given.name); !fits)
+        return fits;
+    TextureHandle shown = textureHandle(texture);
+    if (!shown) shown = textureHandle(unsetTexture(*parameter));
+    markDirty(handle);
+    instance.textures[engine::textureSlot(package, *parameter)] = { shown, sampler };
+    instance.texturesDirty = true;
+    return {};
+}
+
+void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuffer& commands) {
+    shader::MaterialPackage const& package = instance.material->package;
+    if (package.uniformBytes > 0 && !instance.buffer) {
+        NewHandle buffer(*stream, stream->allocateBuffer());
+        commands.record(CmdCreateBuffer{ buffer, { package.uniformBytes, BufferUsage::Uniform, instance.name } });
+        instance.buffer = buffer.keep();
+    }
+    if (package.uniformBytes > 0 && instance.parametersDirty) {
+        commands.record(CmdUpdateBuffer{ instance.buffer, 0, instance.parameters });
+    }
+    if (instance.texturesDirty) {
+        if (instance.group) stream->destroy(commands, std::exchange(instance.group, {}));
+        std::array<BindGroupEntry, kMaxBindings> entries{};
+        uint32_t count = 0;
+        if (package.uniformBytes > 0) {
+            entries[count++] = { .binding = 0, .buffer = instance.buffer, .size = package.uniformBytes };
+        }
+        size_t slot = 0;
+        for (Parameter const& parameter : package.parameters) {
+            if (!shader::isTexture(parameter.type)) continue;
+            const scene::TextureBinding bound = instance.textures[slot++];
+            const Sampler sampler = engine::samplerFor(parameter, bound.sampler, textureFilter);
+            entries[count++] = { .binding = parameter.binding,
+                                 .texture = bound.texture,
+                                 .sampler = samplers.get(sampler, commands) };
+        }
+        NewHandle group(*stream, stream->allocateBindGroup());
+        commands.record(CmdCreateBindGroup{
+                group, { package.layout[shader::kGroupMaterial], std::span(entries).first(count), instance.name } });
+        instance.group = group.keep();
+    }
+    instance.parametersDirty = instance.texturesDirty = false;
+}
+
+MaterialInstance Engine::createInstance(Material material, std::string name) {
+    return mImpl->orNone("material instance", {}, [&] { return mImpl->createInstance(material, std::move(name)); });
+}
+
+Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value) {
+    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, value); });
+}
+
+Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
+                         uint32_t first) {
+    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, values, first); });
+}
+
+Result<void> Engine::set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler) {
+    return orOutOfMemory("parameter", parameter, [&] { return mImpl->set(instance, parameter, texture, sampler); });
+}
+
+Result<void> Engine::setDoubleSided(MaterialInstance handle, bool doubleSided) {
+    scene::MaterialInstance& instance = mImpl->instances.get(handle);
+    shader::MaterialPackage const& package = instance.material->package;
+    Parameter const* parameter = package.findParameter(shader::kDoubleSidedParameter);
+    if (!parameter && !package.doubleSided) {
+        return fail(ErrorCode::InvalidArgument,
+                    "material '{}' was compiled for one side: say doubleSided : true or doubleSided : false in it, and "
+                    "its instances can choose",
+                    instance.material->name);
+    }
+    if (parameter) {
+        if (Result<void> done = set(handle, parameter->name, ParameterValue(doubleSided)); !done) return done;
+    }
+    instance.raster.cullingDisabled = doubleSided;
+    return {};
+}
+
+Result<void> Engine::setMaskThreshold(MaterialInstance handle, float threshold) {
+    scene::Material const& material = *mImpl->instances.get(handle).material;
+    if (!material.package.findParameter(shader::kMaskThresholdParameter)) {
+        return fail(ErrorCode::InvalidArgument, "material '{}' has no mask threshold: only blending : masked cuts out",
+                    material.name);
+    }
+    if (!(threshold >= 0 && threshold <= 1)) {
+        return fail(ErrorCode::InvalidArgument, "material '{}': a mask threshold lies in [0, 1], and {} does not",
+                    material.name, threshold);
+    }
+    return set(handle, shader::kMaskThresholdParameter, ParameterValue(threshold));
+}
+
+void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {
+    mImpl->instances.get(handle).raster.cullingDisabled = disabled;
+}
+
+void Engine::setCulling(MaterialInstance handle, Culling culling) {
+    scene::RasterState& raster = mImpl->instances.get(handle).raster;
+    raster.culling = culling;
+    raster.cullingDisabled = false;
+}
+
+void Engine::setColorWrite(MaterialInstance handle, bool writes) {
+    mImpl->instances.get(handle).raster.colorWrite = writes;
+}
+
+void Engine::setDepthWrite(MaterialInstance handle, bool writes) {
+    mImpl->instances.get(handle).raster.depthWrite = writes;
+}
+
+void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
+    mImpl->instances.get(handle).raster.depthCulling = tests;
+}
+
+void Engine::destroy(MaterialInstance handle) {
+    scene::MaterialInstance& instance = mImpl->instances.get(handle);
+    std::erase(mImpl->dirtyInstances, handle);
+    if (instance.group) mImpl->stream->destroy(mImpl->pending, instance.group);
+    if (instance.buffer) mImpl->stream->destroy(mImpl->pending, instance.buffer);
+    --instance.material->instanceCount;
+    mImpl->instances.remove(handle);
+}
+
+} // namespace filament

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials of the app and of the engine.
+#include "base/Log.h"
+#include "base/OutOfMemory.h"
+#include "base/Result.h"
+#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/materials/ConstantBits.h"
+#include "filament_core/engine/materials/LoadMaterial.h"
+#include "shaders/package/EngineMaterials.h"
+
+#include <utility>
+
+namespace filament {
+namespace {
+
+/// The screen's own colour cannot be sampled yet.
+void explainScreenSpace(scene::Material const& material) {
+    const auto say = [&](const char* property) {
+        log(Severity::Info, "material '{}': {} : screenspace shows the environment only in this version", material.name,
+            property);
+    };
+    if (material.package.reflections == shader::Reflections::ScreenSpace) say("reflections");
+    if (material.package.refractionMode == shader::RefractionMode::ScreenSpace) say("refractionMode");
+}
+
+} // namespace
+
+Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
+    auto loaded = engine::loadMaterial(desc);
+    if (!loaded) return loaded.error();
+    const bool isFlat = loaded->package.interpolation == shader::Interpolation::Flat;
+    if (isFlat && !stream->info().features.lastVertexProvokes) {
+        return fail(ErrorCode::Unsupported,
+                    "material '{}': interpolation : flat takes the last vertex of a triangle, and {} can only take the "
+                    "first (it lacks VK_EXT_provoking_vertex); use interpolation : smooth",
+                    loaded->name, device.device);
+    }
+    explainScreenSpace(*loaded);
+    loaded->id = nextMaterialId++;
+    return materials.add(std::move(*loaded));
+}
+
+std::span<const std::byte> Engine::Impl::enginePackage(std::string_view name) const {
+    return shader::engineMaterial(name, options.exactShaders ? shader::Arithmetic::Exact : shader::Arithmetic::Plain);
+}
+
+Material Engine::Impl::engineMaterial(std::string_view package, std::vector<MaterialConstant> constants) {
+    std::string key(package);
+    for (MaterialConstant const& constant : constants) key += '/' + std::to_string(engine::bitsOf(constant.value));
+    if (const auto found = engineMaterials.find(key); found != engineMaterials.end()) return found->second;
+    auto material = createMaterial({ enginePackage(package), std::move(constants), key });
+    FILAMENT_ASSERT(material.ok(), "the engine's own materials are well formed");
+    try {
+        engineMaterials.emplace(key, *material);
+    } catch (...) {
+        materials.remove(*material);
+        throw;
+    }
+    return *material;
+}
+
+Result<Material> Engine::create(MaterialDesc const& desc) {
+    return orOutOfMemory("material", desc.name, [&] { return mImpl->createMaterial(desc); });
+}
+
+MaterialDescription const& Engine::describe(Material material) const {
+    return mImpl->materials.get(material).description;
+}
+
+void Engine::destroy(Material material) {
+    scene::Material& state = mImpl->materials.get(material);
+    FILAMENT_ASSERT(state.instanceCount == 0, "the instances of a material are destroyed before it");
+    mImpl->compilations.forget(state);
+    mImpl->pipelines.forget(mImpl->pending, state);
+    mImpl->materials.remove(material);
+}
+
+} // namespace filament

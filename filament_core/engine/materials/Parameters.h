@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Parameters: typed values into the MaterialParams block of an instance (std140, shaders/package/ParameterLayout.h).
+///   In      a parameter of the package, the block, what the app gave.
+///   Thread  pure functions.   Memory: only for the text of an error.
+///   Fails   InvalidArgument with both types, or with the elements that the array lacks; nothing is written then.
+#pragma once
+
+#include "base/Result.h"
+#include "filament_core/scene/Materials.h"
+
+#include <filament/Objects.h>
+
+#include <span>
+
+namespace filament::engine {
+
+Result<void> writeParameter(scene::Material const& material, shader::Parameter const& parameter,
+                            ParameterValue const& value, std::span<std::byte> block);
+Result<void> writeParameters(scene::Material const& material, shader::Parameter const& parameter,
+                             ParameterArray const& values, uint32_t first, std::span<std::byte> block);
+
+} // namespace filament::engine

@@ -1,0 +1,251 @@
+// SPDX-License-Identifier: Apache-2.0
+// measureQualityCosts(): every value of every choice drawn in turns, timed by the device and compared as a picture.
+#include "base/Result.h"
+#include "base/Suggest.h"
+#include "base/math/Half.h"
+
+#include <filament/QualityCosts.h>
+#include <filament/Renderer.h>
+
+#include <algorithm>
+#include <cmath>
+#include <cstring>
+#include <numeric>
+
+#include <time.h>
+
+namespace filament {
+namespace {
+
+constexpr uint32_t kFewestRounds = 15; // half of it is enough for the median to be between the least and the largest
+constexpr double kDarkest = 0.01;      // of the mean: what is darker counts as that
+constexpr double kMostLinear = 65504;  // of half floats
+
+double linearFromHalf(uint16_t half) {
+    const auto value = static_cast<double>(floatFromHalf(half));
+    return std::isfinite(value) ? std::clamp(value, 0.0, kMostLinear) : kMostLinear;
+}
+
+// IEC 61966-2-1.
+double linearFromCode(std::byte code) {
+    const double c = std::to_integer<int>(code) / 255.0;
+    return c <= 0.04045 ? c / 12.92 : std::pow((c + 0.055) / 1.055, 2.4);
+}
+
+double luminanceAt(Image const& image, size_t pixel) {
+    double3 color;
+    if (image.format == Format::RGBA16F) {
+        uint16_t bits[3];
+        std::memcpy(bits, image.pixels.data() + pixel * 8, sizeof(bits));
+        color = { linearFromHalf(bits[0]), linearFromHalf(bits[1]), linearFromHalf(bits[2]) };
+    } else {
+        for (int c = 0; c < 3; ++c) color[c] = linearFromCode(image.pixels[pixel * 4 + static_cast<size_t>(c)]);
+    }
+    return glm::dot(color, double3(0.2126, 0.7152, 0.0722));
+}
+
+double relativeError(Image const& image, Image const& exact) {
+    const size_t count = size_t{ exact.width } * exact.height;
+    double mean = 0, sum = 0;
+    for (size_t i = 0; i < count; ++i) mean += luminanceAt(exact, i) / static_cast<double>(count);
+    if (mean <= 0) return 0;
+    for (size_t i = 0; i < count; ++i) {
+        const double truth = luminanceAt(exact, i);
+        const double difference = (luminanceAt(image, i) - truth) / (truth + kDarkest * mean);
+        sum += difference * difference;
+    }
+    return std::min(std::sqrt(sum / static_cast<double>(count)), 100.0);
+}
+
+double median(std::vector<double> values) {
+    std::ranges::sort(values);
+    return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
+}
+
+/// The median of all is between this rank from below and from above with 99 %: a table holds some 60 intervals, and
+/// none should be off. Conover 1999, "Practical Nonparametric Statistics", section 3.2.
+size_t lowRank(size_t count) {
+    const auto n = static_cast<double>(count);
+    double probability = std::pow(0.5, n), below = 0; // of rank successes, of fewer
+    size_t rank = 0;
+    while (below + probability <= 0.005) {
+        below += probability;
+        probability *= (n - static_cast<double>(rank)) / (static_cast<double>(rank) + 1);
+        ++rank;
+    }
+    return rank > 0 ? rank - 1 : 0;
+}
+
+/// Frames of two settings, drawn in turns: the ratios of those rounds in which both together were fast. Other work on
+/// the machine only ever slows a round, and says nothing about which of the two it hits.
+std::vector<double> undisturbedRatios(std::vector<double> const& times, std::vector<double> const& bases) {
+    std::vector<size_t> rounds(times.size());
+    std::iota(rounds.begin(), rounds.end(), size_t{ 0 });
+    std::ranges::sort(rounds, {}, [&](size_t round) { return times[round] + bases[round]; });
+    rounds.resize((rounds.size() + 1) / 2);
+    std::vector<double> ratios;
+    for (const size_t round : rounds) ratios.push_back(times[round] / bases[round]);
+    std::ranges::sort(ratios);
+    return ratios;
+}
+
+/// Of all threads of this process, which on a CPU driver are the device.
+double processorMilliseconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) * 1e3 + static_cast<double>(now.tv_nsec) * 1e-6;
+}
+
+struct FrameCost {
+    double device = 0;   // milliseconds by the device's clock
+    double compared = 0; // what ratios are taken of
+};
+
+struct Setting {
+    std::string value;
+    Quality timed, pictured;
+    std::vector<double> device{}, compared{}; // by round
+};
+
+class CostMeter {
+public:
+    CostMeter(Engine& engine, Scene const& scene, View const& view)
+            : mEngine(engine), mScene(scene), mView(view), mTimed(engine, { .passTimers = true }), mPictured(engine),
+              mDisplay(target(Format::RGBA8)), mLinear(target(Format::RGBA16F)),
+              mIsCpu(engine.device().device.find("llvmpipe") != std::string::npos) {}
+
+    Result<QualityEffect> measure(QualityChoice const& choice, uint32_t rounds) {
+        std::vector<Setting> settings = settingsOf(choice);
+        QualityEffect effect{ .name = std::string(choice.name), .values = {} };
+        for (Setting& setting : settings) {
+            effect.values.push_back({ .value = setting.value });
+            const Result<double> error = errorOf(setting.pictured);
+            if (!error) return error.error();
+            effect.values.back().error = *error;
+            if (const Result<FrameCost> warmUp = time(setting.timed); !warmUp) return warmUp.error();
+        }
+        for (uint32_t round = 0; round < rounds; ++round) {
+            for (size_t i = 0; i < settings.size(); ++i) {
+                Setting& setting = settings[(i + round) % settings.size()];
+                const Result<FrameCost> cost = time(setting.timed);
+                if (!cost) return cost.error();
+                setting.device.push_back(cost->device);
+                setting.compared.push_back(cost->compared);
+            }
+        }
+        fillTimes(settings, *qualityValue(Quality{}, choice.name), effect);
+        return effect;
+    }
+
+    Result<void> drawExact() {
+        const Quality exact = qualityPreset(QualityPreset::Reference);
+        Result<Image> linear = draw(exact, mLinear);
+        if (!linear) return linear.error();
+        Result<Image> display = draw(exact, mDisplay);
+        if (!display) return display.error();
+        mExactLinear = std::move(*linear);
+        mExactDisplay = std::move(*display);
+        return {};
+    }
+
+private:
+    Owned<SwapChain> target(Format format) {
+        return mEngine.own(mEngine.create(
+                SwapChainDesc{ .size = mView.size, .imageCount = 1, .format = format, .name = "quality costs" }));
+    }
+
+    std::vector<Setting> settingsOf(QualityChoice const& choice) const {
+        std::vector<Setting> settings;
+        for (const std::string_view value : choice.values) {
+            Setting setting{ std::string(value), mView.quality, qualityPreset(QualityPreset::Reference) };
+            for (Quality* quality : { &setting.timed, &setting.pictured })
+                (void)setQuality(*quality, choice.name, value);
+            settings.push_back(std::move(setting));
+        }
+        return settings;
+    }
+
+    /// What changes no light changes the tone mapper, or nothing.
+    Result<double> errorOf(Quality const& quality) {
+        const Result<Image> linear = draw(quality, mLinear);
+        if (!linear) return linear.error();
+        if (const double error = relativeError(*linear, mExactLinear); error > 0) return error;
+        const Result<Image> display = draw(quality, mDisplay);
+        if (!display) return display.error();
+        return relativeError(*display, mExactDisplay);
+    }
+
+    Result<Image> draw(Quality const& quality, SwapChain into) {
+        View view = mView;
+        view.quality = quality;
+        mPictured.render(mScene, view, into);
+        return mPictured.waitPixels(mPictured.readPixels(into));
+    }
+
+    Result<FrameCost> time(Quality const& quality) {
+        View view = mView;
+        view.quality = quality;
+        const double before = processorMilliseconds();
+        mTimed.render(mScene, view, mDisplay);
+        mEngine.waitIdle();
+        const std::vector<FrameTimings> timings = mTimed.takeTimings();
+        if (timings.empty() || !(timings.back().gpuMilliseconds > 0)) {
+            return fail(ErrorCode::Unsupported, "{} does not time its passes: costs cannot be measured on it",
+                        mEngine.device().device);
+        }
+        const double device = timings.back().gpuMilliseconds;
+        return FrameCost{ device, mIsCpu ? processorMilliseconds() - before : device };
+    }
+
+    void fillTimes(std::vector<Setting> const& settings, std::string_view standard, QualityEffect& effect) const {
+        const auto base = std::ranges::find(settings, standard, &Setting::value);
+        const double baseMilliseconds = median(base->device);
+        for (size_t i = 0; i < settings.size(); ++i) {
+            const std::vector<double> ratios = undisturbedRatios(settings[i].compared, base->compared);
+            const size_t low = lowRank(ratios.size());
+            effect.values[i].on(mEngine.device().backend) = { .milliseconds = baseMilliseconds * median(ratios),
+                                                              .lowRatio = ratios[low],
+                                                              .highRatio = ratios[ratios.size() - 1 - low] };
+        }
+    }
+
+    Engine& mEngine;
+    Scene const& mScene;
+    View mView;
+    Renderer mTimed, mPictured;
+    Owned<SwapChain> mDisplay, mLinear;
+    Image mExactLinear, mExactDisplay;
+    bool mIsCpu; // a CPU driver: its clock goes on while other processes have the cores, processor time does not
+};
+
+Result<void> check(CostMeasurement const& measurement) {
+    if (measurement.rounds < kFewestRounds || measurement.rounds > 1000) {
+        return fail(ErrorCode::InvalidArgument, "{} rounds: give {} to 1000", measurement.rounds, kFewestRounds);
+    }
+    const std::vector<std::string_view> known = namesOf(qualityChoices());
+    for (std::string const& name : measurement.choices) {
+        if (std::ranges::find(known, name) == known.end())
+            return fail(ErrorCode::NotFound, "there is no quality choice '{}'{}", name, suggestion(name, known));
+    }
+    return {};
+}
+
+} // namespace
+
+Result<QualityCosts> measureQualityCosts(Engine& engine, Scene const& scene, View const& view,
+                                         CostMeasurement const& measurement) {
+    if (const Result<void> checked = check(measurement); !checked) return checked.error();
+    CostMeter meter(engine, scene, view);
+    if (const Result<void> drawn = meter.drawExact(); !drawn) return drawn.error();
+    QualityCosts costs{ .machine = engine.device().device, .driver = engine.device().driver, .size = view.size };
+    for (QualityChoice const& choice : qualityChoices()) {
+        auto const& asked = measurement.choices;
+        if (!asked.empty() && std::ranges::find(asked, choice.name) == asked.end()) continue;
+        Result<QualityEffect> effect = meter.measure(choice, measurement.rounds);
+        if (!effect) return effect.error();
+        costs.effects.push_back(std::move(*effect));
+    }
+    return costs;
+}
+
+} // namespace filament

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "base/math/Math.h"
+
+#include <filament/Color.h>
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament::color {
+namespace {
+
+float decode(float v) { return v <= 0.04045f ? v / 12.92f : std::pow((v + 0.055f) / 1.055f, 2.4f); }
+float encode(float v) { return v <= 0.0031308f ? v * 12.92f : 1.055f * std::pow(v, 1 / 2.4f) - 0.055f; }
+
+} // namespace
+
+LinearColor linearFromSrgb(float3 encoded) { return { decode(encoded.x), decode(encoded.y), decode(encoded.z) }; }
+
+float3 srgbFromLinear(LinearColor linear) { return { encode(linear.x), encode(linear.y), encode(linear.z) }; }
+
+float luminance(LinearColor linear) { return glm::dot(linear, float3(0.2126f, 0.7152f, 0.0722f)); }
+
+LinearColor fromTemperature(float kelvin) {
+    // Krystek 1985, "An algorithm to calculate correlated colour temperature": rational fits of the Planckian locus in
+    // CIE 1960 UCS, error below 1e-4 from 1000 K to 15 000 K.
+    const float t = kelvin;
+    const float u = (0.860117757f + 1.54118254e-4f * t + 1.28641212e-7f * t * t) /
+                    (1.0f + 8.42420235e-4f * t + 7.08145163e-7f * t * t);
+    const float v = (0.317398726f + 4.22806245e-5f * t + 4.20481691e-8f * t * t) /
+                    (1.0f - 2.89741816e-5f * t + 1.61456053e-7f * t * t);
+    const float scale = 1 / (2 * u - 8 * v + 4);
+    const float x = 3 * u * scale, y = 2 * v * scale;
+    const float3 xyz(x / y, 1, (1 - x - y) / y);
+    // IEC 61966-2-1: linear sRGB from CIE XYZ.
+    const float3x3 rgbFromXyz(float3(3.2404542f, -0.9692660f, 0.0556434f), float3(-1.5371385f, 1.8760108f, -0.2040259f),
+                              float3(-0.4985314f, 0.0415560f, 1.0572252f));
+    const float3 rgb = glm::max(rgbFromXyz * xyz, float3(0.0f));
+    return rgb / luminance(rgb);
+}
+
+} // namespace filament::color

@@ -1,0 +1,10 @@
+// SPDX-License-Identifier: Apache-2.0
+// glTF 2.0 without extensions that change the shading.
+
+#include "shaders/material/gltf/surface.glsl"
+
+void material(inout MaterialInputs material) {
+    if (materialConstants_hasNormalMap) material.normal = gltfNormal();
+    prepareMaterial(material);
+    gltfSurface(material);
+}

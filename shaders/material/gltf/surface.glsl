@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// The metallic-roughness model of glTF 2.0 (specification, 3.9): roughness is green, metallic blue, occlusion red.
+
+#include "shaders/material/gltf/base_color.glsl"
+#include "shaders/material/gltf/maps.glsl"
+
+void gltfSurface(inout MaterialInputs material) {
+    material.baseColor = gltfBaseColor();
+    material.metallic = materialParams.metallicFactor;
+    material.roughness = materialParams.roughnessFactor;
+    vec4 surface = vec4(1.0); // occlusion, roughness, metallic
+    if (materialConstants_hasMetallicRoughnessMap) {
+        vec2 uv = mapUv(materialConstants_metallicRoughnessUv, materialConstants_metallicRoughnessTransform,
+                materialParams.metallicRoughnessUvMatrix);
+        surface = texture(materialParams_metallicRoughnessMap, uv);
+        material.roughness *= surface.g;
+        material.metallic *= surface.b;
+    }
+    if (materialConstants_hasOcclusionMap) {
+        float occlusion = surface.r;
+        if (!materialConstants_occlusionInMetallicRoughness) occlusion = gltfOcclusion();
+        material.ambientOcclusion = occlusionOf(occlusion);
+    }
+    material.emissive = gltfEmissive();
+}

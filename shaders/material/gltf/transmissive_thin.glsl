@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// KHR_materials_transmission without a volume: a wall without thickness, whose colour is the base colour.
+
+#include "shaders/material/gltf/transmission.glsl"
+
+void material(inout MaterialInputs material) {
+    gltfNormals(material);
+    prepareMaterial(material);
+    gltfSurface(material);
+    gltfLayers(material);
+    material.transmission = gltfTransmission().x;
+}

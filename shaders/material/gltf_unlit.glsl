@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// KHR_materials_unlit: the base colour is the colour.
-
-#include "shaders/material/gltf_base_color.glsl"
-
-void material(inout MaterialInputs material) {
-    prepareMaterial(material);
-    material.baseColor = gltfBaseColor();
-}

@@ -1,0 +1,176 @@
+// SPDX-License-Identifier: Apache-2.0
+// The standard model, and specular-glossiness, which says the same in other words: a diffuse and a specular lobe, and
+// whatever lies above them. Fulfils the contract of shading models: README.md.
+
+#include "shaders/material/surface/lit_surface.glsl"
+
+// ---- the environment
+
+highp vec3 reflectedOf(Surface surface) {
+    highp vec3 reflected = shading_reflected;
+#if defined(HAS_ANISOTROPY)
+    if (surface.grooves.amount != 0.0) {
+        reflected = groovesReflected(surface.grooves, surface.normal, surface.view, surface.perceptualRoughness);
+    }
+#endif
+    return reflected;
+}
+
+highp vec3 baseOfEnvironment(Surface surface) {
+    vec3 irradiance = environmentIrradiance(openNormal(surface.normal));
+    vec3 diffuse = surface.diffuse * irradiance * (1.0 - surface.specularAlbedo);
+    diffuse = seenDiffuse(diffuse, surface.visibility, surface.diffuse);
+#if defined(HAS_DIFFUSE_TRANSMISSION)
+    vec3 behind = surface.transmitted * environmentIrradiance(-openNormal(surface.normal));
+    diffuse += seenDiffuse(behind * (1.0 - surface.specularAlbedo), surface.visibility, surface.transmitted);
+#endif
+#if defined(REFRACTION)
+    if (surface.refraction.transmission > 0.0) diffuse += surface.through * environmentBehind(surface.refraction);
+#endif
+
+    highp vec3 reflected = reflectedOf(surface);
+    highp vec3 direction = dominantSpecularDirection(surface.normal, reflected, surface.alpha);
+    vec3 specular = surface.specularAlbedo * environmentRadiance(direction, surface.perceptualRoughness);
+    specular = seenReflection(specular, surface.visibility, surface.nov, reflected, surface.alpha,
+            surface.perceptualRoughness, surface.f0);
+#if defined(HAS_NORMAL)
+    specular = aboveHorizon(specular, shading_isBumped, reflected);
+#endif
+    return diffuse + specular;
+}
+
+#if defined(HAS_SHEEN)
+
+highp vec3 addSheenOfEnvironment(Surface surface, highp vec3 below) {
+    Sheen sheen = surface.sheen;
+    vec3 radiance = environmentRadiance(shading_reflected, sheen.perceptualRoughness);
+    radiance = seenReflection(radiance, surface.visibility, surface.nov, shading_reflected, sheen.alpha,
+            sheen.perceptualRoughness, sheen.color);
+#if defined(HAS_NORMAL)
+    radiance = aboveHorizon(radiance, shading_isBumped, shading_reflected);
+#endif
+    return below * sheenLeaves(sheen) + sheenOfEnvironment(sheen, radiance);
+}
+
+#endif
+
+#if defined(HAS_CLEAR_COAT)
+
+highp vec3 addCoatOfEnvironment(Surface surface, highp vec3 below) {
+    Coat coat = surface.coat;
+    highp vec3 reflected = reflect(-shading_view, shading_clearCoatNormal);
+    highp vec3 direction = dominantSpecularDirection(coat.normal, reflected, coat.alpha);
+    vec3 radiance = environmentRadiance(direction, coat.perceptualRoughness) * coatAlbedo(coat);
+    radiance = seenReflection(radiance, surface.visibility, coat.nov, reflected, coat.alpha, coat.perceptualRoughness,
+            vec3(kCoatF0));
+#if defined(HAS_CLEAR_COAT_NORMAL)
+    radiance = aboveHorizon(radiance, true, reflected);
+#endif
+    return below * coatLeaves(coat) + radiance;
+}
+
+#endif
+
+highp vec3 shadeEnvironment(Surface surface) {
+    highp vec3 light = baseOfEnvironment(surface);
+#if defined(HAS_SHEEN)
+    if (hasSheen(surface.sheen)) light = addSheenOfEnvironment(surface, light);
+#endif
+#if defined(HAS_CLEAR_COAT)
+    if (surface.coat.strength > 0.0) light = addCoatOfEnvironment(surface, light);
+#endif
+    return light;
+}
+
+// ---- one light
+
+// D V of the base.
+float specularOfLight(Surface surface, vec3 halfway, vec3 light, float nol) {
+    float dv;
+#if defined(HAS_ANISOTROPY)
+    if (surface.grooves.amount != 0.0) {
+        dv = groovesLobe(surface.grooves, surface.normal, halfway, light, nol);
+    } else
+#endif
+    {
+        dv = distributionTerm(surface.normal, halfway, surface.alpha) *
+                visibilityTerm(surface.nov, nol, surface.alpha);
+    }
+    return finite(dv);
+}
+
+vec3 fresnelOfLight(Surface surface, float voh) {
+    vec3 f;
+#if defined(HAS_IRIDESCENCE)
+    // A film looks different on every facet: here exactly, so that pairs of directions may be exchanged.
+    if (surface.film.strength > 0.0) {
+        vec3 bare = fresnelTerm(surface.film.bareF0, surface.f90, surface.metallic, voh);
+        f = mix(bare, filmReflectance(surface.film, voh), surface.film.strength);
+    } else
+#endif
+    {
+        f = fresnelTerm(surface.f0, surface.f90, surface.metallic, voh);
+    }
+    return f;
+}
+
+#if defined(HAS_CLEAR_COAT)
+
+highp vec3 addCoatOfLight(Surface surface, Light light, highp vec3 below) {
+    Coat coat = surface.coat;
+    float cosine = dot(coat.normal, light.direction);
+    highp vec3 reflected = below * coatLeavesOfLight(coat, max(cosine, -cosine));
+    if (cosine > 0.0) {
+        vec3 halfway = normalizeOrZero(surface.view + light.direction);
+        float voh = saturate(dot(surface.view, halfway));
+        float nol = saturate(cosine);
+        reflected += coatOfLight(coat, halfway, nol, voh) * light.illuminance * nol;
+    }
+    return reflected;
+}
+
+#endif
+
+#if !defined(CUSTOM_SURFACE_SHADING)
+
+// One way out of each function: an early return costs a loop in the code that the drivers see.
+highp vec3 shadeLight(Surface surface, Light light) {
+    highp vec3 reflected = vec3(0.0);
+    float nol = saturate(dot(surface.normal, light.direction));
+    if (nol > 0.0) {
+        vec3 halfway = normalizeOrZero(surface.view + light.direction);
+        float voh = saturate(dot(surface.view, halfway));
+        float dv = specularOfLight(surface, halfway, light.direction, nol);
+        vec3 specular = dv * fresnelOfLight(surface, voh) * surface.energyCompensation;
+        float diffuse = diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness);
+        vec3 lobes = surface.diffuse * diffuseLeft(surface, light.direction, nol) * diffuse + specular;
+#if defined(HAS_SHEEN)
+        if (hasSheen(surface.sheen)) {
+            vec4 sheen = sheenOfLight(surface.sheen, surface.nov, nol, saturate(dot(surface.normal, halfway)));
+            lobes = lobes * sheen.w + sheen.rgb;
+        }
+#endif
+        reflected = lobes * light.illuminance * nol;
+    }
+#if defined(HAS_DIFFUSE_TRANSMISSION)
+    else {
+        float behind = saturate(-dot(surface.normal, light.direction));
+        vec3 left = diffuseLeft(surface, light.direction, behind);
+        reflected = surface.transmitted * left * diffuseLambert() * light.illuminance * behind;
+#if defined(HAS_SHEEN)
+        reflected *= sheenLeaves(surface.sheen); // crossed on the way out alone
+#endif
+    }
+#endif
+#if defined(REFRACTION_THIN)
+    if (surface.refraction.transmission > 0.0) {
+        reflected += surface.through * lightThrough(surface.refraction, surface.normal, surface.view, surface.nov, light);
+    }
+#endif
+#if defined(HAS_CLEAR_COAT)
+    if (surface.coat.strength > 0.0) reflected = addCoatOfLight(surface, light, reflected);
+#endif
+    return reflected;
+}
+
+#endif

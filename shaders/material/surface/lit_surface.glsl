@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// What the standard model and specular-glossiness know of a surface, computed once for all light.
+
+#include "shaders/lib/specular.glsl"
+
+#if defined(HAS_SPECULAR_FACTOR) || defined(HAS_SPECULAR_COLOR_FACTOR)
+#define HAS_SPECULAR_WEIGHTS
+#endif
+
+struct Surface {
+#if defined(CUSTOM_SURFACE_SHADING)
+    MaterialInputs inputs;    // for the author's surfaceShading()
+#endif
+    vec3 diffuse;             // albedo of the diffuse lobe, times alpha if the material is transparent
+    vec3 f0;
+    float f90;
+    float metallic;           // 1: Fresnel's exact term is a metal's
+    highp float perceptualRoughness;
+    float alpha;              // of the distribution: perceptualRoughness^2
+    vec3 energyCompensation;
+    vec3 specularAlbedo;      // of the whole hemisphere, with all bounces
+    vec3 diffuseExit;         // factor of the diffuse lobe under lights that depends on the view
+    float visibility;         // ambient occlusion
+    vec3 normal, view;        // what prepareMaterial() found, in the precision of the lighting
+    float nov;
+#if defined(HAS_IRIDESCENCE)
+    Film film;
+#endif
+#if defined(HAS_ANISOTROPY)
+    Grooves grooves;
+#endif
+#if defined(REFRACTION)
+    Refraction refraction;
+    vec3 through;             // share of the light behind that arrives
+#endif
+#if defined(HAS_DIFFUSE_TRANSMISSION)
+    vec3 transmitted;         // albedo of the diffuse lobe behind the surface
+#endif
+#if defined(HAS_SHEEN)
+    Sheen sheen;
+#endif
+#if defined(HAS_CLEAR_COAT)
+    Coat coat;
+#endif
+};
+
+#if defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
+
+highp float roughnessOf(MaterialInputs material) { return perceptualRoughnessFromGlossiness(material.glossiness); }
+
+void setReflectances(MaterialInputs material, vec3 baseColor, inout Surface surface) {
+    surface.diffuse = diffuseColorFromSpecularGlossiness(baseColor, material.specularColor);
+    surface.metallic = 0.0;
+    surface.f0 = material.specularColor;
+}
+
+#else
+
+highp float roughnessOf(MaterialInputs material) { return material.roughness; }
+
+// Index and reflectance say the same; reflectance is what counts here where both are given.
+float reflectanceOf(MaterialInputs material) {
+#if defined(HAS_IOR) && !defined(HAS_REFLECTANCE)
+    return reflectanceFromIor(material.ior);
+#else
+    return material.reflectance;
+#endif
+}
+
+void setReflectances(MaterialInputs material, vec3 baseColor, inout Surface surface) {
+    surface.diffuse = diffuseColor(baseColor, material.metallic);
+    surface.metallic = material.metallic;
+    surface.f0 = f0FromBaseColor(baseColor, material.metallic, reflectanceOf(material));
+}
+
+#endif
+
+#if defined(REFRACTION)
+
+// What bends light, where both are given.
+float iorOf(MaterialInputs material) {
+#if defined(HAS_REFLECTANCE) && !defined(HAS_IOR)
+    return iorFromReflectance(material.reflectance);
+#else
+    return material.ior;
+#endif
+}
+
+#endif
+
+// Nothing real reflects less than 2 %; darker f0 means that the material wants no reflection at all. Lagarde and de
+// Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
+float f90Of(vec3 f0) { return saturate(dot(f0, vec3(50.0 * 0.33))); }
+
+// Before anything lies above: KHR_materials_specular's weights.
+void weighReflectances(MaterialInputs material, vec3 baseColor, inout Surface surface) {
+#if defined(HAS_SPECULAR_WEIGHTS)
+    float f0 = f0FromReflectance(reflectanceOf(material));
+    surface.f0 = f0FromSpecular(
+            baseColor, material.metallic, f0, material.specularColorFactor, saturate(material.specularFactor));
+    surface.f90 *= f90FromSpecular(saturate(material.specularFactor), material.metallic);
+#endif
+}
+
+// What lies above changes what the base reflects: a coat its index, a film its colour.
+void coverReflectances(inout Surface surface) {
+#if defined(HAS_IRIDESCENCE)
+    surface.film.baseF0 = surface.f0;
+#endif
+#if defined(HAS_CLEAR_COAT) && defined(CLEAR_COAT_IOR_CHANGE)
+    if (surface.coat.strength > 0.0) {
+        vec3 covered = f0UnderCoat(surface.f0, 1.0) * saturate(surface.f0 * 50.0); // what wants no reflection has none
+        surface.f0 = mix(surface.f0, covered, surface.coat.strength);
+        surface.f90 = min(surface.f90, f90Of(surface.f0));
+    }
+#endif
+#if defined(HAS_IRIDESCENCE)
+    surface.film.bareF0 = surface.f0;
+    if (surface.film.strength > 0.0) {
+        surface.f0 = mix(surface.f0, filmF0(surface.film, shading_NoV), surface.film.strength);
+        surface.f90 = mix(surface.f90, 1.0, surface.film.strength);
+    }
+#endif
+}
+
+void setSpecularAlbedo(inout Surface surface, highp float roughness) {
+    vec2 dfg = splitSumTerm(shading_NoV, roughness);
+    surface.energyCompensation = energyCompensationTerm(surface.f0, dfg);
+    surface.specularAlbedo = specularDfg(surface.f0, surface.f90, dfg) * surface.energyCompensation;
+#if defined(HAS_ANISOTROPY)
+    surface.energyCompensation = groovesCompensation(surface.grooves, surface.energyCompensation);
+#endif
+}
+
+#include "shaders/material/surface/lit_coupling.glsl"
+
+#if defined(HAS_DIFFUSE_TRANSMISSION)
+
+// KHR_materials_diffuse_transmission: this part of what the diffuse lobe scatters leaves at the other side.
+void setTransmission(MaterialInputs material, inout Surface surface) {
+    float part = saturate(material.diffuseTransmission);
+    vec3 albedo = saturate(material.diffuseTransmissionColor) * (1.0 - material.metallic);
+#if defined(BLEND_MODE_TRANSPARENT)
+    albedo *= material.baseColor.a;
+#endif
+    surface.transmitted = albedo * part;
+    surface.diffuse *= 1.0 - part;
+#if defined(REFRACTION)
+    surface.transmitted *= 1.0 - surface.refraction.transmission;
+#endif
+}
+
+#endif
+
+#if defined(REFRACTION)
+
+// Both interfaces: what the far one of a thin layer sends back comes out with what the near one reflects.
+void setThrough(inout Surface surface) {
+    surface.through = vec3(0.0);
+    if (surface.refraction.transmission > 0.0) {
+        surface.through = transmittedShare(surface.refraction, surface.specularAlbedo);
+        vec3 far = farReflectedShare(surface.refraction, surface.specularAlbedo);
+        surface.energyCompensation *= 1.0 + far / max(surface.specularAlbedo, vec3(1e-4));
+        surface.specularAlbedo += far;
+    }
+}
+
+#endif
+
+void setLayers(MaterialInputs material, inout Surface surface) {
+#if defined(REFRACTION)
+    surface.refraction = refractionOf(material, surface.diffuse, roughnessOf(material), iorOf(material));
+    surface.diffuse *= 1.0 - surface.refraction.transmission; // goes through instead
+#endif
+#if defined(HAS_IRIDESCENCE)
+    surface.film = filmOf(material);
+#endif
+#if defined(HAS_ANISOTROPY)
+    surface.grooves = groovesOf(material, surface.alpha);
+#endif
+#if defined(HAS_DIFFUSE_TRANSMISSION)
+    setTransmission(material, surface);
+#endif
+#if defined(HAS_SHEEN)
+    surface.sheen = sheenOf(material);
+#endif
+#if defined(HAS_CLEAR_COAT)
+    surface.coat = coatOf(material);
+#endif
+#if defined(HAS_IRIDESCENCE) && defined(HAS_CLEAR_COAT)
+    surface.film.outsideIor = mix(1.0, kCoatIor, surface.coat.strength);
+#endif
+}
+
+Surface surfaceOf(MaterialInputs material) {
+    vec3 baseColor = shadedBaseColor(material.baseColor);
+    Surface surface;
+#if defined(CUSTOM_SURFACE_SHADING)
+    surface.inputs = material;
+#endif
+    surface.normal = shading_normal;
+    surface.view = shading_view;
+    surface.nov = shading_NoV;
+    setReflectances(material, baseColor, surface);
+    surface.f90 = f90Of(surface.f0);
+    weighReflectances(material, baseColor, surface);
+    highp float roughness = shadedRoughness(roughnessOf(material));
+    surface.perceptualRoughness = roughness;
+    surface.alpha = alphaFromPerceptual(surface.perceptualRoughness);
+    setLayers(material, surface);
+    coverReflectances(surface);
+    setSpecularAlbedo(surface, roughness);
+#if defined(REFRACTION)
+    setThrough(surface);
+#endif
+    surface.diffuseExit = diffuseExitOf(surface);
+    surface.visibility = ambientVisibility(material);
+    return surface;
+}

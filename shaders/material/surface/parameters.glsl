@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// What authors set, as the shading models take it.
+
+// Perceptual roughness within what the precision can shade.
+highp float clampedRoughness(highp float perceptualRoughness) {
+#if defined(HALF_PRECISION)
+    return clamp(perceptualRoughness, kMinPerceptualRoughnessMedium, 1.0);
+#else
+    return clampPerceptualRoughness(perceptualRoughness);
+#endif
+}
+
+// The same; with SPECULAR_ANTI_ALIASING what the pixel cannot resolve in the geometry's normals is added.
+highp float shadedRoughness(highp float perceptualRoughness) {
+    highp float roughness = perceptualRoughness;
+#if defined(SPECULAR_ANTI_ALIASING)
+    roughness = filteredPerceptualRoughness(roughness, dFdx(shading_geometricNormal), dFdy(shading_geometricNormal),
+            SPECULAR_ANTI_ALIASING_VARIANCE, SPECULAR_ANTI_ALIASING_THRESHOLD);
+#endif
+    return clampedRoughness(roughness);
+}
+
+// The colour to be lit: fading scales the lit colour as a whole (surface/main.glsl), so alpha is taken out of it first.
+vec3 shadedBaseColor(highp vec4 baseColor) {
+    vec3 color = baseColor.rgb;
+#if defined(BLEND_MODE_FADE)
+    color /= max(baseColor.a, 1e-5);
+#endif
+    return color;
+}

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+/// GltfFuzzBody: loads arbitrary bytes as glTF; one body for the fuzzer (tests/fuzz/GltfFuzz.cpp) and the mutation
+///   test. A file may be refused, with one line of text, or give a model that keeps every promise of ModelData.h.
+#pragma once
+
+#include "filament_core/assets/gltf/GltfLoader.h"
+#include "shaders/interface/ShaderInterface.h"
+
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <cstring>
+#include <string>
+
+namespace filament::assets::test {
+
+inline const char* brokenPromise(ModelData const& model, Image const& image) {
+    if (image.width == 0 || image.height == 0 || image.data.size() != image.levelOffset(image.levels))
+        return "image size";
+    if (image.levels != backend::fullMipCount(image.width, image.height)) return "mip chain";
+    return model.images.empty() ? "image list" : nullptr;
+}
+
+inline std::vector<TextureRef> texturesOf(MaterialData const& m) {
+    std::vector<TextureRef> textures{ m.baseColor,
+                                      m.metallicRoughness,
+                                      m.normal,
+                                      m.occlusion,
+                                      m.emissive,
+                                      m.clearCoat.maps.texture,
+                                      m.clearCoat.normal,
+                                      m.sheen.maps.texture,
+                                      m.specular.maps.texture,
+                                      m.anisotropy.map,
+                                      m.iridescence.maps.texture,
+                                      m.transmission.maps.texture,
+                                      m.diffuseTransmission.maps.texture };
+    if (m.specularGlossiness) textures.push_back(m.specularGlossiness->map);
+    return textures;
+}
+
+inline std::vector<float> unitFactorsOf(MaterialData const& m) {
+    return { m.metallicFactor,
+             m.roughnessFactor,
+             m.clearCoat.factor,
+             m.clearCoat.roughness,
+             m.sheen.color.x,
+             m.sheen.roughness,
+             m.specular.factor,
+             m.anisotropy.strength,
+             m.iridescence.factor,
+             m.transmission.factor,
+             m.transmission.attenuationColor.z,
+             m.diffuseTransmission.factor };
+}
+
+inline const char* brokenPromise(ModelData const& model, MaterialData const& m) {
+    for (TextureRef const& texture : texturesOf(m)) {
+        if (texture.image != kNone && texture.image >= model.images.size()) return "image index";
+        if (texture.uvSet > 1) return "uv set";
+    }
+    for (TexturePair const& pair : { m.clearCoat.maps, m.sheen.maps, m.specular.maps, m.iridescence.maps,
+                                     m.transmission.maps, m.diffuseTransmission.maps }) {
+        if ((pair.hasFirst || pair.hasSecond) != (pair.texture.image != kNone)) return "texture pair";
+    }
+    for (const float factor : unitFactorsOf(m)) {
+        if (!(factor >= 0 && factor <= 1)) return "factor";
+    }
+    if (!(m.ior >= 1 && m.ior <= kOpaqueIor)) return "index of refraction";
+    if (!(m.transmission.attenuationDistanceMeters > 0 && m.transmission.dispersion <= 100)) return "volume";
+    if (m.unlit && m.specularGlossiness) return "shading model";
+    return std::isfinite(m.emissiveStrength) && m.emissiveStrength >= 0 ? nullptr : "emissive strength";
+}
+
+inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p) {
+    const size_t indexBytes = p.indexType == backend::IndexType::UInt16 ? 2 : 4;
+    if (p.vertexCount == 0 || p.indexCount == 0) return "empty primitive";
+    if (p.vertices.size() != size_t{ p.vertexCount } * p.layout.buffers[0].stride) return "vertex bytes";
+    if (p.indices.size() != p.indexCount * indexBytes) return "index bytes";
+    if (p.layout.buffers[0].stride % 4 != 0) return "stride";
+    for (uint32_t i = 0; i < p.layout.attributeCount; ++i) {
+        const uint8_t location = p.layout.attributes[i].location;
+        const bool isJoints = location == shader::kAttributeJoints || location == shader::kAttributeJoints1;
+        if (backend::vertexFormatInfo(p.layout.attributes[i].format).integer != isJoints) return "integer attribute";
+    }
+    for (size_t i = 0; i < p.indexCount; ++i) {
+        uint32_t index = 0; // little-endian: two bytes are the low half
+        std::memcpy(&index, &p.indices[i * indexBytes], indexBytes);
+        if (index >= p.vertexCount) return "vertex index";
+    }
+    if (p.topology == backend::Topology::Triangles && (p.indexCount % 3 != 0 || !p.hasTangents)) return "triangles";
+    if (p.material != kNone && p.material >= model.materials.size()) return "material index";
+    for (VariantMaterial const& variant : p.variants) {
+        if (variant.variant >= model.variants.size() || variant.material >= model.materials.size()) return "variant";
+    }
+    for (int axis = 0; axis < 3; ++axis) {
+        if (!std::isfinite(p.boundsMin[axis]) || !(p.boundsMin[axis] <= p.boundsMax[axis])) return "bounds";
+        if (!(p.restBounds.min[axis] <= p.restBounds.max[axis])) return "bounds at rest";
+    }
+    if (p.boneBounds.size() > shader::kMaxBones || p.morphTargets.size() > shader::kMaxMorphTargets)
+        return "deformation limits";
+    for (MorphTargetData const& target : p.morphTargets) {
+        for (auto const* list : { &target.positions, &target.normals, &target.tangents }) {
+            if (!list->empty() && list->size() != p.vertexCount) return "morph target";
+        }
+    }
+    return nullptr;
+}
+
+inline const char* brokenPromise(ModelData const& model, NodeData const& node) {
+    if (node.mesh != kNone && node.mesh >= model.meshes.size()) return "mesh index";
+    if (node.light != kNone && node.light >= model.lights.size()) return "light index";
+    const auto own = static_cast<uint32_t>(&node - model.nodes.data());
+    if (node.parent != kNone && node.parent >= own) return "parents before children";
+    for (int column = 0; column < 4; ++column) {
+        for (int row = 0; row < 4; ++row) {
+            if (!std::isfinite(node.worldFromNode[column][row])) return "transform";
+            if (!std::isfinite(node.parentFromNode[column][row])) return "local transform";
+        }
+        if (node.parentFromNode[column].w != (column == 3 ? 1 : 0)) return "affine transform";
+    }
+    return nullptr;
+}
+
+inline const char* brokenPromise(ModelData const& model, SkinData const& skin) {
+    if (skin.joints.empty() || skin.joints.size() > shader::kMaxBones) return "joint count";
+    if (skin.joints.size() != skin.jointFromBind.size()) return "bind matrices";
+    return std::ranges::all_of(skin.joints, [&](uint32_t joint) { return joint < model.nodes.size(); }) ? nullptr
+                                                                                                        : "joints";
+}
+
+inline const char* brokenPromise(ModelData const& model, AnimationData const& animation) {
+    std::vector<double> value;
+    for (AnimationChannel const& channel : animation.channels) {
+        if (channel.node >= model.nodes.size() || channel.sampler >= animation.samplers.size()) return "channel";
+        AnimationSampler const& sampler = animation.samplers[channel.sampler];
+        value.resize(sampler.width);
+        for (const double seconds : { -1.0, 0.0, animation.durationSeconds / 3, animation.durationSeconds, 1e9 })
+            sampleAnimation(sampler, seconds, value);
+    }
+    return std::isfinite(animation.durationSeconds) ? nullptr : "duration";
+}
+
+/// The first promise of ModelData.h that the model breaks; null if it keeps all.
+inline const char* brokenPromise(ModelData const& model) {
+    const char* broken = nullptr;
+    const auto check = [&](auto const& list) {
+        for (auto const& element : list) {
+            if (!broken) broken = brokenPromise(model, element);
+        }
+    };
+    check(model.images);
+    check(model.materials);
+    check(model.nodes);
+    check(model.skins);
+    check(model.animations);
+    for (MeshData const& mesh : model.meshes) check(mesh.primitives);
+    return broken;
+}
+
+/// Returns whether the file was loaded. Ends the process when something is wrong that no file may cause.
+inline bool fuzzGltf(std::span<const std::byte> file, std::filesystem::path const& baseDirectory = "no such folder") {
+    jobs::JobSystem jobs({ .workers = 0 });
+    const Result<ModelData> model = loadGltfFromMemory(file, baseDirectory, jobs);
+    const Result<ModelData> kept =
+            loadGltfFromMemory(file, baseDirectory, jobs, { .deformation = GltfDeformation::Kept });
+    const char* broken = kept ? brokenPromise(*kept) : nullptr;
+    if (!broken && !kept && kept.error().message.empty()) broken = "message";
+    if (model && !broken) broken = brokenPromise(*model);
+    if (!model && (model.error().message.empty() || model.error().message.find('\n') != std::string::npos))
+        broken = "message";
+    if (broken) {
+        std::fprintf(stderr, "a loaded file broke the promise about: %s\n", broken);
+        std::abort();
+    }
+    return model.ok();
+}
+
+} // namespace filament::assets::test

@@ -1,0 +1,225 @@
+// SPDX-License-Identifier: Apache-2.0
+// Real and written files, cut and scratched: nothing may crash, hang or break a promise. The seeds are fixed; how many
+// rounds run depends on the time, which is limited.
+#include "filament_core/assets/gltf/GltfUri.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
+#include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
+#include "tests/filament_core/assets/gltf/GltfTestFile.h"
+#include "tools/paths/Paths.h"
+
+#include <chrono>
+#include <random>
+
+namespace filament::assets::test {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+/// A .glb in its two parts, so that a mutation of one leaves the container whole.
+struct Specimen {
+    std::string json;
+    Bytes binary;
+};
+
+Specimen specimenFrom(Json const& root, Bytes binary) { return { root.dump(), std::move(binary) }; }
+
+constexpr const char* kExtensions = R"({
+    "KHR_materials_clearcoat": { "clearcoatFactor": 1, "clearcoatTexture": { "index": 0 },
+        "clearcoatRoughnessTexture": { "index": 1 }, "clearcoatNormalTexture": { "index": 0 } },
+    "KHR_materials_sheen": { "sheenColorFactor": [ 1, 1, 1 ], "sheenColorTexture": { "index": 0 },
+        "sheenRoughnessTexture": { "index": 1, "texCoord": 1 } },
+    "KHR_materials_specular": { "specularFactor": 0.5, "specularColorFactor": [ 2, 2, 2 ] },
+    "KHR_materials_anisotropy": { "anisotropyStrength": 0.5, "anisotropyRotation": 1 },
+    "KHR_materials_iridescence": { "iridescenceFactor": 1, "iridescenceThicknessTexture": { "index": 0 } },
+    "KHR_materials_ior": { "ior": 1.4 }, "KHR_materials_transmission": { "transmissionFactor": 1 },
+    "KHR_materials_volume": { "thicknessFactor": 1, "attenuationDistance": 2, "attenuationColor": [ 0.5, 0.5, 0.5 ] },
+    "KHR_materials_dispersion": { "dispersion": 1 },
+    "KHR_materials_diffuse_transmission": { "diffuseTransmissionFactor": 1 } })";
+constexpr const char* kGlossiness = R"({ "KHR_materials_pbrSpecularGlossiness": {
+    "diffuseFactor": [ 1, 0, 1, 0.5 ], "glossinessFactor": 0.5, "specularGlossinessTexture": { "index": 0 } } })";
+
+/// Textures of both kinds, layers and variants, lights, morph targets, a skin, sparse data, strips: a bit of
+/// everything.
+Specimen writtenSpecimen() {
+    TestFile file = TestFile::triangle();
+    file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1 });
+    file.attribute("TEXCOORD_0", std::vector<uint16_t>{ 0, 0, 65535, 0, 0, 65535 }, kUShort, "VEC2", 2, true);
+    file.attribute("COLOR_0", std::vector<float>(9, 0.5f), kFloat, "VEC3", 3);
+    file.attribute("JOINTS_0", std::vector<uint8_t>(12, 0), kUByte, "VEC4", 4);
+    file.attribute("WEIGHTS_0", std::vector<float>(12, 0.25f), kFloat, "VEC4", 4);
+    file.indices({ 0, 1, 2, 2, 1 });
+    file.primitive()["mode"] = 5;
+    const size_t target = file.add(std::vector<float>(9, 1.0f), kFloat, "VEC3", 3);
+    file.primitive()["targets"] = { { { "POSITION", target }, { "NORMAL", target } } };
+    file.root["meshes"][0]["weights"] = { 0.5 };
+    const std::array<uint16_t, 2> where{ 0, 2 };
+    const std::array<float, 6> what{ 1, 2, 3, 4, 5, 6 };
+    file.root["accessors"][0]["sparse"] = {
+        { "count", 2 },
+        { "indices", { { "bufferView", file.addView(std::as_bytes(std::span(where))) }, { "componentType", 5123 } } },
+        { "values", { { "bufferView", file.addView(std::as_bytes(std::span(what))) } } }
+    };
+    const std::vector<std::byte> pixels(5 * 3 * 4, std::byte{ 77 });
+    file.root["images"] = { { { "bufferView", file.addView(glbImageFromPixels("i", 5, 3, pixels)->file) } } };
+    file.root["samplers"] = { { { "minFilter", 9984 } } };
+    const std::vector<std::byte> others(2 * 4, std::byte{ 99 });
+    file.root["images"].push_back({ { "bufferView", file.addView(glbImageFromPixels("j", 2, 1, others)->file) } });
+    file.root["textures"] = { { { "source", 0 }, { "sampler", 0 } }, { { "source", 1 }, { "sampler", 0 } } };
+    file.root["materials"] = Json::parse(R"([ { "normalTexture": { "index": 0, "scale": 0.5 },
+        "pbrMetallicRoughness": { "baseColorTexture": { "index": 0, "extensions": { "KHR_texture_transform": {
+        "offset": [ 0.5, 0 ], "rotation": 1, "scale": [ 2, 2 ] } } } } } ])");
+    file.root["materials"].push_back({ { "extensions", Json::parse(kExtensions) } });
+    file.root["materials"].push_back({ { "extensions", Json::parse(kGlossiness) } });
+    file.root["extensions"]["KHR_materials_variants"]["variants"] =
+            Json::parse(R"([ { "name": "a" }, { "name": "b" } ])");
+    file.primitive()["extensions"]["KHR_materials_variants"]["mappings"] =
+            Json::parse(R"([ { "material": 1, "variants": [ 0 ] }, { "material": 2, "variants": [ 1 ] } ])");
+    file.primitive()["material"] = 0;
+    file.root["skins"] = Json::parse(R"([ { "joints": [ 1 ] } ])");
+    file.root["nodes"] = Json::parse(R"([ { "mesh": 0, "skin": 0, "children": [ 1 ] }, { "scale": [ 1, 2, 3 ],
+        "extensions": { "KHR_lights_punctual": { "light": 0 } } } ])");
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([ { "type": "spot", "spot": {} } ])");
+    file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
+    return specimenFrom(file.root, file.binary);
+}
+
+/// A model of the asset folder; its buffer is put into the file, so that its bytes can be scratched too.
+Specimen assetSpecimen(std::filesystem::path const& path) {
+    const Bytes file = *readGltfFile(path);
+    if (path.extension() == ".glb") {
+        uint32_t length = 0;
+        std::memcpy(&length, &file[12], 4);
+        auto const* text = reinterpret_cast<const char*>(file.data() + 20);
+        return { std::string(text, length), Bytes(file.begin() + 28 + length, file.end()) };
+    }
+    Json root = Json::parse(std::string(reinterpret_cast<const char*>(file.data()), file.size()));
+    Bytes binary = *readGltfUri(root["buffers"][0]["uri"].get<std::string>(), path.parent_path());
+    root["buffers"][0].erase("uri");
+    return specimenFrom(root, std::move(binary));
+}
+
+std::vector<Specimen> allSpecimens() {
+    std::vector<Specimen> specimens{ writtenSpecimen() };
+    if (tools::assetDir().empty()) return specimens;
+    for (const char* name :
+         { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",
+           "AnimatedMorphCube-Quantized/AnimatedMorphCube.gltf", "SimpleInstancing/SimpleInstancing.glb",
+           "UnlitTest/UnlitTest.glb", "BoxAnimated/BoxAnimated.glb", "RiggedFigure/RiggedFigure.glb",
+           "TextureCoordinateTest/TextureCoordinateTest.glb", "VertexColorTest/VertexColorTest.glb" }) {
+        specimens.push_back(assetSpecimen(tools::assetDir() / "models" / name));
+    }
+    return specimens;
+}
+
+class Scratcher {
+public:
+    explicit Scratcher(uint32_t seed) : mRandom(seed) {}
+
+    void scratch(Specimen& specimen) {
+        for (size_t i = below(4) + 1; i > 0; --i) {
+            switch (below(4)) {
+            case 0:
+                replaceNumber(specimen.json);
+                break;
+            case 1:
+                replaceCharacter(specimen.json);
+                break;
+            case 2:
+                moveText(specimen.json);
+                break;
+            default:
+                flipBits(specimen.binary);
+                break;
+            }
+        }
+    }
+
+private:
+    size_t below(size_t count) { return count == 0 ? 0 : mRandom() % count; }
+
+    /// One number of the file becomes another, often a nasty one.
+    void replaceNumber(std::string& text) {
+        static constexpr std::array kNumbers{ "-1",
+                                              "0",
+                                              "1",
+                                              "2",
+                                              "3",
+                                              "7",
+                                              "255",
+                                              "65535",
+                                              "65536",
+                                              "4294967295",
+                                              "4294967296",
+                                              "9007199254740992",
+                                              "18446744073709551615",
+                                              "1e308",
+                                              "-1e308",
+                                              "0.5",
+                                              "1e-320",
+                                              "5121",
+                                              "5126",
+                                              "null",
+                                              "\"x\"" };
+        const size_t start = text.find_first_of("0123456789", below(text.size()));
+        if (start == std::string::npos) return;
+        const size_t end = std::min(text.find_first_not_of("0123456789.eE+-", start), text.size());
+        text.replace(start, end - start, kNumbers[below(kNumbers.size())]);
+    }
+
+    void replaceCharacter(std::string& text) {
+        if (!text.empty()) text[below(text.size())] = static_cast<char>(mRandom());
+    }
+
+    /// Cuts a piece out, or doubles it.
+    void moveText(std::string& text) {
+        const size_t start = below(text.size()), length = below(32);
+        if (below(2) == 0) {
+            text.erase(start, length);
+        } else {
+            text.insert(start, text.substr(start, length));
+        }
+    }
+
+    void flipBits(Bytes& bytes) {
+        if (bytes.empty()) return;
+        for (size_t i = below(8) + 1; i > 0; --i) bytes[below(bytes.size())] ^= static_cast<std::byte>(1u << below(8));
+    }
+
+    std::mt19937 mRandom;
+};
+
+TEST(GltfMutation, ScratchedFilesAreRefusedOrLoadedWhole) {
+    const std::vector<Specimen> specimens = allSpecimens();
+    const auto end = Clock::now() + std::chrono::milliseconds(2500);
+    size_t runs = 0, loads = 0;
+    for (uint32_t round = 0; round < 1000 && Clock::now() < end; ++round) {
+        for (size_t i = 0; i < specimens.size(); ++i) {
+            Specimen specimen = specimens[i];
+            if (round > 0) Scratcher(round * 1000 + static_cast<uint32_t>(i)).scratch(specimen);
+            const bool isLoaded = fuzzGltf(glbFrom(specimen.json, specimen.binary));
+            EXPECT_TRUE(isLoaded || round > 0) << "specimen " << i << " must be whole";
+            loads += isLoaded;
+            ++runs;
+        }
+    }
+    EXPECT_GT(loads, runs / 20); // scratches that always break the JSON would test nothing
+    EXPECT_LT(loads, runs);
+}
+
+TEST(GltfMutation, FilesCutAnywhereAreRefused) {
+    const std::vector<Specimen> specimens = allSpecimens();
+    for (size_t i = 0; i < specimens.size(); ++i) {
+        const Bytes whole = glbFrom(specimens[i].json, specimens[i].binary);
+        for (size_t size = 0; size + 4 < whole.size(); size += 64) {
+            Bytes cut(whole.begin(), whole.begin() + static_cast<std::ptrdiff_t>(size));
+            EXPECT_FALSE(fuzzGltf(cut)) << size;
+            if (size < 20) continue;
+            const auto length = static_cast<uint32_t>(size); // and with headers that agree with the cut
+            std::memcpy(&cut[8], &length, 4);
+            EXPECT_FALSE(fuzzGltf(cut)) << size;
+        }
+    }
+}
+
+} // namespace
+} // namespace filament::assets::test

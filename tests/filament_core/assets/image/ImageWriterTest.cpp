@@ -1,0 +1,126 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/assets/image/ImageWriter.h"
+#include "base/math/Half.h"
+#include "filament_core/assets/image/HdrReader.h"
+#include "tests/filament_core/assets/image/HdrTestSupport.h"
+
+#include <cstring>
+
+namespace filament::assets {
+namespace {
+
+std::vector<std::byte> noise(size_t count) {
+    std::mt19937 random(7);
+    std::vector<std::byte> bytes(count);
+    for (std::byte& byte : bytes) byte = static_cast<std::byte>(random());
+    return bytes;
+}
+
+TEST(ImageWriter, APngGivesBackTheBytesThatWereWritten) {
+    const TemporaryFolder folder;
+    const std::vector<std::byte> pixels = noise(31 * 17 * 4); // also the largest a PNG of this size can get
+    ASSERT_TRUE(writePng(folder / "noise.png", 31, 17, pixels));
+    const auto read = readPng(folder / "noise.png");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->width, 31u);
+    EXPECT_EQ(read->height, 17u);
+    EXPECT_EQ(read->data, pixels);
+}
+
+TEST(ImageWriter, ReadingWhatIsNoPngNamesTheFile) {
+    const TemporaryFolder folder;
+    EXPECT_EQ(readPng(folder / "none.png").error().code, ErrorCode::NotFound);
+    ASSERT_TRUE(replaceFile(folder / "text.png", noise(100)));
+    const auto text = readPng(folder / "text.png");
+    ASSERT_FALSE(text);
+    EXPECT_NE(text.error().message.find("text.png"), std::string::npos);
+}
+
+TEST(ImageWriter, APathThatCannotBeWrittenIsAnErrorAndLeavesNothing) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(replaceFile(folder / "file", noise(4)));
+    const auto written = writePng(folder / "file" / "picture.png", 1, 1, noise(4)); // a file where a folder must be
+    ASSERT_FALSE(written);
+    EXPECT_EQ(written.error().code, ErrorCode::Unreadable);
+    EXPECT_NE(written.error().message.find("picture.png"), std::string::npos);
+}
+
+TEST(ImageWriter, ReplacingAFileLeavesNoTemporaryBehind) {
+    const TemporaryFolder folder;
+    ASSERT_TRUE(replaceFile(folder / "a" / "b" / "file", noise(10)));
+    ASSERT_TRUE(replaceFile(folder / "a" / "b" / "file", noise(20)));
+    EXPECT_EQ(readFileBytes(folder / "a" / "b" / "file").value(), noise(20));
+    size_t files = 0;
+    for ([[maybe_unused]] auto const& entry : std::filesystem::directory_iterator(folder / "a" / "b")) ++files;
+    EXPECT_EQ(files, 1u);
+}
+
+TEST(ImageWriter, FloatExrsAreExactAndHalfExrsAreRoundedAndClamped) {
+    const TemporaryFolder folder;
+    const std::vector<float3> pixels{ float3(0.1f, 1.0f, 3e12f), float3(2.0f, 1e-3f, 0.0f) };
+    ASSERT_TRUE(writeExr(folder / "float.exr", 2, 1, pixels, ExrPrecision::Float));
+    ASSERT_TRUE(writeExr(folder / "half.exr", 2, 1, pixels, ExrPrecision::Half));
+    EXPECT_EQ(readHdrImage(folder / "float.exr")->pixels, pixels);
+    const auto half = readHdrImage(folder / "half.exr");
+    EXPECT_EQ(half->pixels[0], float3(floatFromHalf(halfFromFloat(0.1f)), 1.0f, kMaxHalf));
+}
+
+TEST(ImageWriter, HalfPixelsOfTheRendererReachTheExrBitForBit) {
+    const TemporaryFolder folder;
+    const std::array<uint16_t, 8> texels{ halfFromFloat(0.3f),     halfFromFloat(7.0f),   halfFromFloat(0.0f),
+                                          halfFromFloat(1.0f),     halfFromFloat(100.0f), halfFromFloat(0.5f),
+                                          halfFromFloat(60000.0f), halfFromFloat(1.0f) };
+    ASSERT_TRUE(writeExr(folder / "frame.exr", 2, 1, std::as_bytes(std::span(texels))));
+    const auto read = readHdrImage(folder / "frame.exr");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->pixels[0], float3(floatFromHalf(texels[0]), 7.0f, 0.0f));
+    EXPECT_EQ(read->pixels[1], float3(100.0f, 0.5f, floatFromHalf(texels[6])));
+}
+
+TEST(ImageWriter, RgbeKeepsTheLargestComponentWithinHalfAStepOfEightBits) {
+    const TemporaryFolder folder;
+    std::mt19937 random(3);
+    std::uniform_real_distribution<float> exponent(-20, 30);
+    HdrImage image{ .width = 64, .height = 16, .pixels = {}, .repairs = {} };
+    for (int i = 0; i < 64 * 16; ++i) {
+        // the first rows repeat, so that run lengths are used as well
+        const float value = i < 256 ? 0.75f : std::exp2(exponent(random));
+        image.pixels.emplace_back(value, 0.5f * value, 0.0f);
+    }
+    ASSERT_TRUE(writeHdr(folder / "a.hdr", image));
+    const auto read = readHdrImage(folder / "a.hdr");
+    ASSERT_TRUE(read) << read.error().message;
+    for (size_t i = 0; i < image.pixels.size(); ++i) {
+        EXPECT_NEAR(read->pixels[i].x / image.pixels[i].x, 1.0f, 1.0f / 256);
+        EXPECT_NEAR(read->pixels[i].y / image.pixels[i].y, 1.0f, 1.0f / 128);
+        EXPECT_EQ(read->pixels[i].z, 0.0f);
+    }
+    EXPECT_EQ(read->pixels[0].x, 0.75f);
+}
+
+TEST(ImageWriter, RgbeOfNarrowPicturesIsWrittenFlat) {
+    const TemporaryFolder folder;
+    const HdrImage image{
+        .width = 3, .height = 1, .pixels = { float3(1), float3(2), float3(-4, 4, 0) }, .repairs = {}
+    };
+    ASSERT_TRUE(writeHdr(folder / "narrow.hdr", image));
+    const auto read = readHdrImage(folder / "narrow.hdr");
+    ASSERT_TRUE(read) << read.error().message;
+    EXPECT_EQ(read->pixels[1], float3(2.0f));
+    EXPECT_EQ(read->pixels[2], float3(0, 4, 0)) << "negative light becomes black";
+}
+
+TEST(ImageLevels, OffsetsOfACubeCountAllFacesAndLevels) {
+    const Image cube{
+        .width = 8, .height = 8, .layers = 6, .levels = 4, .format = backend::Format::RGBA16F, .data = {}
+    };
+    EXPECT_EQ(cube.levelBytes(0), 6u * 64 * 8);
+    EXPECT_EQ(cube.levelBytes(3), 6u * 8);
+    EXPECT_EQ(cube.levelOffset(0), 0u);
+    EXPECT_EQ(cube.levelOffset(4), 6u * 8 * (64 + 16 + 4 + 1));
+    const Image blocks{ .width = 10, .height = 2, .levels = 2, .format = backend::Format::BC1, .data = {} };
+    EXPECT_EQ(blocks.levelBytes(0), 3u * 8) << "partial blocks count whole";
+}
+
+} // namespace
+} // namespace filament::assets

@@ -1,0 +1,302 @@
+// SPDX-License-Identifier: Apache-2.0
+// What a material says about blending, passes, faces and interpolation, as pictures whose colours follow from a line of
+// arithmetic; the same bits on both APIs.
+#include "base/Log.h"
+#include "tests/filament_core/engine/materials/MaterialStage.h"
+
+#include <gmock/gmock.h>
+
+namespace filament {
+namespace {
+
+using test::centerPixel;
+using test::halfPixel;
+using test::MaterialStage;
+using test::onBothApis;
+using test::Square;
+
+/// Unlit, in the colour of the vertices.
+std::string vertexColored(std::string_view properties, std::string_view code = "") {
+    return fmt::format(R"(material {{ name : stage, shadingModel : unlit, requires : [ color, uv0 ], {} }}
+fragment {{ void material(inout MaterialInputs material) {{
+    prepareMaterial(material);
+    material.baseColor = getColor();
+    {}
+}} }})",
+                       properties, code);
+}
+
+float4 over(float4 above, float4 below) { return above + below * (1 - above.w); }
+
+// All of them exact in half floats, and so are their products.
+constexpr float4 kRed{ 0.5f, 0, 0, 0.5f }, kGreen{ 0, 0.25f, 0, 0.25f }, kBlue{ 0, 0, 0.5f, 0.5f };
+constexpr float4 kBlack{ 0, 0, 0, 1 };
+
+float4 drawn(std::string_view properties, std::vector<Square> const& squares, float4 background = kBlack) {
+    return centerPixel(onBothApis([&](MaterialStage& stage) {
+        stage.view.clearColor = background;
+        stage.add(stage.material(vertexColored(properties)), squares);
+    }));
+}
+
+// ------------------------------------------------------------------------------------------ two passes
+
+const std::vector<Square> kNearBeforeFar{ { 1, kRed }, { 0, kGreen } };
+
+TEST(TwoPasses, OneSideShowsWhatIsNearestAlone) {
+    EXPECT_EQ(drawn("blending : transparent, culling : none", kNearBeforeFar), over(kGreen, over(kRed, kBlack)));
+    EXPECT_EQ(drawn("blending : transparent, culling : none, transparency : twoPassesOneSide", kNearBeforeFar),
+              over(kRed, kBlack));
+}
+
+TEST(TwoPasses, OneSideWorksWithFourSamples) {
+    const Image picture = onBothApis([&](MaterialStage& stage) {
+        stage.view.samples = 4;
+        stage.add(stage.material(vertexColored("blending : transparent, transparency : twoPassesOneSide")),
+                  kNearBeforeFar);
+    });
+    EXPECT_EQ(centerPixel(picture), over(kRed, kBlack));
+}
+
+TEST(TwoPasses, TwoSidesShowBackFacesBehindFrontFacesWhateverTheOrderOfTheTriangles) {
+    const std::vector<Square> frontBeforeBack{ { 1, kRed, true }, { 0, kGreen, false } };
+    EXPECT_EQ(drawn("blending : transparent, culling : none", frontBeforeBack), over(kGreen, over(kRed, kBlack)));
+    EXPECT_EQ(drawn("blending : transparent, transparency : twoPassesTwoSides", frontBeforeBack),
+              over(kRed, over(kGreen, kBlack)));
+}
+
+TEST(TwoPasses, EachObjectIsFinishedBeforeTheNextOneInFrontOfIt) {
+    const Image picture = onBothApis([&](MaterialStage& stage) {
+        const MaterialInstance glass =
+                stage.material(vertexColored("blending : transparent, transparency : twoPassesTwoSides"));
+        double4x4 nearer(1.0);
+        nearer[3].z = 2;
+        stage.add(glass, { { 0.5f, kRed, true }, { 0, kGreen, false } }, nearer);
+        stage.add(glass, { { 0.5f, kBlue, true }, { 0, kGreen, false } });
+    });
+    const float4 farther = over(kBlue, over(kGreen, kBlack));
+    EXPECT_EQ(centerPixel(picture), over(kRed, over(kGreen, farther)));
+}
+
+TEST(TwoPasses, AMirroredObjectShowsTheSame) {
+    double4x4 mirrored(1.0);
+    mirrored[0][0] = -1;
+    const Image picture = onBothApis([&](MaterialStage& stage) {
+        const MaterialInstance glass =
+                stage.material(vertexColored("blending : transparent, transparency : twoPassesTwoSides"));
+        stage.add(glass, { { 1, kRed, true }, { 0, kGreen, false } }, mirrored);
+    });
+    EXPECT_EQ(centerPixel(picture), over(kRed, over(kGreen, kBlack)));
+}
+
+// ------------------------------------------------------------------------------------------ double-sided
+
+/// Lit by nothing but itself: the normal as a colour.
+constexpr std::string_view kShowsNormal = R"(
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor = vec4(getWorldNormalVector() * 0.5 + 0.5, 1.0);
+} })";
+
+float4 normalSeen(std::string_view properties, bool facesCamera, std::optional<bool> doubleSided = {}) {
+    const std::string text = fmt::format("material {{ shadingModel : unlit, requires : [ tangents ], {} }} {}",
+                                         properties, kShowsNormal);
+    return centerPixel(onBothApis([&](MaterialStage& stage) {
+        const MaterialInstance instance = stage.material(text);
+        if (doubleSided) {
+            const Result<void> done = stage.engine.setDoubleSided(instance, *doubleSided);
+            EXPECT_TRUE(done) << (done ? "" : done.error().message);
+        }
+        stage.add(instance, { { 0, float4(1), facesCamera } });
+    }));
+}
+
+constexpr float4 kTowards{ 0.5f, 0.5f, 1, 1 }, kAway{ 0.5f, 0.5f, 0, 1 };
+
+TEST(DoubleSided, TurnsTheNormalsOfBackFacesAroundAndCanBeSwitchedAtRunTime) {
+    EXPECT_EQ(normalSeen("doubleSided : true", false), kAway) << "the normal of +z, seen from behind, turned around";
+    EXPECT_EQ(normalSeen("doubleSided : true", true), kTowards);
+    EXPECT_EQ(normalSeen("doubleSided : true", false, false), kBlack) << "back faces are culled";
+    EXPECT_EQ(normalSeen("doubleSided : false", false), kBlack);
+    EXPECT_EQ(normalSeen("doubleSided : false", false, true), kAway);
+    EXPECT_EQ(normalSeen("doubleSided : false, culling : none", false), kTowards) << "drawn, but not turned around";
+    EXPECT_EQ(normalSeen("doubleSided : true, culling : none", false, false), kTowards);
+    EXPECT_EQ(normalSeen("doubleSided : true, culling : none", false), kAway);
+}
+
+TEST(DoubleSided, AMaterialThatDoesNotMentionItSaysHowToAllowIt) {
+    auto engine = test::makeEngine(Backend::Null);
+    ASSERT_TRUE(engine);
+    MaterialStage stage(*engine);
+    const Result<void> done = engine->setDoubleSided(stage.material(vertexColored("")), true);
+    ASSERT_FALSE(done);
+    EXPECT_THAT(done.error().message, testing::HasSubstr("say doubleSided : true or doubleSided : false"));
+}
+
+// ------------------------------------------------------------------------------------------ flat
+
+TEST(FlatInterpolation, ATriangleHasTheColorAndTheVariablesOfItsLastVertex) {
+    const std::string text = R"(material { shadingModel : unlit, requires : [ color ], interpolation : flat,
+    variables : [ position ] }
+vertex { void materialVertex(inout MaterialVertexInputs material) { material.position = getPosition(); } }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor = vec4(getColor().rg, variable_position.x, 1.0);
+} })";
+    const Image picture = onBothApis([&](MaterialStage& stage) {
+        // Both triangles end at a vertex of their own; the farther ends are out of view, so that clipping cuts there.
+        const std::vector<test::StageVertex> vertices{
+            { .position = { -64, -64, 0 }, .color = { 1, 0, 0, 1 } },
+            { .position = { 64, -64, 0 }, .color = { 0, 1, 0, 1 } },
+            { .position = { 64, 64, 0 }, .color = { 0.25f, 0.5f, 0, 1 } },
+            { .position = { -64, 64, 0 }, .color = { 0.75f, 0.125f, 0, 1 } },
+        };
+        stage.add(stage.material(text), vertices, { 0, 1, 2, 0, 2, 3 }, double4x4(1.0));
+    });
+    EXPECT_EQ(halfPixel(picture, 6, 5), float4(0.25f, 0.5f, 64, 1)) << "below the diagonal";
+    EXPECT_EQ(halfPixel(picture, 1, 2), float4(0.75f, 0.125f, -64, 1)) << "above it";
+}
+
+TEST(FlatInterpolation, LitTrianglesHaveOneNormalEach) {
+    const Image picture = onBothApis([&](MaterialStage& stage) {
+        const MaterialInstance instance = stage.material(R"(material { interpolation : flat }
+fragment { void material(inout MaterialInputs material) { prepareMaterial(material); } })");
+        std::vector<test::StageVertex> vertices;
+        for (const float2 at : { float2(-8, -8), float2(8, -8), float2(8, 8), float2(-8, 8) }) {
+            const float half = 0.3f * at.x / 8;
+            vertices.push_back({ .position = { at, 0 }, .tangents = { 0, std::sin(half), 0, std::cos(half) } });
+        }
+        stage.add(instance, vertices, { 0, 1, 2, 0, 2, 3 }, double4x4(1.0));
+        stage.scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 100'000 } });
+        // Nearly parallel rays: the view does not change either.
+        stage.view.camera = Camera::lookAt({ 0, 0, 400 }, { 0, 0, 0 }, { .verticalFovDegrees = 1 });
+    });
+    const float4 below = halfPixel(picture, 6, 6), above = halfPixel(picture, 1, 1);
+    EXPECT_NEAR(halfPixel(picture, 4, 6).x, below.x, 1e-3f);
+    EXPECT_NEAR(halfPixel(picture, 1, 4).x, above.x, 1e-3f);
+    EXPECT_GT(below.x, 0.01f);
+}
+
+// ------------------------------------------------------------------------------------------ whole numbers
+
+template <class T>
+float4 numberSeen(std::string_view format, Format textureFormat, std::array<T, 4> const& texels) {
+    const std::string text = fmt::format(R"(material {{ shadingModel : unlit, requires : [ uv0 ],
+    parameters : [ {{ type : sampler2d, name : ids, format : {} }} ] }}
+fragment {{ void material(inout MaterialInputs material) {{
+    prepareMaterial(material);
+    material.baseColor = vec4(texture(materialParams_ids, getUV0())) / 8.0;
+    material.baseColor.a = 1.0;
+}} }})",
+                                         format);
+    return centerPixel(onBothApis([&](MaterialStage& stage) {
+        const MaterialInstance instance = stage.material(text);
+        const Texture ids = stage.own(stage.engine.create(TextureDesc{
+                .format = textureFormat, .width = 2, .height = 1, .pixels = std::as_bytes(std::span(texels)) }));
+        const Sampler linear{ .magFilter = Filter::Linear,
+                              .minFilter = Filter::Linear,
+                              .mipFilter = MipFilter::Linear };
+        const Result<void> done = stage.engine.set(instance, "ids", ids, linear);
+        EXPECT_TRUE(done) << (done ? "" : done.error().message);
+        stage.view.quality.textureFilter = TextureFilter::Anisotropic;
+        stage.add(instance, { {} });
+    }));
+}
+
+TEST(IntegerSamplers, GiveWholeNumbersWithoutFiltering) {
+    EXPECT_EQ(numberSeen<int32_t>("int", Format::RG32I, { -8, 4, 16, -2 }), float4(2, -0.25f, 0, 1));
+    EXPECT_EQ((numberSeen<uint32_t>("uint", Format::RG32UI, { 8, 4, 16, 2 })), float4(2, 0.25f, 0, 1));
+}
+
+TEST(IntegerSamplers, ShowOneWhereNothingIsSetAndRefuseTexturesOfAnotherKind) {
+    const Image picture = onBothApis([&](MaterialStage& stage) {
+        const MaterialInstance instance = stage.material(R"(material { shadingModel : unlit, parameters : [
+    { type : sampler2d, name : a, format : int }, { type : sampler2dArray, name : b, format : uint },
+    { type : samplerCubemap, name : c }, { type : sampler2dArray, name : d } ] }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor = vec4(float(texture(materialParams_a, vec2(0.5)).g),
+        float(texture(materialParams_b, vec3(0.5, 0.5, 0.0)).g), texture(materialParams_c, vec3(1.0)).g,
+        texture(materialParams_d, vec3(0.5, 0.5, 0.0)).g);
+} })");
+        const Texture white = stage.own(stage.engine.create(TextureDesc{ .name = "floats" }));
+        const auto message = [&](std::string_view parameter) {
+            const Result<void> done = stage.engine.set(instance, parameter, white);
+            return done ? std::string() : done.error().message;
+        };
+        EXPECT_THAT(message("a"), testing::HasSubstr("is a sampler of format int, and texture 'floats' has the format "
+                                                     "RGBA8, which is read with format : float"));
+        EXPECT_THAT(message("c"), testing::HasSubstr("is samplerCubemap, but texture 'floats' is a 2D texture"));
+        EXPECT_THAT(message("d"), testing::HasSubstr("is sampler2dArray, but texture"));
+        stage.add(instance, { {} });
+    });
+    EXPECT_EQ(centerPixel(picture), float4(1));
+}
+
+// ------------------------------------------------------------------------------------------ instances
+
+TEST(InstanceIndex, IsTheOneThatTheRenderableWasGivenInBothStagesAndSurvivesMoving) {
+    const std::string text = R"(material { shadingModel : unlit, instanced : true, variables : [ index ] }
+vertex { void materialVertex(inout MaterialVertexInputs material) {
+    material.index = vec4(float(getInstanceIndex()));
+} }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor = vec4(float(getInstanceIndex()) / 4096.0, variable_index.x / 4096.0, 0.0, 1.0);
+} })";
+    const Image picture = onBothApis([&](MaterialStage& stage) {
+        const MaterialInstance instance = stage.material(text);
+        const Square half{ .halfSide = 0.5f };
+        double4x4 left(1.0), right(1.0);
+        left[3].x = -1, right[3].x = 1;
+        right[0][0] = -1; // mirrored
+        Renderable moved = stage.add(instance, { half }, double4x4(1.0), 4096 * 3);
+        stage.scene.setTransform(moved, left);
+        stage.add(instance, { half }, right, 1024);
+    });
+    EXPECT_EQ(halfPixel(picture, 1, 4), float4(3, 3, 0, 1));
+    EXPECT_EQ(halfPixel(picture, 6, 4), float4(0.25f, 0.25f, 0, 1));
+}
+
+TEST(InstanceIndex, IsThereInEveryVertexDomain) {
+    for (const std::string_view domain : { "world", "view", "device" }) {
+        const std::string text = fmt::format(R"(material {{ shadingModel : unlit, instanced : true, vertexDomain : {},
+    culling : none, depthCulling : false }}
+fragment {{ void material(inout MaterialInputs material) {{
+    prepareMaterial(material);
+    material.baseColor = vec4(float(getInstanceIndex()));
+}} }})",
+                                             domain);
+        const Image picture = onBothApis([&](MaterialStage& stage) {
+            stage.add(stage.material(text), { { .z = domain == "view" ? -1.0f : 0.5f } }, double4x4(1.0), 7);
+        });
+        EXPECT_EQ(centerPixel(picture).x, 7.0f) << domain;
+    }
+}
+
+// ------------------------------------------------------------------------------------------ shadows and the screen
+
+TEST(ShadowMultiplier, WithoutAShadowThePlaneIsInvisible) {
+    const float4 background{ 0.25f, 0.5f, 0.75f, 1 };
+    EXPECT_EQ(drawn("blending : transparent, shadowMultiplier : true", { { 0, kRed } }, background), background);
+    EXPECT_NE(drawn("blending : transparent", { { 0, kRed } }, background), background);
+}
+
+TEST(ScreenSpace, ReflectionsOfThePictureAreTakenFromTheEnvironmentAndALineSaysSoOnce) {
+    std::vector<std::string> lines;
+    const LogSink before = setLogSink([&](Severity, std::string_view line) { lines.emplace_back(line); });
+    auto engine = test::makeEngine(Backend::Null);
+    ASSERT_TRUE(engine);
+    {
+        MaterialStage stage(*engine);
+        stage.material("material { name : mirror, reflections : screenspace }\n"
+                       "fragment { void material(inout MaterialInputs material) { prepareMaterial(material); } }");
+    }
+    setLogSink(before);
+    ASSERT_THAT(lines, testing::SizeIs(1));
+    EXPECT_THAT(lines[0],
+                testing::HasSubstr("material 'mirror': reflections : screenspace shows the environment only"));
+}
+
+} // namespace
+} // namespace filament
