@@ -5,8 +5,7 @@
 ///   Memory  device memory of everything that one of the last `keepFrames` graphs used; small lists on the heap that
 ///           stop growing after warm-up.
 ///   Fails   std::bad_alloc, and the pool is as before but for what it promised to that graph. destroyAll() never; it
-///   is
-///           called before the end, or the destructor asserts.
+///           is called before the end, or the destructor asserts.
 ///   Cost    a linear search over a few dozen entries for each transient.
 #pragma once
 

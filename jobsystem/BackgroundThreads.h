@@ -8,8 +8,7 @@
 ///           wait never grows by a stranger's work.
 ///   Memory  a queue that grows with the jobs in it.
 ///   Fails   push() refuses the job if there is no memory for its place in the queue, or no thread at all for it;
-///   further
-///           threads that the operating system refuses are done without.
+///           further threads that the operating system refuses are done without.
 ///   Cost    a lock and at most one wake-up a job: 1 us and up. The work is meant to last a thousand times longer.
 #pragma once
 

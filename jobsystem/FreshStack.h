@@ -8,7 +8,7 @@
 ///   Limits  between two looks at the stack a job may use 256 KiB, on a small stack a quarter of it.
 ///   Fails   ends the process with a message when the operating system refuses another thread.
 ///   Cost    isStackLow(): a compare; callOnFreshStack(): starting and ending a thread, 30 to 100 us per 8 MiB of
-///   nesting.
+///           nesting.
 #pragma once
 
 #include "jobsystem/Seat.h"

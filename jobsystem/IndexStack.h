@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// IndexStack: a stack of numbers below its capacity, for any number of threads; what is free lies on it.
 ///   Source  Treiber 1986, "Systems programming: coping with parallelism". The upper half of the head counts changes,
-///   so
-///           that a head that came back (ABA) is not taken for the same. Links are atomic, because a thread that is
+///           so that a head that came back (ABA) is not taken for the same. Links are atomic, because a thread that is
 ///           about to lose the race still reads them.
 ///   Thread  any. What was written before push() is visible after the pop() that returns the number.
 ///   Memory  4 bytes a number, allocated by the constructor.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// InjectionQueue: jobs from threads that have no deque.
 ///   Order   `count` is raised after an item is in, at one point of the total order of seq_cst operations: the point
-///   that
-///           a sleeper's announcement is ordered against. The queue may look empty to a thread that races with others
-///           although an item is left; nobody sleeps while the count is positive, so it is not forgotten.
+///           that a sleeper's announcement is ordered against. The queue may look empty to a thread that races with
+///           others although an item is left; nobody sleeps while the count is positive, so it is not forgotten.
 ///   Thread  any.
 ///   Memory  grows with the jobs in it and keeps what it grew to.
 ///   Fails   push() returns false when memory is exhausted.

@@ -7,10 +7,11 @@
 ///   Thread  recordJob(): whoever holds that seat. All others: any, also while jobs are recorded; a snapshot then has
 ///           all events that were complete when it began, and none that is torn.
 ///   Memory  32 bytes an event, up to 2 MiB a track; its address space is taken at the first event, the rest as it
-///   fills. Limits  a track keeps its newest 65535 events; what it lost is counted and written into the file. Fails
-///   writing: Unreadable, naming the file. Recording: never. Cost    bench/jobsystem/TraceBench.cpp. A system without a
-///   trace pays one predicted branch a job. Source  "Trace Event Format", Google 2016: complete events ("X") and thread
-///   names ("M").
+///           fills.
+///   Limits  a track keeps its newest 65535 events; what it lost is counted and written into the file.
+///   Fails   writing: Unreadable, naming the file. Recording: never.
+///   Cost    bench/jobsystem/TraceBench.cpp. A system without a trace pays one predicted branch a job.
+///   Source  "Trace Event Format", Google 2016: complete events ("X") and thread names ("M").
 #pragma once
 
 #include "base/Result.h"

@@ -1,14 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Patience: how often a thread without work of its own looks at what others have, and when it takes it.
 ///   Why     a look takes the cache line that the victim writes with every push, a theft takes several and the job's:
-///   100
-///           to 500 ns of the victim's time. A job that its owner would run in less is not worth it.
+///           100 to 500 ns of the victim's time. A job that its owner would run in less is not worth it.
 ///   How     looks become rarer while there is nothing. A thief takes only what was there at its last look: what an
-///   owner
-///           pushes and takes within kSecondLook stays where it is. After a theft that did not pay, the next look
-///           waits.
-///   Use     begin();  while (...) if (isTimeToLook(now)) { look: isStillThere() ? take, return : leave;  looked(now);
-///   }
+///           owner pushes and takes within kSecondLook stays where it is. After a theft that did not pay, the next
+///           look waits.
+///   Use     begin();
+///           while (...) if (isTimeToLook(now)) { look: isStillThere() ? take, return : leave;  looked(now); }
 ///           and learn(nanoseconds) when what was taken is done.
 ///   Thread  one.
 #pragma once

@@ -3,9 +3,8 @@
 ///   Search  own critical jobs (newest first), critical jobs of others if there is a hint of any, own normal jobs; then
 ///           the injection queues and everybody else's deques (oldest first), from a random seat on.
 ///   Sleep   after a short spin, workers sleep in mIdle and threads inside wait() at the bell of their seat. New work
-///   wakes
-///           one thread, a worker before a waiter; a thread that wakes up and sees more work than it took wakes the
-///           next. The last job of a group wakes the one thread that waits for it.
+///           wakes one thread, a worker before a waiter; a thread that wakes up and sees more work than it took wakes
+///           the next. The last job of a group wakes the one thread that waits for it.
 ///   Thread  all functions: any.
 ///   Memory  SeatTable, and 64 jobs of 72 bytes a seat and 4096 more; the queues grow only for threads without a seat.
 ///   Source  Blumofe and Leiserson 1999, "Scheduling multithreaded computations by work stealing".

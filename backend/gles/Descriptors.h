@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Bind groups, which OpenGL ES does not know: lists on the CPU, applied to numbered slots when a draw needs them.
-///   Numbers  depend on the program (flatBinding), so a group is applied lazily: when it was bound anew, or when the
+///   Numbers depend on the program (flatBinding), so a group is applied lazily: when it was bound anew, or when the
 ///           program's numbers for it differ from those it was applied with.
 ///   Thread  the driver thread.
 ///   Fails   a group with a buffer, texture or sampler that could not be made is unusable; draws with it are skipped.

@@ -3,9 +3,8 @@
 ///   Thread  handles and tickets: any. acquire()/submit(): one app thread. Results: any.
 ///   Memory  three command buffers, reused; acquire() waits while two submitted frames are still unreplayed.
 ///   Fails   start() if no driver can be made. Afterwards device errors come out of takeErrors(). Where the app's
-///   thread
-///           runs out of memory, std::bad_alloc leaves the function that allocates and nothing has changed; submit(),
-///           destroy() and free() never fail. Where the driver thread does, the device is lost, and says so.
+///           thread runs out of memory, std::bad_alloc leaves the function that allocates and nothing has changed;
+///           submit(), destroy() and free() never fail. Where the driver thread does, the device is lost, and says so.
 #pragma once
 
 #include "backend/api/Driver.h"

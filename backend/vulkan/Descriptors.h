@@ -2,8 +2,7 @@
 /// Descriptors: set layouts and pipeline layouts by description, and bind groups as immutable descriptor sets.
 ///   Thread  the driver thread.
 ///   Memory  layouts live as long as the driver. Sets come from pools of one layout each, 32 sets, then twice as many
-///   as
-///           before; a set returns to its layout when its bind group goes, so pools never fragment.
+///           as before; a set returns to its layout when its bind group goes, so pools never fragment.
 ///   Fails   with null handles or OutOfMemory; BindGroup::create also names the first entry whose object is missing.
 #pragma once
 

@@ -5,8 +5,7 @@
 ///            CmdEndFrame, and in waitIdle(), which waits.
 ///   Thread   the driver thread; info() and statistics() any.
 ///   Fails    as Driver says. An object that could not be made is missing: draws, passes and copies with it are
-///   skipped,
-///            its read-backs are answered with no bytes. After a lost device streams are swallowed.
+///            skipped, its read-backs are answered with no bytes. After a lost device streams are swallowed.
 ///   Files    Executor.cpp frames and life time, ExecuteObjects.cpp, ExecuteContents.cpp, ExecutePasses.cpp.
 #pragma once
 

@@ -2,8 +2,8 @@
 /// Pass: VkRenderPass objects by what they do with their attachments, framebuffers by what they draw into.
 ///   Attachments  in the order of VkFramebuffer: colours, depth, resolve targets (ascending by colour).
 ///   Locations    shader output i writes colour attachment i of the pass in every subpass; input attachment index i
-///   reads
-///                colour attachment i. A subpass does not write what it reads: colorMask without inputMask counts.
+///                reads colour attachment i. A subpass does not write what it reads: colorMask without inputMask
+///                counts.
 ///   Layouts      every attachment enters in the layout of its first use and stays in the layout of its last one;
 ///                Barriers moves it there before and knows where it is afterwards. Inside, by-region dependencies from
 ///                every subpass to every later one order writes before reads.

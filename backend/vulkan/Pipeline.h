@@ -7,7 +7,8 @@
 ///           program does not write leave their attachment alone.
 ///           A device without independentBlend blends and masks all attachments like attachment 0.
 ///   Fails   create(): Corrupt with the program's name for SPIR-V that cannot be read; Internal or OutOfMemory
-///   otherwise. Cost    create() compiles: milliseconds on lavapipe, which compiles the rest at the first draw.
+///           otherwise.
+///   Cost    create() compiles: milliseconds on lavapipe, which compiles the rest at the first draw.
 #pragma once
 
 #include "backend/vulkan/Descriptors.h"

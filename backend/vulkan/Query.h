@@ -4,8 +4,8 @@
 ///   Out     answer(): one ResultSink call for every ticket whose submission has finished, in the order of asking.
 ///   Thread  the driver thread.
 ///   Memory  a host buffer per read-back until it is answered; two timestamps per timer from pools of 128 that are
-///   reused. Fails   a read-back without memory is answered with no bytes, a timer of a device without timestamps with
-///   0.
+///           reused.
+///   Fails   a read-back without memory is answered with no bytes, a timer of a device without timestamps with 0.
 #pragma once
 
 #include "backend/api/Driver.h"

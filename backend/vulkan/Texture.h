@@ -2,8 +2,7 @@
 /// Texture: a VkImage with its memory and views, and the last use of every level and layer.
 ///   Thread  the driver thread.
 ///   Memory  Device memory; tile memory for Transient attachments where the device has it. One view for sampling, one
-///   per
-///           level and layer that has been an attachment.
+///           per level and layer that has been an attachment.
 ///   Fails   create(): OutOfMemory with name and size, Unsupported with the format and usage that the device lacks.
 #pragma once
 

@@ -3,9 +3,10 @@
 ///   A step is one addition that needs the result of the one before it; an empty asm statement keeps the compiler from
 ///   folding or vectorising them. A range of items is one run of steps, compiled once, in SpinWork.cpp: a loop over
 ///   items of three steps each would measure how the branch predictor likes the code around it (0.5 to 1.3 ns for the
-///   same item). Thread  any. Limits  the length of a step is measured once, at the first use; a core that changes its
-///   clock changes it. The serial
-///           column says what an item really took.
+///   same item).
+///   Thread  any.
+///   Limits  the length of a step is measured once, at the first use; a core that changes its clock changes it. The
+///           serial column says what an item really took.
 #pragma once
 
 #include <cstdint>

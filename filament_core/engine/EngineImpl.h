@@ -2,8 +2,7 @@
 /// Engine::Impl: the rooms of one engine, wired together, and the tables behind the public handles.
 ///   Thread  the app thread.
 ///   Fails   create...() and set() throw std::bad_alloc and change nothing; Engine's functions of the same names turn
-///   it
-///           into an error. What ends or destroys something never fails.
+///           it into an error. What ends or destroys something never fails.
 ///   Stream  creations are recorded into `pending` and travel with the next frame or the next flush(): nothing waits.
 #pragma once
 

@@ -3,8 +3,8 @@
 /// them: one for each texture of morph targets that is in use, with windows of the buffer as dynamic offsets.
 ///   In      a DeformationList.   Out: what to bind, by slot of scene::Deformations.
 ///   Memory  a sampler, a texel, and a buffer that grows to the largest frame and stays; none before the first frame
-///   that deforms anything.
-///           A group that no frame used for kKeptFrames frames is given up, and with it what it remembers of a texture.
+///           that deforms anything. A group that no frame used for kKeptFrames frames is given up, and with it what it
+///           remembers of a texture.
 ///   Fails   std::bad_alloc; what is recorded then fits what is remembered.
 ///   Thread  the app thread, with the workers for the data. Records outside of passes.
 #pragma once

@@ -2,9 +2,8 @@
 /// sortItems: SortItems by key, stable.
 ///   In      items, overwritten.   Out: the sorted items, in the memory of `items` or of the arena.
 ///   How     radix sort from the lowest digit up (Knuth, The Art of Computer Programming 3, section 5.2.5). Digits
-///   cover
-///           only bits in which the keys differ at all, wherever those lie: copies of one mesh need a single pass.
-///           A few items are cheaper to compare.
+///           cover only bits in which the keys differ at all, wherever those lie: copies of one mesh need a single
+///           pass. A few items are cheaper to compare.
 ///   Thread  large arrays count and move each digit in jobs over ranges. A stable order is unique: the result does not
 ///           depend on the ranges.
 ///   Memory  the arena: as much as the items, and 8 KiB a range.

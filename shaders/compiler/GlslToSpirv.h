@@ -26,8 +26,8 @@ Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv,
 /// Computes in 16-bit floats whatever is marked RelaxedPrecision, with conversions where the two kinds meet. Vulkan
 /// drivers may do so by themselves; Mesa's does not, so the compiler does.
 ///   Limits  of optimizeSpirv()'s making: no calls, no local variables. The coordinates of textures must be computed in
-///   32 bits: Mesa 22 takes a conversion from 16 bits away and
-///           then stops the process ("Cannot emit physreg copy instruction").
+///           32 bits: Mesa 22 takes a conversion from 16 bits away and then stops the process ("Cannot emit physreg
+///           copy instruction").
 ///   Fails   Unsupported if there is something that SPIRV-Tools cannot convert.
 Result<std::vector<uint32_t>> halfFromRelaxed(std::span<const uint32_t> spirv);
 

@@ -2,8 +2,7 @@
 /// AllocationSweep: the same scenario over and over, the first time with its first allocation failing, then with its
 /// second, and so on until one run has fewer allocations than that. Each run starts from nothing and ends in nothing.
 ///   In      a Scenario.   Out: test failures, and <build>/faults/NAME.txt: a line for each allocation that failed,
-///   with
-///           the function that asked and what came of it.
+///           with the function that asked and what came of it.
 #pragma once
 
 #include "tests/faults/FailingAllocator.h"

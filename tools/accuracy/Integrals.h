@@ -2,8 +2,7 @@
 /// Integrals: what a set of choices computes in place of an integral, against that integral in double precision: for
 /// terms whose error no picture isolates.
 ///   directionalAlbedo  how much light from everywhere the specular lobe reflects: reflectance 0.04, 0.5 and 1 at
-///   normal
-///                      incidence, 24 roughnesses in [0.1, 1] and 24 cosines in [0.05, 1].
+///                      normal incidence, 24 roughnesses in [0.1, 1] and 24 cosines in [0.05, 1].
 ///   Thread  any; works on the job system.
 ///   Fails   NotFound with the nearest name.
 #pragma once

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// measure: the rows of the accuracy table, filled in.
 ///   Error  of each value in the effect's own scene against its reference, and of the whole frame against the effect's
-///   best
-///          value; on the first backend: the pictures of the second have the same bits where exactness is on.
+///          best value; on the first backend: the pictures of the second have the same bits where exactness is on.
 ///   Time   on every backend: the values take turns (A B C, B C A, ...), so that a machine that slows down does so for
-///   all. Thread one at a time. Fails  what loaders and devices say. An effect whose assets are not there is skipped,
-///   with the reason. Cost   a minute or two for everything on two cores; the first run compiles pipelines.
+///          all.
+///   Thread one at a time.
+///   Fails  what loaders and devices say. An effect whose assets are not there is skipped, with the reason.
+///   Cost   a minute or two for everything on two cores; the first run compiles pipelines.
 #pragma once
 
 #include "tools/accuracy/Results.h"

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Picture: linear light as floats, and how far one is from another.
 ///   Error   of a pixel: |test - reference| / (|reference| + 1 % of the reference's mean), lengths of RGB vectors:
-///   relative,
-///           without letting the darkest pixels decide. Pixels that are black in both pictures (background) do not
-///           count.
+///           relative, without letting the darkest pixels decide. Pixels that are black in both pictures (background)
+///           do not count.
 ///   Thread  any; pure.
 #pragma once
 

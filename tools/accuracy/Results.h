@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Results: what was measured, as values, as JSON and as CSV. The JSON is the table that QualityBudget reads.
 ///   JSON    { "program", "version", "machine", "driver", "commit", "date", "frame", "size", "rounds", "effects": [ {
-///   "name",
-///           "title", "question", "reference", "command", "cost", "frame", "linear", "standard", "best", "values": [ {
-///           "value", "set", "error" (whole frame), "ownError", "ownMax", "ownFlip", "frameFlip", "totalError",
-///           "milliseconds", "millisecondsInterval", "ratio", "interval" (of the ratio) } ] } ], "skipped" }. The last
-///           four of a value are objects by backend.
+///             "name", "title", "question", "reference", "command", "cost", "frame", "linear", "standard", "best",
+///             "values": [ {
+///               "value", "set", "error" (whole frame), "ownError", "ownMax", "ownFlip", "frameFlip", "totalError",
+///               "milliseconds", "millisecondsInterval", "ratio", "interval" (of the ratio) } ] } ],
+///           "skipped" }. The last four fields of a value are objects, one entry per backend.
 ///   CSV     one line a value and backend.
 ///   Thread  any; pure.
 #pragma once

@@ -2,8 +2,7 @@
 /// Settings: everything that a row of the accuracy table can change, by name: "specularVisibility=fast", "samples=4",
 /// "environment.faceSize=64".
 ///   Names   those of <filament/Quality.h>; those of this file for the rest of View and for what is chosen when files
-///   are
-///           loaded, with the prefix of the loader.
+///           are loaded, with the prefix of the loader.
 ///   Fails   NotFound, InvalidArgument: the word, and what would be right.
 ///   Thread  any.
 #pragma once

@@ -2,7 +2,7 @@
 /// SceneOptions: what every tool that draws a model is asked in the same words: what, under which light, from where,
 /// how bright, and where to put the picture. One command line for filament-render and filament-reference.
 ///   Fails   convertSceneOptions(): InvalidArgument in one line that names the option, the value and what would be
-///   right.
+///           right.
 #pragma once
 
 #include "base/Result.h"

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Baselines: the pictures of an earlier day, as a hash and a thumbnail each, with the machine that made them.
 ///   Rule    on the same driver and CPU features the hash decides. Elsewhere the thumbnail does, by FLIP, and the
-///   report
-///           says so. A case without a baseline fails: store one with --update-baselines.
+///           report says so. A case without a baseline fails: store one with --update-baselines.
 ///   File    tests/conformance/baselines.json: one machine, every case as a hash and 16 x 16 RGB.
 ///   Thread  one.  Fails  Unreadable, Corrupt with the path.
 #pragma once

@@ -3,8 +3,7 @@
 ///   In      two stages with capture, both set() to the case.
 ///   Out     nothing if every attachment of every pass has the same bits.
 ///   Method  all attachments of both are compared in order of the passes; then frames are cut off after N draws, N
-///   found
-///           by binary search, and the attachment is compared again.
+///           found by binary search, and the attachment is compared again.
 ///   Fails   what the stages say; Unsupported if the two frames have different passes.
 ///   Cost    one frame each, and one each for every halving.
 #pragma once

@@ -3,7 +3,8 @@
 /// whole run would have written: nothing in it depends on when or in which order cases ran (times are beside it, in
 /// times.json).
 ///   Fails   readResults: Unreadable or Corrupt with the path. merge: InvalidArgument if two runs do not belong
-///   together. Thread  any; pure but for files.
+///           together.
+///   Thread  any; pure but for files.
 #pragma once
 
 #include "tools/conformance/JsonReader.h"

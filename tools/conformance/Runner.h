@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Runner: draws the cases of a shard in every configuration, compares, looks inside, lets mutants loose.
 ///   Configurations  each backend with one worker, captured; then 0, 2 and 8 workers, pinned and on big cores. The
-///   first
-///           one makes the reference picture.
+///                   first one makes the reference picture.
 ///   Out     the results; pictures in OUT/images.
 ///   Memory  one engine a configuration, one case at a time.
 ///   Fails   a device or a scene folder that is not there; what goes wrong in a case is a result of that case.

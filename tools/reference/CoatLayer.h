@@ -6,8 +6,7 @@
 ///   Exact   Smith's visibility, Fresnel's equations. Directions bend at the coat; radiance from within is spread over
 ///           index^2 times the solid angle. What the coat reflects back inside adds up to a geometric series:
 ///             specular base  1 / (1 - F R), exact for mirrors. Of rough metals it lacks what total reflection returns:
-///             up
-///                            to 8 % at roughness 0.5.
+///                            up to 8 % at roughness 0.5.
 ///             diffuse base   its colour is what is seen without a coat, so of a series that ends where the base's own
 ///                            interface was: 1 / (1 - mean of F over the hemisphere). White stays white.
 ///           A test walks light through both interfaces, bounce by bounce, and finds the same within that.

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// EmissiveLights: surfaces that glow, as lights that can be sampled: a lamp of a few triangles is found at once.
 ///   Method  one triangle in proportion to its area times what it emits (luminance, the mean of four points on it),
-///   then
-///           a point uniform in area. A triangle that is dark at those points is never picked: paths find it by chance,
-///           with the whole weight, so that pictures stay unbiased.
+///           then a point uniform in area. A triangle that is dark at those points is never picked: paths find it by
+///           chance, with the whole weight, so that pictures stay unbiased.
 ///   Source  Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", sections 6.5.4 and 12.2.
 ///   Unit    radiance as SurfaceSample::emitted: into the picture as it is, not exposed.
 ///   Memory  40 bytes an emissive triangle, 4 a part. Thread: read-only after construction.

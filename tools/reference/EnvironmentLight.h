@@ -5,8 +5,10 @@
 ///           it (in u, v) times its solid angle; inside of a cell directions are uniform in solid angle. Every cell
 ///           that holds light is likely: estimates are unbiased.
 ///   Source  Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", section 12.5 (with uniform cells in cos
-///   theta). Limits  4096 x 2048 cells: larger pictures share cells, which costs noise, not truth. Memory  8 bytes a
-///   cell and the picture, shared. Thread: read-only after construction.
+///           theta).
+///   Limits  4096 x 2048 cells: larger pictures share cells, which costs noise, not truth.
+///   Memory  8 bytes a cell and the picture, shared.
+///   Thread  read-only after construction.
 #pragma once
 
 #include "base/math/Math.h"

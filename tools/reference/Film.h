@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Film: what the passes saw, and how far apart they were.
 ///   Method  passes are independent estimates of the picture: the mean of their means is the result, the spread of
-///   their
-///           means over the root of their number its standard error (Owen 1998, "Scrambling Sobol' and
+///           their means over the root of their number its standard error (Owen 1998, "Scrambling Sobol' and
 ///           Niederreiter-Xing Points": randomised quasi-Monte Carlo). It holds for any arrangement of samples inside
 ///           of a pass.
 ///   Thread  add(): one thread a pixel, many pixels at once; the rest: one.

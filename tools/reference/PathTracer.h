@@ -5,9 +5,8 @@
 ///           Methods for Light Transport Simulation", section 9.2). Russian roulette from the fifth event on.
 ///           Blended surfaces are chosen or passed by chance, with the weights that keep the mean.
 ///   Inside  a path may enter solids; the way inside is absorbed. Shadow rays stop at them: what lies behind is found
-///   by
-///           paths alone, so that light from one direction makes caustics of much noise. One solid at a time: where two
-///           touch or overlap each is in air. Where a solid disperses light, a path takes one of three colours.
+///           by paths alone, so that light from one direction makes caustics of much noise. One solid at a time: where
+///           two touch or overlap each is in air. Where a solid disperses light, a path takes one of three colours.
 ///   Visible single-sided materials are not seen from behind by the camera; every other ray meets both sides, as light
 ///           would. Light is not carried through a triangle by its shading normal. Emissive surfaces light others
 ///           when paths happen to meet them.

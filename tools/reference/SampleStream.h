@@ -4,8 +4,7 @@
 ///           "Efficient Multidimensional Sampling". Each pair is shuffled and scrambled after Owen by hashing: Burley
 ///           2020, "Practical Hash-based Owen Scrambling", with Laine and Karras' permutation.
 ///   Error   the samples of a pass lie evenly; passes are independent of each other and so are pixels: the spread of
-///   the
-///           passes' means tells the error without bias.
+///           the passes' means tells the error without bias.
 ///   Memory  none. Thread: a value.
 #pragma once
 

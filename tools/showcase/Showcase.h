@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Showcase: a scene and a sky made by code, for whoever has no files of his own yet.
 ///   Out     a material chart on a stage ten metres wide: seven roughnesses of a dielectric and of four metals,
-///   textured,
-///           normal-mapped, masked, blended, emissive and vertex-coloured objects, one sun; about 95 000 triangles.
-///           The sky is in units of 22 klx: filament-render's default intensity makes it a third brighter than a real
-///           one, for the sake of the reflections.
+///           textured, normal-mapped, masked, blended, emissive and vertex-coloured objects, one sun; about 95 000
+///           triangles. The sky is in units of 22 klx: filament-render's default intensity makes it a third brighter
+///           than a real one, for the sake of the reflections.
 ///   Thread  runs on the job system; the same bytes for any number of workers.
 ///   Fails   Unreadable when the folder cannot be written.
 ///   Cost    about 0.3 s on two cores; bench by `filament-render --timing`.

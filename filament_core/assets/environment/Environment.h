@@ -3,12 +3,13 @@
 ///   In      a picture (HdrReader.h); world direction d sees it at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
 ///   Out     EnvironmentData; bit for bit the same from the cache and from the baker, for any number of workers.
 ///   Cache   one file per content of the picture, options and baker version, in `cacheDirectory`. Damaged files are
-///   found
-///           by their checksum and baked again; a directory that cannot be written costs a warning, not the result.
+///           found by their checksum and baked again; a directory that cannot be written costs a warning, not the
+///           result.
 ///   Thread  any; two loads of the same picture at once bake twice and leave one file.
 ///   Memory  the picture and about 60 MiB while baking; 7.3 MiB for the result with faces of 256 texels in RGBA16F.
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory with file, reason and cure; InvalidArgument for
-///   options. Cost    a 1024 x 512 picture: about a second on two cores the first time, then about 10 ms.
+///           options.
+///   Cost    a 1024 x 512 picture: about a second on two cores the first time, then about 10 ms.
 #pragma once
 
 #include "base/Result.h"

@@ -5,8 +5,7 @@
 ///           irradianceSh(): nine coefficients in exactly the form that shaders/lib/ibl.glsl evaluates;
 ///           encodeCube(): any levels as texels of a GPU format.
 ///   Source  split sum with V = N, the sky weighted by D and n.l: Karis 2013, "Real Shading in Unreal Engine 4"; the
-///   sky
-///           is cut into pieces by IblTree. SH: Ramamoorthi and Hanrahan 2001; no windowing.
+///           sky is cut into pieces by IblTree. SH: Ramamoorthi and Hanrahan 2001; no windowing.
 ///   Thread  runs on the job system; sums have a fixed order, so the bits do not depend on the workers.
 ///   Memory  the results, 16 bytes a texel before encoding.
 ///   Fails   never.  Cost: bench/filament_core/assets/IblBench.cpp

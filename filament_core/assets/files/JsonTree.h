@@ -5,7 +5,7 @@
 ///   its path.
 ///   Thread  read-only after parse; the diagnostics belong to one thread.
 ///   Limits  integers up to 2^53 (what a JSON double holds exactly). What is nested deeper than any field of glTF is
-///   null. Only GltfJson.cpp sees the JSON library.
+///           null. Only GltfJson.cpp sees the JSON library.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"

@@ -3,8 +3,9 @@
 ///   The steps, in order: gather, make a list, morph, drop unused vertices, skin, flat normals, tangents, pack.
 ///   Morphing and skinning are done here, for the rest pose, or kept for the device. Each is a function below; each
 ///   takes the primitive as the step before left it. Quantised attributes keep the format of the file: 8- and 16-bit
-///   integers survive the trip through floats exactly, and pack() writes them back. Thread  one primitive on one
-///   thread; the document is only read. Fails   through the diagnostics; later steps must not run then.
+///   integers survive the trip through floats exactly, and pack() writes them back.
+///   Thread  one primitive on one thread; the document is only read.
+///   Fails   through the diagnostics; later steps must not run then.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"

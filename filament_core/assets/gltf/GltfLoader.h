@@ -2,9 +2,8 @@
 /// GltfLoader: a glTF 2.0 file, .gltf or .glb, as ModelData.
 ///   In      any file; nothing about it is trusted. External buffers and images lie beside or below it (see GltfUri.h).
 ///   Out     the default scene. Default morph weights and the skins' rest pose are applied; or
-///   (GltfOptions::deformation)
-///           skins, morph targets and animations are kept as data. Only what the scene
-///           shows is loaded: meshes, materials and images that nothing drawn uses are left out.
+///           (GltfOptions::deformation) skins, morph targets and animations are kept as data. Only what the scene shows
+///           is loaded: meshes, materials and images that nothing drawn uses are left out.
 ///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization,
 ///           KHR_texture_transform, KHR_lights_punctual, EXT_mesh_gpu_instancing, KHR_materials_anisotropy, clearcoat,
 ///           diffuse_transmission, dispersion, emissive_strength, ior, iridescence, pbrSpecularGlossiness, sheen,

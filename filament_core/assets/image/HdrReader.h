@@ -8,7 +8,7 @@
 ///   Thread  any; no shared state.
 ///   Limits  kMaxHdrSide on a side, kMaxHdrPixels in all; checked before memory is taken.
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with file, reason and cure. Never
-///   crashes.
+///           crashes.
 #pragma once
 
 #include "base/Result.h"

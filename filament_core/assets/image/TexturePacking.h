@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// packImages: two maps with different channels in one image, as the glTF extensions laid them out to be shared.
 ///   In      two images of one level, RGBA8, as decoded. Where their sizes differ both become as wide as the wider and
-///   as
-///           high as the higher, by linear interpolation in linear light; at the edges the last texel counts.
+///           as high as the higher, by linear interpolation in linear light; at the edges the last texel counts.
 ///   Out     one level, RGBA8. RedGreen: red of the first, green of the second, for numbers. ColorAlpha: RGB of the
 ///           first, in sRGB, and alpha of the second.
 ///   Thread  any; integers only: the same bits everywhere.

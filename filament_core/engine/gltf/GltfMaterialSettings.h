@@ -3,9 +3,8 @@
 /// which package, specialised to what, with which parameters and maps.
 ///   In      a material as the loader made it.   Out: plain values; no engine, no device.
 ///   Cost    a package is chosen by what has to be compiled differently: shading model, refraction, blending.
-///   Everything
-///           else is a specialisation constant, and what is not used is not in the pipeline. Without any layer the
-///           package is gltf_lit, whose text has none.
+///           Everything else is a specialisation constant, and what is not used is not in the pipeline. Without any
+///           layer the package is gltf_lit, whose text has none.
 ///   Thread  any.
 #pragma once
 

@@ -2,7 +2,7 @@
 /// The objects of an engine: small typed handles and the descriptions they are made from.
 ///   Every description is valid when default-initialised except for the fields that say otherwise.
 ///   Lifetime  until Engine::destroy, or the end of the engine, which names what was forgotten. Owned<T> does it by
-///   RAII.
+///             RAII.
 #pragma once
 
 #include <filament/Format.h>

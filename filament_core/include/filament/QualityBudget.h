@@ -1,15 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// QualityBudget: device time for one frame; chooseQuality() finds the setting with the least predicted error in it.
 ///   Model    time = frame + sum of what each choice adds; error = root of the sum of the squares: what differs from
-///   the
-///            truth for different reasons adds up like that. A time that its own confidence interval cannot tell from
-///            the default's is the default's.
+///            the truth for different reasons adds up like that. A time that its own confidence interval cannot tell
+///            from the default's is the default's.
 ///   Method   all combinations, by merging Pareto sets choice by choice: exact. Times are whole nanoseconds and squared
 ///            errors whole units of 1e-12, so that the answer is the same on every machine.
 ///   Ties     least error, then least time, then most defaults, then the first in the order of the table.
 ///   Joined   dfgTableSize only counts with splitSum=table, shBands only with diffuseIrradiance=sphericalHarmonics:
-///   what
-///            does not matter keeps its default and costs nothing.
+///            what does not matter keeps its default and costs nothing.
 ///   Fails    InvalidArgument: a budget that is not a positive number, a size of 0, a table without times for the
 ///            backend.
 ///   Thread   pure.  Cost: under a millisecond for the default table.

@@ -4,16 +4,15 @@
 ///   Choices  fields of Quality (qualityChoices()), all of which may change from frame to frame. What is chosen when a
 ///            model or an environment is loaded is not a matter of a frame's budget and not in the table.
 ///   Time     device time of a whole frame with this value, everything else at its default. Only the ratio to the
-///   default
-///            value of the same choice is used: both were measured in turns, so that the load of the machine cancels.
-///            On CPU drivers (llvmpipe) the ratio is that of processor time, which leaves out what other processes do.
+///            default value of the same choice is used: both were measured in turns, so that the load of the machine
+///            cancels. On CPU drivers (llvmpipe) the ratio is that of processor time, which leaves out what other
+///            processes do.
 ///   Error    root mean square of (picture - exact) / (exact + 1 % of its mean), luminance, scene-linear: everything
 ///            else at its most exact. 0 for the value that the others are compared with. What changes nothing there is
 ///            compared as displayed, behind the tone mapper.
 ///   File     JSON, see docs/quality.md: { "machine", "driver", "commit", "size", "effects": [ ... ] }.
 ///   Fails    readQualityCosts(): Corrupt or InvalidArgument with file, element, and what would be right. Whoever makes
-///   a
-///            table without it sees to it that names are known and every choice has its default.
+///            a table without it sees to it that names are known and every choice has its default.
 ///   Thread   values; any thread.  Memory: some kilobytes.
 #pragma once
 

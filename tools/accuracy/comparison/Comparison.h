@@ -4,8 +4,9 @@
 ///   Out     for every row the pictures of its ladder (Ladder.h) and what each step contributes.
 ///   Thread  one at a time; the reference works on the job system.
 ///   Fails   Unreadable, InvalidArgument: file, row, field. A row whose assets are not there is skipped with the
-///   reason. Memory  the pictures of a row, ten of them. Cost    for a row of 240 x 136 pixels and 256 samples, about
-///   20 core seconds.
+///           reason.
+///   Memory  the pictures of a row, ten of them.
+///   Cost    for a row of 240 x 136 pixels and 256 samples, about 20 core seconds.
 #pragma once
 
 #include "tools/accuracy/Results.h"

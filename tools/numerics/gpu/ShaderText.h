@@ -3,11 +3,10 @@
 ///   In      texel i of the three inputs: s; u and, in w, the row's index in the group; v.
 ///   Out     RGBA32F: the components of the result, 0 behind them.
 ///   Half    what lit materials in half precision get: mediump text, of which the compiler makes 16-bit SPIR-V and
-///   ESSL.
-///           Inputs and output stay 32-bit.
+///           ESSL. Inputs and output stay 32-bit.
 ///   Cost    one program for several rows: a driver needs a third of a second for each program that it has not seen.
 ///   Thread  any. Fails: NotFound if the sources of shaders/lib are not where the build left them; what the compiler
-///   says.
+///           says.
 #pragma once
 
 #include "shaders/compiler/CompileProgram.h"
