@@ -17,7 +17,7 @@ enum class Format : uint8_t {
     R11G11B10F, RGB9E5,
     D16, D32F, D32FS8,
     BC1, BC1Srgb, BC2, BC2Srgb, BC3, BC3Srgb, BC4, BC5, BC6HUfloat, BC7, BC7Srgb,
-    R8I, R32I, RG32I, RGBA8I, ///< to be sampled only
+    R8I, R32I, RG32I, RGBA8I, ///< can only be sampled
     Count,
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Handle: a small typed name for something that lives in a table. Zero is none.
-///   Bits    20 bits of index, 12 bits of generation; the generation tells a stale handle from a live one.
+/// Handle: a small typed reference to an object in a table. Zero refers to nothing.
+///   Bits    20 bits of index, 12 bits of generation; the generation distinguishes a stale handle from a live one.
 ///   Thread  a plain value; passed and compared by value.
 #pragma once
 

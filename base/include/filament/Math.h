@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The vector and matrix types of the interface: GLM's, under the names of the shading language.
-///   Matrices are column-major and multiply column vectors; a name reads `resultFromSource`.
-///   Space is right-handed, +Y up, metres; angles are radians unless the name says degrees.
+/// The vector and matrix types of the public API: GLM's types under the names of the shading language.
+///   Matrices are column-major and multiply column vectors; they are named `resultFromSource`.
+///   Space is right-handed, +Y up, in metres; angles are in radians unless the name says degrees.
 #pragma once
 
 #include <glm/mat3x3.hpp>

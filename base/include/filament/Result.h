@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Result: a value, or the reason why there is none.
-///   Use     for everything the world may refuse: a file, a package, a device. A bug of the caller is an
-///           assertion instead (base/Assert.h), a lost device is a callback.
+///   Use     for everything that can fail outside the program: a file, a package, a device. A bug of the caller is an
+///           assertion instead (base/Assert.h).
 ///   Thread  a plain value; no sharing, no locks.
-///   Errors  `message` is one line that names what failed, where (file, line, element) and how to cure it.
+///   Errors  `message` is one line that names what failed, where (file, line, element) and how to fix it.
 #pragma once
 
 #include <cassert>
@@ -18,16 +18,16 @@ enum class ErrorCode : uint8_t {
     InvalidArgument,   ///< a value outside its documented range
     NotFound,          ///< no such file, device, parameter
     Unreadable,        ///< it exists but cannot be read or written
-    Corrupt,           ///< it was read but breaks its own format
+    Corrupt,           ///< it was read but violates its own format
     Unsupported,       ///< well formed, but not something this build or device can do
     DeviceUnavailable, ///< no driver, or no device of that name
     DeviceLost,        ///< the device was there and went away
     OutOfMemory,       ///< host or device memory exhausted
     Timeout,           ///< gave up waiting
-    Internal,          ///< a broken promise of this library: please report it
+    Internal,          ///< a bug in this library: please report it
 };
 
-/// The code as text, "not found" and the like; never empty.
+/// The code as text, such as "not found"; never empty.
 const char* toString(ErrorCode code);
 
 struct Error {
@@ -35,7 +35,7 @@ struct Error {
     std::string message;
 };
 
-/// Holds a T or an Error. Reading the wrong one asserts.
+/// Holds a T or an Error. Reading the one that is absent is an assertion.
 template <class T>
 class [[nodiscard]] Result {
 public:

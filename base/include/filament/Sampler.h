@@ -9,7 +9,7 @@ namespace filament {
 enum class Filter : uint8_t { Nearest, Linear };
 enum class MipFilter : uint8_t { None, Nearest, Linear };
 enum class WrapMode : uint8_t { Repeat, MirroredRepeat, ClampToEdge };
-/// `None` means: no comparison, an ordinary sampler.
+/// `None`: an ordinary sampler without comparison.
 enum class CompareOp : uint8_t { None, Never, Less, Equal, LessEqual, Greater, NotEqual, GreaterEqual, Always };
 
 struct Sampler {

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Animator: plays the animations of a model onto one copy of it in a scene, by moving its nodes and setting its morph
-/// weights; skins follow with the next frame.
-///   In      a model, a scene, and the root that Scene::add(model) returned there: make the animator right after that,
-///           before nodes of the copy are moved elsewhere or removed.
-///   Time    seconds from the start of the animation; before the first key the first counts, behind the last the last.
-///           A program that loops hands in std::fmod(seconds, model.animationSeconds(i)).
+/// Animator: plays the animations of a model on one copy of it in a scene. It moves the nodes of the copy and sets its
+/// morph weights; skins follow in the next frame.
+///   In      a model, a scene, and the root that Scene::add(model) returned. Create the animator right after that,
+///           before nodes of the copy are reparented or removed.
+///   Time    seconds from the start of the animation; times outside its range use the first or last key. To loop, pass
+///           std::fmod(seconds, model.animationSeconds(i)).
 ///   Thread  the app thread, between frames.
-///   Memory  a node handle a node of the model, and the pose.   Cost: in proportion to the channels of the animation.
-///   Life    the model, and the nodes of the copy, outlive its use; the scene may be moved.
-///   Fails   an animation that the model lacks, or a copy with other nodes than the model's, is an assertion.
+///   Memory  one handle per node of the model, and the pose.   Cost: proportional to the channels of the animation.
+///   Life    the model and the nodes of the copy must outlive the animator's use; the scene may be moved.
+///   Fails   an animation index that the model lacks, or a copy whose nodes differ from the model's, is an assertion.
 #pragma once
 
 #include <filament/Gltf.h>
@@ -26,13 +26,14 @@ public:
     Animator& operator=(Animator&&) noexcept;
     ~Animator();
 
-    /// Poses what the animation moves as it is at that time; what it does not move stays as it is.
+    /// Poses everything that the animation moves as it is at that time; everything else stays unchanged.
     void apply(uint32_t animation, double seconds);
 
-    /// Between two animations: `weight` 0 is the first, 1 the second. What only one of them moves goes from or to rest.
+    /// Blends two animations: `weight` 0 is the first, 1 the second. Anything that only one of them moves blends with
+    /// its rest pose.
     void crossFade(uint32_t first, double firstSeconds, uint32_t second, double secondSeconds, double weight);
 
-    /// Everything that any animation moves as it was in the file.
+    /// Restores everything that any animation moves to its pose in the file.
     void rest();
 
     struct Impl;

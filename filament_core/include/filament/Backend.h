@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Backend: which API draws. A plain value.
+/// Backend: the graphics API that draws. A plain value.
 #pragma once
 
 #include <cstdint>

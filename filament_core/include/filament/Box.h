@@ -12,8 +12,8 @@ struct Box {
     bool empty() const { return min.x > max.x; }
 };
 
-/// The transform that moves the box's centre to the origin and scales its largest dimension to 1; the identity for an
-/// empty box, no scale for one without extent.
+/// The transform that moves the box's centre to the origin and scales its largest dimension to 1. An empty box gives
+/// the identity; a box without extent is not scaled.
 inline double4x4 fitToUnitCube(Box const& box) {
     if (box.empty()) return double4x4(1.0);
     const double3 size = box.max - box.min, center = (box.max + box.min) * 0.5;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Camera: where one looks from, through which lens, and how bright the film is. A plain value.
+/// Camera: position and orientation, lens and exposure. A plain value.
 ///   Position and orientation are double precision: the image is the same a million kilometres from the origin.
-///   The depth buffer is reversed with an infinite far plane; there is nothing to tune but the near plane.
+///   The depth buffer is reversed with an infinite far plane; only the near plane can be tuned.
 #pragma once
 
 #include <filament/Math.h>
@@ -16,7 +16,7 @@ struct Exposure {
 
     /// log2(N^2 / t * 100 / S)
     float ev100() const;
-    /// What a luminance in nits is multiplied by before tone mapping: 1 / (1.2 * 2^EV100).
+    /// The factor for luminance in nits before tone mapping: 1 / (1.2 * 2^EV100).
     float factor() const;
 };
 
@@ -30,7 +30,7 @@ struct Camera {
     Lens lens{};
     Exposure exposure{};
 
-    /// `up` need not be perpendicular; when it is parallel to the view another one is taken.
+    /// `up` need not be perpendicular to the view. If it is parallel, another direction is used.
     static Camera lookAt(double3 eye, double3 at, Lens lens = {}, Exposure exposure = {}, double3 up = { 0, 1, 0 });
 
     double3 position() const { return double3(worldFromView[3]); }

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Engine: one device, its driver thread, its workers, and every object made from them.
-///   Thread    one thread per engine (the app thread); several engines on several threads are fine.
-///   Wait      creating never waits for the driver thread. create() and the destructor do.
-///   Errors    create() says why there is no device and what to install. Later the device's own errors (out of memory,
-///             a shader it rejects) come out of takeErrors(), one line each; what depends on them is not drawn.
-///   Memory    when the host's runs out, what returns a Result returns OutOfMemory, what returns a handle returns none,
-///             with a line in takeErrors(), and nothing else has changed. Destroying always works.
-///   Bits      with the default options the same calls give the same image bits on Vulkan and OpenGL ES of Mesa's
-///             CPU drivers, for any number of workers.
+/// Engine: one device, its driver thread, its workers, and every object created from them.
+///   Thread    one thread per engine (the app thread); several engines may run on several threads.
+///   Wait      creating objects never waits for the driver thread. Engine::create() and the destructor do.
+///   Errors    Engine::create() says why there is no device and what to install. Later, takeErrors() returns the errors
+///             of the device (out of memory, a rejected shader), one line each; objects that depend on them are not
+///             drawn.
+///   Memory    if host memory runs out, functions that return a Result return OutOfMemory. Functions that return a
+///             handle return none and add a line to takeErrors(). Nothing else changes. Destroying always works.
+///   Bits      with the default options the same calls give the same image bits with Mesa's CPU drivers for Vulkan and
+///             OpenGL ES, for any number of workers.
 #pragma once
 
 #include <filament/Backend.h>
@@ -35,47 +36,47 @@ struct DeviceDescription {
     uint32_t maxSamples = 1;
 };
 
-/// Every device that createEngine could use now; backends without a driver installed are absent.
+/// Every device that Engine::create() could use now. Backends without an installed driver are absent.
 std::vector<DeviceDescription> listDevices();
 
 /// Where the job threads of an engine run, within the cores that the process may use.
 enum class ThreadAffinity : uint8_t {
-    None,     ///< where the operating system likes
-    Pin,      ///< each on one core; engines of one process share cores only when none is free
-    BigCores, ///< on the cores of the most capable class, where there are several classes
+    None,     ///< the operating system decides
+    Pin,      ///< each thread on one core; engines of one process share cores only if none is free
+    BigCores, ///< on the cores of the most capable class, if there are several classes
 };
 
-/// Instruments for tools that look inside of a frame; none of them costs anything when it is not there.
+/// Instruments for tools that look inside a frame. An instrument that is absent costs nothing.
 struct EngineDebug {
-    std::shared_ptr<backend::FrameCapture> capture{}; ///< shows every attachment of a frame, cuts it off after a draw
+    std::shared_ptr<backend::FrameCapture> capture{}; ///< reads every attachment of a frame, cuts it off after a draw
     std::shared_ptr<backend::FaultInjector> faults{}; ///< loses the device, refuses objects, slows the driver down
 };
 
 struct EngineOptions {
     Backend backend = Backend::Vulkan;
-    std::string requireDevice{}; ///< case-insensitive part of the device's name; empty: the first usable
+    std::string requireDevice{}; ///< case-insensitive part of the device's name; empty: the first usable device
     int workers = -1;            ///< job threads besides the app thread; -1: one per remaining core; 0: none
     ThreadAffinity affinity = ThreadAffinity::None;
     int driverCore = -1;     ///< pin the driver thread to this core and keep job threads off it
-    int avoidCore = -1;      ///< keep job threads off this core, too; -1: off none
-    bool validation = false; ///< check every stream; Vulkan validation layers or KHR_debug on top
-    /// The engine's own shaders spell their arithmetic out, so that both APIs draw the same bits. Off: the drivers
-    /// choose, as other engines let them; materials that you compile yourself are as you told matc.
+    int avoidCore = -1;      ///< also keep job threads off this core; -1: none
+    bool validation = false; ///< check every stream, and enable the Vulkan validation layers or KHR_debug
+    /// The engine's own shaders write their arithmetic out, so that both APIs draw the same bits. Off: the drivers
+    /// choose, as in other engines. Materials that you compile yourself follow the options given to matc.
     bool exactShaders = true;
-    bool traceJobs = false;                 ///< remember what every thread did when: Engine::writeJobTrace()
-    bool hashFrames = false;                ///< FrameTimings::packetHash and streamHash, for tests; reads all twice
-    std::filesystem::path traceFile{};      ///< write every command as text, for replay; empty: do not
+    bool traceJobs = false;            ///< record what every thread does and when: Engine::writeJobTrace()
+    bool hashFrames = false;           ///< FrameTimings::packetHash and streamHash, for tests; reads the data twice
+    std::filesystem::path traceFile{}; ///< write every command as text, for replay; empty: no trace
     std::filesystem::path cacheDirectory{}; ///< baked environments, programs; empty: $XDG_CACHE_HOME/filament_core
-    /// Keep what the device makes of programs in cacheDirectory for the next engine on it. For drivers without a cache
-    /// of their own: Mesa has one (backend/gles/README.md has what this adds to it).
+    /// Keep the device's compiled programs in cacheDirectory for the next engine. Useful for drivers without their own
+    /// cache. Mesa has one; backend/gles/README.md says what this option adds to it.
     bool cachePrograms = false;
     EngineDebug debug{};
 };
 
-/// How far the driver thread was behind, over the last 256 frames at most. Milliseconds.
+/// How far the driver thread was behind, over at most the last 256 frames, in milliseconds.
 struct FrameLatency {
     uint32_t frames = 0;
-    double submitToReplayedMedian = 0, submitToReplayedP99 = 0; ///< from submit until the driver thread is done
+    double submitToReplayedMedian = 0, submitToReplayedP99 = 0; ///< from submission until the driver thread is done
     double backPressureMedian = 0, backPressureP99 = 0;         ///< the app waited for a free command buffer
 };
 
@@ -84,11 +85,11 @@ struct EngineStatistics {
     uint64_t draws = 0;
     uint64_t pipelinesCreated = 0;
     uint64_t programsCreated = 0;
-    uint64_t programsFromCache = 0; ///< of them, or of the pipelines: not compiled (EngineOptions::cachePrograms)
+    uint64_t programsFromCache = 0; ///< programs or pipelines not compiled (EngineOptions::cachePrograms)
     uint64_t pipelinesCreatedInPasses = 0;
     uint64_t commands = 0;
     uint64_t deviceBytes = 0;
-    uint64_t backPressureNanoseconds = 0; ///< the app has waited this long for the driver thread
+    uint64_t backPressureNanoseconds = 0; ///< time that the app waited for the driver thread
     FrameLatency latency{};
 };
 
@@ -100,17 +101,17 @@ public:
     static Result<Engine> create(EngineOptions const& options = {});
     Engine(Engine&&) noexcept;
     Engine& operator=(Engine&&) noexcept;
-    /// Waits for the device; objects still alive are named in a warning and freed.
+    /// Waits for the device. A warning names objects that are still alive, and they are freed.
     ~Engine();
 
     DeviceDescription const& device() const;
     EngineStatistics statistics() const;
-    /// Errors of device and driver since the last call, oldest first.
+    /// Errors of the device and driver since the last call, oldest first.
     std::vector<std::string> takeErrors();
     /// Waits until everything submitted has run.
     void waitIdle();
-    /// With EngineOptions::traceJobs: the newest jobs, frames and replays of all threads as Chrome trace events, for
-    /// chrome://tracing, Perfetto or tools/plot. InvalidArgument without that option; Unreadable names the file.
+    /// With EngineOptions::traceJobs: writes the newest jobs, frames and replays of all threads as Chrome trace events,
+    /// for chrome://tracing, Perfetto or tools/plot. InvalidArgument without that option; Unreadable names the file.
     Result<void> writeJobTrace(std::filesystem::path const& file) const;
 
     Texture create(TextureDesc const& desc);
@@ -121,41 +122,42 @@ public:
     Skybox create(SkyboxDesc const& desc);
     RenderTarget create(RenderTargetDesc const& desc);
     SwapChain create(SwapChainDesc const& desc);
-    /// Corrupt or Unsupported package; an unknown constant is NotFound with the nearest name.
+    /// Fails: Corrupt or Unsupported for the package; NotFound with the nearest name for an unknown constant.
     Result<Material> create(MaterialDesc const& desc);
-    /// Prepares programs and pipelines of a material before it is first drawn: on the driver thread, a slice with each
-    /// frame, or with progress() when none is drawn; the app thread waits for none of it. Pipelines are made for the
-    /// instances' raster states, the vertices of CompileDesc, and the passes of the frames drawn so far or announced
-    /// by Renderer::expect(). InvalidArgument names material, variant and filter if a variant was filtered out.
+    /// Prepares the programs and pipelines of a material before it is first drawn. The driver thread does this in
+    /// slices, one with each frame, or with progress() when no frame is drawn; the app thread never waits. Pipelines
+    /// are created for the raster states of the instances, the vertices of CompileDesc, and the passes of frames drawn
+    /// so far or announced by Renderer::expect(). InvalidArgument names material, variant and filter if a variant was
+    /// filtered out.
     Result<Compilation> compile(Material material, CompileDesc const& desc = {});
-    /// How far it is; hands out the next slice if the driver thread has nothing to do.
+    /// Returns the progress, and sends the next slice if the driver thread is idle.
     CompileProgress progress(Compilation compilation);
     /// Parameters start at zero, textures at opaque white.
     MaterialInstance createInstance(Material material, std::string name = {});
 
-    /// What the material declares, and what it was loaded with. Until it is destroyed.
+    /// What the material declares, and the values it was loaded with. Valid until the material is destroyed.
     MaterialDescription const& describe(Material material) const;
 
-    /// NotFound names the nearest parameter; InvalidArgument names the type it has and the one it was given.
+    /// NotFound names the nearest parameter; InvalidArgument names the parameter's type and the type given.
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
-    /// Elements [first, first + values.size()) of an array; the others stay. InvalidArgument also for those it lacks.
+    /// Sets elements [first, first + values.size()) of an array. InvalidArgument also if the array is too short.
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
                      uint32_t first = 0);
-    /// InvalidArgument also for a texture of another kind than the sampler's, or of another format: samplers of format
-    /// int or uint take integers, and never filter.
+    /// InvalidArgument also if the texture's kind or format does not match the sampler: samplers of format int or uint
+    /// take integer textures, and never filter.
     Result<void> set(MaterialInstance instance, std::string_view parameter, Texture texture, Sampler sampler = {});
-    /// Draws and shades both sides, or what the material's `culling` leaves. InvalidArgument if the material was
+    /// True draws and shades both sides; false applies the material's `culling`. InvalidArgument if the material was
     /// compiled without the property doubleSided.
     Result<void> setDoubleSided(MaterialInstance instance, bool doubleSided);
-    /// Draws both sides; how they are shaded stays.
+    /// Draws both sides without changing how they are shaded.
     void setCullingDisabled(MaterialInstance instance, bool disabled);
-    /// Of this instance, instead of what the material says. What is drawn from the next frame on; a state that is new
-    /// makes a pipeline, unless compile() knew an instance that had it.
+    /// These override the material's own state for one instance, from the next frame on. A new combination of states
+    /// creates a pipeline, unless an instance had it when compile() was called.
     void setCulling(MaterialInstance instance, Culling culling);
     void setColorWrite(MaterialInstance instance, bool writes);
     void setDepthWrite(MaterialInstance instance, bool writes);
-    void setDepthCulling(MaterialInstance instance, bool tests); ///< false: over whatever is there, and leaves no depth
-    /// In [0, 1]; InvalidArgument for materials that are not masked.
+    void setDepthCulling(MaterialInstance instance, bool tests); ///< false: draws over everything and writes no depth
+    /// In [0, 1]; InvalidArgument if the material is not masked.
     Result<void> setMaskThreshold(MaterialInstance instance, float threshold);
 
     void destroy(Texture texture);
@@ -173,7 +175,7 @@ public:
     Owned<T> own(T object);
 
     struct Impl;
-    Impl& impl() { return *mImpl; } ///< for the engine's own files; stays where it is when the Engine is moved
+    Impl& impl() { return *mImpl; } ///< for the engine's own files; its address stays when the Engine is moved
     static Engine& of(Impl& impl);  ///< the Engine that holds it now
 
 private:
@@ -181,7 +183,7 @@ private:
     std::unique_ptr<Impl> mImpl;
 };
 
-/// Owns one object: destroys it at the end of the scope. The engine must outlive it; it may be moved meanwhile.
+/// Owns one object and destroys it at the end of the scope. The engine must outlive it, but may be moved.
 template <class T>
 class Owned {
 public:

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// loadEnvironment: an equirectangular .hdr or .exr as light and background.
-///   World direction d sees the image at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
-///   Cost    the first time a second or two on the workers; then from a cache on disk, by content, in milliseconds.
-///   Errors  file and reason in one line.
+/// loadEnvironment: loads an equirectangular .hdr or .exr picture as light and background.
+///   Space   world direction d sees the picture at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
+///   Cost    a second or two on the workers the first time; after that milliseconds, from a disk cache keyed by
+///           content.
+///   Errors  one line with file and reason.
 #pragma once
 
 #include <filament/Engine.h>
@@ -15,10 +16,10 @@
 namespace filament {
 
 struct EnvironmentLoadOptions {
-    uint32_t faceSize = 256;         ///< texels of a cube face, power of two in [16, 2048]
+    uint32_t faceSize = 256;         ///< texels per side of a cube face, power of two in [16, 2048]
     Format format = Format::RGBA16F; ///< or R11G11B10F, RGB9E5, RGBA8 (as RGBM): half the memory
     RoughnessMapping roughnessMapping = RoughnessMapping::Quadratic;
-    uint32_t samples = 512; ///< pieces of the sky that each texel integrates, about
+    uint32_t samples = 512; ///< approximate number of pieces of the sky that each texel integrates
     LoadProgress progress{};
 };
 

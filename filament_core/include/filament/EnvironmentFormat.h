@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The formats in which the light of an environment may be stored, by name.
+/// Names of the formats that can store the light of an environment.
 #pragma once
 
 #include <filament/Format.h>
@@ -9,7 +9,7 @@
 
 namespace filament {
 
-/// "RGBA16F", "R11G11B10F", "RGB9E5" and "RGBM", which is RGBA8: the formats of an environment.
+/// "RGBA16F", "R11G11B10F", "RGB9E5" or "RGBM" (which is stored as RGBA8).
 const char* environmentFormatName(Format format);
 std::optional<Format> environmentFormatFromName(std::string_view name);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// loadGltf: a .gltf or .glb file as engine objects, decoded and uploaded by the workers.
-///   Errors  NotFound, Unreadable, Corrupt, Unsupported: file, element (accessors[3], images[0]) and reason in one
-///   line. Life    the Model owns its buffers, textures and materials; it must outlive the scenes it was added to.
+///   Errors  NotFound, Unreadable, Corrupt, Unsupported: one line with file, element (accessors[3], images[0]) and
+///           reason.
+///   Life    the Model owns its buffers, textures and materials; it must outlive the scenes it was added to.
 #pragma once
 
 #include <filament/Engine.h>
@@ -16,14 +17,15 @@
 
 namespace filament {
 
-/// Stage name, steps done, steps in total. From the loading thread or a worker, never from two at once.
+/// Called with the name of the stage, the steps done and the total, on the loading thread or a worker, never on two
+/// threads at once.
 using LoadProgress = std::function<void(std::string_view stage, size_t done, size_t total)>;
 
 struct GltfLoadOptions {
     PositionStorage positions = PositionStorage::AsAuthored;
     TangentStorage tangents = TangentStorage::Snorm16;
-    /// False: skins and morph targets are applied once, for the rest pose, and animations are left out: cheaper to
-    /// draw.
+    /// False: skins and morph targets are applied once, in the rest pose, and animations are not loaded. This is
+    /// cheaper to draw.
     bool deformable = true;
     LoadProgress progress{};
 };
@@ -35,17 +37,17 @@ public:
     ~Model();
 
     std::string const& name() const;
-    Box bounds() const; ///< of all parts at rest, in model space
+    Box bounds() const; ///< of all parts in the rest pose, in model space
     size_t renderableCount() const;
-    /// Of KHR_materials_variants, for Scene::setVariant().
+    /// The names of KHR_materials_variants, for Scene::setVariant().
     std::vector<std::string> const& variantNames() const;
     std::vector<std::string> const& warnings() const; ///< unsupported extensions, repaired values
 
     // Animations are played by an Animator (<filament/Animator.h>).
     uint32_t animationCount() const;
     std::string const& animationName(uint32_t animation) const; ///< may be empty, need not be unique
-    double animationSeconds(uint32_t animation) const;          ///< when its last key is
-    /// The first of this name; NotFound says which there are.
+    double animationSeconds(uint32_t animation) const;          ///< time of its last key
+    /// The first animation with this name; NotFound lists the existing names.
     Result<uint32_t> findAnimation(std::string_view name) const;
 
     struct Impl;

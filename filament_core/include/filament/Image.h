@@ -14,7 +14,7 @@ namespace filament {
 
 struct Image {
     uint32_t width = 0, height = 0;
-    Format format = Format::RGBA8; ///< of Renderer: RGBA8 (display) or RGBA16F (scene-linear)
+    Format format = Format::RGBA8; ///< Renderer returns RGBA8 (display) or RGBA16F (scene-linear)
     std::vector<std::byte> pixels{};
 };
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Lights, in photometric units. Plain descriptions: Scene::add takes them and gives a handle. For a light that hangs
-/// at a node, "World" in a field's name means the space of that node.
+/// Lights, in photometric units. Plain descriptions: Scene::add takes them and returns a handle. For a light attached
+/// to a node, "World" in a field's name means the space of that node.
 #pragma once
 
 #include <filament/Color.h>
@@ -9,9 +9,9 @@
 
 namespace filament {
 
-/// Parallel light. A scene shades with its brightest sun only; Renderer::explain() says so if there are more.
+/// Parallel light. A scene is lit by its brightest sun only; Renderer::explain() says so if there are more.
 struct SunLight {
-    float3 directionWorld{ 0, -1, 0 }; ///< in which the light travels; need not be unit, must not be zero
+    float3 directionWorld{ 0, -1, 0 }; ///< the direction in which the light travels; any length except zero
     Lux illuminance{ 110'000 };        ///< on a surface facing it, >= 0
     LinearColor color{ 1.0f };
 };
@@ -20,7 +20,7 @@ struct PointLight {
     double3 positionWorld{ 0 };
     Candela intensity{ 100 }; ///< >= 0. From lumens: lm / (4 pi)
     LinearColor color{ 1.0f };
-    float rangeMeters = 0; ///< beyond it the light is exactly zero; 0: unlimited
+    float rangeMeters = 0; ///< the light is exactly zero beyond this range; 0: unlimited
 };
 
 struct SpotLight {

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The objects of an engine: small typed handles and the descriptions they are made from.
-///   Every description is valid when default-initialised except for the fields that say otherwise.
-///   Lifetime  until Engine::destroy, or the end of the engine, which names what was forgotten. Owned<T> does it by
-///             RAII.
+/// The objects of an engine: small typed handles, and the descriptions that they are created from.
+///   Defaults  a default-initialised description is valid except for the fields that say otherwise.
+///   Lifetime  until Engine::destroy, or the end of the engine, which names objects that were not destroyed. Owned<T>
+///             destroys its object by RAII.
 #pragma once
 
 #include <filament/Format.h>
@@ -34,7 +34,7 @@ using Skybox = Handle<struct SkyboxObject>;
 using RenderTarget = Handle<struct RenderTargetObject>;
 using SwapChain = Handle<struct SwapChainObject>;
 
-/// Names what Engine::compile() was asked for.
+/// Refers to a request to Engine::compile().
 struct Compilation {
     uint64_t id = 0;
     explicit operator bool() const { return id != 0; }
@@ -46,21 +46,21 @@ using Node = Handle<struct NodeObject>;             ///< of one Scene
 
 enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube };
 
-/// `pixels`: level 0, then level 1, ...; each level all layers, rows tightly packed, row 0 at the top. May be empty:
-/// the contents are then undefined. Copied before the call returns.
+/// `pixels`: level 0, then level 1, ...; each level holds all layers, with tightly packed rows and row 0 at the top. If
+/// it is empty, the contents are undefined. Copied before the call returns.
 struct TextureDesc {
     TextureKind kind = TextureKind::Texture2D;
     Format format = Format::RGBA8;
     uint32_t width = 1, height = 1; ///< >= 1, at most DeviceInfo::maxTextureSize
     uint32_t layers = 1;            ///< 6 for a cube
     uint32_t levels = 1;            ///< mip levels given in `pixels`
-    bool generateMips = false;      ///< fill levels 1.. from level 0 on the device; `pixels` then has level 0 only
-    bool renderable = false;        ///< may be the colour of a RenderTarget
+    bool generateMips = false;      ///< compute levels 1.. from level 0 on the device; `pixels` then has level 0 only
+    bool renderable = false;        ///< can be the colour of a RenderTarget
     std::span<const std::byte> pixels{};
     std::string name{};
 };
 
-/// What the shaders call the attribute.
+/// The attribute's name in the shaders.
 enum class Attribute : uint8_t {
     Position = 0, ///< float3
     Tangents = 1, ///< float4: quaternion of the tangent frame (x tangent, z normal); w < 0: bitangent flipped
@@ -68,10 +68,10 @@ enum class Attribute : uint8_t {
     Uv0 = 3,
     Uv1 = 4,       ///< float2
     Joints = 5,    ///< uint4: bones of the skin
-    Weights = 6,   ///< float4: how much each of them counts; their sum is 1
+    Weights = 6,   ///< float4: the weight of each bone; the sum is 1
     Custom0 = 7,   ///< float4; Custom0 + 7 is the last
-    Joints1 = 13,  ///< uint4: bones 5 to 8 of a vertex, in the place of Custom0 + 6
-    Weights1 = 14, ///< float4, in the place of Custom0 + 7; the sum of all eight is 1
+    Joints1 = 13,  ///< uint4: bones 5 to 8 of a vertex; replaces Custom0 + 6
+    Weights1 = 14, ///< float4; replaces Custom0 + 7; the sum of all eight is 1
 };
 
 struct AttributeDesc {
@@ -89,21 +89,20 @@ struct VertexBufferDesc {
     std::string name{};
 };
 
-/// Differences from the vertices of a mesh, one a vertex. What is empty does not change; a tangent keeps its
-/// handedness.
+/// Displacements of a mesh, one per vertex. An empty span changes nothing; tangents keep their handedness.
 struct MorphTargetDesc {
     std::span<const float3> positions{}, normals{}, tangents{};
 };
 
-/// What RenderableDesc::morphWeights weighs. Copied before the call returns: 16 bytes a vertex, target and kind of
-/// difference that any target has.
+/// The targets that RenderableDesc::morphWeights refers to. Copied before the call returns: 16 bytes per vertex, target
+/// and kind of displacement that any target has.
 struct MorphTargetsDesc {
-    uint32_t vertexCount = 0;               ///< > 0, of the vertex buffer that it goes with
+    uint32_t vertexCount = 0;               ///< > 0, that of the vertex buffer it is used with
     std::vector<MorphTargetDesc> targets{}; ///< 1 to 256
     std::string name{};
 };
 
-/// Where the vertices are that a bone moves, before it moves them. Empty (min > max): it moves none.
+/// Bounds of the vertices that a bone moves, in the bind pose. Empty (min > max): the bone moves none.
 struct BoneBounds {
     float3 min{ 3e38f }, max{ -3e38f };
 };
@@ -119,24 +118,24 @@ struct IndexBufferDesc {
 
 enum class PrimitiveType : uint8_t { Triangles, TriangleStrip, Lines, LineStrip, Points };
 
-/// Value of a constant parameter ("constants" of the .mat file), fixed when the material is loaded.
+/// Value of a constant ("constants" in the .mat file), fixed when the material is loaded.
 struct MaterialConstant {
     std::string name{};
     std::variant<bool, int32_t, float> value{};
 };
 
-/// `package`: the bytes of a .fmat file, written by matc.
+/// `package`: the bytes of a .fmat file written by matc.
 struct MaterialDesc {
     std::span<const std::byte> package{};
     std::vector<MaterialConstant> constants{};
     std::string name{}; ///< empty: the name in the package
 };
 
-/// Value of a parameter: the C++ type that has the name of the parameter's type (ParameterType).
+/// Value of a parameter. The C++ type has the same name as the parameter's type (ParameterType).
 using ParameterValue = std::variant<bool, bool2, bool3, bool4, float, float2, float3, float4, int32_t, int2, int3, int4,
                                     uint32_t, uint2, uint3, uint4, float3x3, float4x4>;
 
-/// Values of neighbouring elements of an array parameter.
+/// Values of consecutive elements of an array parameter.
 using ParameterArray =
         std::variant<std::span<const bool>, std::span<const bool2>, std::span<const bool3>, std::span<const bool4>,
                      std::span<const float>, std::span<const float2>, std::span<const float3>, std::span<const float4>,
@@ -144,41 +143,42 @@ using ParameterArray =
                      std::span<const uint32_t>, std::span<const uint2>, std::span<const uint3>, std::span<const uint4>,
                      std::span<const float3x3>, std::span<const float4x4>>;
 
-/// Who goes first when several materials are to be compiled, and how much of it goes with one frame.
+/// Order in which materials are compiled, and how much of that happens per frame.
 enum class CompilePriority : uint8_t {
-    Low,      ///< one program or pipeline a frame, when nothing else waits
+    Low,      ///< one program or pipeline per frame, when nothing else waits
     Normal,   ///< two
     High,     ///< four
-    Critical, ///< sixteen: something is about to be drawn with it
+    Critical, ///< sixteen: the material is about to be drawn
 };
 
 struct CompileProgress {
-    uint32_t done = 0, total = 0; ///< programs and pipelines that did not exist before
+    uint32_t done = 0, total = 0; ///< programs and pipelines that did not exist already
     bool isComplete() const { return done == total; }
     friend bool operator==(CompileProgress const&, CompileProgress const&) = default;
 };
 
-/// What to prepare before the first draw: the programs of all variants asked for, and pipelines for every kind of
-/// vertices and every kind of pass in which they may be drawn.
+/// What to prepare before the first draw: the programs of all requested variants, and their pipelines for every vertex
+/// format and every kind of pass that may draw them.
 struct CompileDesc {
     CompilePriority priority = CompilePriority::Normal;
-    /// Every combination of these that the package has. Naming one that was filtered out is an error; All never is.
-    /// Skinning, if it is named, is prepared for all vertices (morph targets), otherwise for those with joints.
+    /// Every combination of these that the package has. Naming a variant that was filtered out is an error; All never
+    /// is. If Skinning is named, it is prepared for all vertices (morph targets), otherwise only for vertices with
+    /// joints.
     VariantSet variants = VariantSet::All;
-    /// Vertex formats to expect; empty: those of everything that was added to a scene so far.
+    /// Vertex formats to expect; empty: those of everything added to a scene so far.
     std::vector<VertexBuffer> vertices{};
     PrimitiveType primitive = PrimitiveType::Triangles; ///< of `vertices`
-    bool mirrored = false;                              ///< also for transforms that mirror
-    /// Called on the app thread, from within Renderer::render() or Engine::progress(), when some of it has been done.
+    bool mirrored = false;                              ///< also prepare for transforms that mirror
+    /// Called on the app thread inside Renderer::render() or Engine::progress() whenever there is progress.
     std::function<void(CompileProgress const&)> onProgress{};
 };
 
-/// Pre-filtered environment: irradiance and specular reflections of everything far away.
+/// Pre-filtered environment: irradiance and specular reflections of distant surroundings.
 struct IndirectLightDesc {
-    Texture specular{}; ///< cube; level i holds the roughness that `mapping` says; RGBA8 is RGBM (shaders/lib/ibl.glsl)
+    Texture specular{}; ///< cube; `mapping` gives the roughness of each level; RGBA8 is RGBM (shaders/lib/ibl.glsl)
     uint32_t specularLevels = 1;
     RoughnessMapping mapping = RoughnessMapping::Quadratic;
-    Texture irradiance{};                 ///< cube of irradiance / pi, for DiffuseIrradiance::Cube; may be none
+    Texture irradiance{};                 ///< cube of irradiance / pi, for DiffuseIrradiance::Cube; optional
     std::array<float4, 9> irradianceSh{}; ///< rgb; see shaders/lib/ibl.glsl, irradianceSh()
     std::string name{};
 };
@@ -193,7 +193,7 @@ struct RenderTargetDesc {
     std::string name{};
 };
 
-/// Headless: a ring of images that frames are presented to and read back from.
+/// A headless swap chain: a ring of images that frames are presented to and read back from.
 struct SwapChainDesc {
     uint2 size{ 1280, 720 };       ///< pixels, >= 1
     uint32_t imageCount = 2;       ///< [1, 4]

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Renderer: scene and view in, pixels out.
+/// Renderer: draws a scene as seen by a view.
 ///   Thread  the app thread of the engine.
-///   Wait    render() returns when the scene has been read and the frame is submitted; it waits only when the driver
-///           thread is two frames behind. The blocking forms wait for the pixels.
+///   Wait    render() returns once it has read the scene and submitted the frame. It waits only if the driver thread is
+///           two frames behind. The blocking functions wait for the pixels.
 ///   Memory  after warm-up a frame allocates nothing from the heap.
-///   Fails   a frame for which memory runs out is left out: takeErrors() says so, its target keeps the picture it had,
-///           and the next frame is drawn as if it had not been tried. On a lost device everything returns at once.
+///   Fails   a frame that runs out of memory is skipped: takeErrors() says so, its target keeps its picture, and the
+///           next frame is drawn as if the skipped one had not been tried. On a lost device everything returns at once.
 #pragma once
 
 #include <filament/Engine.h>
@@ -20,7 +20,7 @@
 
 namespace filament {
 
-/// Names pixels that are on their way.
+/// Refers to pixels that are being read back.
 struct PixelTicket {
     uint64_t value = 0;
     explicit operator bool() const { return value != 0; }
@@ -31,7 +31,7 @@ struct PassTiming {
     double gpuMilliseconds = 0;
 };
 
-/// Of one frame; complete when the driver thread and the device are done with it.
+/// Timings of one frame, available when the driver thread and the device have finished it.
 struct FrameTimings {
     uint64_t frame = 0;
     double prepareMilliseconds = 0;             ///< app thread and workers: cull, sort, upload data
@@ -40,14 +40,14 @@ struct FrameTimings {
     double gpuMilliseconds = 0;                 ///< device, sum of passes; 0 without RendererOptions::passTimers
     double beginSeconds = 0, submitSeconds = 0; ///< app thread, since the engine started
     double replayBeginSeconds = 0, replayEndSeconds = 0; ///< driver thread
-    double workerBusyMilliseconds = 0;                   ///< all workers together, from render() to submitted
-    /// With EngineOptions::hashFrames: contents of what was prepared and of the commands. They do not depend on the
-    /// number of workers or on where these run.
+    double workerBusyMilliseconds = 0;                   ///< all workers together, from render() to submission
+    /// With EngineOptions::hashFrames: hashes of the prepared data and of the commands. They do not depend on the
+    /// number of workers or on the cores that these run on.
     uint64_t packetHash = 0, streamHash = 0;
     std::vector<PassTiming> passes;
 };
 
-/// Counts of the frame rendered last.
+/// Counts for the last frame.
 struct FrameStatistics {
     uint64_t frame = 0;
     uint32_t renderables = 0, visible = 0, culled = 0;
@@ -57,7 +57,7 @@ struct FrameStatistics {
 };
 
 struct RendererOptions {
-    /// Time every pass on the device (FrameTimings::passes). Costs two flushes a pass on OpenGL ES.
+    /// Times every pass on the device (FrameTimings::passes). Costs two flushes per pass on OpenGL ES.
     bool passTimers = false;
 };
 
@@ -67,30 +67,31 @@ public:
     Renderer(Renderer&&) noexcept;
     ~Renderer();
 
-    /// Into the next image of a swap chain / into a render target of view.size. Returns at once.
+    /// Renders into the next image of a swap chain, or into a render target; either has view.size. Returns at once.
     void render(Scene const& scene, View const& view, SwapChain swapChain);
     void render(Scene const& scene, View const& view, RenderTarget target);
 
-    /// Makes the passes of frames like this one known to Engine::compile(), and asks for their own pipelines, without
-    /// drawing: what is in the scene does not matter, its environment does.
+    /// Announces the passes of such frames to Engine::compile() and requests the passes' own pipelines, without
+    /// drawing. Only the scene's environment matters, not its contents.
     void expect(Scene const& scene, View const& view, SwapChain swapChain);
     void expect(Scene const& scene, View const& view, RenderTarget target);
 
-    /// Asks for the pixels rendered last; poll takePixels(). A ticket of 0: out of memory. Pixels that never come, of
-    /// an image that the device refused or on a lost device, are an image without bytes, or the error of waitPixels().
+    /// Requests the pixels rendered last; poll takePixels() for them. A ticket of 0 means out of memory. If pixels
+    /// never arrive, because the device refused the image or was lost, takePixels() returns an image without bytes, and
+    /// waitPixels() an error.
     PixelTicket readPixels(SwapChain swapChain);
     PixelTicket readPixels(RenderTarget target);
     std::optional<Image> takePixels(PixelTicket ticket);
     Result<Image> waitPixels(PixelTicket ticket);
 
-    /// The blocking form: one frame into an image of its own. Display-referred RGBA8.
+    /// Renders one frame into its own image and waits for the pixels: display-referred RGBA8.
     Result<Image> renderToImage(Scene const& scene, View const& view);
 
     FrameStatistics statistics() const;
     std::vector<FrameTimings> takeTimings(); ///< finished frames, oldest first
-    /// What the last frame ran, what it did not, and why: one decision a line.
+    /// What the last frame ran, what it did not, and why: one decision per line.
     std::string explain() const;
-    /// The frame graph of the last frame, for graphviz.
+    /// The frame graph of the last frame in graphviz format.
     std::string graphviz() const;
 
     struct Impl;

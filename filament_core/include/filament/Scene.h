@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Scene: what exists. Renderables, lights, nodes that carry them, and one environment; drawn by any Renderer of the
-/// same engine.
-///   Thread  the app thread, also for what is const: bounds() and Renderer::render() first bring transforms up to date.
-///           Not to be changed while Renderer::render runs (it returns when the scene has been read).
-///   Memory  arrays by column; adding and removing is O(1).
-///   Life    the scene does not own buffers, materials or models: they must outlive it or be removed first.
+/// Scene: everything that can be drawn: renderables, lights, the nodes that carry them, and one environment. Any
+/// Renderer of the same engine can draw it.
+///   Thread  the app thread, also for const functions: bounds() and Renderer::render() first update transforms. Do not
+///           change the scene while Renderer::render runs (it returns once it has read the scene).
+///   Memory  one array per field; adding and removing are O(1).
+///   Life    the scene does not own buffers, materials or models: they must outlive it, or be removed from it first.
 #pragma once
 
 #include <filament/Box.h>
@@ -23,14 +23,14 @@ namespace filament {
 class Model;
 class Environment;
 
-/// Up to 256 bones. A vertex goes to the weighted mean of where its bones put it; normals and tangents follow. Where
-/// bones collapse something it stays finite; where they mirror, the right faces are drawn.
+/// A skin of up to 256 bones. Each vertex moves to the weighted mean of the positions that its bones give it; normals
+/// and tangents follow. Bones that collapse geometry keep it finite, and bones that mirror it draw the correct faces.
 struct SkinDesc {
-    /// Object space is its space: renderables with this skin hang here, and the skin is removed with it. None: the
-    /// world, for renderables without a node.
+    /// The node whose space is object space. Renderables with this skin are attached to it, and removing it removes the
+    /// skin. None: world space, for renderables without a node.
     Node node{};
-    std::span<const Node> joints{};            ///< 1 to 256 nodes, which the bones follow from now on; or none
-    std::span<const float4x4> jointFromBind{}; ///< one a joint: from where the mesh was bound into the joint's space
+    std::span<const Node> joints{};            ///< 1 to 256 nodes that the bones follow; or none
+    std::span<const float4x4> jointFromBind{}; ///< one per joint: from the bind pose of the mesh into the joint's space
     uint32_t boneCount = 0;                    ///< without joints: 1 to 256, set by Scene::setBones
 };
 
@@ -42,21 +42,21 @@ struct RenderableDesc {
     uint32_t firstIndex = 0;
     uint32_t indexCount = 0;               ///< 0: all
     float3 boundsMin{ 0 }, boundsMax{ 0 }; ///< of the positions, in object space
-    double4x4 worldFromObject{ 1.0 };      ///< affine; with a node: stays the identity
-    Node node{};                           ///< the renderable stands where this node stands; none: at worldFromObject
-    uint32_t instanceIndex = 0;            ///< < 2^24; what getInstanceIndex() of materials with `instanced` gives
-    Skin skin{};                           ///< the vertices have Attribute::Joints and Weights, perhaps Joints1 too
-    std::vector<BoneBounds> boneBounds{};  ///< one a bone: makes culling exact; empty: the bounds above for all
-    MorphTargets morphTargets{};           ///< of as many vertices as the vertex buffer has
-    std::vector<float> morphWeights{};     ///< at first; what is missing is 0
+    double4x4 worldFromObject{ 1.0 };      ///< affine; must stay the identity if there is a node
+    Node node{};                           ///< gives the renderable its transform; none: worldFromObject
+    uint32_t instanceIndex = 0;            ///< < 2^24; returned by getInstanceIndex() in materials with `instanced`
+    Skin skin{};                           ///< needs Attribute::Joints and Weights, optionally Joints1 and Weights1
+    std::vector<BoneBounds> boneBounds{};  ///< one per bone: makes culling exact; empty: the bounds above for all bones
+    MorphTargets morphTargets{};           ///< with as many vertices as the vertex buffer
+    std::vector<float> morphWeights{};     ///< initial weights; missing ones are 0
     bool culled = true;                    ///< false: drawn even when its box is out of view
     std::string name{};
 };
 
 struct EnvironmentSettings {
-    Lux illuminance{ 30'000 }; ///< what one unit of the environment's radiance is multiplied by
+    Lux illuminance{ 30'000 }; ///< illuminance that radiance 1 of the environment stands for
     float rotationRadians = 0; ///< around +Y
-    bool skybox = true;        ///< draw it as background
+    bool skybox = true;        ///< draw the environment as background
 };
 
 class Scene {
@@ -66,45 +66,47 @@ public:
     ~Scene();
 
     Renderable add(RenderableDesc const& desc);
-    /// With a node, position and direction are those in the node's space, and the light follows it. Scales change
-    /// neither range nor intensity.
+    /// With a node, position and direction are in the node's space, and the light follows the node. Scales do not
+    /// change the light's range or intensity.
     Light add(SunLight const& light, Node node = {});
     Light add(PointLight const& light, Node node = {});
     Light add(SpotLight const& light, Node node = {});
     void remove(Renderable renderable);
     void remove(Light light);
-    /// Seen from the next frame on.
+    /// Takes effect with the next frame.
     void setMaterial(Renderable renderable, MaterialInstance material);
-    /// Of a renderable without a node.
+    /// For a renderable without a node.
     void setTransform(Renderable renderable, double4x4 const& worldFromObject);
 
-    /// Bones that follow nodes, or are set by hand: then they start at the identity. A joint that is removed leaves its
-    /// bone where it was. What follows joints is brought up to date by the next frame, on the workers.
+    /// Bones follow nodes, or are set by setBones(); the latter start at the identity. If a joint is removed, its bone
+    /// keeps its last pose. The next frame updates bones that follow joints, on the workers.
     Skin add(SkinDesc const& desc);
-    /// After the renderables that have it.
+    /// Remove the renderables that use the skin first.
     void remove(Skin skin);
-    /// Of a skin without joints, one matrix for each of its bones, into the object space of its renderables. What is
-    /// not finite counts as a zero scale.
+    /// For a skin without joints: one matrix per bone, into the object space of its renderables. A matrix that is not
+    /// finite is treated as a zero scale.
     void setBones(Skin skin, std::span<const float4x4> objectFromBind);
-    /// Of a renderable with morph targets. Any finite numbers; a target of weight 0 costs nothing.
+    /// For a renderable with morph targets. Any finite numbers; a target of weight 0 costs nothing.
     void setMorphWeights(Renderable renderable, std::span<const float> weights);
 
-    /// A copy of the model: its nodes below one new root, which stands at `worldFromModel` and has the model's name,
-    /// its renderables and lights at them. Moving or removing the root moves or removes all of it.
+    /// Adds a copy of the model: its nodes, with renderables and lights, below one new root. The root has the transform
+    /// `worldFromModel` and the model's name. Moving or removing the root moves or removes the whole copy.
     Node add(Model const& model, double4x4 const& worldFromModel = double4x4(1.0));
 
-    /// KHR_materials_variants: gives the renderables of one copy of a model, by the root that add() returned, the
-    /// materials that the variant names for them, and those that it does not name their own; "": their own to all.
-    /// Materials are made by loadGltf(): this only swaps them. Fails with InvalidArgument for a name that the model
-    /// does not have (Model::variantNames()); nothing changes then.
+    /// Applies a variant of KHR_materials_variants to one copy of a model, given by the root that add() returned.
+    /// Renderables that the variant does not name get their own materials; "" gives all of them their own. loadGltf()
+    /// created the materials, so this only swaps them. InvalidArgument for a name that is not in Model::variantNames();
+    /// nothing changes then.
     Result<void> setVariant(Node copy, std::string_view variant);
 
     Node add(NodeDesc const& desc);
-    /// The node and all below it, with every renderable, light and skin that hangs there; their handles end.
+    /// Removes the node and its descendants, with every renderable, light and skin attached to them. All their handles
+    /// become invalid.
     void remove(Node node);
-    /// Takes effect at once for worldFromNode(), and for what hangs at or below the node with the next frame.
+    /// worldFromNode() reflects the change at once; everything attached to the node or below it follows in the next
+    /// frame.
     void setTransform(Node node, double4x4 const& parentFromNode);
-    /// The node becomes the last child of `parent`; none: a root. Below itself it cannot be.
+    /// The node becomes the last child of `parent`; none: a root. A node cannot become its own descendant.
     void setParent(Node node, Node parent, Reparent keep = Reparent::KeepLocal);
     double4x4 parentFromNode(Node node) const;
     double4x4 worldFromNode(Node node) const;
@@ -112,18 +114,18 @@ public:
     Node parent(Node node) const;           ///< none: a root
     Node node(Renderable renderable) const; ///< none: it has a transform of its own
     Node node(Light light) const;
-    /// for (Node child = scene.firstChild(node); child; child = scene.nextSibling(child)), in the order they were
-    /// added.
+    /// Iterate with for (Node child = scene.firstChild(node); child; child = scene.nextSibling(child)). Children are in
+    /// the order in which they were added.
     Node firstChild(Node node = {}) const; ///< {}: the first root
     Node nextSibling(Node node) const;
-    /// The first of this name at or below `root` ({}: in the whole scene), parents first; none if there is none.
+    /// The first node with this name at or below `root` ({}: in the whole scene), parents first; none if there is none.
     Node findNode(std::string_view name, Node root = {}) const;
 
     void setEnvironment(Environment const& environment, EnvironmentSettings const& settings = {});
     void setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians = 0); ///< {}: none
     void setSkybox(Skybox skybox, Lux illuminance, float rotationRadians = 0);              ///< {}: none
 
-    Box bounds() const; ///< of all renderables; it holds what bones and morph targets move, and may be larger
+    Box bounds() const; ///< of all renderables, including deformed ones; may be larger than necessary
     uint32_t renderableCount() const;
     uint32_t lightCount() const;
     uint32_t nodeCount() const;

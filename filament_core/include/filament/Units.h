@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Photometric units as types, so that a lux value cannot become candelas by accident.
-///   Each is a plain float with a name: no conversions, no arithmetic between units.
+/// Photometric units as types, so that a lux value cannot be used as candelas by accident.
+///   Each is a named float: there are no conversions and no arithmetic between units.
 #pragma once
 
 namespace filament {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What a compiled material says of itself: its properties, parameters, constants and variants, as its .mat file
-/// declared them, and what may be asked of it at run time. Plain values.
-///   Names   those of the materials guide, chapter 4; numbers of the guide's tables.
+/// Describes a compiled material: its properties, parameters, constants and variants, as declared in its .mat file.
+/// Plain values.
+///   Names   those of the materials guide, chapter 4; table numbers refer to the guide.
 ///   Thread  any.   Memory: what is listed.   Fails: never.
 #pragma once
 
@@ -20,20 +20,20 @@ enum class TransparencyMode : uint8_t { Default, TwoPassesOneSide, TwoPassesTwoS
 enum class Culling : uint8_t { None, Front, Back, FrontAndBack };
 
 // clang-format off
-/// Of a parameter (table 14).
+/// Type of a parameter (table 14).
 enum class ParameterType : uint8_t {
     Bool, Bool2, Bool3, Bool4, Float, Float2, Float3, Float4, Int, Int2, Int3, Int4, Uint, Uint2, Uint3, Uint4,
     Float3x3, Float4x4,                          ///< std140 columns of 16 bytes
     Sampler2D, Sampler2DArray, SamplerCube, SubpassInput,
 };
 // clang-format on
-/// As the guide spells it: "float3", "samplerCubemap".
+/// The guide's spelling: "float3", "samplerCubemap".
 const char* toString(ParameterType type);
 
 enum class SamplerFormat : uint8_t { Float, Int, Uint };
 enum class Precision : uint8_t { Default, Low, Medium, High };
 
-/// A set of what scene and view may ask of a material: the names of variantFilter (4.2.6).
+/// A set of features that scene and view may request of a material, with the names of variantFilter (4.2.6).
 enum class VariantSet : uint16_t {
     None = 0,
     DirectionalLighting = 1,
@@ -61,14 +61,14 @@ struct ParameterDescription {
     ParameterType type = ParameterType::Float;
     uint32_t arraySize = 0; ///< 0: not an array
     Precision precision = Precision::Default;
-    SamplerFormat format = SamplerFormat::Float; ///< samplers: what a fetch gives
+    SamplerFormat format = SamplerFormat::Float; ///< samplers: the type that a fetch returns
     friend bool operator==(ParameterDescription const&, ParameterDescription const&) = default;
 };
 
 struct ConstantDescription {
     std::string name;
     std::variant<bool, int32_t, float> defaultValue{};
-    std::variant<bool, int32_t, float> value{}; ///< what the material was loaded with
+    std::variant<bool, int32_t, float> value{}; ///< the value that the material was loaded with
     friend bool operator==(ConstantDescription const&, ConstantDescription const&) = default;
 };
 
@@ -83,12 +83,12 @@ struct MaterialDescription {
     uint32_t featureLevel = 1; ///< 1 to 3
     float maskThreshold = 0;   ///< of blending masked, in [0, 1]
     bool doubleSided = false, colorWrite = true, depthWrite = true, depthCulling = true, alphaToCoverage = false;
-    uint32_t requiredAttributes = 0; ///< bit n: Attribute n of the geometry is read
+    uint32_t requiredAttributes = 0; ///< bit n: the material reads Attribute n of the geometry
     std::vector<ParameterDescription> parameters;
     std::vector<ConstantDescription> constants;
-    std::vector<VariantSet> variants;       ///< that the package has
-    VariantSet filtered = VariantSet::None; ///< what the material was compiled without
-    std::vector<std::string> terms; ///< members of MaterialInputs that its code sets: what it costs beyond the cheapest
+    std::vector<VariantSet> variants;       ///< the variants in the package
+    VariantSet filtered = VariantSet::None; ///< variants that the material was compiled without
+    std::vector<std::string> terms;         ///< members of MaterialInputs that its code sets; each of them has a cost
 
     ParameterDescription const* findParameter(std::string_view parameter) const;
 };
