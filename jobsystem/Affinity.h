@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Affinity: on which cores the threads of a job system run, as an AffinityPolicy asks.
-///   Pins    a registry of the process remembers which core has how many pinned threads, so that two systems share a
-///           core only when none is free. Distinct physical cores are lent first, then their other hardware threads,
-///           faster ones before slower ones; one core that is lent last is meant for the thread that made the system.
-///   Thread  CoreRegistry: any. placeWorker() and *ThisThread(): the calling thread is the one that is placed.
-///   Fails   never: a core that is not there, or that the operating system refuses, is named in a warning and left out.
-///   Cost    one system call for a thread that is placed; a system without a policy asks nobody.
+/// Affinity: places the threads of a job system on cores, as an AffinityPolicy requests.
+///   Pins    a registry of the process counts the pinned threads of each core, so that two systems share a core only if
+///           none is free. Distinct physical cores are lent first, then their other hardware threads, faster ones
+///           first. One core is lent last: it is kept for the thread that made the system.
+///   Thread  CoreRegistry: any. placeWorker() and *ThisThread() place the calling thread.
+///   Fails   never: a core that does not exist, or that the operating system refuses, is named in a warning and
+///           ignored.
+///   Cost    one system call per thread that is placed; none for a system without a policy.
 #pragma once
 
 #include "base/Result.h"
@@ -22,19 +23,19 @@
 
 namespace filament::jobs {
 
-/// The processors that a policy leaves to the workers; never empty, because a policy that leaves none avoids nothing.
+/// The processors that a policy allows for workers; never empty, because a policy that allows none is ignored.
 std::vector<Cpu> allowedCpus(AffinityPolicy const& policy, Topology const& topology);
 
-/// One less than the usable threads, which is the caller, and not more than there are cores for them.
+/// The number of usable threads minus one for the caller, but at most one per allowed core.
 uint32_t defaultWorkerCount(AffinityPolicy const& policy);
 
-/// InvalidArgument unless this process may run on `core`; `option` is what the user set, for the message.
+/// InvalidArgument unless this process may run on `core`; `option` names the user's option in the message.
 Result<void> requireCore(int core, std::string_view option);
 
-/// False, and a warning, if the operating system refuses; the thread stays where it was.
+/// False, with a warning, if the operating system refuses; the thread then stays where it was.
 bool bindThisThread(std::span<const int> cores);
 bool pinThisThread(int core);
-/// What debuggers and profilers show; the operating system keeps 15 bytes.
+/// The name that debuggers and profilers show; the operating system keeps 15 bytes.
 void nameThisThread(std::string const& name);
 std::string nameOfThisThread();
 
@@ -53,9 +54,9 @@ public:
     }
     ~CorePins();
 
-    /// One for each thread; cores repeat if there are fewer cores than threads.
+    /// One core per thread; cores repeat if there are fewer cores than threads.
     std::span<const int> cores() const { return mCores; }
-    /// Spared for the thread that asked, as far as there are cores; -1 for none.
+    /// Kept free for the requesting thread if possible; -1: none.
     int callerCore() const { return mCallerCore; }
 
 private:
@@ -66,44 +67,44 @@ private:
     int mCallerCore = -1;
 };
 
-/// Who is pinned where.
+/// Records which threads are pinned to which core.
 class CoreRegistry {
 public:
-    /// The one that all systems share.
+    /// The registry shared by all systems.
     static CoreRegistry& ofProcess();
 
-    /// `threads` cores out of `candidates`, the least used first; `topology` tells which ones are neighbours.
+    /// Lends `threads` cores out of `candidates`, the least used first; `topology` says which ones are neighbours.
     CorePins lend(Topology const& topology, std::span<const Cpu> candidates, uint32_t threads, std::string_view owner);
-    /// Notes a thread that somebody else ties to `core`, so that lend() gives that core last. -1 is no core.
+    /// Records a thread that other code binds to `core`, so that lend() uses that core last. -1 is no core.
     CorePins reserve(int core);
     void giveBack(CorePins const& pins);
 
 private:
     struct Use {
-        int pins = 0;    // threads tied to it
-        int callers = 0; // systems that spare it for the thread that made them
+        int pins = 0;    // threads bound to it
+        int callers = 0; // systems that keep it free for the thread that made them
     };
 
     Cpu const& leastUsed(Topology const& topology, std::span<const Cpu> candidates);
     Use& use(int core);
 
     std::mutex mMutex;
-    std::vector<Use> mUses; // by the number of the core
+    std::vector<Use> mUses; // indexed by core
 };
 
-/// Where the threads of one system run: decided by its constructor, carried out by each thread as it starts.
+/// Where the threads of one system run: its constructor decides, and each thread applies it when it starts.
 class WorkerPlacement {
 public:
     WorkerPlacement(AffinityPolicy const& policy, uint32_t workers, std::string_view owner);
 
     void placeWorker(uint32_t worker) const;
-    /// For threads that do long work beside the workers: anywhere but on the avoided cores.
+    /// For background threads: anywhere except on the avoided cores.
     void placeBackgroundThread() const;
 
 private:
-    CorePins mPins;                  // of Pin, by worker
-    std::vector<int> mWorkerCores;   // of BigCores and avoided cores; empty: no restriction
-    std::vector<int> mUnpinnedCores; // what a thread gets that a pinned one starts; empty: what it inherits
+    CorePins mPins;                  // for Pin, by worker
+    std::vector<int> mWorkerCores;   // for BigCores and avoided cores; empty: no restriction
+    std::vector<int> mUnpinnedCores; // for threads started by a pinned thread; empty: they inherit its mask
 };
 
 } // namespace filament::jobs

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// AffinityPolicy: on which cores the workers of a job system may run. A plain value, part of JobSystemOptions.
-///   Cores   the operating system's numbers, of the affinity mask of the thread that makes the system.
-///   Fails   never: what cannot be had is named in a warning and left out (Affinity.h).
+/// AffinityPolicy: the cores on which the workers of a job system may run. A plain value, part of JobSystemOptions.
+///   Cores   the operating system's numbers, within the affinity mask of the thread that creates the system.
+///   Fails   never: a request that cannot be met is named in a warning and ignored (Affinity.h).
 #pragma once
 
 #include <cstdint>
@@ -11,18 +11,18 @@ namespace filament::jobs {
 
 struct AffinityPolicy {
     enum class Kind : uint8_t {
-        None,     ///< the operating system moves workers as it likes
+        None,     ///< the operating system moves workers freely
         Pin,      ///< every worker stays on one core
-        BigCores, ///< workers move among the cores of the most capable class; on a uniform machine these are all
+        BigCores, ///< workers move among the cores of the most capable class; on a uniform machine all cores
     };
 
     Kind kind = Kind::None;
-    std::vector<int> avoidedCores{}; ///< where no worker runs, whatever the kind
+    std::vector<int> avoidedCores{}; ///< no worker runs there, whatever the kind
 
     static AffinityPolicy none() { return {}; }
     static AffinityPolicy pin() { return { Kind::Pin }; }
     static AffinityPolicy bigCores() { return { Kind::BigCores }; }
-    /// Everywhere but on `core`: the driver thread's.
+    /// Everywhere except on `core`, which is the driver thread's.
     static AffinityPolicy avoid(int core) { return none().avoiding(core); }
     AffinityPolicy avoiding(int core) const;
 

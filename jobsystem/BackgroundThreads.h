@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/// BackgroundThreads: where long work runs (files, decoding, shader compilers), so that no frame waits for it.
-///   In      jobs made with new; they are deleted after they ran.
-///   Thread  push(), wantsMore(): any. waitFor(): the threads of this object.
-///           Threads start when a job finds none idle, up to a limit, and stay. Their niceness is kNiceness: where
-///           cores are scarce, the operating system prefers frame work.
-///   Order   first in, first out; but a background thread that waits for a group takes jobs of this group only, so a
-///           wait never grows by a stranger's work.
-///   Memory  a queue that grows with the jobs in it.
-///   Fails   push() refuses the job if there is no memory for its place in the queue, or no thread at all for it;
-///           further threads that the operating system refuses are done without.
-///   Cost    a lock and at most one wake-up a job: 1 us and up. The work is meant to last a thousand times longer.
+/// BackgroundThreads: run long work (files, decoding, shader compilers), so that no frame waits for it.
+///   In      jobs created with new; they are deleted after they ran.
+///   Thread  push(), wantsMore(): any. waitFor(): the threads of this object. A thread starts when a job finds none
+///           idle, up to a limit, and stays. Threads have the niceness kNiceness: if cores are scarce, the operating
+///           system prefers frame work.
+///   Order   first in, first out. A background thread that waits for a group only takes jobs of that group, so a wait
+///           never grows by unrelated work.
+///   Memory  a queue that grows with the number of queued jobs.
+///   Fails   push() refuses a job if there is no memory for its queue entry, or no thread at all to run it. It does
+///           without further threads that the operating system refuses.
+///   Cost    a lock and at most one wake-up per job: 1 us or more. The work should last a thousand times longer.
 #pragma once
 
 #include "jobsystem/Job.h"
@@ -34,17 +34,17 @@ public:
     static constexpr int kNiceness = 10;
 
     BackgroundThreads(Scheduler& scheduler, uint32_t limit, std::string name);
-    /// After stop(), and after every thread that runs jobs has ended: one of them may still be about to ring a bell.
+    /// Call after stop(), and after every thread that runs jobs has ended: one of them could still ring a bell.
     ~BackgroundThreads() = default;
     BackgroundThreads(BackgroundThreads const&) = delete;
     BackgroundThreads& operator=(BackgroundThreads const&) = delete;
 
-    /// Runs what is queued and what that queues, then ends the threads. Once.
+    /// Runs the queued jobs and all jobs that they queue, then ends the threads. Call once.
     void stop();
 
-    /// False: the caller runs it.
+    /// False: the caller must run it.
     [[nodiscard]] bool push(Job& job);
-    /// A thread would take another job at once.
+    /// A thread would start another job at once.
     bool wantsMore() const { return mFree.load(std::memory_order_relaxed) > 0; }
     /// Runs jobs of this group until it is done.
     void waitFor(Completion& completion);
@@ -61,10 +61,10 @@ private:
     Scheduler& mScheduler;
     const uint32_t mLimit;
     const std::string mName;
-    const std::unique_ptr<ParkingLot[]> mBells; // of each thread; rung when its group is done and at every push
+    const std::unique_ptr<ParkingLot[]> mBells; // one per thread; rung when its group is done and at every push
     std::atomic<int32_t> mFree;                 // threads that are idle or could start, minus queued jobs
 
-    std::mutex mMutex; // of what follows
+    std::mutex mMutex; // protects the members below
     std::condition_variable mPushed;
     std::deque<Job*> mQueue;
     std::vector<std::thread> mThreads;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Cancellation: one thread says that the result is no longer wanted, the jobs that would make it look here.
+/// Cancellation: one thread signals that a result is no longer wanted; the jobs that would produce it check here.
 ///   Use     Cancellation gone;
 ///           loads.runBackground<"decode">(gone, [&] { for (Row& row : rows) if (!gone.isRequested()) decode(row); });
-///           gone.request();   // jobs that have not started never will, those that run stop where they look
-///           loads.wait();     // quick now
+///           gone.request();   // jobs that have not started never will; running jobs stop where they check
+///           loads.wait();     // returns soon
 ///   Thread  any.
-///   Memory  outlives the jobs that it was given to: declare it before their group.
+///   Memory  must outlive the jobs that it is passed to: declare it before their group.
 ///   Fails   never.  Cost: isRequested() is one load.
 #pragma once
 

@@ -1,16 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Completion: how many jobs of a group have not finished yet, who sleeps until none is left, and what comes after.
-///   Count   split in two: a plain part that only the owner touches, who is the occupant of the seat that made the
-///           group, and an atomic part for everybody else. What is left is their sum; each part alone may be negative.
-///           A group that never meets another thread costs no atomic read-modify-write.
-///   Shared  before the owner sleeps, and when a continuation is attached, the plain part is folded into the atomic one
-///           and the owner gives up its privilege, so that whoever finishes last can tell from the atomic part alone.
-///   Guard   while somebody has to be told of the end (a sleeper, a continuation), the count holds one unit more than
-///           there are jobs. The thread that leaves only this unit closes the group: it takes the continuation and the
-///           sleeper out, then returns the unit. So the memory cannot go while it still looks at it.
+/// Completion: counts the unfinished jobs of a group, and records who sleeps until none is left and what runs next.
+///   Count   has two parts: a plain one that only the owner touches (the occupant of the seat that made the group), and
+///           an atomic one for all other threads. Their sum is the number of jobs left; each part alone may be
+///           negative. A group that never meets another thread costs no atomic read-modify-write.
+///   Shared  before the owner sleeps, and when a continuation is attached, the plain part is added to the atomic one
+///           and the owner loses its privilege, so that the last thread to finish can decide from the atomic part
+///           alone.
+///   Guard   while somebody must be notified of the end (a sleeper, a continuation), the count is one larger than the
+///           number of jobs. The thread that leaves only this extra unit closes the group: it takes out the
+///           continuation and the sleeper, then returns the unit. The memory therefore cannot go away while that thread
+///           still uses it.
 ///   Thread  isDone(), announceSleeper(), withdrawSleeper(), setContinuation(), reclaim(): the thread that made the
 ///           group. add(), finish...(), close(): any.
-///   Missing whether a job of the group ran out of memory before it was done; said before the job counts as finished.
+///   Missing whether a job of the group ran out of memory; recorded before the job counts as finished.
 ///   Memory  48 bytes.   Fails: never.
 #pragma once
 
@@ -22,7 +24,7 @@
 
 namespace filament::jobs {
 
-/// Names one stay of one thread on a seat; no two stays have the same. 0: nobody.
+/// Identifies one stay of one thread on a seat; every stay has a different value. 0: nobody.
 using Occupant = uint64_t;
 
 template <class Policy>
@@ -47,14 +49,14 @@ public:
         }
     }
 
-    /// False if `here` is not the owner: then finishShared(). The owner never closes, as nobody has to be told.
+    /// False if `here` is not the owner: call finishShared() then. The owner never closes, since nobody waits for it.
     bool finishLocal(Occupant here) {
         if (!isOwner(here)) return false;
         --mLocal;
         return true;
     }
 
-    /// True if the caller has to close(); if not, the memory of this object may be gone when it returns.
+    /// True if the caller must call close(). If false, the memory of this object may be gone when it returns.
     [[nodiscard]] bool finishShared(int64_t jobs = 1) {
         const int64_t left = mShared.fetch_sub(jobs * kUnit, std::memory_order_acq_rel) - jobs * kUnit;
         return unitsOf(left) == 1 && (left & kFlags) != 0;
@@ -64,8 +66,8 @@ public:
         Job* continuation = nullptr; ///< to submit
         Bell* sleeper = nullptr;     ///< to wake
     };
-    /// What the caller has to do; the memory of this object may be gone when this returns. Until then nobody else
-    /// changes the count: no job is left, and the owner sees that it is being closed.
+    /// Returns what the caller has to do. The memory of this object may be gone when this returns. Until then nobody
+    /// else changes the count: no job is left, and the owner sees that the group is being closed.
     Closing close() {
         const int64_t flags = mShared.load(std::memory_order_relaxed) & kFlags;
         const Closing closing{ flags & kHasContinuation ? mContinuation.load(std::memory_order_relaxed) : nullptr,
@@ -74,14 +76,14 @@ public:
         return closing;
     }
 
-    /// Asks the last job to ring `bell`. False if there is nothing to wait for, or but for a moment.
+    /// Asks the last job to ring `bell`. False if there is nothing to wait for, or only for a moment.
     bool announceSleeper(Bell& bell) {
         if (!isPending(mShared.load(std::memory_order_acquire) + mLocal * kUnit)) return false;
         mSleeper.store(&bell, std::memory_order_relaxed);
         return raiseFlag(kHasSleeper);
     }
 
-    /// Withdraws the request, unless a thread is closing already.
+    /// Withdraws the request, unless a thread is already closing.
     void withdrawSleeper() {
         int64_t state = mShared.load(std::memory_order_relaxed);
         int64_t next = 0;
@@ -92,7 +94,7 @@ public:
         } while (!mShared.compare_exchange_weak(state, next, std::memory_order_relaxed));
     }
 
-    /// False if nothing is left to wait for: then `job` is due now. One continuation at a time.
+    /// False if nothing is left to wait for: `job` is due now. One continuation at a time.
     bool setContinuation(Job& job) {
         if (!isPending(mShared.load(std::memory_order_acquire) + mLocal * kUnit)) return false;
         mContinuation.store(&job, std::memory_order_relaxed);
@@ -102,7 +104,7 @@ public:
 
     void markOutOfMemory() { mIsOutOfMemory.store(true, std::memory_order_relaxed); }
     bool isOutOfMemory() const { return mIsOutOfMemory.load(std::memory_order_relaxed); }
-    /// After isDone(): once.
+    /// Call after isDone(), once.
     bool takeOutOfMemory() {
         if (!isOutOfMemory()) return false;
         mIsOutOfMemory.store(false, std::memory_order_relaxed);
@@ -118,12 +120,12 @@ private:
 
     bool isOwner(Occupant here) const { return here != 0 && here == mOwner.load(std::memory_order_relaxed); }
 
-    // A single unit together with a flag is the guard of a thread that is closing.
+    // A single unit together with a flag is the guard of a closing thread.
     static bool isPending(int64_t state) {
         return unitsOf(state) != 0 && !(unitsOf(state) == 1 && (state & kFlags) != 0);
     }
 
-    // Folds the plain part in and ends the privilege. With the first flag comes the guard unit.
+    // Adds the plain part and ends the owner's privilege. The first flag adds the guard unit.
     bool raiseFlag(int64_t flag) {
         int64_t state = mShared.load(std::memory_order_acquire);
         int64_t next = 0;
@@ -137,7 +139,7 @@ private:
         return true;
     }
 
-    // Together with the group in one cache line: apart, a theft would cost the owner less, and every fork more.
+    // In the group's cache line: in a line of its own, a theft would cost the owner less, but every fork more.
     Atomic<Occupant> mOwner;                              // written by the owner only
     typename Policy::template Plain<int64_t> mLocal{ 0 }; // jobs that the owner added minus those it finished
     Atomic<int64_t> mShared{ 0 };                         // units << 2 | flags

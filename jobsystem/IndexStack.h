@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// IndexStack: a stack of numbers below its capacity, for any number of threads; what is free lies on it.
+/// IndexStack: a lock-free stack of the numbers below its capacity, used as a free list by any number of threads.
 ///   Source  Treiber 1986, "Systems programming: coping with parallelism". The upper half of the head counts changes,
-///           so that a head that came back (ABA) is not taken for the same. Links are atomic, because a thread that is
-///           about to lose the race still reads them.
-///   Thread  any. What was written before push() is visible after the pop() that returns the number.
-///   Memory  4 bytes a number, allocated by the constructor.
-///   Limits  a number lies on the stack once. A thread that sleeps inside pop() for exactly 2^32 changes is fooled.
+///           so that a head that returns to an old value (ABA) is recognised. Links are atomic, because a thread that
+///           is about to lose the race still reads them.
+///   Thread  any. Writes before push() are visible after the pop() that returns the number.
+///   Memory  4 bytes per number, allocated by the constructor.
+///   Limits  a number is on the stack at most once. Fails if a thread sleeps inside pop() for exactly 2^32 changes.
 ///   Fails   pop() returns kNone when the stack is empty.  Cost: one compare-and-swap.
 ///   Proof   tests/jobsystem/IndexStackModelTest.cpp
 #pragma once

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// InjectionQueue: jobs from threads that have no deque.
-///   Order   `count` is raised after an item is in, at one point of the total order of seq_cst operations: the point
-///           that a sleeper's announcement is ordered against. The queue may look empty to a thread that races with
-///           others although an item is left; nobody sleeps while the count is positive, so it is not forgotten.
+/// InjectionQueue: holds jobs from threads that have no deque.
+///   Order   `count` is incremented after an item is in, by a seq_cst operation; a sleeper's announcement is ordered
+///           against it. The queue may look empty to a racing thread although an item is left. Nobody sleeps while the
+///           count is positive, so the item is not lost.
 ///   Thread  any.
-///   Memory  grows with the jobs in it and keeps what it grew to.
-///   Fails   push() returns false when memory is exhausted.
+///   Memory  grows with the number of queued jobs, and does not shrink.
+///   Fails   push() returns false if memory runs out.
 #pragma once
 
 #include "jobsystem/Job.h"
 
-// The queue has fences that gcc's thread sanitizer ignores; its data is ordered without them.
+// The queue uses fences, which gcc's thread sanitizer ignores; its data is ordered without them.
 #if defined(__SANITIZE_THREAD__)
 #pragma GCC diagnostic ignored "-Wtsan"
 #endif

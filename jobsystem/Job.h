@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Job: one call to make, with its captures stored inline; exactly one cache line.
-/// JobType: what all jobs of one call site have in common: how to call them, and their name.
-///   Thread  a Job belongs to one thread at a time; the queues hand it over. A JobType is a constant.
-///   Memory  captures live in the job (48 bytes); a larger capture does not compile. A name costs nothing at run time.
-///   Fails   std::bad_alloc goes to whoever waits for the job's group. A job that throws anything else ends the process
-///           with a message that names it (JobFault.h).
+/// Job: one call, with its captures stored inline; exactly one cache line.
+/// JobType: what all jobs of one call site share: how to call them, and their name.
+///   Thread  a Job belongs to one thread at a time; the queues pass it on. A JobType is a constant.
+///   Memory  captures are stored in the job (48 bytes); larger captures do not compile. A name costs nothing at run
+///           time.
+///   Fails   std::bad_alloc reaches the thread that waits for the job's group. A job that throws anything else ends the
+///           process with a message that names it (JobFault.h).
 #pragma once
 
 #include <algorithm>
@@ -34,18 +35,18 @@ struct JobName {
 };
 
 enum class Priority : uint8_t {
-    FrameCritical, ///< what the frame waits for: searched first
+    FrameCritical, ///< work that the frame waits for: searched first
     Normal,
-    Background, ///< long work that no frame waits for: on threads of its own
+    Background, ///< long work that no frame waits for: runs on separate threads
 };
 
 struct JobType {
-    /// Runs the captured callable and destroys it. True: its successor took its place in the job; call that, too.
+    /// Runs the captured callable and destroys it. True: the job now holds its successor; call that too.
     bool (*call)(Job&);
     const char* name;
 };
 
-/// What a job returns that wants `function` to run next, in its place; next<"upload">(...) makes one.
+/// Returned by a job to run `function` next, in its place; next<"upload">(...) creates one.
 template <JobName kName, class F>
 struct Successor {
     F function;
@@ -68,7 +69,7 @@ static_assert(sizeof(Job) == kCacheLineBytes);
 
 namespace detail {
 
-/// Puts what a job returned in its place; false if that is no successor, or an empty optional.
+/// Puts the returned successor in the job's place; false if the job returned none, or an empty optional.
 template <JobName kName, class Result>
 bool follow(Job& job, Result&& result) {
     if constexpr (std::is_invocable_v<Result&>) {
@@ -90,7 +91,7 @@ bool follow(Job& job, std::optional<Next>&& successor) {
     return successor && follow<kName>(job, *std::move(successor));
 }
 
-/// Ends the life of a callable, after its call or in the middle of it.
+/// Destroys a callable, after its call or when the call throws.
 template <class Callable>
 class Destroyed {
 public:
@@ -115,7 +116,7 @@ bool callAndDestroy(Job& job) {
         return false;
     } else {
         auto result = callable();
-        destroyed.now(); // its place is the successor's
+        destroyed.now(); // the successor reuses its memory
         return follow<kName>(job, std::move(result));
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// JobFault: the end of a process whose job broke a rule that no caller can handle.
+/// JobFault: ends a process whose job broke a rule that no caller can handle.
 ///   Thread  any.
 ///   Fails   does not return: one line on standard error that names the job, then abort().
 #pragma once
@@ -10,7 +10,7 @@
 
 namespace filament::jobs {
 
-/// Inside a catch block: tells what was thrown.
+/// Call inside a catch block: reports what was thrown.
 [[noreturn]] void reportThrow(const char* jobName);
 [[noreturn]] void reportThrow(const char* jobName, std::exception const& thrown);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// JobStorage: a fixed pool of jobs. Every thread keeps a few free ones at hand, the rest lie in batches on one stack.
-///   Thread  a Cache belongs to one thread at a time; without a Cache any thread may allocate and release.
-///   Memory  72 bytes a job, all of it allocated by the constructor.
-///   Limits  a Cache holds back up to 64 free jobs.
-///   Fails   allocate() returns null when no job is free.
-///   Cost    a few instructions; once in 32 calls one compare-and-swap on the shared stack.
+/// JobStorage: a fixed pool of jobs. Every thread caches a few free jobs; the rest are in batches on a shared stack.
+///   Thread  a Cache belongs to one thread at a time; any thread may allocate and release without a Cache.
+///   Memory  72 bytes per job, all allocated by the constructor.
+///   Limits  a Cache holds up to 64 free jobs.
+///   Fails   allocate() returns null if no job is free.
+///   Cost    a few instructions, and one compare-and-swap on the shared stack every 32 calls.
 #pragma once
 
 #include "jobsystem/IndexStack.h"
@@ -52,7 +52,7 @@ private:
 
     std::unique_ptr<Job[]> mJobs;
     std::unique_ptr<std::atomic<uint32_t>[]> mNextInBatch;
-    IndexStack<> mBatches; // named by their first jobs
+    IndexStack<> mBatches; // each batch is named by its first job
 };
 
 } // namespace filament::jobs

@@ -4,7 +4,7 @@
 
 namespace filament::jobs {
 
-// The doors of the scheduler that the templates need; everything else about it stays inside.
+// The functions of the scheduler that the templates need; everything else about it is private.
 namespace detail {
 
 Job* allocate(Scheduler& scheduler, Priority priority); // null: run the job yourself
@@ -27,7 +27,7 @@ template <JobName kName, class F>
             const_cast<void*>(static_cast<const void*>(std::addressof(function))));
 }
 
-/// What there is no room or nobody for, successors included.
+/// Runs a job here if there is no room or no worker for it, successors included.
 template <JobName kName, class F>
 void runAtOnce(Scheduler& scheduler, Completion& completion, F&& function) {
     bool isComplete = true;
@@ -129,8 +129,8 @@ struct ParallelLoop {
         for (size_t chunk = 0; chunk < chunks; ++chunk) runChunk(chunk);
     }
 
-    // Lazy binary splitting (Tzannes, Caragea, Barua, Vishkin 2010): the upper half becomes a job only when this
-    // thread has nothing left to steal, so a loop makes a few jobs per worker, not one per chunk.
+    // Lazy binary splitting (Tzannes, Caragea, Barua, Vishkin 2010): the upper half becomes a job only if this thread
+    // has nothing left to steal, so a loop creates a few jobs per worker, not one per chunk.
     void runChunks(size_t first, size_t last) {
         Seat* seat = seatHere(scheduler);
         while (last - first > 1) {

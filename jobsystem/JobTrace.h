@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// JobTrace: who ran what when, for pictures of a frame in chrome://tracing, Perfetto or the project's plot tool.
-///   In      jobs as the seats of a scheduler run them; spans of other threads, told by anybody who measured them.
+/// JobTrace: records which thread ran what and when, for chrome://tracing, Perfetto or the project's plot tool.
+///   In      jobs as the seats of a scheduler run them; spans of other threads, reported by the code that measured
+///           them.
 ///   Out     tracks of events, or Chrome trace-event JSON.
 ///   Time    nanoseconds of std::chrono::steady_clock.
 ///   Names   of events: text that lives as long as the process, such as literals. Of tracks: copied.
-///   Thread  recordJob(): whoever holds that seat. All others: any, also while jobs are recorded; a snapshot then has
-///           all events that were complete when it began, and none that is torn.
-///   Memory  32 bytes an event, up to 2 MiB a track; its address space is taken at the first event, the rest as it
-///           fills.
-///   Limits  a track keeps its newest 65535 events; what it lost is counted and written into the file.
+///   Thread  recordJob(): the occupant of that seat. All others: any, also while jobs are recorded. A snapshot has all
+///           events that were complete when it began, and no torn ones.
+///   Memory  32 bytes per event, up to 2 MiB per track; its address space is reserved at the first event, the pages are
+///           used as it fills.
+///   Limits  a track keeps its newest 65535 events; lost ones are counted, and the count is written into the file.
 ///   Fails   writing: Unreadable, naming the file. Recording: never.
-///   Cost    bench/jobsystem/TraceBench.cpp. A system without a trace pays one predicted branch a job.
+///   Cost    bench/jobsystem/TraceBench.cpp. A system without a trace pays one predicted branch per job.
 ///   Source  "Trace Event Format", Google 2016: complete events ("X") and thread names ("M").
 #pragma once
 
@@ -35,13 +36,13 @@ struct TraceEvent {
     int64_t begin = 0;
     int64_t end = 0;
     Kind kind = Kind::Span;
-    int64_t frame = -1; ///< of a span: the number of the frame it belongs to; -1: none
+    int64_t frame = -1; ///< for spans: the number of the frame; -1: none
 };
 
 struct TraceTrack {
     std::string name{};
-    std::vector<TraceEvent> events{}; ///< by begin, longer ones first: what contains others precedes them
-    uint64_t dropped = 0;             ///< older events that the ring lost
+    std::vector<TraceEvent> events{}; ///< sorted by begin, longer ones first: an event precedes those it contains
+    uint64_t dropped = 0;             ///< older events that were overwritten
 };
 
 class JobTrace {
@@ -62,10 +63,10 @@ public:
 
     void nameSeat(uint32_t seat, std::string name);
     void recordJob(uint32_t seat, const char* name, int64_t begin, int64_t end, bool stolen);
-    /// For a thread without a seat: under a lock, on a track of the name that the thread has at its first job.
+    /// For a thread without a seat: takes a lock, and records on a track named like the thread at its first job.
     void recordJobHere(const char* name, int64_t begin, int64_t end, bool stolen);
 
-    /// A track for spans; asking again for a name gives the same one.
+    /// A track for spans; the same name returns the same track.
     Track track(std::string const& name);
     void span(Track track, const char* name, int64_t begin, int64_t end, int64_t frame = -1);
 
@@ -76,11 +77,11 @@ private:
     class Ring;
     Track trackLocked(std::string const& name);
 
-    const uint64_t mId; // of this trace among all of the process
+    const uint64_t mId; // unique among the traces of the process
     std::unique_ptr<Ring[]> mSeats;
     uint32_t mSeatCount;
     uint32_t mEventsPerTrack;
-    mutable std::mutex mMutex; // of everything below, and of the names of seats
+    mutable std::mutex mMutex; // protects everything below, and the names of seats
     std::vector<std::unique_ptr<Ring>> mSpans;
 };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ParkingLot: where threads without work sleep. An event count: announce, look once more, sleep.
+/// ParkingLot: where threads without work sleep. An event count: announce, check once more, sleep.
 ///   Thread  any.
-///   Use     Sleeper:  ticket = prepare();  found something? cancel() : park(ticket);   and look again in both cases
+///   Use     Sleeper:  ticket = prepare();  found something? cancel() : park(ticket);   and check again in both cases
 ///           Waker:    publish the work (a seq_cst operation), then wakeOne() or wakeAll()
-///   Order   prepare() counts the sleeper with a seq_cst operation before it looks; the waker looks at the count with
-///           one after it published. In their single total order one of the two sees the other: no wake-up is lost.
-///           tests/jobsystem/ParkingLotModelTest.cpp goes through all interleavings.
-///   Cost    wakeOne() with nobody asleep is one load; with a wake-up under way one load and one exchange. A burst of
-///           pushes therefore makes one system call; the woken thread, if it finds work, wakes the next one.
+///   Order   prepare() counts the sleeper with a seq_cst operation before it checks; the waker reads the count with one
+///           after it published. In their single total order one of the two sees the other, so no wake-up is lost.
+///           tests/jobsystem/ParkingLotModelTest.cpp checks all interleavings.
+///   Cost    wakeOne() is one load if nobody sleeps, and one load and one exchange if a wake-up is under way. A burst
+///           of pushes therefore makes one system call; the woken thread, if it finds work, wakes the next one.
 ///   Fails   never.
 #pragma once
 
@@ -32,7 +32,7 @@ public:
 
     void cancel() { mSleepers.fetch_sub(1, std::memory_order_seq_cst); }
 
-    /// Returns after any wake-up that came after prepare().
+    /// Returns after any wake-up that follows prepare().
     void park(Ticket ticket) {
         while (mEpoch.load(std::memory_order_seq_cst) == ticket) Policy::wait(mEpoch, ticket);
         mSleepers.fetch_sub(1, std::memory_order_seq_cst);
@@ -41,7 +41,7 @@ public:
 
     bool hasSleepers() const { return mSleepers.load(std::memory_order_seq_cst) != 0; }
 
-    /// Wakes a sleeper, unless one is on its way that has not looked for work yet.
+    /// Wakes a sleeper, unless a woken one has not looked for work yet.
     void wakeOne() {
         if (!hasSleepers() || mWaking.exchange(true, std::memory_order_seq_cst)) return;
         mEpoch.fetch_add(1, std::memory_order_seq_cst);
@@ -60,9 +60,9 @@ private:
 
     Atomic<uint32_t> mSleepers{ 0 }; // prepared or parked
     Atomic<uint32_t> mEpoch{ 0 };    // changes with every wake-up; parked threads wait on it
-    // True from a wakeOne() until a sleeper answers it by looking for work. A sleeper clears it after it read the
-    // epoch and before it looks, the waker sets it before it changes the epoch: so if it is set after the last clear,
-    // that sleeper's epoch is outdated and park() returns at once. It is never left set with everybody asleep.
+    // True from a wakeOne() until a sleeper responds by looking for work. A sleeper clears it after it read the epoch
+    // and before it looks; the waker sets it before it changes the epoch. So if it is set after the last clear, that
+    // sleeper's epoch is outdated and park() returns at once. It is never left set with all threads asleep.
     Atomic<bool> mWaking{ false };
 };
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Patience: how often a thread without work of its own looks at what others have, and when it takes it.
-///   Why     a look takes the cache line that the victim writes with every push, a theft takes several and the job's:
-///           100 to 500 ns of the victim's time. A job that its owner would run in less is not worth it.
-///   How     looks become rarer while there is nothing. A thief takes only what was there at its last look: what an
-///           owner pushes and takes within kSecondLook stays where it is. After a theft that did not pay, the next
-///           look waits.
+/// Patience: how often a thread without work looks at the deques of others, and when it steals.
+///   Why     a look takes the cache line that the victim writes with every push; a theft takes several and the job's:
+///           100 to 500 ns of the victim's time. A job that its owner would finish sooner is not worth stealing.
+///   How     looks become rarer while there is nothing to steal. A thief takes only items that it saw at its last look,
+///           so items that an owner pushes and takes within kSecondLook stay with the owner. After a theft that did not
+///           pay, the next look waits.
 ///   Use     begin();
 ///           while (...) if (isTimeToLook(now)) { look: isStillThere() ? take, return : leave;  looked(now); }
-///           and learn(nanoseconds) when what was taken is done.
+///           and learn(nanoseconds) when the stolen job is done.
 ///   Thread  one.
 #pragma once
 
@@ -33,10 +33,11 @@ inline void pauseCore() {
 
 class Patience {
 public:
-    static constexpr int64_t kFirstInterval = 100, kLongestInterval = 1000; // in nanoseconds, while there is nothing
-    static constexpr int64_t kSecondLook = 250;                             // after the first look that saw something
-    static constexpr int64_t kDisappointment = 2000; // longest interval while what was seen is gone at the second look
-    static constexpr int64_t kWorthStealing = 400;   // a theft alone takes 200 to 300
+    static constexpr int64_t kFirstInterval = 100,
+                             kLongestInterval = 1000; // in nanoseconds, while there is nothing
+    static constexpr int64_t kSecondLook = 250;       // after the first look that saw an item
+    static constexpr int64_t kDisappointment = 2000;  // longest interval while items are gone at the second look
+    static constexpr int64_t kWorthStealing = 400;    // a theft alone takes 200 to 300
 
     void begin(int64_t now) {
         mInterval = kFirstInterval;
@@ -46,14 +47,14 @@ public:
     }
     bool isTimeToLook(int64_t now) const { return now >= mNextLook; }
 
-    /// During a look: whether the oldest item of `deque`, which has items in [oldest, end), was there at the last look.
+    /// During a look: whether the oldest item of `deque`, whose items are [oldest, end), was there at the last look.
     bool isStillThere(const void* deque, int64_t oldest, int64_t end) {
         if (mSuspect.deque == deque && oldest < mSuspect.end) return true;
         if (!mSighting.deque) mSighting = { deque, end };
         return false;
     }
 
-    /// After a look that took nothing: whether it saw something.
+    /// After a look that took nothing: whether it saw an item.
     bool looked(int64_t now) {
         const bool isFirstSighting = mSighting.deque && !mSuspect.deque;
         if (isFirstSighting) {
@@ -68,7 +69,7 @@ public:
         return sawWork;
     }
 
-    /// How long the theft, the stolen job and what it forked took. False if the next look had better wait.
+    /// Takes the time of the theft, the stolen job and its forks. False if the next look should wait.
     bool learn(int64_t nanoseconds) {
         if (nanoseconds >= kWorthStealing) return true;
         mDelay = kLongestInterval;
@@ -78,14 +79,14 @@ public:
 
 private:
     struct Sighting {
-        const void* deque = nullptr; // null: nothing
+        const void* deque = nullptr; // null: nothing seen
         int64_t end = 0;
     };
 
     int64_t mInterval = kFirstInterval;
     int64_t mNextLook = 0;
-    int64_t mDelay = 0; // of the first look
-    Sighting mSuspect;  // at the last look; stays while thefts succeed: what was there is taken one by one
+    int64_t mDelay = 0; // before the first look
+    Sighting mSuspect;  // at the last look; stays while thefts succeed: the items seen are taken one by one
     Sighting mSighting; // at this look
 };
 

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Scheduler: who runs which job when; the inside of JobSystem.
-///   Search  own critical jobs (newest first), critical jobs of others if there is a hint of any, own normal jobs; then
-///           the injection queues and everybody else's deques (oldest first), from a random seat on.
-///   Sleep   after a short spin, workers sleep in mIdle and threads inside wait() at the bell of their seat. New work
-///           wakes one thread, a worker before a waiter; a thread that wakes up and sees more work than it took wakes
+/// Scheduler: decides which thread runs which job and when; the implementation of JobSystem.
+///   Search  own critical jobs (newest first); critical jobs of others, if there is a hint of any; own normal jobs;
+///           then the injection queues and the deques of all others (oldest first), from a random seat on.
+///   Sleep   after a short spin, workers sleep in mIdle, and threads inside wait() at the bell of their seat. New work
+///           wakes one thread, a worker before a waiting thread; a woken thread that sees more work than it took wakes
 ///           the next. The last job of a group wakes the one thread that waits for it.
 ///   Thread  all functions: any.
-///   Memory  SeatTable, and 64 jobs of 72 bytes a seat and 4096 more; the queues grow only for threads without a seat.
+///   Memory  SeatTable, 64 jobs of 72 bytes per seat, and 4096 more; the queues grow only for threads without a seat.
 ///   Source  Blumofe and Leiserson 1999, "Scheduling multithreaded computations by work stealing".
 ///   Files   Scheduler.cpp: workers and queues. Search.cpp: finding work. Running.cpp: calling it. Waiting.cpp: wait().
 #pragma once
@@ -42,14 +42,14 @@ public:
     uint32_t workerCount() const { return mSeats.workers(); }
     uint64_t busyNanoseconds();
 
-    /// An unset job, or null: no workers, or no free job.
+    /// An empty job, or null: there are no workers, or no free job.
     Job* allocate(Priority priority);
-    /// Queues a set job from allocate(), or runs it if there is no room.
+    /// Queues a filled job from allocate(), or runs it if there is no room.
     void submit(Job& job);
     /// The same for long work, whatever the priority of its group.
     Job* allocateBackground();
     void submitBackground(Job& job);
-    /// Submits a set job from allocate() as soon as `before` is done.
+    /// Submits a filled job from allocate() as soon as `before` is done.
     void continueWith(Completion& before, Job& job);
     void wait(Completion& completion);
 
@@ -57,16 +57,16 @@ public:
     void executeBackground(Job& job);
     Completion& backgroundCompletion() { return mBackgroundCompletion; }
 
-    /// The calling thread, which sits on `seat` or nowhere, has no job left that others could steal.
+    /// The calling thread, which is on `seat` or on none, has no job left that others could steal.
     bool isHungry(Seat* seat, Priority priority) const;
 
-    /// Null if the calling thread sits already, no seat is free, or it would not need one.
+    /// Null if the calling thread already has a seat, no seat is free, or it would not need one.
     Seat* adoptThread();
     void releaseThread(Seat& seat);
 
     WorkerPlacement const& placement() const { return mPlacement; }
     JobTrace* trace() const { return mTrace.get(); }
-    /// Into the trace, which there is: the calling thread, which sits on `seat` or nowhere, has run a job since
+    /// Writes to the trace, which must exist: the calling thread, which is on `seat` or on none, has run a job since
     /// `begin`.
     void record(Seat const* seat, const char* name, int64_t begin, bool stolen);
 
@@ -74,17 +74,17 @@ private:
     struct Found {
         Job* job = nullptr;
         Priority priority = Priority::Normal;
-        bool stolen = false; ///< not from the own deque
+        bool stolen = false; ///< taken from another deque
 
         explicit operator bool() const { return job != nullptr; }
     };
 
-    /// How a thread looks for work.
+    /// The state of a thread that looks for work.
     struct Hunt {
-        int64_t now = 0; ///< the time it is, or a little earlier; 0: unknown. Reading a clock takes as long as a fork
+        int64_t now = 0; ///< the current time, or a little earlier; 0: unknown. Reading a clock takes as long as a fork
         bool watches = false; ///< pushes rely on this thread and wake nobody
         bool passesOn =
-                false; ///< it answered for pushes that woke nobody: if it leaves work behind, somebody must come
+                false; ///< it stood in for pushes that woke nobody: if it leaves work behind, it must wake somebody
     };
 
     // Scheduler.cpp
@@ -114,7 +114,7 @@ private:
     void finish(Seat const* seat, Completion& completion, bool stolen);
     void close(Completion& completion);
 
-    // Search.cpp; `least` is the least urgent priority that is looked for
+    // Search.cpp; `least` is the least urgent priority to search for
     Found takeOwn(Seat* seat, Priority least);
     Found searchOthers(Seat* thief, Priority least, Patience& patience);
     Found searchCritical(Seat* thief);
@@ -136,20 +136,20 @@ private:
 
     SeatTable mSeats;
     const WorkerPlacement mPlacement;
-    const std::unique_ptr<JobTrace> mTrace; // null: nobody asked for it
+    const std::unique_ptr<JobTrace> mTrace; // null: not requested
     JobStorage mStorage;
     InjectionQueue mInjected[2]; // by priority
     alignas(kCacheLineBytes) ParkingLot mIdle;
     std::atomic<uint32_t> mSleepingWaiters{ 0 };
     std::atomic<bool> mWatched{ false };               // some thread's Hunt::watches
-    alignas(kCacheLineBytes) ParkingLot mUnseatedBell; // of threads that wait without a seat
-    // Set by a push of a critical job; taken back by a search that finds none. So normal work costs one load to know.
+    alignas(kCacheLineBytes) ParkingLot mUnseatedBell; // for threads that wait without a seat
+    // Set by the push of a critical job, cleared by a search that finds none. Normal work pays one load for it.
     alignas(kCacheLineBytes) std::atomic<bool> mCriticalHint{ false };
     alignas(kCacheLineBytes) std::atomic<bool> mStopping{ false };
     Completion mBackgroundCompletion{ 0, Priority::Background };
     std::unique_ptr<BackgroundThreads> mBackground; // null without workers
     std::vector<std::thread> mThreads;
-    // The last member: ends the threads that run, also of a scheduler whose constructor did not get all of them.
+    // The last member: ends the running threads, even if the constructor could not start all of them.
     struct ThreadEnd {
         Scheduler& scheduler;
         ~ThreadEnd() { scheduler.endThreads(); }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Seat: what a thread needs to fork and join without asking anybody: deques, free jobs, a bell to be woken by.
-/// SeatTable: all seats of a system; workers own one for life, other threads sit down for a while.
+/// Seat: what a thread needs to fork and join independently: deques, free jobs, and a bell to be woken by.
+/// SeatTable: all seats of a system; workers own one permanently, other threads occupy one for a while.
 /// ThreadState: what the job system knows about the calling thread.
-///   Thread  a seat's deques are stolen from by all; bell and `waitsFor` are rung and read by all; the rest belongs to
-///           its occupant. SeatTable: any.
-///   Memory  11 KiB a seat.
+///   Thread  any thread may steal from a seat's deques, ring its bell and read `waitsFor`; the rest belongs to its
+///           occupant. SeatTable: any.
+///   Memory  11 KiB per seat.
 ///   Limits  kGuestSeats threads besides the workers.
 ///   Fails   sitDown() returns null when every guest seat is taken.
 #pragma once
@@ -33,7 +33,7 @@ struct alignas(kCacheLineBytes) Seat {
 
     JobStorage::Cache cache;
     Scheduler* scheduler = nullptr;
-    Seat* outer = nullptr; ///< the seat that the same thread has in another system, below on its stack
+    Seat* outer = nullptr; ///< the seat of the same thread in another system, further down its stack
     Occupant occupant = 0;
     Patience patience;
     uint32_t random = 0; ///< state of the victim generator, not 0
@@ -53,7 +53,7 @@ public:
     /// Workers' seats come first.
     Seat& operator[](uint32_t index) { return mSeats[index]; }
     uint32_t indexOf(Seat const& seat) const { return static_cast<uint32_t>(&seat - mSeats.get()); }
-    /// Seats from here on have never been used: nothing is in their deques.
+    /// Seats from here on have never been used: their deques are empty.
     uint32_t inUse() const { return mInUse.load(std::memory_order_seq_cst); }
     uint32_t workers() const { return mWorkers; }
 
@@ -73,7 +73,7 @@ struct ThreadState {
     Seat* seat = nullptr;                    ///< of the innermost system on the thread's stack
     uintptr_t stackFloor = 0;                ///< see FreshStack.h
     Priority priority = Priority::Normal;    ///< of the running job
-    BackgroundThreads* background = nullptr; ///< whose thread this is; such threads run no frame jobs of that system
+    BackgroundThreads* background = nullptr; ///< its owner, for background threads: they run no frame jobs
     ParkingLot* backgroundBell = nullptr;
 
     Seat* seatOf(Scheduler const& scheduler) const {

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Topology: which processors this process may use, what they share, and how many threads they feed.
-///   In      hwloc for the machine, the calling thread's affinity mask (which threads started by it inherit; taskset,
-///           cpuset cgroups and containers arrive there), the cgroups' CPU quota (CpuQuota.h).
-///   Thread  any. Call it before the calling thread is pinned: a thread tied to one core sees a machine of one core.
+/// Topology: the processors that this process may use, what they share, and how many threads they can run.
+///   In      hwloc for the machine; the calling thread's affinity mask, which its threads inherit (taskset, cpuset
+///           cgroups and containers set it); the CPU quota of the cgroups (CpuQuota.h).
+///   Thread  any. Call it before pinning the calling thread: a thread bound to one core sees a machine of one core.
 ///   Memory  the description of the machine is loaded once per process, at the first readTopology(), and kept.
-///   Fails   never: what is not known (no /sys, a processor that hwloc does not list) counts as a core of its own, of
-///           the only class, in the first cache group.
-///   Cost    readCpuBudget 0.05 ms; readTopology the same and, once a process, 0.4 ms for hwloc (2 cores).
+///   Fails   never: without information (no /sys, or a processor unknown to hwloc) a processor counts as a separate
+///           core, of the only class, in the first cache group.
+///   Cost    readCpuBudget 0.05 ms; readTopology the same, and once per process 0.4 ms for hwloc (2 cores).
 #pragma once
 
 #include <cstdint>
@@ -17,17 +17,17 @@
 
 namespace filament::jobs {
 
-/// One hardware thread: what the operating system calls a CPU, and what options of the engine call a core.
+/// One hardware thread: a CPU to the operating system, a core in the options of the engine.
 struct Cpu {
     int index = 0;           ///< the operating system's number
-    int physicalCore = 0;    ///< hardware threads of one core have the same; counts up from 0 within a Topology
+    int physicalCore = 0;    ///< equal for hardware threads of one core; counts up from 0 within a Topology
     int smtRank = 0;         ///< 0: the first hardware thread of its core that this process may use
-    int cacheGroup = 0;      ///< those that share the last level of cache (L3, or else L2) have the same; from 0
+    int cacheGroup = 0;      ///< equal for CPUs that share the last level of cache (L3, or else L2); from 0
     int efficiencyClass = 0; ///< more is faster; big.LITTLE and hybrid machines have several
     int maxMegahertz = 0;    ///< 0: unknown
 };
 
-/// How many threads can run at a time.
+/// How many threads can run at the same time.
 struct CpuBudget {
     std::vector<int> cores{};   ///< operating system's numbers, ascending; at least one
     double quota = 0;           ///< processors' worth of time; infinity: no limit
@@ -40,10 +40,10 @@ struct Topology {
     uint32_t usableThreads = 1;
 };
 
-/// Another machine than this one, for tests.
+/// A different machine than this one, for tests.
 struct TopologySource {
     std::filesystem::path root = "/"; ///< of /proc and the cgroup mounts
-    std::vector<int> cores{};         ///< the affinity mask; empty: the calling thread's
+    std::vector<int> cores{};         ///< the affinity mask; empty: that of the calling thread
     std::string hwlocXml{};           ///< the machine as hwloc exports it; empty: this one
 };
 
