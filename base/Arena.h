@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Arena: linear memory for things that live exactly one frame.
-///   Memory  grows in blocks; reset() replaces several by one of their size, so that after warm-up a frame allocates
-///           nothing from the heap, and frames of growing needs do so ever more seldom.
-///   Thread  one thread at a time. Jobs get spans carved out before they start.
-///   Limits  objects are never destructed: trivially destructible types only.
-///   Fails   std::bad_alloc, and what was allocated before stays valid.
+/// Arena: linear memory for objects that live exactly one frame.
+///   Memory  grows in blocks. reset() replaces several blocks by one of their total size, so that after warm-up a frame
+///           allocates nothing from the heap, and growing frames allocate ever more rarely.
+///   Thread  one thread at a time. Jobs get spans that are allocated before they start.
+///   Limits  objects are never destroyed: trivially destructible types only.
+///   Fails   std::bad_alloc; earlier allocations stay valid.
 #pragma once
 
 #include "base/Assert.h"
@@ -37,7 +37,7 @@ public:
         return { first, count };
     }
 
-    /// `count` elements with whatever the memory held before: for arrays that are written in full, or from the front.
+    /// `count` uninitialised elements, for arrays that are written in full or from the front.
     template <class T>
     std::span<T> arrayForOverwrite(size_t count) {
         static_assert(std::is_trivially_copyable_v<T> && std::is_trivially_destructible_v<T>,
@@ -59,7 +59,7 @@ public:
         return { first, source.size() };
     }
 
-    /// Forgets everything allocated; keeps as much memory as there was.
+    /// Releases everything allocated, but keeps the memory.
     void reset();
 
     size_t bytesUsed() const;

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FILAMENT_ASSERT(condition, "the rule that the caller broke"): a bug of the caller, caught in every build.
-///   Fails   prints file, line, condition, rule and what the thread was doing on standard error, then aborts.
-///   Cost    one predicted branch; for hot loops use FILAMENT_DEBUG_ASSERT, which is gone when NDEBUG is set.
+///   Fails   prints file, line, condition, rule and the current task of the thread on standard error, then aborts.
+///   Cost    one predicted branch; in hot loops use FILAMENT_DEBUG_ASSERT, which NDEBUG removes.
 #pragma once
 
 namespace filament {
 
-/// What the calling thread is doing, for the message: the job system puts the name of the job here. The text lives as
-/// long as the process. Null: nothing to tell.
+/// The current task of the calling thread, for the message: the job system stores the name of the job here. The text
+/// lives as long as the process. Null: none.
 inline constinit thread_local const char* tAssertContext = nullptr;
 
 [[noreturn]] void assertionFailed(const char* file, int line, const char* condition, const char* rule);

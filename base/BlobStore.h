@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// BlobStore: bytes behind 64-bit keys, kept in one file from run to run: compiled programs and the like.
-///   In      a file, who may read it (a hash of device, driver, versions), how large the file may grow.
-///   File    little-endian: magic, identity, hash of the rest; then key, size and bytes of every entry. Written beside
-///           itself and renamed, so that readers find the old one or the new one and nothing in between.
-///   Limits  save() leaves out what this run did not ask for, then the largest, until the rest fits.
-///   Thread  one at a time; several processes may use one file, the last to save wins.
-///   Fails   what cannot be read, or belongs to something else, counts as empty, with one warning that names the file;
-///           what cannot be written is a warning, too. Only std::bad_alloc leaves find() and put() unchanged.
+/// BlobStore: bytes by 64-bit key, kept in one file between runs, such as compiled programs.
+///   In      a file, an identity that must match (a hash of device, driver, versions), and the maximum size of the
+///           file.
+///   File    little-endian: magic, identity, hash of the rest; then key, size and bytes of every entry. It is written
+///           under another name and renamed, so that readers find either the old file or the new one.
+///   Limits  save() drops entries that this run did not request, then the largest ones, until the rest fits.
+///   Thread  one at a time; several processes may use one file, and the last one to save wins.
+///   Fails   a file that cannot be read, or has another identity, counts as empty, with one warning that names it.
+///           Failing to write is a warning too. On std::bad_alloc find() and put() change nothing.
 #pragma once
 
 #include <cstddef>
@@ -27,7 +28,7 @@ public:
     void put(uint64_t key, std::span<const std::byte> bytes);
     void erase(uint64_t key);
     size_t size() const { return mBlobs.size(); }
-    /// Nothing if nothing has changed since the file was read.
+    /// Does nothing if nothing has changed since the file was read.
     void save();
 
 private:

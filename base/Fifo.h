@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Fifo: a queue that keeps its memory. std::deque gives blocks back and asks for new ones while it moves along.
-///   Memory  one array, doubled when full; a queue that is emptied as fast as it is filled allocates nothing.
+/// Fifo: a queue that keeps its memory. std::deque frees and allocates blocks as it moves along.
+///   Memory  one array, doubled when full; a queue that is emptied as fast as it fills allocates nothing.
 ///   Limits  T is default-constructible and movable; popped elements are replaced by T().
 ///   Thread  one at a time.
 #pragma once

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// HandleAllocator: gives handles out and takes them back.
+/// HandleAllocator: allocates and frees handles.
 ///   Thread  any; one short lock per call. Never waits for a driver or a device.
-///   Limits  2^20 live handles; beyond it allocate() asserts, naming the type's limit.
+///   Limits  2^20 live handles; beyond that allocate() asserts and names the type's limit.
 ///   Fails   allocate() throws std::bad_alloc and changes nothing; free() never fails.
 #pragma once
 
@@ -32,7 +32,7 @@ public:
         return Handle<Tag>::make(index, mGenerations[index]);
     }
 
-    /// Takes a handle back; its index is given out again under another generation.
+    /// Frees a handle; its index is reused with another generation.
     void free(Handle<Tag> handle) {
         const std::lock_guard lock(mMutex);
         FILAMENT_ASSERT(isLiveLocked(handle), "a handle is freed once, and only by whoever allocated it");
@@ -56,13 +56,13 @@ private:
         return handle && handle.index() < mGenerations.size() && mGenerations[handle.index()] == handle.generation();
     }
 
-    // Room for every handle to come back.
+    // Reserves room for every handle to be freed.
     void reserveFree(size_t count) {
         if (mFree.capacity() < count) mFree.reserve(std::max(count, 2 * mFree.capacity()));
     }
 
     mutable std::mutex mMutex;
-    std::vector<uint32_t> mGenerations; // of the handle given out last, or of the next one
+    std::vector<uint32_t> mGenerations; // of the handle allocated last, or of the next one
     std::vector<uint32_t> mFree;
 };
 

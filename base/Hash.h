@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// hashBytes: a 64-bit content hash for caches and determinism checks; the same on every machine and run.
+/// hashBytes: a 64-bit content hash for caches and determinism checks; the same on every machine and in every run.
 ///   Source  wyhash-style 64x64 -> 128 bit multiply folding (Wang Yi, "wyhash", 2019); not cryptographic.
-///   Cost    about 4 bytes a cycle; no allocation.
+///   Cost    about 4 bytes per cycle; no allocation.
 #pragma once
 
 #include <cstddef>

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Log: one line of text to whoever listens.
+/// Log: writes lines of text to a sink.
 ///   Thread  any; lines never interleave.
 ///   Sink    standard error by default; setLogSink replaces it (tests collect, tools prefix).
-///   Fails   a line for which there is no memory is left out, which takes its place as a line.
+///   Fails   if there is no memory for a line, a line that says so takes its place.
 ///   Cost    formats only when the severity is at or above the threshold.
 #pragma once
 
@@ -18,7 +18,7 @@ enum class Severity : unsigned char { Debug, Info, Warning, Error };
 
 using LogSink = std::function<void(Severity, std::string_view line)>;
 
-/// Replaces the sink; an empty function restores standard error. Returns the one before.
+/// Replaces the sink; an empty function restores standard error. Returns the previous sink.
 LogSink setLogSink(LogSink sink);
 
 /// Lines below this severity are dropped before they are formatted. Default: Info.
@@ -26,7 +26,7 @@ void setLogThreshold(Severity severity);
 bool logs(Severity severity);
 
 void logLine(Severity severity, std::string_view line);
-/// On standard error: the sink may be what ran out of memory.
+/// Writes to standard error, because the sink may be what ran out of memory.
 void logLineIsMissing() noexcept;
 
 template <class... Args>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Exhausted host memory, where a room ends: std::bad_alloc inside of a room is an Error outside of it.
+/// Turns std::bad_alloc inside a room into an Error at the boundary of the room.
 ///   Use     return orOutOfMemory("loading", path.native(), [&]() -> Result<Model> { ... });
 ///   Thread  any.
-///   Memory  none that has to be there: where the text cannot be made, the error still says "out of memory".
-///   Fails   never; other exceptions pass.  Cost: a try block.
+///   Memory  needs none: without memory for its text, the error still says "out of memory".
+///   Fails   never; other exceptions pass through.  Cost: a try block.
 #pragma once
 
 #include <filament/Result.h>
@@ -19,7 +19,8 @@ namespace filament {
 /// "loading 'a.glb': out of memory; free some and try again".
 Error outOfMemory(std::string_view doing, std::string_view object = {}) noexcept;
 
-/// function(), which returns a Result. A size that no memory can have (std::length_error) counts as too little of it.
+/// Returns function(), which returns a Result. A size that is too large for any memory (std::length_error) also counts
+/// as out of memory.
 template <class F>
 auto orOutOfMemory(std::string_view doing, std::string_view object, F&& function) -> std::invoke_result_t<F&> {
     try {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Result and Error are public types; the rooms below the API reach them here.
+/// Result and Error are public types; the rooms below the API include them through this header.
 ///   fail() builds an Error from a format string: `return fail(ErrorCode::NotFound, "no file '{}'", path);`
 #pragma once
 

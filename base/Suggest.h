@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// suggestion: "; did you mean 'roughness'?" for a misspelt name, empty when nothing is near.
-///   Nearness is the Levenshtein distance, ignoring case: at most a third of the name's length, at least 2.
+/// suggestion: "; did you mean 'roughness'?" for a misspelt name; empty if no known name is near.
+///   Nearness is the Levenshtein distance, ignoring case: at most a third of the name's length, or 2 if that is more.
 #pragma once
 
 #include <ranges>
@@ -13,7 +13,7 @@ namespace filament {
 
 std::string suggestion(std::string_view name, std::span<const std::string_view> known);
 
-/// The names of things that have one, for suggestion(). Views into the items.
+/// The names of the items, for suggestion(). Views into the items.
 template <std::ranges::range Items>
 std::vector<std::string_view> namesOf(Items const& items) {
     std::vector<std::string_view> names;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Bounding boxes as centre and half extent, and what transforms do to them.
+/// Bounding boxes as centre and half extent, and their transformation.
 #pragma once
 
 #include "base/math/Math.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Frustum: the planes of a view, in the camera-relative world space of the shaders. Without a far plane: the
+/// Frustum: the planes of a view in the camera-relative world space of the shaders. There is no far plane, because the
 /// projection has none.
 #pragma once
 
@@ -18,7 +18,7 @@ struct Frustum {
 /// Gribb & Hartmann 2001, "Fast extraction of viewing frustum planes", for clip z in [0, w] with reversed depth.
 Frustum frustumFromClip(float4x4 const& clipFromWorld);
 
-/// False only if the box is outside of one plane: conservative at edges and corners.
+/// False only if the box is outside one of the planes: conservative at edges and corners.
 inline bool intersects(Frustum const& frustum, float3 center, float3 halfExtent) {
     for (float4 const& plane : frustum.planes) {
         const float3 normal(plane);
@@ -28,12 +28,12 @@ inline bool intersects(Frustum const& frustum, float3 center, float3 halfExtent)
     return true;
 }
 
-/// Eight boxes, a component a member.
+/// Eight boxes, one member per component.
 struct Box8 {
     std::array<simd::Float8, 3> center, halfExtent;
 };
 
-/// A frustum made ready for eight boxes at a time.
+/// A frustum prepared for testing eight boxes at a time.
 class Frustum8 {
 public:
     explicit Frustum8(Frustum const& frustum) {
@@ -43,7 +43,8 @@ public:
         }
     }
 
-    /// Bit i: intersects() of box i, to the bit also for NaN and infinities: the same operations in the same order.
+    /// Bit i: intersects() of box i. The same bits also for NaN and infinities, since the operations have the same
+    /// order.
     uint32_t intersects(Box8 const& boxes) const {
         simd::Mask8 outside{};
         for (size_t i = 0; i < mPlanes.size(); ++i) {
@@ -55,7 +56,7 @@ public:
 
 private:
     std::array<float4, 5> mPlanes;
-    std::array<float3, 5> mReaches; // of a box along each normal: absolute values
+    std::array<float3, 5> mReaches; // extent of a box along each normal: absolute values
 };
 
 inline bool intersectsSphere(Frustum const& frustum, float3 center, float radius) {

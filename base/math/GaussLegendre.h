@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Gauss-Legendre quadrature: the integral of f over [0, 1] is about the sum of weight * f(x) over the nodes, and is
-/// that for polynomials of degree 2 count - 1.
-///   Thread  any. Cost: 8 count^2 steps: make the nodes once.
+/// Gauss-Legendre quadrature: the sum of weight * f(x) over the nodes approximates the integral of f over [0, 1], and
+/// is exact for polynomials up to degree 2 count - 1.
+///   Thread  any. Cost: 8 count^2 steps, so compute the nodes once.
 #pragma once
 
 #include <vector>
@@ -13,7 +13,7 @@ struct QuadratureNode {
     double weight = 0;
 };
 
-/// count > 0. From the node nearest to 1 down.
+/// count > 0. Ordered from the node nearest to 1 downwards.
 std::vector<QuadratureNode> gaussLegendre(int count);
 
 } // namespace filament

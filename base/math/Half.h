@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// IEEE 754 binary16 and the packed unsigned floats of the graphics APIs, rounded to nearest even.
-///   Finite values above the format's maximum are clamped to it: a sun must not become infinite. NaN becomes 0,
-///   negative values become 0 in the unsigned formats.
+///   Finite values above the format's maximum are clamped to it, so that a sun does not become infinite. NaN becomes 0,
+///   and negative values become 0 in the unsigned formats.
 #pragma once
 
 #include "base/math/Math.h"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The 32-bit format RGB9E5: three mantissas of 9 bits under one exponent of 5, without signs.
+/// The 32-bit format RGB9E5: three unsigned mantissas of 9 bits with a common exponent of 5 bits.
 ///   Finite values above the maximum are clamped to it; NaN and negative values become 0.
-///   Source  OpenGL 4.6, section 8.5.2; Vulkan E5B9G9R9_UFLOAT_PACK32. Rounded to nearest, halves up, as they say.
+///   Source  OpenGL 4.6, section 8.5.2; Vulkan E5B9G9R9_UFLOAT_PACK32. Rounded to nearest, halves up, as specified.
 ///   Thread  pure functions. Memory: none. Fails: never.
 #pragma once
 

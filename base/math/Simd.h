@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Simd: eight floats at a time in two registers of four, on any CPU that GCC or Clang knows (SSE2 and NEON are the
+/// Simd: eight floats at a time in two registers of four, on any CPU that GCC or Clang supports (SSE2 and NEON are the
 /// baselines of their platforms).
-///   Bits    an operation on lanes gives the bits of the same operation on each float alone: nothing is contracted
-///           (-ffp-contract=off) or re-ordered. Comparisons with NaN are false.
+///   Bits    an operation on lanes gives the same bits as the operation on each float alone: nothing is contracted
+///           (-ffp-contract=off) or reordered. Comparisons with NaN are false.
 ///   Memory  loads and stores need no alignment.
-///   Limits  8 lanes. AVX2 (one register of eight) was measured: it would save 1.4 ns of the 4 ns that a box costs to
-///           cull, of about 30 that a frame prepares it for; not worth a second code path
-///           (bench/filament_core/prepare).
+///   Limits  8 lanes. AVX2 (one register of eight) was measured: it would save 1.4 of the 4 ns for culling a box, out
+///           of about 30 ns per box and frame. That is not worth a second code path (bench/filament_core/prepare).
 #pragma once
 
 #include <array>
@@ -36,7 +35,7 @@ struct Float8 {
     friend Float8 operator-(Float8 const& a) { return { -a.low, -a.high }; }
 };
 
-/// All bits of a lane are set or none.
+/// A lane has either all bits set or none.
 struct Mask8 {
     Mask4 low, high;
 
@@ -57,7 +56,7 @@ inline Float8 load8(const float* from) {
     return lanes;
 }
 
-/// float(from[lane] - origin): the difference in double, then rounded once.
+/// float(from[lane] - origin): subtracted in double precision, then rounded once.
 inline Float4 loadRelative4(const double* from, double origin) {
     Double2 low, high;
     load(low, from);
@@ -75,7 +74,7 @@ inline void store8(std::array<float, kLanes>& to, Float8 const& lanes) {
     std::memcpy(to.data() + 4, &lanes.high, sizeof lanes.high);
 }
 
-/// x * x + y * y + z * z, in this order, as glm::dot of each lane.
+/// x * x + y * y + z * z in this order, like glm::dot of each lane.
 template <class Vector3>
 Float8 dot(Vector3 const& a, std::array<Float8, 3> const& b) {
     return b[0] * a.x + b[1] * a.y + b[2] * a.z;
@@ -95,7 +94,8 @@ inline uint32_t bits4(Mask4 const& mask) {
 
 inline uint32_t bits8(Mask8 const& mask) { return bits4(mask.low) | bits4(mask.high) << 4; }
 
-/// Bit i of the result: bit `bit` of byte i. The multiplication gathers the lowest bits of eight bytes in the top one.
+/// Bit i of the result is bit `bit` of byte i. The multiplication gathers the lowest bits of eight bytes in the top
+/// byte.
 inline uint32_t bitOfEachByte(uint64_t bytes, uint32_t bit) {
     return static_cast<uint32_t>((((bytes >> bit) & 0x0101'0101'0101'0101ull) * 0x0102'0408'1020'4080ull) >> 56);
 }

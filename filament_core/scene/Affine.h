@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Affine: a transform without its last row, which is always (0 0 0 1): 96 bytes instead of 128. Double, because
-/// translations are metres in a world. Kept by rows, so that compose() works on halves of a row at once: 5.8 ns where
-/// the full product of GLM takes 11.5.
+/// Affine: a transform without its last row, which is always (0 0 0 1): 96 bytes instead of 128. In double precision,
+/// because translations are metres in a world. Stored by rows, so that compose() works on half a row at a time: 5.8 ns
+/// instead of 11.5 ns for GLM's full product.
 ///   Bits    compose() adds in the order of a full matrix product, so it equals double4x4 * double4x4 to the bit.
-///   Fails   never. What is not finite becomes zero: a point that draws nothing and stays one.
+///   Fails   never. A transform that is not finite becomes zero: a point that draws nothing, and stays one.
 #pragma once
 
 #include "base/math/Math.h"
@@ -15,7 +15,7 @@ namespace filament::scene {
 struct Affine {
     using Double2 [[gnu::vector_size(16)]] = double;
     struct Row {
-        Double2 xy, zw; ///< of the linear part x, y, z; of the translation w
+        Double2 xy, zw; ///< xy: linear part x, y; zw: linear part z, translation w
     };
 
     std::array<Row, 3> rows{}; ///< zero
@@ -33,7 +33,7 @@ inline Affine finiteOrZero(Affine const& a) {
     return sum[0] + sum[1] == 0 ? a : Affine{};
 }
 
-/// The last row is not looked at.
+/// Ignores the last row.
 inline Affine affineFrom(double4x4 const& m) {
     const auto row = [&](int i) {
         return Affine::Row{ Affine::Double2{ m[0][i], m[1][i] }, Affine::Double2{ m[2][i], m[3][i] } };
@@ -58,7 +58,7 @@ inline double3 transformVector(Affine const& a, double3 const& v) {
 
 inline double3 transformPoint(Affine const& a, double3 const& p) { return transformVector(a, p) + a.translation(); }
 
-/// First `b`, then `a`. Zero where the product of two finite transforms leaves the range of double.
+/// First `b`, then `a`. Zero if the product of two finite transforms leaves the range of double.
 inline Affine compose(Affine const& a, Affine const& b) {
     Affine product;
     for (size_t i = 0; i < 3; ++i) {
@@ -75,7 +75,7 @@ inline double3x3 linearPart(Affine const& a) {
     return glm::transpose(double3x3(a.linearRow(0), a.linearRow(1), a.linearRow(2)));
 }
 
-/// Zero where there is none.
+/// Zero if there is none.
 inline Affine inverse(Affine const& a) {
     const double3x3 linear = glm::inverse(linearPart(a));
     double4x4 m(linear);

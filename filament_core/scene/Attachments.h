@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Attachments: which things of one kind hang at which node. A doubly linked list a node, threaded through the things.
+/// Attachments: which things of one kind are attached to which node. One doubly linked list per node, threaded through
+/// the things.
 ///   Thread  the app thread; forEach() on any number of threads while nothing changes.
-///   Memory  16 bytes a thing, 4 bytes a node; both grow to the highest index in use. Attaching and detaching is O(1).
+///   Memory  16 bytes per thing, 4 bytes per node; both grow to the highest index in use. Attaching and detaching are
+///           O(1).
 ///   Fails   attaching twice is an assertion.
 #pragma once
 
@@ -30,7 +32,7 @@ public:
         mFirst[node] = thing.index();
     }
 
-    /// Nothing happens to what hangs nowhere.
+    /// Does nothing to a thing that is not attached.
     void detach(Handle<Tag> thing) {
         if (!isAttached(thing)) return;
         const Link link = mLinks[thing.index()];
@@ -39,14 +41,14 @@ public:
         mLinks[thing.index()].node = kNone;
     }
 
-    /// kNone: it hangs nowhere.
+    /// kNone: it is not attached.
     uint32_t nodeOf(Handle<Tag> thing) const {
         return thing.index() < mLinks.size() ? mLinks[thing.index()].node : kNone;
     }
 
     bool isAttached(Handle<Tag> thing) const { return nodeOf(thing) != kNone; }
 
-    /// none: nothing hangs at the node.
+    /// none: nothing is attached to the node.
     Handle<Tag> first(uint32_t node) const {
         return node < mFirst.size() && mFirst[node] != kNone ? mLinks[mFirst[node]].thing : Handle<Tag>{};
     }
@@ -63,7 +65,7 @@ private:
         uint32_t node = kNone, next = kNone, previous = kNone;
     };
 
-    std::vector<Link> mLinks;     // by handle index of the thing
+    std::vector<Link> mLinks;     // by the thing's handle index
     std::vector<uint32_t> mFirst; // by node
 };
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Deformations: what moves the vertices of renderables: skins, whose bones follow nodes or are given, and weights of
-/// morph targets. A deformed renderable has a slot of its own here, and its drawable names the slot.
-///   Bounds  of a deformed renderable: its box at rest, grown by the morph targets as far as their weights reach, moved
-///           by every bone. A vertex is a mean of where its bones put it, so it never leaves that box; boxes a bone
-///           make it tight.
-///   Bones   objectFromNode^-1 * worldFromJoint * jointFromBind, in double, rounded to float at the end.
+/// Deformations: what moves the vertices of renderables: skins, whose bones follow nodes or are set by the user, and
+/// weights of morph targets. A deformed renderable has its own slot here, and its drawable refers to the slot.
+///   Bounds  the box at rest, grown by the morph targets according to their weights, then moved by every bone. A vertex
+///           is a weighted mean of the positions its bones give it, so it never leaves that box. One box per bone makes
+///           it tight.
+///   Bones   objectFromNode^-1 * worldFromJoint * jointFromBind in double precision, rounded to float at the end.
 ///   Thread  the app thread between frames; read-only while a frame is prepared. updateSkin() runs on many threads at
-///           once, each with skins of its own.
-///   Memory  48 bytes a bone and what is described below; slots are reused.
-///   Fails   never. Weights that are not finite count as 0, bones that are not finite as zero.
+///           once, each with its own skins.
+///   Memory  48 bytes per bone and the data described below; slots are reused.
+///   Fails   never. Weights that are not finite count as 0, bones that are not finite as a zero transform.
 #pragma once
 
 #include "backend/api/Handles.h"
@@ -36,17 +36,17 @@ struct MinMax {
 struct MorphTargets {
     backend::TextureHandle deltas;
     uint32_t vertexCount = 0, targetCount = 0;
-    uint32_t texels = 1;         ///< a vertex and target
-    std::vector<MinMax> reach{}; ///< of each target: of the differences of positions, 0 included
+    uint32_t texels = 1;         ///< per vertex and target
+    std::vector<MinMax> reach{}; ///< of each target: range of the position displacements, 0 included
 };
 
 struct SkinData {
-    Node node{};                       ///< object space is its space; none: the world
-    std::vector<Node> joints;          ///< empty: the bones are set by hand
+    Node node{};                       ///< the node whose space is object space; none: world space
+    std::vector<Node> joints;          ///< empty: the user sets the bones
     std::vector<Affine> jointFromBind; ///< parallel to joints
     std::vector<shader::BoneData> bones;
-    std::vector<uint8_t> mirrors;       ///< parallel to bones: turns front faces into back faces
-    std::vector<uint32_t> deformations; ///< slots of those who use it
+    std::vector<uint8_t> mirrors;       ///< parallel to bones: the bone turns front faces into back faces
+    std::vector<uint32_t> deformations; ///< slots of the renderables that use it
     bool isStale = false;
 };
 
@@ -57,7 +57,7 @@ struct Deformation {
     MorphTargets const* morph = nullptr;
     std::vector<float> weights; ///< of morph->targetCount targets
     MinMax restBounds;
-    std::vector<MinMax> boneBounds; ///< by bone, of the vertices that it moves; empty: restBounds for all
+    std::vector<MinMax> boneBounds; ///< by bone, of the vertices that it moves; empty: restBounds for all bones
 };
 
 class Deformations {
@@ -66,11 +66,11 @@ public:
     void removeSkin(Skin skin);
     SkinData& skin(Skin skin) { return mSkins[at(skin)]; }
     SkinData const& skin(Skin skin) const { return mSkins[at(skin)]; }
-    /// By Skin::index(); free ones have no bones.
+    /// By Skin::index(); unused ones have no bones.
     std::span<SkinData> skins() { return mSkins; }
     std::span<const SkinData> skins() const { return mSkins; }
 
-    /// The renderable is named later, by bind().
+    /// bind() names the renderable later.
     uint32_t add(Deformation deformation);
     void bind(uint32_t slot, Renderable renderable) { mDeformations[slot].renderable = renderable; }
     void remove(uint32_t slot);
@@ -80,10 +80,10 @@ public:
     bool hasSkins() const { return mSkinCount > 0; }
     bool empty() const { return mCount == 0; }
 
-    // Which skins have to be computed again: an update of the nodes notes what it moved.
+    // Which skins must be recomputed: an update of the nodes records what it moved.
 
     void beginMoving(size_t nodeSlots);
-    /// Many threads at once, each with nodes of its own.
+    /// Many threads at once, each with its own nodes.
     void noteMoved(uint32_t nodeSlot) { mMovedIn[nodeSlot] = mUpdate; }
     bool hasMoved(Node joint) const { return joint.index() < mMovedIn.size() && mMovedIn[joint.index()] == mUpdate; }
     /// Until the end of the update.
@@ -109,7 +109,7 @@ private:
     bool mIsMoving = false, mHasStale = false;
 };
 
-/// Rows of floats, and whether they mirror.
+/// The rows as floats, and whether the bone mirrors.
 shader::BoneData boneFrom(Affine const& objectFromBind);
 bool isMirroring(shader::BoneData const& bone);
 

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Drawables: the distinct pairs of geometry and material instance in a scene, numbered. Renderables with equal numbers
-/// can share an instanced draw, so a frame compares and sorts numbers and never looks behind them.
-///   In      what renderables are made of.   Out: small dense numbers, given out again when nobody uses them.
+/// can share an instanced draw, so a frame only compares and sorts numbers.
+///   In      the geometry and material of renderables.   Out: small dense numbers, reused when no renderable has them.
 ///   Thread  the app thread between frames; read-only while a frame is prepared.
-///   Memory  about 100 bytes a pair. Adding what is known already allocates nothing.
+///   Memory  about 100 bytes per pair. Adding a known pair allocates nothing.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -15,7 +15,7 @@
 
 namespace filament::scene {
 
-/// One draw's worth of geometry on the device.
+/// The geometry of one draw on the device.
 struct Geometry {
     backend::BufferHandle vertices, indices;
     uint32_t layout = 0; ///< into GeometryLayouts: vertex layout and topology
@@ -24,7 +24,7 @@ struct Geometry {
     friend bool operator==(Geometry const&, Geometry const&) = default;
 };
 
-/// Vertex layout and topology, interned: geometries with equal layouts share pipelines.
+/// Vertex layout and topology, stored once: geometries with equal layouts share pipelines.
 struct GeometryLayout {
     backend::VertexLayout vertices{};
     backend::Topology topology = backend::Topology::Triangles;
@@ -41,10 +41,10 @@ private:
     std::vector<GeometryLayout> mLayouts;
 };
 
-/// Of Drawable::deformation.
+/// For Drawable::deformation.
 inline constexpr uint32_t kNotDeformed = ~0u;
 
-/// What is deformed is drawn alone: no two renderables have the same deformation.
+/// Deformed objects are drawn alone: no two renderables share a deformation.
 struct Drawable {
     Geometry geometry{};
     MaterialInstance const* material = nullptr;
@@ -55,23 +55,23 @@ struct Drawable {
 class Drawables {
 public:
     /// Bits of Use::order: neighbours in this order share programs, then parameters. Ids beyond 12 bits wrap around,
-    /// which costs state changes and nothing else.
+    /// which only costs state changes.
     static constexpr uint32_t kMaterialBits = 12, kInstanceBits = 12;
     static constexpr uint32_t kBlendedOrder = 1u << 31;
     static constexpr uint32_t kTwoPassesOrder = 1u << 30; ///< blended, and drawn twice
 
-    /// The number of this pair, with one more user.
+    /// The number of this pair; adds a user.
     uint32_t acquire(Drawable const& drawable);
     void release(uint32_t number);
 
     Drawable const& operator[](uint32_t number) const { return mDrawables[number]; }
-    /// What sorting reads of a pair.
+    /// The part of a pair that sorting reads.
     struct Use {
         uint32_t order = 0; ///< material << kInstanceBits | instance, and the flags above
         uint32_t users = 0;
     };
     Use use(uint32_t number) const { return mUses[number]; }
-    /// All numbers are below; also those of pairs that nobody uses any more.
+    /// All numbers are below this, including those of pairs without users.
     uint32_t limit() const { return static_cast<uint32_t>(mDrawables.size()); }
     uint32_t count() const { return static_cast<uint32_t>(mNumbers.size()); }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Materials and instances as the frame sees them: which programs, which parameters, which raster state.
+/// Materials and instances as the frame sees them: programs, parameters and raster state.
 ///   Thread  written by the app thread between frames, read by workers during prepare.
 ///   Life    instances point to their material; renderables point to their instance. Both have stable addresses.
 #pragma once
@@ -16,7 +16,7 @@
 
 namespace filament::scene {
 
-/// A program of a material; the pipeline cache chooses the keys.
+/// A program of a material; the pipeline cache defines the keys.
 struct MaterialProgram {
     uint64_t key = 0;
     backend::ProgramHandle handle;
@@ -27,8 +27,8 @@ struct Material {
     std::string name;
     shader::MaterialPackage package;
     std::vector<backend::ConstantValue> constants;
-    std::vector<MaterialProgram> programs; ///< made when first needed
-    std::vector<uint16_t> refusedVariants; ///< asked for and not there; told once
+    std::vector<MaterialProgram> programs; ///< created when first needed
+    std::vector<uint16_t> refusedVariants; ///< requested but not in the package; reported once
     uint32_t instanceCount = 0;
     MaterialDescription description;
 
@@ -38,7 +38,7 @@ struct Material {
     bool hasTwoPasses() const { return package.transparency != shader::TransparencyMode::Default && isBlended(); }
 };
 
-/// What an instance may change of how its material's triangles become pixels.
+/// The part of the raster state that an instance can change.
 struct RasterState {
     shader::Culling culling = shader::Culling::Back;
     bool cullingDisabled = false; ///< both faces, whatever `culling` says
@@ -46,14 +46,14 @@ struct RasterState {
     friend bool operator==(RasterState const&, RasterState const&) = default;
 };
 
-/// As the material says.
+/// As the material defines it.
 inline RasterState initialRaster(shader::MaterialPackage const& package) {
     return { package.culling, package.doubleSided, package.colorWrite, package.depthWrite, package.depthCulling };
 }
 
 struct TextureBinding {
     backend::TextureHandle texture;
-    Sampler sampler{}; ///< as authored
+    Sampler sampler{}; ///< as set by the user
 };
 
 struct MaterialInstance {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Renderables: what can be drawn, by column; each step of a frame reads only the columns it needs.
+/// Renderables: everything that can be drawn, by column; each step of a frame reads only the columns it needs.
 ///   culling      bounds (36 B) and flags (1 B) of every renderable, in order
 ///   sorting      drawable (4 B) of the visible ones
 ///   object data  placement (64 B, one cache line) of the visible ones, in draw order
-///   The rest (objectBounds, name) is for changes and for people; frames do not touch it.
+///   The rest (objectBounds, name) is for edits and messages; frames do not read it.
 ///   Thread  the app thread between frames; read-only while a frame is prepared. place() may run on many threads at
-///           once, each with indices of its own.
+///           once, each with its own indices.
 #pragma once
 
 #include "base/math/Box.h"
@@ -21,8 +21,8 @@
 
 namespace filament::scene {
 
-/// Axis-aligned boxes in world space, a component a column: SIMD loads neighbours. Centres are double; subtracting the
-/// camera leaves what a float can hold.
+/// Axis-aligned boxes in world space, one column per component, so that SIMD can load neighbours. Centres are double;
+/// after subtracting the camera the result fits a float.
 struct BoundsColumns {
     std::array<std::vector<double>, 3> center;
     std::array<std::vector<float>, 3> halfExtent;
@@ -34,8 +34,8 @@ struct BoundsColumns {
     void remove(uint32_t gap);
 };
 
-/// worldFromObject as the shaders see it: the linear part rounded to float once, here, and the translation in double,
-/// because it meets the camera first.
+/// worldFromObject as the shaders see it: the linear part rounded to float once, here, and the translation in double
+/// precision, because the camera is subtracted first.
 struct alignas(64) Placement {
     std::array<float3, 3> rows{}; ///< of the linear part
     float side = 1;               ///< 1 + the instance index; negative if it mirrors
@@ -44,10 +44,10 @@ struct alignas(64) Placement {
 static_assert(sizeof(Placement) == 64, "one cache line a renderable");
 
 enum RenderableFlag : uint8_t {
-    kCulled = 1,    ///< may be dropped when its box is out of view
+    kCulled = 1,    ///< may be skipped when its box is out of view
     kMirrored = 2,  ///< transform and bones together turn front faces into back faces
     kNoIndices = 4, ///< its geometry is empty
-    kCollapsed = 8, ///< the transform makes it a point, which has nothing to draw
+    kCollapsed = 8, ///< the transform collapses it to a point, so there is nothing to draw
     kBonesMirror = 16,
 };
 
@@ -77,22 +77,22 @@ struct RenderableInput {
 
 Renderable add(Renderables& renderables, RenderableInput const& input);
 void remove(Renderables& renderables, Renderable renderable);
-/// Without memory for it everything stays as it was.
+/// Without memory for it, nothing changes.
 void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material);
 
-/// The slot of Deformations that the renderable at position `at` has, or kNotDeformed.
+/// The slot in Deformations of the renderable at position `at`, or kNotDeformed.
 inline uint32_t deformationAt(Renderables const& renderables, uint32_t at) {
     return renderables.drawables[renderables.drawable[at]].deformation;
 }
 
-/// What place() finds next: the box in object space, and whether the bones mirror.
+/// Sets the input of the next place(): the box in object space, and whether the bones mirror.
 void setObjectBounds(Renderables& renderables, uint32_t at, CenteredBox const& bounds, bool bonesMirror);
-/// Its transform as place() left it: the linear part as floats.
+/// The transform that place() stored: the linear part as floats.
 Affine worldFromObject(Renderables const& renderables, uint32_t at);
 
-/// Writes everything that follows from a transform: placement, bounds and flags of the renderable at position `at`.
+/// Writes everything that depends on the transform: placement, bounds and flags of the renderable at position `at`.
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject);
-/// The last row of `worldFromObject` counts as 0 0 0 1. If the rest is not finite, a zero scale takes its place, which
+/// The last row of `worldFromObject` is taken as 0 0 0 1. If the rest is not finite, a zero scale replaces it, which
 /// draws nothing.
 void place(Renderables& renderables, uint32_t at, double4x4 const& worldFromObject);
 

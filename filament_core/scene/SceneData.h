@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneData: what exists, by column. Dense arrays for the frame, handles for the user.
+/// SceneData: everything that exists, by column. Dense arrays for the frame, handles for the user.
 ///   Thread  the app thread between frames; read-only while a frame is prepared.
-///   Memory  one array a property; add and remove are O(1), removal moves the last element into the gap.
+///   Memory  one array per property; add and remove are O(1), and removal moves the last element into the gap.
 #pragma once
 
 #include "filament_core/scene/Attachments.h"
@@ -23,7 +23,7 @@ namespace filament::scene {
 struct LightRecord {
     enum class Type : uint8_t { Sun, Point, Spot } type = Type::Sun;
     double3 positionWorld{ 0.0 };
-    float3 directionWorld{ 0, -1, 0 }; ///< in which light travels, unit
+    float3 directionWorld{ 0, -1, 0 }; ///< direction in which the light travels, unit
     float3 color{ 1.0f };
     float intensity = 0; ///< lux (sun) or candela
     float rangeMeters = 0;
@@ -35,13 +35,13 @@ struct Lights {
     std::vector<LightRecord> records;
 };
 
-/// Of a light that hangs at a node: in the node's space.
+/// Of a light attached to a node: in the node's space.
 struct LightPose {
     double3 position{ 0.0 };
     float3 direction{ 0, -1, 0 };
 };
 
-/// What hangs at which node; SceneNodes.h keeps it.
+/// What is attached to which node; maintained by SceneNodes.h.
 struct NodeContents {
     Attachments<RenderableObject> renderables;
     Attachments<LightObject> lights;
@@ -85,9 +85,9 @@ struct SceneData {
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input);
 void removeRenderable(SceneData& scene, Renderable renderable);
-/// A renderable that a skin or morph targets move. `deformation.renderable` is filled in.
+/// A renderable moved by a skin or by morph targets. Fills in `deformation.renderable`.
 Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation deformation);
-/// place() of Renderables.h, by handle. What hangs at a node is moved by its node.
+/// place() of Renderables.h, by handle. A renderable attached to a node is moved by its node instead.
 void setTransform(SceneData& scene, Renderable renderable, double4x4 const& worldFromObject);
 Light addLight(SceneData& scene, LightRecord const& light);
 void removeLight(SceneData& scene, Light light);

@@ -1,28 +1,28 @@
 // SPDX-License-Identifier: Apache-2.0
 /// What nodes carry: renderables and lights whose object space is the space of a node.
-///   In      handles of the same scene.   Out: world columns of renderables and records of lights, kept in step with
-///           their nodes by placeAttached() whenever a node has moved.
-///   Thread  the app thread, except placeAttached(): several threads at once, each with nodes of its own.
-///   Fails   a stale handle is an assertion; so is attaching what hangs at a node already.
+///   In      handles of the same scene.   Out: world columns of renderables and records of lights; placeAttached()
+///           updates them whenever a node has moved.
+///   Thread  the app thread, except placeAttached(): several threads at once, each with its own nodes.
+///   Fails   a stale handle is an assertion, and so is attaching something twice.
 #pragma once
 
 #include "filament_core/scene/SceneData.h"
 
 namespace filament::scene {
 
-/// From now on the renderable stands where the node stands; what it had as its own transform is forgotten.
+/// From now on the node gives the renderable its transform; the renderable's own transform is discarded.
 void attach(SceneData& scene, Renderable renderable, Node node);
-/// Position and direction of the light's record, as they are now, become those in the node's space.
+/// The current position and direction of the light's record are taken as being in the node's space.
 void attach(SceneData& scene, Light light, Node node);
 
-/// The node it hangs at; none: it has a transform of its own.
+/// The node it is attached to; none: it has its own transform.
 Node nodeOf(SceneData const& scene, Renderable renderable);
 Node nodeOf(SceneData const& scene, Light light);
 
-/// The node, all nodes below it, and every renderable, light and skin that hangs at one of them.
+/// Removes the node, its descendants, and every renderable, light and skin attached to them.
 void removeNode(SceneData& scene, Node node);
 
-/// Moves what hangs at the node in `slot` to where the node was found by the last update.
+/// Moves everything attached to the node in `slot` to the place that the last update gave the node.
 void placeAttached(SceneData& scene, uint32_t slot);
 
 } // namespace filament::scene

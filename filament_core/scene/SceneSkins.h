@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Skins and morph weights of a scene, kept in step with its nodes and its renderables.
-///   Thread  the app thread, except updateSkin(): several threads at once, each with skins of its own.
+/// Skins and morph weights of a scene, kept in step with its nodes and renderables.
+///   Thread  the app thread, except updateSkin(): several threads at once, each with its own skins.
 ///   Fails   a stale handle is an assertion.
 #pragma once
 
@@ -10,21 +10,21 @@
 
 namespace filament::scene {
 
-/// The skin ends with `data.node`, if that is one.
+/// Removing `data.node`, if there is one, removes the skin.
 Skin addSkin(SceneData& scene, SkinData data);
 void removeSkin(SceneData& scene, Skin skin);
 
-/// Of a skin without joints.
+/// For a skin without joints.
 void setBones(SceneData& scene, Skin skin, std::span<const float4x4> objectFromBind);
 
-/// What is missing counts as 0, what is beyond the targets is left out; nothing happens to a renderable without any.
+/// Missing weights count as 0, surplus ones are ignored; does nothing for a renderable without morph targets.
 void setMorphWeights(SceneData& scene, Renderable renderable, std::span<const float> weights);
 
-/// Whether one of the joints of the skin, or its node, was moved by the update of the nodes that runs.
+/// Whether the running update of the nodes has moved one of the skin's joints or its node.
 bool hasMoved(SceneData const& scene, SkinData const& skin);
 
-/// Bones from where the joints are, then bounds and placement of all that the skin moves. A joint that was removed
-/// leaves its bone where it was.
+/// Computes the bones from their joints, then bounds and placement of everything that the skin moves. If a joint was
+/// removed, its bone keeps its last pose.
 void updateSkin(SceneData& scene, SkinData& skin);
 
 /// Bounds and placement of one deformed renderable.

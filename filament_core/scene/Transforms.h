@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Transforms: a forest of nodes in double precision, and which of its world transforms are out of date.
 ///   In      add, remove, setParent, setTransform, in any order.
-///   Out     the world transform of every node: a pure function of its chain of ancestors, composed from the root down.
-///           Neither the order of the edits nor the number of threads changes a bit.
-///   Order   an update goes through the changed nodes level by level, parents before children. Only nodes that moved,
-///           and what hangs below them, are visited; without changes an update ends at its first test.
-///   Thread  the app thread, except recompute(): that runs on many threads at once, each with a range of its own.
-///   Memory  about 270 bytes a node, in columns by handle index ("slot"), which grow and are reused. No node is ever
-///           moved in memory, so links and attachments are plain slots.
-///   Limits  2^20 - 1 nodes, any depth: nothing here recurses.
+///   Out     the world transform of every node: a function of its chain of ancestors only, composed from the root down.
+///           Neither the order of edits nor the number of threads changes a bit.
+///   Order   an update walks the changed nodes level by level, parents before children. It visits only nodes that moved
+///           and their descendants; without changes it ends at its first test.
+///   Thread  the app thread, except recompute(), which runs on many threads at once, each with its own range.
+///   Memory  about 270 bytes per node, in columns by handle index ("slot"), which grow and are reused. A node never
+///           moves in memory, so links and attachments are plain slots.
+///   Limits  2^20 - 1 nodes, any depth: nothing here is recursive.
 ///   Cost    add, setTransform: O(1). remove: its subtree. setParent: its subtree and the difference in depth. A world
-///           transform on demand: O(1), with changes pending O(depth). Updates: bench/filament_core/prepare.
+///           transform on demand: O(1), or O(depth) while changes are pending. Updates: bench/filament_core/prepare.
 ///   Fails   a stale handle, or a cycle, is an assertion. A transform that is not finite counts as zero.
 #pragma once
 
@@ -29,20 +29,20 @@ namespace filament::scene {
 
 class Transforms {
 public:
-    /// The slot of the scene itself: parent of all roots, the identity, not a node. Node{} stands for it where a parent
-    /// or the root of a search is asked for.
+    /// The slot of the scene itself, which is the parent of all roots and the identity, but not a node. Node{} stands
+    /// for it as a parent or as the root of a search.
     static constexpr uint32_t kScene = 0;
 
     Transforms();
 
     Node add(Node parent, double4x4 const& parentFromNode, std::string name);
-    /// Removes the node and everything below it. The slots that became free, parents first: whoever keeps something by
-    /// slot drops it.
+    /// Removes the node and its descendants. Returns the freed slots, parents first, so that callers can drop data kept
+    /// by slot.
     std::vector<uint32_t> remove(Node node);
     void setTransform(Node node, double4x4 const& parentFromNode);
     /// The node keeps its parentFromNode, and becomes the last child.
     void setParent(Node node, Node parent);
-    /// The node stays where it is in the world, to rounding; below a parent without an inverse it becomes zero.
+    /// The node stays in place in the world, up to rounding; below a parent without an inverse it becomes zero.
     void setParentKeepingWorld(Node node, Node parent);
 
     double4x4 parentFromNode(Node node) const { return matrixFrom(mLocal[slotOf(node)]); }
@@ -51,13 +51,13 @@ public:
     Node parent(Node node) const { return mLinks[mLinks[slotOf(node)].parent].node; }
     Node firstChild(Node node) const { return mLinks[mLinks[slotOrScene(node)].firstChild].node; }
     Node nextSibling(Node node) const { return mLinks[mLinks[slotOf(node)].next].node; }
-    /// The first node called `name` at or below `root`, parents first, children in order; none: Node{}.
+    /// The first node with this name at or below `root`, parents first, children in order; none: Node{}.
     Node find(std::string_view name, Node root) const;
     uint32_t count() const { return mCount; }
 
-    /// False: it was removed, or never there.
+    /// False: it was removed, or never existed.
     bool isAlive(Node node) const { return node && node.index() < mLinks.size() && mLinks[node.index()].node == node; }
-    /// All slots are below.
+    /// All slots are below this.
     size_t slotLimit() const { return mLinks.size(); }
 
     uint32_t slotOf(Node node) const {
@@ -66,11 +66,11 @@ public:
         return node.index();
     }
 
-    // What hangs at nodes has to be placed: after every update, and when it was attached between updates.
+    // Things attached to nodes must be placed after every update, and when they were attached between updates.
 
-    /// Something was attached to the node: it appears in takeUnplaced(), unless the next update visits it anyway.
+    /// Something was attached to the node: takeUnplaced() will return it, unless the next update visits it anyway.
     void markUnplaced(Node node);
-    /// Slots of nodes that stayed where they are but have something new.
+    /// Slots of nodes that did not move but have new attachments.
     std::vector<uint32_t> const& takeUnplaced();
     bool contains(Node node) const { return node && node.index() < mLinks.size() && nodeAt(node.index()) == node; }
     Node nodeAt(uint32_t slot) const { return mLinks[slot].node; }
@@ -82,27 +82,27 @@ public:
 
     bool isStale() const { return !mChanged.empty() || !mUnplaced.empty(); }
     void beginUpdate();
-    /// Gathers the next level of changed nodes; false at the end.
+    /// Collects the next level of changed nodes; false at the end.
     bool nextLevel();
     uint32_t levelSize() const { return mLevelEnd - mLevelBegin; }
-    /// Computes the world transforms of nodes [begin, end) of this level, lines up their children for the next, and
+    /// Computes the world transforms of nodes [begin, end) of this level, queues their children for the next level, and
     /// returns their slots.
     std::span<const uint32_t> recompute(uint32_t begin, uint32_t end);
 
 private:
     struct Links {
         uint32_t parent = kScene;
-        uint32_t firstChild = kScene, lastChild = kScene; ///< kScene, which is nobody's child, ends every list
+        uint32_t firstChild = kScene, lastChild = kScene; ///< lists end with kScene, which is nobody's child
         uint32_t next = kScene, previous = kScene;
         uint32_t childCount = 0;
-        uint32_t depth = 0; ///< of roots: 1
+        uint32_t depth = 0; ///< 1 for roots
         Node node{};        ///< none: the slot is free, or the scene's
     };
 
     enum Flag : uint8_t {
-        kStale = 1,    ///< the next update computes it: it, or an ancestor, is listed
+        kStale = 1,    ///< the next update computes it: it or an ancestor is in mChanged
         kListed = 2,   ///< in mChanged
-        kQueued = 4,   ///< lined up in the update that runs
+        kQueued = 4,   ///< queued in the running update
         kUnplaced = 8, ///< in mUnplaced
     };
 
@@ -126,11 +126,11 @@ private:
     std::vector<uint8_t> mFlags;
     std::vector<std::string> mName;
 
-    std::vector<uint32_t> mChanged; // slots in order of marking; may name some that were removed since
+    std::vector<uint32_t> mChanged; // slots in the order of marking; some may have been removed since
     std::vector<uint32_t> mUnplaced, mTakenUnplaced;
 
-    // The update that runs: changed nodes level after level. Ranges of the queue are claimed by threads as they go, so
-    // the order within a level is theirs; no value depends on it.
+    // The running update: changed nodes, level after level. Threads claim ranges of the queue as they go, so the order
+    // within a level varies; no value depends on it.
     std::vector<uint32_t> mQueue;
     std::atomic<uint32_t> mQueueEnd{ 0 };
     uint32_t mLevelBegin = 0, mLevelEnd = 0;
