@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// AnalyticSky: a clear daylight sky with its sun, as a picture to light scenes without any file.
+/// AnalyticSky: a clear daylight sky with its sun, as a picture that lights scenes without any file.
 ///   Model   luminance and chromaticity of Preetham, Shirley and Smits 1999, "A Practical Analytic Model for Daylight";
-///           the sun's disc after its appendix (Rayleigh and aerosol extinction); below the horizon a Lambert ground
+///           the sun's disc as in its appendix (Rayleigh and aerosol extinction); below the horizon a Lambert ground
 ///           lit by that sky.
-///   Out     equirectangular, twice as wide as high, in kcd/m^2: an illuminance of 1000 lux per unit makes it physical.
-///           The disc (about 10^6) exceeds what half floats hold (65504), as a real sun does; its energy is exact also
-///           when it covers less than a pixel.
+///   Out     equirectangular, twice as wide as high, in kcd/m^2: with an illuminance of 1000 lux per unit it is
+///           physical. The disc (about 10^6) exceeds the range of half floats (65504), as a real sun does. Its energy
+///           is exact even if it covers less than a pixel.
 ///   Thread  runs on the job system; the same bits for any number of workers.
 ///   Fails   InvalidArgument with the option's name and range.  Cost: 1024 x 512 in about 60 ms on two cores.
 #pragma once
@@ -26,8 +26,8 @@ struct AnalyticSkyOptions {
 
 Result<HdrImage> makeAnalyticSky(AnalyticSkyOptions const& options, jobs::JobSystem& jobs);
 
-/// Illuminance of the sun alone on a plane facing it, in klx per linear Rec. 709 component: a directional light that
-/// replaces the disc.
+/// Illuminance of the sun alone on a plane facing it, in klx per linear Rec. 709 component: the value for a directional
+/// light that replaces the disc.
 float3 analyticSunIlluminance(AnalyticSkyOptions const& options);
 
 } // namespace filament::assets

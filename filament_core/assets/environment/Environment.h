@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-/// loadEnvironment: an equirectangular .hdr or .exr as the cubes and coefficients that light a scene.
+/// loadEnvironment: turns an equirectangular .hdr or .exr into the cubes and coefficients that light a scene.
 ///   In      a picture (HdrReader.h); world direction d sees it at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
-///   Out     EnvironmentData; bit for bit the same from the cache and from the baker, for any number of workers.
+///   Out     EnvironmentData, with the same bits from the cache and from the baker, for any number of workers.
 ///   Cache   one file per content of the picture, options and baker version, in `cacheDirectory`. Damaged files are
-///           found by their checksum and baked again; a directory that cannot be written costs a warning, not the
-///           result.
-///   Thread  any; two loads of the same picture at once bake twice and leave one file.
+///           detected by their checksum and baked again; a directory that cannot be written causes a warning, not an
+///           error.
+///   Thread  any; two simultaneous loads of the same picture bake twice and leave one file.
 ///   Memory  the picture and about 60 MiB while baking; 7.3 MiB for the result with faces of 256 texels in RGBA16F.
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory with file, reason and cure; InvalidArgument for
 ///           options.
-///   Cost    a 1024 x 512 picture: about a second on two cores the first time, then about 10 ms.
+///   Cost    about a second on two cores for a 1024 x 512 picture the first time, then about 10 ms.
 #pragma once
 
 #include "base/Result.h"
@@ -30,8 +30,8 @@ struct EnvironmentOptions {
     /// Empty: $XDG_CACHE_HOME/filament_core, or ~/.cache/filament_core.
     std::filesystem::path cacheDirectory{};
     bool useCache = true;
-    uint32_t faceSize = 256; ///< texels of a specular face, power of two in [16, 2048]
-    uint32_t samples = 512;  ///< pieces of the sky that each texel integrates, about; [1, 65536]
+    uint32_t faceSize = 256; ///< texels per side of a specular face, power of two in [16, 2048]
+    uint32_t samples = 512;  ///< approximate number of pieces of the sky per texel; [1, 65536]
     backend::Format format = backend::Format::RGBA16F; ///< or R11G11B10F, RGB9E5, RGBA8: RGBM
     RoughnessMapping mapping = RoughnessMapping::Quadratic;
     EnvironmentProgress progress{};
@@ -40,16 +40,16 @@ struct EnvironmentOptions {
 struct EnvironmentStatistics {
     uint32_t sourceWidth = 0, sourceHeight = 0;
     HdrRepairs repairs;               ///< of the picture
-    EncodeLoss specularLoss, skyLoss; ///< by the range of the format
+    EncodeLoss specularLoss, skyLoss; ///< caused by the range of the format
     bool fromCache = false;
 };
 
-/// Between texels 6 degrees apart a cosine lobe is linear to 0.3 %.
+/// A cosine lobe is linear to 0.3 % between texels 6 degrees apart.
 inline constexpr uint32_t kIrradianceFaceSize = 16;
 
 struct EnvironmentData {
-    Image specular;   ///< cube, level i for the roughness that `mapping` of the options says
-    Image sky;        ///< cube, one level: the picture itself at its own density of pixels
+    Image specular;   ///< cube; `mapping` in the options gives the roughness of each level
+    Image sky;        ///< cube, one level: the picture itself at its own pixel density
     Image irradiance; ///< cube, one level of kIrradianceFaceSize texels: irradiance / pi, always RGBA16F
     std::array<float4, 9> irradianceSh{}; ///< see shaders/lib/ibl.glsl
     float levelOfRoughnessOne = 0;
@@ -59,14 +59,15 @@ struct EnvironmentData {
 Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs::JobSystem& jobs,
                                         EnvironmentOptions const& options = {});
 
-/// Without file and cache: for generated skies.
+/// For generated skies, without file and cache.
 Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs,
                                         EnvironmentOptions const& options = {});
 
-/// Texels of a sky face for a picture of this width, a power of two in [16, 512]: a quarter of the horizon and more.
+/// Texels per side of a sky face for a picture of this width, a power of two in [16, 512]: at least a quarter of the
+/// horizon.
 uint32_t skyFaceSize(uint32_t sourceWidth);
 
-/// Where `options` says, or the user's cache directory; empty if there is none.
+/// The directory from `options`, or the user's cache directory; empty if there is none.
 std::filesystem::path environmentCacheDirectory(EnvironmentOptions const& options);
 
 } // namespace filament::assets

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The bytes of a cached environment: little-endian header, irradiance, then the texels of the cubes; a 64-bit
+/// The bytes of a cached environment: little-endian header, irradiance, then the texels of the cubes, with a 64-bit
 /// checksum over everything. Private to this folder.
-///   Fails   decode: Corrupt, for any bytes whatsoever; sizes are checked against the bytes before memory is taken.
+///   Fails   decode: Corrupt for any invalid bytes; sizes are checked against the bytes before memory is allocated.
 ///   Thread  pure functions.
 #pragma once
 
@@ -11,7 +11,7 @@
 
 namespace filament::assets {
 
-/// What a cached file must match: content of the picture, options that change the result, version of the baker.
+/// Identifies a cached file: content of the picture, options that change the result, version of the baker.
 uint64_t environmentKey(std::span<const std::byte> picture, EnvironmentOptions const& options);
 
 std::vector<std::byte> encodeEnvironment(EnvironmentData const& data, uint64_t key);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// IblCube: an environment as a cube of floats with its mip chain, the source of every baking step.
+/// IblCube: an environment as a cube of floats with its mip chain, the input of every baking step.
 ///   In      a sanitised equirectangular picture.
-///   Out     levels of size, size / 2, ... 1; each texel the mean radiance over its solid angle, so the sum of
+///   Out     levels of size, size / 2, ... 1; each texel is the mean radiance over its solid angle, so the sum of
 ///           radiance times solid angle is the same for all levels.
 ///   Storage each face has a border of one texel copied from its neighbours: bilinear look-ups never cross a face.
-///   Thread  made on the job system, the same bits for any number of workers; then read-only.
-///   Memory  16 bytes a texel: 8.5 MiB for 256 texels a face.
+///   Thread  built on the job system, with the same bits for any number of workers; read-only afterwards.
+///   Memory  16 bytes per texel: 8.5 MiB for 256 texels per side.
 ///   Fails   never.  Cost: bench/filament_core/assets/IblBench.cpp
 #pragma once
 
@@ -36,11 +36,11 @@ public:
         return { texel[0], texel[1], texel[2] };
     }
 
-    /// Bilinear.
+    /// Bilinear look-up.
     Texel sample(CubePoint point) const {
         const float half = 0.5f * static_cast<float>(mSize);
         const float x = point.s * half + (half + 0.5f),
-                    y = point.t * half + (half + 0.5f); // 1 beyond: truncation floors
+                    y = point.t * half + (half + 0.5f); // 1 higher, so that truncation rounds down
         const int x0 = static_cast<int>(x), y0 = static_cast<int>(y);
         const Texel fx = splat(x - static_cast<float>(x0)), fy = splat(y - static_cast<float>(y0));
         const Texel* const row =
@@ -50,8 +50,8 @@ public:
         return upper + (lower - upper) * fy;
     }
 
-    /// Copies the texels beyond each edge from the neighbouring face; corners get the mean of the three that meet
-    /// there.
+    /// Copies the texels beyond each edge from the neighbouring face; corners get the mean of the three texels that
+    /// meet there.
     void fillBorder();
 
 private:

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where a direction of the world is stored: in a cube map and in an equirectangular picture.
+/// Maps directions of the world to a cube map and to an equirectangular picture.
 ///   Cube    faces +x -x +y -y +z -z with the s and t of the table that OpenGL ES and Vulkan share (ES 3.2 table 8.25,
 ///           Vulkan 1.3 table "Cube map face and coordinate selection"); row 0 of a face is t = -1.
 ///   Picture direction d is seen at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi; row 0 is the zenith.
@@ -13,7 +13,7 @@
 
 namespace filament::assets {
 
-/// s and t in [-1, 1] inside of the face.
+/// s and t in [-1, 1] inside the face.
 struct CubePoint {
     uint32_t face = 0;
     float s = 0, t = 0;
@@ -58,8 +58,8 @@ inline float faceCoordinate(int texel, uint32_t size) {
     return (2.0f * static_cast<float>(texel) + 1.0f) / static_cast<float>(size) - 1.0f;
 }
 
-/// Solid angle of the part of a face from (0, 0) to (s, t); differences of four give any rectangle. From the integral
-/// of (1 + s^2 + t^2)^(-3/2).
+/// Solid angle of the part of a face from (0, 0) to (s, t); differences of four values give any rectangle. From the
+/// integral of (1 + s^2 + t^2)^(-3/2).
 inline double cornerSolidAngle(double s, double t) { return std::atan2(s * t, std::sqrt(s * s + t * t + 1.0)); }
 
 /// u in [0, 1], v in [0, 1]. direction is a unit vector.

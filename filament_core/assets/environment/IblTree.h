@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// IblTree: the environment cut into pieces, each as large as a lobe allows.
+/// IblTree: cuts the environment into pieces that are as large as a lobe allows.
 ///   In      an IblCube.  Out: mean radiance over a GGX lobe around any direction, without noise.
 ///   How     Barnes and Hut 1986, "A Hierarchical O(N log N) Force-Calculation Algorithm", with light instead of mass:
-///           one quadtree per face whose nodes hold their energy and its centre. A node is taken whole when it is small
-///           against its distance from the lobe's axis; else its four children are looked at. Because energy sits at
-///           its centre, a sun is exact in whichever node it happens to be.
-///   Why     importance sampling with 512 samples leaves 10 to 50 % of error in a studio of small bright lamps at
-///           roughness 1, in the same time (bench/filament_core/assets/README.md).
-///   Thread  made on the job system; integrate() from any thread.
-///   Memory  53 bytes a texel of a cube, at most kMaxLeafSize texels a face: 21 MiB for 256.
+///           one quadtree per face whose nodes store their energy and its centre. A node is used as a whole if it is
+///           small compared with its distance from the lobe's axis; otherwise its four children are examined. Because
+///           energy is placed at its centre, a sun is exact in whichever node it lies.
+///   Why     in the same time, importance sampling with 512 samples leaves an error of 10 to 50 % in a studio of small
+///           bright lamps at roughness 1 (bench/filament_core/assets/README.md).
+///   Thread  built on the job system; integrate() from any thread.
+///   Memory  53 bytes per texel of a cube, with at most kMaxLeafSize texels per side: 21 MiB for 256.
 ///   Fails   never.
 #pragma once
 
@@ -28,9 +28,9 @@ struct Lobe {
 class IblTree {
 public:
     static constexpr uint32_t kMaxLeafSize = 512;
-    static constexpr uint32_t kCoarsestSize = 8; ///< nodes a face side that are always looked at
+    static constexpr uint32_t kCoarsestSize = 8; ///< nodes per face side that are always examined
 
-    /// `cube` has levels down to one texel and at least kCoarsestSize texels a face.
+    /// `cube` has levels down to one texel and at least kCoarsestSize texels per side.
     IblTree(IblCube const& cube, jobs::JobSystem& jobs);
 
     /// Mean radiance around `axis` (unit), weighted by D and n.l.
@@ -39,14 +39,14 @@ public:
 private:
     /// Four siblings, element by element.
     struct Quad {
-        Texel x, y, z;                   // direction of the node's middle
+        Texel x, y, z;                   // direction of the node's centre
         Texel energyX, energyY, energyZ; // direction of its energy
         Texel red, green, blue;          // radiance * solid angle
         Texel solidAngle;
     };
     struct Level {
-        uint32_t size = 0;       // nodes a face side
-        std::vector<Quad> quads; // of (size / 2)^2 * 6 parents
+        uint32_t size = 0;       // nodes per face side
+        std::vector<Quad> quads; // one per parent: (size / 2)^2 * 6
     };
     struct Sums;
 

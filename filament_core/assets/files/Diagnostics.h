@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Diagnostics: what went wrong while one file was read.
-///   The first error wins: code after it may go on with harmless defaults and check once, at the end of its step,
-///   instead of unwinding from every field. Warnings are kept once each, in the order in which they were found.
-///   Thread  one thread each; jobs fill their own and the loader merges them in file order, so the text does not
-///           depend on the schedule.
-///   Limits  64 warnings; the rest are counted in one closing line.
+/// GltfDiagnostics: errors and warnings while reading one file.
+///   The first error wins: code after it may continue with harmless defaults and check once at the end of its step,
+///   instead of unwinding from every field. Each warning is kept once, in order of discovery.
+///   Thread  one thread each; jobs fill their own and the loader merges them in file order, so the text does not depend
+///           on scheduling.
+///   Limits  64 warnings; one closing line counts the rest.
 #pragma once
 
 #include "base/Result.h"

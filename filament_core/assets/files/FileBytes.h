@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Whole files: read, and replaced in one step so that no reader ever sees half of one.
-///   Thread  any; two writers of one path leave the file of one of them, complete.
+/// Reads whole files, and replaces them in one step so that no reader ever sees half of one.
+///   Thread  any; two writers of one path leave the complete file of one of them.
 ///   Fails   NotFound, Unreadable (also for directories and files above 4 GiB), with path, reason and cure.
 #pragma once
 

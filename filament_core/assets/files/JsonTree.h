@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfJson: reading fields of a JSON tree that nobody vouches for.
-///   A JsonNode is a value and its path ("meshes[2].primitives[0].mode"), or nothing: asking a missing node for a field
-///   gives another missing node, asking it for a value gives the fallback. A value of the wrong kind is refused with
-///   its path.
+/// GltfJson: reads fields of an untrusted JSON tree.
+///   A JsonNode is a value and its path ("meshes[2].primitives[0].mode"), or missing. A field of a missing node is
+///   another missing node, and its value is the fallback. A value of the wrong kind is an error with its path.
 ///   Thread  read-only after parse; the diagnostics belong to one thread.
-///   Limits  integers up to 2^53 (what a JSON double holds exactly). What is nested deeper than any field of glTF is
-///           null. Only GltfJson.cpp sees the JSON library.
+///   Limits  integers up to 2^53 (exact in a JSON double). Values nested deeper than any field of glTF are null. Only
+///           GltfJson.cpp includes the JSON library.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"
@@ -33,7 +32,7 @@ public:
     std::string const& path() const { return mPath; }
     Diagnostics& diagnostics() const { return *mDiagnostics; }
 
-    /// The member of an object; refuses anything else that is there.
+    /// The member of an object; an error if this is not an object.
     JsonNode operator[](const char* key) const;
     /// `extensions[name]`
     JsonNode extension(const char* name) const;
@@ -55,7 +54,7 @@ public:
     uint32_t index(size_t count, std::string_view what) const;
     uint32_t requiredIndex(size_t count, std::string_view what) const;
 
-    /// Fills `values` if the array is there; refuses another length. Returns whether it was there.
+    /// Fills `values` if the array exists; an error for another length. Returns whether the array exists.
     bool numbers(std::span<double> values) const;
     std::vector<float> numberList() const;
 
@@ -70,9 +69,9 @@ private:
 /// A parsed tree; nodes point into it.
 class JsonTree {
 public:
-    /// Refuses text that is not a JSON object, naming the byte.
-    JsonTree(std::span<const std::byte> text, Diagnostics& diagnostics);
-    JsonNode root(Diagnostics& diagnostics) const;
+    /// An error, naming the byte, for text that is not a JSON object.
+    JsonTree(std::span<const std::byte> text, GltfDiagnostics& diagnostics);
+    JsonNode root(GltfDiagnostics& diagnostics) const;
 
 private:
     struct TakeApart {

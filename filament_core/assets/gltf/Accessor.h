@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Accessor: typed arrays out of the buffer views of a glTF file (glTF 2.0, section 3.6.2).
-///   In      any component type, interleaved or not, sparse or not, normalised or not; untrusted.
+/// Accessor: reads typed arrays from the buffer views of a glTF file (glTF 2.0, section 3.6.2).
+///   In      any component type, interleaved or not, sparse or not, normalised or not; the data is untrusted.
 ///   Out     vectors of floats or of unsigned integers. Normalised integers become [0, 1] or [-1, 1] (max(c / 127, -1)
-///           and so on, section 3.11), others their value. Floats that are not finite become 0, with one warning.
+///           and so on, section 3.11); other integers keep their value. Floats that are not finite become 0, with one
+///           warning.
 ///   Thread  any; the document is only read.
-///   Memory  nothing is allocated before the accessor was checked against the bytes of its views; an accessor without a
-///           view (zeros) is limited to 2^22 elements.
+///   Memory  allocates nothing before the accessor has been checked against the bytes of its views; an accessor without
+///           a view (all zeros) is limited to 2^22 elements.
 ///   Fails   Corrupt, naming the accessor: "accessors[7]: 24 elements end at byte 300, bufferViews[2] has 288".
 #pragma once
 
@@ -18,15 +19,15 @@
 
 namespace filament::assets {
 
-/// Whether the accessor has one of the component counts and lies inside its views. `use` names the purpose: "POSITION".
+/// Whether the accessor has one of the component counts and lies inside its views. `use` names its purpose: "POSITION".
 bool checkAccessor(GltfDocument const& document, uint32_t accessor, std::span<const uint8_t> componentCounts,
                    std::string_view use, Diagnostics& diagnostics);
 
-/// Reads a checked accessor into `out`, of accessor.count * accessor.components numbers.
-void readFloats(GltfDocument const& document, uint32_t accessor, std::span<float> out, Diagnostics& diagnostics);
+/// Reads a checked accessor into `out`, which has accessor.count * accessor.components numbers.
+void readFloats(GltfDocument const& document, uint32_t accessor, std::span<float> out, GltfDiagnostics& diagnostics);
 void readIntegers(GltfDocument const& document, uint32_t accessor, std::span<uint32_t> out);
 
-/// Both steps, for vectors of floats: T is float, float2, float3, float4 or float4x4. Empty on failure, and for kNone.
+/// Checks and reads vectors of floats: T is float, float2, float3, float4 or float4x4. Empty on failure and for kNone.
 template <class T>
 std::vector<T> readVectors(GltfDocument const& document, uint32_t accessor, std::string_view use,
                            Diagnostics& diagnostics) {
@@ -39,11 +40,11 @@ std::vector<T> readVectors(GltfDocument const& document, uint32_t accessor, std:
     return values;
 }
 
-/// Both steps, for unsigned integers with `components` each.
+/// Checks and reads unsigned integers with `components` each.
 std::vector<uint32_t> readIntegerList(GltfDocument const& document, uint32_t accessor, uint8_t components,
                                       std::string_view use, Diagnostics& diagnostics);
 
-/// Floats that are not finite become 0. Returns how many did.
+/// Replaces floats that are not finite by 0. Returns how many there were.
 size_t replaceNonFinite(std::span<float> values);
 
 } // namespace filament::assets

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Animation: keys over time as plain values, and what lies between them (glTF 2.0, section 3.11 and appendix C).
+/// Animation: keys over time as plain values, and interpolation between them (glTF 2.0, section 3.11 and appendix C).
 ///   Thread  plain values; the functions are pure.
-///   Times   seconds. Before the first key the first counts, behind the last one the last. At a key the result is the
-///           key, to the bit.
-///   Fails   never: the loader has proven the counts, and that times grow.
+///   Times   seconds. Times outside the range use the first or last key. At the time of a key the result is the key, to
+///           the bit.
+///   Fails   never: the loader has checked the counts, and that times increase.
 #pragma once
 
 #include "base/math/Math.h"
@@ -20,10 +20,10 @@ enum class AnimationPath : uint8_t { Translation, Rotation, Scale, Weights };
 
 struct AnimationSampler {
     Interpolation interpolation = Interpolation::Linear;
-    bool isRotation = false; ///< linear goes along the sphere, cubic ends on it
-    uint32_t width = 1;      ///< numbers a key
+    bool isRotation = false; ///< linear interpolates along the sphere, cubic is normalised onto it
+    uint32_t width = 1;      ///< numbers per key
     std::vector<float> times;
-    std::vector<float> values; ///< width a key; cubic: in-tangent, value, out-tangent, each of `width`
+    std::vector<float> values; ///< `width` per key; cubic: in-tangent, value, out-tangent, each of `width`
 };
 
 struct AnimationChannel {
@@ -34,7 +34,7 @@ struct AnimationChannel {
 
 struct AnimationData {
     std::string name;
-    double durationSeconds = 0; ///< the last key of all channels
+    double durationSeconds = 0; ///< time of the last key of all channels
     std::vector<AnimationSampler> samplers;
     std::vector<AnimationChannel> channels;
 };

@@ -4,8 +4,8 @@
 ///   Out     vertices by attribute id, triangles as indices.
 ///   Thread  one mesh on one thread; different meshes on different threads.
 ///   Memory  the decoded mesh, until destruction.
-///   Fails   Corrupt, naming the primitive; the mesh is then empty. Exceptions of the library do not pass.
-///   Only Draco.cpp sees the library.
+///   Fails   Corrupt, naming the primitive; the mesh is then empty. Exceptions of the library do not escape.
+///   Only Draco.cpp includes the library.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"
@@ -28,9 +28,9 @@ public:
     uint32_t vertexCount() const;
     std::vector<uint32_t> indices() const;
 
-    /// Components of attribute `id`; 0 if the stream does not have it.
+    /// Components of attribute `id`; 0 if the stream lacks it.
     uint8_t componentCount(uint32_t id) const;
-    /// vertexCount() * components floats; normalised integers are normalised.
+    /// Reads vertexCount() * components floats; normalised integers are converted to their range.
     void read(uint32_t id, uint8_t components, std::span<float> out) const;
 
 private:

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfAnimation: the animations of a file, as far as they move something of the scene (glTF 2.0, section 3.11).
-///   In      a document whose buffers are loaded, and where its nodes went.
-///   Out     one AnimationData each, in the order of the file, also those of which nothing is left: indices are names.
-///           Weights go to every node that the mesh of their node stands at.
+/// GltfAnimation: the animations of a file, as far as they move parts of the scene (glTF 2.0, section 3.11).
+///   In      a document whose buffers are loaded, and the mapping of its nodes.
+///   Out     one AnimationData each, in the order of the file. Empty ones are kept, because indices identify
+///           animations. Weights apply to every node that shows the mesh of their node.
 ///   Limits  2^26 numbers in all animations together.
-///   Fails   Corrupt: an accessor that leaves its buffer. A channel that makes no sense by itself (times that do not
-///           grow, counts that do not fit, a node without morph targets) is left out, with a warning that names it.
+///   Fails   Corrupt: an accessor that leaves its buffer. A channel that is invalid by itself (times that do not
+///           increase, counts that do not match, a node without morph targets) is dropped, with a warning that names
+///           it.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"

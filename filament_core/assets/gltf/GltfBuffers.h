@@ -2,9 +2,8 @@
 /// GltfBuffers: fills GltfDocument::viewBytes: every buffer view as a checked span of bytes.
 ///   In      the parsed document, the GLB's binary chunk, the model's folder.
 ///   Out     spans into the binary chunk or into document.ownedBytes (files, data URIs, decompressed views). A view
-///           whose bytes are missing, because its buffer is a fallback without data, is refused unless it is
-///           compressed.
-///   Thread  one; decompression is spread over `jobs`.
+///           without bytes, because its buffer is a fallback without data, is an error unless the view is compressed.
+///   Thread  one; decompression runs on `jobs`.
 ///   Fails   naming the buffer or the view: "bufferViews[3]: ends at byte 900, buffers[0] has 840".
 #pragma once
 

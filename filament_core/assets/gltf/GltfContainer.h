@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfContainer: the two parts of a glTF file, whichever way it is stored (glTF 2.0, section 4).
-///   In     a whole .glb or .gltf file in memory; which of them is told by the first four bytes.
+/// GltfContainer: the two parts of a glTF file in either form of storage (glTF 2.0, section 4).
+///   In     a whole .glb or .gltf file in memory; the first four bytes distinguish them.
 ///   Out    spans into it; `hasBinary` is false for .gltf and for a .glb without a BIN chunk.
-///   Fails  Corrupt for a chunk that ends behind the file, Unsupported for another container version.
+///   Fails  Corrupt for a chunk that extends past the file, Unsupported for another container version.
 #pragma once
 
 #include "base/Result.h"

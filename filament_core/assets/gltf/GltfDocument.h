@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfDocument: the JSON of a glTF 2.0 file as plain structs, before any geometry or image is touched.
-///   Every index between elements was range-checked by the parser: it is valid or kNone. Byte ranges were not: a view
-///   is checked when its buffer is loaded (GltfBuffers.h), an accessor when it is read (Accessor.h).
+///   The parser has range-checked every index between elements: it is valid or kNone. Byte ranges are not yet checked:
+///   a view is checked when its buffer is loaded (GltfBuffers.h), an accessor when it is read (Accessor.h).
 ///   Section numbers in comments are those of the glTF 2.0.1 specification.
 #pragma once
 
@@ -29,13 +29,13 @@ constexpr uint32_t componentBytes(ComponentType type) {
 struct GltfBuffer {
     std::string uri;
     uint64_t byteLength = 0;
-    bool isFallback = false; ///< EXT_meshopt_compression: may have no data at all
+    bool isFallback = false; ///< EXT_meshopt_compression: may have no data
 };
 
 enum class MeshoptMode : uint8_t { Attributes, Triangles, Indices };
 enum class MeshoptFilter : uint8_t { None, Octahedral, Quaternion, Exponential };
 
-/// EXT_meshopt_compression: where the bytes of a view really are.
+/// EXT_meshopt_compression: the actual location of a view's bytes.
 struct MeshoptSource {
     uint32_t buffer = kNone;
     uint64_t byteOffset = 0, byteLength = 0;
@@ -113,7 +113,7 @@ struct GltfNode {
     std::string name;
     double4x4 parentFromNode{ 1.0 };
     NodePose pose{};        ///< of the same transform
-    bool hasMatrix = false; ///< the pose was taken out of a matrix
+    bool hasMatrix = false; ///< the pose was decomposed from a matrix
     std::vector<uint32_t> children;
     uint32_t mesh = kNone, skin = kNone, light = kNone;
     std::vector<float> weights;
@@ -127,7 +127,7 @@ struct GltfAnimationSampler {
 
 struct GltfAnimationChannel {
     uint32_t sampler = 0;  ///< of its animation
-    uint32_t node = kNone; ///< kNone: what an extension says
+    uint32_t node = kNone; ///< kNone: given by an extension
     AnimationPath path = AnimationPath::Translation;
 };
 
@@ -150,12 +150,12 @@ struct GltfTextureInfo {
     bool hasTransform = false;
 };
 
-/// Two maps that share a texture once they are loaded (MaterialData.h: TexturePair).
+/// Two maps that share a texture after loading (MaterialData.h: TexturePair).
 struct GltfTexturePair {
     GltfTextureInfo first, second;
 };
 
-/// `values` holds everything but its texture references, which the loader fills in from the infos.
+/// `values` holds everything except the texture references, which the loader fills in from the infos.
 struct GltfMaterial {
     MaterialData values;
     GltfTextureInfo baseColor, metallicRoughness, normal, occlusion, emissive;
@@ -165,7 +165,7 @@ struct GltfMaterial {
 
 struct GltfTexture {
     uint32_t sampler = kNone;
-    uint32_t image = kNone; ///< kNone: the file offers only formats that this loader does not read
+    uint32_t image = kNone; ///< kNone: the file offers only formats that this loader cannot read
 };
 
 /// Exactly one of the two is set.

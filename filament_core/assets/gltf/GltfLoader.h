@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfLoader: a glTF 2.0 file, .gltf or .glb, as ModelData.
-///   In      any file; nothing about it is trusted. External buffers and images lie beside or below it (see GltfUri.h).
-///   Out     the default scene. Default morph weights and the skins' rest pose are applied; or
-///           (GltfOptions::deformation) skins, morph targets and animations are kept as data. Only what the scene shows
-///           is loaded: meshes, materials and images that nothing drawn uses are left out.
+/// GltfLoader: loads a glTF 2.0 file, .gltf or .glb, as ModelData.
+///   In      any file; the content is untrusted. External buffers and images are beside or below it (see GltfUri.h).
+///   Out     the default scene. Default morph weights and the skins' rest pose are applied, or, with
+///           GltfOptions::deformation, skins, morph targets and animations are kept as data. Only what the scene shows
+///           is loaded: unused meshes, materials and images are skipped.
 ///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization,
 ///           KHR_texture_transform, KHR_lights_punctual, EXT_mesh_gpu_instancing, KHR_materials_anisotropy, clearcoat,
 ///           diffuse_transmission, dispersion, emissive_strength, ior, iridescence, pbrSpecularGlossiness, sheen,
 ///           specular, transmission, unlit, variants, volume. Other extensions are named in ModelData::warnings, once
 ///           each, and the material without them is drawn.
 ///   Does not  read KTX2 or WebP.
-///   Thread  any; images and primitives are decoded as jobs, this thread joins in. The result does not depend on the
-///           number of workers.
-///   Memory  the file, then about twice the result while it runs.
+///   Thread  any; images and primitives are decoded as jobs, and this thread takes part. The result does not depend on
+///           the number of workers.
+///   Memory  the file, and about twice the result while loading.
 ///   Fails   one line naming file, element and reason: "helmet.gltf: accessors[3]: 24 elements end at byte 300, ...".
 ///   Cost    bench/filament_core/assets/GltfBench.cpp
 #pragma once
@@ -34,12 +34,12 @@ enum class GltfStage : uint8_t {
 };
 
 struct GltfOptions {
-    /// Called after every step, with `done` growing from 0 to `total`; from any worker, but never from two at once.
+    /// Called after every step, with `done` increasing from 0 to `total`; from any worker, but never from two at once.
     std::function<void(GltfStage stage, size_t done, size_t total)> progress = {};
     uint32_t maxTextureSize = 0; ///< texels; larger images start at a smaller mip level. 0: no limit
     GeometryStorage storage{};
     GltfDeformation deformation = GltfDeformation::AtRest;
-    std::string name = "model"; ///< what messages call a file in memory; loadGltf() fills it in
+    std::string name = "model"; ///< name of a file in memory in messages; loadGltf() fills it in
 };
 
 Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& jobs, GltfOptions options = {});

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfMeshes: the geometry that a scene asks for, one primitive at a time.
+/// GltfMeshes: builds the geometry that a scene needs, one primitive at a time.
 ///   In      a document whose buffers are loaded, and a request of planScene().
-///   Out     vertices and indices ready to upload; empty primitives are left out by the caller (indexCount 0).
+///   Out     vertices and indices ready to upload; the caller drops empty primitives (indexCount 0).
 ///   Thread  any; one call per primitive, all in parallel.
 ///   Limits  2^27 vertices and 2^29 indices for all requests together (checkBudget, before anything is allocated).
-///   Fails   through the diagnostics; exceptions of libraries and of the allocator end there as well.
+///   Fails   through the diagnostics; exceptions of libraries and of the allocator are caught there as well.
 #pragma once
 
 #include "filament_core/assets/gltf/GltfScene.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfParse: JSON text -> GltfDocument.
 ///   In       the text of a .gltf file, or the JSON chunk of a .glb.
-///   Out      every element, with all indices between elements checked and node links proven to be a forest.
-///   Warns    about each extension that the file names and this loader does not know, once, and about clamped factors.
+///   Out      every element, with all indices between elements checked and the node links verified to form a forest.
+///   Warns    once about each unknown extension that the file names, and about clamped factors.
 ///   Fails    Corrupt, naming the element ("meshes[2].primitives[0].mode: ..."); Unsupported for another major version.
 ///            After a failure the document is incomplete and must not be used.
 ///   Limits   2^28 elements per accessor, 4096 B strides; recursion-free, so depth is limited by memory only.
@@ -21,7 +21,7 @@ GltfDocument parseGltf(std::span<const std::byte> json, Diagnostics& diagnostics
 
 // ---- steps, in their own files
 GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount);
-/// KHR_materials_variants of a primitive. Mappings of a variant that has one already are left out, with a warning.
+/// KHR_materials_variants of a primitive. A second mapping of the same variant is dropped, with a warning.
 std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, size_t materialCount,
                                                    size_t variantCount);
 backend::SamplerDesc parseGltfSampler(JsonNode const& node);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfParseMaterial: what the parser of materials and that of their extensions have in common.
+/// GltfParseMaterial: shared by the parsers of materials and of their extensions.
 ///   Fails   through the diagnostics of the node.
 #pragma once
 
@@ -33,8 +33,8 @@ std::array<float, N> parseFactors(JsonNode const& node, double fallback, double 
     return factors;
 }
 
-/// Everything below material.extensions but the emissive strength. What the specifications do not allow together is
-/// left out, with a warning.
+/// Parses material.extensions except the emissive strength. Combinations that the specifications forbid are dropped,
+/// with a warning.
 void parseMaterialExtensions(JsonNode const& node, size_t textureCount, GltfMaterial& material);
 
 } // namespace filament::assets

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfScene: what the default scene of a file shows, before any vertex is touched.
+/// GltfScene: determines what the default scene of a file shows, before any vertex is read.
 ///   In      a document whose buffers are loaded.
-///   Out     the nodes of the file, parents before children, and the meshes that they ask for: a mesh appears once per
+///   Out     the nodes of the file, parents before children, and the meshes that they need: one per mesh and
 ///           combination of morph weights and skin that the scene uses, with the rest pose of its joints.
-///           NodeData::mesh counts in those. Every mesh stands where its node stands; where that needs a node of its
-///           own, one of the same name follows the file's: a child for each instance of EXT_mesh_gpu_instancing, a root
-///           for a skinned mesh, whose place does not depend on its node (section 3.7.3.3).
+///           NodeData::mesh is an index into those. A mesh is placed at its node. If it needs a node of its own, one
+///           with the same name follows the file's nodes: a child for each instance of EXT_mesh_gpu_instancing, or a
+///           root for a skinned mesh, whose place does not depend on its node (section 3.7.3.3). Joints outside the
+///           default scene come with their ancestors and descendants, but without their meshes.
 ///   Thread  one. Cost: linear in the nodes.
-///           Joints outside of the default scene come with the nodes above and below them, without their meshes.
-///   Limits  2^20 instances of EXT_mesh_gpu_instancing a node; skins of more than 256 joints are not kept.
+///   Limits  2^20 instances of EXT_mesh_gpu_instancing per node; skins of more than 256 joints are dropped.
 ///   Fails   Corrupt: a transform that is not finite, a skin without joints, instance attributes of different length.
 #pragma once
 
@@ -23,8 +23,8 @@ struct GltfMeshRequest {
     uint32_t mesh = kNone;
     uint32_t skin = kNone;
     std::vector<float> weights;
-    std::vector<float4x4> worldFromBind;          ///< per joint, at rest; empty without a skin
-    bool keepsSkin = false, keepsTargets = false; ///< else: the vertices are moved to where they are at rest
+    std::vector<float4x4> worldFromBind;          ///< per joint, in the rest pose; empty without a skin
+    bool keepsSkin = false, keepsTargets = false; ///< false: vertices are moved to the rest pose
 };
 
 struct GltfScene {
@@ -33,7 +33,7 @@ struct GltfScene {
     std::vector<SkinData> skins; ///< those that requests keep
 
     std::vector<uint32_t> nodeOf;                 ///< by node of the file: into `nodes`, or kNone
-    std::vector<std::vector<uint32_t>> meshNodes; ///< by node of the file: where its mesh stands
+    std::vector<std::vector<uint32_t>> meshNodes; ///< by node of the file: the nodes that carry its mesh
 };
 
 GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, Diagnostics& diagnostics);

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfTextures: the materials that a scene uses, and the images that those need.
-///   In      a document, and which of its materials something drawn uses.
-///   Out     materials in file order; image jobs, one per image and use: an image that serves as colour and as data
-///           becomes two textures (sRGB and linear) from one decoding. Pairs of maps that an extension keeps in one
-///           texture, and that the file keeps in two, are packed: one job for each distinct pair. TextureRef::image
-///           counts in the jobs' textures, in order.
+/// GltfTextures: the materials that a scene uses, and the images that they need.
+///   In      a document, and the flags of its materials that are used.
+///   Out     materials in file order, and image jobs, one per image and use: an image used as colour and as data
+///           becomes two textures (sRGB and linear) from one decoding. If an extension expects a pair of maps in one
+///           texture and the file has two, they are packed, with one job per distinct pair. TextureRef::image is an
+///           index into the jobs' textures, in order.
 ///   Thread  planTextures(): one. decodeImageJob(): any, one call per job, all in parallel.
-///   Fails   a missing or broken image is an error that names it. A texture in a format that this loader does not read
-///           (KTX2, WebP without fallback) is left out with a warning; so is the second map of a pair whose texture
-///           coordinates or sampler differ from those of the first.
+///   Fails   a missing or broken image is an error that names it. A texture in an unsupported format (KTX2, WebP
+///           without fallback) is dropped with a warning, and so is the second map of a pair whose texture coordinates
+///           or sampler differ from those of the first.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"
@@ -21,14 +21,14 @@
 namespace filament::assets {
 
 struct GltfImageJob {
-    uint32_t image = 0;                                 ///< of the document
+    uint32_t image = 0;                                 ///< index in the document
     uint32_t colorTexture = kNone, dataTexture = kNone; ///< slots in ModelData::images
-    Image color, data;                                  ///< filled as far as asked for
-    Diagnostics diagnostics;
+    Image color, data;                                  ///< filled as requested
+    GltfDiagnostics diagnostics;
 };
 
 struct GltfPackJob {
-    uint32_t first = 0, second = 0; ///< images of the document
+    uint32_t first = 0, second = 0; ///< indices in the document
     PackLayout layout = PackLayout::RedGreen;
     uint32_t texture = 0; ///< slot in ModelData::images
     Image image;
@@ -42,8 +42,8 @@ struct GltfTextures {
     uint32_t textureCount = 0;
 };
 
-/// `used`: per material of the document whether something drawn uses it. Unused materials are left out of the result;
-/// `remap` gives the new index of the others.
+/// `used`: for each material of the document, whether it is used. Unused materials are dropped; `remap` gives the new
+/// index of the others.
 GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const& used, std::vector<uint32_t>& remap,
                           Diagnostics& diagnostics);
 

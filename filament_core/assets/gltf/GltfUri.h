@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfUri: the bytes behind a URI of a glTF file.
+/// GltfUri: reads the bytes that a URI of a glTF file refers to.
 ///   In      "data:...;base64,..." or a relative reference (RFC 3986, percent-encoded) and the folder of the model.
-///   Safety  a model comes from anyone: only regular files inside the model's folder are opened; absolute paths, ".."
-///           that leaves the folder, and URIs with a scheme (http:, file:) are refused.
+///   Safety  models are untrusted: only regular files inside the model's folder are opened. Absolute paths, ".." that
+///           leaves the folder, and URIs with a scheme (http:, file:) are errors.
 ///   Thread  any.
-///   Limits  2 GiB a file.
+///   Limits  2 GiB per file.
 ///   Fails   NotFound, Unreadable, Corrupt (bad encoding), Unsupported (scheme); the message does not name the element.
 #pragma once
 

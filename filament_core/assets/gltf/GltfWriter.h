@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfWriter: a scene made by code as a binary glTF 2.0 file, readable by every glTF viewer.
+/// GltfWriter: writes a generated scene as a binary glTF 2.0 file that every glTF viewer can read.
 ///   In      triangles with float attributes, MaterialData, LightData, PNG images, a forest of nodes.
-///   Out     the bytes of a .glb: one buffer, attributes 4-byte aligned, 16-bit indices where they suffice. Materials
-///           write what differs from glTF's defaults, and KHR_materials_unlit, KHR_materials_emissive_strength,
-///           KHR_texture_transform and KHR_lights_punctual where they are used. The same scene gives the same bytes.
+///   Out     the bytes of a .glb: one buffer, attributes 4-byte aligned, 16-bit indices if they suffice. Materials
+///           write only values that differ from glTF's defaults, and KHR_materials_unlit,
+///           KHR_materials_emissive_strength, KHR_texture_transform and KHR_lights_punctual if used. The same scene
+///           gives the same bytes.
 ///   Thread  any.
-///   Memory  the file twice.
+///   Memory  twice the size of the file.
 ///   Fails   InvalidArgument, naming the element: an index out of range, attributes of different length, a node with
-///           two parents; OutOfMemory beyond 4 GiB, which the container cannot hold.
+///           two parents; OutOfMemory beyond 4 GiB, the limit of the container.
 #pragma once
 
 #include "base/Result.h"
@@ -24,11 +25,11 @@ struct GlbImage {
     std::vector<std::byte> file; ///< PNG or JPEG
 };
 
-/// Encodes 8-bit RGBA pixels, row 0 at the top; without the alpha channel if all of it is 255.
+/// Encodes 8-bit RGBA pixels, row 0 at the top; omits the alpha channel if it is 255 everywhere.
 Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height,
                                     std::span<const std::byte> rgba8);
 
-/// Triangles, counter-clockwise from outside. Empty attributes are left out.
+/// Triangles, counter-clockwise from outside. Empty attributes are omitted.
 struct GlbPrimitive {
     std::vector<float3> positions = {}, normals = {};
     std::vector<float4> tangents = {};
@@ -55,10 +56,10 @@ struct GlbScene {
     std::string name = {};
     std::string copyright = {}; ///< asset.copyright; empty: none
     std::vector<GlbImage> images = {};
-    std::vector<MaterialData> materials = {}; ///< TextureRef::image counts in `images`
+    std::vector<MaterialData> materials = {}; ///< TextureRef::image is an index into `images`
     std::vector<GlbMesh> meshes = {};
     std::vector<LightData> lights = {};
-    std::vector<GlbNode> nodes = {}; ///< those that are nobody's child are the scene's roots
+    std::vector<GlbNode> nodes = {}; ///< nodes without a parent are the scene's roots
 };
 
 Result<std::vector<std::byte>> writeGlb(GlbScene const& scene);

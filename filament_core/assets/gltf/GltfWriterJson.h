@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfWriterJson: the parts of a glTF file that need no buffer, as JSON. Used by GltfWriter.cpp only.
-///   In      a checked scene.  Out  members added to the file's root object; members in the order of writing.
+///   In      a checked scene.  Out  members added to the file's root object, in the order of writing.
 ///   Thread  any.
 #pragma once
 

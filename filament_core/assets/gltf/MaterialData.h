@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MaterialData: a glTF material as plain values: the core of glTF 2.0 and the KHR_materials extensions.
-///   Every extension is a struct whose defaults change nothing; isUsed() says whether the file asks for more than that.
-///   Colours are linear Rec. 709, factors lie in the ranges of their specifications (the parser clamps them), and only
-///   maps of what is used are there.
+///   Every extension is a struct whose defaults have no effect; isUsed() says whether the file uses it. Colours are
+///   linear Rec. 709, factors are in the ranges of their specifications (the parser clamps them), and only maps of used
+///   extensions are present.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -24,11 +24,11 @@ struct TextureRef {
     bool hasTransform = false;
 };
 
-/// Two maps of an extension whose channels do not overlap, in one texture: where the file keeps them apart the loader
-/// puts them together (TexturePacking.h).
+/// Two maps of an extension with disjoint channels, in one texture. If the file has two textures, the loader packs them
+/// (TexturePacking.h).
 struct TexturePair {
     TextureRef texture;
-    bool hasFirst = false, hasSecond = false; ///< without it its channels mean nothing
+    bool hasFirst = false, hasSecond = false; ///< otherwise its channels have no meaning
 };
 
 enum class AlphaMode : uint8_t { Opaque, Mask, Blend };
@@ -72,15 +72,14 @@ struct IridescenceData {
     float factor = 0;
     float ior = 1.3f;
     float thicknessMinNanometers = 100, thicknessMaxNanometers = 400; ///< without a map: the maximum
-    TexturePair maps;                                                 ///< red: factor; green: minimum to maximum
+    TexturePair maps;                                                 ///< red: factor; green: from minimum to maximum
     bool isUsed() const { return factor > 0; }
 };
 
-/// KHR_materials_transmission, and KHR_materials_volume and KHR_materials_dispersion, which refine it.
+/// KHR_materials_transmission, with KHR_materials_volume and KHR_materials_dispersion, which refine it.
 struct TransmissionData {
     float factor = 0;
-    float thicknessMeters =
-            0; ///< in the space of the mesh; 0: thin walls, and nothing below but dispersion's 0 matters
+    float thicknessMeters = 0; ///< in the space of the mesh; 0: thin walls, which neither absorb nor disperse
     float3 attenuationColor{ 1.0f };
     float attenuationDistanceMeters = std::numeric_limits<float>::infinity(); ///< in the space of the file's scene
     float dispersion = 0;                                                     ///< 20 over the Abbe number
@@ -93,18 +92,18 @@ struct TransmissionData {
 struct DiffuseTransmissionData {
     float3 color{ 1.0f };
     float factor = 0;
-    TexturePair maps; ///< RGB: colour (sRGB); alpha: factor. None where transmission is used, too
+    TexturePair maps; ///< RGB: colour (sRGB); alpha: factor. None if transmission is also used
     bool isUsed() const { return factor > 0; }
 };
 
-/// KHR_materials_pbrSpecularGlossiness: takes the place of metallic and roughness; the base colour is its diffuse one.
+/// KHR_materials_pbrSpecularGlossiness: replaces metallic and roughness; the base colour is the diffuse colour.
 struct SpecularGlossinessData {
     float3 specularFactor{ 1.0f };
     float glossinessFactor = 1;
     TextureRef map; ///< RGB: specular colour (sRGB); alpha: glossiness
 };
 
-/// What KHR_materials_ior allows as 0: so dense that everything is reflected.
+/// Stands for the value 0 of KHR_materials_ior: so high that everything is reflected.
 inline constexpr float kOpaqueIor = 65504;
 
 struct MaterialData {

@@ -3,9 +3,9 @@
 ///   In      the description and the compressed bytes; untrusted.
 ///   Out     count * byteStride bytes. `path` names the view in messages; on failure the result is empty.
 ///   Thread  any.
-///   Limits  what the extension allows: strides 4..256 (attributes), 2 or 4 (indices), 4 or 8 (octahedral), 8
-///           (quaternion); and not more than 2048 decoded bytes for one compressed byte, which no valid stream reaches,
-///           so that nothing large is allocated for a small file.
+///   Limits  those of the extension: strides 4..256 (attributes), 2 or 4 (indices), 4 or 8 (octahedral), 8
+///           (quaternion); and at most 2048 decoded bytes per compressed byte, which no valid stream reaches, so that a
+///           small file cannot cause a large allocation.
 ///   Fails   Corrupt.
 #pragma once
 

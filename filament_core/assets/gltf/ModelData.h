@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ModelData: a glTF file as plain values, ready to upload. No device, no engine.
-///   Vertices are de-quantised as far as the GPU cannot do it itself, tangent frames are quaternions (MikkTSpace where
-///   the file gives none), colours are linear, texture coordinates keep glTF's origin (v = 0 is the top row).
-///   Indices into the vectors are checked by the loader: every one is valid or kNone.
+///   Vertices are de-quantised if the GPU cannot do it, tangent frames are quaternions (MikkTSpace if the file has
+///   none), colours are linear, and texture coordinates keep glTF's origin (v = 0 is the top row). The loader has
+///   checked every index into the vectors: it is valid or kNone.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -21,10 +21,10 @@
 
 namespace filament::assets {
 
-/// Who applies skins and morph targets.
+/// Where skins and morph targets are applied.
 enum class GltfDeformation : uint8_t {
-    AtRest, ///< the loader, once: the vertices are those of the rest pose
-    Kept,   ///< the device, every frame
+    AtRest, ///< by the loader, once: the vertices are those of the rest pose
+    Kept,   ///< by the device, every frame
 };
 
 /// How vertices are stored (<filament/Quality.h>).
@@ -33,24 +33,24 @@ struct GeometryStorage {
     TangentStorage tangents = TangentStorage::Snorm16;
 };
 
-/// A closed box; empty where min > max.
+/// A closed box; empty if min > max.
 struct BoundsData {
     float3 min{ 3e38f }, max{ -3e38f };
     void add(float3 point) { min = glm::min(min, point), max = glm::max(max, point); }
 };
 
-/// Differences from the vertices of a primitive; an empty list: no difference.
+/// Displacements of the vertices of a primitive; an empty list: none.
 struct MorphTargetData {
     std::vector<float3> positions, normals, tangents;
 };
 
-/// KHR_materials_variants: what a primitive looks like in a variant of its model.
+/// KHR_materials_variants: the material of a primitive in one variant of its model.
 struct VariantMaterial {
     uint32_t variant = 0;  ///< into ModelData::variants
     uint32_t material = 0; ///< into ModelData::materials
 };
 
-/// One draw's worth of geometry. Positions and all other attributes are interleaved in one stream.
+/// The geometry of one draw. All attributes are interleaved in one stream.
 struct PrimitiveData {
     backend::Topology topology = backend::Topology::Triangles;
     backend::VertexLayout
@@ -60,18 +60,18 @@ struct PrimitiveData {
     backend::IndexType indexType = backend::IndexType::UInt16;
     uint32_t vertexCount = 0, indexCount = 0;
     uint32_t material = kNone;                   ///< kNone: glTF's default material
-    std::vector<VariantMaterial> variants;       ///< what takes its place; at most one a variant
+    std::vector<VariantMaterial> variants;       ///< replacements; at most one per variant
     float3 boundsMin{ 0.0f }, boundsMax{ 0.0f }; ///< of the stored positions
     float3 positionOffset{ 0.0f };               ///< position of the file = offset + scale * stored position
     float positionScale = 1;
     bool hasColor = false, hasUv0 = false, hasUv1 = false;
-    bool hasTangents = false; ///< false: no normals could be made either (points, lines)
+    bool hasTangents = false; ///< false: normals could not be computed either (points, lines)
 
-    // What the loader leaves to the device (GltfDeformation::Kept)
-    bool isSkinned = false;               ///< vertices have joints and weights, whose sum is 1
-    std::vector<BoundsData> boneBounds{}; ///< by joint, of the vertices that it moves; as far as the last of those
+    // Left to the device (GltfDeformation::Kept)
+    bool isSkinned = false;               ///< vertices have joints and weights that sum to 1
+    std::vector<BoundsData> boneBounds{}; ///< by joint, of the vertices that it moves; ends with the last such joint
     std::vector<MorphTargetData> morphTargets{};
-    BoundsData restBounds{}; ///< in the space that positions end in, with the weights and joints of the rest pose
+    BoundsData restBounds{}; ///< in the final space of positions, with the weights and joints of the rest pose
 };
 
 struct MeshData {
@@ -98,9 +98,9 @@ struct NodeData {
     double4x4 worldFromNode{ 1.0 }; ///< of the rest pose: the product from the root down
     uint32_t mesh = kNone;
     uint32_t light = kNone;
-    std::vector<float> morphWeights; ///< of the rest pose; GltfDeformation::AtRest: applied by the loader already
+    std::vector<float> morphWeights; ///< of the rest pose; GltfDeformation::AtRest: already applied by the loader
     uint32_t skin = kNone;           ///< into ModelData::skins; moves the skinned primitives of `mesh`
-    NodePose pose{};                 ///< parentFromNode in parts: where animations start
+    NodePose pose{};                 ///< parentFromNode decomposed: the start of animations
 };
 
 struct SkinData {

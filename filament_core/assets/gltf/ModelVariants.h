@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// ModelVariants: the variants of a model by name (KHR_materials_variants).
-///   Fails   InvalidArgument for a name that the model does not have, with the one that may have been meant.
+///   Fails   InvalidArgument for a name that the model does not have, with the nearest known name.
 ///   Thread  any.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace filament::assets {
 
-/// The index of the first variant of this name. `model`: what the message calls the model.
+/// The index of the first variant with this name. `model`: the name of the model in messages.
 Result<uint32_t> findVariant(std::span<const std::string> variants, std::string_view name, std::string_view model);
 
 /// Gives every primitive the material that the variant names for it; others keep theirs. "": changes nothing.

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Tangents: per-vertex tangents as MikkTSpace defines them, so that normal maps baked anywhere else look right here.
-///   Source   M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, chapter 4 and appendix A; glTF 2.0
-///            section 3.7.2.1 asks for it. Own implementation.
+/// Tangents: per-vertex tangents as MikkTSpace defines them, so that normal maps baked elsewhere look right here.
+///   Source   M. S. Mikkelsen, "Simulation of Wrinkled Surfaces Revisited", 2008, chapter 4 and appendix A; required by
+///            glTF 2.0 section 3.7.2.1. Own implementation.
 ///   Method   1. every triangle gets dP/du and its orientation (mirrored texture or not);
 ///            2. corners with equal position, normal and texture coordinate are one vertex, triangles that share an
 ///               edge of it are neighbours;
@@ -10,10 +10,10 @@
 ///               angle of the corner, so that the triangulation of flat polygons does not matter;
 ///            5. an input vertex whose corners fell into several groups is split.
 ///   In       a triangle list, indices in range, normals of unit length, all finite. v points down (glTF).
-///   Out      tangents with w = +1 or -1: bitangent = cross(normal, tangent) * w points towards -v. A group without any
-///            usable texture gradient gets a tangent perpendicular to the normal.
+///   Out      tangents with w = +1 or -1: bitangent = cross(normal, tangent) * w points towards -v. A group without a
+///            usable texture gradient gets an arbitrary tangent perpendicular to the normal.
 ///   Thread   any, no shared state. The same bits on every run.
-///   Memory   about 60 B a corner while it runs.
+///   Memory   about 60 B per corner while it runs.
 ///   Cost     bench/filament_core/assets/GltfBench.cpp
 #pragma once
 

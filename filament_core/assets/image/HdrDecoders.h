@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The two decoders behind HdrReader.h and the byte cursor that they share. Private to this folder.
-///   Fails   a decoder returns an Error whose message is only the reason; HdrReader adds file and cure.
+///   Fails   a decoder returns an Error whose message is only the reason; HdrReader adds the file and the cure.
 ///   Thread  any.
 #pragma once
 
@@ -15,7 +15,7 @@
 
 namespace filament::assets {
 
-/// Reads forward through bytes and never past their end. Little-endian, like the files and every machine we run on.
+/// Reads forward through bytes and never past their end. Little-endian, like the files and all supported machines.
 class ByteCursor {
 public:
     explicit ByteCursor(std::span<const std::byte> bytes) : mBytes(bytes) {}
@@ -54,7 +54,7 @@ private:
     std::span<const std::byte> mBytes;
 };
 
-/// Nothing if width x height is a size we accept, else the reason.
+/// Nothing if width x height is a supported size, otherwise the reason.
 std::optional<Error> checkHdrSize(int64_t width, int64_t height);
 
 bool isRgbe(std::span<const std::byte> bytes);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// HdrImage: scene-linear pixels as floats, row 0 is the top row.
-///   Values  linear Rec. 709; every component is in [0, kMaxRadiance] once sanitise() ran.
-///   Memory  12 bytes a pixel.
+///   Values  linear Rec. 709; every component is in [0, kMaxRadiance] after sanitise().
+///   Memory  12 bytes per pixel.
 #pragma once
 
 #include "base/math/Math.h"
@@ -12,14 +12,14 @@
 
 namespace filament::assets {
 
-/// A million times the sun in cd/m^2: what is brighter is damage, and sums over a sky of it stay finite in fp32.
+/// A million times the sun in cd/m^2: brighter values are damage. Sums over a sky of this radiance stay finite in fp32.
 inline constexpr float kMaxRadiance = 1e15f;
 
 /// Components that could not be light and were replaced.
 struct HdrRepairs {
-    uint64_t notANumber = 0; ///< became 0
-    uint64_t infinite = 0;   ///< above kMaxRadiance; became the largest value of the image that is not
-    uint64_t negative = 0;   ///< became 0
+    uint64_t notANumber = 0; ///< replaced by 0
+    uint64_t infinite = 0;   ///< above kMaxRadiance; replaced by the largest valid value of the image
+    uint64_t negative = 0;   ///< replaced by 0
     uint64_t total() const { return notANumber + infinite + negative; }
     friend bool operator==(HdrRepairs const&, HdrRepairs const&) = default;
 };
@@ -33,7 +33,7 @@ struct HdrImage {
     float3 const& at(uint32_t x, uint32_t y) const { return pixels[size_t(y) * width + x]; }
 };
 
-/// Replaces what is outside of [0, kMaxRadiance], and counts it in image.repairs.
+/// Replaces values outside [0, kMaxRadiance] and counts them in image.repairs.
 void sanitise(HdrImage& image);
 
 } // namespace filament::assets

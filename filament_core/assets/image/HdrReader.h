@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Reads high dynamic range pictures: Radiance .hdr (RGBE) and OpenEXR .exr.
-///   In      a file, or its bytes and the name that error messages call it. The content decides, not the extension.
+///   In      a file, or its bytes and a name for error messages. The content decides the format, not the extension.
 ///   Out     HdrImage, sanitised: NaN, infinite and negative components are replaced and counted in `repairs`.
 ///   .hdr    flat, old and new run lengths; rows top-down or bottom-up; EXPOSURE lines are divided out; not XYZE.
 ///   .exr    single-part scan lines, half or float; uncompressed, RLE, ZIPS, ZIP here, PIZ by libtinyexr; channels
 ///           R, G, B or Y. Not tiled, multi-part, deep or subsampled.
 ///   Thread  any; no shared state.
-///   Limits  kMaxHdrSide on a side, kMaxHdrPixels in all; checked before memory is taken.
+///   Limits  kMaxHdrSide per side, kMaxHdrPixels in all; checked before memory is allocated.
 ///   Fails   NotFound, Unreadable, Corrupt, Unsupported, OutOfMemory: one line with file, reason and cure. Never
 ///           crashes.
 #pragma once

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Image: decoded pixels in memory, tightly packed, row 0 is the top row, mip levels one after the other.
+/// Image: decoded pixels in memory, tightly packed, row 0 at the top, mip levels in sequence.
 #pragma once
 
 #include "backend/api/Format.h"
@@ -10,7 +10,7 @@
 
 namespace filament::assets {
 
-/// `data` holds level 0, then level 1, ...; each level `layers` images of max(1, size >> level).
+/// `data` holds level 0, then level 1, ...; each level has `layers` images of size max(1, size >> level).
 struct Image {
     uint32_t width = 0, height = 0;
     uint32_t layers = 1; ///< 6 for a cube: +x -x +y -y +z -z

@@ -1,11 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Writes pictures: PNG for what a display shows, OpenEXR and Radiance .hdr for scene-linear light. Reads PNG back.
+/// Writes pictures: PNG for display, OpenEXR and Radiance .hdr for scene-linear light. Also reads PNG.
 ///   In      tightly packed pixels, row 0 is the top row; the span's size is checked against width and height.
-///   Out     a complete file or none: written beside and renamed. PNG pixels are taken as sRGB codes, not converted.
+///   Out     a complete file or none: written under another name and renamed. PNG pixels are stored as sRGB codes,
+///           unconverted.
 ///   Thread  any; no shared state.
-///   Memory  a second copy of the picture at most.
+///   Memory  at most a second copy of the picture.
 ///   Fails   Unreadable with path and reason; an empty picture is the caller's bug.
-///   Cost    PNG uses zlib's fastest level: 1280 x 720 in about 15 ms, files a third larger than at the default level.
+///   Cost    PNG uses zlib's fastest level: 1280 x 720 in about 15 ms; files are a third larger than at the default
+///           level.
 #pragma once
 
 #include "base/Result.h"
@@ -17,7 +19,7 @@
 
 namespace filament::assets {
 
-/// RGBA8, 4 bytes a pixel.
+/// RGBA8, 4 bytes per pixel.
 Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_t height,
                       std::span<const std::byte> rgba8);
 
@@ -26,7 +28,7 @@ Result<Image> readPng(std::filesystem::path const& path);
 
 enum class ExrPrecision : uint8_t { Half, Float };
 
-/// RGB in ZIP-compressed scan lines. Half clamps at 65504.
+/// RGB in ZIP-compressed scan lines. Half floats are clamped at 65504.
 Result<void> writeExr(std::filesystem::path const& path, uint32_t width, uint32_t height,
                       std::span<const float3> pixels, ExrPrecision precision = ExrPrecision::Half);
 /// RGBA16F pixels (8 bytes each) bit for bit, with alpha.

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MipMaps: the full mip chain of an 8-bit RGBA image.
-///   In      level 0, tightly packed, in sRGB (colour) or as plain numbers (data); alpha is always plain.
-///   Out     all levels behind each other, each the area-weighted mean of the one above it, in linear light for
-///           colours. Odd sizes: every texel of a level covers exactly its share of the level above (no texel is
-///           dropped). Levels are chained in 16 bits and rounded to 8 only for output, so rounding does not add up.
-///           Straight alpha: the colour of transparent texels counts, as glTF's OPAQUE materials show it.
+///   In      level 0, tightly packed, in sRGB (colour) or as plain numbers (data); alpha is always linear.
+///   Out     all levels in sequence, each the area-weighted mean of the one above it, in linear light for colours. For
+///           odd sizes every texel of a level covers exactly its share of the level above, and no texel is dropped.
+///           Levels are chained in 16 bits and rounded to 8 only for output, so rounding does not add up. Alpha is
+///           straight: the colour of transparent texels counts, as glTF's OPAQUE materials show it.
 ///   Thread  any; the same bits everywhere (integers, and floats without transcendental functions).
-///   Memory  the chain, 4/3 of level 0, and while it runs 8 B a texel of level 1.
+///   Memory  the chain, 4/3 of level 0, and 8 B per texel of level 1 while it runs.
 ///   Cost    bench/filament_core/assets/GltfBench.cpp
 #pragma once
 
@@ -14,7 +14,7 @@
 
 namespace filament::assets {
 
-/// `base` has one level and one layer, format RGBA8. The result has format RGBA8Srgb for colours, RGBA8 for data, and
+/// `base` has one level and one layer, format RGBA8. The result has format RGBA8Srgb for colours and RGBA8 for data. It
 /// starts with the first level that is not larger than `maxSize` in any direction (0: no limit).
 Image withMipMaps(Image base, bool isColor, uint32_t maxSize = 0);
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DfgTable: the half of the split sum that depends on the surface only, for every environment and material.
+/// DfgTable: the part of the split sum that depends only on the surface, for every environment and material.
 ///   Out     RGBA16F, size x size; column: nov = (x + 0.5) / size, row: perceptual roughness = (y + 0.5) / size.
-///           green = integral of D V n.l over the hemisphere: what a white surface reflects with one bounce;
+///           green = integral of D V n.l over the hemisphere: the single-bounce reflectance of a white surface;
 ///           red = the same weighted by Schlick's (1 - voh)^5. This is the form of Lagarde and Golubev 2018, "The Road
 ///           toward Unified Rendering", which also restores multiple scattering: specularDfg(), energyCompensation().
-///           blue = what a white sheen of that roughness reflects: Charlie's distribution with Neubelt's visibility,
-///           which exceeds 1 where smooth fibres graze; sheenLimit() and sheenAlbedoScaling() take it. alpha = the
-///           same for Ashikhmin's velvet with Neubelt's visibility.
-///   Method  Gauss-Legendre quadrature, 128 values of the lobe for red and green, 192 for each of the others, in
-///           coordinates where they are smooth: errors below 3e-4 of 1, or of the value where it exceeds 1.
+///           blue = the reflectance of a white sheen of that roughness: Charlie's distribution, Neubelt's visibility,
+///           which exceeds 1 for smooth fibres at grazing angles; sheenLimit() and sheenAlbedoScaling() handle that.
+///           alpha = the same for Ashikhmin's velvet with Neubelt's visibility.
+///   Method  Gauss-Legendre quadrature, with 128 values of the lobe for red and green and 192 for each of the others,
+///           in coordinates where they are smooth: errors below 3e-4, relative to the value where it exceeds 1.
 ///   Thread  runs on the job system; the same bits for any number of workers.
 ///   Fails   never.  Cost: bench/filament_core/assets/IblBench.cpp; about 35 ms of one core for 64 x 64.
 #pragma once
