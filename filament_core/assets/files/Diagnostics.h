@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfDiagnostics: errors and warnings while reading one file.
+/// Diagnostics: errors and warnings while reading one file.
 ///   The first error wins: code after it may continue with harmless defaults and check once at the end of its step,
 ///   instead of unwinding from every field. Each warning is kept once, in order of discovery.
 ///   Thread  one thread each; jobs fill their own and the loader merges them in file order, so the text does not depend

@@ -70,8 +70,8 @@ private:
 class JsonTree {
 public:
     /// An error, naming the byte, for text that is not a JSON object.
-    JsonTree(std::span<const std::byte> text, GltfDiagnostics& diagnostics);
-    JsonNode root(GltfDiagnostics& diagnostics) const;
+    JsonTree(std::span<const std::byte> text, Diagnostics& diagnostics);
+    JsonNode root(Diagnostics& diagnostics) const;
 
 private:
     struct TakeApart {

@@ -67,7 +67,7 @@ void keepMorphTargets(GltfDocument const& document, GltfPrimitive const& primiti
                       Diagnostics& diagnostics);
 
 /// Prepares joints and weights for the device: every joint exists, and the weights of a vertex sum to 1.
-void keepSkin(size_t jointCount, std::string const& path, GltfGeometry& geometry, GltfDiagnostics& diagnostics);
+void keepSkin(size_t jointCount, std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics);
 
 /// By joint: bounds of the vertices that it moves.
 std::vector<BoundsData> boundsOfBones(GltfGeometry const& geometry);

@@ -24,7 +24,7 @@ struct GltfImageJob {
     uint32_t image = 0;                                 ///< index in the document
     uint32_t colorTexture = kNone, dataTexture = kNone; ///< slots in ModelData::images
     Image color, data;                                  ///< filled as requested
-    GltfDiagnostics diagnostics;
+    Diagnostics diagnostics;
 };
 
 struct GltfPackJob {
