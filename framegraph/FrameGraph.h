@@ -158,12 +158,13 @@ public:
                 });
     }
 
-    /// Also has `prepare(PassContext&)`: called before the pass (or the merged pass that it is part of) begins, where
-    /// objects may be created and contents be uploaded; what it returns is given to `execute(PassContext&, value)`.
-    template <class Setup, class Prepare, class Execute>
-    PassId addPass(std::string_view name, Setup&& setup, Prepare&& prepare, Execute&& execute) {
-        PassBuilder builder =
-                beginPass(name, makePassCode(mArena, std::forward<Prepare>(prepare), std::forward<Execute>(execute)));
+    /// Also has `beforePass(PassContext&)`: called before the pass (or the merged pass that it is part of) begins,
+    /// where objects may be created and contents be uploaded; what it returns is given to
+    /// `execute(PassContext&, value)`.
+    template <class Setup, class BeforePass, class Execute>
+    PassId addPass(std::string_view name, Setup&& setup, BeforePass&& beforePass, Execute&& execute) {
+        PassBuilder builder = beginPass(
+                name, makePassCode(mArena, std::forward<BeforePass>(beforePass), std::forward<Execute>(execute)));
         std::forward<Setup>(setup)(builder);
         return { static_cast<uint32_t>(mPasses.size()) };
     }

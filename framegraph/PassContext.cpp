@@ -67,7 +67,7 @@ uint8_t PassContext::colorIndex(TextureId id) const {
 backend::BindGroupHandle PassContext::bindGroup(backend::BindGroupLayout const& layout,
                                                 std::span<const backend::BindGroupEntry> entries,
                                                 std::string_view name) {
-    require(!mInsidePass, "pass '{}': bind group '{}' is made inside of a pass; make it in prepare",
+    require(!mInsidePass, "pass '{}': bind group '{}' is made inside of a pass; make it in beforePass",
             mPlan.graph->passes()[mPass].name, name);
     return mPlan.pool->bindGroup(mCommands, { .layout = layout, .entries = entries, .debugName = name });
 }

@@ -86,7 +86,7 @@ public:
     uint8_t colorIndex(TextureId id) const;
 
     /// A bind group that lives for this frame; equal ones are made once and kept while frames go on asking for them.
-    /// In `prepare` and in passes without attachments only.
+    /// In `beforePass` and in passes without attachments only.
     backend::BindGroupHandle bindGroup(backend::BindGroupLayout const& layout,
                                        std::span<const backend::BindGroupEntry> entries, std::string_view name);
 
@@ -105,26 +105,26 @@ private:
 
 struct PassCode {
     void* object = nullptr;
-    void (*prepare)(void* object, PassContext& context) = nullptr;
+    void (*beforePass)(void* object, PassContext& context) = nullptr;
     void (*execute)(void* object, PassContext& context) = nullptr;
 };
 
-template <class Prepare, class Execute>
-PassCode makePassCode(Arena& arena, Prepare&& prepare, Execute&& execute) {
-    using Value = std::invoke_result_t<std::decay_t<Prepare>&, PassContext&>;
-    static_assert(!std::is_void_v<Value>, "prepare returns what execute needs");
+template <class BeforePass, class Execute>
+PassCode makePassCode(Arena& arena, BeforePass&& beforePass, Execute&& execute) {
+    using Value = std::invoke_result_t<std::decay_t<BeforePass>&, PassContext&>;
+    static_assert(!std::is_void_v<Value>, "beforePass returns what execute needs");
     struct Code {
-        std::decay_t<Prepare> prepare;
+        std::decay_t<BeforePass> beforePass;
         std::decay_t<Execute> execute;
         std::optional<Value> value;
     };
     static_assert(std::is_trivially_destructible_v<Code>,
                   "pass code is never destructed: capture handles, ids, spans and plain values, by value");
     return {
-        arena.make<Code>(std::forward<Prepare>(prepare), std::forward<Execute>(execute), std::nullopt),
+        arena.make<Code>(std::forward<BeforePass>(beforePass), std::forward<Execute>(execute), std::nullopt),
         [](void* object, PassContext& context) {
             Code& code = *static_cast<Code*>(object);
-            code.value.emplace(code.prepare(context));
+            code.value.emplace(code.beforePass(context));
         },
         [](void* object, PassContext& context) {
             Code& code = *static_cast<Code*>(object);

@@ -44,7 +44,7 @@ void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup c
     for (const uint32_t pass : passes) {
         PassCode const& code = plan.graph->passes()[pass].code;
         context.enter(pass, false);
-        code.prepare(code.object, context);
+        code.beforePass(code.object, context);
     }
     if (!group.hasAttachments()) {
         executePass(commands, plan, context, passes[0], false);

@@ -18,7 +18,7 @@ namespace filament::passes {
 /// About 10 us of recording: what waking a thread for a range is worth.
 inline constexpr size_t kDrawsPerRange = 1024;
 
-/// Parallel to `draws`; none where a draw has no pipeline. For the `prepare` of a pass: what is not made yet is
+/// Parallel to `draws`; none where a draw has no pipeline. For `beforePass` of a pass: what is not made yet is
 /// recorded into its commands, in the order of drawing. Looks up in ranges, on the job system where there is one.
 std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext& pass, Arena& arena,
                                                          PipelineCache& pipelines, uint32_t slot,

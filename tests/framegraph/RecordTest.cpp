@@ -152,7 +152,7 @@ TEST_F(Record, APassWithoutAttachmentsRecordsOutsideOfPasses) {
     EXPECT_EQ(stream->takeReadback(ticket)->size(), 4u * 4 * 8);
 }
 
-TEST_F(Record, PrepareRunsBeforeTheMergedPassBegins) {
+TEST_F(Record, BeforePassRunsBeforeTheMergedPassBegins) {
     const TextureId hdr = color("hdr"), out = target();
     graph.addPass(
             "color", [&](PassBuilder& b) { b.writeColor(0, hdr, { .clear = { {} } }); }, [](PassContext&) {});
@@ -371,7 +371,7 @@ TEST_F(PassContextDeathTest, MakingABindGroupInsideOfAPass) {
     graph.addPass(
             "draw", [&](PassBuilder& b) { b.writeColor(0, out); },
             [=](PassContext& c) { c.bindGroup({}, {}, "late"); });
-    EXPECT_DEATH(frame(), "pass 'draw': bind group 'late' is made inside of a pass; make it in prepare");
+    EXPECT_DEATH(frame(), "pass 'draw': bind group 'late' is made inside of a pass; make it in beforePass");
     graph.reset();
 }
 
