@@ -10,8 +10,11 @@
 ///   Fails   never. Cost: bench/filament_core/prepare.
 #pragma once
 
+#include "filament_core/base/Arena.h"
+#include "filament_core/prepare/FramePacket.h"
 #include "filament_core/prepare/SortKey.h"
 #include "filament_core/prepare/ViewConstants.h"
+#include "jobsystem/JobSystem.h"
 
 #include <span>
 

@@ -6,6 +6,7 @@
 #pragma once
 
 #include "filament_core/prepare/CullRenderables.h"
+#include "filament_core/prepare/FramePacket.h"
 
 #include <span>
 

@@ -9,19 +9,10 @@
 
 #include "base/Arena.h"
 #include "filament_core/prepare/FramePacket.h"
+#include "filament_core/prepare/ViewInput.h"
 #include "jobsystem/JobSystem.h"
 
-#include <filament/Camera.h>
-#include <filament/Quality.h>
-
 namespace filament::prepare {
-
-struct ViewInput {
-    Camera camera{};
-    uint2 size{ 1, 1 };
-    double timeSeconds = 0;
-    Quality quality{};
-};
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view);
 

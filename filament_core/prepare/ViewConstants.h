@@ -2,8 +2,10 @@
 /// What all draws of a view share: matrices in camera-relative space, exposure, and the pre-exposed environment.
 #pragma once
 
-#include "base/math/Frustum.h"
-#include "filament_core/prepare/PrepareFrame.h"
+#include "filament_core/math/Frustum.h"
+#include "filament_core/prepare/ViewInput.h"
+#include "filament_core/scene/SceneData.h"
+#include "shaders/interface/ShaderInterface.h"
 
 namespace filament::prepare {
 
