@@ -9,13 +9,22 @@
 
 #include <filament/Renderer.h>
 
+#include <array>
 #include <string>
 
 namespace filament::engine {
 
 struct FrameSummary {
-    FrameStatistics statistics;
-    prepare::PacketCounts counts;
+    /// Views of one kind together.
+    struct Totals {
+        uint32_t views = 0, visible = 0, draws = 0;
+        uint64_t triangles = 0;
+    };
+
+    FrameStatistics statistics; ///< renderables and lights: of the main view; draws and triangles: of all
+    prepare::ViewCounts counts; ///< of the main view
+    Totals main;
+    std::array<Totals, prepare::kViewKinds> others{}; ///< by ViewKind, without the main view
     bool hasSky = false, hasIndirectLight = false;
 };
 

@@ -13,6 +13,7 @@
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
+#include <array>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -73,8 +74,7 @@ struct Renderer::Impl {
         engine::FrameTimingLog::Stamps stamps{ .begin = clock() };
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
         FrameContext* context = arena.make<FrameContext>();
-        context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(),
-                                                { view.camera, view.size, view.timeSeconds, view.quality });
+        context->packet = prepareScene(scene, view);
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context->packet);
 
@@ -101,14 +101,21 @@ struct Renderer::Impl {
         summary = engine::summarize(frame, context->packet, plan);
     }
 
+    prepare::FramePacket prepareScene(Scene const& scene, View const& view) {
+        const std::array views{ prepare::ViewInput{
+                .camera = view.camera, .size = view.size, .timeSeconds = view.timeSeconds, .quality = view.quality } };
+        return prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views);
+    }
+
     void upload(CommandBuffer& commands, FrameContext& context, uint32_t tableSize) {
         const auto sampler = [&](Sampler const& wanted) { return engine.samplers.get(wanted, commands); };
+        prepare::EnvironmentPacket const& environment = context.packet.environment;
         const TextureHandle black = engine.textureHandle(engine.defaults.blackCube);
         data.upload(engine.jobs, commands, context.packet,
-                    { .specular = context.packet.specular ? context.packet.specular : black,
+                    { .specular = environment.specular ? environment.specular : black,
                       .dfg = engine.textureHandle(engine.dfgTable(tableSize)),
-                      .sky = context.packet.sky ? context.packet.sky : black,
-                      .irradiance = context.packet.irradiance ? context.packet.irradiance : black,
+                      .sky = environment.sky ? environment.sky : black,
+                      .irradiance = environment.irradiance ? environment.irradiance : black,
                       .trilinear = sampler(kTrilinear),
                       .bilinear = sampler(kBilinear) });
         context.viewGroup = data.viewGroup();
@@ -125,8 +132,7 @@ struct Renderer::Impl {
         graph.reset();
         plan = {};
         FrameContext* context = arena.make<FrameContext>();
-        context->packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(),
-                                                { view.camera, view.size, view.timeSeconds, view.quality });
+        context->packet = prepareScene(scene, view);
         const TextureHandle toneTable = toneTableOf(view);
         const FramePasses passes = describe(*context, view, target, toneTable);
         plan = compile(graph, transients);
@@ -169,14 +175,14 @@ struct Renderer::Impl {
         context.settings = { view.size,
                              view.samples,
                              view.clearColor,
-                             passes::shadingKey(view.quality, context.packet.environment),
+                             passes::shadingKey(view.quality, context.packet.environment.storage),
                              view.quality.depthRange,
                              halfIsThere ? view.quality.shadingPrecision : ShadingPrecision::Full };
         context.arena = &arena;
         context.pipelines = &engine.pipelines;
-        if (context.packet.sky)
-            context.skybox =
-                    &engine.materials.get(engine.engineMaterial("skybox", { { "isRgbm", context.packet.skyIsRgbm } }));
+        if (context.packet.environment.sky)
+            context.skybox = &engine.materials.get(
+                    engine.engineMaterial("skybox", { { "isRgbm", context.packet.environment.skyIsRgbm } }));
 
         const TextureId output = graph.importTexture(target.handle,
                                                      { .width = target.desc.width,

@@ -19,13 +19,14 @@ struct ChosenPipelines {
 
 ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
     PipelineCache& pipelines = *context.pipelines;
-    prepare::FramePacket const& packet = context.packet;
+    prepare::ViewPacket const& view = context.packet.mainView();
     PassSettings const& settings = context.settings;
     const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
     ChosenPipelines chosen;
-    chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, packet.opaque, packet.variant);
-    chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, packet.blended, packet.variant);
-    if (packet.sky) chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.skybox);
+    chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant);
+    chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, view.blended, view.variant);
+    if (context.packet.environment.sky)
+        chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.skybox);
     return chosen;
 }
 
@@ -36,10 +37,11 @@ void recordSky(CommandBuffer& commands, FrameContext const& context, PipelineHan
 }
 
 void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines const& chosen) {
+    prepare::ViewPacket const& view = context.packet.mainView();
     const DrawContext draws{ context.viewGroup, context.instanceIds, context.deformations };
-    recordDrawRanges(pass, draws, context.packet.opaque, chosen.opaque);
+    recordDrawRanges(pass, draws, view.opaque, chosen.opaque);
     if (chosen.sky) recordSky(pass.commands(), context, chosen.sky);
-    recordDrawRanges(pass, draws, context.packet.blended, chosen.blended);
+    recordDrawRanges(pass, draws, view.blended, chosen.blended);
 }
 
 } // namespace

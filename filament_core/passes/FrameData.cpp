@@ -92,15 +92,16 @@ void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::
                        ViewTextures const& textures) {
     mCurrent = (mCurrent + 1) % static_cast<uint32_t>(mSets.size());
     Set& set = mSets[mCurrent];
-    const auto objects = static_cast<uint32_t>(packet.objects.size());
+    prepare::ViewPacket const& view = packet.mainView();
+    const auto objects = static_cast<uint32_t>(view.objects.size());
     const uint32_t windows = std::max(1u, (objects + kObjectsPerWindow - 1) / kObjectsPerWindow);
     if (windows > set.windows) makeObjects(commands, set, windows);
     makeFixed(commands, set);
     if (!set.view || set.textures != textures) bind(commands, set, textures);
 
-    commands.record(CmdUpdateBuffer{ set.frame, 0, bytesOf(packet.frame) });
-    if (!packet.lights.empty()) commands.record(CmdUpdateBuffer{ set.lights, 0, std::as_bytes(packet.lights) });
-    uploadObjects(jobs, commands, set, packet.objects);
+    commands.record(CmdUpdateBuffer{ set.frame, 0, bytesOf(view.uniforms) });
+    if (!view.lights.empty()) commands.record(CmdUpdateBuffer{ set.lights, 0, std::as_bytes(view.lights) });
+    uploadObjects(jobs, commands, set, view.objects);
     set.deformation.upload(mStream, jobs, commands, packet.deformations);
 }
 

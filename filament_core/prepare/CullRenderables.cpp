@@ -113,7 +113,7 @@ private:
 } // namespace
 
 VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables const& renderables,
-                             ViewSpace const& space, PacketCounts& counts) {
+                             ViewSpace const& space, ViewCounts& counts) {
     const size_t ranges = (renderables.count() + kCullRange - 1) / kCullRange;
     const auto slots = arena.arrayForOverwrite<SortItem>(renderables.count());
     const auto spans = arena.arrayForOverwrite<uint16_t>(drawOf(renderables.drawables.limit(), false));

@@ -15,10 +15,13 @@ constexpr size_t kBlocksPerJob = 32;
 
 uint32_t aligned(size_t bytes) { return static_cast<uint32_t>((bytes + kAlignment - 1) / kAlignment * kAlignment); }
 
-bool isVisible(scene::Renderables const& renderables, Deformation const& deformation, VisibleItems const& visible) {
+bool isVisible(scene::Renderables const& renderables, Deformation const& deformation,
+               std::span<const VisibleItems> views) {
     if (!deformation.renderable) return false;
     const uint32_t drawable = renderables.drawable[renderables.index.at(deformation.renderable)];
-    return visible.isSeen(drawOf(drawable, false)) || visible.isSeen(drawOf(drawable, true));
+    return std::ranges::any_of(views, [&](VisibleItems const& view) {
+        return view.isSeen(drawOf(drawable, false)) || view.isSeen(drawOf(drawable, true));
+    });
 }
 
 uint32_t activeTargets(Deformation const& deformation) {
@@ -48,7 +51,7 @@ shader::MorphUniforms morphUniforms(Deformation const& deformation) {
     return out;
 }
 
-DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, VisibleItems const& visible) {
+DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, std::span<const VisibleItems> views) {
     DeformationList list;
     if (scene.deformations.empty()) return list;
     const std::span<const Deformation> all = scene.deformations.all();
@@ -60,7 +63,7 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, V
     std::ranges::fill(bones, kNowhere);
     for (size_t i = 0; i < all.size(); ++i) {
         places[i] = {};
-        if (!isVisible(scene.renderables, all[i], visible)) continue;
+        if (!isVisible(scene.renderables, all[i], views)) continue;
         places[i].bones = 0; // without a skin any window does: it is not read
         if (all[i].skin) {
             uint32_t& block = bones[all[i].skin.index()];

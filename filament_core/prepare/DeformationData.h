@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Bones and morph weights of what is visible, as the vertex stage reads them: one buffer a frame, in which every
 /// visible skin has a block of bones and every visible deformation a block of weights; draws bind windows of it.
-///   In      the deformations of the scene, and which draws culling has seen.
+///   In      the deformations of the scene, and which draws culling has seen in each view.
 ///   Out     where each block begins; writeDeformations() fills the memory that the upload command carries.
 ///   Thread  placeDeformations(): the app thread. writeDeformations(): jobs over blocks.
 ///   Memory  the arena: 16 B a slot of Deformations and of skins. Nothing in scenes without deformations.
@@ -18,7 +18,8 @@
 
 namespace filament::prepare {
 
-DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, VisibleItems const& visible);
+/// `views`: of what any of them has seen, each skin and each deformation once.
+DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, std::span<const VisibleItems> views);
 
 /// memory.size() == list.bytes.
 void writeDeformations(jobs::JobSystem& jobs, DeformationList const& list, std::span<std::byte> memory);

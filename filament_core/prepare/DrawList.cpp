@@ -62,11 +62,6 @@ uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem>
     return triangles;
 }
 
-size_t countOpaque(std::span<const SortItem> items) {
-    const auto isOpaque = [](SortItem const& item) { return item.key < kBlendedKey; };
-    return static_cast<size_t>(std::ranges::partition_point(items, isOpaque) - items.begin());
-}
-
 } // namespace
 
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
@@ -87,8 +82,13 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
     return items;
 }
 
+std::span<const SortItem> withoutBlended(std::span<const SortItem> sorted) {
+    const auto isOpaque = [](SortItem const& item) { return item.key < kBlendedKey; };
+    return { sorted.begin(), std::ranges::partition_point(sorted, isOpaque) };
+}
+
 DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                         std::span<const SortItem> items, PacketCounts& counts) {
+                         std::span<const SortItem> items, ViewCounts& counts) {
     const auto ranges = arena.arrayForOverwrite<RangeDraws>((items.size() + kMergeRange - 1) / kMergeRange);
     jobs::parallelFor<"count draws">(jobs, items.size(), kMergeRange, [&](size_t begin, size_t end) {
         ranges[begin / kMergeRange].first = countDraws(items, begin, end);
@@ -104,7 +104,7 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     for (RangeDraws const& range : ranges) counts.triangles += range.triangles;
 
     // The first blended item begins a draw: what blends and what does not have no draw in common.
-    const size_t opaqueItems = countOpaque(items);
+    const size_t opaqueItems = withoutBlended(items).size();
     const auto isOpaque = [&](DrawCall const& draw) { return draw.firstObject < opaqueItems; };
     const auto opaque = static_cast<size_t>(std::ranges::partition_point(draws, isOpaque) - draws.begin());
     return { draws.first(opaque), draws.subspan(opaque) };

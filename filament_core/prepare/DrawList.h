@@ -16,6 +16,9 @@ namespace filament::prepare {
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
                               VisibleItems const& visible);
 
+/// Of a sorted list, what does not blend.
+std::span<const SortItem> withoutBlended(std::span<const SortItem> sorted);
+
 struct DrawLists {
     std::span<const DrawCall> opaque, blended;
 };
@@ -23,6 +26,6 @@ struct DrawLists {
 /// Neighbours of one draw become one instanced draw call; none crosses a window of shader::kObjectsPerWindow objects.
 /// Blended neighbours merge too: instances draw in order. What has two passes is two draw calls an object.
 DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                         std::span<const SortItem> items, PacketCounts& counts);
+                         std::span<const SortItem> items, ViewCounts& counts);
 
 } // namespace filament::prepare

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FramePacket: what is seen in one view of one frame. The only thing that passes read of a scene.
+/// FramePacket: what the views of one frame see (a ViewPacket each), and what they share. The only thing that passes
+/// read of a scene.
 ///   In      made by prepareFrame (PrepareFrame.h).
 ///   Thread  a plain value, read-only once made.
 ///   Memory  spans into the frame arena and the columns of the scene: valid until the end of the frame, or until the
@@ -8,6 +9,7 @@
 
 #include "backend/api/Handles.h"
 #include "filament_core/prepare/SortKey.h"
+#include "filament_core/prepare/ViewInput.h"
 #include "filament_core/scene/SceneData.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -16,7 +18,7 @@
 
 namespace filament::prepare {
 
-/// Where the objects of a frame are to be read from; writeObjects() (ObjectData.h) makes them what shaders see.
+/// Where the objects of a view are to be read from; writeObjects() (ObjectData.h) makes them what shaders see.
 struct ObjectList {
     std::span<const SortItem> order; ///< of drawing
     std::span<const scene::Placement> placements;
@@ -30,7 +32,7 @@ struct ObjectList {
 /// faces.
 enum class DrawPass : uint8_t { Only, First, Second };
 
-/// Instances [firstObject, firstObject + instanceCount) of FramePacket::objects, all of one window, share geometry,
+/// Instances [firstObject, firstObject + instanceCount) of ViewPacket::objects, all of one window, share geometry,
 /// material and raster state.
 struct DrawCall {
     scene::MaterialInstance const* material = nullptr;
@@ -59,32 +61,48 @@ struct DeformationList {
     uint32_t bytes = 0;                       ///< of all blocks; 0: nothing visible is deformed
 };
 
-struct PacketCounts {
+/// Of one view.
+struct ViewCounts {
     uint32_t renderables = 0;
     uint32_t visible = 0;
-    uint32_t outOfView = 0;     ///< their box is outside of the frustum
-    uint32_t nothingToDraw = 0; ///< no indices, or a transform that collapses them
-    uint32_t lights = 0;        ///< punctual lights that reach into the view
+    uint32_t outOfView = 0;      ///< their box is outside of the frustum
+    uint32_t nothingToDraw = 0;  ///< no indices, or a transform that collapses them
+    uint32_t blendedLeftOut = 0; ///< in view, but the view draws nothing that blends
+    uint32_t lights = 0;         ///< punctual lights that reach into the view
     uint32_t lightsOutOfView = 0;
     uint32_t lightsOverLimit = 0; ///< in view, but beyond kMaxPunctualLights: the dimmest
     uint32_t suns = 0;
     uint64_t triangles = 0;
 };
 
-struct FramePacket {
-    shader::FrameUniforms frame{};
-    std::span<const shader::LightData> lights;
+/// What one view sees.
+struct ViewPacket {
+    ViewKind kind = ViewKind::Color;
+    uint8_t variant = 0; ///< shader::VariantBit set that the lights of the view select; 0 where nothing is shaded
+    shader::FrameUniforms uniforms{};
+    std::span<const shader::LightData> lights; ///< relative to the camera of the view and pre-exposed by it
     ObjectList objects;
-    DeformationList deformations;
     std::span<const DrawCall> opaque;  ///< opaque and masked, roughly front to back
-    std::span<const DrawCall> blended; ///< back to front
-    uint8_t variant = 0;               ///< shader::VariantBit set that the scene's lights select
+    std::span<const DrawCall> blended; ///< back to front; none where nothing is shaded
+    ViewCounts counts;
+};
+
+/// The environment of the scene, the same for all views; what depends on a camera's exposure is in their uniforms.
+struct EnvironmentPacket {
     backend::TextureHandle specular;   ///< none: no indirect light
-    backend::TextureHandle irradiance; ///< none: the coefficients in `frame` only
+    backend::TextureHandle irradiance; ///< none: the coefficients of the uniforms only
     backend::TextureHandle sky;        ///< none: no skybox
-    scene::EnvironmentStorage environment{};
+    scene::EnvironmentStorage storage{};
     bool skyIsRgbm = false;
-    PacketCounts counts;
+};
+
+struct FramePacket {
+    std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
+    DeformationList deformations;      ///< of what any of the views sees, each once
+    EnvironmentPacket environment;
+
+    /// Of the picture that the user asked for.
+    ViewPacket const& mainView() const { return views[0]; }
 };
 
 /// Of everything in a packet and behind it, object data included: contents, never addresses. Equal for any number of

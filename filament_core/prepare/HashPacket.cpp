@@ -36,30 +36,42 @@ uint64_t hashDeformations(DeformationList const& list, uint64_t seed) {
     return seed;
 }
 
-uint64_t hashCounts(PacketCounts const& counts, uint64_t seed) {
-    return hashAll(seed, counts.renderables, counts.visible, counts.outOfView, counts.nothingToDraw, counts.lights,
-                   counts.lightsOutOfView, counts.lightsOverLimit, counts.suns, counts.triangles);
+uint64_t hashCounts(ViewCounts const& counts, uint64_t seed) {
+    return hashAll(seed, counts.renderables, counts.visible, counts.outOfView, counts.nothingToDraw,
+                   counts.blendedLeftOut, counts.lights, counts.lightsOutOfView, counts.lightsOverLimit, counts.suns,
+                   counts.triangles);
+}
+
+uint64_t hashObjects(ObjectList const& objects, uint64_t seed) {
+    for (SortItem const& item : objects.order) {
+        const shader::ObjectData object = objectData(objects.placements[item.renderable], objects.cameraWorld);
+        seed = hashBytes(std::as_bytes(std::span(&object, 1)), seed);
+    }
+    return seed;
+}
+
+uint64_t hashView(ViewPacket const& view, uint64_t seed) {
+    static_assert(sizeof(shader::FrameUniforms) % sizeof(float4) == 0 &&
+                  sizeof(shader::LightData) % sizeof(float4) == 0);
+    seed = hashBytes(std::as_bytes(std::span(&view.uniforms, 1)), seed);
+    seed = hashBytes(std::as_bytes(view.lights), seed);
+    seed = hashObjects(view.objects, seed);
+    for (DrawCall const& draw : view.opaque) seed = hashDraw(draw, seed);
+    for (DrawCall const& draw : view.blended) seed = hashDraw(draw, seed);
+    seed = hashAll(seed, view.kind, view.variant, view.lights.size(), view.objects.size(), view.opaque.size(),
+                   view.blended.size());
+    return hashCounts(view.counts, seed);
 }
 
 } // namespace
 
 uint64_t hashPacket(FramePacket const& packet) {
-    static_assert(sizeof(shader::FrameUniforms) % sizeof(float4) == 0 &&
-                  sizeof(shader::LightData) % sizeof(float4) == 0);
-    uint64_t hash = hashBytes(std::as_bytes(std::span(&packet.frame, 1)));
-    hash = hashBytes(std::as_bytes(packet.lights), hash);
-    for (SortItem const& item : packet.objects.order) {
-        const shader::ObjectData object =
-                objectData(packet.objects.placements[item.renderable], packet.objects.cameraWorld);
-        hash = hashBytes(std::as_bytes(std::span(&object, 1)), hash);
-    }
+    uint64_t hash = packet.views.size();
+    for (ViewPacket const& view : packet.views) hash = hashView(view, hash);
     hash = hashDeformations(packet.deformations, hash);
-    for (DrawCall const& draw : packet.opaque) hash = hashDraw(draw, hash);
-    for (DrawCall const& draw : packet.blended) hash = hashDraw(draw, hash);
-    hash = hashAll(hash, packet.opaque.size(), packet.blended.size(), packet.variant, packet.specular.bits,
-                   packet.irradiance.bits, packet.sky.bits, packet.environment.isRgbm, packet.environment.mapping,
-                   packet.skyIsRgbm);
-    return hashCounts(packet.counts, hash);
+    EnvironmentPacket const& environment = packet.environment;
+    return hashAll(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
+                   environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);
 }
 
 } // namespace filament::prepare

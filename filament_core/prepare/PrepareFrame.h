@@ -1,10 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// prepareFrame: scene and view -> FramePacket, on the job system.
-///   In      the scene as it is now, the view, the pixel size.     Out: one FramePacket in `arena`.
+/// prepareFrame: scene and views -> FramePacket, on the job system. The table of contents of this room.
+///   In      the scene as it is now, and the views: the main one first, one at least.   Out: one FramePacket in
+///           `arena`, its views in the same order.
 ///   Thread  the app thread; it works along with the workers until all are done.
 ///   Memory  the arena only.
-///   Bits    the packet is the same for any number of workers: jobs are pure functions of index ranges.
-///   Fails   never. Cost: bench/filament_core/prepare.
+///   Bits    the packet is the same for any number of workers, and a view's part of it whatever other views there are;
+///           deformations are placed for all views together.
+///   Fails   std::bad_alloc. Cost: that of its views, one after the other; bench/filament_core/prepare.
 #pragma once
 
 #include "base/Arena.h"
@@ -12,8 +14,11 @@
 #include "filament_core/prepare/ViewInput.h"
 #include "jobsystem/JobSystem.h"
 
+#include <span>
+
 namespace filament::prepare {
 
-FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view);
+FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
+                         std::span<const ViewInput> views);
 
 } // namespace filament::prepare

@@ -34,7 +34,7 @@ LightData lightData(LightRecord const& light, ViewSpace const& space) {
     return data;
 }
 
-void writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float exposure, PacketCounts& counts) {
+void writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float exposure, ViewCounts& counts) {
     LightRecord const* brightest = nullptr;
     for (LightRecord const& light : lights.records) {
         if (light.type != LightRecord::Type::Sun) continue;
@@ -52,7 +52,7 @@ LightSelector::LightSelector(Arena& arena, scene::Lights const& lights)
           mChosen(arena.arrayForOverwrite<LightData>(
                   std::min<size_t>(lights.records.size(), shader::kMaxPunctualLights))) {}
 
-uint32_t LightSelector::findCandidates(ViewSpace const& space, PacketCounts& counts) const {
+uint32_t LightSelector::findCandidates(ViewSpace const& space, ViewCounts& counts) const {
     uint32_t count = 0;
     for (uint32_t i = 0; i < mLights.records.size(); ++i) {
         LightRecord const& light = mLights.records[i];
@@ -71,7 +71,7 @@ uint32_t LightSelector::findCandidates(ViewSpace const& space, PacketCounts& cou
 }
 
 std::span<const LightData> LightSelector::select(ViewSpace const& space, shader::FrameUniforms& frame,
-                                                 PacketCounts& counts) const {
+                                                 ViewCounts& counts) const {
     writeSun(frame, mLights, space.exposure, counts);
     const std::span<Candidate> candidates = mCandidates.first(findCandidates(space, counts));
     const auto isBrighter = [](Candidate const& a, Candidate const& b) {

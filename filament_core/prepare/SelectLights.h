@@ -22,7 +22,7 @@ public:
     /// Writes the sun and the light count into `frame`, and the light counts into `counts`; touches nothing else of
     /// them. Returns the punctual lights.
     std::span<const shader::LightData> select(ViewSpace const& space, shader::FrameUniforms& frame,
-                                              PacketCounts& counts) const;
+                                              ViewCounts& counts) const;
 
 private:
     struct Candidate {
@@ -30,7 +30,7 @@ private:
         float importance = 0; ///< luminance-weighted intensity over squared distance
     };
 
-    uint32_t findCandidates(ViewSpace const& space, PacketCounts& counts) const;
+    uint32_t findCandidates(ViewSpace const& space, ViewCounts& counts) const;
 
     scene::Lights const& mLights;
     std::span<Candidate> mCandidates;

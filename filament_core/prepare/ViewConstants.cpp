@@ -26,7 +26,8 @@ ViewSpace makeViewSpace(ViewInput const& view) {
     const double3x3 worldFromView(view.camera.worldFromView);
     space.forward = -float3(worldFromView[2]);
     space.viewFromWorld = float4x4(double4x4(glm::transpose(worldFromView)));
-    space.clipFromView = view.camera.clipFromView(static_cast<float>(view.size.x) / static_cast<float>(view.size.y));
+    const float aspect = static_cast<float>(view.size.x) / static_cast<float>(view.size.y);
+    space.clipFromView = view.clipFromView ? *view.clipFromView : view.camera.clipFromView(aspect);
     space.clipFromWorld = space.clipFromView * space.viewFromWorld;
     space.frustum = frustumFromClip(space.clipFromWorld); // the same planes whatever depth is stored
     if (view.quality.depthRange == DepthRange::Ordinary) {

@@ -7,10 +7,28 @@
 #include <filament/Camera.h>
 #include <filament/Quality.h>
 
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+
 namespace filament::prepare {
 
+/// What a view is drawn for. Depth and Shadow draw what is opaque or masked, without lights: positions, bones and
+/// morph targets are all that such draws read, and masked materials their fragment stage.
+enum class ViewKind : uint8_t {
+    Color,  ///< light: what a camera sees
+    Depth,  ///< depth alone, of what a camera sees
+    Shadow, ///< depth alone, of what a light reaches
+};
+inline constexpr size_t kViewKinds = 3;
+constexpr bool isShaded(ViewKind kind) { return kind == ViewKind::Color; }
+
 struct ViewInput {
+    ViewKind kind = ViewKind::Color;
     Camera camera{};
+    /// Takes the place of the camera's lens, as parallel light or a tile of an atlas needs it. The conventions of
+    /// Camera::clipFromView(): row 0 of the image at y = -1, reversed depth.
+    std::optional<float4x4> clipFromView{};
     uint2 size{ 1, 1 }; ///< pixels, >= 1
     double timeSeconds = 0;
     Quality quality{};

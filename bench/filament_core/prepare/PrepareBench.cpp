@@ -81,7 +81,7 @@ void lights(benchmark::State& state) {
     for (auto _ : state) {
         arena.reset();
         shader::FrameUniforms frame{};
-        PacketCounts counts;
+        ViewCounts counts;
         state.SetIterationTime(samples.time(
                 [&] { benchmark::DoNotOptimize(LightSelector(arena, points).select(space, frame, counts)); }));
     }
@@ -98,7 +98,7 @@ void frame(benchmark::State& state) {
         setup.arena.reset();
         state.SetIterationTime(samples.time([&] {
             const FramePacket packet = prepareFrame(setup.jobs, setup.arena, setup.boxes.scene, setup.view);
-            writeObjects(setup.jobs, packet.objects, memory.objects());
+            writeObjects(setup.jobs, packet.mainView().objects, memory.objects());
         }));
     }
     samples.report(state, setup.count);

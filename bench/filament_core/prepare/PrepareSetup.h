@@ -37,7 +37,7 @@ struct Setup {
     Arena arena;
     ViewInput view;
     ViewSpace space;
-    PacketCounts counts;
+    ViewCounts counts;
 };
 
 /// Memory as upload commands carry it: aligned to cache lines.

@@ -74,8 +74,9 @@ TEST_F(FrameDataTest, UploadsTheObjectsInDrawOrderFromMemoryOfTheCommandBuffer) 
     EXPECT_EQ(reinterpret_cast<uintptr_t>(updates[0].bytes.data()) % 64, 0u);
     auto const* objects = reinterpret_cast<shader::ObjectData const*>(updates[0].bytes.data());
     for (size_t i = 0; i < 3000; ++i) {
-        scene::Placement const& placement = packet.objects.placements[packet.objects.order[i].renderable];
-        const shader::ObjectData expected = prepare::objectData(placement, packet.objects.cameraWorld);
+        scene::Placement const& placement =
+                packet.mainView().objects.placements[packet.mainView().objects.order[i].renderable];
+        const shader::ObjectData expected = prepare::objectData(placement, packet.mainView().objects.cameraWorld);
         ASSERT_EQ(objects[i].row0, expected.row0) << i;
         ASSERT_EQ(objects[i].row1, expected.row1) << i;
         ASSERT_EQ(objects[i].row2, expected.row2) << i;

@@ -78,4 +78,10 @@ struct BoxScene {
     }
 };
 
+/// A frame with that view alone.
+inline FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
+                                ViewInput const& view) {
+    return prepareFrame(jobs, arena, scene, std::span(&view, 1));
+}
+
 } // namespace filament::prepare

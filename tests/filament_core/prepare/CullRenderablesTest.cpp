@@ -17,7 +17,7 @@ constexpr float kInfinity = std::numeric_limits<float>::infinity();
 
 struct CullTest : testing::Test, BoxScene {
     Arena arena;
-    PacketCounts counts;
+    ViewCounts counts;
     ViewSpace space = makeViewSpace({ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }), .size = { 640, 480 } });
 
     scene::Renderables const& renderables() const { return scene.renderables; }

@@ -53,8 +53,8 @@ TEST_F(DeformationDataTest, ASceneWithoutDeformationsHasNoneInItsPacket) {
     const FramePacket packet = prepare();
     EXPECT_EQ(packet.deformations.bytes, 0u);
     EXPECT_TRUE(packet.deformations.places.empty());
-    ASSERT_EQ(packet.opaque.size(), 1u);
-    EXPECT_EQ(packet.opaque[0].deformation, scene::kNotDeformed);
+    ASSERT_EQ(packet.mainView().opaque.size(), 1u);
+    EXPECT_EQ(packet.mainView().opaque[0].deformation, scene::kNotDeformed);
 }
 
 // The joint decides whether a skinned mesh is in view, wherever it was bound.
@@ -62,13 +62,13 @@ TEST_F(DeformationDataTest, JointsBringSkinnedMeshesIntoTheViewAndOutOfIt) {
     const Node joint = scene.transforms.add({}, moved(0, 0, -5), "joint"),
                node = scene.transforms.add({}, moved(0, 0, 90), "");
     addSkinned(joint, node);
-    EXPECT_EQ(prepare().counts.visible, 1u);
+    EXPECT_EQ(prepare().mainView().counts.visible, 1u);
     scene.transforms.setTransform(joint, moved(0, 0, 5));
     const FramePacket behind = prepare();
-    EXPECT_EQ(behind.counts.visible, 0u);
+    EXPECT_EQ(behind.mainView().counts.visible, 0u);
     EXPECT_EQ(behind.deformations.bytes, 0u) << "what is not seen is not uploaded";
     scene.transforms.setTransform(joint, moved(0, 0, -7));
-    EXPECT_EQ(prepare().counts.visible, 1u);
+    EXPECT_EQ(prepare().mainView().counts.visible, 1u);
 }
 
 TEST_F(DeformationDataTest, BlocksAreAlignedAndDoNotOverlapAndPrimitivesShareTheirSkin) {

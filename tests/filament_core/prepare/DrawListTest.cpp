@@ -20,13 +20,14 @@ struct DrawListTest : testing::Test, BoxScene {
     Arena arena;
     ViewInput view{ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }), .size = { 640, 480 } };
 
-    FramePacket prepare(int workers = 1) {
+    FramePacket frame(int workers = 1) {
         jobs::JobSystem jobs({ .workers = workers });
         return prepareFrame(jobs, arena, scene, view);
     }
+    ViewPacket prepare(int workers = 1) { return frame(workers).mainView(); }
 
     /// Every visible object is drawn once, by a draw of its own drawable and side, inside of one window.
-    void expectCoversItsObjects(FramePacket const& packet) {
+    void expectCoversItsObjects(ViewPacket const& packet) {
         uint32_t next = 0;
         uint64_t triangles = 0;
         for (std::span<const DrawCall> list : { packet.opaque, packet.blended }) {
@@ -76,7 +77,7 @@ TEST_F(DrawListTest, NEqualBoxesTakeOneDrawAWindow) {
     uint32_t added = 0;
     for (uint32_t count : { 0u, 1u, 255u, 256u, 257u, 511u, 512u, 513u, 5000u }) {
         for (; added < count; ++added) add({ added % 9 * 0.1, 0.0, -0.01 * added }, look);
-        const FramePacket packet = prepare();
+        const ViewPacket packet = prepare();
         EXPECT_EQ(packet.counts.visible, count);
         EXPECT_EQ(packet.opaque.size(), (count + kWindow - 1) / kWindow) << count;
         expectCoversItsObjects(packet);
@@ -86,7 +87,7 @@ TEST_F(DrawListTest, NEqualBoxesTakeOneDrawAWindow) {
 TEST_F(DrawListTest, AHundredThousandCopiesTakeThreeHundredAndNinetyOneDraws) {
     addCube(100'000, 1, 1);
     view = cubeView(100'000);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_EQ(packet.counts.visible, 100'000u);
     EXPECT_EQ(packet.opaque.size(), 391u);
     expectCoversItsObjects(packet);
@@ -98,7 +99,7 @@ TEST_F(DrawListTest, AFewCopiesAreOneDrawEvenWhenOthersLieBetweenThem) {
         add({ 0.0, 0.0, -10.0 * i }, look, 1);
         add({ 0.0, 0.0, -10.0 * i - 5 }, look, 100 + i);
     }
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_EQ(packet.opaque.size(), 16u);
     EXPECT_EQ(packet.opaque[0].instanceCount, 15u);
 }
@@ -106,7 +107,7 @@ TEST_F(DrawListTest, AFewCopiesAreOneDrawEvenWhenOthersLieBetweenThem) {
 TEST_F(DrawListTest, CopiesInOneDrawLieFrontToBack) {
     const auto* look = material();
     for (uint32_t i = 0; i < 15; ++i) add({ 0.0, 0.0, -10.0 * (i * 7 % 15) }, look);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     ASSERT_EQ(packet.opaque.size(), 1u);
     for (uint32_t i = 0; i < 15; ++i) EXPECT_EQ(packet.objects.order[i].renderable * 7 % 15, i);
 }
@@ -114,7 +115,7 @@ TEST_F(DrawListTest, CopiesInOneDrawLieFrontToBack) {
 TEST_F(DrawListTest, ManyCopiesOfTwoMeshesAreCutByDepthSoThatWhatIsInFrontComesFirst) {
     const auto* look = material();
     for (uint32_t i = 0; i < 2000; ++i) add({ 0.0, 0.0, -0.5 * i }, look, 1 + i % 2);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_LT(packet.opaque.size(), 2000 / kSliceMembers);
     expectCoversItsObjects(packet);
     double nearestSoFar = 0;
@@ -130,7 +131,7 @@ TEST_F(DrawListTest, AllBlendedIsBackToFrontAndEqualDepthsKeepTheOrderOfTheScene
     const auto* a = material(shader::Blending::Transparent);
     const auto* b = material(shader::Blending::Fade);
     for (uint32_t i = 0; i < 300; ++i) add({ 0.0, 0.0, -static_cast<double>(i / 2) }, i % 2 ? a : b, 1 + i % 3);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_TRUE(packet.opaque.empty());
     expectCoversItsObjects(packet);
     for (uint32_t i = 0; i < 300; ++i) {
@@ -141,7 +142,7 @@ TEST_F(DrawListTest, AllBlendedIsBackToFrontAndEqualDepthsKeepTheOrderOfTheScene
 TEST_F(DrawListTest, NeighboursThatBlendMergeToo) {
     const auto* glass = material(shader::Blending::Transparent);
     for (int i = 0; i < 5; ++i) add({ 0.0, 0.0, -1.0 * i }, glass);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     ASSERT_EQ(packet.blended.size(), 1u);
     EXPECT_EQ(packet.blended[0].instanceCount, 5u);
 }
@@ -150,7 +151,7 @@ TEST_F(DrawListTest, TheTwoPassesOfAnObjectFollowEachOtherAndNoOtherObjectComesB
     const auto* glass = twoPasses();
     const auto* smoke = material(shader::Blending::Transparent);
     for (int i = 0; i < 6; ++i) add({ 0.0, 0.0, -1.0 * i }, i < 4 ? glass : smoke);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     expectCoversItsObjects(packet);
     ASSERT_EQ(packet.blended.size(), 1 + 4 * 2u) << "the smoke merges, the glass does not";
     EXPECT_EQ(packet.blended[0].pass, DrawPass::Only);
@@ -170,7 +171,7 @@ TEST_F(DrawListTest, TwoPassesOfWhatDoesNotBlendAreOne) {
     scene::MaterialInstance* solid = twoPasses();
     solid->material->package.blending = shader::Blending::Opaque;
     for (int i = 0; i < 3; ++i) add({ 0.0, 0.0, -1.0 * i }, solid);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     ASSERT_EQ(packet.opaque.size(), 1u);
     EXPECT_EQ(packet.opaque[0].pass, DrawPass::Only);
 }
@@ -178,7 +179,7 @@ TEST_F(DrawListTest, TwoPassesOfWhatDoesNotBlendAreOne) {
 TEST_F(DrawListTest, EverythingOutOfViewIsAPacketWithoutObjects) {
     const auto* look = material();
     for (int i = 0; i < 300; ++i) add({ 0.0, 0.0, 100.0 + i }, look);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_TRUE(packet.objects.empty());
     EXPECT_TRUE(packet.opaque.empty());
     EXPECT_EQ(packet.counts.triangles, 0u);
@@ -187,7 +188,7 @@ TEST_F(DrawListTest, EverythingOutOfViewIsAPacketWithoutObjects) {
 TEST_F(DrawListTest, MirroredCopiesAreADrawOfTheirOwnAndNoneIsLost) {
     const auto* look = material();
     for (int i = 0; i < 40; ++i) add({ 0.0, 0.0, -1.0 * i }, look, 1, i % 2 ? -1 : 1);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     expectCoversItsObjects(packet);
     uint32_t mirrored = 0;
     for (DrawCall const& draw : packet.opaque) mirrored += draw.mirrored ? draw.instanceCount : 0;
@@ -201,7 +202,7 @@ TEST_F(DrawListTest, TransformsThatAreNotNumbersLeaveTheOthersAlone) {
         world[3] = double4(0, 0, -i, 1);
         add(world, look);
     }
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_EQ(packet.counts.visible, 90u);
     EXPECT_EQ(packet.counts.nothingToDraw, 10u);
     expectCoversItsObjects(packet);
@@ -215,10 +216,10 @@ TEST_P(DrawListCountTest, ARandomSceneIsCoveredAndHasTheSameBitsForAnyNumberOfWo
     for (uint32_t i = 0; i < 300; ++i) { // enough for a job of their own
         addLight(scene, { .type = scene::LightRecord::Type::Point, .intensity = 1.0f + static_cast<float>(i) });
     }
-    const FramePacket reference = prepare(0);
+    const FramePacket reference = frame(0);
     expectCoversItsObjects(reference);
     for (int workers : { 1, 2, 3, 16 }) {
-        EXPECT_EQ(hashPacket(prepare(workers)), hashPacket(reference)) << workers << " workers";
+        EXPECT_EQ(hashPacket(frame(workers)), hashPacket(reference)) << workers << " workers";
     }
 }
 
@@ -235,21 +236,21 @@ TEST_F(DrawListTest, TheHashIsOfContentsAndNotOfAddresses) {
 TEST_F(DrawListTest, TheHashTellsEveryKindOfDifference) {
     const auto* look = material();
     const Renderable box = add({ 0, 0, 0 }, look);
-    const uint64_t before = hashPacket(prepare());
+    const uint64_t before = hashPacket(frame());
     double4x4 moved(1.0);
     moved[3].x = 1e-6;
     setTransform(scene, box, moved);
-    EXPECT_NE(hashPacket(prepare()), before) << "a position";
+    EXPECT_NE(hashPacket(frame()), before) << "a position";
     setTransform(scene, box, double4x4(1.0));
-    EXPECT_EQ(hashPacket(prepare()), before);
+    EXPECT_EQ(hashPacket(frame()), before);
     const Light sun = addLight(scene, { .type = scene::LightRecord::Type::Sun, .intensity = 1 });
-    EXPECT_NE(hashPacket(prepare()), before) << "a light";
+    EXPECT_NE(hashPacket(frame()), before) << "a light";
     removeLight(scene, sun);
     scene.skybox.cube = backend::TextureHandle::make(3, 1);
-    EXPECT_NE(hashPacket(prepare()), before) << "a sky";
+    EXPECT_NE(hashPacket(frame()), before) << "a sky";
     scene.skybox = {};
     add({ 0, 0, 100 }, look);
-    EXPECT_NE(hashPacket(prepare()), before) << "something out of view, by the counts";
+    EXPECT_NE(hashPacket(frame()), before) << "something out of view, by the counts";
 }
 
 } // namespace

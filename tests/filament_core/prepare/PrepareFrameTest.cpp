@@ -18,9 +18,9 @@ struct PrepareFrameTest : testing::Test, BoxScene {
     Arena arena;
     ViewInput view{ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }), .size = { 640, 480 } };
 
-    FramePacket prepare() { return prepareFrame(jobs, arena, scene, view); }
+    ViewPacket prepare() { return prepareFrame(jobs, arena, scene, view).mainView(); }
 
-    std::vector<shader::ObjectData> objectsOf(FramePacket const& packet) {
+    std::vector<shader::ObjectData> objectsOf(ViewPacket const& packet) {
         std::vector<shader::ObjectData> objects(packet.objects.size());
         writeObjects(jobs, packet.objects, objects);
         return objects;
@@ -32,7 +32,7 @@ TEST_F(PrepareFrameTest, DropsWhatTheCameraCannotSeeAndSaysWhy) {
     add({ 0, 0, 0 }, opaque);
     add({ 0, 0, 20 }, opaque);
     add({ 100, 0, 0 }, opaque);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_EQ(packet.counts.renderables, 3u);
     EXPECT_EQ(packet.counts.visible, 1u);
     EXPECT_EQ(packet.counts.outOfView, 2u);
@@ -65,7 +65,7 @@ TEST_F(PrepareFrameTest, MergesEqualNeighboursIntoOneInstancedDraw) {
         add({ i * 0.2 - 1, 0, 0 }, a);
         add({ i * 0.2 - 1, 1, 0 }, b);
     }
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     ASSERT_EQ(packet.opaque.size(), 2u);
     EXPECT_EQ(packet.opaque[0].instanceCount + packet.opaque[1].instanceCount, 20u);
     EXPECT_EQ(packet.counts.triangles, 20u * 12u);
@@ -74,7 +74,7 @@ TEST_F(PrepareFrameTest, MergesEqualNeighboursIntoOneInstancedDraw) {
 TEST_F(PrepareFrameTest, NoDrawCrossesAWindowOfObjects) {
     auto* a = material(shader::Blending::Opaque);
     for (int i = 0; i < 1000; ++i) add({ 0, 0, 0 }, a);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     uint32_t covered = 0;
     for (DrawCall const& draw : packet.opaque) {
         EXPECT_EQ(draw.firstObject, covered);
@@ -90,7 +90,7 @@ TEST_F(PrepareFrameTest, MirroredInstancesDrawApart) {
     auto* a = material(shader::Blending::Opaque);
     add({ 0, 0, 0 }, a);
     add({ 0, 0, 0 }, a, 1, -1.0);
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     ASSERT_EQ(packet.opaque.size(), 2u);
     EXPECT_NE(packet.opaque[0].mirrored, packet.opaque[1].mirrored);
     EXPECT_EQ(objectsOf(packet)[packet.opaque[0].mirrored ? 0 : 1].flags.x, -1.0f);
@@ -103,7 +103,7 @@ TEST_F(PrepareFrameTest, DrawsOpaqueFrontToBackAndBlendedBackToFront) {
         add({ 0, 0, -20.0 * i }, solid, 10 + i);
         add({ 0, 0, -20.0 * i }, glass, 20 + i);
     }
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     ASSERT_EQ(packet.opaque.size(), 4u);
     ASSERT_EQ(packet.blended.size(), 4u);
     for (uint32_t i = 0; i < 4; ++i) {
@@ -133,17 +133,17 @@ TEST_F(PrepareFrameTest, IsTheSameForAnyNumberOfWorkers) {
 
 TEST_F(PrepareFrameTest, PreExposesLightsInFullPrecision) {
     addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, -1, 0 }, .intensity = 110'000 });
-    const FramePacket packet = prepare();
-    EXPECT_NEAR(packet.frame.sunIlluminance.x, 2.86462f, 1e-4f);
-    EXPECT_EQ(packet.frame.sunDirection, float4(0, 1, 0, 1));
+    const ViewPacket packet = prepare();
+    EXPECT_NEAR(packet.uniforms.sunIlluminance.x, 2.86462f, 1e-4f);
+    EXPECT_EQ(packet.uniforms.sunDirection, float4(0, 1, 0, 1));
     EXPECT_EQ(packet.variant, shader::kVariantSun);
 }
 
 TEST_F(PrepareFrameTest, ShadesWithTheBrightestSun) {
     addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 1, 0, 0 }, .intensity = 10 });
     addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, 0, 1 }, .intensity = 20 });
-    const FramePacket packet = prepare();
-    EXPECT_EQ(packet.frame.sunDirection, float4(0, 0, -1, 1));
+    const ViewPacket packet = prepare();
+    EXPECT_EQ(packet.uniforms.sunDirection, float4(0, 0, -1, 1));
     EXPECT_EQ(packet.counts.suns, 2u);
 }
 
@@ -151,10 +151,10 @@ TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {
     for (uint32_t i = 0; i < shader::kMaxPunctualLights + 44; ++i) {
         addLight(scene, { .type = LightRecord::Type::Point, .intensity = 1.0f + static_cast<float>(i) });
     }
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_EQ(packet.lights.size(), shader::kMaxPunctualLights);
     EXPECT_EQ(packet.counts.lightsOverLimit, 44u);
-    const float exposure = packet.frame.exposure.x;
+    const float exposure = packet.uniforms.exposure.x;
     for (shader::LightData const& light : packet.lights) EXPECT_GE(light.colorIntensity.x, 45.0f * exposure * 0.999f);
 }
 
@@ -163,18 +163,18 @@ TEST_F(PrepareFrameTest, DropsALightWhoseRangeEndsBeforeTheView) {
              { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 30 }, .intensity = 1, .rangeMeters = 5 });
     addLight(scene,
              { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 12 }, .intensity = 1, .rangeMeters = 5 });
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_EQ(packet.lights.size(), 1u);
     EXPECT_EQ(packet.counts.lightsOutOfView, 1u);
-    EXPECT_EQ(packet.frame.ambient.w, 1.0f);
+    EXPECT_EQ(packet.uniforms.ambient.w, 1.0f);
 }
 
 TEST_F(PrepareFrameTest, AnEmptySceneIsAnEmptyPacket) {
-    const FramePacket packet = prepare();
+    const ViewPacket packet = prepare();
     EXPECT_TRUE(packet.opaque.empty());
     EXPECT_TRUE(packet.blended.empty());
     EXPECT_EQ(packet.variant, 0);
-    EXPECT_EQ(packet.frame.ambient.x, 0.0f);
+    EXPECT_EQ(packet.uniforms.ambient.x, 0.0f);
 }
 
 } // namespace

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <map>
 #include <optional>
@@ -388,18 +389,18 @@ TEST(UpdateTransforms, AGroupMovedByItsRootPreparesToTheSamePacketAsOneAddedTher
     Arena arena;
     double4x4 place = double4x4(0.7);
     place[3] = double4(1e6 + 0.25, -3e5, 4e5, 1);
-    const ViewInput view{ .camera = Camera::lookAt(double3(place[3]) + double3(0, 0, 5), double3(place[3])),
-                          .size = { 640, 480 } };
+    const std::array view{ ViewInput{ .camera = Camera::lookAt(double3(place[3]) + double3(0, 0, 5), double3(place[3])),
+                                      .size = { 640, 480 } } };
     Group added(place), moved(double4x4(1.0));
     updateTransforms(jobs, added.scene);
     updateTransforms(jobs, moved.scene);
-    EXPECT_EQ(prepareFrame(jobs, arena, moved.scene, view).counts.visible, 0u);
+    EXPECT_EQ(prepareFrame(jobs, arena, moved.scene, view).mainView().counts.visible, 0u);
     moved.scene.transforms.setTransform(moved.rootNode, place);
     updateTransforms(jobs, moved.scene);
     const FramePacket a = prepareFrame(jobs, arena, added.scene, view);
     const FramePacket b = prepareFrame(jobs, arena, moved.scene, view);
-    ASSERT_EQ(a.counts.visible, 50u);
-    ASSERT_EQ(b.counts.visible, 50u);
+    ASSERT_EQ(a.mainView().counts.visible, 50u);
+    ASSERT_EQ(b.mainView().counts.visible, 50u);
     EXPECT_EQ(hashPacket(a), hashPacket(b));
 }
 

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// prepareView: what one view sees of a scene -> ViewPacket, on the job system.
+///   In      the scene as it is now, and the view. Several views of a frame: one call each, in turn.
+///   Out     the packet, and what culling has seen: deformations are placed for all views together.
+///   Thread  the thread whose the arena is; it works along with the workers until all are done.
+///   Memory  the arena only.
+///   Bits    the same for any number of workers: jobs are pure functions of index ranges.
+///   Fails   std::bad_alloc. Cost: bench/filament_core/prepare.
+#pragma once
+
+#include "filament_core/base/Arena.h"
+#include "filament_core/prepare/CullRenderables.h"
+#include "filament_core/prepare/FramePacket.h"
+#include "filament_core/prepare/ViewInput.h"
+#include "jobsystem/JobSystem.h"
+
+namespace filament::prepare {
+
+struct PreparedView {
+    ViewPacket packet;
+    VisibleItems visible;
+};
+
+PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view);
+
+} // namespace filament::prepare
