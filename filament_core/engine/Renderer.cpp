@@ -118,7 +118,7 @@ struct Renderer::Impl {
                       .irradiance = environment.irradiance ? environment.irradiance : black,
                       .trilinear = sampler(kTrilinear),
                       .bilinear = sampler(kBilinear) });
-        context.viewGroup = data.viewGroup();
+        context.views = data.views();
         context.postGroup = data.postGroup();
         context.deformations = data.deformations();
         context.instanceIds = engine.defaults.instanceIds;

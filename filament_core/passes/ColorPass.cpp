@@ -32,13 +32,13 @@ ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
 
 void recordSky(CommandBuffer& commands, FrameContext const& context, PipelineHandle pipeline) {
     commands.record(CmdBindPipeline{ pipeline });
-    commands.record(FrameData::bindView(context.viewGroup, 0));
+    commands.record(context.views[0].bind(0));
     commands.record(CmdDraw{ 3 });
 }
 
 void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines const& chosen) {
     prepare::ViewPacket const& view = context.packet.mainView();
-    const DrawContext draws{ context.viewGroup, context.instanceIds, context.deformations };
+    const DrawContext draws{ context.views[0], context.instanceIds, context.deformations };
     recordDrawRanges(pass, draws, view.opaque, chosen.opaque);
     if (chosen.sky) recordSky(pass.commands(), context, chosen.sky);
     recordDrawRanges(pass, draws, view.blended, chosen.blended);

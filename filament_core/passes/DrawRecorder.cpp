@@ -26,7 +26,7 @@ public:
         }
         const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
         if (window != mWindow) {
-            mCommands.record(FrameData::bindView(mContext.viewGroup, draw.firstObject));
+            mCommands.record(mContext.view.bind(draw.firstObject));
             mWindow = window;
         }
         if (draw.material->group != mMaterial) {

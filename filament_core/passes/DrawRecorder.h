@@ -26,7 +26,7 @@ std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext
 
 /// What all draws of a pass share.
 struct DrawContext {
-    backend::BindGroupHandle viewGroup;
+    ViewGroup view;
     backend::BufferHandle instanceIds;
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
 };

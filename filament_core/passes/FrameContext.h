@@ -34,7 +34,8 @@ struct FrameContext {
     PassSettings settings{};
     Arena* arena = nullptr;
     PipelineCache* pipelines = nullptr;
-    backend::BindGroupHandle viewGroup, postGroup;
+    std::span<const ViewGroup> views; ///< by view of the packet
+    backend::BindGroupHandle postGroup;
     backend::BufferHandle instanceIds;
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
     backend::SamplerHandle nearestSampler;

@@ -14,8 +14,19 @@ using namespace backend;
 using shader::FrameUniforms;
 using shader::kObjectsPerWindow;
 
+// What every device accepts as an offset of uniforms.
+constexpr uint32_t kAlignment = 256;
+constexpr uint32_t kUniformBytes = (sizeof(FrameUniforms) + kAlignment - 1) / kAlignment * kAlignment;
 constexpr uint32_t kWindowBytes = sizeof(shader::ObjectUniforms);
+constexpr uint32_t kLightBytes = sizeof(shader::LightUniforms);
+static_assert(kWindowBytes % kAlignment == 0 && kLightBytes % kAlignment == 0);
 constexpr size_t kCacheLineBytes = 64;
+
+// One at least: there is something to bind.
+uint32_t windowsOf(prepare::ViewPacket const& view) {
+    const auto objects = static_cast<uint32_t>(view.objects.size());
+    return std::max(1u, (objects + kObjectsPerWindow - 1) / kObjectsPerWindow);
+}
 
 template <class T>
 std::span<const std::byte> bytesOf(T const& value) {
@@ -24,49 +35,62 @@ std::span<const std::byte> bytesOf(T const& value) {
 
 } // namespace
 
-BufferHandle FrameData::createBuffer(CommandBuffer& commands, uint64_t bytes, const char* name) {
-    NewHandle handle(mStream, mStream.allocateBuffer());
-    commands.record(CmdCreateBuffer{ handle, { bytes, BufferUsage::Uniform, name } });
-    return handle.keep();
-}
-
 void FrameData::release(CommandBuffer& commands, BindGroupHandle& group) {
     if (group) mStream.destroy(commands, std::exchange(group, {}));
 }
 
-void FrameData::release(CommandBuffer& commands, BufferHandle& buffer) {
-    if (buffer) mStream.destroy(commands, std::exchange(buffer, {}));
+void FrameData::release(CommandBuffer& commands, Blocks& blocks) {
+    if (blocks.buffer) mStream.destroy(commands, std::exchange(blocks.buffer, {}));
+    blocks.capacity = 0;
 }
 
 // Each step is remembered when it is recorded: a frame that runs out of memory here is left out, and the next one makes
 // what is missing.
-void FrameData::makeObjects(CommandBuffer& commands, Set& set, uint32_t windows) {
+void FrameData::reserve(CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, uint32_t blockBytes,
+                        const char* name) {
+    if (count <= blocks.capacity) return;
+    const uint32_t grown = std::max(count, blocks.capacity * 2);
     release(commands, set.view);
-    release(commands, set.objects);
-    const uint32_t grown = std::max(windows, set.windows * 2);
-    set.windows = 0;
-    set.objects = createBuffer(commands, static_cast<uint64_t>(grown) * kWindowBytes, "objects");
-    set.windows = grown;
+    if (&blocks == &set.uniforms) release(commands, set.post);
+    release(commands, blocks);
+    NewHandle handle(mStream, mStream.allocateBuffer());
+    commands.record(CmdCreateBuffer{ handle, { uint64_t{ grown } * blockBytes, BufferUsage::Uniform, name } });
+    blocks = { handle.keep(), grown };
 }
 
-void FrameData::makeFixed(CommandBuffer& commands, Set& set) {
-    if (!set.frame) set.frame = createBuffer(commands, sizeof(FrameUniforms), "frame");
-    if (!set.lights) set.lights = createBuffer(commands, sizeof(shader::LightUniforms), "lights");
-    if (set.post) return;
-    const BindGroupEntry entry{ .binding = shader::kBindingFrame, .buffer = set.frame, .size = sizeof(FrameUniforms) };
+FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
+    Needs needs;
+    mViews.clear();
+    for (prepare::ViewPacket const& view : packet.views) {
+        // Without lights of its own a view reads none: any block will do.
+        mViews.push_back({ .uniforms = needs.views * kUniformBytes,
+                           .objects = needs.windows * kWindowBytes,
+                           .lights = view.lights.empty() ? 0 : needs.lights * kLightBytes });
+        ++needs.views;
+        needs.lights += view.lights.empty() ? 0 : 1;
+        needs.windows += windowsOf(view);
+    }
+    needs.lights = std::max(1u, needs.lights);
+    return needs;
+}
+
+void FrameData::bindPost(CommandBuffer& commands, Set& set) {
+    const BindGroupEntry entry{ .binding = shader::kBindingFrame,
+                                .buffer = set.uniforms.buffer,
+                                .size = sizeof(FrameUniforms) };
     NewHandle post(mStream, mStream.allocateBindGroup());
     commands.record(CmdCreateBindGroup{
             post, { shader::viewGroupLayout(shader::MaterialDomain::PostProcess), std::span(&entry, 1), "post" } });
     set.post = post.keep();
 }
 
-void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& textures) {
+void FrameData::bindViews(CommandBuffer& commands, Set& set, ViewTextures const& textures) {
     release(commands, set.view);
     set.textures = textures;
     const std::array<BindGroupEntry, 7> entries{ {
-            { .binding = shader::kBindingFrame, .buffer = set.frame, .size = sizeof(FrameUniforms) },
-            { .binding = shader::kBindingObjects, .buffer = set.objects, .size = kWindowBytes },
-            { .binding = shader::kBindingLights, .buffer = set.lights, .size = sizeof(shader::LightUniforms) },
+            { .binding = shader::kBindingFrame, .buffer = set.uniforms.buffer, .size = sizeof(FrameUniforms) },
+            { .binding = shader::kBindingObjects, .buffer = set.objects.buffer, .size = kWindowBytes },
+            { .binding = shader::kBindingLights, .buffer = set.lights.buffer, .size = kLightBytes },
             { .binding = shader::kBindingSpecular, .texture = textures.specular, .sampler = textures.trilinear },
             { .binding = shader::kBindingDfg, .texture = textures.dfg, .sampler = textures.bilinear },
             { .binding = shader::kBindingSky, .texture = textures.sky, .sampler = textures.bilinear },
@@ -80,41 +104,52 @@ void FrameData::bind(CommandBuffer& commands, Set& set, ViewTextures const& text
 // A whole set's worth of memory whatever the number of objects, so that the buffer finds the block of an earlier frame
 // again; the objects are written into it and nowhere else.
 void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Set const& set,
-                              prepare::ObjectList const& list) {
-    if (list.empty()) return;
-    const std::span<std::byte> memory = commands.allocate(set.windows * size_t{ kWindowBytes }, kCacheLineBytes);
-    const std::span objects(reinterpret_cast<shader::ObjectData*>(memory.data()), list.size());
-    prepare::writeObjects(jobs, list, objects);
-    commands.recordAdopted(CmdUpdateBuffer{ set.objects, 0, std::as_bytes(objects) });
+                              prepare::FramePacket const& packet) {
+    if (std::ranges::all_of(packet.views, [](auto const& view) { return view.objects.empty(); })) return;
+    const std::span<std::byte> memory =
+            commands.allocate(set.objects.capacity * size_t{ kWindowBytes }, kCacheLineBytes);
+    for (size_t i = 0; i < mViews.size(); ++i) {
+        prepare::ObjectList const& list = packet.views[i].objects;
+        if (list.empty()) continue;
+        const uint32_t first = mViews[i].objects;
+        const std::span objects(reinterpret_cast<shader::ObjectData*>(memory.data() + first), list.size());
+        prepare::writeObjects(jobs, list, objects);
+        commands.recordAdopted(CmdUpdateBuffer{ set.objects.buffer, first, std::as_bytes(objects) });
+    }
 }
 
 void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::FramePacket const& packet,
                        ViewTextures const& textures) {
     mCurrent = (mCurrent + 1) % static_cast<uint32_t>(mSets.size());
     Set& set = mSets[mCurrent];
-    prepare::ViewPacket const& view = packet.mainView();
-    const auto objects = static_cast<uint32_t>(view.objects.size());
-    const uint32_t windows = std::max(1u, (objects + kObjectsPerWindow - 1) / kObjectsPerWindow);
-    if (windows > set.windows) makeObjects(commands, set, windows);
-    makeFixed(commands, set);
-    if (!set.view || set.textures != textures) bind(commands, set, textures);
+    const Needs needs = placeViews(packet);
+    reserve(commands, set, set.objects, needs.windows, kWindowBytes, "objects");
+    reserve(commands, set, set.uniforms, needs.views, kUniformBytes, "frame");
+    reserve(commands, set, set.lights, needs.lights, kLightBytes, "lights");
+    if (!set.post) bindPost(commands, set);
+    if (!set.view || set.textures != textures) bindViews(commands, set, textures);
 
-    commands.record(CmdUpdateBuffer{ set.frame, 0, bytesOf(view.uniforms) });
-    if (!view.lights.empty()) commands.record(CmdUpdateBuffer{ set.lights, 0, std::as_bytes(view.lights) });
-    uploadObjects(jobs, commands, set, view.objects);
+    for (size_t i = 0; i < mViews.size(); ++i) {
+        prepare::ViewPacket const& view = packet.views[i];
+        mViews[i].handle = set.view;
+        commands.record(CmdUpdateBuffer{ set.uniforms.buffer, mViews[i].uniforms, bytesOf(view.uniforms) });
+        if (view.lights.empty()) continue;
+        commands.record(CmdUpdateBuffer{ set.lights.buffer, mViews[i].lights, std::as_bytes(view.lights) });
+    }
+    uploadObjects(jobs, commands, set, packet);
     set.deformation.upload(mStream, jobs, commands, packet.deformations);
 }
 
-CmdBindGroup FrameData::bindView(BindGroupHandle group, uint32_t object) {
+CmdBindGroup ViewGroup::bind(uint32_t object) const {
     // In the order of the layout: frame, objects, lights.
-    return { group, shader::kGroupView, 3, { 0, object / kObjectsPerWindow * kWindowBytes, 0 } };
+    return { handle, shader::kGroupView, 3, { uniforms, objects + object / kObjectsPerWindow * kWindowBytes, lights } };
 }
 
 void FrameData::destroy(CommandBuffer& commands) {
     for (Set& set : mSets) {
         release(commands, set.view);
         release(commands, set.post);
-        release(commands, set.frame);
+        release(commands, set.uniforms);
         release(commands, set.lights);
         release(commands, set.objects);
         set.deformation.destroy(mStream, commands);

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FrameData: the uniform data of a frame on the device, and the bind group through which shaders see it.
-///   In      a FramePacket.   Out: a bind group for kGroupView and offsets into it.
+/// FrameData: the uniform data of a frame on the device, and the bind group through which shaders see those of a view.
+///   In      a FramePacket.   Out: a ViewGroup for each of its views, with offsets into buffers that all views share.
+///   Layout  uniforms: an array, a view an element. Objects: windows, those of a view one after the other. Lights: a
+///           block for each view that has any.
 ///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They
 ///           grow to the largest frame and stay. Objects are written straight into the memory of the command buffer.
 ///   Fails   std::bad_alloc; what is recorded then fits what is remembered.
@@ -13,6 +15,8 @@
 #include "jobsystem/JobSystem.h"
 
 #include <array>
+#include <span>
+#include <vector>
 
 namespace filament::passes {
 
@@ -24,6 +28,15 @@ struct ViewTextures {
     friend bool operator==(ViewTextures const&, ViewTextures const&) = default;
 };
 
+/// kGroupView of one view: the group of the frame, and where the view's data begin in the buffers behind it.
+struct ViewGroup {
+    backend::BindGroupHandle handle;
+    uint32_t uniforms = 0, objects = 0, lights = 0; ///< bytes
+
+    /// For draws of the window that holds `object` of the view.
+    backend::CmdBindGroup bind(uint32_t object) const;
+};
+
 class FrameData {
 public:
     explicit FrameData(backend::CommandStream& stream) : mStream(stream) {}
@@ -33,35 +46,44 @@ public:
                 ViewTextures const& textures);
     void destroy(backend::CommandBuffer& commands);
 
-    backend::BindGroupHandle viewGroup() const { return mSets[mCurrent].view; }
-    /// Group 0 of post-process materials: the frame block only.
+    /// By view of the packet.
+    std::span<const ViewGroup> views() const { return mViews; }
+    /// Group 0 of post-process materials: the frame block only, of the main view at offset 0.
     backend::BindGroupHandle postGroup() const { return mSets[mCurrent].post; }
     /// By slot of scene::Deformations; those that are not visible are not set.
     std::span<const backend::CmdBindGroup> deformations() const { return mSets[mCurrent].deformation.groups(); }
-    /// Dynamic offsets of viewGroup() for the window that holds `object`.
-    static backend::CmdBindGroup bindView(backend::BindGroupHandle group, uint32_t object);
 
 private:
+    /// An array of equal blocks.
+    struct Blocks {
+        backend::BufferHandle buffer;
+        uint32_t capacity = 0;
+    };
     struct Set {
-        backend::BufferHandle frame, lights, objects;
-        uint32_t windows = 0; ///< capacity of `objects`
+        Blocks uniforms, lights, objects;
         ViewTextures textures{};
         backend::BindGroupHandle view, post;
         DeformationBuffer deformation;
     };
+    /// Blocks that a frame needs.
+    struct Needs {
+        uint32_t views = 0, lights = 0, windows = 0;
+    };
 
-    backend::BufferHandle createBuffer(backend::CommandBuffer& commands, uint64_t bytes, const char* name);
     void release(backend::CommandBuffer& commands, backend::BindGroupHandle& group);
-    void release(backend::CommandBuffer& commands, backend::BufferHandle& buffer);
-    void makeObjects(backend::CommandBuffer& commands, Set& set, uint32_t windows);
-    void makeFixed(backend::CommandBuffer& commands, Set& set);
-    void bind(backend::CommandBuffer& commands, Set& set, ViewTextures const& textures);
-    static void uploadObjects(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Set const& set,
-                              prepare::ObjectList const& list);
+    void release(backend::CommandBuffer& commands, Blocks& blocks);
+    void reserve(backend::CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, uint32_t blockBytes,
+                 const char* name);
+    Needs placeViews(prepare::FramePacket const& packet);
+    void bindPost(backend::CommandBuffer& commands, Set& set);
+    void bindViews(backend::CommandBuffer& commands, Set& set, ViewTextures const& textures);
+    void uploadObjects(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Set const& set,
+                       prepare::FramePacket const& packet);
 
     backend::CommandStream& mStream;
     std::array<Set, 3> mSets{};
     uint32_t mCurrent = 0;
+    std::vector<ViewGroup> mViews; // of the frame uploaded last
 };
 
 } // namespace filament::passes

@@ -34,7 +34,8 @@ public:
             instances[i].group = stream->allocateBindGroup();
         }
         for (uint32_t i = 0; i < geometryCount; ++i) geometries.push_back(makeGeometry(i));
-        context = { stream->allocateBindGroup(), stream->allocateBuffer() };
+        context = { { .handle = stream->allocateBindGroup(), .uniforms = 768, .objects = 5 * 16384, .lights = 16384 },
+                    stream->allocateBuffer() };
         slot = pipelines->slot({});
     }
 

@@ -47,8 +47,11 @@ void expectDraw(DrawFixture const& fixture, DrawCall const& wanted, PipelineHand
     auto const& [draw, state] = drawn;
     EXPECT_EQ(state.pipeline, pipeline);
     EXPECT_EQ(state.material.group, wanted.material->group);
-    EXPECT_EQ(state.view.group, fixture.context.viewGroup);
-    EXPECT_EQ(state.view.dynamicOffsets[1], wanted.firstObject / 256 * sizeof(shader::ObjectUniforms));
+    ViewGroup const& view = fixture.context.view;
+    EXPECT_EQ(state.view.group, view.handle);
+    EXPECT_EQ(state.view.dynamicOffsets[0], view.uniforms);
+    EXPECT_EQ(state.view.dynamicOffsets[1], view.objects + wanted.firstObject / 256 * sizeof(shader::ObjectUniforms));
+    EXPECT_EQ(state.view.dynamicOffsets[2], view.lights);
     EXPECT_EQ(state.vertices.buffers[0], wanted.geometry->vertices);
     EXPECT_EQ(state.vertices.buffers[1], fixture.context.instanceIds);
     EXPECT_EQ(state.vertices.count, 2);

@@ -3,10 +3,14 @@
 
 #include "backend/null/NullDriver.h"
 #include "filament_core/prepare/ObjectData.h"
+#include "shaders/interface/ShaderInterface.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cstring>
+#include <map>
 #include <memory>
 #include <set>
 #include <vector>
@@ -33,6 +37,37 @@ std::vector<C> commandsOf(backend::CommandBuffer const& commands) {
     return found;
 }
 
+/// What shaders would read: the contents of buffers, and which of them a bind group shows.
+struct BufferMemory {
+    std::map<uint32_t, std::vector<std::byte>> buffers;
+    std::map<uint32_t, std::map<uint8_t, backend::BindGroupEntry>> groups;
+    uint32_t created = 0;
+
+    void execute(CmdCreateBuffer const& c) { buffers[c.handle.bits].resize(c.desc.bytes), ++created; }
+    void execute(CmdUpdateBuffer const& c) {
+        std::vector<std::byte>& buffer = buffers.at(c.buffer.bits);
+        ASSERT_LE(c.offset + c.bytes.size(), buffer.size());
+        std::memcpy(buffer.data() + c.offset, c.bytes.data(), c.bytes.size());
+    }
+    void execute(backend::CmdCreateBindGroup const& c) {
+        ++created;
+        for (backend::BindGroupEntry const& entry : c.desc.entries) groups[c.handle.bits][entry.binding] = entry;
+    }
+    void execute(auto const&) {}
+
+    /// `bytes` of what a binding shows, at the dynamic offset of the command.
+    std::span<const std::byte> read(backend::CmdBindGroup const& bind, shader::ViewBinding binding, size_t bytes) {
+        backend::BindGroupEntry const& entry = groups.at(bind.group.bits).at(binding);
+        const uint32_t offset = bind.dynamicOffsets[binding]; // the three buffers come first
+        EXPECT_EQ(offset % 256, 0u);
+        EXPECT_LE(bytes, entry.size);
+        EXPECT_LE(offset + entry.size, buffers.at(entry.buffer.bits).size()) << "the window ends outside of the buffer";
+        return std::span(buffers.at(entry.buffer.bits)).subspan(offset, bytes);
+    }
+};
+
+bool isEqual(std::span<const std::byte> a, std::span<const std::byte> b) { return std::ranges::equal(a, b); }
+
 struct FrameDataTest : testing::Test {
     std::unique_ptr<backend::CommandStream> stream = std::move(*backend::CommandStream::start(
             [](backend::ResultSink& sink) -> Result<std::unique_ptr<backend::Driver>> {
@@ -55,6 +90,40 @@ struct FrameDataTest : testing::Test {
         data.upload(jobs, commands, packet, {});
         return packet;
     }
+
+    prepare::FramePacket upload(std::span<const prepare::ViewInput> views) {
+        arena.reset();
+        commands.reset();
+        const prepare::FramePacket packet = prepareFrame(jobs, arena, boxes.scene, views);
+        data.upload(jobs, commands, packet, {});
+        replay(commands.view(), memory);
+        return packet;
+    }
+
+    /// Some see much, some little, some nothing.
+    static std::vector<prepare::ViewInput> manyViews(uint32_t count) {
+        using prepare::ViewKind;
+        const prepare::ViewInput all = prepare::BoxScene::cubeView(count);
+        std::vector<prepare::ViewInput> views(6, all);
+        views[1].camera = Camera::lookAt({ 0, 0, 0 }, { 0, 0, 10 });
+        views[2].kind = ViewKind::Shadow;
+        views[3].camera = Camera::lookAt({ 3, 2, -4 }, { 0, 0, -10 });
+        views[4].kind = ViewKind::Depth;
+        views[4].camera = views[1].camera;
+        return views;
+    }
+
+    void expectReadsItsObjects(prepare::ObjectList const& list, ViewGroup const& group) {
+        for (uint32_t i = 0; i < list.size(); ++i) {
+            const auto window = memory.read(group.bind(i), shader::kBindingObjects, sizeof(shader::ObjectUniforms));
+            const shader::ObjectData expected =
+                    prepare::objectData(list.placements[list.order[i].renderable], list.cameraWorld);
+            const auto read = window.subspan(i % shader::kObjectsPerWindow * sizeof expected, sizeof expected);
+            ASSERT_TRUE(isEqual(read, std::as_bytes(std::span(&expected, 1)))) << "object " << i;
+        }
+    }
+
+    BufferMemory memory;
 
     std::vector<CmdUpdateBuffer> objectUpdates() const {
         std::vector<CmdUpdateBuffer> updates = commandsOf<CmdUpdateBuffer>(commands);
@@ -88,7 +157,8 @@ TEST_F(FrameDataTest, UploadsTheObjectsInDrawOrderFromMemoryOfTheCommandBuffer) 
 TEST_F(FrameDataTest, AnEmptySceneUploadsNoObjectsButHasABufferToBind) {
     upload();
     EXPECT_TRUE(objectUpdates().empty());
-    EXPECT_TRUE(data.viewGroup());
+    ASSERT_EQ(data.views().size(), 1u);
+    EXPECT_TRUE(data.views()[0].handle);
 }
 
 TEST_F(FrameDataTest, ObjectBuffersGrowByDoublingAndNoFrameOverwritesTheTwoBeforeIt) {
@@ -113,6 +183,45 @@ TEST_F(FrameDataTest, SteadyFramesUseTheMemoryOfTheFrameBefore) {
     for (int frame = 0; frame < 6; ++frame) upload();
     const size_t reserved = commands.bytesReserved();
     for (int frame = 0; frame < 20; ++frame) upload();
+    EXPECT_EQ(commands.bytesReserved(), reserved);
+}
+
+TEST_F(FrameDataTest, EveryViewReadsItsOwnUniformsLightsAndObjects) {
+    boxes.addCube(3000, 3, 5);
+    for (int i = 0; i < 40; ++i) {
+        addLight(boxes.scene, { .type = scene::LightRecord::Type::Point,
+                                .positionWorld = { 0, 0, -i },
+                                .intensity = 1.0f + static_cast<float>(i),
+                                .rangeMeters = 3 });
+    }
+    const std::vector<prepare::ViewInput> views = manyViews(3000);
+    const prepare::FramePacket packet = upload(views);
+    ASSERT_EQ(data.views().size(), views.size());
+    EXPECT_GT(packet.views[3].lights.size(), 0u);
+    EXPECT_NE(packet.views[3].lights.size(), packet.views[0].lights.size());
+    for (size_t i = 0; i < views.size(); ++i) {
+        prepare::ViewPacket const& view = packet.views[i];
+        ViewGroup const& group = data.views()[i];
+        EXPECT_TRUE(isEqual(memory.read(group.bind(0), shader::kBindingFrame, sizeof view.uniforms),
+                            std::as_bytes(std::span(&view.uniforms, 1))))
+                << "uniforms of view " << i;
+        EXPECT_TRUE(isEqual(memory.read(group.bind(0), shader::kBindingLights, view.lights.size_bytes()),
+                            std::as_bytes(view.lights)))
+                << "lights of view " << i;
+        expectReadsItsObjects(view.objects, group);
+        if (testing::Test::HasFatalFailure()) FAIL() << "view " << i;
+    }
+}
+
+TEST_F(FrameDataTest, FramesOfManyAndOfOneViewTakeTurnsWithoutCreatingAnything) {
+    boxes.addCube(2000, 1, 1);
+    const std::vector<prepare::ViewInput> views = manyViews(2000);
+    const auto one = std::span(views).first(1);
+    for (int frame = 0; frame < 12; ++frame) upload(frame % 2 ? std::span(views) : one);
+    memory.created = 0;
+    const size_t reserved = commands.bytesReserved();
+    for (int frame = 0; frame < 12; ++frame) upload(frame % 2 ? std::span(views) : one);
+    EXPECT_EQ(memory.created, 0u);
     EXPECT_EQ(commands.bytesReserved(), reserved);
 }
 
