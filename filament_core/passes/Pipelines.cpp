@@ -154,22 +154,33 @@ uint32_t PipelineCache::slot(PassSlot const& slot) {
     return static_cast<uint32_t>(mSlots.size() - 1);
 }
 
-ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material& material, uint16_t variant,
+PipelineCache::Program const* PipelineCache::findProgram(scene::Material const& material, uint64_t key) const {
+    const auto state = mMaterials.find(material.id);
+    if (state == mMaterials.end()) return nullptr;
+    const auto found = std::ranges::find(state->second.programs, key, &Program::key);
+    return found == state->second.programs.end() ? nullptr : &*found;
+}
+
+size_t PipelineCache::programCount(scene::Material const& material) const {
+    const auto state = mMaterials.find(material.id);
+    return state == mMaterials.end() ? 0 : state->second.programs.size();
+}
+
+ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material const& material, uint16_t variant,
                                         ShadingKey shading) {
     const uint64_t key = programKey(variant, shading);
-    for (scene::MaterialProgram const& program : material.programs) {
-        if (program.key == key) return program.handle;
-    }
+    if (Program const* program = findProgram(material, key)) return program->handle;
     shader::Variant const* code = material.package.findVariant(variant);
     if (!code) return refuse(material, variant, missingVariant(material.name, material.package, variant));
-    material.programs.push_back({ key, {} });
+    std::vector<Program>& programs = mMaterials[material.id].programs;
+    programs.push_back({ key, {} });
     try {
-        material.programs.back().handle = createProgram(setup, material, *code, shading);
+        programs.back().handle = createProgram(setup, material, *code, shading);
     } catch (...) {
-        material.programs.pop_back(); // known is what is recorded
+        programs.pop_back(); // known is what is recorded
         throw;
     }
-    return material.programs.back().handle;
+    return programs.back().handle;
 }
 
 PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Material const& material,
@@ -179,17 +190,17 @@ PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Materia
              isLit(material) ? at.shading : ShadingKey{ 0 } };
 }
 
-void PipelineCache::prepareProgram(CommandBuffer& setup, uint32_t slot, scene::Material& material, uint8_t variant) {
+void PipelineCache::prepareProgram(CommandBuffer& setup, uint32_t slot, scene::Material const& material,
+                                   uint8_t variant) {
     (void)surfaceProgram(setup, slot, material, variant);
 }
 
 bool PipelineCache::hasProgram(uint32_t slot, scene::Material const& material, uint8_t variant) const {
     const ProgramChoice choice = choose(slot, material, variant);
-    const uint64_t key = programKey(choice.variant, choice.shading);
-    return std::ranges::count(material.programs, key, &scene::MaterialProgram::key) > 0;
+    return findProgram(material, programKey(choice.variant, choice.shading)) != nullptr;
 }
 
-ProgramHandle PipelineCache::surfaceProgram(CommandBuffer& setup, uint32_t slot, scene::Material& material,
+ProgramHandle PipelineCache::surfaceProgram(CommandBuffer& setup, uint32_t slot, scene::Material const& material,
                                             uint8_t variant) {
     const ProgramChoice choice = choose(slot, material, variant);
     if (material.package.domain == shader::MaterialDomain::Surface)
@@ -201,10 +212,12 @@ ProgramHandle PipelineCache::surfaceProgram(CommandBuffer& setup, uint32_t slot,
 }
 
 /// Told once for each variant, however many pipelines would have needed it.
-ProgramHandle PipelineCache::refuse(scene::Material& material, uint16_t variant, std::string why) {
-    if (std::ranges::count(material.refusedVariants, variant) > 0) return {};
+ProgramHandle PipelineCache::refuse(scene::Material const& material, uint16_t variant, std::string why) {
+    std::vector<uint16_t>& refused = mMaterials[material.id].refusedVariants;
+    if (std::ranges::count(refused, variant) > 0) return {};
+    mRefusals.reserve(mRefusals.size() + 1); // both or none
+    refused.push_back(variant);
     mRefusals.push_back(std::move(why));
-    material.refusedVariants.push_back(variant);
     return {};
 }
 
@@ -266,7 +279,7 @@ PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, P
     const uint64_t key = makeKey(slot, use);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
 
-    scene::Material& material = *use.instance.material;
+    scene::Material const& material = *use.instance.material;
     const ProgramHandle program = surfaceProgram(setup, slot, material, use.variant);
     if (!program) {
         mPipelines.insert({ key, {}, material.id }); // not asked again
@@ -283,7 +296,7 @@ std::optional<PipelineHandle> PipelineCache::findFullscreen(uint32_t slot, scene
     return entry ? std::optional(entry->handle) : std::nullopt;
 }
 
-PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t slot, scene::Material& material) {
+PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t slot, scene::Material const& material) {
     const uint64_t key = fullscreenKey(slot, material);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
     scene::RasterState raster = scene::initialRaster(material.package);
@@ -294,7 +307,7 @@ PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t 
     return create(setup, key, desc, material.id);
 }
 
-void PipelineCache::forget(CommandBuffer& commands, scene::Material& material) {
+void PipelineCache::forget(CommandBuffer& commands, scene::Material const& material) {
     mPipelines.eraseIf([&](PipelineTable::Entry const& entry) {
         if (entry.material != material.id) return false;
         if (entry.handle) {
@@ -302,8 +315,10 @@ void PipelineCache::forget(CommandBuffer& commands, scene::Material& material) {
         }
         return true;
     });
-    for (scene::MaterialProgram const& program : material.programs) mStream.destroy(commands, program.handle);
-    material.programs.clear();
+    const auto state = mMaterials.find(material.id);
+    if (state == mMaterials.end()) return;
+    for (Program const& program : state->second.programs) mStream.destroy(commands, program.handle);
+    mMaterials.erase(state);
 }
 
 } // namespace filament::passes

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Materials and instances as the frame sees them: programs, parameters and raster state.
+/// Materials and instances as the frame sees them: which code, which parameters, which raster state.
 ///   Thread  written by the app thread between frames, read by workers during prepare.
 ///   Life    instances point to their material; renderables point to their instance. Both have stable addresses.
 #pragma once
@@ -16,19 +16,11 @@
 
 namespace filament::scene {
 
-/// A program of a material; the pipeline cache defines the keys.
-struct MaterialProgram {
-    uint64_t key = 0;
-    backend::ProgramHandle handle;
-};
-
 struct Material {
     uint32_t id = 0; ///< small and dense: part of the sort key
     std::string name;
     shader::MaterialPackage package;
     std::vector<backend::ConstantValue> constants;
-    std::vector<MaterialProgram> programs; ///< created when first needed
-    std::vector<uint16_t> refusedVariants; ///< requested but not in the package; reported once
     uint32_t instanceCount = 0;
     MaterialDescription description;
 

@@ -34,7 +34,7 @@ struct CompileWish {
 };
 
 struct CompileJob {
-    scene::Material* material = nullptr;
+    scene::Material const* material = nullptr;
     std::vector<scene::MaterialInstance> states; ///< no more of instances than what selects pipelines
     std::vector<CompileWish> wishes;
     std::function<void(CompileProgress const&)> onProgress;

@@ -104,8 +104,8 @@ TEST(ChoosePipelines, HalfPrecisionTakesAProgramOfItsOwnWhereTheMaterialHasOneAn
     const auto half = fixture.choose(draws, setup);
     EXPECT_THAT(half, testing::Each(testing::Ne(PipelineHandle{})));
     EXPECT_NE(half[0], full[0]);
-    EXPECT_EQ(fixture.materials[0].programs.size(), 2u);
-    EXPECT_EQ(fixture.materials[1].programs.size(), 1u);
+    EXPECT_EQ(fixture.pipelines->programCount(fixture.materials[0]), 2u);
+    EXPECT_EQ(fixture.pipelines->programCount(fixture.materials[1]), 1u);
 }
 
 /// The pipelines of both passes of a material that blends, in a pass with a depth buffer.
@@ -227,6 +227,22 @@ TEST(PipelineCache, ForgettingAMaterialDestroysWhatWasMadeOfItAndNothingElse) {
     EXPECT_EQ(createdBy(again).pipelines.size(), forgotten.destroyedPipelines);
     for (size_t i = 0; i < draws.size(); ++i)
         EXPECT_EQ(rechosen[i] == chosen[i], draws[i].material->material != &fixture.materials[1]);
+}
+
+TEST(PipelineCache, TwoCachesOfOneMaterialKnowNothingOfEachOther) {
+    DrawFixture fixture(1, 1, 1);
+    const std::vector<DrawCall> draws{ fixture.draw(0, 0, 0) };
+    CommandBuffer setup, commands;
+    const PipelineHandle first = fixture.choose(draws, setup)[0];
+    PipelineCache other(*fixture.stream, fixture.layouts);
+    EXPECT_EQ(other.programCount(fixture.materials[0]), 0u);
+    const PipelineUse use{ .instance = *draws[0].material, .geometryLayout = draws[0].geometry->layout };
+    const PipelineHandle second = other.pipelineFor(setup, other.slot({}), use);
+    EXPECT_NE(second, first);
+    EXPECT_EQ(createdBy(setup).programs, 2u);
+    other.forget(commands, fixture.materials[0]);
+    EXPECT_EQ(createdBy(commands).destroyedPrograms, 1u);
+    EXPECT_EQ(fixture.choose(draws, commands)[0], first);
 }
 
 // ---------------------------------------------------------------------------------------------- the table itself
