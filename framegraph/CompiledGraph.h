@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compile(): from declarations to a plan. record(): from a plan to commands. In between, CompiledGraph is plain data
-/// that tells what was decided and why; Explain.h prints it.
+/// compile(): from declarations to a plan. record(): from a plan to commands. rehearse(): what recording would ask for.
+/// In between, CompiledGraph is plain data that tells what was decided and why; Explain.h prints it.
 ///   Thread  one at a time, for each pool.
 ///   Memory  the plan lives in the graph's arena and refers to graph and pool; valid until one of them is reset.
 ///   Fails   compile() asserts on a graph that breaks a rule, naming pass and texture (see Check.cpp).
@@ -119,5 +119,9 @@ struct PassTimer {
 /// `ranges`, if given, lets passes record their draws in parallel (PassContext::recordRanges); the bits are the same.
 void record(backend::CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers = nullptr,
             RangeRecorder* ranges = nullptr);
+
+/// Calls beforePass of every pass that runs, in order, and nothing else: for whoever wants to know in advance what a
+/// frame like this needs. Asserts that a pass records nothing meanwhile (PassContext::isRehearsal()).
+void rehearse(CompiledGraph const& plan);
 
 } // namespace filament::framegraph

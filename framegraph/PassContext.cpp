@@ -69,6 +69,7 @@ backend::BindGroupHandle PassContext::bindGroup(backend::BindGroupLayout const& 
                                                 std::string_view name) {
     require(!mInsidePass, "pass '{}': bind group '{}' is made inside of a pass; make it in beforePass",
             mPlan.graph->passes()[mPass].name, name);
+    if (mIsRehearsal) return {};
     return mPlan.pool->bindGroup(mCommands, { .layout = layout, .entries = entries, .debugName = name });
 }
 

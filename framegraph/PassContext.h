@@ -45,8 +45,9 @@ struct PassId {
 
 class PassContext {
 public:
-    PassContext(CompiledGraph const& plan, backend::CommandBuffer& commands, RangeRecorder* ranges = nullptr)
-            : mPlan(plan), mCommands(commands), mRanges(ranges) {}
+    PassContext(CompiledGraph const& plan, backend::CommandBuffer& commands, RangeRecorder* ranges = nullptr,
+                bool isRehearsal = false)
+            : mPlan(plan), mCommands(commands), mRanges(ranges), mIsRehearsal(isRehearsal) {}
 
     backend::CommandBuffer& commands() { return mCommands; }
     /// body(commands, begin, end) for the ranges [0, grain), [grain, 2 grain), ... of `count` items, in parallel where
@@ -85,8 +86,11 @@ public:
     /// that the fragment shader writes, and BindingDesc::inputAttachment. The declared slot, unless the pass is merged.
     uint8_t colorIndex(TextureId id) const;
 
+    /// beforePass is called by rehearse(): nothing will be drawn. Choose pipelines as always, record nothing.
+    bool isRehearsal() const { return mIsRehearsal; }
+
     /// A bind group that lives for this frame; equal ones are made once and kept while frames go on asking for them.
-    /// In `beforePass` and in passes without attachments only.
+    /// None in a rehearsal. In `beforePass` and in passes without attachments only.
     backend::BindGroupHandle bindGroup(backend::BindGroupLayout const& layout,
                                        std::span<const backend::BindGroupEntry> entries, std::string_view name);
 
@@ -101,6 +105,7 @@ private:
     RangeRecorder* mRanges;
     uint32_t mPass = 0;
     bool mInsidePass = false;
+    const bool mIsRehearsal;
 };
 
 struct PassCode {

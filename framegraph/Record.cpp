@@ -3,6 +3,7 @@
 
 #include "backend/stream/CommandStream.h"
 #include "backend/stream/RecordingGuards.h"
+#include "framegraph/Require.h"
 
 namespace filament::framegraph {
 namespace {
@@ -77,6 +78,19 @@ void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<Pass
         recordGroup(commands, plan, group, ranges);
     }
     plan.pool->recordEvictions(commands);
+}
+
+void rehearse(CompiledGraph const& plan) {
+    CommandBuffer nothing;
+    PassContext context(plan, nothing, nullptr, true);
+    for (const uint32_t index : plan.order) {
+        Pass const& pass = plan.graph->passes()[index];
+        context.enter(index, false);
+        pass.code.beforePass(pass.code.object, context);
+        require(nothing.commandCount() == 0,
+                "pass '{}': records commands in a rehearsal; leave them out where PassContext::isRehearsal() is true",
+                pass.name);
+    }
 }
 
 } // namespace filament::framegraph

@@ -178,6 +178,47 @@ TEST_F(Record, BeforePassRunsBeforeTheMergedPassBegins) {
                        "begin color + tone map\npush color\npop\nnext\npush tone map\npop\nend\n");
 }
 
+TEST_F(Record, ARehearsalAsksEveryPassThatRunsAndNoOther) {
+    const TextureId hdr = color("hdr"), unread = color("unread"), out = target();
+    std::vector<std::string> asked;
+    std::vector<std::string>* const list = &asked;
+    const auto add = [&](const char* name, TextureId to, TextureId from) {
+        graph.addPass(
+                name,
+                [&](PassBuilder& b) {
+                    if (from) b.readInput(from);
+                    b.writeColor(0, to, { .overwrites = true });
+                },
+                [=](PassContext& c) {
+                    EXPECT_TRUE(c.isRehearsal());
+                    EXPECT_FALSE(c.bindGroup({}, {}, name)) << "none is made";
+                    list->push_back(name);
+                    return static_cast<uint32_t>(c.subpass());
+                },
+                [](PassContext&, uint32_t) { ADD_FAILURE() << "nothing is drawn"; });
+    };
+    add("color", hdr, {});
+    add("nobody reads it", unread, {});
+    add("tone map", out, hdr);
+    const CompiledGraph plan = compile(graph, *pool);
+    asked.reserve(2);
+    const uint64_t before = allocationCount();
+    rehearse(plan);
+    EXPECT_EQ(allocationCount(), before);
+    EXPECT_EQ(asked, (std::vector<std::string>{ "color", "tone map" }));
+    graph.reset();
+}
+
+TEST_F(Record, AFrameAfterARehearsalIsTheSame) {
+    declareTwoPasses(true);
+    rehearse(compile(graph, *pool));
+    EXPECT_TRUE(merged);
+    graph.reset();
+    arena.reset();
+    declareTwoPasses(true);
+    EXPECT_EQ(frame(), "create hdr\nbegin color + tone map\npush color\npop\nnext\npush tone map\npop\nend\n");
+}
+
 TEST_F(Record, TimersMeasureGroups) {
     std::vector<PassTimer> timers;
     declareTwoPasses(false);
@@ -372,6 +413,19 @@ TEST_F(PassContextDeathTest, MakingABindGroupInsideOfAPass) {
             "draw", [&](PassBuilder& b) { b.writeColor(0, out); },
             [=](PassContext& c) { c.bindGroup({}, {}, "late"); });
     EXPECT_DEATH(frame(), "pass 'draw': bind group 'late' is made inside of a pass; make it in beforePass");
+    graph.reset();
+}
+
+TEST_F(PassContextDeathTest, RecordingInARehearsal) {
+    const TextureId out = target();
+    graph.addPass(
+            "draw", [&](PassBuilder& b) { b.writeColor(0, out); },
+            [](PassContext& c) {
+                c.commands().record(CmdPushGroup{ "upload" });
+                return 0;
+            },
+            [](PassContext&, int) {});
+    EXPECT_DEATH(rehearse(compile(graph, *pool)), "pass 'draw': records commands in a rehearsal");
     graph.reset();
 }
 
