@@ -10,7 +10,7 @@
 ///   Fails   never. Cost: bench/filament_core/prepare.
 #pragma once
 
-#include "filament_core/base/Arena.h"
+#include "base/Arena.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "filament_core/prepare/SortKey.h"
 #include "filament_core/prepare/ViewConstants.h"

@@ -8,7 +8,7 @@
 ///   Fails   std::bad_alloc. Cost: bench/filament_core/prepare.
 #pragma once
 
-#include "filament_core/base/Arena.h"
+#include "base/Arena.h"
 #include "filament_core/prepare/CullRenderables.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "filament_core/prepare/ViewInput.h"

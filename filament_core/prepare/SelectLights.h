@@ -7,7 +7,7 @@
 ///   Fails   never. Cost: about 15 ns a light, 60 ns where more reach the view than can be kept (they are sorted).
 #pragma once
 
-#include "filament_core/base/Arena.h"
+#include "base/Arena.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "filament_core/prepare/ViewConstants.h"
 

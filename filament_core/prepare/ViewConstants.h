@@ -2,7 +2,7 @@
 /// What all draws of a view share: matrices in camera-relative space, exposure, and the pre-exposed environment.
 #pragma once
 
-#include "filament_core/math/Frustum.h"
+#include "base/math/Frustum.h"
 #include "filament_core/prepare/ViewInput.h"
 #include "filament_core/scene/SceneData.h"
 #include "shaders/interface/ShaderInterface.h"
