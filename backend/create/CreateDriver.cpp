@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/create/CreateDriver.h"
 
-#include "backend/gles/GlesDriver.h"
+#include "backend/gles/Driver.h"
 #include "backend/null/NullDriver.h"
-#include "backend/vulkan/VulkanDriver.h"
+#include "backend/vulkan/Driver.h"
 
 #include <cstdlib>
 #include <iterator>

@@ -3,7 +3,7 @@
 
 namespace filament::backend::gles {
 
-// Outside of vertex arrays and uniform slots, so that binding it disturbs nothing that State knows.
+// Outside of vertex arrays and uniform slots, so that binding it disturbs nothing that ContextState knows.
 static constexpr GLenum kEditTarget = GL_COPY_WRITE_BUFFER;
 
 Buffers::~Buffers() {
@@ -11,7 +11,7 @@ Buffers::~Buffers() {
 }
 
 void Buffers::create(BufferHandle handle, BufferDesc const& desc) {
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     const bool changesOften = has(desc.usage, BufferUsage::Uniform);
     Buffer buffer{ .size = desc.size, .hint = static_cast<GLenum>(changesOften ? GL_DYNAMIC_DRAW : GL_STATIC_DRAW) };
     mDevice.beginCreation();
@@ -25,7 +25,7 @@ void Buffers::create(BufferHandle handle, BufferDesc const& desc) {
         gl.DeleteBuffers(1, &buffer.name);
         buffer.name = 0;
     }
-    mBuffers.insert(handle, buffer);
+    mBuffers.put(handle, std::make_unique<Buffer>(buffer));
 }
 
 void Buffers::destroy(Buffer const& buffer) {
@@ -39,7 +39,7 @@ void Buffers::update(BufferHandle handle, uint64_t offset, std::span<const std::
     Buffer const* buffer = find(handle);
     if (!buffer || bytes.empty()) return;
     FILAMENT_ASSERT(offset + bytes.size() <= buffer->size, "an update stays inside its buffer");
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     gl.BindBuffer(kEditTarget, buffer->name);
     if (bytes.size() == buffer->size) {
         // New storage instead of a wait for draws that still read the old one.

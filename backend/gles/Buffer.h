@@ -4,8 +4,8 @@
 ///   Fails   out of memory is reported; the buffer stays in the table with name 0, and what uses it is skipped.
 #pragma once
 
+#include "backend/api/Slots.h"
 #include "backend/gles/Device.h"
-#include "backend/gles/Table.h"
 
 namespace filament::backend::gles {
 
@@ -22,7 +22,7 @@ public:
 
     void create(BufferHandle handle, BufferDesc const& desc);
     /// The GL name that is gone now (0 if none): other caches must forget it first, see take().
-    std::unique_ptr<Buffer> take(BufferHandle handle) { return mBuffers.remove(handle); }
+    std::unique_ptr<Buffer> take(BufferHandle handle) { return mBuffers.take(handle); }
     void destroy(Buffer const& buffer);
     void update(BufferHandle handle, uint64_t offset, std::span<const std::byte> bytes);
 
@@ -31,7 +31,7 @@ public:
 
 private:
     Device& mDevice;
-    Table<BufferTag, Buffer> mBuffers;
+    Slots<BufferHandle, Buffer> mBuffers;
 };
 
 } // namespace filament::backend::gles

@@ -44,7 +44,7 @@ void DepthReader::dropTextures() {
 Texture DepthReader::makeTexture(Format format, Rect const& rect) {
     Texture texture;
     texture.desc.format = format;
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     gl.GenTextures(1, &texture.name);
     mDevice.state.bindTexture(kUnit, GL_TEXTURE_2D, texture.name);
     gl.TexStorage2D(GL_TEXTURE_2D, 1, glFormat(format).internalFormat, static_cast<GLsizei>(rect.width),
@@ -72,7 +72,7 @@ void DepthReader::blit(Texture const& source, uint32_t level, uint32_t layer, Re
 }
 
 void DepthReader::draw(GLuint target, Rect const& rect) {
-    State& state = mDevice.state;
+    ContextState& state = mDevice.state;
     state.bindFramebuffers(target, target);
     state.setViewport({ 0, 0, static_cast<float>(rect.width), static_cast<float>(rect.height) });
     state.setScissor({});

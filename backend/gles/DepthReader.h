@@ -2,7 +2,7 @@
 /// DepthReader: puts depth where it can be read, for devices without NV_read_depth.
 ///   The rectangle is blitted into a 2D depth texture of the same format (which also takes it out of arrays and cubes)
 ///   and drawn from there into an R32F texture, texel by texel; both copies are exact.
-///   Thread  the driver thread, outside of passes; leaves its own bindings in State, which knows.
+///   Thread  the driver thread, outside of passes; leaves its own bindings in ContextState, which knows.
 ///   Memory  two textures per read-back, deleted when the next one begins.
 #pragma once
 

@@ -9,8 +9,8 @@ namespace {
 constexpr uint32_t kAllGroups = (1u << kMaxBindGroups) - 1;
 constexpr uint8_t kNoSlot = 0xFF;
 
-BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers,
-                        Textures const& textures) {
+BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures const& textures,
+                        Samplers const& samplers) {
     BindGroup::Slot slot{ .type = type };
     if (type == BindingType::UniformBuffer || type == BindingType::DynamicUniformBuffer) {
         Buffer const* buffer = buffers.find(entry.buffer);
@@ -22,13 +22,14 @@ BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers c
     Texture const* texture = textures.find(entry.texture);
     slot.object = texture ? texture->name : 0;
     slot.target = texture ? texture->target : 0;
-    slot.sampler = textures.findSampler(entry.sampler);
+    slot.sampler = samplers.find(entry.sampler);
     return slot;
 }
 
 } // namespace
 
-BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures const& textures) {
+BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures const& textures,
+                        Samplers const& samplers) {
     BindGroup group;
     group.slots.reserve(desc.layout.count);
     for (uint32_t i = 0; i < desc.layout.count; ++i) {
@@ -36,7 +37,7 @@ BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textu
         const auto entry = std::find_if(desc.entries.begin(), desc.entries.end(),
                                         [&](BindGroupEntry const& at) { return at.binding == binding.binding; });
         FILAMENT_ASSERT(entry != desc.entries.end(), "every binding of a bind group layout has an entry");
-        group.slots.push_back(resolve(*entry, binding.type, buffers, textures));
+        group.slots.push_back(resolve(*entry, binding.type, buffers, textures, samplers));
         group.isUsable = group.isUsable && group.slots.back().object != 0;
     }
     return group;

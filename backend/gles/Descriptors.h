@@ -8,6 +8,7 @@
 
 #include "backend/gles/Buffer.h"
 #include "backend/gles/Program.h"
+#include "backend/gles/Sampler.h"
 #include "backend/gles/Texture.h"
 
 namespace filament::backend::gles {
@@ -25,12 +26,13 @@ struct BindGroup {
     bool isUsable = true;
 };
 
-BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures const& textures);
+BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures const& textures,
+                        Samplers const& samplers);
 
 /// The groups bound in a pass.
 class Descriptors {
 public:
-    explicit Descriptors(State& state) : mState(state) {}
+    explicit Descriptors(ContextState& state) : mState(state) {}
 
     /// Nothing is bound any more: at the start of a pass or subpass.
     void reset();
@@ -47,7 +49,7 @@ private:
     bool isNeeded(uint32_t index) const;
     void applyGroup(uint32_t index);
 
-    State& mState;
+    ContextState& mState;
     std::array<Bound, kMaxBindGroups> mBound{};
     FlatBindings mBindings{};
     uint32_t mPending = 0; // bit i: group i is not in its slots

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/Device.h"
 
+#include <algorithm>
+#include <cctype>
+#include <string>
+#include <string_view>
+
 namespace filament::backend::gles {
 namespace {
 
@@ -21,9 +26,51 @@ void GL_APIENTRY onMessage(GLenum source, GLenum type, GLuint, GLenum severity, 
     device->sink.onError(DriverErrorKind::Validation, fmt::format("OpenGL ES: {}", text));
 }
 
+bool containsIgnoringCase(std::string_view text, std::string_view part) {
+    const auto equal = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+    return part.empty() || std::search(text.begin(), text.end(), part.begin(), part.end(), equal) != text.end();
+}
+
 } // namespace
 
-Device::Device(GlApi const& api, Quirks const& found, ResultSink& results, bool wantsMessages)
+// ---------------------------------------------------------------------------------------------- choice
+
+Result<OpenDevice> openDevice(Egl const& egl, DisplaySource source, bool debug) {
+    Result<Context> context = Context::create(egl, source, debug);
+    if (!context) return context.error();
+    Api gl;
+    if (const char* missing = gl.load(egl.GetProcAddress)) {
+        return fail(ErrorCode::Unsupported, "OpenGL ES: {} is missing, so this is not ES 3.1", missing);
+    }
+    Result<Quirks> quirks = Quirks::probe(gl);
+    if (!quirks) return quirks.error();
+    return OpenDevice{ std::move(*context), gl, *quirks };
+}
+
+Result<OpenDevice> chooseDevice(DriverOptions const& options) {
+    Result<Egl const*> egl = Egl::load();
+    if (!egl) return egl.error();
+    Error refusal{ ErrorCode::DeviceUnavailable,
+                   "OpenGL ES: EGL has no display without a window system; install libegl-mesa0 and libgl1-mesa-dri" };
+    std::string others;
+    for (DisplaySource source : (*egl)->displaySources()) {
+        Result<OpenDevice> device = openDevice(**egl, source, options.validation);
+        if (!device) {
+            refusal = { ErrorCode::DeviceUnavailable, device.error().message };
+            continue;
+        }
+        const std::string name = describeDevice(device->gl, device->quirks).deviceName;
+        if (containsIgnoringCase(name, options.requireDevice)) return device;
+        if (others.find(name) == std::string::npos) others += (others.empty() ? "'" : ", '") + name + "'";
+    }
+    if (others.empty()) return refusal;
+    return fail(ErrorCode::DeviceUnavailable, "no OpenGL ES device is called '{}'; there is {}", options.requireDevice,
+                others);
+}
+
+// ---------------------------------------------------------------------------------------------- device
+
+Device::Device(Api const& api, Quirks const& found, ResultSink& results, bool wantsMessages)
         : gl(api), quirks(found), sink(results), messages(wantsMessages && found.debugMessages),
           info(describeDevice(gl, quirks)), state(gl, quirks) {
     if (!messages) return;

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Device: what every part of the driver works on: the functions, the cached state, and where errors go.
-///   Thread  the driver thread.
+/// OpenDevice: a context that this driver can work with, before anything is made in it.
+///   Thread  the driver thread. openDevice(), chooseDevice() leave the context that they made current.
+///   Fails   chooseDevice(): DeviceUnavailable, naming what refused, or which devices there are.
 #pragma once
 
-#include "backend/gles/State.h"
-#include "base/BlobStore.h"
+#include "backend/gles/Context.h"
+#include "backend/gles/ContextState.h"
+#include "filament_core/base/BlobStore.h"
 
 #include <fmt/core.h>
 
@@ -12,8 +15,20 @@
 
 namespace filament::backend::gles {
 
+struct OpenDevice {
+    Context context;
+    Api gl;
+    Quirks quirks;
+};
+Result<OpenDevice> openDevice(Egl const& egl, DisplaySource source, bool debug);
+/// The device that DriverOptions::requireDevice names, or the first usable one.
+Result<OpenDevice> chooseDevice(DriverOptions const& options);
+
+/// Takes away what a device has; for tests.
+using QuirkFilter = void (*)(Quirks&);
+
 struct Device {
-    Device(GlApi const& api, Quirks const& found, ResultSink& results, bool wantsMessages);
+    Device(Api const& api, Quirks const& found, ResultSink& results, bool wantsMessages);
     ~Device();
     Device(Device const&) = delete;
     Device& operator=(Device const&) = delete;
@@ -35,12 +50,12 @@ struct Device {
     /// Names an object for debuggers; free unless messages are on.
     void label(GLenum type, GLuint object, std::string_view name);
 
-    GlApi const gl;
+    Api const gl;
     Quirks const quirks;
     ResultSink& sink;
     bool const messages; ///< validation: KHR_debug messages reach the sink
     DeviceInfo const info;
-    State state;
+    ContextState state;
     std::optional<BlobStore> programs{}; ///< binaries from run to run; none: nobody asked, or the device has none
     DriverStatistics statistics;         ///< of this thread; the driver publishes copies
     bool creating = false;               ///< an error is one of beginCreation(): created() tells it

@@ -1,49 +1,26 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The driver behind GlesDriver.h: a context, and the commands that run in it.
-///   Thread  as backend/api/Driver.h; makes its context current whenever it is entered, so that several drivers may
-///           live on one thread.
+/// The OpenGL ES 3.1+ driver, off-screen through EGL without a window system.
+///   In      command streams whose programs are ESSL 3.10 text.  Out: answers to the ResultSink.
+///   Thread  createGlesDriver(): the thread that will drive it. listGlesDevices(): any; leaves the thread's EGL state
+///           as it was.
+///           Several drivers on several threads, or on one, do not disturb each other.
+///   Limits  ES 3.1 with EXT_clip_control and EXT_color_buffer_float (ES 3.2 has the latter); others are not listed.
+///   Fails   DeviceUnavailable: no libEGL, no driver behind it, or no device of the required name; the message says
+///           which, and what to install.
 #pragma once
 
-#include "backend/gles/Commands.h"
-#include "backend/gles/Context.h"
-#include "backend/gles/GlesDriver.h"
+#include "backend/api/Driver.h"
+#include "filament_core/base/Result.h"
 
-#include <mutex>
+#include <memory>
+#include <vector>
 
-namespace filament::backend::gles {
+namespace filament::backend {
 
-/// Takes away what the device has, to run the ways around; nothing else than tests needs it.
-using QuirkFilter = void (*)(Quirks&);
+/// `sink` must outlive the driver.
+Result<std::unique_ptr<Driver>> createGlesDriver(DriverOptions const& options, ResultSink& sink);
 
-/// createGlesDriver() with a filter.
-Result<std::unique_ptr<Driver>> createFilteredDriver(DriverOptions const& options, ResultSink& sink,
-                                                     QuirkFilter filter);
+/// Usable devices, the default one first; empty without libEGL or a driver.
+std::vector<DeviceInfo> listGlesDevices();
 
-/// A context that this driver can work with.
-struct OpenDevice {
-    Context context;
-    GlApi gl;
-    Quirks quirks;
-};
-
-class GlesDriver final : public Driver {
-public:
-    GlesDriver(OpenDevice device, DriverOptions const& options, ResultSink& sink);
-    ~GlesDriver() override;
-
-    DeviceInfo const& info() const override { return mDevice.info; }
-    void execute(CommandView commands) override;
-    void waitIdle() override;
-    DriverStatistics statistics() const override;
-
-private:
-    void publishStatistics();
-
-    Context mContext; // outlives everything that is deleted in it
-    Device mDevice;
-    Commands mCommands;
-    mutable std::mutex mMutex;
-    DriverStatistics mPublished; // under mMutex
-};
-
-} // namespace filament::backend::gles
+} // namespace filament::backend

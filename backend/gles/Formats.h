@@ -4,7 +4,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
-#include "backend/gles/GlApi.h"
+#include "backend/gles/Api.h"
 
 namespace filament::backend::gles {
 

@@ -55,7 +55,7 @@ GLuint Framebuffers::single(Side side, Texture const& texture, uint32_t level, u
 }
 
 void Framebuffers::attach(GLenum point, ImageKey const& image) {
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     if (image.target == GL_TEXTURE_2D_ARRAY) {
         gl.FramebufferTextureLayer(GL_FRAMEBUFFER, point, image.texture, image.level, image.layer);
     } else {
@@ -66,7 +66,7 @@ void Framebuffers::attach(GLenum point, ImageKey const& image) {
 }
 
 GLuint Framebuffers::create(FramebufferKey const& wanted, std::string_view what) {
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     GLuint object = 0;
     gl.GenFramebuffers(1, &object);
     mDevice.state.bindFramebuffers(object, object);

@@ -13,7 +13,7 @@ void Pass::begin(PassDesc const& desc) {
     mFramebuffer = collect(key) ? mFramebuffers.get(key, desc.debugName) : 0;
     ++mDevice.statistics.passes;
     if (!isUsable()) return;
-    State& state = mDevice.state;
+    ContextState& state = mDevice.state;
     state.bindFramebuffers(mFramebuffer, mFramebuffer);
     state.setScissor(desc.area);
     state.setViewport({ static_cast<float>(desc.area.x), static_cast<float>(desc.area.y),
@@ -127,7 +127,7 @@ void Pass::invalidate(Points const& points) {
 void Pass::resolve(uint32_t index) {
     Texture const* target = mTextures.find(mDesc.colors[index].resolve);
     if (!target) return;
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     Rect const& area = mDesc.area;
     const GLint right = area.x + static_cast<GLint>(area.width), bottom = area.y + static_cast<GLint>(area.height);
     const GLuint draw = mFramebuffers.single(Framebuffers::Side::Draw, *target, 0, 0);

@@ -50,7 +50,7 @@ Pipeline makePipeline(PipelineDesc const& desc, std::shared_ptr<Program const> p
     return pipeline;
 }
 
-void applyPipeline(State& state, Pipeline const& pipeline, uint8_t frontReference, uint8_t backReference) {
+void applyPipeline(ContextState& state, Pipeline const& pipeline, uint8_t frontReference, uint8_t backReference) {
     state.useProgram(pipeline.program->name());
     state.setRaster(pipeline.raster);
     state.setDepthStencil(pipeline.depthStencil, frontReference, backReference);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Pipeline: a program with all fixed-function state, worked out once.
-///   OpenGL ES has no such object: applying one is a handful of compares against State.
+///   OpenGL ES has no such object: applying one is a handful of compares against ContextState.
 ///   Thread  the driver thread.
 ///   Memory  keeps its program alive, as a Vulkan pipeline does.
 #pragma once
@@ -28,6 +28,6 @@ struct Pipeline {
 Pipeline makePipeline(PipelineDesc const& desc, std::shared_ptr<Program const> program, Vertices& vertices);
 
 /// Sets everything but the vertex buffers and bind groups.
-void applyPipeline(State& state, Pipeline const& pipeline, uint8_t frontReference, uint8_t backReference);
+void applyPipeline(ContextState& state, Pipeline const& pipeline, uint8_t frontReference, uint8_t backReference);
 
 } // namespace filament::backend::gles

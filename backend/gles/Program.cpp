@@ -120,7 +120,7 @@ Program::~Program() {
 }
 
 void Program::readInputs() {
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     GLint count = 0;
     gl.GetProgramiv(mName, GL_ACTIVE_ATTRIBUTES, &count);
     for (GLint i = 0; i < count; ++i) {
@@ -141,7 +141,7 @@ void Program::readInputs() {
 
 // The values of outputs that a program lacks are undefined in ES: the pipeline masks them.
 void Program::readOutputs() {
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     GLint count = 0;
     gl.GetProgramInterfaceiv(mName, GL_PROGRAM_OUTPUT, GL_ACTIVE_RESOURCES, &count);
     for (GLint i = 0; i < count; ++i) {

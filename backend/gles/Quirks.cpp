@@ -11,18 +11,18 @@ namespace {
 
 using Extensions = std::set<std::string, std::less<>>;
 
-GLint integer(GlApi const& gl, GLenum name) {
+GLint integer(Api const& gl, GLenum name) {
     GLint value = 0;
     gl.GetIntegerv(name, &value);
     return value;
 }
 
-std::string text(GlApi const& gl, GLenum name) {
+std::string text(Api const& gl, GLenum name) {
     const GLubyte* value = gl.GetString(name);
     return value ? reinterpret_cast<const char*>(value) : "";
 }
 
-Extensions readExtensions(GlApi const& gl) {
+Extensions readExtensions(Api const& gl) {
     Extensions names;
     const GLint count = integer(gl, GL_NUM_EXTENSIONS);
     for (GLint i = 0; i < count; ++i) {
@@ -43,7 +43,7 @@ bool hasBlockCompression(Extensions const& names) {
 
 } // namespace
 
-Result<Quirks> Quirks::probe(GlApi const& gl) {
+Result<Quirks> Quirks::probe(Api const& gl) {
     const GLint version = integer(gl, GL_MAJOR_VERSION) * 10 + integer(gl, GL_MINOR_VERSION);
     const bool es32 = version >= 32;
     const Extensions names = readExtensions(gl);
@@ -76,7 +76,7 @@ Result<Quirks> Quirks::probe(GlApi const& gl) {
     return quirks;
 }
 
-DeviceInfo describeDevice(GlApi const& gl, Quirks const& quirks) {
+DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
     DeviceInfo info;
     info.backend = BackendType::Gles;
     info.shaderLanguage = ShaderLanguage::Essl310;

@@ -4,8 +4,8 @@
 #pragma once
 
 #include "backend/api/Driver.h"
-#include "backend/gles/GlApi.h"
-#include "base/Result.h"
+#include "backend/gles/Api.h"
+#include "filament_core/base/Result.h"
 
 namespace filament::backend::gles {
 
@@ -23,10 +23,10 @@ struct Quirks {
     bool resetStatus = false;      ///< else a lost context shows as GL_CONTEXT_LOST from glGetError only
 
     /// Asks the current context. Unsupported names what is missing for this driver.
-    static Result<Quirks> probe(GlApi const& gl);
+    static Result<Quirks> probe(Api const& gl);
 };
 
 /// What the current context is and can do.
-DeviceInfo describeDevice(GlApi const& gl, Quirks const& quirks);
+DeviceInfo describeDevice(Api const& gl, Quirks const& quirks);
 
 } // namespace filament::backend::gles

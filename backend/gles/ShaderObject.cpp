@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/ShaderObject.h"
 
-#include "backend/gles/ProgramBinary.h"
-#include "base/Hash.h"
+#include "backend/gles/ProgramCache.h"
+#include "filament_core/base/Hash.h"
 
 #include <array>
 #include <string>
@@ -36,7 +36,7 @@ GLuint compile(Device& device, GLenum stage, ShaderText text, std::string_view n
         pieces[count] = piece.data() ? piece.data() : "";
         lengths[count++] = static_cast<GLint>(piece.size());
     }
-    GlApi const& gl = device.gl;
+    Api const& gl = device.gl;
     const GLuint shader = gl.CreateShader(stage);
     gl.ShaderSource(shader, static_cast<GLsizei>(count), pieces.data(), lengths.data());
     gl.CompileShader(shader);
@@ -51,7 +51,7 @@ GLuint compile(Device& device, GLenum stage, ShaderText text, std::string_view n
 }
 
 GLuint link(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name) {
-    GlApi const& gl = device.gl;
+    Api const& gl = device.gl;
     const GLuint vertexShader = compile(device, GL_VERTEX_SHADER, vertex, name);
     const GLuint fragmentShader = vertexShader ? compile(device, GL_FRAGMENT_SHADER, fragment, name) : 0;
     GLuint program = 0;

@@ -6,7 +6,7 @@
 namespace filament::backend::gles {
 namespace {
 
-// Creation and uploads bind here; State knows, and draws rebind what they need.
+// Creation and uploads bind here; ContextState knows, and draws rebind what they need.
 constexpr uint32_t kEditUnit = 0;
 
 struct Area {
@@ -18,7 +18,7 @@ Area areaOf(Rect const& rect) {
     return { rect.x, rect.y, static_cast<GLsizei>(rect.width), static_cast<GLsizei>(rect.height) };
 }
 
-void uploadImage(GlApi const& gl, GLenum target, GLint level, Area area, GlFormat const& format,
+void uploadImage(Api const& gl, GLenum target, GLint level, Area area, GlFormat const& format,
                  std::span<const std::byte> bytes) {
     if (format.format == 0) {
         gl.CompressedTexSubImage2D(target, level, area.x, area.y, area.width, area.height, format.internalFormat,
@@ -29,7 +29,7 @@ void uploadImage(GlApi const& gl, GLenum target, GLint level, Area area, GlForma
     }
 }
 
-void uploadLayers(GlApi const& gl, GLint level, Area area, GLint layer, GLsizei layers, GlFormat const& format,
+void uploadLayers(Api const& gl, GLint level, Area area, GLint layer, GLsizei layers, GlFormat const& format,
                   std::span<const std::byte> bytes) {
     constexpr GLenum kTarget = GL_TEXTURE_2D_ARRAY;
     if (format.format == 0) {
@@ -53,11 +53,10 @@ uint64_t textureBytes(TextureDesc const& desc) {
 
 Textures::~Textures() {
     mTextures.forEach([this](Texture& texture) { destroy(texture); });
-    mSamplers.forEach([this](GLuint& sampler) { mDevice.gl.DeleteSamplers(1, &sampler); });
 }
 
 void Textures::allocate(Texture const& texture) {
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     TextureDesc const& desc = texture.desc;
     const GLenum format = glFormat(desc.format).internalFormat;
     const auto width = static_cast<GLsizei>(desc.width), height = static_cast<GLsizei>(desc.height);
@@ -99,7 +98,7 @@ void Textures::create(TextureHandle handle, TextureDesc const& desc) {
             texture.name = 0;
         }
     }
-    mTextures.insert(handle, texture);
+    mTextures.put(handle, std::make_unique<Texture>(texture));
 }
 
 void Textures::destroy(Texture const& texture) {
@@ -131,41 +130,6 @@ void Textures::upload(CmdUploadTexture const& command) {
 Texture const* Textures::find(TextureHandle handle) const {
     Texture const* texture = mTextures.find(handle);
     return texture && texture->name ? texture : nullptr;
-}
-
-// ---------------------------------------------------------------------------------------------- samplers
-
-void Textures::createSampler(SamplerHandle handle, SamplerDesc const& desc) {
-    GlApi const& gl = mDevice.gl;
-    GLuint sampler = 0;
-    gl.GenSamplers(1, &sampler);
-    const auto set = [&](GLenum what, GLenum value) { gl.SamplerParameteri(sampler, what, static_cast<GLint>(value)); };
-    set(GL_TEXTURE_MAG_FILTER, glFilter(desc.magFilter));
-    set(GL_TEXTURE_MIN_FILTER, glMinFilter(desc));
-    set(GL_TEXTURE_WRAP_S, glWrap(desc.wrapU));
-    set(GL_TEXTURE_WRAP_T, glWrap(desc.wrapV));
-    set(GL_TEXTURE_WRAP_R, glWrap(desc.wrapW));
-    if (desc.compare != CompareOp::None) {
-        set(GL_TEXTURE_COMPARE_MODE, GL_COMPARE_REF_TO_TEXTURE);
-        set(GL_TEXTURE_COMPARE_FUNC, glCompare(desc.compare));
-    }
-    if (desc.anisotropy > 1 && mDevice.quirks.anisotropy) {
-        const float wanted = std::min(static_cast<float>(desc.anisotropy), mDevice.info.limits.maxAnisotropy);
-        gl.SamplerParameterf(sampler, GL_TEXTURE_MAX_ANISOTROPY_EXT, wanted);
-    }
-    mSamplers.insert(handle, sampler);
-}
-
-void Textures::destroySampler(SamplerHandle handle) {
-    const std::unique_ptr<GLuint> sampler = mSamplers.remove(handle);
-    if (!sampler) return;
-    mDevice.state.forgetSampler(*sampler);
-    mDevice.gl.DeleteSamplers(1, sampler.get());
-}
-
-GLuint Textures::findSampler(SamplerHandle handle) const {
-    GLuint const* sampler = mSamplers.find(handle);
-    return sampler ? *sampler : 0;
 }
 
 } // namespace filament::backend::gles

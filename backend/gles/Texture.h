@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Textures and samplers: storage, uploads, sampling state.
+/// Textures: storage and uploads.
 ///   Thread  the driver thread.
 ///   Memory  immutable storage; attachments are textures as well (multisampled ones too), so that any can be sampled.
 ///   Fails   out of memory or a format that the device lacks is reported; the texture stays in the table with name 0,
 ///           and what uses it is skipped.
 #pragma once
 
+#include "backend/api/Slots.h"
 #include "backend/gles/Device.h"
-#include "backend/gles/Table.h"
 
 namespace filament::backend::gles {
 
@@ -27,23 +27,17 @@ public:
     ~Textures();
 
     void create(TextureHandle handle, TextureDesc const& desc);
-    std::unique_ptr<Texture> take(TextureHandle handle) { return mTextures.remove(handle); }
+    std::unique_ptr<Texture> take(TextureHandle handle) { return mTextures.take(handle); }
     void destroy(Texture const& texture);
     void upload(CmdUploadTexture const& command);
     /// Null if it does not exist or could not be made.
     Texture const* find(TextureHandle handle) const;
 
-    void createSampler(SamplerHandle handle, SamplerDesc const& desc);
-    void destroySampler(SamplerHandle handle);
-    /// 0 if it does not exist.
-    GLuint findSampler(SamplerHandle handle) const;
-
 private:
     void allocate(Texture const& texture);
 
     Device& mDevice;
-    Table<TextureTag, Texture> mTextures;
-    Table<SamplerTag, GLuint> mSamplers;
+    Slots<TextureHandle, Texture> mTextures;
 };
 
 } // namespace filament::backend::gles

@@ -23,7 +23,7 @@ VertexArray& Vertices::get(VertexLayout const& layout) {
 }
 
 void Vertices::describe(VertexArray const& array) {
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     for (uint32_t i = 0; i < array.layout.attributeCount; ++i) {
         VertexAttribute const& attribute = array.layout.attributes[i];
         VertexFormatInfo const& info = vertexFormatInfo(attribute.format);

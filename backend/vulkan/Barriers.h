@@ -9,7 +9,7 @@
 ///   Limits  a texture that is an attachment of a pass is not sampled in it.
 #pragma once
 
-#include "backend/vulkan/VulkanApi.h"
+#include "backend/vulkan/Api.h"
 
 #include <cstdint>
 #include <vector>

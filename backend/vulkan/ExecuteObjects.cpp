@@ -46,12 +46,12 @@ void Executor::execute(CmdCreatePipeline const& command) {
     if (pass == VK_NULL_HANDLE) {
         return report(fail(ErrorCode::OutOfMemory, "pipeline '{}': no render pass", desc.debugName));
     }
-    store(mPipelines, command.handle, Pipeline::create(*mDevice, mPipelineCache, pass, *program, desc),
+    store(mPipelines, command.handle, Pipeline::create(*mDevice, mProgramCache->handle(), pass, *program, desc),
           DriverErrorKind::ShaderCompile);
     if (!mPipelines.find(command.handle)) return;
     ++mStatistics.pipelinesCreated;
     mStatistics.pipelinesFromCache += mPipelines.find(command.handle)->isFromCache();
-    if (mPass) ++mStatistics.pipelinesCreatedInPasses;
+    if (mPass->isOpen()) ++mStatistics.pipelinesCreatedInPasses;
 }
 
 void Executor::execute(CmdCreateBindGroup const& command) {

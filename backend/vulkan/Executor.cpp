@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Executor.h"
 
-#include "base/Hash.h"
-
 #include <algorithm>
 #include <cstring>
 #include <new>
@@ -49,6 +47,7 @@ Result<std::unique_ptr<Executor>> Executor::create(std::unique_ptr<Device> devic
 Executor::Executor(std::unique_ptr<Device> device, ResultSink& sink) : mDevice(std::move(device)), mSink(sink) {
     mRenderPasses.emplace(*mDevice);
     mFramebuffers.emplace(*mDevice);
+    mPass.emplace(*mDevice, mTextures, mBarriers, *mRenderPasses, *mFramebuffers);
     mLayouts.emplace(*mDevice);
     mTimers.emplace(*mDevice);
     mReadbacks.emplace(*mDevice);
@@ -60,7 +59,7 @@ Result<void> Executor::initialize(std::filesystem::path const& cacheDirectory) {
     if (const VkResult result = mSubmissions->initialize(); result != VK_SUCCESS) {
         return errorFromResult(result, "Vulkan: command buffers");
     }
-    openPipelineCache(cacheDirectory);
+    mProgramCache.emplace(*mDevice, cacheDirectory);
     constexpr uint64_t kZeroBytes = 256;
     auto zeros =
             Buffer::create(*mDevice, { kZeroBytes, VK_BUFFER_USAGE_VERTEX_BUFFER_BIT, MemoryPurpose::Upload, "zeros" });
@@ -73,39 +72,9 @@ Result<void> Executor::initialize(std::filesystem::path const& cacheDirectory) {
 }
 
 Executor::~Executor() {
-    if (!mIsLost && !mPass) submitAtEnd();
+    if (!mIsLost && !mPass->isOpen()) submitAtEnd();
     mDevice->fn().vkDeviceWaitIdle(mDevice->handle()); // fails at once if the device is lost
-    keepPipelineCache();
-    mDevice->fn().vkDestroyPipelineCache(mDevice->handle(), mPipelineCache, nullptr);
-}
-
-// The data begin with the device's own header: a driver ignores what another one wrote.
-void Executor::openPipelineCache(std::filesystem::path const& directory) {
-    auto info = make<VkPipelineCacheCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_CACHE_CREATE_INFO);
-    if (!directory.empty()) {
-        const uint64_t identity = hashString(this->info().driverName, hashString(this->info().deviceName));
-        mKeptPipelines.emplace(directory / fmt::format("vulkan-{:016x}.pipelines", identity), identity,
-                               kProgramCacheBytes);
-        const std::span<const std::byte> data = mKeptPipelines->find(0);
-        info.initialDataSize = data.size();
-        info.pInitialData = data.data();
-    }
-    if (mDevice->fn().vkCreatePipelineCache(mDevice->handle(), &info, nullptr, &mPipelineCache) != VK_SUCCESS)
-        mPipelineCache = VK_NULL_HANDLE; // pipelines are made without one
-}
-
-void Executor::keepPipelineCache() {
-    if (!mKeptPipelines || mPipelineCache == VK_NULL_HANDLE || mIsLost) return;
-    VolkDeviceTable const& fn = mDevice->fn();
-    size_t size = 0;
-    if (fn.vkGetPipelineCacheData(mDevice->handle(), mPipelineCache, &size, nullptr) != VK_SUCCESS) return;
-    try {
-        std::vector<std::byte> data(size);
-        if (fn.vkGetPipelineCacheData(mDevice->handle(), mPipelineCache, &size, data.data()) != VK_SUCCESS) return;
-        mKeptPipelines->put(0, std::span(data).first(size));
-        mKeptPipelines->save();
-    } catch (std::bad_alloc const&) { // then not
-    }
+    if (mProgramCache && !mIsLost) mProgramCache->save();
 }
 
 void Executor::submitAtEnd() {
@@ -135,7 +104,7 @@ void Executor::execute(CommandView commands) {
     Dispatch dispatch{ *this, mStatistics.commands, mIsLost };
     try {
         replay(commands, dispatch);
-        if (!mIsLost && !mPass) submit();
+        if (!mIsLost && !mPass->isOpen()) submit();
     } catch (std::bad_alloc const&) {
         mIsLost = true; // in the middle of something: what is recorded is never submitted
         throw;

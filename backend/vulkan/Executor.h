@@ -10,6 +10,7 @@
 #pragma once
 
 #include "backend/api/Driver.h"
+#include "backend/api/Slots.h"
 #include "backend/vulkan/Barriers.h"
 #include "backend/vulkan/Buffer.h"
 #include "backend/vulkan/Descriptors.h"
@@ -17,13 +18,13 @@
 #include "backend/vulkan/DrawState.h"
 #include "backend/vulkan/Pass.h"
 #include "backend/vulkan/Pipeline.h"
-#include "backend/vulkan/Query.h"
+#include "backend/vulkan/ProgramCache.h"
+#include "backend/vulkan/Readbacks.h"
 #include "backend/vulkan/Sampler.h"
-#include "backend/vulkan/Slots.h"
 #include "backend/vulkan/Submissions.h"
 #include "backend/vulkan/Texture.h"
+#include "backend/vulkan/Timers.h"
 #include "backend/vulkan/Upload.h"
-#include "base/BlobStore.h"
 
 #include <array>
 #include <memory>
@@ -90,21 +91,8 @@ public:
 private:
     static constexpr size_t kFramesInFlight = 2;
 
-    /// The pass being recorded.
-    struct OpenPass {
-        PassLayout layout;
-        Rect area;
-        std::array<Texture*, kMaxColorAttachments> colors{}, resolves{};
-        Texture* depth = nullptr;
-        std::array<SubresourceRange, kMaxColorAttachments> colorRanges{};
-        SubresourceRange depthRange;
-        bool isSkipped = false; ///< an attachment is missing: nothing of it is recorded
-    };
-
     Executor(std::unique_ptr<Device> device, ResultSink& sink);
     Result<void> initialize(std::filesystem::path const& cacheDirectory);
-    void openPipelineCache(std::filesystem::path const& directory);
-    void keepPipelineCache();
 
     // frames
     VkCommandBuffer commands(); ///< opened on first use
@@ -128,21 +116,13 @@ private:
     void recordBlit(Texture& source, VkImageBlit const& blit, Texture& target, Contents targetContents, Filter filter);
     void recordReadback(CmdReadTexture const& command, Texture& texture, std::unique_ptr<Buffer> target);
 
-    // passes
-    bool collectAttachments(PassDesc const& desc, OpenPass& pass, FramebufferKey& framebuffer);
-    bool addAttachment(Texture* texture, SubresourceRange const& range, FramebufferKey& framebuffer);
-    void prepareAttachments(PassDesc const& desc, OpenPass const& pass);
-    void leaveAttachments(OpenPass const& pass);
-    bool recordBeginPass(PassDesc const& desc, OpenPass const& pass, FramebufferKey& key);
-
     // Destroyed from the last to the first, after the destructor has waited for the GPU.
     std::unique_ptr<Device> mDevice;
     ResultSink& mSink;
     std::optional<RenderPasses> mRenderPasses;
     std::optional<Framebuffers> mFramebuffers;
     std::optional<Layouts> mLayouts;
-    VkPipelineCache mPipelineCache = VK_NULL_HANDLE;
-    std::optional<BlobStore> mKeptPipelines; ///< the cache's data from run to run; none: nobody asked
+    std::optional<ProgramCache> mProgramCache;
     std::unique_ptr<Buffer> mZeros;
     Slots<BufferHandle, Buffer> mBuffers;
     Slots<TextureHandle, Texture> mTextures;
@@ -156,9 +136,8 @@ private:
     std::optional<Upload> mUpload;
     std::optional<DrawState> mDraws;
     Barriers mBarriers;
+    std::optional<Pass> mPass;
 
-    std::optional<OpenPass> mPass;
-    uint64_t mPassNumber = 0;
     std::array<uint64_t, kFramesInFlight> mFrameSerials{}; // the last submission of the last frames
     size_t mFrameIndex = 0;
     bool mIsLost = false;

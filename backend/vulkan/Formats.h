@@ -3,7 +3,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
-#include "backend/vulkan/VulkanApi.h"
+#include "backend/vulkan/Api.h"
 
 namespace filament::backend::vulkan {
 

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "backend/api/Driver.h"
-#include "backend/vulkan/VulkanApi.h"
+#include "backend/vulkan/Api.h"
 
 #include <memory>
 #include <vector>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "backend/vulkan/Allocator.h"
-#include "backend/vulkan/VulkanApi.h"
+#include "backend/vulkan/Api.h"
 
 namespace filament::backend::vulkan {
 

@@ -1,250 +1,121 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Pass.h"
 
-#include "backend/vulkan/Formats.h"
-#include "backend/vulkan/Texture.h"
-#include "base/Hash.h"
-
 #include <algorithm>
 
 namespace filament::backend::vulkan {
 namespace {
 
-constexpr VkPipelineStageFlags kAttachmentStages = VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT |
-                                                   VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT |
-                                                   VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-constexpr VkAccessFlags kAttachmentWrites =
-        VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
-constexpr VkAccessFlags kAttachmentReads =
-        VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT;
-constexpr VkAttachmentReference kUnused{ VK_ATTACHMENT_UNUSED, VK_IMAGE_LAYOUT_UNDEFINED };
+Contents contentsFor(LoadOp load) { return load == LoadOp::Load ? Contents::Keep : Contents::Discard; }
 
-bool isIn(uint8_t mask, uint32_t bit) { return (mask >> bit & 1) != 0; }
-
-/// The use of a colour attachment in one subpass; Undefined if that leaves it alone.
-Use colorUseIn(PassLayout const& layout, uint32_t subpass, uint32_t index) {
-    if (isIn(readColors(layout, subpass), index)) return Use::InputRead;
-    return isIn(writtenColors(layout, subpass), index) ? Use::ColorAttachment : Use::Undefined;
-}
-
-/// Everything that VkRenderPassCreateInfo points to.
-struct RenderPassParts {
-    struct Subpass {
-        std::array<VkAttachmentReference, kMaxColorAttachments> colors, inputs, resolves;
-        VkAttachmentReference depth = kUnused;
-        std::array<uint32_t, kMaxAttachments> preserved{};
-        uint32_t preservedCount = 0;
-    };
-    std::array<VkAttachmentDescription, kMaxAttachments> attachments{};
-    uint32_t attachmentCount = 0;
-    std::array<Subpass, kMaxSubpasses> subpasses;
-    std::vector<VkSubpassDependency> dependencies;
-};
-
-void describeAttachments(RenderPassKey const& key, RenderPassParts& parts) {
-    PassLayout const& layout = key.layout;
-    const auto add = [&](Format format, uint32_t samples, LoadOp load, StoreOp store, Use first, Use last) {
-        VkAttachmentDescription& at = parts.attachments[parts.attachmentCount++];
-        at.format = native(format);
-        at.samples = sampleBits(samples);
-        at.loadOp = native(load);
-        at.storeOp = native(store);
-        at.stencilLoadOp = hasStencil(format) ? at.loadOp : VK_ATTACHMENT_LOAD_OP_DONT_CARE;
-        at.stencilStoreOp = hasStencil(format) ? at.storeOp : VK_ATTACHMENT_STORE_OP_DONT_CARE;
-        at.initialLayout = infoOf(first).layout;
-        at.finalLayout = infoOf(last).layout;
-    };
-    for (uint32_t i = 0; i < layout.colorCount; ++i) {
-        add(layout.colorFormats[i], layout.samples, key.loads[i], key.stores[i], firstColorUse(layout, i),
-            lastColorUse(layout, i));
-    }
-    if (layout.depthFormat != Format::None) {
-        add(layout.depthFormat, layout.samples, key.depthLoad, key.depthStore, Use::DepthAttachment,
-            Use::DepthAttachment);
-    }
-    for (uint32_t i = 0; i < layout.colorCount; ++i) {
-        if (!isIn(layout.resolveMask, i)) continue;
-        add(layout.colorFormats[i], 1, LoadOp::Discard, StoreOp::Store, Use::ColorAttachment, Use::ColorAttachment);
-    }
-}
-
-void describeSubpass(PassLayout const& layout, uint32_t index, RenderPassParts::Subpass& subpass) {
-    subpass.colors.fill(kUnused);
-    subpass.inputs.fill(kUnused);
-    subpass.resolves.fill(kUnused);
-    const bool hasDepthAttachment = layout.depthFormat != Format::None;
-    uint32_t resolve = layout.colorCount + (hasDepthAttachment ? 1u : 0u);
-    for (uint32_t i = 0; i < layout.colorCount; ++i) {
-        const Use use = colorUseIn(layout, index, i);
-        if (use == Use::ColorAttachment) subpass.colors[i] = { i, infoOf(use).layout };
-        if (use == Use::InputRead) subpass.inputs[i] = { i, infoOf(use).layout };
-        if (use == Use::Undefined) subpass.preserved[subpass.preservedCount++] = i;
-        if (isIn(layout.resolveMask, i)) {
-            if (use == Use::ColorAttachment) subpass.resolves[i] = { resolve, infoOf(use).layout };
-            ++resolve;
+VkClearValue clearColor(Attachment const& attachment, Format format) {
+    VkClearValue value{};
+    for (size_t i = 0; i < 4; ++i) {
+        if (formatInfo(format).kind == FormatKind::UnsignedInteger) {
+            value.color.uint32[i] = static_cast<uint32_t>(std::max(attachment.clear[i], 0.0f));
+        } else {
+            value.color.float32[i] = attachment.clear[i];
         }
     }
-    if (!hasDepthAttachment) return;
-    if (layout.subpasses[index].usesDepth) {
-        subpass.depth = { layout.colorCount, infoOf(Use::DepthAttachment).layout };
-    } else {
-        subpass.preserved[subpass.preservedCount++] = layout.colorCount;
-    }
-}
-
-void describeDependencies(PassLayout const& layout, RenderPassParts& parts) {
-    for (uint32_t from = 0; from < layout.subpassCount; ++from) {
-        for (uint32_t to = from + 1; to < layout.subpassCount; ++to) {
-            VkSubpassDependency dependency{};
-            dependency.srcSubpass = from;
-            dependency.dstSubpass = to;
-            // Reads in the fragment shader count as well: a later subpass may write what an earlier one has read.
-            dependency.srcStageMask = kAttachmentStages | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-            dependency.dstStageMask = kAttachmentStages | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-            dependency.srcAccessMask = kAttachmentWrites;
-            dependency.dstAccessMask = kAttachmentWrites | kAttachmentReads | VK_ACCESS_INPUT_ATTACHMENT_READ_BIT;
-            dependency.dependencyFlags = VK_DEPENDENCY_BY_REGION_BIT;
-            parts.dependencies.push_back(dependency);
-        }
-    }
-}
-
-VkRenderPass createRenderPass(Device& device, RenderPassKey const& key) {
-    PassLayout const& layout = key.layout;
-    RenderPassParts parts;
-    describeAttachments(key, parts);
-    describeDependencies(layout, parts);
-    std::array<VkSubpassDescription, kMaxSubpasses> subpasses{};
-    for (uint32_t i = 0; i < layout.subpassCount; ++i) {
-        RenderPassParts::Subpass& part = parts.subpasses[i];
-        describeSubpass(layout, i, part);
-        subpasses[i].pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
-        subpasses[i].colorAttachmentCount = layout.colorCount;
-        subpasses[i].pColorAttachments = part.colors.data();
-        subpasses[i].pResolveAttachments = layout.resolveMask != 0 ? part.resolves.data() : nullptr;
-        subpasses[i].inputAttachmentCount = readColors(layout, i) != 0 ? layout.colorCount : 0;
-        subpasses[i].pInputAttachments = part.inputs.data();
-        subpasses[i].pDepthStencilAttachment = &part.depth;
-        subpasses[i].preserveAttachmentCount = part.preservedCount;
-        subpasses[i].pPreserveAttachments = part.preserved.data();
-    }
-    auto info = make<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
-    info.attachmentCount = parts.attachmentCount;
-    info.pAttachments = parts.attachments.data();
-    info.subpassCount = layout.subpassCount;
-    info.pSubpasses = subpasses.data();
-    info.dependencyCount = static_cast<uint32_t>(parts.dependencies.size());
-    info.pDependencies = parts.dependencies.data();
-    VkRenderPass pass = VK_NULL_HANDLE;
-    const VkResult result = device.fn().vkCreateRenderPass(device.handle(), &info, nullptr, &pass);
-    return result == VK_SUCCESS ? pass : VK_NULL_HANDLE;
-}
-
-/// Unused entries must not tell equal passes apart.
-PassLayout normalized(PassLayout layout) {
-    const auto used = static_cast<uint8_t>((1u << layout.colorCount) - 1);
-    for (uint32_t i = layout.colorCount; i < kMaxColorAttachments; ++i) layout.colorFormats[i] = Format::None;
-    for (uint32_t i = 0; i < kMaxSubpasses; ++i) {
-        SubpassDesc& subpass = layout.subpasses[i];
-        if (i >= layout.subpassCount) subpass = {};
-        if (layout.depthFormat == Format::None) subpass.usesDepth = true;
-        subpass.colorMask = static_cast<uint8_t>(subpass.colorMask & used);
-        subpass.inputMask = static_cast<uint8_t>(subpass.inputMask & used);
-    }
-    layout.resolveMask = static_cast<uint8_t>(layout.resolveMask & used);
-    return layout;
+    return value;
 }
 
 } // namespace
 
-RenderPassKey keyOf(PassDesc const& desc) {
-    RenderPassKey key = keyOf(desc.layout);
+Result<void> Pass::begin(PassDesc const& desc, VkCommandBuffer commands) {
+    ++mNumber;
+    mLayout = desc.layout;
+    mArea = desc.area;
+    mColors = mResolves = {};
+    mDepth = nullptr;
+    mOpen = true;
+    mUsable = false;
+    FramebufferKey key;
+    if (!collect(desc, key)) return {};
+    key.pass = mRenderPasses.get(keyOf(desc));
+    const VkFramebuffer framebuffer = key.pass != VK_NULL_HANDLE ? mFramebuffers.get(key) : VK_NULL_HANDLE;
+    if (framebuffer == VK_NULL_HANDLE) {
+        return fail(ErrorCode::OutOfMemory, "pass '{}': no framebuffer, the pass is skipped", desc.debugName);
+    }
+    mUsable = true;
+    prepareAttachments(desc);
+    mBarriers.beginPass(mNumber);
+    mBarriers.flush(mDevice.fn(), commands);
+    recordBegin(desc, key, framebuffer, commands);
+    return {};
+}
+
+void Pass::nextSubpass(VkCommandBuffer commands) {
+    mDevice.fn().vkCmdNextSubpass(commands, VK_SUBPASS_CONTENTS_INLINE);
+}
+
+void Pass::end(VkCommandBuffer commands) {
+    if (mUsable) {
+        mDevice.fn().vkCmdEndRenderPass(commands);
+        leaveAttachments();
+        mBarriers.endPass();
+    }
+    mOpen = mUsable = false;
+}
+
+bool Pass::collect(PassDesc const& desc, FramebufferKey& key) {
+    key.width = static_cast<uint32_t>(desc.area.x) + desc.area.width;
+    key.height = static_cast<uint32_t>(desc.area.y) + desc.area.height;
     for (uint32_t i = 0; i < desc.layout.colorCount; ++i) {
-        key.loads[i] = desc.colors[i].load;
-        key.stores[i] = desc.colors[i].store;
+        mColors[i] = mTextures.find(desc.colors[i].texture);
+        mColorRanges[i] = { desc.colors[i].level, 1, desc.colors[i].layer, 1 };
+        if (!add(mColors[i], mColorRanges[i], key)) return false;
     }
     if (desc.layout.depthFormat != Format::None) {
-        key.depthLoad = desc.depth.load;
-        key.depthStore = desc.depth.store;
+        mDepth = mTextures.find(desc.depth.texture);
+        mDepthRange = { desc.depth.level, 1, desc.depth.layer, 1 };
+        if (!add(mDepth, mDepthRange, key)) return false;
     }
-    return key;
-}
-
-RenderPassKey keyOf(PassLayout const& layout) { return { .layout = normalized(layout) }; }
-
-uint8_t readColors(PassLayout const& layout, uint32_t subpass) {
-    return static_cast<uint8_t>(layout.subpasses[subpass].inputMask & ((1u << layout.colorCount) - 1));
-}
-
-uint8_t writtenColors(PassLayout const& layout, uint32_t subpass) {
-    const uint32_t written = layout.subpasses[subpass].colorMask & ~layout.subpasses[subpass].inputMask;
-    return static_cast<uint8_t>(written & ((1u << layout.colorCount) - 1));
-}
-
-Use firstColorUse(PassLayout const& layout, uint32_t index) {
-    for (uint32_t subpass = 0; subpass < layout.subpassCount; ++subpass) {
-        if (const Use use = colorUseIn(layout, subpass, index); use != Use::Undefined) return use;
+    for (uint32_t i = 0; i < desc.layout.colorCount; ++i) {
+        if ((desc.layout.resolveMask >> i & 1) == 0) continue;
+        mResolves[i] = mTextures.find(desc.colors[i].resolve);
+        if (!add(mResolves[i], {}, key)) return false;
     }
-    return Use::ColorAttachment; // only loaded, cleared and stored
+    return true;
 }
 
-Use lastColorUse(PassLayout const& layout, uint32_t index) {
-    for (uint32_t subpass = layout.subpassCount; subpass-- > 0;) {
-        if (const Use use = colorUseIn(layout, subpass, index); use != Use::Undefined) return use;
+bool Pass::add(Texture* texture, SubresourceRange const& range, FramebufferKey& key) {
+    const VkImageView view = texture ? texture->attachmentView(range.level, range.layer) : VK_NULL_HANDLE;
+    if (view == VK_NULL_HANDLE) return false;
+    texture->attachmentOfPass = mNumber;
+    key.views[key.viewCount++] = view;
+    return true;
+}
+
+void Pass::prepareAttachments(PassDesc const& desc) {
+    for (uint32_t i = 0; i < mLayout.colorCount; ++i) {
+        const Use first = firstColorUse(mLayout, i);
+        mBarriers.image(*mColors[i], mColorRanges[i], first, contentsFor(desc.colors[i].load));
+        if (mResolves[i]) mBarriers.image(*mResolves[i], {}, Use::ColorAttachment, Contents::Discard);
     }
-    return Use::ColorAttachment;
+    if (mDepth) mBarriers.image(*mDepth, mDepthRange, Use::DepthAttachment, contentsFor(desc.depth.load));
 }
 
-// ---------------------------------------------------------------------------------------------- render passes
-
-size_t RenderPasses::Hash::operator()(RenderPassKey const& key) const { return hashValue(key); }
-
-RenderPasses::~RenderPasses() {
-    for (auto const& [key, pass] : mPasses) mDevice.fn().vkDestroyRenderPass(mDevice.handle(), pass, nullptr);
+void Pass::leaveAttachments() {
+    for (uint32_t i = 0; i < mLayout.colorCount; ++i) {
+        mBarriers.leave(*mColors[i], mColorRanges[i], lastColorUse(mLayout, i));
+    }
 }
 
-VkRenderPass RenderPasses::get(RenderPassKey const& key) {
-    if (const auto known = mPasses.find(key); known != mPasses.end()) return known->second;
-    const VkRenderPass pass = createRenderPass(mDevice, key);
-    if (pass != VK_NULL_HANDLE) mPasses.emplace(key, pass);
-    return pass;
-}
-
-// ---------------------------------------------------------------------------------------------- framebuffers
-
-size_t Framebuffers::Hash::operator()(FramebufferKey const& key) const {
-    uint64_t hash = hashBytes(std::as_bytes(std::span(key.views.data(), key.viewCount)), bitsOf(key.pass));
-    return hashCombine(hash, uint64_t{ key.width } << 32 | key.height);
-}
-
-VkFramebuffer Framebuffers::get(FramebufferKey const& key) {
-    if (const auto known = mFramebuffers.find(key); known != mFramebuffers.end()) return known->second->handle();
-    auto info = make<VkFramebufferCreateInfo>(VK_STRUCTURE_TYPE_FRAMEBUFFER_CREATE_INFO);
+void Pass::recordBegin(PassDesc const& desc, FramebufferKey const& key, VkFramebuffer framebuffer,
+                       VkCommandBuffer commands) {
+    std::array<VkClearValue, kMaxAttachments> clears{};
+    for (uint32_t i = 0; i < mLayout.colorCount; ++i) {
+        clears[i] = clearColor(desc.colors[i], mLayout.colorFormats[i]);
+    }
+    clears[mLayout.colorCount].depthStencil = { desc.depth.clear[0], static_cast<uint32_t>(desc.depth.clear[1]) };
+    auto info = make<VkRenderPassBeginInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_BEGIN_INFO);
     info.renderPass = key.pass;
-    info.attachmentCount = key.viewCount;
-    info.pAttachments = key.views.data();
-    info.width = key.width;
-    info.height = key.height;
-    info.layers = 1;
-    VkFramebuffer handle = VK_NULL_HANDLE;
-    if (mDevice.fn().vkCreateFramebuffer(mDevice.handle(), &info, nullptr, &handle) != VK_SUCCESS)
-        return VK_NULL_HANDLE;
-    mFramebuffers.emplace(key, std::make_unique<Framebuffer>(mDevice, handle));
-    return handle;
-}
-
-std::vector<std::unique_ptr<Framebuffer>> Framebuffers::take(Texture const& texture) {
-    std::vector<std::unique_ptr<Framebuffer>> taken;
-    for (auto entry = mFramebuffers.begin(); entry != mFramebuffers.end();) {
-        const auto views = std::span(entry->first.views).first(entry->first.viewCount);
-        if (std::ranges::any_of(views, [&](VkImageView view) { return texture.owns(view); })) {
-            taken.push_back(std::move(entry->second));
-            entry = mFramebuffers.erase(entry);
-        } else {
-            ++entry;
-        }
-    }
-    return taken;
+    info.framebuffer = framebuffer;
+    info.renderArea = { { mArea.x, mArea.y }, { mArea.width, mArea.height } };
+    info.clearValueCount = key.viewCount;
+    info.pClearValues = clears.data();
+    mDevice.fn().vkCmdBeginRenderPass(commands, &info, VK_SUBPASS_CONTENTS_INLINE);
 }
 
 } // namespace filament::backend::vulkan

@@ -1,104 +1,57 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Pass: VkRenderPass objects by what they do with their attachments, framebuffers by what they draw into.
-///   Attachments  in the order of VkFramebuffer: colours, depth, resolve targets (ascending by colour).
-///   Locations    shader output i writes colour attachment i of the pass in every subpass; input attachment index i
-///                reads colour attachment i. A subpass does not write what it reads: colorMask without inputMask
-///                counts.
-///   Layouts      every attachment enters in the layout of its first use and stays in the layout of its last one;
-///                Barriers moves it there before and knows where it is afterwards. Inside, by-region dependencies from
-///                every subpass to every later one order writes before reads.
-///   Thread       the driver thread.
-///   Memory       render passes live as long as the driver (dozens), framebuffers until one of their textures goes.
-///   Fails        with null handles when the device is out of memory.
+/// Pass: the pass being recorded: layouts, load and store operations and resolves around the draws.
+///   begin() moves every attachment into the layout of its first use, and all other sampled textures to where shaders
+///   read them, in one barrier; end() tells Barriers where the attachments are.
+///   Thread  the driver thread.
+///   Fails   a pass with an attachment that could not be made is skipped with its draws; the creation was reported.
 #pragma once
 
-#include "backend/api/Descriptions.h"
+#include "backend/api/Slots.h"
 #include "backend/vulkan/Barriers.h"
-#include "backend/vulkan/Device.h"
+#include "backend/vulkan/Framebuffers.h"
 
 #include <array>
-#include <memory>
-#include <unordered_map>
-#include <vector>
 
 namespace filament::backend::vulkan {
 
-inline constexpr uint32_t kMaxAttachments = 2 * kMaxColorAttachments + 1;
-
-/// What decides a VkRenderPass. Everything beyond colorCount and subpassCount has its default value.
-struct RenderPassKey {
-    PassLayout layout{};
-    std::array<LoadOp, kMaxColorAttachments> loads{};
-    std::array<StoreOp, kMaxColorAttachments> stores{};
-    LoadOp depthLoad{};
-    StoreOp depthStore{};
-    friend bool operator==(RenderPassKey const&, RenderPassKey const&) = default;
-};
-
-RenderPassKey keyOf(PassDesc const& desc);
-/// A render pass that pipelines for this layout are made with; load and store operations do not matter for them.
-RenderPassKey keyOf(PassLayout const& layout);
-
-/// Colour attachments that a subpass writes, and that it reads.
-uint8_t writtenColors(PassLayout const& layout, uint32_t subpass);
-uint8_t readColors(PassLayout const& layout, uint32_t subpass);
-
-/// How colour attachment `index` is used by the first and by the last subpass that uses it at all.
-Use firstColorUse(PassLayout const& layout, uint32_t index);
-Use lastColorUse(PassLayout const& layout, uint32_t index);
-
-class RenderPasses {
+class Pass {
 public:
-    explicit RenderPasses(Device& device) : mDevice(device) {}
-    ~RenderPasses();
-    RenderPasses(RenderPasses const&) = delete;
-    RenderPasses& operator=(RenderPasses const&) = delete;
+    Pass(Device& device, Slots<TextureHandle, Texture> const& textures, Barriers& barriers, RenderPasses& renderPasses,
+         Framebuffers& framebuffers)
+            : mDevice(device), mTextures(textures), mBarriers(barriers), mRenderPasses(renderPasses),
+              mFramebuffers(framebuffers) {}
 
-    VkRenderPass get(RenderPassKey const& key);
+    /// OutOfMemory names the pass, which is then skipped.
+    Result<void> begin(PassDesc const& desc, VkCommandBuffer commands);
+    void nextSubpass(VkCommandBuffer commands);
+    void end(VkCommandBuffer commands);
+
+    bool isOpen() const { return mOpen; }
+    bool isUsable() const { return mUsable; } ///< false outside of passes too
+    Rect const& area() const { return mArea; }
 
 private:
-    struct Hash {
-        size_t operator()(RenderPassKey const& key) const;
-    };
+    bool collect(PassDesc const& desc, FramebufferKey& key);
+    bool add(Texture* texture, SubresourceRange const& range, FramebufferKey& key);
+    void prepareAttachments(PassDesc const& desc);
+    void leaveAttachments();
+    void recordBegin(PassDesc const& desc, FramebufferKey const& key, VkFramebuffer framebuffer,
+                     VkCommandBuffer commands);
 
     Device& mDevice;
-    std::unordered_map<RenderPassKey, VkRenderPass, Hash> mPasses;
-};
+    Slots<TextureHandle, Texture> const& mTextures;
+    Barriers& mBarriers;
+    RenderPasses& mRenderPasses;
+    Framebuffers& mFramebuffers;
 
-struct FramebufferKey {
-    VkRenderPass pass = VK_NULL_HANDLE;
-    std::array<VkImageView, kMaxAttachments> views{};
-    uint32_t viewCount = 0;
-    uint32_t width = 0, height = 0;
-    friend bool operator==(FramebufferKey const&, FramebufferKey const&) = default;
-};
-
-class Framebuffer final : public DeviceObject {
-public:
-    Framebuffer(Device& device, VkFramebuffer handle) : mDevice(device), mHandle(handle) {}
-    ~Framebuffer() override { mDevice.fn().vkDestroyFramebuffer(mDevice.handle(), mHandle, nullptr); }
-    VkFramebuffer handle() const { return mHandle; }
-
-private:
-    Device& mDevice;
-    VkFramebuffer mHandle;
-};
-
-class Framebuffers {
-public:
-    explicit Framebuffers(Device& device) : mDevice(device) {}
-
-    VkFramebuffer get(FramebufferKey const& key);
-    /// Removes the framebuffers that draw into the texture; the caller keeps them until the GPU is done.
-    std::vector<std::unique_ptr<Framebuffer>> take(Texture const& texture);
-
-private:
-    struct Hash {
-        size_t operator()(FramebufferKey const& key) const;
-    };
-
-    Device& mDevice;
-    std::unordered_map<FramebufferKey, std::unique_ptr<Framebuffer>, Hash> mFramebuffers;
+    PassLayout mLayout{};
+    Rect mArea{};
+    std::array<Texture*, kMaxColorAttachments> mColors{}, mResolves{};
+    Texture* mDepth = nullptr;
+    std::array<SubresourceRange, kMaxColorAttachments> mColorRanges{};
+    SubresourceRange mDepthRange;
+    uint64_t mNumber = 0; // passes so far
+    bool mOpen = false, mUsable = false;
 };
 
 } // namespace filament::backend::vulkan

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/vulkan/Pipeline.h"
+#include "backend/vulkan/Program.h"
 
 #include <cstring>
 

@@ -5,7 +5,7 @@
 #pragma once
 
 #include "backend/api/Descriptions.h"
-#include "backend/vulkan/VulkanApi.h"
+#include "backend/vulkan/Api.h"
 
 #include <cstdint>
 #include <span>

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Devices, contexts, threads, frames.
+#include "backend/gles/Driver.h"
 #include "tests/backend/gles/GlesFixture.h"
 
 #include <cstdio>

@@ -2,7 +2,7 @@
 /// GlesTest: a driver on this thread, handles for it, and what it answered.
 #pragma once
 
-#include "backend/gles/Driver.h"
+#include "backend/gles/Executor.h"
 #include "backend/stream/CommandBuffer.h"
 
 #include <gtest/gtest.h>
@@ -70,7 +70,7 @@ protected:
 
     void start(QuirkFilter filter) {
         driver.reset();
-        Result<std::unique_ptr<Driver>> made = createFilteredDriver({ .validation = true }, sink, filter);
+        auto made = Executor::create({ .validation = true }, sink, filter);
         ASSERT_TRUE(made) << made.error().message;
         driver = std::move(*made);
     }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Frames, answers, destruction under way, and everything that may fail.
-#include "backend/vulkan/VulkanDriver.h"
+#include "backend/vulkan/Driver.h"
 #include "tests/backend/vulkan/DriverFixture.h"
 
 #include <chrono>

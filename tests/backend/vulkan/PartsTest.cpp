@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // The parts that need no device: ring arithmetic, sub-resource bookkeeping, pass layouts, vertex inputs, device choice.
+#include "backend/api/Slots.h"
 #include "backend/vulkan/Barriers.h"
-#include "backend/vulkan/Pass.h"
 #include "backend/vulkan/PhysicalDevice.h"
 #include "backend/vulkan/Pipeline.h"
+#include "backend/vulkan/RenderPasses.h"
 #include "backend/vulkan/RingCursor.h"
-#include "backend/vulkan/Slots.h"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // The shortest way through every file of the driver: a clear, a triangle, a read-back.
-#include "backend/vulkan/VulkanDriver.h"
+#include "backend/vulkan/Driver.h"
 #include "tests/backend/vulkan/DriverFixture.h"
 
 #include <cstdlib>

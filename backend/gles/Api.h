@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GlApi: the OpenGL ES functions as a table, one per context, found through eglGetProcAddress.
+/// Api: the OpenGL ES functions as a table, one per context, found through eglGetProcAddress.
 ///   Why     nothing links against libGLESv2, and every driver of the process may talk to another implementation.
 ///   Use     gl.BindTexture(...) for glBindTexture. Entries below "optional" may be called only after Quirks said so:
 ///           an implementation may answer with an entry point for a function that it does not have.
@@ -51,7 +51,7 @@ namespace filament::backend::gles {
     X(QueryCounter, PFNGLQUERYCOUNTEREXTPROC)
 // clang-format on
 
-struct GlApi {
+struct Api {
 #define X(name) decltype(&::gl##name) name = nullptr;
     FILAMENT_GL_CORE_FUNCTIONS(X)
     FILAMENT_GL_OPTIONAL_FUNCTIONS(X)

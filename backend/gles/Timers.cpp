@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/gles/Query.h"
+#include "backend/gles/Timers.h"
 
 #include <algorithm>
 
 namespace filament::backend::gles {
 
-Queries::~Queries() {
+Timers::~Timers() {
     for (Timer const& timer : mOpen) mSpare.push_back(timer.begin);
     for (; !mEnded.empty(); mEnded.pop_front()) {
         mSpare.insert(mSpare.end(), { mEnded.front().begin, mEnded.front().end });
@@ -13,7 +13,7 @@ Queries::~Queries() {
     if (!mSpare.empty()) mDevice.gl.DeleteQueries(static_cast<GLsizei>(mSpare.size()), mSpare.data());
 }
 
-GLuint Queries::stamp() {
+GLuint Timers::stamp() {
     GLuint query = 0;
     if (mSpare.empty()) {
         mDevice.gl.GenQueries(1, &query);
@@ -29,12 +29,12 @@ GLuint Queries::stamp() {
     return query;
 }
 
-void Queries::beginTimer(Ticket ticket) {
+void Timers::begin(Ticket ticket) {
     if (!mDevice.quirks.timers) return;
     mOpen.push_back({ ticket, stamp(), 0 });
 }
 
-void Queries::endTimer(Ticket ticket) {
+void Timers::end(Ticket ticket) {
     if (!mDevice.quirks.timers) {
         mDevice.sink.onTimer(ticket, 0);
         return;
@@ -46,13 +46,13 @@ void Queries::endTimer(Ticket ticket) {
     mOpen.erase(std::next(open).base());
 }
 
-uint64_t Queries::read(GLuint query) const {
+uint64_t Timers::read(GLuint query) const {
     GLuint64 nanoseconds = 0;
     mDevice.gl.GetQueryObjectui64v(query, GL_QUERY_RESULT, &nanoseconds);
     return nanoseconds;
 }
 
-void Queries::poll(bool wait) {
+void Timers::poll(bool wait) {
     if (mEnded.empty() || mDevice.lost) return;
     GLint disjoint = 0; // reading it clears it
     mDevice.gl.GetIntegerv(GL_GPU_DISJOINT_EXT, &disjoint);
@@ -66,14 +66,6 @@ void Queries::poll(bool wait) {
         mSpare.insert(mSpare.end(), { timer.begin, timer.end });
         mDevice.sink.onTimer(timer.ticket, disjoint || end < begin ? 0 : end - begin);
     }
-}
-
-void Queries::endFrame() {
-    mFrames.push_back(Fence(mDevice));
-    mDevice.gl.Flush();
-    if (mFrames.size() <= kFramesInFlight) return;
-    mFrames.front().wait();
-    mFrames.pop_front();
 }
 
 } // namespace filament::backend::gles

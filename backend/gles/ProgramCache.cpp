@@ -1,15 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/gles/ProgramBinary.h"
+#include "backend/gles/ProgramCache.h"
+
+#include "filament_core/base/Hash.h"
 
 #include <cstring>
 #include <vector>
 
 namespace filament::backend::gles {
 
-bool hasProgramBinaries(GlApi const& gl) {
+void openProgramCache(Device& device, std::filesystem::path const& directory) {
+    if (directory.empty()) return;
     GLint formats = 0;
-    gl.GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
-    return formats > 0;
+    device.gl.GetIntegerv(GL_NUM_PROGRAM_BINARY_FORMATS, &formats);
+    if (formats <= 0) return;
+    const uint64_t identity = hashString(device.info.driverName, hashString(device.info.deviceName));
+    device.programs.emplace(directory / fmt::format("gles-{:016x}.programs", identity), identity, kProgramCacheBytes);
 }
 
 GLuint loadProgramBinary(Device& device, uint64_t key) {
@@ -17,7 +22,7 @@ GLuint loadProgramBinary(Device& device, uint64_t key) {
     GLenum format = 0;
     if (blob.size() <= sizeof(format)) return 0;
     std::memcpy(&format, blob.data(), sizeof(format));
-    GlApi const& gl = device.gl;
+    Api const& gl = device.gl;
     const GLuint program = gl.CreateProgram();
     gl.ProgramBinary(program, format, blob.data() + sizeof(format), static_cast<GLsizei>(blob.size() - sizeof(format)));
     GLint linked = GL_FALSE;
@@ -33,7 +38,7 @@ GLuint loadProgramBinary(Device& device, uint64_t key) {
 }
 
 void keepProgramBinary(Device& device, uint64_t key, GLuint program) {
-    GlApi const& gl = device.gl;
+    Api const& gl = device.gl;
     GLint length = 0;
     gl.GetProgramiv(program, GL_PROGRAM_BINARY_LENGTH, &length);
     if (length <= 0) return;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// State: what is set in the context; every setter returns at once when nothing changes.
+/// ContextState: what is set in the context; every setter returns at once when nothing changes.
 ///   Why     validation of redundant calls is a large part of an OpenGL ES frame; here each setter costs a compare.
 ///   Thread  the driver thread, context current. Every call that changes what is cached goes through here.
 ///   Before  a GL object is deleted its forget...() is called: OpenGL unbinds deleted names and gives them out again.
@@ -15,10 +15,10 @@ namespace filament::backend::gles {
 inline constexpr uint32_t kMaxUniformSlots = kMaxBindGroups * kMaxBindings;
 inline constexpr uint32_t kMaxTextureUnits = kMaxBindGroups * kMaxBindings;
 
-class State {
+class ContextState {
 public:
     /// Brings a new context into the state that the members say.
-    State(GlApi const& gl, Quirks const& quirks);
+    ContextState(Api const& gl, Quirks const& quirks);
 
     void useProgram(GLuint program);
     void bindVertexArray(GLuint array);
@@ -67,7 +67,7 @@ private:
                         uint8_t& knownReference);
     void setColorMask(uint32_t attachment, uint8_t mask);
 
-    GlApi const& mGl;
+    Api const& mGl;
     Quirks const& mQuirks;
     GLuint mProgram = 0, mVertexArray = 0, mDrawFramebuffer = 0, mReadFramebuffer = 0;
     uint32_t mActiveUnit = 0;

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/gles/State.h"
+#include "backend/gles/ContextState.h"
 
 #include <cmath>
 
 namespace filament::backend::gles {
 
 // The members start with the initial values of the specification; only what differs from them is set here.
-State::State(GlApi const& gl, Quirks const& quirks) : mGl(gl), mQuirks(quirks) {
+ContextState::ContextState(Api const& gl, Quirks const& quirks) : mGl(gl), mQuirks(quirks) {
     gl.ClipControl(GL_LOWER_LEFT_EXT, GL_ZERO_TO_ONE_EXT); // row 0 is y = -1 and depth is in [0, 1], as on Vulkan
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
@@ -15,7 +15,7 @@ State::State(GlApi const& gl, Quirks const& quirks) : mGl(gl), mQuirks(quirks) {
     mConstantAttributes.fill(GL_FLOAT); // (0, 0, 0, 1) is the initial value
 }
 
-void State::enable(GLenum capability, bool wanted, bool& known) {
+void ContextState::enable(GLenum capability, bool wanted, bool& known) {
     if (wanted == known) return;
     known = wanted;
     if (wanted) {
@@ -27,31 +27,31 @@ void State::enable(GLenum capability, bool wanted, bool& known) {
 
 // ---------------------------------------------------------------------------------------------- objects
 
-void State::useProgram(GLuint program) {
+void ContextState::useProgram(GLuint program) {
     if (program == mProgram) return;
     mProgram = program;
     mGl.UseProgram(program);
 }
 
-void State::bindVertexArray(GLuint array) {
+void ContextState::bindVertexArray(GLuint array) {
     if (array == mVertexArray) return;
     mVertexArray = array;
     mGl.BindVertexArray(array);
 }
 
-void State::bindFramebuffers(GLuint draw, GLuint read) {
+void ContextState::bindFramebuffers(GLuint draw, GLuint read) {
     if (draw != mDrawFramebuffer) mGl.BindFramebuffer(GL_DRAW_FRAMEBUFFER, mDrawFramebuffer = draw);
     if (read != mReadFramebuffer) mGl.BindFramebuffer(GL_READ_FRAMEBUFFER, mReadFramebuffer = read);
 }
 
-void State::bindUniforms(uint32_t slot, GLuint buffer, GLintptr offset, GLsizeiptr size) {
+void ContextState::bindUniforms(uint32_t slot, GLuint buffer, GLintptr offset, GLsizeiptr size) {
     const UniformSlot wanted{ buffer, offset, size };
     if (mUniforms[slot] == wanted) return;
     mUniforms[slot] = wanted;
     mGl.BindBufferRange(GL_UNIFORM_BUFFER, slot, buffer, offset, size);
 }
 
-void State::bindTexture(uint32_t unit, GLenum target, GLuint texture) {
+void ContextState::bindTexture(uint32_t unit, GLenum target, GLuint texture) {
     TextureUnit& known = mTextures[unit];
     if (known.texture == texture && known.target == target) return;
     if (mActiveUnit != unit) mGl.ActiveTexture(GL_TEXTURE0 + (mActiveUnit = unit));
@@ -60,38 +60,38 @@ void State::bindTexture(uint32_t unit, GLenum target, GLuint texture) {
     mGl.BindTexture(target, texture);
 }
 
-void State::bindSampler(uint32_t unit, GLuint sampler) {
+void ContextState::bindSampler(uint32_t unit, GLuint sampler) {
     if (mTextures[unit].sampler == sampler) return;
     mTextures[unit].sampler = sampler;
     mGl.BindSampler(unit, sampler);
 }
 
-void State::forgetProgram(GLuint program) {
+void ContextState::forgetProgram(GLuint program) {
     if (mProgram == program) useProgram(0);
 }
 
-void State::forgetVertexArray(GLuint array) {
+void ContextState::forgetVertexArray(GLuint array) {
     if (mVertexArray == array) mVertexArray = 0;
 }
 
-void State::forgetFramebuffer(GLuint framebuffer) {
+void ContextState::forgetFramebuffer(GLuint framebuffer) {
     if (mDrawFramebuffer == framebuffer) mDrawFramebuffer = 0;
     if (mReadFramebuffer == framebuffer) mReadFramebuffer = 0;
 }
 
-void State::forgetBuffer(GLuint buffer) {
+void ContextState::forgetBuffer(GLuint buffer) {
     for (UniformSlot& slot : mUniforms) {
         if (slot.buffer == buffer) slot = {};
     }
 }
 
-void State::forgetTexture(GLuint texture) {
+void ContextState::forgetTexture(GLuint texture) {
     for (TextureUnit& unit : mTextures) {
         if (unit.texture == texture) unit.texture = 0;
     }
 }
 
-void State::forgetSampler(GLuint sampler) {
+void ContextState::forgetSampler(GLuint sampler) {
     for (TextureUnit& unit : mTextures) {
         if (unit.sampler == sampler) unit.sampler = 0;
     }
@@ -99,21 +99,21 @@ void State::forgetSampler(GLuint sampler) {
 
 // ---------------------------------------------------------------------------------------------- values
 
-void State::setViewport(Viewport const& viewport) {
+void ContextState::setViewport(Viewport const& viewport) {
     if (mViewport == viewport) return;
     mViewport = viewport;
     mGl.Viewport(static_cast<GLint>(std::lround(viewport.x)), static_cast<GLint>(std::lround(viewport.y)),
                  static_cast<GLsizei>(std::lround(viewport.width)), static_cast<GLsizei>(std::lround(viewport.height)));
 }
 
-void State::setScissor(std::optional<Rect> rect) {
+void ContextState::setScissor(std::optional<Rect> rect) {
     enable(GL_SCISSOR_TEST, rect.has_value(), mScissorTest);
     if (!rect || *rect == mScissor) return;
     mScissor = *rect;
     mGl.Scissor(rect->x, rect->y, static_cast<GLsizei>(rect->width), static_cast<GLsizei>(rect->height));
 }
 
-void State::setRaster(RasterState const& raster) {
+void ContextState::setRaster(RasterState const& raster) {
     if (raster == mRaster && mCull == (raster.cull != CullMode::None)) return;
     enable(GL_CULL_FACE, raster.cull != CullMode::None, mCull);
     if (raster.cull != CullMode::None) mGl.CullFace(raster.cull == CullMode::Front ? GL_FRONT : GL_BACK);
@@ -126,15 +126,15 @@ void State::setRaster(RasterState const& raster) {
     mRaster = raster;
 }
 
-void State::setDepth(CompareOp compare, bool write) {
+void ContextState::setDepth(CompareOp compare, bool write) {
     enable(GL_DEPTH_TEST, compare != CompareOp::None, mDepthTest);
     if (compare == CompareOp::None) return; // without the test nothing is written either
     if (compare != mDepthCompare) mGl.DepthFunc(glCompare(mDepthCompare = compare));
     if (write != mDepthWrite) mGl.DepthMask((mDepthWrite = write) ? GL_TRUE : GL_FALSE);
 }
 
-void State::setStencilFace(GLenum face, StencilFace const& wanted, uint8_t reference, StencilFace& known,
-                           uint8_t& knownReference) {
+void ContextState::setStencilFace(GLenum face, StencilFace const& wanted, uint8_t reference, StencilFace& known,
+                                  uint8_t& knownReference) {
     if (wanted == known && reference == knownReference) return;
     mGl.StencilFuncSeparate(face, glCompare(wanted.compare), reference, wanted.readMask);
     mGl.StencilOpSeparate(face, glStencilOp(wanted.fail), glStencilOp(wanted.depthFail), glStencilOp(wanted.pass));
@@ -143,7 +143,7 @@ void State::setStencilFace(GLenum face, StencilFace const& wanted, uint8_t refer
     knownReference = reference;
 }
 
-void State::setDepthStencil(DepthStencilState const& wanted, uint8_t frontReference, uint8_t backReference) {
+void ContextState::setDepthStencil(DepthStencilState const& wanted, uint8_t frontReference, uint8_t backReference) {
     setDepth(wanted.depthCompare, wanted.depthWrite);
     enable(GL_STENCIL_TEST, wanted.stencilTest, mStencilTest);
     if (!wanted.stencilTest) return;
@@ -151,7 +151,7 @@ void State::setDepthStencil(DepthStencilState const& wanted, uint8_t frontRefere
     setStencilFace(GL_BACK, wanted.back, backReference, mStencilBack, mStencilReference.back);
 }
 
-void State::setColorMask(uint32_t attachment, uint8_t mask) {
+void ContextState::setColorMask(uint32_t attachment, uint8_t mask) {
     if (mBlend[attachment].writeMask == mask) return;
     mBlend[attachment].writeMask = mask;
     const auto bit = [mask](uint32_t i) { return static_cast<GLboolean>((mask >> i) & 1); };
@@ -162,7 +162,7 @@ void State::setColorMask(uint32_t attachment, uint8_t mask) {
     }
 }
 
-void State::setBlend(uint32_t attachment, BlendState const& wanted) {
+void ContextState::setBlend(uint32_t attachment, BlendState const& wanted) {
     if (!mQuirks.indexedBlend && attachment > 0) return; // all attachments follow the first
     BlendState& known = mBlend[attachment];
     if (known == wanted) return;
@@ -187,7 +187,7 @@ void State::setBlend(uint32_t attachment, BlendState const& wanted) {
     known = wanted;
 }
 
-void State::allowClears(uint32_t colorCount) {
+void ContextState::allowClears(uint32_t colorCount) {
     const uint32_t masks = mQuirks.indexedBlend ? colorCount : 1;
     for (uint32_t i = 0; i < masks; ++i) setColorMask(i, 0xF);
     if (!mDepthWrite) mGl.DepthMask(mDepthWrite = GL_TRUE);
@@ -197,7 +197,7 @@ void State::allowClears(uint32_t colorCount) {
     }
 }
 
-void State::setConstantAttribute(uint32_t location, GLenum scalarType) {
+void ContextState::setConstantAttribute(uint32_t location, GLenum scalarType) {
     if (mConstantAttributes[location] == scalarType) return;
     mConstantAttributes[location] = scalarType;
     switch (scalarType) {

@@ -1,10 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/gles/Transfer.h"
+#include "backend/gles/Executor.h"
 
 #include <algorithm>
 
 namespace filament::backend::gles {
 namespace {
+
+// Blits and mip chains are framebuffer blits, the same fixed-function filter that vkCmdBlitImage runs, so that the bits
+// agree; glGenerateMipmap is free to filter as it likes.
 
 Rect wholeLevel(TextureDesc const& desc, uint32_t level) {
     return { 0, 0, std::max(desc.width >> level, 1u), std::max(desc.height >> level, 1u) };
@@ -15,7 +18,7 @@ GLint bottom(Rect const& rect) { return rect.y + static_cast<GLint>(rect.height)
 
 } // namespace
 
-bool Transfer::canCopy(Texture const& texture, const char* what) {
+bool Executor::canCopy(Texture const& texture, const char* what) {
     FormatInfo const& format = formatInfo(texture.desc.format);
     if (format.isRenderable && format.kind <= FormatKind::UnsignedInteger && texture.desc.samples == 1) return true;
     mDevice.error(DriverErrorKind::Other,
@@ -24,7 +27,7 @@ bool Transfer::canCopy(Texture const& texture, const char* what) {
     return false;
 }
 
-void Transfer::copy(Image const& source, Image const& target, Filter filter) {
+void Executor::copy(Image const& source, Image const& target, Filter filter) {
     const GLuint read = mFramebuffers.single(Framebuffers::Side::Read, source.texture, source.level, source.layer);
     const GLuint draw = mFramebuffers.single(Framebuffers::Side::Draw, target.texture, target.level, target.layer);
     mDevice.state.bindFramebuffers(draw, read);
@@ -34,7 +37,7 @@ void Transfer::copy(Image const& source, Image const& target, Filter filter) {
                                glFilter(filter));
 }
 
-void Transfer::blit(CmdBlit const& command) {
+void Executor::execute(CmdBlit const& command) {
     Texture const* source = mTextures.find(command.source);
     Texture const* target = mTextures.find(command.target);
     if (!source || !target || !canCopy(*source, "a blit") || !canCopy(*target, "a blit")) return;
@@ -42,8 +45,8 @@ void Transfer::blit(CmdBlit const& command) {
          { *target, command.targetLevel, command.targetLayer, command.targetRect }, command.filter);
 }
 
-void Transfer::generateMips(TextureHandle handle) {
-    Texture const* texture = mTextures.find(handle);
+void Executor::execute(CmdGenerateMips const& command) {
+    Texture const* texture = mTextures.find(command.texture);
     if (!texture || !canCopy(*texture, "generating mips")) return;
     for (uint32_t layer = 0; layer < texture->desc.layers; ++layer) {
         for (uint32_t level = 1; level < texture->desc.levels; ++level) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/vulkan/VulkanDriver.h"
+#include "backend/vulkan/Driver.h"
 
 #include "backend/vulkan/Executor.h"
 

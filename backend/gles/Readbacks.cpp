@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/gles/Readback.h"
+#include "backend/gles/Readbacks.h"
 
 #include "backend/gles/Repack.h"
 
@@ -48,7 +48,7 @@ Readbacks::Plan Readbacks::planFor(Format format) const {
 void Readbacks::read(CmdReadTexture const& command) {
     const std::optional<Source> source = open(command);
     if (!source) return;
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     mDevice.state.bindFramebuffers(source->framebuffer, source->framebuffer);
     const uint64_t texels = static_cast<uint64_t>(source->rect.width) * source->rect.height;
     Pending pending{ command.ticket, planFor(source->format), texels, 0, {} };
@@ -69,7 +69,7 @@ void Readbacks::read(CmdReadTexture const& command) {
 }
 
 void Readbacks::answer(Pending const& pending) {
-    GlApi const& gl = mDevice.gl;
+    Api const& gl = mDevice.gl;
     const size_t bytes = pending.texels * pending.plan.texelBytes;
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, pending.buffer);
     const void* mapped = gl.MapBufferRange(GL_PIXEL_PACK_BUFFER, 0, static_cast<GLsizeiptr>(bytes), GL_MAP_READ_BIT);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Slots: the objects behind handles of one type.
+/// Slots: what a driver keeps behind handles of one type.
 ///   A handle finds its object only while index and generation agree; anything else finds nothing.
 ///   Thread  the driver thread.
-///   Memory  16 bytes a slot, as many slots as handles were ever alive at once.
+///   Memory  one heap object each, so that addresses stay while others come and go; 16 bytes a slot, as many slots as
+///           handles were ever alive at once.
 ///   Cost    one index and one comparison a look-up.
 #pragma once
 
@@ -12,7 +13,7 @@
 #include <utility>
 #include <vector>
 
-namespace filament::backend::vulkan {
+namespace filament::backend {
 
 template <class H, class T>
 class Slots {
@@ -36,6 +37,13 @@ public:
 
     void clear() { mSlots.clear(); }
 
+    template <class F>
+    void forEach(F&& visit) {
+        for (Slot& slot : mSlots) {
+            if (slot.object) visit(*slot.object);
+        }
+    }
+
 private:
     struct Slot {
         H handle{};
@@ -44,4 +52,4 @@ private:
     std::vector<Slot> mSlots;
 };
 
-} // namespace filament::backend::vulkan
+} // namespace filament::backend

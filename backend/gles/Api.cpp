@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "backend/gles/GlApi.h"
+#include "backend/gles/Api.h"
 
 #include <string>
 
 namespace filament::backend::gles {
 namespace {
 
-__eglMustCastToProperFunctionPointerType findSuffixed(GlApi::Lookup lookup, const char* name) {
+__eglMustCastToProperFunctionPointerType findSuffixed(Api::Lookup lookup, const char* name) {
     for (const char* suffix : { "", "OES", "EXT", "KHR" }) {
         if (auto* function = lookup((std::string(name) + suffix).c_str())) return function;
     }
@@ -15,7 +15,7 @@ __eglMustCastToProperFunctionPointerType findSuffixed(GlApi::Lookup lookup, cons
 
 } // namespace
 
-const char* GlApi::load(Lookup lookup) {
+const char* Api::load(Lookup lookup) {
 #define X(name)                                                                                                        \
     name = reinterpret_cast<decltype(name)>(lookup("gl" #name));                                                       \
     if (!name) return "gl" #name;

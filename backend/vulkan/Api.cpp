@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // The one translation unit that contains the loader.
 #define VOLK_IMPLEMENTATION
-#include "backend/vulkan/VulkanApi.h"
+#include "backend/vulkan/Api.h"
 
 namespace filament::backend::vulkan {
 

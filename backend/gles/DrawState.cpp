@@ -1,0 +1,50 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "backend/gles/DrawState.h"
+
+namespace filament::backend::gles {
+
+void DrawState::beginSubpass() {
+    mPipeline = nullptr;
+    mPipelineApplied = false;
+    mSources = {};
+    mStencilFront = mStencilBack = 0;
+    mDescriptors.reset();
+}
+
+void DrawState::setStencilReference(uint8_t front, uint8_t back) {
+    mStencilFront = front;
+    mStencilBack = back;
+    mPipelineApplied = false;
+}
+
+void DrawState::setPipeline(Pipeline const* pipeline) {
+    mPipeline = pipeline;
+    mPipelineApplied = false;
+    if (mPipeline && mPipeline->isUsable()) mDescriptors.setProgram(*mPipeline->program);
+}
+
+void DrawState::setGroup(uint32_t index, BindGroup const* group,
+                         std::array<uint32_t, kMaxDynamicOffsets> const& dynamicOffsets) {
+    mDescriptors.bind(index, group, dynamicOffsets);
+}
+
+void DrawState::setVertexBuffer(uint32_t slot, Buffer const* buffer, uint64_t offset) {
+    mSources.slots[slot] = { buffer ? buffer->name : 0, static_cast<GLintptr>(offset) };
+}
+
+void DrawState::setIndexBuffer(Buffer const* buffer, uint64_t offset, IndexType type) {
+    mSources.indexBuffer = buffer ? buffer->name : 0;
+    mSources.indexOffset = offset;
+    mSources.indexType = type;
+}
+
+bool DrawState::prepareDraw(bool indexed, DrawBase base) {
+    if (!mPipeline || !mPipeline->isUsable()) return false;
+    if (!mPipelineApplied) {
+        applyPipeline(mContext, *mPipeline, mStencilFront, mStencilBack);
+        mPipelineApplied = true;
+    }
+    return mDescriptors.apply() && mVertices.bind(*mPipeline->vertices, mSources, indexed, base);
+}
+
+} // namespace filament::backend::gles

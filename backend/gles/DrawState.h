@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+/// DrawState: what the stream has bound; prepareDraw() brings into the context what a draw needs and it lacks.
+///   Thread  the driver thread, context current.
+///   Fails   prepareDraw() says no when something that the pipeline needs is missing or could not be made.
+///   Cost    a handful of compares for a draw after which nothing changed: ContextState knows what the context has.
+#pragma once
+
+#include "backend/gles/Descriptors.h"
+#include "backend/gles/Pipeline.h"
+#include "backend/gles/Vertices.h"
+
+#include <array>
+
+namespace filament::backend::gles {
+
+class DrawState {
+public:
+    DrawState(ContextState& context, Vertices& vertices)
+            : mContext(context), mVertices(vertices), mDescriptors(context) {}
+
+    /// A new subpass: nothing bound, the stencil reference is 0.
+    void beginSubpass();
+
+    void setStencilReference(uint8_t front, uint8_t back);
+    void setPipeline(Pipeline const* pipeline);
+    void setGroup(uint32_t index, BindGroup const* group,
+                  std::array<uint32_t, kMaxDynamicOffsets> const& dynamicOffsets);
+    void setVertexBuffer(uint32_t slot, Buffer const* buffer, uint64_t offset);
+    void setIndexBuffer(Buffer const* buffer, uint64_t offset, IndexType type);
+
+    /// Makes the context ready; false: skip the draw. `base` is what the draw call itself cannot say.
+    bool prepareDraw(bool indexed, DrawBase base);
+
+    /// Of the pipeline that prepareDraw() said yes to.
+    GLenum topology() const { return mPipeline->topology; }
+    VertexSources const& sources() const { return mSources; }
+
+private:
+    ContextState& mContext;
+    Vertices& mVertices;
+    Descriptors mDescriptors;
+    Pipeline const* mPipeline = nullptr;
+    bool mPipelineApplied = false;
+    VertexSources mSources;
+    uint8_t mStencilFront = 0, mStencilBack = 0;
+};
+
+} // namespace filament::backend::gles

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Timers: how long the device worked between two places of the stream.
+///   Each is a pair of time stamps, so they nest. One that spans a disjoint event (a clock change) answers 0.
+///   Thread  the driver thread.
+///   Memory  query objects are reused; as many live as timers are unanswered.
+#pragma once
+
+#include "backend/gles/Device.h"
+#include "filament_core/base/Fifo.h"
+
+#include <vector>
+
+namespace filament::backend::gles {
+
+class Timers {
+public:
+    explicit Timers(Device& device) : mDevice(device) { mSpare.reserve(64); }
+    ~Timers();
+
+    void begin(Ticket ticket);
+    void end(Ticket ticket);
+    /// Answers those whose time stamps are there; `wait`: all that have ended.
+    void poll(bool wait);
+
+private:
+    struct Timer {
+        Ticket ticket;
+        GLuint begin = 0, end = 0;
+    };
+    GLuint stamp();
+    uint64_t read(GLuint query) const;
+
+    Device& mDevice;
+    std::vector<Timer> mOpen; // innermost last
+    Fifo<Timer> mEnded;       // oldest first
+    std::vector<GLuint> mSpare;
+};
+
+} // namespace filament::backend::gles

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ProgramCache: the pipeline cache of the device, kept from run to run in DriverOptions::cacheDirectory.
+///   Thread  the driver thread.
+///   Memory  what the driver keeps; at most kProgramCacheBytes on disk.
+///   Fails   never: without a cache pipelines are made anew. Data begin with the device's own header, so a driver
+///   ignores
+///           what another one wrote.
+#pragma once
+
+#include "backend/vulkan/Device.h"
+#include "filament_core/base/BlobStore.h"
+
+#include <filesystem>
+#include <optional>
+
+namespace filament::backend::vulkan {
+
+class ProgramCache {
+public:
+    /// An empty directory: nothing is kept.
+    ProgramCache(Device& device, std::filesystem::path const& directory);
+    ~ProgramCache();
+    ProgramCache(ProgramCache const&) = delete;
+    ProgramCache& operator=(ProgramCache const&) = delete;
+
+    VkPipelineCache handle() const { return mHandle; } ///< null if the device refuses
+    void save();
+
+private:
+    Device& mDevice;
+    VkPipelineCache mHandle = VK_NULL_HANDLE;
+    std::optional<BlobStore> mKept; ///< none: nobody asked
+};
+
+} // namespace filament::backend::vulkan
