@@ -7,7 +7,7 @@
 
 #include "backend/gles/Context.h"
 #include "backend/gles/ContextState.h"
-#include "filament_core/base/BlobStore.h"
+#include "base/BlobStore.h"
 
 #include <fmt/core.h>
 

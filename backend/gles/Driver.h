@@ -10,7 +10,7 @@
 #pragma once
 
 #include "backend/api/Driver.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 #include <memory>
 #include <vector>

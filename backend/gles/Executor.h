@@ -15,7 +15,7 @@
 #include "backend/gles/Pass.h"
 #include "backend/gles/Readbacks.h"
 #include "backend/gles/Timers.h"
-#include "filament_core/base/Fifo.h"
+#include "base/Fifo.h"
 
 #include <memory>
 #include <mutex>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/gles/ProgramCache.h"
 
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 
 #include <cstring>
 #include <vector>

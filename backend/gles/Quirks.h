@@ -5,7 +5,7 @@
 
 #include "backend/api/Driver.h"
 #include "backend/gles/Api.h"
-#include "filament_core/base/Result.h"
+#include "base/Result.h"
 
 namespace filament::backend::gles {
 

@@ -2,7 +2,7 @@
 #include "backend/gles/ShaderObject.h"
 
 #include "backend/gles/ProgramCache.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 
 #include <array>
 #include <string>

@@ -6,7 +6,7 @@
 #pragma once
 
 #include "backend/gles/Device.h"
-#include "filament_core/base/Fifo.h"
+#include "base/Fifo.h"
 
 #include <vector>
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "backend/vulkan/Framebuffers.h"
 
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 
 #include <algorithm>
 

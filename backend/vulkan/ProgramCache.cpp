@@ -2,7 +2,7 @@
 #include "backend/vulkan/ProgramCache.h"
 
 #include "backend/api/Driver.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 
 #include <new>
 #include <vector>

@@ -8,7 +8,7 @@
 #pragma once
 
 #include "backend/vulkan/Device.h"
-#include "filament_core/base/BlobStore.h"
+#include "base/BlobStore.h"
 
 #include <filesystem>
 #include <optional>

@@ -2,7 +2,7 @@
 #include "backend/vulkan/RenderPasses.h"
 
 #include "backend/vulkan/Formats.h"
-#include "filament_core/base/Hash.h"
+#include "base/Hash.h"
 
 #include <vector>
 

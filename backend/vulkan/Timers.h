@@ -9,7 +9,7 @@
 
 #include "backend/api/Driver.h"
 #include "backend/vulkan/Device.h"
-#include "filament_core/base/Fifo.h"
+#include "base/Fifo.h"
 
 #include <vector>
 
