@@ -20,7 +20,7 @@ inline constexpr uint32_t kMaxColorAttachments = 8;
 inline constexpr uint32_t kMaxSubpasses = 4;
 inline constexpr uint32_t kMaxVertexAttributes = 16;
 inline constexpr uint32_t kMaxVertexBuffers = 4;
-inline constexpr uint32_t kMaxBindGroups = 3;
+inline constexpr uint32_t kMaxBindGroups = 4;     ///< what every Vulkan device can bind at a time
 inline constexpr uint32_t kMaxBindings = 16;      ///< of one group
 inline constexpr uint32_t kMaxDynamicOffsets = 4; ///< of one group
 
@@ -122,7 +122,8 @@ struct BindGroupLayout {
     }
 };
 
-/// Groups 0..2: 0 what a view shares, 1 what a material shares, 2 the rest. Unused ones have count 0.
+/// By group index; unused groups have count 0. The lower the index, the longer a group stays bound: Vulkan keeps the
+/// groups below the first one whose layout differs from the last pipeline's.
 using ProgramLayout = std::array<BindGroupLayout, kMaxBindGroups>;
 
 /// OpenGL ES knows no groups: uniform blocks and textures are numbered on, group after group, in the order of the

@@ -68,7 +68,7 @@ private:
         Rect scissor{};
         uint8_t stencilFront = 0, stencilBack = 0;
     };
-    enum Change : uint32_t { // groups: bits 0..2
+    enum Change : uint32_t { // groups: bits 0..3
         kPipeline = 1u << 8,
         kVertices = 1u << 9,
         kIndex = 1u << 10,

@@ -15,7 +15,7 @@ constexpr uint32_t tag(const char (&text)[5]) {
 }
 
 inline constexpr uint32_t kMagic = tag("FMAT");
-inline constexpr uint32_t kVersion = 7;    ///< counts up when old readers would misunderstand a file
+inline constexpr uint32_t kVersion = 8;    ///< counts up when old readers would misunderstand a file
 inline constexpr size_t kHeaderBytes = 16; ///< magic, version, checksum of everything behind the header
 
 inline constexpr uint32_t kSectionGeneral = tag("GENL");

@@ -469,9 +469,9 @@ std::vector<Case> drawCases() {
           "made for another PassLayout" },
         { "GroupIndexOutOfRange",
           [](C& to) {
-              inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 3, .dynamicCount = 1 }); });
+              inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 4, .dynamicCount = 1 }); });
           },
-          "group index 3; 0..2" },
+          "group index 4; 0..3" },
         { "DynamicOffsetMissing",
           [](C& to) { inPass(to, [](C& in) { in.record(CmdBindGroup{ .group = kGroup, .index = 1 }); }); },
           "0 dynamic offsets; the layout has 1" },
