@@ -13,7 +13,7 @@ struct Size {
     friend bool operator==(Size, Size) = default;
 };
 
-Size sizeOfLevel(TextureDesc const& desc, uint8_t level) {
+Size sizeOfLevel(GraphTextureDesc const& desc, uint8_t level) {
     return { std::max(1u, desc.width >> level), std::max(1u, desc.height >> level) };
 }
 
@@ -50,7 +50,7 @@ void markWritten(FrameGraph const& graph, uint32_t pass, std::span<bool> written
 }
 
 void checkAttachment(FrameGraph const& graph, Pass const& pass, Access const& access) {
-    TextureDesc const& desc = graph.texture(access.texture).desc;
+    GraphTextureDesc const& desc = graph.texture(access.texture).desc;
     require(access.level < desc.levels && access.layer < desc.layers,
             "pass '{}': texture '{}' has {} levels and {} layers; level {}, layer {} is attached", pass.name, desc.name,
             desc.levels, desc.layers, access.level, access.layer);
@@ -60,10 +60,10 @@ void checkAttachment(FrameGraph const& graph, Pass const& pass, Access const& ac
 }
 
 void checkResolve(FrameGraph const& graph, Pass const& pass, Access const& access) {
-    TextureDesc const& from = graph.texture(access.texture).desc;
+    GraphTextureDesc const& from = graph.texture(access.texture).desc;
     require(access.resolve.index() < graph.textures().size(),
             "pass '{}': resolves '{}' to a texture of another graph or frame", pass.name, from.name);
-    TextureDesc const& to = graph.texture(access.resolve).desc;
+    GraphTextureDesc const& to = graph.texture(access.resolve).desc;
     require(from.samples > 1 && to.samples == 1,
             "pass '{}': resolves '{}' ({} samples) to '{}' ({} samples): needs many to one", pass.name, from.name,
             from.samples, to.name, to.samples);
@@ -79,7 +79,7 @@ void checkAttachmentsAgree(FrameGraph const& graph, Pass const& pass) {
         if (!isAttachment(access.kind)) continue;
         checkAttachment(graph, pass, access);
         if (access.resolve) checkResolve(graph, pass, access);
-        TextureDesc const& desc = graph.texture(access.texture).desc;
+        GraphTextureDesc const& desc = graph.texture(access.texture).desc;
         if (access.kind == AccessKind::Color) {
             require(access.slot < backend::kMaxColorAttachments && (slots >> access.slot & 1) == 0,
                     "pass '{}': colour slot {} of '{}' is taken or beyond {}", pass.name, access.slot, desc.name,
@@ -89,7 +89,7 @@ void checkAttachmentsAgree(FrameGraph const& graph, Pass const& pass) {
             require(++depths == 1, "pass '{}': '{}' is a second depth attachment", pass.name, desc.name);
         }
         if (!reference) reference = &access;
-        TextureDesc const& first = graph.texture(reference->texture).desc;
+        GraphTextureDesc const& first = graph.texture(reference->texture).desc;
         const Size expected = sizeOfLevel(first, reference->level), size = sizeOfLevel(desc, access.level);
         require(size == expected, "pass '{}': attachment '{}' is {} x {}, attachment '{}' is {} x {}", pass.name,
                 desc.name, size.width, size.height, first.name, expected.width, expected.height);

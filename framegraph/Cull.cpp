@@ -10,7 +10,7 @@ struct Demand {
     uint32_t reader = kNone; // kNone: wanted after the frame
 };
 
-bool isWhole(TextureDesc const& desc) { return desc.levels == 1 && desc.layers == 1; }
+bool isWhole(GraphTextureDesc const& desc) { return desc.levels == 1 && desc.layers == 1; }
 
 PassDecision decide(FrameGraph const& graph, Pass const& pass, std::span<const Demand> demands) {
     if (pass.hasSideEffect) return { .reason = Reason::SideEffect };

@@ -21,7 +21,7 @@ void FrameGraph::reset() {
 }
 
 TextureId FrameGraph::addTexture(Texture const& texture) {
-    TextureDesc const& desc = texture.desc;
+    GraphTextureDesc const& desc = texture.desc;
     require(!desc.name.empty(), "a texture of a frame graph has a name");
     require(desc.format != backend::Format::None && desc.width > 0 && desc.height > 0,
             "texture '{}': needs a format and a size of at least 1 x 1", desc.name);
@@ -30,9 +30,10 @@ TextureId FrameGraph::addTexture(Texture const& texture) {
     return { static_cast<uint32_t>(mTextures.size()) };
 }
 
-TextureId FrameGraph::createTexture(TextureDesc const& desc) { return addTexture({ .desc = desc }); }
+TextureId FrameGraph::createTexture(GraphTextureDesc const& desc) { return addTexture({ .desc = desc }); }
 
-TextureId FrameGraph::importTexture(backend::TextureHandle texture, TextureDesc const& desc, InitialContents contents) {
+TextureId FrameGraph::importTexture(backend::TextureHandle texture, GraphTextureDesc const& desc,
+                                    InitialContents contents) {
     require(static_cast<bool>(texture), "texture '{}': imported without a handle", desc.name);
     return addTexture(
             { .desc = desc, .imported = texture, .isImported = true, .contents = contents, .isOutput = true });

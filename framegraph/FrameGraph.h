@@ -30,7 +30,7 @@
 namespace filament::framegraph {
 
 /// A texture as the graph sees it; how it may be used follows from what the passes do with it.
-struct TextureDesc {
+struct GraphTextureDesc {
     uint32_t width = 1, height = 1;
     backend::Format format = backend::Format::RGBA8;
     uint8_t samples = 1;
@@ -87,7 +87,7 @@ struct Access {
 };
 
 struct Texture {
-    TextureDesc desc;
+    GraphTextureDesc desc;
     backend::TextureHandle imported{};
     bool isImported = false;
     InitialContents contents = InitialContents::Undefined;
@@ -141,9 +141,9 @@ public:
     void reset();
 
     /// Lives from its first to its last use in the frame; contents undefined before it is written.
-    TextureId createTexture(TextureDesc const& desc);
+    TextureId createTexture(GraphTextureDesc const& desc);
     /// A texture that exists outside. What passes write to it is kept.
-    TextureId importTexture(backend::TextureHandle texture, TextureDesc const& desc, InitialContents contents);
+    TextureId importTexture(backend::TextureHandle texture, GraphTextureDesc const& desc, InitialContents contents);
     /// Contents are wanted after the frame although no pass reads them. Imported textures are outputs anyway.
     void markOutput(TextureId texture);
 

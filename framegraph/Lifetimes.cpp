@@ -34,7 +34,7 @@ bool isTransient(Texture const& texture, Lifetime const& lifetime, TextureUsage 
            texture.desc.levels == 1 && texture.desc.layers == 1;
 }
 
-backend::TextureDesc descOf(TextureDesc const& desc, TextureUsage usage) {
+backend::DeviceTextureDesc descOf(GraphTextureDesc const& desc, TextureUsage usage) {
     return { .type = desc.type,
              .format = desc.format,
              .usage = usage,

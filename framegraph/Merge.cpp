@@ -34,7 +34,7 @@ GroupAttachment attachmentOf(Access const& access) {
              .resolve = access.resolve };
 }
 
-void takeSize(PassGroup& group, TextureDesc const& desc, uint8_t level) {
+void takeSize(PassGroup& group, GraphTextureDesc const& desc, uint8_t level) {
     group.width = std::max(1u, desc.width >> level);
     group.height = std::max(1u, desc.height >> level);
     group.samples = desc.samples;

@@ -27,7 +27,7 @@ backend::TextureHandle PassContext::texture(TextureId id) const {
     return mPlan.texture(id);
 }
 
-TextureDesc const& PassContext::desc(TextureId id) const {
+GraphTextureDesc const& PassContext::desc(TextureId id) const {
     requireDeclared(id);
     return mPlan.graph->texture(id).desc;
 }

@@ -25,7 +25,7 @@ class CommandStream;
 namespace filament::framegraph {
 
 struct CompiledGraph;
-struct TextureDesc;
+struct GraphTextureDesc;
 
 /// Names a texture of one graph until the graph's reset(); zero is none.
 struct TextureId {
@@ -74,7 +74,7 @@ public:
 
     /// The texture behind an id that this pass declared.
     backend::TextureHandle texture(TextureId id) const;
-    TextureDesc const& desc(TextureId id) const;
+    GraphTextureDesc const& desc(TextureId id) const;
 
     /// What pipelines of this pass are made for. Passes without attachments have none.
     backend::PassLayout const& passLayout() const;

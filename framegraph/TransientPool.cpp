@@ -11,7 +11,7 @@ namespace {
 
 using backend::BindGroupEntry;
 
-bool isSameButForTheName(backend::TextureDesc const& a, backend::TextureDesc const& b) {
+bool isSameButForTheName(backend::DeviceTextureDesc const& a, backend::DeviceTextureDesc const& b) {
     return a.type == b.type && a.format == b.format && a.usage == b.usage && a.samples == b.samples &&
            a.levels == b.levels && a.layers == b.layers && a.width == b.width && a.height == b.height;
 }
@@ -33,7 +33,7 @@ TransientPool::~TransientPool() {
 
 void TransientPool::beginGraph() { ++mGraph; }
 
-backend::TextureHandle TransientPool::acquire(backend::TextureDesc const& desc, uint32_t first, uint32_t last) {
+backend::TextureHandle TransientPool::acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last) {
     const auto isFree = [&](PooledTexture const& pooled) {
         return (pooled.lastGraph != mGraph || pooled.busyUntil < first) && isSameButForTheName(pooled.desc, desc);
     };

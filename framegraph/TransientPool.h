@@ -38,7 +38,7 @@ public:
     void beginGraph();
     /// A texture of this description that nobody else uses from `first` to `last`. Lifetimes of one graph are asked for
     /// with `first` ascending.
-    backend::TextureHandle acquire(backend::TextureDesc const& desc, uint32_t first, uint32_t last);
+    backend::TextureHandle acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last);
     /// See PassContext::bindGroup(). Records the creation if it is new.
     backend::BindGroupHandle bindGroup(backend::CommandBuffer& commands, backend::BindGroupDesc const& desc);
 
@@ -53,7 +53,7 @@ public:
 
 private:
     struct PooledTexture {
-        backend::TextureDesc desc;
+        backend::DeviceTextureDesc desc;
         backend::TextureHandle handle;
         uint64_t lastGraph = 0;
         uint32_t busyUntil = 0; // in graph `lastGraph`

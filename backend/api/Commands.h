@@ -19,7 +19,7 @@ namespace filament::backend {
 // clang-format off
 // Objects [O]. Destroying an object that earlier commands use is fine: the driver keeps it until the GPU is done.
 struct CmdCreateBuffer { BufferHandle handle; BufferDesc desc; };
-struct CmdCreateTexture { TextureHandle handle; TextureDesc desc; };
+struct CmdCreateTexture { TextureHandle handle; DeviceTextureDesc desc; };
 struct CmdCreateSampler { SamplerHandle handle; SamplerDesc desc; };
 struct CmdCreateProgram { ProgramHandle handle; ProgramDesc desc; };
 struct CmdCreatePipeline { PipelineHandle handle; PipelineDesc desc; };
@@ -75,7 +75,7 @@ struct CmdBindVertexBuffers {                                                   
     std::array<uint64_t, kMaxVertexBuffers> offsets{};
     uint8_t count = 0;
 };
-struct CmdBindIndexBuffer { BufferHandle buffer; uint64_t offset = 0; IndexType type = IndexType::UInt16; }; // [P]
+struct CmdBindIndexBuffer { BufferHandle buffer; uint64_t offset = 0; IndexFormat type = IndexFormat::UInt16; }; // [P]
 struct CmdDraw { uint32_t vertexCount = 0, instanceCount = 1, firstVertex = 0, firstInstance = 0; };         // [P]
 struct CmdDrawIndexed {                                                              // [P]
     uint32_t indexCount = 0, instanceCount = 1, firstIndex = 0;

@@ -51,8 +51,6 @@ struct BufferDesc {
     std::string_view debugName;
 };
 
-enum class IndexType : uint8_t { UInt16, UInt32 };
-
 // ---------------------------------------------------------------------------------------------- textures
 
 enum class TextureType : uint8_t { Texture2D, Texture2DArray, Cube };
@@ -73,7 +71,7 @@ constexpr bool has(TextureUsage set, TextureUsage bit) {
     return (static_cast<uint8_t>(set) & static_cast<uint8_t>(bit)) != 0;
 }
 
-struct TextureDesc {
+struct DeviceTextureDesc {
     TextureType type = TextureType::Texture2D;
     Format format = Format::RGBA8;
     TextureUsage usage = TextureUsage::Sampled;
@@ -217,13 +215,12 @@ struct VertexLayout {
     friend bool operator==(VertexLayout const&, VertexLayout const&) = default;
 };
 
-enum class Topology : uint8_t { Triangles, TriangleStrip, Lines, LineStrip, Points };
 enum class CullMode : uint8_t { None, Front, Back };
 /// As seen in the picture (row 0 at the top), on both APIs.
 enum class FrontFace : uint8_t { CounterClockwise, Clockwise };
 
 struct RasterState {
-    Topology topology = Topology::Triangles;
+    PrimitiveType topology = PrimitiveType::Triangles;
     CullMode cull = CullMode::Back;
     FrontFace frontFace = FrontFace::CounterClockwise;
     bool depthClamp = false;

@@ -9,6 +9,8 @@
 namespace filament::backend {
 
 using filament::Format;
+using filament::IndexFormat;
+using filament::PrimitiveType;
 using filament::VertexFormat;
 
 enum class FormatKind : uint8_t { Color, UnsignedInteger, SignedInteger, Depth, DepthStencil };

@@ -32,10 +32,10 @@ void DrawState::setVertexBuffer(uint32_t slot, Buffer const* buffer, uint64_t of
     mSources.slots[slot] = { buffer ? buffer->name : 0, static_cast<GLintptr>(offset) };
 }
 
-void DrawState::setIndexBuffer(Buffer const* buffer, uint64_t offset, IndexType type) {
+void DrawState::setIndexBuffer(Buffer const* buffer, uint64_t offset, IndexFormat type) {
     mSources.indexBuffer = buffer ? buffer->name : 0;
     mSources.indexOffset = offset;
-    mSources.indexType = type;
+    mSources.indexFormat = type;
 }
 
 bool DrawState::prepareDraw(bool indexed, DrawBase base) {

@@ -26,7 +26,7 @@ public:
     void setGroup(uint32_t index, BindGroup const* group,
                   std::array<uint32_t, kMaxDynamicOffsets> const& dynamicOffsets);
     void setVertexBuffer(uint32_t slot, Buffer const* buffer, uint64_t offset);
-    void setIndexBuffer(Buffer const* buffer, uint64_t offset, IndexType type);
+    void setIndexBuffer(Buffer const* buffer, uint64_t offset, IndexFormat type);
 
     /// Makes the context ready; false: skip the draw. `base` is what the draw call itself cannot say.
     bool prepareDraw(bool indexed, DrawBase base);

@@ -9,7 +9,7 @@ namespace {
 // Blits and mip chains are framebuffer blits, the same fixed-function filter that vkCmdBlitImage runs, so that the bits
 // agree; glGenerateMipmap is free to filter as it likes.
 
-Rect wholeLevel(TextureDesc const& desc, uint32_t level) {
+Rect wholeLevel(DeviceTextureDesc const& desc, uint32_t level) {
     return { 0, 0, std::max(desc.width >> level, 1u), std::max(desc.height >> level, 1u) };
 }
 

@@ -58,7 +58,7 @@ void Executor::execute(CmdDrawIndexed const& command) {
     const DrawBase emulated{ quirks.baseInstance ? 0 : command.firstInstance,
                              quirks.baseVertex ? 0 : command.vertexOffset };
     if (!prepareDraw(true, emulated)) return;
-    const bool wide = mDraws.sources().indexType == IndexType::UInt32;
+    const bool wide = mDraws.sources().indexFormat == IndexFormat::UInt32;
     const GLenum type = wide ? GL_UNSIGNED_INT : GL_UNSIGNED_SHORT;
     const uint64_t start = mDraws.sources().indexOffset + static_cast<uint64_t>(command.firstIndex) * (wide ? 4 : 2);
     auto const* indices = reinterpret_cast<const void*>(static_cast<uintptr_t>(start)); // an offset in the bound buffer

@@ -77,13 +77,13 @@ GlFormat const& glFormat(Format format) { return kFormats[static_cast<size_t>(fo
 
 GLenum glVertexType(VertexFormat format) { return kVertexTypes[static_cast<size_t>(format)]; }
 
-GLenum glTextureTarget(TextureDesc const& desc) {
+GLenum glTextureTarget(DeviceTextureDesc const& desc) {
     if (desc.samples > 1) return GL_TEXTURE_2D_MULTISAMPLE;
     static constexpr GLenum kTargets[] = { GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_CUBE_MAP };
     return lookUp(kTargets, desc.type);
 }
 
-GLenum glTopology(Topology topology) {
+GLenum glTopology(PrimitiveType topology) {
     static constexpr GLenum kModes[] = { GL_TRIANGLES, GL_TRIANGLE_STRIP, GL_LINES, GL_LINE_STRIP, GL_POINTS };
     return lookUp(kModes, topology);
 }

@@ -20,8 +20,8 @@ GlFormat const& glFormat(Format format);
 /// One attribute as glVertexAttribFormat / glVertexAttribIFormat wants it.
 GLenum glVertexType(VertexFormat format);
 
-GLenum glTextureTarget(TextureDesc const& desc);
-GLenum glTopology(Topology topology);
+GLenum glTextureTarget(DeviceTextureDesc const& desc);
+GLenum glTopology(PrimitiveType topology);
 GLenum glCompare(CompareOp op); ///< None maps to GL_ALWAYS
 GLenum glStencilOp(StencilOp op);
 GLenum glBlendFactor(BlendFactor factor);

@@ -12,7 +12,7 @@ Readbacks::~Readbacks() {
 std::optional<Readbacks::Source> Readbacks::open(CmdReadTexture const& command) {
     Texture const* texture = mTextures.find(command.texture);
     if (!texture) return {};
-    TextureDesc const& desc = texture->desc;
+    DeviceTextureDesc const& desc = texture->desc;
     if (!formatInfo(desc.format).isRenderable || desc.samples > 1) {
         mDevice.error(DriverErrorKind::Other,
                       "a read-back needs a single-sampled texture of a renderable format, not {} x{}; "

@@ -43,7 +43,7 @@ void uploadLayers(Api const& gl, GLint level, Area area, GLint layer, GLsizei la
 
 } // namespace
 
-uint64_t textureBytes(TextureDesc const& desc) {
+uint64_t textureBytes(DeviceTextureDesc const& desc) {
     uint64_t bytes = 0;
     for (uint32_t level = 0; level < desc.levels; ++level) {
         bytes += imageBytes(desc.format, std::max(desc.width >> level, 1u), std::max(desc.height >> level, 1u));
@@ -57,7 +57,7 @@ Textures::~Textures() {
 
 void Textures::allocate(Texture const& texture) {
     Api const& gl = mDevice.gl;
-    TextureDesc const& desc = texture.desc;
+    DeviceTextureDesc const& desc = texture.desc;
     const GLenum format = glFormat(desc.format).internalFormat;
     const auto width = static_cast<GLsizei>(desc.width), height = static_cast<GLsizei>(desc.height);
     mDevice.state.bindTexture(kEditUnit, texture.target, texture.name);
@@ -73,7 +73,7 @@ void Textures::allocate(Texture const& texture) {
     gl.TexParameteri(texture.target, GL_TEXTURE_MAX_LEVEL, desc.levels - 1);
 }
 
-void Textures::create(TextureHandle handle, TextureDesc const& desc) {
+void Textures::create(TextureHandle handle, DeviceTextureDesc const& desc) {
     Texture texture{ .target = glTextureTarget(desc), .desc = desc };
     texture.desc.debugName = {};
     const bool offered = !isCompressed(desc.format) || mDevice.quirks.blockCompression;

@@ -14,19 +14,19 @@ namespace filament::backend::gles {
 struct Texture {
     GLuint name = 0; ///< 0: creation failed
     GLenum target = GL_TEXTURE_2D;
-    TextureDesc desc{}; ///< without the debug name, which lived in the command
+    DeviceTextureDesc desc{}; ///< without the debug name, which lived in the command
     uint64_t bytes = 0;
 };
 
 /// Bytes of all levels, layers and samples.
-uint64_t textureBytes(TextureDesc const& desc);
+uint64_t textureBytes(DeviceTextureDesc const& desc);
 
 class Textures {
 public:
     explicit Textures(Device& device) : mDevice(device) {}
     ~Textures();
 
-    void create(TextureHandle handle, TextureDesc const& desc);
+    void create(TextureHandle handle, DeviceTextureDesc const& desc);
     std::unique_ptr<Texture> take(TextureHandle handle) { return mTextures.take(handle); }
     void destroy(Texture const& texture);
     void upload(CmdUploadTexture const& command);

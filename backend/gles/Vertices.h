@@ -28,7 +28,7 @@ struct VertexSources {
     std::array<VertexArray::Slot, kMaxVertexBuffers> slots{};
     GLuint indexBuffer = 0;
     uint64_t indexOffset = 0;
-    IndexType indexType = IndexType::UInt16;
+    IndexFormat indexFormat = IndexFormat::UInt16;
 };
 
 /// Where a draw starts reading, for devices that cannot say it in the draw call.

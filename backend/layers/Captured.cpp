@@ -23,7 +23,7 @@ TextureUsage readable(TextureUsage usage) {
 }
 
 struct NamedTexture {
-    TextureDesc desc;
+    DeviceTextureDesc desc;
     std::string name;
 };
 
@@ -192,7 +192,7 @@ private:
         const auto found = mTextures.find(handle);
         if (found == mTextures.end() || found->second.desc.samples != 1) return;
         CapturedPass& pass = mFrame.passes.back();
-        TextureDesc const& desc = found->second.desc;
+        DeviceTextureDesc const& desc = found->second.desc;
         const uint32_t width = std::max(1u, desc.width >> level), height = std::max(1u, desc.height >> level);
         mPending.push_back(
                 { static_cast<uint32_t>(mFrame.passes.size() - 1), static_cast<uint32_t>(pass.attachments.size()) });

@@ -38,7 +38,7 @@ template <>
 inline constexpr std::array kEnumNames<ShaderStage>{ "Vertex"sv, "Fragment"sv };
 
 template <>
-inline constexpr std::array kEnumNames<IndexType>{ "UInt16"sv, "UInt32"sv };
+inline constexpr std::array kEnumNames<IndexFormat>{ "UInt16"sv, "UInt32"sv };
 template <>
 inline constexpr std::array kEnumNames<TextureType>{ "Texture2D"sv, "Texture2DArray"sv, "Cube"sv };
 template <>
@@ -61,8 +61,8 @@ inline constexpr std::array kEnumNames<LoadOp>{ "Load"sv, "Clear"sv, "Discard"sv
 template <>
 inline constexpr std::array kEnumNames<StoreOp>{ "Store"sv, "Discard"sv };
 template <>
-inline constexpr std::array kEnumNames<Topology>{ "Triangles"sv, "TriangleStrip"sv, "Lines"sv, "LineStrip"sv,
-                                                  "Points"sv };
+inline constexpr std::array kEnumNames<PrimitiveType>{ "Triangles"sv, "TriangleStrip"sv, "Lines"sv, "LineStrip"sv,
+                                                       "Points"sv };
 template <>
 inline constexpr std::array kEnumNames<CullMode>{ "None"sv, "Front"sv, "Back"sv };
 template <>

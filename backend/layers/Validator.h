@@ -77,7 +77,7 @@ private:
     };
     struct TextureModel {
         std::string name;
-        TextureDesc desc;
+        DeviceTextureDesc desc;
     };
     struct SamplerModel {
         std::string name;
@@ -139,8 +139,8 @@ private:
 
     // ---- rules that several commands share
     bool checkBindGroupLayout(BindGroupLayout const& layout, std::string_view where);
-    void checkTextureShape(TextureDesc const& desc);
-    void checkTextureUsage(TextureDesc const& desc);
+    void checkTextureShape(DeviceTextureDesc const& desc);
+    void checkTextureUsage(DeviceTextureDesc const& desc);
     void checkVertexLayout(VertexLayout const& layout);
     void checkPipelineState(PipelineDesc const& desc, ProgramLayout const& program);
     void checkEntry(BindingDesc const& binding, BindGroupEntry const& entry);

@@ -39,7 +39,7 @@ void Validator::execute(CmdUpdateBuffer const& command) {
 
 bool Validator::checkRegion(TextureModel const& texture, std::string_view role, uint32_t level, uint32_t layer,
                             uint32_t layerCount, Rect const& rect) {
-    TextureDesc const& desc = texture.desc;
+    DeviceTextureDesc const& desc = texture.desc;
     const bool exists =
             require(level < desc.levels, Harm::Crash, "{} '{}': level {} of {}", role, texture.name, level,
                     desc.levels) &&
@@ -57,7 +57,7 @@ void Validator::execute(CmdUploadTexture const& command) {
     TextureModel const* texture = need(mTextures, command.texture, "texture");
     if (!texture) return;
     mObject = texture->name;
-    TextureDesc const& desc = texture->desc;
+    DeviceTextureDesc const& desc = texture->desc;
     require(has(desc.usage, TextureUsage::TransferTarget), Harm::Crash,
             "the texture lacks TextureUsage::TransferTarget");
     require(!hasStencil(desc.format), Harm::Crash, "depth and stencil together cannot be uploaded; draw them");

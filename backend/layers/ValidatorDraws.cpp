@@ -97,7 +97,7 @@ void Validator::execute(CmdBindIndexBuffer const& command) {
     BufferModel const* buffer = need(mBuffers, command.buffer, "index buffer");
     if (!buffer) return;
     mObject = buffer->name;
-    const uint32_t unit = command.type == IndexType::UInt16 ? 2 : 4;
+    const uint32_t unit = command.type == IndexFormat::UInt16 ? 2 : 4;
     require(has(buffer->desc.usage, BufferUsage::Index), Harm::Crash, "the buffer lacks BufferUsage::Index");
     require(command.offset % unit == 0 && command.offset < buffer->desc.size, Harm::Crash,
             "offset {} is no multiple of {} inside {} bytes", command.offset, unit, buffer->desc.size);
@@ -121,7 +121,7 @@ void Validator::execute(CmdDrawIndexed const& command) {
     if (!require(static_cast<bool>(mBound.indices.buffer), Harm::Crash, "no index buffer is bound")) return;
     BufferModel const* indices = need(mBuffers, mBound.indices.buffer, "index buffer");
     if (!indices || command.indexCount == 0 || command.instanceCount == 0) return;
-    const uint64_t unit = mBound.indices.type == IndexType::UInt16 ? 2 : 4;
+    const uint64_t unit = mBound.indices.type == IndexFormat::UInt16 ? 2 : 4;
     const uint64_t end = mBound.indices.offset + (uint64_t{ command.firstIndex } + command.indexCount) * unit;
     require(end <= indices->desc.size, Harm::Crash, "indices {}..{} leave index buffer '{}' of {} bytes",
             command.firstIndex, uint64_t{ command.firstIndex } + command.indexCount, indices->name, indices->desc.size);

@@ -61,7 +61,7 @@ void Validator::execute(CmdCreateBuffer const& command) {
 }
 
 void Validator::execute(CmdCreateTexture const& command) {
-    TextureDesc desc = command.desc;
+    DeviceTextureDesc desc = command.desc;
     if (!mayCreate(mTextures, command, desc.debugName)) return;
     if (require(desc.format > Format::None && desc.format < Format::Count, Harm::Crash, "the format is none")) {
         checkTextureShape(desc);
@@ -72,7 +72,7 @@ void Validator::execute(CmdCreateTexture const& command) {
     mTextures.create(command.handle, { std::string(command.desc.debugName), desc });
 }
 
-void Validator::checkTextureShape(TextureDesc const& desc) {
+void Validator::checkTextureShape(DeviceTextureDesc const& desc) {
     const uint32_t maxSize = mInfo.limits.maxTextureSize;
     require(desc.width > 0 && desc.height > 0, Harm::Crash, "{} x {} texels; both must be > 0", desc.width,
             desc.height);
@@ -98,7 +98,7 @@ void Validator::checkTextureShape(TextureDesc const& desc) {
             "format {} needs DeviceFeatures::blockCompression, which this device lacks", formatInfo(desc.format).name);
 }
 
-void Validator::checkTextureUsage(TextureDesc const& desc) {
+void Validator::checkTextureUsage(DeviceTextureDesc const& desc) {
     FormatInfo const& format = formatInfo(desc.format);
     require(has(desc.usage, kAttachmentUsage | kOutlivingUsage), Harm::Crash, "the usage is empty; say what it is for");
     require(!has(desc.usage, kAttachmentUsage) || format.isRenderable, Harm::Crash,

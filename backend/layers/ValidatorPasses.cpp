@@ -6,7 +6,7 @@
 namespace filament::backend {
 namespace {
 
-bool covers(TextureDesc const& desc, uint32_t level, Rect const& area) {
+bool covers(DeviceTextureDesc const& desc, uint32_t level, Rect const& area) {
     return static_cast<uint64_t>(area.x) + area.width <= std::max(1u, desc.width >> level) &&
            static_cast<uint64_t>(area.y) + area.height <= std::max(1u, desc.height >> level);
 }
@@ -80,7 +80,7 @@ Validator::TextureModel const* Validator::checkAttachment(Attachment const& atta
                                                           Rect const& area) {
     TextureModel const* texture = need(mTextures, attachment.texture, role);
     if (!texture) return nullptr;
-    TextureDesc const& desc = texture->desc;
+    DeviceTextureDesc const& desc = texture->desc;
     const bool exists = require(attachment.level < desc.levels && attachment.layer < desc.layers, Harm::Crash,
                                 "{} '{}': level {} of {}, layer {} of {}", role, texture->name, attachment.level,
                                 desc.levels, attachment.layer, desc.layers);

@@ -9,7 +9,7 @@
 namespace filament::backend {
 namespace {
 
-uint64_t textureBytes(TextureDesc const& desc) {
+uint64_t textureBytes(DeviceTextureDesc const& desc) {
     uint64_t sum = 0;
     for (uint32_t level = 0; level < std::min<uint32_t>(desc.levels, 32); ++level) {
         sum += imageBytes(desc.format, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level));

@@ -97,11 +97,11 @@ FILAMENT_FIELDS(Viewport, "Viewport", FILAMENT_FIELD(Viewport, x), FILAMENT_FIEL
                 FILAMENT_FIELD(Viewport, width), FILAMENT_FIELD(Viewport, height));
 FILAMENT_FIELDS(BufferDesc, "BufferDesc", FILAMENT_FIELD(BufferDesc, size), FILAMENT_FIELD(BufferDesc, usage),
                 FILAMENT_FIELD(BufferDesc, debugName));
-FILAMENT_FIELDS(TextureDesc, "TextureDesc", FILAMENT_FIELD(TextureDesc, type), FILAMENT_FIELD(TextureDesc, format),
-                FILAMENT_FIELD(TextureDesc, usage), FILAMENT_FIELD(TextureDesc, samples),
-                FILAMENT_FIELD(TextureDesc, levels), FILAMENT_FIELD(TextureDesc, layers),
-                FILAMENT_FIELD(TextureDesc, width), FILAMENT_FIELD(TextureDesc, height),
-                FILAMENT_FIELD(TextureDesc, debugName));
+FILAMENT_FIELDS(DeviceTextureDesc, "DeviceTextureDesc", FILAMENT_FIELD(DeviceTextureDesc, type),
+                FILAMENT_FIELD(DeviceTextureDesc, format), FILAMENT_FIELD(DeviceTextureDesc, usage),
+                FILAMENT_FIELD(DeviceTextureDesc, samples), FILAMENT_FIELD(DeviceTextureDesc, levels),
+                FILAMENT_FIELD(DeviceTextureDesc, layers), FILAMENT_FIELD(DeviceTextureDesc, width),
+                FILAMENT_FIELD(DeviceTextureDesc, height), FILAMENT_FIELD(DeviceTextureDesc, debugName));
 FILAMENT_FIELDS(SamplerDesc, "SamplerDesc", FILAMENT_FIELD(SamplerDesc, magFilter),
                 FILAMENT_FIELD(SamplerDesc, minFilter), FILAMENT_FIELD(SamplerDesc, mipFilter),
                 FILAMENT_FIELD(SamplerDesc, wrapU), FILAMENT_FIELD(SamplerDesc, wrapV),

@@ -114,7 +114,7 @@ VkFormat native(Format format) { return lookUp(kFormats, format); }
 VkFormat native(VertexFormat format) { return lookUp(kVertexFormats, format); }
 VkFilter native(Filter filter) { return filter == Filter::Linear ? VK_FILTER_LINEAR : VK_FILTER_NEAREST; }
 VkCompareOp native(CompareOp op) { return lookUp(kCompareOps, op); }
-VkPrimitiveTopology native(Topology topology) { return lookUp(kTopologies, topology); }
+VkPrimitiveTopology native(PrimitiveType topology) { return lookUp(kTopologies, topology); }
 VkStencilOp native(StencilOp op) { return lookUp(kStencilOps, op); }
 VkBlendFactor native(BlendFactor factor) { return lookUp(kBlendFactors, factor); }
 VkBlendOp native(BlendOp op) { return lookUp(kBlendOps, op); }
@@ -173,7 +173,9 @@ VkAttachmentStoreOp native(StoreOp op) {
     return op == StoreOp::Store ? VK_ATTACHMENT_STORE_OP_STORE : VK_ATTACHMENT_STORE_OP_DONT_CARE;
 }
 
-VkIndexType native(IndexType type) { return type == IndexType::UInt32 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16; }
+VkIndexType native(IndexFormat type) {
+    return type == IndexFormat::UInt32 ? VK_INDEX_TYPE_UINT32 : VK_INDEX_TYPE_UINT16;
+}
 
 VkImageAspectFlags aspectsOf(Format format) {
     if (!hasDepth(format)) return VK_IMAGE_ASPECT_COLOR_BIT;

@@ -12,7 +12,7 @@ VkFormat native(VertexFormat format); ///< VK_FORMAT_UNDEFINED for None
 VkFilter native(Filter filter);
 VkSamplerAddressMode native(WrapMode mode);
 VkCompareOp native(CompareOp op); ///< None: always
-VkPrimitiveTopology native(Topology topology);
+VkPrimitiveTopology native(PrimitiveType topology);
 VkCullModeFlags native(CullMode mode);
 VkStencilOp native(StencilOp op);
 VkBlendFactor native(BlendFactor factor);
@@ -21,7 +21,7 @@ VkDescriptorType native(BindingType type);
 VkShaderStageFlags native(ShaderStage stages);
 VkAttachmentLoadOp native(LoadOp op);
 VkAttachmentStoreOp native(StoreOp op);
-VkIndexType native(IndexType type);
+VkIndexType native(IndexFormat type);
 
 /// Vulkan measures the sign of a triangle's area with y pointing down the picture, and calls positive
 /// counter-clockwise: that is how the triangle looks with row 0 at the top, so the names agree.

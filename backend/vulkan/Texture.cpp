@@ -25,7 +25,7 @@ VkImageUsageFlags usageFlags(TextureUsage usage) {
     return flags;
 }
 
-VkImageCreateInfo imageInfo(TextureDesc const& desc) {
+VkImageCreateInfo imageInfo(DeviceTextureDesc const& desc) {
     auto info = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
     info.flags = desc.type == TextureType::Cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     info.imageType = VK_IMAGE_TYPE_2D;
@@ -50,7 +50,7 @@ VkImageViewType viewType(TextureType type) {
     return VK_IMAGE_VIEW_TYPE_2D;
 }
 
-uint64_t bytesOf(TextureDesc const& desc) {
+uint64_t bytesOf(DeviceTextureDesc const& desc) {
     uint64_t bytes = 0;
     for (uint32_t level = 0; level < desc.levels; ++level) {
         bytes += imageBytes(desc.format, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level));
@@ -59,14 +59,14 @@ uint64_t bytesOf(TextureDesc const& desc) {
 }
 
 /// "texture 'hdr' (1280x720 RGBA16F, 3 levels, 1 layers, 4 samples, 9830400 bytes)"
-std::string describe(TextureDesc const& desc) {
+std::string describe(DeviceTextureDesc const& desc) {
     return fmt::format("texture '{}' ({}x{} {}, {} levels, {} layers, {} samples, {} bytes)", desc.debugName,
                        desc.width, desc.height, formatInfo(desc.format).name, desc.levels, desc.layers, desc.samples,
                        bytesOf(desc));
 }
 
 /// Asks first: an image beyond these limits is invalid usage, not an error that vkCreateImage would report.
-Result<void> checkSupport(Device const& device, TextureDesc const& desc, VkImageCreateInfo const& info) {
+Result<void> checkSupport(Device const& device, DeviceTextureDesc const& desc, VkImageCreateInfo const& info) {
     VkImageFormatProperties limits{};
     const VkResult result = device.instance().fn().vkGetPhysicalDeviceImageFormatProperties(
             device.physical().handle, info.format, info.imageType, info.tiling, info.usage, info.flags, &limits);
@@ -92,12 +92,12 @@ Result<void> checkSupport(Device const& device, TextureDesc const& desc, VkImage
 
 } // namespace
 
-Texture::Texture(Device& device, TextureDesc const& desc)
+Texture::Texture(Device& device, DeviceTextureDesc const& desc)
         : uses(desc.levels, desc.layers), mDevice(device), mFormat(desc.format),
           mAspects(aspectsOf(desc.format)), mExtent{ desc.width, desc.height }, mLevels(desc.levels),
           mLayers(desc.layers), mName(desc.debugName) {}
 
-Result<std::unique_ptr<Texture>> Texture::create(Device& device, TextureDesc const& desc) {
+Result<std::unique_ptr<Texture>> Texture::create(Device& device, DeviceTextureDesc const& desc) {
     if (Result<void> support = checkSupport(device, desc, imageInfo(desc)); !support) return support.error();
     std::unique_ptr<Texture> texture(new Texture(device, desc));
     VkResult result = texture->createImage(desc);
@@ -109,7 +109,7 @@ Result<std::unique_ptr<Texture>> Texture::create(Device& device, TextureDesc con
     return texture;
 }
 
-VkResult Texture::createImage(TextureDesc const& desc) {
+VkResult Texture::createImage(DeviceTextureDesc const& desc) {
     VolkDeviceTable const& fn = mDevice.fn();
     const VkImageCreateInfo info = imageInfo(desc);
     const VkResult created = fn.vkCreateImage(mDevice.handle(), &info, nullptr, &mImage);

@@ -17,7 +17,7 @@ namespace filament::backend::vulkan {
 
 class Texture final : public DeviceObject {
 public:
-    static Result<std::unique_ptr<Texture>> create(Device& device, TextureDesc const& desc);
+    static Result<std::unique_ptr<Texture>> create(Device& device, DeviceTextureDesc const& desc);
     ~Texture() override;
 
     VkImage image() const { return mImage; }
@@ -42,8 +42,8 @@ public:
     bool isUnsettled = false;      ///< listed for a transition to Use::ShaderRead
 
 private:
-    Texture(Device& device, TextureDesc const& desc);
-    VkResult createImage(TextureDesc const& desc);
+    Texture(Device& device, DeviceTextureDesc const& desc);
+    VkResult createImage(DeviceTextureDesc const& desc);
     VkResult createView(VkImageViewType type, VkImageAspectFlags aspects, SubresourceRange const& range,
                         VkImageView& view);
 

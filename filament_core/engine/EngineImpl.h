@@ -7,7 +7,7 @@
 #pragma once
 
 #include "backend/stream/CommandStream.h"
-#include "filament_core/engine/ObjectTable.h"
+#include "filament_core/engine/HandleTable.h"
 #include "filament_core/engine/SamplerCache.h"
 #include "filament_core/engine/materials/CompileQueue.h"
 #include "filament_core/passes/Pipelines.h"
@@ -30,8 +30,8 @@ namespace filament {
 namespace engine {
 
 struct TextureState {
-    backend::TextureHandle handle; ///< none: refused, see createTexture()
-    backend::TextureDesc desc{};   ///< debugName is empty: see `name`
+    backend::TextureHandle handle;     ///< none: refused, see createTexture()
+    backend::DeviceTextureDesc desc{}; ///< debugName is empty: see `name`
     std::string name;
 };
 
@@ -44,7 +44,7 @@ struct VertexBufferState {
 
 struct IndexBufferState {
     backend::BufferHandle handle;
-    backend::IndexType type = backend::IndexType::UInt16;
+    IndexFormat format = IndexFormat::UInt16;
     uint32_t indexCount = 0;
     std::string name;
 };
@@ -162,16 +162,16 @@ struct Engine::Impl {
     engine::CompileQueue compilations;
     engine::SamplerCache samplers;
 
-    engine::ObjectTable<TextureObject, engine::TextureState> textures;
-    engine::ObjectTable<VertexBufferObject, engine::VertexBufferState> vertexBuffers;
-    engine::ObjectTable<IndexBufferObject, engine::IndexBufferState> indexBuffers;
-    engine::ObjectTable<MorphTargetsObject, engine::MorphTargetsState> morphTargets;
-    engine::ObjectTable<MaterialObject, scene::Material> materials;
-    engine::ObjectTable<MaterialInstanceObject, scene::MaterialInstance> instances;
-    engine::ObjectTable<IndirectLightObject, engine::IndirectLightState> indirectLights;
-    engine::ObjectTable<SkyboxObject, engine::SkyboxState> skyboxes;
-    engine::ObjectTable<RenderTargetObject, engine::RenderTargetState> renderTargets;
-    engine::ObjectTable<SwapChainObject, engine::SwapChainState> swapChains;
+    engine::HandleTable<TextureObject, engine::TextureState> textures;
+    engine::HandleTable<VertexBufferObject, engine::VertexBufferState> vertexBuffers;
+    engine::HandleTable<IndexBufferObject, engine::IndexBufferState> indexBuffers;
+    engine::HandleTable<MorphTargetsObject, engine::MorphTargetsState> morphTargets;
+    engine::HandleTable<MaterialObject, scene::Material> materials;
+    engine::HandleTable<MaterialInstanceObject, scene::MaterialInstance> instances;
+    engine::HandleTable<IndirectLightObject, engine::IndirectLightState> indirectLights;
+    engine::HandleTable<SkyboxObject, engine::SkyboxState> skyboxes;
+    engine::HandleTable<RenderTargetObject, engine::RenderTargetState> renderTargets;
+    engine::HandleTable<SwapChainObject, engine::SwapChainState> swapChains;
 
     engine::Defaults defaults;
     std::map<std::string, Material> engineMaterials; ///< by package and constants

@@ -2,7 +2,6 @@
 #include <filament/Scene.h>
 
 #include "filament_core/engine/SceneImpl.h"
-#include "filament_core/engine/Topology.h"
 #include "filament_core/scene/SceneNodes.h"
 #include "filament_core/scene/SceneSkins.h"
 
@@ -74,10 +73,10 @@ Renderable Scene::add(RenderableDesc const& desc) {
                     "a renderable's indices lie inside of its index buffer");
     const scene::Geometry geometry{ vertices.handle,
                                     indices.handle,
-                                    engine.layouts.intern({ vertices.layout, engine::topology(desc.primitive) }),
+                                    engine.layouts.intern({ vertices.layout, desc.primitive }),
                                     desc.firstIndex,
                                     desc.indexCount ? desc.indexCount : indices.indexCount - desc.firstIndex,
-                                    indices.type };
+                                    indices.format };
     FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
                     "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
     const scene::RenderableInput input{ geometry,

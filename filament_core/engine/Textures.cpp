@@ -23,7 +23,7 @@ TextureType textureType(TextureKind kind) {
     return TextureType::Texture2D;
 }
 
-backend::TextureDesc backendDesc(filament::TextureDesc const& desc) {
+backend::DeviceTextureDesc backendDesc(filament::TextureDesc const& desc) {
     FILAMENT_ASSERT(desc.width > 0 && desc.height > 0 && desc.layers > 0 && desc.levels > 0,
                     "a texture has at least one texel, layer and level");
     FILAMENT_ASSERT(desc.kind != TextureKind::Cube || (desc.layers == 6 && desc.width == desc.height),
@@ -88,7 +88,7 @@ Texture Engine::Impl::createTexture(filament::TextureDesc const& desc) {
     state.desc = backendDesc(desc);
     state.name = desc.name;
     if (!fitsDevice(*this, desc)) return draft.keep();
-    backend::TextureDesc created = state.desc;
+    backend::DeviceTextureDesc created = state.desc;
     created.debugName = state.name;
     NewHandle handle(*stream, stream->allocateTexture());
     AllOrNothing all(pending);
@@ -128,7 +128,7 @@ IndexBuffer Engine::Impl::createIndexBuffer(IndexBufferDesc const& desc) {
     FILAMENT_ASSERT(desc.indexCount > 0 && desc.data.size() == bytes, "`data` holds indexCount indices, at least one");
     engine::Draft draft(indexBuffers);
     engine::IndexBufferState& state = draft.state();
-    state.type = desc.format == IndexFormat::UInt16 ? IndexType::UInt16 : IndexType::UInt32;
+    state.format = desc.format;
     state.indexCount = desc.indexCount;
     state.name = desc.name;
     state.handle = createBuffer(*this, BufferUsage::Index, desc.data, desc.name);

@@ -48,7 +48,7 @@ void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines
 
 framegraph::PassId addColorPass(FrameGraph& graph, FrameContext const* context, TextureId color) {
     const PassSettings settings = context->settings;
-    const framegraph::TextureDesc like = graph.texture(color).desc;
+    const framegraph::GraphTextureDesc like = graph.texture(color).desc;
     const TextureId depth = graph.createTexture({ .width = like.width,
                                                   .height = like.height,
                                                   .format = Format::D32F,

@@ -46,10 +46,10 @@ private:
             mCommands.record(CmdBindVertexBuffers{ { geometry.vertices, mContext.instanceIds }, {}, 2 });
             mVertices = geometry.vertices;
         }
-        if (geometry.indices != mIndices || geometry.indexType != mIndexType) {
-            mCommands.record(CmdBindIndexBuffer{ geometry.indices, 0, geometry.indexType });
+        if (geometry.indices != mIndices || geometry.indexFormat != mIndexType) {
+            mCommands.record(CmdBindIndexBuffer{ geometry.indices, 0, geometry.indexFormat });
             mIndices = geometry.indices;
-            mIndexType = geometry.indexType;
+            mIndexType = geometry.indexFormat;
         }
     }
 
@@ -60,7 +60,7 @@ private:
     BindGroupHandle mMaterial;
     uint32_t mDeformation = scene::kNotDeformed;
     BufferHandle mVertices, mIndices;
-    IndexType mIndexType = IndexType::UInt16;
+    IndexFormat mIndexType = IndexFormat::UInt16;
 };
 
 /// No handle has these bits: the pipeline has never been asked for.

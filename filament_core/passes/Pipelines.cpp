@@ -39,7 +39,7 @@ uint16_t withPrecision(scene::Material const& material, uint8_t variant, Shading
 }
 
 // All but cullingDisabled.
-uint64_t rasterBits(scene::RasterState const& raster) {
+uint64_t rasterBits(scene::InstanceRaster const& raster) {
     return static_cast<uint64_t>(raster.culling) | static_cast<uint64_t>(raster.colorWrite) << 2 |
            static_cast<uint64_t>(raster.depthWrite) << 3 | static_cast<uint64_t>(raster.depthCulling) << 4;
 }
@@ -57,7 +57,7 @@ uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
 
 uint64_t programKey(uint16_t variant, ShadingKey shading) { return uint64_t{ shading } << 16 | variant; }
 
-CullMode cullMode(scene::RasterState const& raster) {
+CullMode cullMode(scene::InstanceRaster const& raster) {
     if (raster.cullingDisabled) return CullMode::None;
     switch (raster.culling) {
     case shader::Culling::None:
@@ -72,7 +72,7 @@ CullMode cullMode(scene::RasterState const& raster) {
     return CullMode::Back;
 }
 
-bool drawsNothing(scene::RasterState const& raster) {
+bool drawsNothing(scene::InstanceRaster const& raster) {
     return raster.culling == shader::Culling::FrontAndBack && !raster.cullingDisabled;
 }
 
@@ -239,7 +239,8 @@ ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material
 }
 
 PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const& material,
-                                     scene::RasterState const& raster, uint32_t geometryLayout, bool mirrored) const {
+                                     scene::InstanceRaster const& raster, uint32_t geometryLayout,
+                                     bool mirrored) const {
     shader::MaterialPackage const& package = material.package;
     PipelineDesc desc{ .pass = slot.layout, .subpass = slot.subpass, .debugName = material.name };
     desc.raster.cull = cullMode(raster);
@@ -299,7 +300,7 @@ std::optional<PipelineHandle> PipelineCache::findFullscreen(uint32_t slot, scene
 PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t slot, scene::Material const& material) {
     const uint64_t key = fullscreenKey(slot, material);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
-    scene::RasterState raster = scene::initialRaster(material.package);
+    scene::InstanceRaster raster = scene::initialRaster(material.package);
     raster.cullingDisabled = true;
     PipelineDesc desc = describe(mSlots[slot], material, raster, kNoGeometry, false);
     desc.program = programFor(setup, material, 0, 0);

@@ -105,7 +105,7 @@ private:
     backend::ProgramHandle createProgram(backend::CommandBuffer& setup, scene::Material const& material,
                                          shader::Variant const& code, ShadingKey shading);
     backend::PipelineDesc describe(PassSlot const& slot, scene::Material const& material,
-                                   scene::RasterState const& raster, uint32_t geometryLayout, bool mirrored) const;
+                                   scene::InstanceRaster const& raster, uint32_t geometryLayout, bool mirrored) const;
     backend::PipelineHandle create(backend::CommandBuffer& setup, uint64_t key, backend::PipelineDesc const& desc,
                                    uint32_t material);
 

@@ -17,7 +17,7 @@ uint64_t hashAll(uint64_t seed, T... values) {
 uint64_t hashDraw(DrawCall const& draw, uint64_t seed) {
     scene::Geometry const& geometry = *draw.geometry;
     seed = hashAll(seed, geometry.vertices.bits, geometry.indices.bits, geometry.layout, geometry.firstIndex,
-                   geometry.indexCount, geometry.indexType);
+                   geometry.indexCount, geometry.indexFormat);
     return hashAll(seed, draw.material->material->id, draw.material->id, draw.firstObject, draw.instanceCount,
                    draw.mirrored, draw.pass, draw.deformation);
 }

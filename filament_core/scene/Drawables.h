@@ -20,14 +20,14 @@ struct Geometry {
     backend::BufferHandle vertices, indices;
     uint32_t layout = 0; ///< into GeometryLayouts: vertex layout and topology
     uint32_t firstIndex = 0, indexCount = 0;
-    backend::IndexType indexType = backend::IndexType::UInt16;
+    backend::IndexFormat indexFormat = backend::IndexFormat::UInt16;
     friend bool operator==(Geometry const&, Geometry const&) = default;
 };
 
 /// Vertex layout and topology, stored once: geometries with equal layouts share pipelines.
 struct GeometryLayout {
     backend::VertexLayout vertices{};
-    backend::Topology topology = backend::Topology::Triangles;
+    backend::PrimitiveType topology = backend::PrimitiveType::Triangles;
     friend bool operator==(GeometryLayout const&, GeometryLayout const&) = default;
 };
 

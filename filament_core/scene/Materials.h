@@ -31,15 +31,15 @@ struct Material {
 };
 
 /// The part of the raster state that an instance can change.
-struct RasterState {
+struct InstanceRaster {
     shader::Culling culling = shader::Culling::Back;
     bool cullingDisabled = false; ///< both faces, whatever `culling` says
     bool colorWrite = true, depthWrite = true, depthCulling = true;
-    friend bool operator==(RasterState const&, RasterState const&) = default;
+    friend bool operator==(InstanceRaster const&, InstanceRaster const&) = default;
 };
 
 /// As the material defines it.
-inline RasterState initialRaster(shader::MaterialPackage const& package) {
+inline InstanceRaster initialRaster(shader::MaterialPackage const& package) {
     return { package.culling, package.doubleSided, package.colorWrite, package.depthWrite, package.depthCulling };
 }
 
@@ -54,7 +54,7 @@ struct MaterialInstance {
     std::string name;
     std::vector<std::byte> parameters;    ///< the MaterialParams block, std140
     std::vector<TextureBinding> textures; ///< parallel to the package's texture parameters, in their order
-    RasterState raster{};
+    InstanceRaster raster{};
     bool parametersDirty = true;
     bool texturesDirty = true;
     backend::BufferHandle buffer; ///< none while the material has no block

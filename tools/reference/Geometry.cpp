@@ -126,8 +126,8 @@ std::vector<float4> decodeAttribute(PrimitiveData const& primitive, uint8_t loca
 std::vector<uint32_t> decodeIndices(PrimitiveData const& primitive) {
     std::vector<uint32_t> indices(primitive.indexCount);
     for (size_t i = 0; i < indices.size(); ++i) {
-        indices[i] = primitive.indexType == backend::IndexType::UInt16 ? read<uint16_t>(&primitive.indices[i * 2])
-                                                                       : read<uint32_t>(&primitive.indices[i * 4]);
+        indices[i] = primitive.indexFormat == backend::IndexFormat::UInt16 ? read<uint16_t>(&primitive.indices[i * 2])
+                                                                           : read<uint32_t>(&primitive.indices[i * 4]);
     }
     return indices;
 }

@@ -137,7 +137,7 @@ private:
             if (!isFinite(world)) continue;
             if (node.mesh != kNone) {
                 for (PrimitiveData const& primitive : model.meshes[node.mesh].primitives) {
-                    const bool isSurface = primitive.topology == backend::Topology::Triangles;
+                    const bool isSurface = primitive.topology == backend::PrimitiveType::Triangles;
                     skipped += !isSurface;
                     if (!isSurface || primitive.indexCount < 3) continue;
                     placements.push_back({ &model, &primitive, world, &finish, scaleOf(node.worldFromNode),

@@ -33,4 +33,10 @@ enum class VertexFormat : uint8_t {
 };
 // clang-format on
 
+/// Storage of one index.
+enum class IndexFormat : uint8_t { UInt16, UInt32 };
+
+/// How vertices form primitives.
+enum class PrimitiveType : uint8_t { Triangles, TriangleStrip, Lines, LineStrip, Points };
+
 } // namespace filament

@@ -29,7 +29,7 @@ void recordSortedDraws(CommandBuffer& commands, uint32_t draws) {
         if (i % 4 == 0) commands.record(CmdBindGroup{ BindGroupHandle{ i }, 1 });
         if (i % 2 == 0) {
             commands.record(CmdBindVertexBuffers{ { BufferHandle{ i }, BufferHandle{ 2 } }, {}, 2 });
-            commands.record(CmdBindIndexBuffer{ BufferHandle{ i }, 0, IndexType::UInt16 });
+            commands.record(CmdBindIndexBuffer{ BufferHandle{ i }, 0, IndexFormat::UInt16 });
         }
         commands.record(CmdDrawIndexed{ 36, 1, i, 0, i % 256 });
     }

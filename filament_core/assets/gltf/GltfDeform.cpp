@@ -102,7 +102,7 @@ void applySkin(std::span<const float4x4> worldFromBind, std::string const& path,
         }
     }
     geometry.positionFormat = backend::VertexFormat::Float3;
-    if (mirrored * 2 > geometry.positions.size() && geometry.topology == backend::Topology::Triangles) {
+    if (mirrored * 2 > geometry.positions.size() && geometry.topology == backend::PrimitiveType::Triangles) {
         reverseTriangles(geometry);
     }
     if (!isInRange) diagnostics.refuse(ErrorCode::Corrupt, "{}: names a joint that its skin lacks", path);

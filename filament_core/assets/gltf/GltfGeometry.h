@@ -31,7 +31,7 @@ struct GltfGeometry {
     std::array<std::vector<float4>, GltfAttributes::kJointSets> weights;
     std::vector<MorphTargetData> targets; ///< left to the device: one displacement per vertex, or none
     std::vector<uint32_t> indices;
-    backend::Topology topology = backend::Topology::Triangles;
+    backend::PrimitiveType topology = backend::PrimitiveType::Triangles;
     bool wasIndexed = false; ///< false: equal vertices are worth merging
 
     backend::VertexFormat positionFormat = backend::VertexFormat::Float3;

@@ -165,7 +165,7 @@ void storePositions(PositionStorage storage, GltfGeometry& geometry, PrimitiveDa
 /// 16 bits while 0xFFFF, which restarts strips on some APIs, stays free.
 void packIndices(std::span<const uint32_t> indices, PrimitiveData& primitive) {
     const bool isShort = primitive.vertexCount < 65536;
-    primitive.indexType = isShort ? backend::IndexType::UInt16 : backend::IndexType::UInt32;
+    primitive.indexFormat = isShort ? backend::IndexFormat::UInt16 : backend::IndexFormat::UInt32;
     primitive.indexCount = static_cast<uint32_t>(indices.size());
     primitive.indices.resize(indices.size() * (isShort ? 2 : 4));
     for (size_t i = 0; i < indices.size(); ++i) {

@@ -9,7 +9,7 @@
 namespace filament::assets {
 namespace {
 
-using backend::Topology;
+using backend::PrimitiveType;
 using Indices = std::vector<uint32_t>;
 
 /// Section 3.7.2.1: every other triangle of a strip is turned, so that all face the same way.
@@ -34,9 +34,9 @@ Indices linesFromStrip(Indices const& strip, bool isClosed) {
     return list;
 }
 
-Topology topologyOf(GltfMode mode) {
-    if (mode == GltfMode::Points) return Topology::Points;
-    return mode <= GltfMode::LineStrip ? Topology::Lines : Topology::Triangles;
+PrimitiveType topologyOf(GltfMode mode) {
+    if (mode == GltfMode::Points) return PrimitiveType::Points;
+    return mode <= GltfMode::LineStrip ? PrimitiveType::Lines : PrimitiveType::Triangles;
 }
 
 float3 flatNormal(float3 p0, float3 p1, float3 p2) {
@@ -94,7 +94,9 @@ void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, Di
         break;
     }
     geometry.topology = topologyOf(mode);
-    const size_t corners = geometry.topology == Topology::Triangles ? 3 : geometry.topology == Topology::Lines ? 2 : 1;
+    const size_t corners = geometry.topology == PrimitiveType::Triangles ? 3
+                           : geometry.topology == PrimitiveType::Lines   ? 2
+                                                                         : 1;
     if (indices.size() % corners != 0) {
         diagnostics.warn("{}: {} indices are left over and are not drawn", path, indices.size() % corners);
         indices.resize(indices.size() - indices.size() % corners);
@@ -117,7 +119,7 @@ void dropUnusedVertices(GltfGeometry& geometry) {
 }
 
 void addFlatNormals(GltfGeometry& geometry) {
-    if (geometry.topology != Topology::Triangles || !geometry.normals.empty()) return;
+    if (geometry.topology != PrimitiveType::Triangles || !geometry.normals.empty()) return;
     geometry.tangents.clear();
     const Indices corners = std::move(geometry.indices);
     reorderVertices(geometry, corners);
@@ -129,7 +131,7 @@ void addFlatNormals(GltfGeometry& geometry) {
 }
 
 void addTangents(GltfGeometry& geometry, uint32_t uvSet) {
-    const bool isPossible = geometry.topology == Topology::Triangles && !geometry.normals.empty() &&
+    const bool isPossible = geometry.topology == PrimitiveType::Triangles && !geometry.normals.empty() &&
                             !geometry.uvs[uvSet].empty() && geometry.tangents.empty();
     if (!isPossible) return;
     for (float3& normal : geometry.normals) normal = normalizedOr(normal, float3(0, 0, 1));

@@ -52,12 +52,12 @@ struct VariantMaterial {
 
 /// The geometry of one draw. All attributes are interleaved in one stream.
 struct PrimitiveData {
-    backend::Topology topology = backend::Topology::Triangles;
+    backend::PrimitiveType topology = backend::PrimitiveType::Triangles;
     backend::VertexLayout
             layout{}; ///< buffer 0; locations of shaders/interface (position 0, tangents 1, color 2, uv0 3, uv1 4, ...)
     std::vector<std::byte> vertices;
     std::vector<std::byte> indices; ///< always indexed
-    backend::IndexType indexType = backend::IndexType::UInt16;
+    backend::IndexFormat indexFormat = backend::IndexFormat::UInt16;
     uint32_t vertexCount = 0, indexCount = 0;
     uint32_t material = kNone;                   ///< kNone: glTF's default material
     std::vector<VariantMaterial> variants;       ///< replacements; at most one per variant

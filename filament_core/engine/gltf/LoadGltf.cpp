@@ -20,22 +20,6 @@ using assets::kNone;
 using assets::ModelData;
 using assets::PrimitiveData;
 
-PrimitiveType primitiveType(backend::Topology topology) {
-    switch (topology) {
-    case backend::Topology::Triangles:
-        return PrimitiveType::Triangles;
-    case backend::Topology::TriangleStrip:
-        return PrimitiveType::TriangleStrip;
-    case backend::Topology::Lines:
-        return PrimitiveType::Lines;
-    case backend::Topology::LineStrip:
-        return PrimitiveType::LineStrip;
-    case backend::Topology::Points:
-        return PrimitiveType::Points;
-    }
-    return PrimitiveType::Triangles;
-}
-
 /// Uploads one ModelData and places its meshes: each step fills a part of the Model.
 class ModelBuilder {
 public:
@@ -103,18 +87,16 @@ private:
             vertices.attributes.push_back(
                     { static_cast<Attribute>(attribute.location), attribute.format, attribute.offset });
         }
-        const bool wide = primitive.indexType == backend::IndexType::UInt32;
         mModel->vertexBuffers.push_back({});
         mModel->indexBuffers.push_back({});
         mModel->vertexBuffers.back() = mEngine.createVertexBuffer(vertices);
-        mModel->indexBuffers.back() =
-                mEngine.createIndexBuffer({ .indexCount = primitive.indexCount,
-                                            .format = wide ? IndexFormat::UInt32 : IndexFormat::UInt16,
-                                            .data = primitive.indices,
-                                            .name = name });
+        mModel->indexBuffers.back() = mEngine.createIndexBuffer({ .indexCount = primitive.indexCount,
+                                                                  .format = primitive.indexFormat,
+                                                                  .data = primitive.indices,
+                                                                  .name = name });
         return { .vertices = mModel->vertexBuffers.back(),
                  .indices = mModel->indexBuffers.back(),
-                 .primitive = primitiveType(primitive.topology),
+                 .primitive = primitive.topology,
                  .boundsMin = primitive.boundsMin,
                  .boundsMax = primitive.boundsMax,
                  .boneBounds = boneBounds(primitive),

@@ -2,7 +2,6 @@
 // Engine::compile(): which programs and pipelines a material may need, as wishes for the compile queue.
 #include "base/OutOfMemory.h"
 #include "filament_core/engine/EngineImpl.h"
-#include "filament_core/engine/Topology.h"
 
 #include <algorithm>
 
@@ -39,7 +38,7 @@ bool hasJoints(scene::GeometryLayout const& layout) {
 /// One state for each way in which the instances draw, that of a new instance at least.
 std::vector<scene::MaterialInstance> instanceStates(Engine::Impl& engine, scene::Material& material) {
     std::vector<scene::MaterialInstance> states;
-    const auto add = [&](scene::RasterState const& raster) {
+    const auto add = [&](scene::InstanceRaster const& raster) {
         if (std::ranges::count(states, raster, &scene::MaterialInstance::raster) > 0) return;
         scene::MaterialInstance& state = states.emplace_back();
         state.material = &material;
@@ -55,8 +54,7 @@ std::vector<scene::MaterialInstance> instanceStates(Engine::Impl& engine, scene:
 std::vector<uint16_t> geometryLayouts(Engine::Impl& engine, CompileDesc const& desc) {
     std::vector<uint16_t> layouts;
     for (VertexBuffer buffer : desc.vertices) {
-        const uint32_t layout =
-                engine.layouts.intern({ engine.vertexBuffers.get(buffer).layout, engine::topology(desc.primitive) });
+        const uint32_t layout = engine.layouts.intern({ engine.vertexBuffers.get(buffer).layout, desc.primitive });
         layouts.push_back(static_cast<uint16_t>(layout));
     }
     if (!desc.vertices.empty()) return layouts;

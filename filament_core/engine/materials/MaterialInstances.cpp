@@ -196,7 +196,7 @@ void Engine::setCullingDisabled(MaterialInstance handle, bool disabled) {
 }
 
 void Engine::setCulling(MaterialInstance handle, Culling culling) {
-    scene::RasterState& raster = mImpl->instances.get(handle).raster;
+    scene::InstanceRaster& raster = mImpl->instances.get(handle).raster;
     raster.culling = culling;
     raster.cullingDisabled = false;
 }

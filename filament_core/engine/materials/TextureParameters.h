@@ -20,7 +20,7 @@ Result<void> checkSampler(scene::Material const& material, shader::Parameter con
 /// Whether the sampler reads textures of this kind and format: the APIs leave the rest undefined. `name`: the
 /// texture's.
 Result<void> checkTexture(scene::Material const& material, shader::Parameter const& parameter,
-                          backend::TextureDesc const& texture, std::string_view name);
+                          backend::DeviceTextureDesc const& texture, std::string_view name);
 
 /// Position of a texture parameter in scene::MaterialInstance::textures.
 size_t textureSlot(shader::MaterialPackage const& package, shader::Parameter const& parameter);

@@ -107,16 +107,12 @@ struct BoneBounds {
     float3 min{ 3e38f }, max{ -3e38f };
 };
 
-enum class IndexFormat : uint8_t { UInt16, UInt32 };
-
 struct IndexBufferDesc {
     uint32_t indexCount = 0; ///< > 0
     IndexFormat format = IndexFormat::UInt16;
     std::span<const std::byte> data{};
     std::string name{};
 };
-
-enum class PrimitiveType : uint8_t { Triangles, TriangleStrip, Lines, LineStrip, Points };
 
 /// Value of a constant ("constants" in the .mat file), fixed when the material is loaded.
 struct MaterialConstant {

@@ -119,7 +119,7 @@ void main() {
 Setup setUpPoints(Gpu& gpu, uint32_t width) {
     return setUp(gpu, width, 1, [&](PipelineDesc& desc) {
         desc.program = gpu.program(kPointVertex, kColorFragment).handle;
-        desc.raster.topology = Topology::Points;
+        desc.raster.topology = PrimitiveType::Points;
     });
 }
 
@@ -147,9 +147,9 @@ DRIVER_TEST(Draw, IndicesOfBothWidthsSelectVerticesFromFirstIndexAndVertexOffset
     const BufferHandle narrow = gpu.buffer(BufferUsage::Index, std::vector<uint16_t>{ 9, 9, 0, 3, 1 });
     const BufferHandle wide = gpu.buffer(BufferUsage::Index, std::vector<uint32_t>{ 9, 5, 7 });
     beginWith(gpu, setup, vertices);
-    gpu.record(CmdBindIndexBuffer{ .buffer = narrow, .offset = 2, .type = IndexType::UInt16 });
+    gpu.record(CmdBindIndexBuffer{ .buffer = narrow, .offset = 2, .type = IndexFormat::UInt16 });
     gpu.record(CmdDrawIndexed{ .indexCount = 3, .firstIndex = 1 }); // vertices 0, 3, 1
-    gpu.record(CmdBindIndexBuffer{ .buffer = wide, .offset = 4, .type = IndexType::UInt32 });
+    gpu.record(CmdBindIndexBuffer{ .buffer = wide, .offset = 4, .type = IndexFormat::UInt32 });
     gpu.record(CmdDrawIndexed{ .indexCount = 2, .firstIndex = 0, .vertexOffset = -1 }); // vertices 4, 6
     EXPECT_THAT(reds(endAndRead(gpu, setup)), ElementsAre(1, 2, 0, 4, 5, 0, 7, 0));
 }
@@ -173,7 +173,7 @@ struct Instance {
 Setup setUpInstances(Gpu& gpu, uint32_t width) {
     return setUp(gpu, width, 1, [&](PipelineDesc& desc) {
         desc.program = gpu.program(kInstanceVertex, kColorFragment).handle;
-        desc.raster.topology = Topology::Points;
+        desc.raster.topology = PrimitiveType::Points;
         desc.vertices.attributes[0] = { .location = 0, .buffer = 0, .format = VertexFormat::Float4 };
         desc.vertices.attributes[1] = { .location = 1, .buffer = 1, .format = VertexFormat::Float, .offset = 0 };
         desc.vertices.attributes[2] = { .location = 2, .buffer = 1, .format = VertexFormat::Float4, .offset = 4 };
@@ -210,18 +210,18 @@ DRIVER_TEST(Draw, FirstInstanceOffsetsPerInstanceAttributesAndNothingElse) {
 
 DRIVER_TEST(Draw, TopologiesConnectVerticesAsTheirNamesSay) {
     struct Case {
-        Topology topology;
+        PrimitiveType topology;
         std::vector<std::pair<double, double>> points;
         uint32_t expected; ///< pixels covered
     };
     const std::vector<Case> cases{
-        { Topology::Triangles,
+        { PrimitiveType::Triangles,
           { { 0, 0 }, { 4, 0 }, { 0, 4 }, { 4, 4 } },
           6 }, // an incomplete second triangle; no centre ties
-        { Topology::TriangleStrip, { { 0, 0 }, { 4, 0 }, { 0, 4 }, { 4, 4 } }, 16 },
-        { Topology::Lines, { { 0.5, 1.5 }, { 3.5, 1.5 }, { 0.5, 3.5 }, { 3.5, 3.5 } }, 6 },
-        { Topology::LineStrip, { { 0.5, 0.5 }, { 3.5, 0.5 }, { 3.5, 3.5 } }, 6 },
-        { Topology::Points, { { 0.5, 0.5 }, { 2.5, 3.5 } }, 2 },
+        { PrimitiveType::TriangleStrip, { { 0, 0 }, { 4, 0 }, { 0, 4 }, { 4, 4 } }, 16 },
+        { PrimitiveType::Lines, { { 0.5, 1.5 }, { 3.5, 1.5 }, { 0.5, 3.5 }, { 3.5, 3.5 } }, 6 },
+        { PrimitiveType::LineStrip, { { 0.5, 0.5 }, { 3.5, 0.5 }, { 3.5, 3.5 } }, 6 },
+        { PrimitiveType::Points, { { 0.5, 0.5 }, { 2.5, 3.5 } }, 2 },
     };
     for (Case const& one : cases) {
         SCOPED_TRACE(static_cast<int>(one.topology));
@@ -313,7 +313,7 @@ void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, gl_VertexIndex >> 1) *
     const TextureHandle target = gpu.target(Format::RGBA32F, 8, 6);
     const PassDesc pass = passOver({ { target, Format::RGBA32F } }, 8, 6);
     PipelineDesc desc = pipelineFor(program, pass.layout);
-    desc.raster.topology = Topology::TriangleStrip;
+    desc.raster.topology = PrimitiveType::TriangleStrip;
     const PipelineHandle pipeline = gpu.pipeline(desc);
     gpu.record(CmdBeginPass{ pass });
     gpu.record(CmdBindPipeline{ pipeline });

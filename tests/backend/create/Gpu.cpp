@@ -113,7 +113,7 @@ BufferHandle Gpu::buffer(BufferUsage usage, uint64_t size) {
     return handle;
 }
 
-TextureHandle Gpu::texture(TextureDesc desc) {
+TextureHandle Gpu::texture(DeviceTextureDesc desc) {
     const TextureHandle handle = mStream.allocateTexture();
     if (desc.debugName.empty()) desc.debugName = "test texture";
     record(CmdCreateTexture{ handle, desc });

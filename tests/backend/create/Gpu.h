@@ -71,7 +71,7 @@ public:
         update(handle, contents);
         return handle;
     }
-    TextureHandle texture(TextureDesc desc);
+    TextureHandle texture(DeviceTextureDesc desc);
     /// A target that can also be sampled and read back.
     TextureHandle target(Format format, uint32_t width, uint32_t height, uint8_t samples = 1);
     /// A sampled 2D texture of one level.

@@ -98,7 +98,7 @@ DRIVER_TEST(Pass, ResolveAveragesTheCoveredSamplesOfTheStandardPattern) {
             const PassDesc pass = multisamplePass(format, samples, resolved, 4, 1);
             PipelineDesc desc = pipelineFor(gpu.program(kColorVertex, kColorFragment), pass.layout);
             useColorVertices(desc);
-            desc.raster.topology = Topology::TriangleStrip;
+            desc.raster.topology = PrimitiveType::TriangleStrip;
             const PipelineHandle pipeline = gpu.pipeline(desc);
             const auto right = static_cast<float>((1 + edge) / 4 * 2 - 1); // inside of pixel 1
             const Rgba white{ 1, 1, 1, 1 };

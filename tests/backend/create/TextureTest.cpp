@@ -393,7 +393,7 @@ TextureHandle twoDepths(Gpu& gpu) {
 void main() { gl_Position = vec4(vec2(gl_VertexIndex & 1, float(gl_VertexIndex >> 1) * 2.0 - 1.0), 0.75, 1.0); })";
     const Program program = gpu.program(kRightHalf, "#version 450\nvoid main() {}\n");
     PipelineDesc desc = pipelineFor(program, pass.layout);
-    desc.raster.topology = Topology::TriangleStrip;
+    desc.raster.topology = PrimitiveType::TriangleStrip;
     desc.depthStencil = { .depthCompare = CompareOp::Always, .depthWrite = true };
     pass.depth.load = LoadOp::Load;
     const PipelineHandle pipeline = gpu.pipeline(desc);

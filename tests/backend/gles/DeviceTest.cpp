@@ -81,7 +81,7 @@ TEST(GlesDeviceTest, AnExtensionIsFoundByItsWholeName) {
 bool clearsCorrectly(Driver& driver, CollectingSink& sink, uint8_t value, int rounds) {
     CommandBuffer commands;
     const TextureHandle image = TextureHandle::make(0, 1);
-    TextureDesc desc;
+    DeviceTextureDesc desc;
     desc.usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource;
     desc.width = desc.height = 16;
     commands.record(CmdCreateTexture{ image, desc });

@@ -185,7 +185,7 @@ protected:
         PipelineDesc desc;
         desc.program = program(kVertex, kFragment);
         desc.pass = pass.layout;
-        desc.raster = { .topology = Topology::TriangleStrip, .cull = CullMode::None };
+        desc.raster = { .topology = PrimitiveType::TriangleStrip, .cull = CullMode::None };
         desc.vertices.attributes[0] = { 0, 0, VertexFormat::Float2, 0 };
         desc.vertices.attributes[1] = { 1, 1, VertexFormat::Float2, 0 };
         desc.vertices.attributeCount = 2;

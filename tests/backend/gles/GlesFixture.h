@@ -80,7 +80,7 @@ protected:
         commands.reset();
     }
 
-    TextureHandle texture(TextureDesc const& desc) {
+    TextureHandle texture(DeviceTextureDesc const& desc) {
         const TextureHandle handle = textures.allocate();
         commands.record(CmdCreateTexture{ handle, desc });
         return handle;
@@ -90,7 +90,7 @@ protected:
     TextureHandle target(Format format, uint32_t width, uint32_t height) {
         const TextureUsage attachment =
                 hasDepth(format) ? TextureUsage::DepthAttachment : TextureUsage::ColorAttachment;
-        TextureDesc desc;
+        DeviceTextureDesc desc;
         desc.format = format;
         desc.usage = attachment | TextureUsage::TransferSource | TextureUsage::Sampled;
         desc.width = width;

@@ -54,7 +54,7 @@ TEST_F(GlesTest, RowZeroIsWhereClipYIsMinusOne) {
     desc.program = program(kPositionVertex, kRedFragment);
     desc.pass = pass.layout;
     desc.vertices = positions2();
-    desc.raster = { .topology = Topology::TriangleStrip, .cull = CullMode::None };
+    desc.raster = { .topology = PrimitiveType::TriangleStrip, .cull = CullMode::None };
     const PipelineHandle strip = pipeline(desc);
     const BufferHandle corners = buffer<float>({ -1, -1, 1, -1, -1, 0, 1, 0 }, BufferUsage::Vertex);
     commands.record(CmdBeginPass{ pass });
@@ -122,7 +122,7 @@ TEST_F(GlesTest, AProgramThatDoesNotCompileIsNamedAndItsDrawsAreSkipped) {
 }
 
 TEST_F(GlesTest, ATextureThatDoesNotFitIsReportedAndItsPassesAreSkipped) {
-    TextureDesc desc;
+    DeviceTextureDesc desc;
     desc.type = TextureType::Texture2DArray;
     desc.format = Format::RGBA32F;
     desc.usage = TextureUsage::ColorAttachment;

@@ -50,7 +50,7 @@ TEST_F(GlesTest, AMergedPassReadsWhatTheSubpassBeforeWrote) {
 }
 
 TEST_F(GlesTest, AResolvedPixelIsTheMeanOfItsSamples) {
-    TextureDesc desc;
+    DeviceTextureDesc desc;
     desc.format = Format::RGBA8;
     desc.usage = TextureUsage::ColorAttachment | TextureUsage::Transient;
     desc.samples = 4;
@@ -89,7 +89,7 @@ TEST_F(GlesTest, AResolvedPixelIsTheMeanOfItsSamples) {
 }
 
 TEST_F(GlesTest, AnSrgbResolveAveragesLight) {
-    TextureDesc desc;
+    DeviceTextureDesc desc;
     desc.format = Format::RGBA8Srgb;
     desc.usage = TextureUsage::ColorAttachment;
     desc.samples = 4;
@@ -133,7 +133,7 @@ TEST_F(GlesTest, AttachmentsOfOnePassBlendAndMaskEachOnItsOwn) {
 }
 
 TEST_F(GlesTest, LayersAndLevelsAreSeparateAttachments) {
-    TextureDesc desc;
+    DeviceTextureDesc desc;
     desc.type = TextureType::Cube;
     desc.usage = TextureUsage::ColorAttachment | TextureUsage::TransferSource;
     desc.layers = 6;
@@ -157,7 +157,7 @@ TEST_F(GlesTest, LayersAndLevelsAreSeparateAttachments) {
 }
 
 TEST_F(GlesTest, ASetOfAttachmentsThatTheDriverRefusesIsSkippedAndNamed) {
-    TextureDesc desc;
+    DeviceTextureDesc desc;
     desc.usage = TextureUsage::ColorAttachment;
     desc.samples = 4;
     PassDesc pass = colorPass(texture(desc), Format::RGBA8, 1, 1);

@@ -11,8 +11,8 @@ namespace {
 
 using Rgba = std::array<uint8_t, 4>;
 
-TextureDesc copyable(Format format, uint32_t width, uint32_t height, uint8_t levels = 1) {
-    TextureDesc desc;
+DeviceTextureDesc copyable(Format format, uint32_t width, uint32_t height, uint8_t levels = 1) {
+    DeviceTextureDesc desc;
     desc.format = format;
     desc.usage = TextureUsage::Sampled | TextureUsage::TransferTarget | TextureUsage::TransferSource;
     desc.width = width;
@@ -46,7 +46,7 @@ INSTANTIATE_TEST_SUITE_P(Renderable, FormatTest,
                          [](auto const& tested) { return std::string(formatInfo(tested.param).name); });
 
 TEST_F(GlesTest, AnUploadReplacesItsRectangleOfItsLayersOnly) {
-    TextureDesc desc = copyable(Format::R8, 4, 2);
+    DeviceTextureDesc desc = copyable(Format::R8, 4, 2);
     desc.type = TextureType::Texture2DArray;
     desc.layers = 3;
     const TextureHandle image = texture(desc);
@@ -65,7 +65,7 @@ class DepthReadTest : public GlesTest, public testing::WithParamInterface<Format
 TEST_P(DepthReadTest, DepthReadsAsFloatsWithAndWithoutTheExtension) {
     for (QuirkFilter filter : { QuirkFilter{}, QuirkFilter{ [](Quirks& quirks) { quirks.readDepth = false; } } }) {
         start(filter);
-        TextureDesc desc = copyable(GetParam(), 2, 2);
+        DeviceTextureDesc desc = copyable(GetParam(), 2, 2);
         desc.type = TextureType::Texture2DArray;
         desc.usage = TextureUsage::DepthAttachment | TextureUsage::TransferSource;
         desc.layers = 2;
@@ -116,7 +116,7 @@ TEST_F(GlesTest, AnSrgbMipLevelAveragesLight) {
 }
 
 TEST_F(GlesTest, EveryLayerGetsItsOwnMipLevels) {
-    TextureDesc desc = copyable(Format::R32F, 2, 2, 2);
+    DeviceTextureDesc desc = copyable(Format::R32F, 2, 2, 2);
     desc.type = TextureType::Cube;
     desc.layers = 6;
     const TextureHandle cube = texture(desc);
@@ -148,7 +148,7 @@ TEST_F(GlesTest, ACompressedTextureSamplesItsBlocks) {
     ASSERT_TRUE(driver->info().features.blockCompression);
     // BC1: both end points pure red (5:6:5), every index 0.
     const std::vector<uint8_t> block{ 0x00, 0xF8, 0x00, 0xF8, 0, 0, 0, 0 };
-    TextureDesc desc;
+    DeviceTextureDesc desc;
     desc.format = Format::BC1;
     desc.usage = TextureUsage::Sampled | TextureUsage::TransferTarget;
     desc.width = desc.height = 4;

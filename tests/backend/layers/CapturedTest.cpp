@@ -30,7 +30,7 @@ public:
 
     uint32_t draws = 0;
     std::vector<TextureHandle> reads;
-    std::vector<TextureDesc> textures;
+    std::vector<DeviceTextureDesc> textures;
     std::vector<PipelineDesc> pipelines;
     StoreOp depthStore = StoreOp::Discard;
 
@@ -146,7 +146,7 @@ TEST_F(CapturedLayer, LeavesOutTheDrawsBeyondTheLimitAndStillNamesThem) {
 
 TEST_F(CapturedLayer, MakesAttachmentsReadable) {
     open();
-    for (TextureDesc const& desc : witness->textures) {
+    for (DeviceTextureDesc const& desc : witness->textures) {
         EXPECT_TRUE(has(desc.usage, TextureUsage::TransferSource)) << desc.debugName;
         EXPECT_FALSE(has(desc.usage, TextureUsage::Transient)) << desc.debugName;
     }

@@ -150,7 +150,7 @@ inline void recordBindings(CommandBuffer& to) {
     to.record(CmdBindPipeline{ kPipeline });
     to.record(CmdBindGroup{ .group = kGroup, .index = 1, .dynamicCount = 1, .dynamicOffsets = { kAlign } });
     to.record(CmdBindVertexBuffers{ .buffers = { kVertices, kVertices }, .offsets = { 0, 120 }, .count = 2 });
-    to.record(CmdBindIndexBuffer{ .buffer = kIndices, .offset = 0, .type = IndexType::UInt16 });
+    to.record(CmdBindIndexBuffer{ .buffer = kIndices, .offset = 0, .type = IndexFormat::UInt16 });
 }
 
 inline void recordContents(CommandBuffer& to) {

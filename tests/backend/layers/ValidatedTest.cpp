@@ -124,7 +124,7 @@ void inPass(CommandBuffer& to, std::function<void(CommandBuffer&)> const& draw, 
     to.record(CmdEndPass{});
 }
 
-CmdCreateTexture textureWith(std::function<void(TextureDesc&)> const& change) {
+CmdCreateTexture textureWith(std::function<void(DeviceTextureDesc&)> const& change) {
     CmdCreateTexture command{ TextureHandle::make(20, 1), { .width = 8, .height = 8 } };
     change(command.desc);
     return command;

@@ -209,7 +209,7 @@ TEST_F(DriverTest, FirstInstanceOffsetsPerInstanceAttributesAndVertexOffsetTheIn
     beginPass(target, 1, 1);
     commands.record(CmdBindPipeline{ pipeline });
     commands.record(CmdBindVertexBuffers{ .buffers = { corners, tints }, .count = 2 });
-    commands.record(CmdBindIndexBuffer{ .buffer = indices, .type = IndexType::UInt32 });
+    commands.record(CmdBindIndexBuffer{ .buffer = indices, .type = IndexFormat::UInt32 });
     commands.record(CmdDrawIndexed{ .indexCount = 3, .firstIndex = 1, .vertexOffset = 2, .firstInstance = 2 });
     endPass();
     EXPECT_EQ(readPixels(target, 1, 1)[0], (Rgba8{ 10, 20, 30, 40 }));

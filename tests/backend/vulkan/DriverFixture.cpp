@@ -10,7 +10,7 @@ BufferHandle DriverTest::makeBuffer(BufferUsage usage, std::span<const std::byte
     return buffer;
 }
 
-TextureHandle DriverTest::makeTexture(TextureDesc const& desc) {
+TextureHandle DriverTest::makeTexture(DeviceTextureDesc const& desc) {
     const auto texture = handle<TextureHandle>();
     commands.record(CmdCreateTexture{ texture, desc });
     return texture;

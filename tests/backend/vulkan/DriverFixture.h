@@ -82,7 +82,7 @@ protected:
     BufferHandle makeBuffer(BufferUsage usage, std::vector<T> const& values) {
         return makeBuffer(usage, std::as_bytes(std::span(values)));
     }
-    TextureHandle makeTexture(TextureDesc const& desc);
+    TextureHandle makeTexture(DeviceTextureDesc const& desc);
     /// A renderable, readable, sampled 2D texture.
     TextureHandle makeTarget(uint32_t width, uint32_t height, Format format = Format::RGBA8);
     ProgramHandle makeProgram(std::string const& vertex, std::string const& fragment, ProgramLayout const& layout = {},

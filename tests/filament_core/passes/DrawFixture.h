@@ -101,7 +101,7 @@ private:
                  .layout = layouts.intern(layout),
                  .firstIndex = number * 10,
                  .indexCount = 3 + number,
-                 .indexType = number % 5 ? backend::IndexType::UInt16 : backend::IndexType::UInt32 };
+                 .indexFormat = number % 5 ? backend::IndexFormat::UInt16 : backend::IndexFormat::UInt32 };
     }
 
     backend::BufferHandle lastVertices, lastIndices;

@@ -56,7 +56,7 @@ void expectDraw(DrawFixture const& fixture, DrawCall const& wanted, PipelineHand
     EXPECT_EQ(state.vertices.buffers[1], fixture.context.instanceIds);
     EXPECT_EQ(state.vertices.count, 2);
     EXPECT_EQ(state.indices.buffer, wanted.geometry->indices);
-    EXPECT_EQ(state.indices.type, wanted.geometry->indexType);
+    EXPECT_EQ(state.indices.type, wanted.geometry->indexFormat);
     EXPECT_EQ(draw.indexCount, wanted.geometry->indexCount);
     EXPECT_EQ(draw.firstIndex, wanted.geometry->firstIndex);
     EXPECT_EQ(draw.firstInstance, wanted.firstObject % 256);

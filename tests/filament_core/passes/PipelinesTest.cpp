@@ -173,7 +173,7 @@ TEST(PipelineCache, EveryRasterStateOfAnInstanceHasAPipelineOfItsOwn) {
     PassSlot slot{ .layout = { .depthFormat = Format::D32F } };
     slot.layout.subpasses[0].usesDepth = true;
     fixture.slot = fixture.pipelines->slot(slot);
-    std::vector<scene::RasterState> states;
+    std::vector<scene::InstanceRaster> states;
     for (const shader::Culling culling :
          { shader::Culling::None, shader::Culling::Front, shader::Culling::Back, shader::Culling::FrontAndBack }) {
         for (uint32_t flags = 0; flags < 16; ++flags)

@@ -28,7 +28,7 @@ TEST_F(DrawablesTest, GivesEqualPairsOneNumberAndDifferentPairsDifferentOnes) {
     EXPECT_NE(drawables.acquire({ mesh(2), &a }), first);
     EXPECT_NE(drawables.acquire({ mesh(1), &b }), first);
     Geometry wide = mesh(1);
-    wide.indexType = backend::IndexType::UInt32;
+    wide.indexFormat = backend::IndexFormat::UInt32;
     EXPECT_NE(drawables.acquire({ wide, &a }), first);
     EXPECT_EQ(drawables.count(), 4u);
     EXPECT_EQ(drawables.use(first).users, 2u);

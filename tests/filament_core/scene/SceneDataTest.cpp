@@ -96,11 +96,11 @@ TEST_F(SceneDataTest, BoundsCoverEveryRenderable) {
 TEST(GeometryLayouts, GivesEqualLayoutsTheSameIndex) {
     GeometryLayouts layouts;
     GeometryLayout a, b;
-    b.topology = backend::Topology::Lines;
+    b.topology = backend::PrimitiveType::Lines;
     const uint32_t first = layouts.intern(a);
     EXPECT_NE(layouts.intern(b), first);
     EXPECT_EQ(layouts.intern(a), first);
-    EXPECT_EQ(layouts[layouts.intern(b)].topology, backend::Topology::Lines);
+    EXPECT_EQ(layouts[layouts.intern(b)].topology, backend::PrimitiveType::Lines);
 }
 
 } // namespace

@@ -222,7 +222,7 @@ TEST(Geometry, ReadsEveryFormatThatTheLoaderPacks) {
     EXPECT_EQ(decodeAttribute(primitive, 3)[0], float4(1, 0.2f, 0, 1)) << "missing components are 0, 0, 0, 1";
     EXPECT_EQ(decodeAttribute(primitive, 4)[0], float4(1, -1, -64 / 127.0f, 0));
     EXPECT_TRUE(decodeAttribute(primitive, 1).empty());
-    primitive.indexType = backend::IndexType::UInt16;
+    primitive.indexFormat = backend::IndexFormat::UInt16;
     primitive.indexCount = 2;
     primitive.indices = { std::byte{ 1 }, std::byte{ 2 }, std::byte{ 3 }, std::byte{ 0 } };
     EXPECT_EQ(decodeIndices(primitive), (std::vector<uint32_t>{ 0x201, 3 }));

@@ -303,7 +303,7 @@ TEST(Render, RefusesWhatItCannotDoInOneLine) {
 TEST(Render, LinesAndPointsAreNamedAndLeftOut) {
     auto model = makeModel(floorPrimitive(), lambert(0.5f));
     model->meshes[0].primitives.push_back(model->meshes[0].primitives[0]);
-    model->meshes[0].primitives[1].topology = backend::Topology::Lines;
+    model->meshes[0].primitives[1].topology = backend::PrimitiveType::Lines;
     jobs::JobSystem jobs({ .workers = 0 });
     const auto traced = prepare({ .models = { { model } } }, jobs);
     ASSERT_TRUE(traced.ok());

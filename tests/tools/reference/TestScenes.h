@@ -45,7 +45,7 @@ inline assets::PrimitiveData makePrimitive(std::span<const TestVertex> vertices,
     primitive.layout.bufferCount = 1;
     primitive.vertexCount = static_cast<uint32_t>(vertices.size());
     primitive.indexCount = static_cast<uint32_t>(indices.size());
-    primitive.indexType = backend::IndexType::UInt32;
+    primitive.indexFormat = backend::IndexFormat::UInt32;
     primitive.hasTangents = primitive.hasUv0 = true;
     primitive.material = 0;
     primitive.boundsMin = primitive.boundsMax = vertices[0].position;

@@ -74,7 +74,7 @@ inline const char* brokenPromise(ModelData const& model, MaterialData const& m) 
 }
 
 inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p) {
-    const size_t indexBytes = p.indexType == backend::IndexType::UInt16 ? 2 : 4;
+    const size_t indexBytes = p.indexFormat == backend::IndexFormat::UInt16 ? 2 : 4;
     if (p.vertexCount == 0 || p.indexCount == 0) return "empty primitive";
     if (p.vertices.size() != size_t{ p.vertexCount } * p.layout.buffers[0].stride) return "vertex bytes";
     if (p.indices.size() != p.indexCount * indexBytes) return "index bytes";
@@ -89,7 +89,8 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
         std::memcpy(&index, &p.indices[i * indexBytes], indexBytes);
         if (index >= p.vertexCount) return "vertex index";
     }
-    if (p.topology == backend::Topology::Triangles && (p.indexCount % 3 != 0 || !p.hasTangents)) return "triangles";
+    if (p.topology == backend::PrimitiveType::Triangles && (p.indexCount % 3 != 0 || !p.hasTangents))
+        return "triangles";
     if (p.material != kNone && p.material >= model.materials.size()) return "material index";
     for (VariantMaterial const& variant : p.variants) {
         if (variant.variant >= model.variants.size() || variant.material >= model.materials.size()) return "variant";

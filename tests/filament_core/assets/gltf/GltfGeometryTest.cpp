@@ -10,8 +10,8 @@
 namespace filament::assets::test {
 namespace {
 
-using backend::IndexType;
-using backend::Topology;
+using backend::IndexFormat;
+using backend::PrimitiveType;
 using backend::VertexFormat;
 using testing::ElementsAre;
 using testing::HasSubstr;
@@ -27,7 +27,7 @@ TestFile fourPoints(int mode) {
 
 TEST(GltfGeometry, StripsKeepTheWindingOfTheirFirstTriangle) {
     const PrimitiveData primitive = onlyPrimitive(fourPoints(5));
-    EXPECT_EQ(primitive.topology, Topology::Triangles);
+    EXPECT_EQ(primitive.topology, PrimitiveType::Triangles);
     EXPECT_THAT(cornersOf(primitive), ElementsAre(kA, kB, kC, kB, kD, kC)); // specification, section 3.7.2.1
 }
 
@@ -37,7 +37,7 @@ TEST(GltfGeometry, FansTurnAboutTheirFirstVertex) {
 
 TEST(GltfGeometry, LoopsCloseAndLineStripsDoNot) {
     const PrimitiveData loop = onlyPrimitive(fourPoints(2)), strip = onlyPrimitive(fourPoints(3));
-    EXPECT_EQ(loop.topology, Topology::Lines);
+    EXPECT_EQ(loop.topology, PrimitiveType::Lines);
     EXPECT_THAT(cornersOf(loop), ElementsAre(kA, kB, kB, kC, kC, kD, kD, kA));
     EXPECT_THAT(cornersOf(strip), ElementsAre(kA, kB, kB, kC, kC, kD));
 }
@@ -74,7 +74,7 @@ TEST(GltfGeometry, PointsHaveNoTangentFrameUnlessTheFileGivesNormals) {
     file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1 });
     const PrimitiveData primitive = onlyPrimitive(file);
     EXPECT_TRUE(primitive.hasTangents);
-    EXPECT_EQ(primitive.topology, Topology::Points);
+    EXPECT_EQ(primitive.topology, PrimitiveType::Points);
     EXPECT_EQ(primitive.indexCount, 4u);
 }
 
@@ -129,7 +129,7 @@ TEST(GltfGeometry, MoreThan65535VerticesNeedWideIndices) {
         file.positions(positions);
         file.primitive()["mode"] = 0;
         const PrimitiveData primitive = onlyPrimitive(file);
-        EXPECT_EQ(primitive.indexType, count < 65536 ? IndexType::UInt16 : IndexType::UInt32);
+        EXPECT_EQ(primitive.indexFormat, count < 65536 ? IndexFormat::UInt16 : IndexFormat::UInt32);
         EXPECT_EQ(indicesOf(primitive).back(), count - 1);
     }
 }

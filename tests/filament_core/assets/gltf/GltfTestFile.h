@@ -183,7 +183,7 @@ inline std::vector<uint32_t> indicesOf(PrimitiveData const& primitive) {
     std::vector<uint32_t> indices(primitive.indexCount);
     for (size_t i = 0; i < indices.size(); ++i) {
         uint16_t narrow = 0;
-        if (primitive.indexType == backend::IndexType::UInt16) {
+        if (primitive.indexFormat == backend::IndexFormat::UInt16) {
             std::memcpy(&narrow, &primitive.indices[i * 2], 2);
             indices[i] = narrow;
         } else {

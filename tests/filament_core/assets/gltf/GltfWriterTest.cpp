@@ -175,7 +175,7 @@ TEST(GltfWriter, ManyVerticesGetWideIndices) {
     scene.meshes = { { "large", { primitive } } };
     scene.nodes = { { .name = "n", .mesh = 0 } };
     const ModelData model = roundTrip(scene);
-    EXPECT_EQ(model.meshes.at(0).primitives.at(0).indexType, backend::IndexType::UInt32);
+    EXPECT_EQ(model.meshes.at(0).primitives.at(0).indexFormat, backend::IndexFormat::UInt32);
     EXPECT_EQ(cornersOf(model.meshes[0].primitives[0])[0].x, 69'999.0f);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ObjectTable: the objects of one type behind their handles. Addresses are stable.
+/// HandleTable: the objects of one type behind their handles. Addresses are stable.
 ///   Thread  the app thread.
 ///   Fails   add(): std::bad_alloc, and the table is as before.
 ///           a handle that was destroyed or never made asserts, naming the type.
@@ -16,7 +16,7 @@
 namespace filament::engine {
 
 template <class Tag, class State>
-class ObjectTable {
+class HandleTable {
 public:
     template <class... Args>
     Handle<Tag> add(Args&&... args) {
@@ -34,7 +34,7 @@ public:
         FILAMENT_ASSERT(mHandles.isLive(handle), "a handle is used only between create() and destroy()");
         return *mStates[handle.index()];
     }
-    State const& get(Handle<Tag> handle) const { return const_cast<ObjectTable*>(this)->get(handle); }
+    State const& get(Handle<Tag> handle) const { return const_cast<HandleTable*>(this)->get(handle); }
 
     void remove(Handle<Tag> handle) {
         get(handle);
@@ -75,7 +75,7 @@ private:
 template <class Tag, class State>
 class Draft {
 public:
-    explicit Draft(ObjectTable<Tag, State>& table) : mTable(table), mHandle(table.add()) {}
+    explicit Draft(HandleTable<Tag, State>& table) : mTable(table), mHandle(table.add()) {}
     ~Draft() {
         if (mHandle) mTable.remove(mHandle);
     }
@@ -87,7 +87,7 @@ public:
     Handle<Tag> keep() { return std::exchange(mHandle, {}); }
 
 private:
-    ObjectTable<Tag, State>& mTable;
+    HandleTable<Tag, State>& mTable;
     Handle<Tag> mHandle;
 };
 
