@@ -2,50 +2,95 @@
 #include <filament/Renderer.h>
 
 #include "backend/stream/RecordingGuards.h"
-#include "base/OutOfMemory.h"
+#include "filament_core/base/OutOfMemory.h"
+#include "filament_core/engine/FrameResourceCache.h"
 #include "filament_core/engine/FrameSummary.h"
 #include "filament_core/engine/FrameTimingLog.h"
+#include "filament_core/engine/ImageTarget.h"
 #include "filament_core/engine/PixelReads.h"
 #include "filament_core/engine/SceneImpl.h"
-#include "filament_core/passes/ColorPass.h"
-#include "filament_core/passes/ToneMapPass.h"
+#include "filament_core/passes/Frame.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
 #include <array>
-#include <map>
-#include <tuple>
 #include <utility>
 
 namespace filament {
 namespace {
 
 using namespace backend;
-using framegraph::CompiledGraph;
-using framegraph::FrameGraph;
-using framegraph::TextureId;
 using passes::FrameContext;
+using passes::FrameOutput;
+using passes::PipelineSource;
 
-constexpr Sampler kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
-constexpr Sampler kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
-constexpr Sampler kNearest{};
+prepare::ViewInput inputOf(View const& view) {
+    return { .camera = view.camera, .size = view.size, .timeSeconds = view.timeSeconds, .quality = view.quality };
+}
 
-uint32_t toneTableSize(ToneMapping mapping) {
-    return mapping == ToneMapping::Table16 ? 16 : mapping == ToneMapping::Table32 ? 32 : 64;
+FrameOutput outputOf(engine::TextureState const& target) {
+    return { target.handle, target.desc.width, target.desc.height, target.desc.format };
 }
 
 } // namespace
 
 struct Renderer::Impl {
     Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
-            : engine(owner), options(rendererOptions), data(*owner.stream), graph(arena), transients(*owner.stream),
-              ranges(owner.jobs), timings(owner), pixels(owner) {}
+            : engine(owner), options(rendererOptions), resources(owner), data(*owner.stream), graph(arena),
+              transients(*owner.stream), ranges(owner.jobs), timings(owner), pixels(owner), imageTarget(owner) {}
 
     ~Impl() {
         data.destroy(engine.pending);
         transients.destroyAll(engine.pending);
-        if (imageTarget) engine.destroy(imageTarget);
+    }
+
+    // ------------------------------------------------------------------------------------------ a frame
+
+    /// Everything of a frame but its commands; of frames that are drawn and of those that are only expected.
+    FrameContext& planFrame(Scene const& scene, View const& view, FrameOutput const& output, PipelineSource pipelines) {
+        arena.reset();
+        graph.reset();
+        plan = {};
+        const std::array views{ inputOf(view) };
+        const prepare::FramePacket packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views);
+        FrameContext& context = *passes::makeFrameContext(
+                arena, packet, resources.find(view, packet.environment, pipelines, !output.isSceneLinear()), view);
+        passes::describeFrame(graph, context, output);
+        plan = compile(graph, transients);
+        return context;
+    }
+
+    /// Submits when it returns.
+    void recordFrame(FrameContext& context, TextureFilter filter) {
+        FrameCommands commands(*engine.stream); // waits when two frames ahead
+        stamps.acquired = clock();
+        commands->record(CmdBeginFrame{ ++frame });
+        const InReserve<CmdEndFrame> end{ *commands, { frame } };
+        engine.useTextureFilter(filter);
+        engine.drainPending(*commands);
+        engine.recordCompilations(*commands);
+        data.upload(engine.jobs, *commands, context.packet, context.resources.viewTextures);
+        context.views = data.views();
+        context.postGroup = data.postGroup();
+        context.deformations = data.deformations();
+        framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
+    }
+
+    /// The six lines of docs/architecture.md, with their measurements.
+    void drawFrame(Scene const& scene, View const& view, FrameOutput const& output) {
+        const jobs::AdoptedThread seat(engine.jobs); // the app thread works along
+        timers.clear();
+        stamps = { .begin = clock() };
+        const uint64_t busyBefore = engine.jobs.busyNanoseconds();
+        FrameContext& context = planFrame(scene, view, output, PipelineSource(engine.pipelines));
+        stamps.prepared = clock();
+        if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
+        recordFrame(context, view.quality.textureFilter);
+        stamps.recorded = clock();
+        stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
+        timings.add(frame, stamps, timers);
+        summary = engine::summarize(frame, context.packet, plan);
     }
 
     /// An error: the frame was left out, for lack of memory or of a target. What it made on the way serves the next
@@ -54,7 +99,7 @@ struct Renderer::Impl {
         if (!target.handle) return engine::noImage(target.desc.width, target.desc.height);
         try {
             engine.compilations.collect(engine.stream->replayedSubmissions());
-            renderFrame(scene, view, target);
+            drawFrame(scene, view, outputOf(target));
             return {};
         } catch (std::bad_alloc const&) {
             plan = {};
@@ -62,170 +107,6 @@ struct Renderer::Impl {
             engine.report(error.message);
             return error;
         }
-    }
-
-    /// The six-line frame of docs/architecture.md, with its measurements.
-    void renderFrame(Scene const& scene, View const& view, engine::TextureState const& target) {
-        const jobs::AdoptedThread seat(engine.jobs); // the app thread works along
-        arena.reset();
-        graph.reset();
-        plan = {};
-        timers.clear();
-        engine::FrameTimingLog::Stamps stamps{ .begin = clock() };
-        const uint64_t busyBefore = engine.jobs.busyNanoseconds();
-        FrameContext* context = arena.make<FrameContext>();
-        context->packet = prepareScene(scene, view);
-        stamps.prepared = clock();
-        if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context->packet);
-
-        const uint32_t tableSize = view.quality.dfgTableSize;
-        engine.dfgTable(tableSize); // made before the frame, if this is the first that wants it
-        const TextureHandle toneTable = toneTableOf(view);
-        {
-            FrameCommands commands(*engine.stream); // waits when two frames ahead; submits at the end of this block
-            stamps.acquired = clock();
-            commands->record(CmdBeginFrame{ ++frame });
-            const InReserve<CmdEndFrame> end{ *commands, { frame } };
-            engine.useTextureFilter(view.quality.textureFilter);
-            engine.drainPending(*commands);
-            engine.recordCompilations(*commands);
-            upload(*commands, *context, tableSize);
-            describe(*context, view, target, toneTable);
-            plan = compile(graph, transients);
-            framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
-        }
-
-        stamps.recorded = clock();
-        stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
-        timings.add(frame, stamps, timers);
-        summary = engine::summarize(frame, context->packet, plan);
-    }
-
-    prepare::FramePacket prepareScene(Scene const& scene, View const& view) {
-        const std::array views{ prepare::ViewInput{
-                .camera = view.camera, .size = view.size, .timeSeconds = view.timeSeconds, .quality = view.quality } };
-        return prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views);
-    }
-
-    void upload(CommandBuffer& commands, FrameContext& context, uint32_t tableSize) {
-        const auto sampler = [&](Sampler const& wanted) { return engine.samplers.get(wanted, commands); };
-        prepare::EnvironmentPacket const& environment = context.packet.environment;
-        const TextureHandle black = engine.textureHandle(engine.defaults.blackCube);
-        data.upload(engine.jobs, commands, context.packet,
-                    { .specular = environment.specular ? environment.specular : black,
-                      .dfg = engine.textureHandle(engine.dfgTable(tableSize)),
-                      .sky = environment.sky ? environment.sky : black,
-                      .irradiance = environment.irradiance ? environment.irradiance : black,
-                      .trilinear = sampler(kTrilinear),
-                      .bilinear = sampler(kBilinear) });
-        context.views = data.views();
-        context.postGroup = data.postGroup();
-        context.deformations = data.deformations();
-        context.instanceIds = engine.defaults.instanceIds;
-        context.nearestSampler = sampler(kNearest);
-    }
-
-    /// The passes of such a frame, as slots of the pipeline cache, and their own pipelines as wishes.
-    void expect(Scene const& scene, View const& view, engine::TextureState const& target) {
-        const jobs::AdoptedThread seat(engine.jobs);
-        arena.reset();
-        graph.reset();
-        plan = {};
-        FrameContext* context = arena.make<FrameContext>();
-        context->packet = prepareScene(scene, view);
-        const TextureHandle toneTable = toneTableOf(view);
-        const FramePasses passes = describe(*context, view, target, toneTable);
-        plan = compile(graph, transients);
-        const uint32_t colorSlot = engine.pipelines.slot(
-                passes::slotOf(context->settings, plan.passLayout(passes.color), plan.subpass(passes.color)));
-        if (context->skybox) wishForPicture(*context->skybox, colorSlot);
-        if (passes.toneMap) {
-            const bool isMerged = plan.passes[passes.toneMap.index()].merge == framegraph::Merge::Merged;
-            const passes::ToneMapMaterials materials = toneMapMaterials(view.colorGrading, toneTable);
-            wishForPicture(isMerged ? *materials.merged : *materials.sampled,
-                           engine.pipelines.slot(passes::fullScreenSlot(plan.passLayout(passes.toneMap),
-                                                                        plan.subpass(passes.toneMap))));
-        }
-        plan = {};
-    }
-
-    void wishForPicture(scene::Material& material, uint32_t slot) {
-        engine.compilations.add({ .material = &material, .wishes = { { .slot = slot, .isFullScreen = true } } },
-                                CompilePriority::Critical);
-    }
-
-    void tryExpect(Scene const& scene, View const& view, engine::TextureState const& target) {
-        try {
-            expect(scene, view, target);
-        } catch (std::bad_alloc const&) {
-            plan = {};
-            engine.reportOutOfMemory("expecting a frame");
-        }
-    }
-
-    struct FramePasses {
-        framegraph::PassId color, toneMap; ///< toneMap: none for scene-linear targets
-    };
-
-    /// Which passes the frame has. A scene-linear target takes the colour pass as it is.
-    FramePasses describe(FrameContext& context, View const& view, engine::TextureState const& target,
-                         TextureHandle toneTable) {
-        FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
-        const bool halfIsThere = engine.stream->info().features.halfFloatShaders;
-        context.settings = { view.size,
-                             view.samples,
-                             view.clearColor,
-                             passes::shadingKey(view.quality, context.packet.environment.storage),
-                             view.quality.depthRange,
-                             halfIsThere ? view.quality.shadingPrecision : ShadingPrecision::Full };
-        context.arena = &arena;
-        context.pipelines = &engine.pipelines;
-        if (context.packet.environment.sky)
-            context.skybox = &engine.materials.get(
-                    engine.engineMaterial("skybox", { { "isRgbm", context.packet.environment.skyIsRgbm } }));
-
-        const TextureId output = graph.importTexture(target.handle,
-                                                     { .width = target.desc.width,
-                                                       .height = target.desc.height,
-                                                       .format = target.desc.format,
-                                                       .name = "output" },
-                                                     framegraph::InitialContents::Undefined);
-        if (target.desc.format == Format::RGBA16F) {
-            return { passes::addColorPass(graph, &context, output), {} };
-        }
-        const TextureId color = graph.createTexture(
-                { .width = view.size.x, .height = view.size.y, .format = Format::RGBA16F, .name = "color" });
-        const framegraph::PassId colorPass = passes::addColorPass(graph, &context, color);
-        return { colorPass, passes::addToneMapPass(graph, &context, toneMapMaterials(view.colorGrading, toneTable),
-                                                   color, output) };
-    }
-
-    TextureHandle toneTableOf(View const& view) {
-        const ToneMapping mapping = view.quality.toneMapping;
-        if (mapping == ToneMapping::Analytic) return {};
-        return engine.textureHandle(engine.toneTable(view.colorGrading.toneMapper, toneTableSize(mapping)));
-    }
-
-    /// `table`: none for the formula.
-    passes::ToneMapMaterials toneMapMaterials(ColorGrading grading, TextureHandle table) {
-        const auto entry = toneMaps.try_emplace({ grading.toneMapper, grading.dither, static_cast<bool>(table) }).first;
-        if (!entry->second.merged || !entry->second.sampled) {
-            std::vector<MaterialConstant> constants{ { "dither", grading.dither } };
-            if (!table) constants.push_back({ "toneMapper", static_cast<int32_t>(grading.toneMapper) });
-            const char* const merged = table ? "tonemap_table" : "tonemap";
-            const char* const sampled = table ? "tonemap_table_sampled" : "tonemap_sampled";
-            entry->second.merged = &engine.materials.get(engine.engineMaterial(merged, constants));
-            entry->second.sampled = &engine.materials.get(engine.engineMaterial(sampled, constants));
-        }
-        entry->second.table = table;
-        return entry->second;
-    }
-
-    SwapChain imageTargetOf(uint2 size) {
-        if (imageTarget && engine.swapChains.get(imageTarget).size == size) return imageTarget;
-        if (imageTarget) engine.destroy(std::exchange(imageTarget, {}));
-        imageTarget = engine.createSwapChain({ .size = size, .imageCount = 1, .name = "renderToImage" });
-        return imageTarget;
     }
 
     /// The next image becomes the current one when it is drawn.
@@ -236,21 +117,42 @@ struct Renderer::Impl {
         return drawn;
     }
 
+    // ------------------------------------------------------------------------------------------ without drawing it
+
+    /// The passes of such a frame become slots of the pipeline cache, their own pipelines wishes.
+    void expect(Scene const& scene, View const& view, engine::TextureState const& target) {
+        try {
+            const jobs::AdoptedThread seat(engine.jobs);
+            std::vector<passes::FullScreenWish> wishes;
+            planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines, &wishes));
+            framegraph::rehearse(plan);
+            for (passes::FullScreenWish const& wish : wishes) {
+                engine.compilations.add(
+                        { .material = wish.material, .wishes = { { .slot = wish.slot, .isFullScreen = true } } },
+                        CompilePriority::Critical);
+            }
+        } catch (std::bad_alloc const&) {
+            engine.reportOutOfMemory("expecting a frame");
+        }
+        plan = {};
+    }
+
     static engine::FrameTimingLog::TimePoint clock() { return std::chrono::steady_clock::now(); }
 
     Engine::Impl& engine;
     RendererOptions options;
+    engine::FrameResourceCache resources;
     Arena arena;
     passes::FrameData data;
-    FrameGraph graph;
+    framegraph::FrameGraph graph;
     framegraph::TransientPool transients;
     framegraph::RangeRecorder ranges;
-    CompiledGraph plan;
+    framegraph::CompiledGraph plan;
     std::vector<framegraph::PassTimer> timers;
+    engine::FrameTimingLog::Stamps stamps; ///< of the frame that is made now
     engine::FrameTimingLog timings;
-    std::map<std::tuple<ToneMapper, bool, bool>, passes::ToneMapMaterials> toneMaps; ///< mapper, dither, from a table
     engine::PixelReads pixels;
-    SwapChain imageTarget;
+    engine::ImageTarget imageTarget;
     uint64_t frame = 0;
     engine::FrameSummary summary;
 };
@@ -274,11 +176,11 @@ void Renderer::render(Scene const& scene, View const& view, RenderTarget target)
 
 void Renderer::expect(Scene const& scene, View const& view, SwapChain swapChain) {
     engine::SwapChainState const& state = mImpl->engine.swapChains.get(swapChain);
-    mImpl->tryExpect(scene, view, mImpl->engine.textures.get(state.images[state.current]));
+    mImpl->expect(scene, view, mImpl->engine.textures.get(state.images[state.current]));
 }
 
 void Renderer::expect(Scene const& scene, View const& view, RenderTarget target) {
-    mImpl->tryExpect(scene, view, mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color));
+    mImpl->expect(scene, view, mImpl->engine.textures.get(mImpl->engine.renderTargets.get(target).color));
 }
 
 PixelTicket Renderer::readPixels(SwapChain swapChain) {
@@ -295,7 +197,7 @@ Result<Image> Renderer::waitPixels(PixelTicket ticket) { return mImpl->pixels.wa
 
 Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
     return orOutOfMemory("render to image", {}, [&]() -> Result<Image> {
-        engine::SwapChainState& target = mImpl->engine.swapChains.get(mImpl->imageTargetOf(view.size));
+        engine::SwapChainState& target = mImpl->engine.swapChains.get(mImpl->imageTarget.of(view.size));
         if (Result<void> drawn = mImpl->renderInto(target, scene, view); !drawn) return drawn.error();
         return waitPixels(mImpl->pixels.ask(mImpl->engine.textures.get(target.images[target.current])));
     });

@@ -18,37 +18,38 @@ struct ChosenPipelines {
 };
 
 ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
-    PipelineCache& pipelines = *context.pipelines;
+    PipelineSource const& pipelines = context.resources.pipelines;
     prepare::ViewPacket const& view = context.packet.mainView();
     PassSettings const& settings = context.settings;
     const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
     ChosenPipelines chosen;
     chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant);
     chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, view.blended, view.variant);
-    if (context.packet.environment.sky)
-        chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.skybox);
+    if (context.resources.skybox)
+        chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.skybox);
     return chosen;
 }
 
-void recordSky(CommandBuffer& commands, FrameContext const& context, PipelineHandle pipeline) {
+void recordSky(CommandBuffer& commands, ViewGroup const& view, PipelineHandle pipeline) {
     commands.record(CmdBindPipeline{ pipeline });
-    commands.record(context.views[0].bind(0));
+    commands.record(view.bind(0));
     commands.record(CmdDraw{ 3 });
 }
 
 void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines const& chosen) {
-    prepare::ViewPacket const& view = context.packet.mainView();
-    const DrawContext draws{ context.views[0], context.instanceIds, context.deformations };
-    recordDrawRanges(pass, draws, view.opaque, chosen.opaque);
-    if (chosen.sky) recordSky(pass.commands(), context, chosen.sky);
-    recordDrawRanges(pass, draws, view.blended, chosen.blended);
+    const FrameView view = viewOf(context, 0);
+    const DrawContext draws{ view.group, context.resources.instanceIds, context.deformations };
+    recordDrawRanges(pass, draws, view.packet.opaque, chosen.opaque);
+    if (chosen.sky) recordSky(pass.commands(), view.group, chosen.sky);
+    recordDrawRanges(pass, draws, view.packet.blended, chosen.blended);
 }
 
 } // namespace
 
-framegraph::PassId addColorPass(FrameGraph& graph, FrameContext const* context, TextureId color) {
-    const PassSettings settings = context->settings;
-    const framegraph::GraphTextureDesc like = graph.texture(color).desc;
+void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    PassSettings const& settings = context.settings;
+    const TextureId color = targets.color;
+    const framegraph::TextureDesc like = graph.texture(color).desc;
     const TextureId depth = graph.createTexture({ .width = like.width,
                                                   .height = like.height,
                                                   .format = Format::D32F,
@@ -60,7 +61,8 @@ framegraph::PassId addColorPass(FrameGraph& graph, FrameContext const* context, 
                                                                             .format = like.format,
                                                                             .samples = settings.samples,
                                                                             .name = "samples" });
-    return graph.addPass(
+    targets.depth = depth;
+    graph.addPass(
             "color",
             [&](PassBuilder& pass) {
                 const float4 clear = settings.clearColor;
@@ -69,8 +71,8 @@ framegraph::PassId addColorPass(FrameGraph& graph, FrameContext const* context, 
                                   .resolve = settings.samples == 1 ? TextureId{} : color });
                 pass.writeDepth(depth, { .clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
             },
-            [context](PassContext& pass) { return choose(pass, *context); },
-            [context](PassContext& pass, ChosenPipelines const& chosen) { recordScene(pass, *context, chosen); });
+            [of = &context](PassContext& pass) { return choose(pass, *of); },
+            [of = &context](PassContext& pass, ChosenPipelines const& chosen) { recordScene(pass, *of, chosen); });
 }
 
 } // namespace filament::passes

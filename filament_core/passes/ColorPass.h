@@ -5,12 +5,12 @@
 #pragma once
 
 #include "filament_core/passes/FrameContext.h"
+#include "filament_core/passes/FrameTargets.h"
 
 namespace filament::passes {
 
-/// Declares the pass; it writes every pixel of `color`, which is single-sampled. With settings.samples > 1 it draws
-/// into a multisampled picture and resolves into `color`.
-framegraph::PassId addColorPass(framegraph::FrameGraph& graph, FrameContext const* context,
-                                framegraph::TextureId color);
+/// Declares the pass; it writes every pixel of targets.color, which is single-sampled, and makes targets.depth. With
+/// settings.samples > 1 it draws into a multisampled picture and resolves that into targets.color.
+void addColorPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
 
 } // namespace filament::passes

@@ -7,7 +7,7 @@
 
 #include "base/Arena.h"
 #include "filament_core/passes/FrameData.h"
-#include "filament_core/passes/Pipelines.h"
+#include "filament_core/passes/PipelineSource.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/PassContext.h"
 
@@ -19,9 +19,10 @@ namespace filament::passes {
 inline constexpr size_t kDrawsPerRange = 1024;
 
 /// Parallel to `draws`; none where a draw has no pipeline. For `beforePass` of a pass: what is not made yet is
-/// recorded into its commands, in the order of drawing. Looks up in ranges, on the job system where there is one.
+/// recorded into its commands, in the order of drawing; all are none for a frame that is only expected. Looks up in
+/// ranges, on the job system where there is one.
 std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext& pass, Arena& arena,
-                                                         PipelineCache& pipelines, uint32_t slot,
+                                                         PipelineSource const& pipelines, uint32_t slot,
                                                          std::span<const prepare::DrawCall> draws, uint8_t variant);
 
 /// What all draws of a pass share.

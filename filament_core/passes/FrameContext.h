@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FrameContext: what every pass may read: the packet, the settings of the view, and where things are on the device.
+/// FrameContext: what every pass may read: the packet, the settings of the view, the engine's resources, and where
+/// things are on the device.
 ///   Life    in the frame arena, together with the packet: passes keep a pointer to it until the graph is recorded.
 ///   A pass is one function: it declares itself into the graph, and says what to do before and inside of its backend
 ///   pass.
 #pragma once
 
-#include "filament_core/passes/FrameData.h"
-#include "filament_core/passes/Pipelines.h"
+#include "filament_core/passes/FrameResources.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/FrameGraph.h"
 
@@ -31,15 +31,24 @@ inline PassSlot fullScreenSlot(backend::PassLayout const& layout, uint8_t subpas
 
 struct FrameContext {
     prepare::FramePacket packet{};
-    PassSettings settings{};
+    FrameResources resources{};
+    PassSettings settings{}; ///< of the main view
     Arena* arena = nullptr;
-    PipelineCache* pipelines = nullptr;
+
+    // Where FrameData has put the packet on the device:
     std::span<const ViewGroup> views; ///< by view of the packet
     backend::BindGroupHandle postGroup;
-    backend::BufferHandle instanceIds;
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
-    backend::SamplerHandle nearestSampler;
-    scene::Material* skybox = nullptr; ///< full-screen material; used when the packet has a sky
 };
+
+/// One view of a frame, for passes that draw its surfaces.
+struct FrameView {
+    prepare::ViewPacket const& packet;
+    ViewGroup group;
+};
+/// In `execute` of a pass, when the packet is on the device.
+inline FrameView viewOf(FrameContext const& context, size_t view) {
+    return { context.packet.views[view], context.views[view] };
+}
 
 } // namespace filament::passes

@@ -5,18 +5,11 @@
 #pragma once
 
 #include "filament_core/passes/FrameContext.h"
+#include "filament_core/passes/FrameTargets.h"
 
 namespace filament::passes {
 
-/// The two forms of the post-process material, specialised to the view's tone mapper.
-struct ToneMapMaterials {
-    scene::Material* merged = nullptr;  ///< reads a subpass input
-    scene::Material* sampled = nullptr; ///< reads a texture of the same size
-    backend::TextureHandle table{};     ///< of materials that look colours up (ToneTable.h); none: they compute them
-};
-
-framegraph::PassId addToneMapPass(framegraph::FrameGraph& graph, FrameContext const* context,
-                                  ToneMapMaterials materials, framegraph::TextureId color,
-                                  framegraph::TextureId display);
+/// From targets.color to targets.output.
+void addToneMapPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets);
 
 } // namespace filament::passes

@@ -62,8 +62,8 @@ void choosePipelinesInAFrameThatMakesNone(benchmark::State& state) {
     const auto chooseWith = [&](RangeRecorder* recorder) {
         PassContext pass(list.plan, setup, recorder);
         list.arena.reset();
-        benchmark::DoNotOptimize(
-                choosePipelines(pass, list.arena, *list.DrawFixture::pipelines, list.slot, list.draws, 0));
+        benchmark::DoNotOptimize(choosePipelines(pass, list.arena, PipelineSource(*list.DrawFixture::pipelines),
+                                                 list.slot, list.draws, 0));
     };
     measureInTurns(
             state, list.draws.size(), "vs_serial", [&] { chooseWith(&ranges); }, [&] { chooseWith(nullptr); });

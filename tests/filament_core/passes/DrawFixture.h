@@ -65,7 +65,7 @@ public:
                                                 framegraph::RangeRecorder* ranges = nullptr, uint8_t variant = 0) {
         framegraph::PassContext pass(plan, setup, ranges);
         arena.reset();
-        const auto chosen = choosePipelines(pass, arena, *pipelines, slot, draws, variant);
+        const auto chosen = choosePipelines(pass, arena, PipelineSource(*pipelines), slot, draws, variant);
         return { chosen.begin(), chosen.end() };
     }
 

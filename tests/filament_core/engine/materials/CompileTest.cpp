@@ -95,6 +95,36 @@ TEST_P(Compile, WhatIsPreparedForAnExpectedFrameIsNotMadeByTheFirstDraw) {
     }
 }
 
+// Whatever passes a frame has: expecting it walks the graph that draws it.
+TEST_P(Compile, AnExpectedFrameAsksForThePipelinesOfEveryPassOfItsOwn) {
+    constexpr std::array<uint16_t, 6 * 4> kTexels{};
+    const Owned<Texture> cube =
+            mEngine->own(mEngine->create(TextureDesc{ .kind = TextureKind::Cube,
+                                                      .format = Format::RGBA16F,
+                                                      .layers = 6,
+                                                      .pixels = std::as_bytes(std::span(kTexels)) }));
+    const Owned<Skybox> sky = mEngine->own(mEngine->create(SkyboxDesc{ .cube = cube }));
+    Scene scene(*mEngine);
+    scene.setSkybox(sky, Lux{ 1000 });
+    std::vector<View> views(4, mView);
+    views[1].quality.toneMapping = ToneMapping::Table16;
+    views[2].samples = 4; // the tone mapper cannot be merged
+    views[3].quality.depthRange = DepthRange::Ordinary;
+    for (size_t i = 0; i < views.size(); ++i) {
+        mView = views[i];
+        const uint64_t before = pipelines();
+        mRenderer->expect(scene, mView, mTarget);
+        const Owned<Material> material = test::loadMaterial(*mEngine, kPlaster);
+        finish(*mEngine->compile(material, { .variants = VariantSet::None, .vertices = { mSquare->vertices() } }));
+        const uint64_t expected = pipelines();
+        EXPECT_GE(expected, before + 2) << "a pass at least, and one of plaster, for view " << i;
+        draw(scene);
+        draw(scene);
+        EXPECT_EQ(pipelines(), expected) << "view " << i;
+    }
+    EXPECT_THAT(mEngine->takeErrors(), IsEmpty());
+}
+
 TEST_P(Compile, WithoutItTheFirstDrawMakesThem) {
     Scene scene(*mEngine);
     draw(scene);

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ImageTarget: the picture that Renderer::renderToImage() draws, as a swap chain of one image.
+///   Memory  one image, made anew when the size changes.
+///   Thread  the app thread.   Fails: std::bad_alloc; there is no image then.
+#pragma once
+
+#include "filament_core/engine/EngineImpl.h"
+
+namespace filament::engine {
+
+class ImageTarget {
+public:
+    explicit ImageTarget(Engine::Impl& engine) : mEngine(engine) {}
+    ~ImageTarget();
+    ImageTarget(ImageTarget const&) = delete;
+    ImageTarget& operator=(ImageTarget const&) = delete;
+
+    SwapChain of(uint2 size);
+
+private:
+    Engine::Impl& mEngine;
+    SwapChain mChain;
+};
+
+} // namespace filament::engine

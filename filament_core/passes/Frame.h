@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// describeFrame: which passes a frame has, and in which order: one line a pass. The table of contents of this room.
+///   In      the packet, the view's settings and the engine's resources, as a FrameContext; where the picture goes.
+///   Out     declarations in the graph. No GPU work: framegraph::record() draws them, framegraph::rehearse() only asks
+///           them what they need.
+///   Thread  the app thread.   Memory: the arena of the graph, and of the context.   Fails: std::bad_alloc.
+#pragma once
+
+#include "filament_core/passes/FrameContext.h"
+#include "filament_core/passes/FrameTargets.h"
+
+#include <filament/View.h>
+
+namespace filament::passes {
+
+/// Where the picture goes: a texture of the engine, one sample a pixel.
+struct FrameOutput {
+    backend::TextureHandle texture;
+    uint32_t width = 1, height = 1;
+    backend::Format format = backend::Format::RGBA8;
+
+    /// Takes light as it is, without a tone mapper.
+    bool isSceneLinear() const { return format == backend::Format::RGBA16F; }
+};
+
+/// In the arena: passes keep a pointer to it. What uploads make (FrameContext::views and what follows) is set later,
+/// before the graph is recorded.
+FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet, FrameResources const& resources,
+                               View const& view);
+
+FrameTargets describeFrame(framegraph::FrameGraph& graph, FrameContext const& context, FrameOutput const& output);
+
+} // namespace filament::passes

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FrameResources: what the passes of a frame need of the engine. The engine fills it for every frame; passes know
+/// nothing else of it.
+///   Life    the values: one frame. What they name: longer than the frame takes on the device.
+///   Thread  a plain value, read-only once filled.
+#pragma once
+
+#include "filament_core/passes/FrameData.h"
+#include "filament_core/passes/PipelineSource.h"
+
+namespace filament::passes {
+
+/// The two forms of the post-process material, specialised to the view's tone mapper.
+struct ToneMapMaterials {
+    scene::Material const* merged = nullptr;  ///< reads a subpass input
+    scene::Material const* sampled = nullptr; ///< reads a texture of the same size
+    backend::TextureHandle table{}; ///< of materials that look colours up (ToneTable.h); none: they compute them
+};
+
+struct FrameResources {
+    PipelineSource pipelines;
+    ViewTextures viewTextures{};
+    backend::SamplerHandle nearestSampler;
+    backend::BufferHandle instanceIds;       ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
+    scene::Material const* skybox = nullptr; ///< full-screen material; null: the scene has no sky
+    ToneMapMaterials toneMap;                ///< null where the picture stays scene-linear
+    bool hasHalfFloats = false;              ///< shaders may compute in 16 bits
+};
+
+} // namespace filament::passes

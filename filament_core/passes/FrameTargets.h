@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FrameTargets: the pictures of a frame, the only thing that its passes hand on to each other. Each pass reads what
+/// those before it have put here and puts what it makes.
+///   Life    names of one graph, valid until its reset().
+#pragma once
+
+#include "framegraph/FrameGraph.h"
+
+namespace filament::passes {
+
+struct FrameTargets {
+    framegraph::TextureId output; ///< what the user asked for
+    framegraph::TextureId color;  ///< pre-exposed scene-linear light, one sample a pixel; may be `output` itself
+    framegraph::TextureId depth;  ///< of the main view, as many samples as it has; none before the colour pass
+};
+
+} // namespace filament::passes

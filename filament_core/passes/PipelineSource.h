@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+/// PipelineSource: where the passes of a frame get their pipelines. From the cache, which makes what is missing; or,
+/// when a frame is only expected, from the cache as it is: what is missing goes onto a list of wishes. So the passes
+/// that draw a frame are the ones that say what it needs.
+///   In      the cache, and for an expected frame the list.
+///   Limits  pipelines of surfaces are not wished for: Engine::compile() asks for those, material by material.
+///   Thread  as PipelineCache.   Memory: the list.   Fails: std::bad_alloc.
+#pragma once
+
+#include "filament_core/passes/Pipelines.h"
+
+#include <optional>
+#include <vector>
+
+namespace filament::passes {
+
+/// A pipeline of a full-screen material.
+struct FullScreenWish {
+    uint32_t slot = 0; ///< of PipelineCache
+    scene::Material const* material = nullptr;
+};
+
+class PipelineSource {
+public:
+    PipelineSource() = default;
+    explicit PipelineSource(PipelineCache& cache, std::vector<FullScreenWish>* wishes = nullptr)
+            : mCache(&cache), mWishes(wishes) {}
+
+    /// Nothing is made.
+    bool isWishing() const { return mWishes != nullptr; }
+
+    uint32_t slot(PassSlot const& slot) const { return mCache->slot(slot); }
+
+    /// PipelineCache's functions of these names; none for what is only wished for.
+    std::optional<backend::PipelineHandle> find(uint32_t slot, PipelineUse const& use) const {
+        return mCache->find(slot, use);
+    }
+    backend::PipelineHandle pipelineFor(backend::CommandBuffer& setup, uint32_t slot, PipelineUse const& use) const {
+        return isWishing() ? find(slot, use).value_or(backend::PipelineHandle{})
+                           : mCache->pipelineFor(setup, slot, use);
+    }
+    backend::PipelineHandle fullscreenPipeline(backend::CommandBuffer& setup, uint32_t slot,
+                                               scene::Material const& material) const {
+        if (!isWishing()) return mCache->fullscreenPipeline(setup, slot, material);
+        const auto known = mCache->findFullscreen(slot, material);
+        if (!known) mWishes->push_back({ slot, &material });
+        return known.value_or(backend::PipelineHandle{});
+    }
+
+private:
+    PipelineCache* mCache = nullptr;
+    std::vector<FullScreenWish>* mWishes = nullptr; // null: make it
+};
+
+} // namespace filament::passes
