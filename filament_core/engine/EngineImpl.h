@@ -19,6 +19,7 @@
 #include <filament/Quality.h>
 #include <filament/View.h>
 
+#include <array>
 #include <chrono>
 #include <map>
 #include <memory>
@@ -135,8 +136,14 @@ struct Engine::Impl {
     std::span<const std::byte> enginePackage(std::string_view name) const;
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
+    /// From the next drainPending() on every instance has a bind group for views of this filter, too. Views of several
+    /// filters take turns at no cost; a filter that was used once keeps its groups.
     void useTextureFilter(TextureFilter filter);
     void updateInstance(scene::MaterialInstance& instance, backend::CommandBuffer& commands);
+    void makeGroups(scene::MaterialInstance& instance, backend::CommandBuffer& commands);
+    backend::BindGroupHandle makeGroup(scene::MaterialInstance const& instance, TextureFilter filter,
+                                       backend::CommandBuffer& commands);
+    void destroyGroups(scene::MaterialInstance& instance, backend::CommandBuffer& commands);
     void markDirty(MaterialInstance instance);
     template <class Write>
     Result<void> change(MaterialInstance instance, std::string_view parameter, Write&& write);
@@ -176,7 +183,7 @@ struct Engine::Impl {
     engine::Defaults defaults;
     std::map<std::string, Material> engineMaterials; ///< by package and constants
     std::vector<MaterialInstance> dirtyInstances;
-    TextureFilter textureFilter = TextureFilter::AsAuthored; ///< of the frame recorded last
+    std::array<bool, scene::kTextureFilters> filtersInUse{ true }; ///< by TextureFilter: that of any frame so far
     uint32_t nextMaterialId = 0, nextInstanceId = 0;
 };
 

@@ -62,12 +62,12 @@ struct Renderer::Impl {
     }
 
     /// Submits when it returns.
-    void recordFrame(FrameContext& context, TextureFilter filter) {
+    void recordFrame(FrameContext& context) {
         FrameCommands commands(*engine.stream); // waits when two frames ahead
         stamps.acquired = clock();
         commands->record(CmdBeginFrame{ ++frame });
         const InReserve<CmdEndFrame> end{ *commands, { frame } };
-        engine.useTextureFilter(filter);
+        engine.useTextureFilter(context.settings.textureFilter);
         engine.drainPending(*commands);
         engine.recordCompilations(*commands);
         data.upload(engine.jobs, *commands, context.packet, context.resources.viewTextures);
@@ -86,7 +86,7 @@ struct Renderer::Impl {
         FrameContext& context = planFrame(scene, view, output, PipelineSource(engine.pipelines));
         stamps.prepared = clock();
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
-        recordFrame(context, view.quality.textureFilter);
+        recordFrame(context);
         stamps.recorded = clock();
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);

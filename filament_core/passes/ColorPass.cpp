@@ -38,7 +38,8 @@ void recordSky(CommandBuffer& commands, ViewGroup const& view, PipelineHandle pi
 
 void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines const& chosen) {
     const FrameView view = viewOf(context, 0);
-    const DrawContext draws{ view.group, context.resources.instanceIds, context.deformations };
+    const DrawContext draws{ view.group, context.resources.instanceIds, context.deformations,
+                             context.settings.textureFilter };
     recordDrawRanges(pass, draws, view.packet.opaque, chosen.opaque);
     if (chosen.sky) recordSky(pass.commands(), view.group, chosen.sky);
     recordDrawRanges(pass, draws, view.packet.blended, chosen.blended);

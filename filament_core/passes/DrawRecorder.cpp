@@ -29,9 +29,10 @@ public:
             mCommands.record(mContext.view.bind(draw.firstObject));
             mWindow = window;
         }
-        if (draw.material->group != mMaterial) {
-            mCommands.record(CmdBindGroup{ draw.material->group, shader::kGroupMaterial });
-            mMaterial = draw.material->group;
+        const BindGroupHandle material = draw.material->group(mContext.textureFilter);
+        if (material != mMaterial) {
+            mCommands.record(CmdBindGroup{ material, shader::kGroupMaterial });
+            mMaterial = material;
         }
         if (draw.deformation != mDeformation && draw.deformation != scene::kNotDeformed) {
             mCommands.record(mContext.deformations[draw.deformation]);

@@ -30,6 +30,7 @@ struct DrawContext {
     ViewGroup view;
     backend::BufferHandle instanceIds;
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
+    TextureFilter textureFilter = TextureFilter::AsAuthored;
 };
 
 /// One range, as if nothing were bound. Draws without a pipeline are skipped.

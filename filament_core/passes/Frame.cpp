@@ -18,7 +18,8 @@ PassSettings settingsOf(View const& view, FrameResources const& resources,
              .clearColor = view.clearColor,
              .shading = shadingKey(view.quality, environment.storage),
              .depthRange = view.quality.depthRange,
-             .precision = resources.hasHalfFloats ? view.quality.shadingPrecision : ShadingPrecision::Full };
+             .precision = resources.hasHalfFloats ? view.quality.shadingPrecision : ShadingPrecision::Full,
+             .textureFilter = view.quality.textureFilter };
 }
 
 FrameTargets beginFrame(FrameGraph& graph, PassSettings const& settings, FrameOutput const& output) {

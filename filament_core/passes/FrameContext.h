@@ -19,6 +19,7 @@ struct PassSettings {
     ShadingKey shading = 0;
     DepthRange depthRange = DepthRange::Reversed;
     ShadingPrecision precision = ShadingPrecision::Full;
+    TextureFilter textureFilter = TextureFilter::AsAuthored; ///< of the materials' textures
 };
 
 /// Where the scene's surfaces are drawn / a picture is drawn over the whole target.

@@ -8,8 +8,11 @@
 #include "shaders/package/Package.h"
 
 #include <filament/Material.h>
+#include <filament/Quality.h>
 #include <filament/Sampler.h>
 
+#include <array>
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <vector>
@@ -43,6 +46,8 @@ inline InstanceRaster initialRaster(shader::MaterialPackage const& package) {
     return { package.culling, package.doubleSided, package.colorWrite, package.depthWrite, package.depthCulling };
 }
 
+inline constexpr size_t kTextureFilters = 4; ///< enumerators of TextureFilter
+
 struct TextureBinding {
     backend::TextureHandle texture;
     Sampler sampler{}; ///< as set by the user
@@ -56,9 +61,14 @@ struct MaterialInstance {
     std::vector<TextureBinding> textures; ///< parallel to the package's texture parameters, in their order
     InstanceRaster raster{};
     bool parametersDirty = true;
-    bool texturesDirty = true;
+    bool texturesDirty = true;    ///< all groups have to be made anew
+    bool lacksGroups = false;     ///< for a filter that came into use after the others
     backend::BufferHandle buffer; ///< none while the material has no block
-    backend::BindGroupHandle group;
+    /// By TextureFilter, those in use: bind groups name their samplers. Without textures all are the same group.
+    std::array<backend::BindGroupHandle, kTextureFilters> groups{};
+
+    bool isDirty() const { return parametersDirty || texturesDirty || lacksGroups; }
+    backend::BindGroupHandle group(TextureFilter filter) const { return groups[static_cast<size_t>(filter)]; }
 };
 
 } // namespace filament::scene

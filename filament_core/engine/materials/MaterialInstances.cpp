@@ -8,6 +8,7 @@
 #include "filament_core/engine/materials/TextureParameters.h"
 #include "shaders/interface/ShaderInterface.h"
 
+#include <algorithm>
 #include <cstring>
 #include <utility>
 
@@ -24,15 +25,15 @@ Error unknownParameter(scene::Material const& material, std::string_view name) {
 
 } // namespace
 
-// Bind groups name their samplers: those of all instances are made anew, and only when the choice changes.
 void Engine::Impl::useTextureFilter(TextureFilter filter) {
-    if (filter == textureFilter) return;
+    bool& isInUse = filtersInUse[static_cast<size_t>(filter)];
+    if (isInUse) return;
     instances.forEachHandle([&](MaterialInstance handle, scene::MaterialInstance& instance) {
         if (instance.textures.empty()) return;
         markDirty(handle);
-        instance.texturesDirty = true;
+        instance.lacksGroups = true;
     });
-    textureFilter = filter;
+    isInUse = true;
 }
 
 MaterialInstance Engine::Impl::createInstance(Material material, std::string name) {
@@ -62,7 +63,7 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
 
 void Engine::Impl::markDirty(MaterialInstance handle) {
     scene::MaterialInstance const& instance = instances.get(handle);
-    if (!instance.parametersDirty && !instance.texturesDirty) dirtyInstances.push_back(handle);
+    if (!instance.isDirty()) dirtyInstances.push_back(handle);
 }
 
 template <class Write>
@@ -120,28 +121,50 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
     if (package.uniformBytes > 0 && instance.parametersDirty) {
         commands.record(CmdUpdateBuffer{ instance.buffer, 0, instance.parameters });
     }
-    if (instance.texturesDirty) {
-        if (instance.group) stream->destroy(commands, std::exchange(instance.group, {}));
-        std::array<BindGroupEntry, kMaxBindings> entries{};
-        uint32_t count = 0;
-        if (package.uniformBytes > 0) {
-            entries[count++] = { .binding = 0, .buffer = instance.buffer, .size = package.uniformBytes };
-        }
-        size_t slot = 0;
-        for (Parameter const& parameter : package.parameters) {
-            if (!shader::isTexture(parameter.type)) continue;
-            const scene::TextureBinding bound = instance.textures[slot++];
-            const Sampler sampler = engine::samplerFor(parameter, bound.sampler, textureFilter);
-            entries[count++] = { .binding = parameter.binding,
-                                 .texture = bound.texture,
-                                 .sampler = samplers.get(sampler, commands) };
-        }
-        NewHandle group(*stream, stream->allocateBindGroup());
-        commands.record(CmdCreateBindGroup{
-                group, { package.layout[shader::kGroupMaterial], std::span(entries).first(count), instance.name } });
-        instance.group = group.keep();
+    if (instance.texturesDirty) destroyGroups(instance, commands);
+    makeGroups(instance, commands);
+    instance.parametersDirty = instance.texturesDirty = instance.lacksGroups = false;
+}
+
+// Those that are there stay.
+void Engine::Impl::makeGroups(scene::MaterialInstance& instance, CommandBuffer& commands) {
+    if (instance.textures.empty()) {
+        if (!instance.groups[0]) instance.groups.fill(makeGroup(instance, TextureFilter::AsAuthored, commands));
+        return;
     }
-    instance.parametersDirty = instance.texturesDirty = false;
+    for (size_t filter = 0; filter < filtersInUse.size(); ++filter) {
+        if (filtersInUse[filter] && !instance.groups[filter])
+            instance.groups[filter] = makeGroup(instance, static_cast<TextureFilter>(filter), commands);
+    }
+}
+
+BindGroupHandle Engine::Impl::makeGroup(scene::MaterialInstance const& instance, TextureFilter filter,
+                                        CommandBuffer& commands) {
+    shader::MaterialPackage const& package = instance.material->package;
+    std::array<BindGroupEntry, kMaxBindings> entries{};
+    uint32_t count = 0;
+    if (package.uniformBytes > 0)
+        entries[count++] = { .binding = 0, .buffer = instance.buffer, .size = package.uniformBytes };
+    size_t slot = 0;
+    for (Parameter const& parameter : package.parameters) {
+        if (!shader::isTexture(parameter.type)) continue;
+        const scene::TextureBinding bound = instance.textures[slot++];
+        const Sampler sampler = engine::samplerFor(parameter, bound.sampler, filter);
+        entries[count++] = { .binding = parameter.binding,
+                             .texture = bound.texture,
+                             .sampler = samplers.get(sampler, commands) };
+    }
+    NewHandle group(*stream, stream->allocateBindGroup());
+    commands.record(CmdCreateBindGroup{
+            group, { package.layout[shader::kGroupMaterial], std::span(entries).first(count), instance.name } });
+    return group.keep();
+}
+
+void Engine::Impl::destroyGroups(scene::MaterialInstance& instance, CommandBuffer& commands) {
+    if (instance.textures.empty()) std::fill(instance.groups.begin() + 1, instance.groups.end(), BindGroupHandle{});
+    for (BindGroupHandle& group : instance.groups) {
+        if (group) stream->destroy(commands, std::exchange(group, {}));
+    }
 }
 
 MaterialInstance Engine::createInstance(Material material, std::string name) {
@@ -216,7 +239,7 @@ void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
 void Engine::destroy(MaterialInstance handle) {
     scene::MaterialInstance& instance = mImpl->instances.get(handle);
     std::erase(mImpl->dirtyInstances, handle);
-    if (instance.group) mImpl->stream->destroy(mImpl->pending, instance.group);
+    mImpl->destroyGroups(instance, mImpl->pending);
     if (instance.buffer) mImpl->stream->destroy(mImpl->pending, instance.buffer);
     --instance.material->instanceCount;
     mImpl->instances.remove(handle);

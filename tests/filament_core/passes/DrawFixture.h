@@ -31,7 +31,7 @@ public:
         for (uint32_t i = 0; i < instanceCount; ++i) {
             instances[i].id = i;
             instances[i].material = &materials[i % materialCount];
-            instances[i].group = stream->allocateBindGroup();
+            for (backend::BindGroupHandle& group : instances[i].groups) group = stream->allocateBindGroup();
         }
         for (uint32_t i = 0; i < geometryCount; ++i) geometries.push_back(makeGeometry(i));
         context = { { .handle = stream->allocateBindGroup(), .uniforms = 768, .objects = 5 * 16384, .lights = 16384 },

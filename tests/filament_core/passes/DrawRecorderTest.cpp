@@ -46,7 +46,7 @@ void expectDraw(DrawFixture const& fixture, DrawCall const& wanted, PipelineHand
                 std::pair<CmdDrawIndexed, BoundState> const& drawn) {
     auto const& [draw, state] = drawn;
     EXPECT_EQ(state.pipeline, pipeline);
-    EXPECT_EQ(state.material.group, wanted.material->group);
+    EXPECT_EQ(state.material.group, wanted.material->group(fixture.context.textureFilter));
     ViewGroup const& view = fixture.context.view;
     EXPECT_EQ(state.view.group, view.handle);
     EXPECT_EQ(state.view.dynamicOffsets[0], view.uniforms);
