@@ -111,6 +111,22 @@ TEST_F(CommandLine, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
     }
 }
 
+TEST_F(CommandLine, SteadyFramesWithASkyTakeNothingFromTheHeap) {
+    for (const char* more : { "", " --set toneMapping=table32 textureFilter=trilinear" }) {
+        const Outcome outcome = run("triangle.gltf --size 96x54 --environment showcase.hdr --frames 30 --out sky "
+                                    "--timing --explain" +
+                                    std::string(more));
+        ASSERT_EQ(outcome.status, 0) << outcome.errors;
+        EXPECT_THAT(outcome.output, HasSubstr("sky: drawn where nothing covers it"));
+        const auto report = nlohmann::json::parse(textOf(sFolder / "sky" / "report.json"));
+        for (const char* backend : { "vulkan", "gles" }) {
+            auto const& steady = report["backends"][backend]["steady"];
+            EXPECT_GE(steady["frames"], 10) << backend;
+            EXPECT_EQ(steady["heapAllocations"], 0) << backend << more;
+        }
+    }
+}
+
 TEST_F(CommandLine, AMaterialIsShownWithTheValuesOfItsFileAndOfTheCommandLine) {
     writeText(sFolder / "tint.mat", R"(// show: tint=0.5,0.5,0.5 gloss=0.2
         material { parameters : [ { name : tint, type : float3 }, { name : gloss, type : float } ] }
