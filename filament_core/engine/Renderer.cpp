@@ -77,7 +77,7 @@ struct Renderer::Impl {
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
     }
 
-    /// The six lines of docs/architecture.md, with their measurements.
+    /// The six lines of docs/architecture.md, with their measurements: planned, then recorded.
     void drawFrame(Scene const& scene, View const& view, FrameOutput const& output) {
         const jobs::AdoptedThread seat(engine.jobs); // the app thread works along
         timers.clear();

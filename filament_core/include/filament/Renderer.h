@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Renderer: draws a scene as seen by a view.
 ///   Thread  the app thread of the engine.
-///   Wait    render() returns once it has read the scene and submitted the frame. It waits only if the driver thread is
-///           two frames behind. The blocking functions wait for the pixels.
-///   Memory  after warm-up a frame allocates nothing from the heap.
-///   Fails   a frame that runs out of memory is skipped: takeErrors() says so, its target keeps its picture, and the
-///           next frame is drawn as if the skipped one had not been tried. On a lost device everything returns at once.
+///   Wait    render() returns when the scene has been read and the frame is submitted; it waits only when the driver
+///           thread is two frames behind. The blocking forms wait for the pixels.
+///   Memory  after warm-up a frame allocates nothing from the heap, whatever the scene and the view ask for.
+///   Fails   a frame for which memory runs out is left out: takeErrors() says so, its target keeps the picture it had,
+///           and the next frame is drawn as if it had not been tried. On a lost device everything returns at once.
 #pragma once
 
 #include <filament/Engine.h>
@@ -34,8 +34,8 @@ struct PassTiming {
 /// Timings of one frame, available when the driver thread and the device have finished it.
 struct FrameTimings {
     uint64_t frame = 0;
-    double prepareMilliseconds = 0;             ///< app thread and workers: cull, sort, upload data
-    double recordMilliseconds = 0;              ///< app thread: graph and commands
+    double prepareMilliseconds = 0;             ///< app thread and workers: cull, sort, plan the passes
+    double recordMilliseconds = 0;              ///< app thread and workers: upload data, record commands
     double replayMilliseconds = 0;              ///< driver thread
     double gpuMilliseconds = 0;                 ///< device, sum of passes; 0 without RendererOptions::passTimers
     double beginSeconds = 0, submitSeconds = 0; ///< app thread, since the engine started
