@@ -57,7 +57,7 @@ struct MorphTargetsState {
 };
 
 struct IndirectLightState {
-    scene::IndirectLightState light{};
+    scene::IndirectLightRecord light{};
     std::string name;
 };
 

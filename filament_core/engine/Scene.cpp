@@ -164,7 +164,7 @@ void Scene::setEnvironment(Environment const& environment, EnvironmentSettings c
 }
 
 void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotationRadians) {
-    scene::IndirectLightState state;
+    scene::IndirectLightRecord state;
     if (light) state = mImpl->engine.indirectLights.get(light).light;
     state.illuminance = illuminance;
     state.rotationRadians = rotationRadians;
@@ -172,7 +172,7 @@ void Scene::setIndirectLight(IndirectLight light, Lux illuminance, float rotatio
 }
 
 void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
-    scene::SkyboxState state{ .illuminance = illuminance, .rotationRadians = rotationRadians };
+    scene::SkyboxRecord state{ .illuminance = illuminance, .rotationRadians = rotationRadians };
     if (skybox) {
         engine::SkyboxState const& made = mImpl->engine.skyboxes.get(skybox);
         state.cube = made.cube;

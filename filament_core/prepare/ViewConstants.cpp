@@ -50,7 +50,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), static_cast<float>(view.timeSeconds),
                             view.quality.depthRange == DepthRange::Ordinary ? 1.0f : 0.0f);
 
-    scene::IndirectLightState const& light = scene.indirectLight;
+    scene::IndirectLightRecord const& light = scene.indirectLight;
     const float ambient = light.specular ? light.illuminance.value * space.exposure : 0.0f;
     frame.ambient = float4(ambient, light.levelOfRoughnessOne, view.quality.shBands, 0);
     frame.irradianceSh = light.irradianceSh;

@@ -56,7 +56,7 @@ struct EnvironmentStorage {
     RoughnessMapping mapping = RoughnessMapping::Quadratic;
 };
 
-struct IndirectLightState {
+struct IndirectLightRecord {
     backend::TextureHandle specular;
     backend::TextureHandle irradiance; ///< none: the coefficients only
     EnvironmentStorage storage{};
@@ -66,7 +66,7 @@ struct IndirectLightState {
     float rotationRadians = 0;
 };
 
-struct SkyboxState {
+struct SkyboxRecord {
     backend::TextureHandle cube;
     bool isRgbm = false; ///< RGBA8 as RGBM
     Lux illuminance{};
@@ -79,8 +79,8 @@ struct SceneData {
     Transforms transforms; ///< of the nodes
     NodeContents atNodes;
     Deformations deformations;
-    IndirectLightState indirectLight; ///< specular: none means no indirect light
-    SkyboxState skybox;               ///< cube: none means no skybox
+    IndirectLightRecord indirectLight; ///< specular: none means no indirect light
+    SkyboxRecord skybox;               ///< cube: none means no skybox
 };
 
 Renderable addRenderable(SceneData& scene, RenderableInput const& input);
