@@ -134,7 +134,7 @@ Light Scene::add(SpotLight const& light, Node node) {
 Skin Scene::add(SkinDesc const& desc) {
     FILAMENT_ASSERT(desc.joints.size() == desc.jointFromBind.size(), "a skin has one matrix for each of its joints");
     FILAMENT_ASSERT(desc.joints.empty() != (desc.boneCount == 0), "a skin has joints or a number of bones");
-    scene::SkinData data{ .node = desc.node, .joints = { desc.joints.begin(), desc.joints.end() } };
+    scene::SkinRecord data{ .node = desc.node, .joints = { desc.joints.begin(), desc.joints.end() } };
     for (float4x4 const& matrix : desc.jointFromBind)
         data.jointFromBind.push_back(scene::affineFrom(double4x4(matrix)));
     data.bones.assign(desc.boneCount, scene::boneFrom(scene::kIdentity));

@@ -55,7 +55,7 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
     DeformationList list;
     if (scene.deformations.empty()) return list;
     const std::span<const Deformation> all = scene.deformations.all();
-    const std::span<const scene::SkinData> skins = scene.deformations.skins();
+    const std::span<const scene::SkinRecord> skins = scene.deformations.skins();
     list.deformations = all;
     list.skins = skins;
     const auto places = arena.arrayForOverwrite<DeformationPlace>(all.size());

@@ -55,7 +55,7 @@ struct DeformationPlace {
 /// Skins and morph weights of what is visible; writeDeformations() (DeformationData.h) makes them what shaders see.
 struct DeformationList {
     std::span<const scene::Deformation> deformations;
-    std::span<const scene::SkinData> skins;
+    std::span<const scene::SkinRecord> skins;
     std::span<const DeformationPlace> places; ///< by slot of `deformations`
     std::span<const uint32_t> bones;          ///< by index of `skins`: where its block begins, or kNowhere
     uint32_t bytes = 0;                       ///< of all blocks; 0: nothing visible is deformed

@@ -42,9 +42,9 @@ void updateNodes(jobs::JobSystem& jobs, scene::SceneData& scene) {
 void updateSkins(jobs::JobSystem& jobs, scene::SceneData& scene) {
     scene::Deformations& deformations = scene.deformations;
     if (!deformations.isMoving() && !deformations.hasStale()) return;
-    const std::span<scene::SkinData> skins = deformations.skins();
+    const std::span<scene::SkinRecord> skins = deformations.skins();
     jobs::parallelFor<"skins">(jobs, skins.size(), kSkinGrain, [&](size_t begin, size_t end) {
-        for (scene::SkinData& skin : skins.subspan(begin, end - begin)) {
+        for (scene::SkinRecord& skin : skins.subspan(begin, end - begin)) {
             const bool moved = deformations.isMoving() && scene::hasMoved(scene, skin);
             if (skin.isStale || moved) scene::updateSkin(scene, skin);
         }

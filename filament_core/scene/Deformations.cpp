@@ -44,7 +44,7 @@ bool isFinite(MinMax const& box) {
 
 } // namespace
 
-Skin Deformations::addSkin(SkinData data) {
+Skin Deformations::addSkin(SkinRecord data) {
     const Skin skin = mSkinHandles.allocate();
     if (skin.index() >= mSkins.size()) mSkins.resize(skin.index() + 1);
     data.isStale = true;
@@ -109,7 +109,7 @@ bool isMirroring(shader::BoneData const& bone) {
     return glm::dot(x, glm::cross(y, z)) < 0;
 }
 
-CenteredBox deformedBounds(Deformation const& deformation, SkinData const* skin) {
+CenteredBox deformedBounds(Deformation const& deformation, SkinRecord const* skin) {
     const MinMax reach = morphReach(deformation);
     const auto grown = [&](MinMax const& box) { return MinMax{ box.min + reach.min, box.max + reach.max }; };
     MinMax bounds = grown(deformation.restBounds);
@@ -131,7 +131,7 @@ CenteredBox deformedBounds(Deformation const& deformation, SkinData const* skin)
     return box;
 }
 
-bool bonesMirror(Deformation const& deformation, SkinData const& skin) {
+bool bonesMirror(Deformation const& deformation, SkinRecord const& skin) {
     size_t used = 0, mirroring = 0;
     for (size_t i = 0; i < skin.bones.size(); ++i) {
         const bool isUsed = deformation.boneBounds.empty() ||

@@ -40,9 +40,9 @@ struct MorphTargets {
     std::vector<MinMax> reach{}; ///< of each target: range of the position displacements, 0 included
 };
 
-struct SkinData {
-    Node node{};                       ///< the node whose space is object space; none: world space
-    std::vector<Node> joints;          ///< empty: the user sets the bones
+struct SkinRecord {
+    Node node{};                       ///< object space is its space; none: the world
+    std::vector<Node> joints;          ///< empty: the bones are set by hand
     std::vector<Affine> jointFromBind; ///< parallel to joints
     std::vector<shader::BoneData> bones;
     std::vector<uint8_t> mirrors;       ///< parallel to bones: the bone turns front faces into back faces
@@ -62,13 +62,13 @@ struct Deformation {
 
 class Deformations {
 public:
-    Skin addSkin(SkinData data);
+    Skin addSkin(SkinRecord data);
     void removeSkin(Skin skin);
-    SkinData& skin(Skin skin) { return mSkins[at(skin)]; }
-    SkinData const& skin(Skin skin) const { return mSkins[at(skin)]; }
-    /// By Skin::index(); unused ones have no bones.
-    std::span<SkinData> skins() { return mSkins; }
-    std::span<const SkinData> skins() const { return mSkins; }
+    SkinRecord& skin(Skin skin) { return mSkins[at(skin)]; }
+    SkinRecord const& skin(Skin skin) const { return mSkins[at(skin)]; }
+    /// By Skin::index(); free ones have no bones.
+    std::span<SkinRecord> skins() { return mSkins; }
+    std::span<const SkinRecord> skins() const { return mSkins; }
 
     /// bind() names the renderable later.
     uint32_t add(Deformation deformation);
@@ -99,7 +99,7 @@ private:
     }
 
     HandleAllocator<SkinObject> mSkinHandles;
-    std::vector<SkinData> mSkins; // by handle index
+    std::vector<SkinRecord> mSkins; // by handle index
     uint32_t mSkinCount = 0;
     std::vector<Deformation> mDeformations;
     std::vector<uint32_t> mFree;
@@ -114,8 +114,8 @@ shader::BoneData boneFrom(Affine const& objectFromBind);
 bool isMirroring(shader::BoneData const& bone);
 
 /// The box of a deformed renderable; `skin`: null without one.
-CenteredBox deformedBounds(Deformation const& deformation, SkinData const* skin);
+CenteredBox deformedBounds(Deformation const& deformation, SkinRecord const* skin);
 /// Whether most of the bones that move its vertices mirror.
-bool bonesMirror(Deformation const& deformation, SkinData const& skin);
+bool bonesMirror(Deformation const& deformation, SkinRecord const& skin);
 
 } // namespace filament::scene

@@ -7,18 +7,18 @@
 namespace filament::scene {
 namespace {
 
-void setBone(SkinData& skin, size_t i, Affine const& objectFromBind) {
+void setBone(SkinRecord& skin, size_t i, Affine const& objectFromBind) {
     skin.bones[i] = boneFrom(objectFromBind);
     skin.mirrors[i] = isMirroring(skin.bones[i]);
 }
 
-void placeAll(SceneData& scene, SkinData const& skin) {
+void placeAll(SceneData& scene, SkinRecord const& skin) {
     for (const uint32_t deformation : skin.deformations) placeDeformed(scene, deformation);
 }
 
 } // namespace
 
-Skin addSkin(SceneData& scene, SkinData data) {
+Skin addSkin(SceneData& scene, SkinRecord data) {
     const size_t bones = data.joints.empty() ? data.bones.size() : data.joints.size();
     FILAMENT_ASSERT(bones > 0 && bones <= shader::kMaxBones, "a skin has 1 to 256 bones");
     FILAMENT_ASSERT(data.joints.empty() || data.joints.size() == data.jointFromBind.size(),
@@ -38,7 +38,7 @@ void removeSkin(SceneData& scene, Skin skin) {
 }
 
 void setBones(SceneData& scene, Skin skin, std::span<const float4x4> objectFromBind) {
-    SkinData& data = scene.deformations.skin(skin);
+    SkinRecord& data = scene.deformations.skin(skin);
     FILAMENT_ASSERT(data.joints.empty(), "the bones of a skin with joints follow those");
     FILAMENT_ASSERT(objectFromBind.size() == data.bones.size(), "a skin keeps its number of bones");
     for (size_t i = 0; i < objectFromBind.size(); ++i) setBone(data, i, affineFrom(double4x4(objectFromBind[i])));
@@ -55,13 +55,13 @@ void setMorphWeights(SceneData& scene, Renderable renderable, std::span<const fl
     placeDeformed(scene, slot);
 }
 
-bool hasMoved(SceneData const& scene, SkinData const& skin) {
+bool hasMoved(SceneData const& scene, SkinRecord const& skin) {
     Deformations const& all = scene.deformations;
     return (skin.node && all.hasMoved(skin.node)) ||
            std::ranges::any_of(skin.joints, [&](Node joint) { return all.hasMoved(joint); });
 }
 
-void updateSkin(SceneData& scene, SkinData& skin) {
+void updateSkin(SceneData& scene, SkinRecord& skin) {
     skin.isStale = false;
     if (!skin.joints.empty()) {
         Transforms const& transforms = scene.transforms;
@@ -78,7 +78,7 @@ void updateSkin(SceneData& scene, SkinData& skin) {
 
 void placeDeformed(SceneData& scene, uint32_t slot) {
     Deformation const& deformation = scene.deformations[slot];
-    SkinData const* const skin = deformation.skin ? &scene.deformations.skin(deformation.skin) : nullptr;
+    SkinRecord const* const skin = deformation.skin ? &scene.deformations.skin(deformation.skin) : nullptr;
     Renderables& renderables = scene.renderables;
     const uint32_t at = renderables.index.at(deformation.renderable);
     setObjectBounds(renderables, at, deformedBounds(deformation, skin), skin && bonesMirror(deformation, *skin));

@@ -10,8 +10,8 @@
 
 namespace filament::scene {
 
-/// Removing `data.node`, if there is one, removes the skin.
-Skin addSkin(SceneData& scene, SkinData data);
+/// The skin ends with `data.node`, if that is one.
+Skin addSkin(SceneData& scene, SkinRecord data);
 void removeSkin(SceneData& scene, Skin skin);
 
 /// For a skin without joints.
@@ -20,12 +20,12 @@ void setBones(SceneData& scene, Skin skin, std::span<const float4x4> objectFromB
 /// Missing weights count as 0, surplus ones are ignored; does nothing for a renderable without morph targets.
 void setMorphWeights(SceneData& scene, Renderable renderable, std::span<const float> weights);
 
-/// Whether the running update of the nodes has moved one of the skin's joints or its node.
-bool hasMoved(SceneData const& scene, SkinData const& skin);
+/// Whether one of the joints of the skin, or its node, was moved by the update of the nodes that runs.
+bool hasMoved(SceneData const& scene, SkinRecord const& skin);
 
-/// Computes the bones from their joints, then bounds and placement of everything that the skin moves. If a joint was
-/// removed, its bone keeps its last pose.
-void updateSkin(SceneData& scene, SkinData& skin);
+/// Bones from where the joints are, then bounds and placement of all that the skin moves. A joint that was removed
+/// leaves its bone where it was.
+void updateSkin(SceneData& scene, SkinRecord& skin);
 
 /// Bounds and placement of one deformed renderable.
 void placeDeformed(SceneData& scene, uint32_t deformation);

@@ -29,7 +29,7 @@ struct SkinsTest : testing::Test {
             for (const uint32_t slot : transforms.recompute(0, transforms.levelSize())) placeAttached(scene, slot);
         }
         for (const uint32_t slot : transforms.takeUnplaced()) placeAttached(scene, slot);
-        for (SkinData& skin : scene.deformations.skins()) {
+        for (SkinRecord& skin : scene.deformations.skins()) {
             if (skin.isStale || hasMoved(scene, skin)) updateSkin(scene, skin), ++updates;
         }
         scene.deformations.endMoving();
@@ -196,7 +196,7 @@ TEST_F(SkinsTest, NoDeformedVertexLeavesTheBounds) {
             morph.reach.push_back(reach);
             deformation.weights.push_back(2 * random.real());
         }
-        SkinData skin;
+        SkinRecord skin;
         for (size_t i = 0; i < kBones; ++i) {
             skin.bones.push_back({ float4(random.point(), random.real()), float4(random.point(), random.real()),
                                    float4(random.point(), random.real()) });
