@@ -80,7 +80,7 @@ struct ViewPacket {
     ViewKind kind = ViewKind::Color;
     uint8_t variant = 0; ///< shader::VariantBit set that the lights of the view select; 0 where nothing is shaded
     shader::FrameUniforms uniforms{};
-    std::span<const shader::LightData> lights; ///< relative to the camera of the view and pre-exposed by it
+    std::span<const shader::PunctualLight> lights; ///< relative to the camera of the view and pre-exposed by it
     ObjectList objects;
     std::span<const DrawCall> opaque;  ///< opaque and masked, roughly front to back
     std::span<const DrawCall> blended; ///< back to front; none where nothing is shaded

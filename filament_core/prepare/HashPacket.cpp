@@ -52,7 +52,7 @@ uint64_t hashObjects(ObjectList const& objects, uint64_t seed) {
 
 uint64_t hashView(ViewPacket const& view, uint64_t seed) {
     static_assert(sizeof(shader::FrameUniforms) % sizeof(float4) == 0 &&
-                  sizeof(shader::LightData) % sizeof(float4) == 0);
+                  sizeof(shader::PunctualLight) % sizeof(float4) == 0);
     seed = hashBytes(std::as_bytes(std::span(&view.uniforms, 1)), seed);
     seed = hashBytes(std::as_bytes(view.lights), seed);
     seed = hashObjects(view.objects, seed);

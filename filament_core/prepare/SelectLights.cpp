@@ -8,7 +8,7 @@ namespace filament::prepare {
 namespace {
 
 using scene::LightRecord;
-using shader::LightData;
+using shader::PunctualLight;
 
 float weight(LightRecord const& light) {
     return light.intensity * glm::dot(light.color, float3(0.2126f, 0.7152f, 0.0722f));
@@ -20,8 +20,8 @@ bool reachesView(LightRecord const& light, ViewSpace const& space) {
 }
 
 // The spot's angular falloff as a scale and an offset of the cosine; Lagarde & de Rousiers 2014, section 4.3.
-LightData lightData(LightRecord const& light, ViewSpace const& space) {
-    LightData data{};
+PunctualLight punctualLight(LightRecord const& light, ViewSpace const& space) {
+    PunctualLight data{};
     const float range = light.rangeMeters;
     data.positionRange = float4(float3(light.positionWorld - space.cameraWorld), range > 0 ? 1 / (range * range) : 0);
     const bool spot = light.type == LightRecord::Type::Spot;
@@ -49,7 +49,7 @@ void writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float e
 
 LightSelector::LightSelector(Arena& arena, scene::Lights const& lights)
         : mLights(lights), mCandidates(arena.arrayForOverwrite<Candidate>(lights.records.size())),
-          mChosen(arena.arrayForOverwrite<LightData>(
+          mChosen(arena.arrayForOverwrite<PunctualLight>(
                   std::min<size_t>(lights.records.size(), shader::kMaxPunctualLights))) {}
 
 uint32_t LightSelector::findCandidates(ViewSpace const& space, ViewCounts& counts) const {
@@ -70,8 +70,8 @@ uint32_t LightSelector::findCandidates(ViewSpace const& space, ViewCounts& count
     return count;
 }
 
-std::span<const LightData> LightSelector::select(ViewSpace const& space, shader::FrameUniforms& frame,
-                                                 ViewCounts& counts) const {
+std::span<const PunctualLight> LightSelector::select(ViewSpace const& space, shader::FrameUniforms& frame,
+                                                     ViewCounts& counts) const {
     writeSun(frame, mLights, space.exposure, counts);
     const std::span<Candidate> candidates = mCandidates.first(findCandidates(space, counts));
     const auto isBrighter = [](Candidate const& a, Candidate const& b) {
@@ -80,7 +80,8 @@ std::span<const LightData> LightSelector::select(ViewSpace const& space, shader:
     if (candidates.size() > mChosen.size()) std::ranges::sort(candidates, isBrighter);
     counts.lights = static_cast<uint32_t>(std::min(candidates.size(), mChosen.size()));
     counts.lightsOverLimit = static_cast<uint32_t>(candidates.size()) - counts.lights;
-    for (uint32_t i = 0; i < counts.lights; ++i) mChosen[i] = lightData(mLights.records[candidates[i].index], space);
+    for (uint32_t i = 0; i < counts.lights; ++i)
+        mChosen[i] = punctualLight(mLights.records[candidates[i].index], space);
     frame.ambient.w = static_cast<float>(counts.lights);
     return mChosen.first(counts.lights);
 }

@@ -21,8 +21,8 @@ public:
 
     /// Writes the sun and the light count into `frame`, and the light counts into `counts`; touches nothing else of
     /// them. Returns the punctual lights.
-    std::span<const shader::LightData> select(ViewSpace const& space, shader::FrameUniforms& frame,
-                                              ViewCounts& counts) const;
+    std::span<const shader::PunctualLight> select(ViewSpace const& space, shader::FrameUniforms& frame,
+                                                  ViewCounts& counts) const;
 
 private:
     struct Candidate {
@@ -34,7 +34,7 @@ private:
 
     scene::Lights const& mLights;
     std::span<Candidate> mCandidates;
-    std::span<shader::LightData> mChosen;
+    std::span<shader::PunctualLight> mChosen;
 };
 
 } // namespace filament::prepare

@@ -77,7 +77,7 @@ struct ObjectUniforms {
 inline constexpr uint32_t kMaxPunctualLights = 256;
 
 /// A point or spot light, pre-exposed.
-struct LightData {
+struct PunctualLight {
     float4 positionRange;   ///< xyz: relative to the camera; w: 1 / range^2 (0: unlimited)
     float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; w: 1 for spots, 0 for points
     float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
@@ -85,7 +85,7 @@ struct LightData {
 };
 
 struct LightUniforms {
-    std::array<LightData, kMaxPunctualLights> lights;
+    std::array<PunctualLight, kMaxPunctualLights> lights;
 };
 
 // ---- deformation: skins and morph targets (shaders/interface/deformation.glsl)

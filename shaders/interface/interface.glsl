@@ -40,7 +40,7 @@ layout(set = 0, binding = 1, std140) uniform ObjectUniforms {
     ObjectRecord objects[kObjectsPerWindow];
 } objectUniforms;
 
-struct LightRecord {
+struct PunctualLight {
     vec4 positionRange;
     vec4 colorIntensity;
     vec4 directionScale;
@@ -48,7 +48,7 @@ struct LightRecord {
 };
 
 layout(set = 0, binding = 2, std140) uniform LightUniforms {
-    LightRecord lights[kMaxPunctualLights];
+    PunctualLight lights[kMaxPunctualLights];
 } lightUniforms;
 
 layout(set = 0, binding = 3) uniform samplerCube viewSpecular;

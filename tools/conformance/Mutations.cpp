@@ -172,7 +172,7 @@ private:
 /// The first punctual light, or the sun where there is none.
 class LightOffEdit final : public FrameEdit {
     void changeLights(CmdUpdateBuffer& command) override {
-        zeroColor(command, offsetof(shader::LightData, colorIntensity));
+        zeroColor(command, offsetof(shader::PunctualLight, colorIntensity));
     }
     void changeFrame(CmdUpdateBuffer& command) override {
         if (!hasLights()) zeroColor(command, offsetof(shader::FrameUniforms, sunIlluminance));

@@ -155,7 +155,8 @@ TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {
     EXPECT_EQ(packet.lights.size(), shader::kMaxPunctualLights);
     EXPECT_EQ(packet.counts.lightsOverLimit, 44u);
     const float exposure = packet.uniforms.exposure.x;
-    for (shader::LightData const& light : packet.lights) EXPECT_GE(light.colorIntensity.x, 45.0f * exposure * 0.999f);
+    for (shader::PunctualLight const& light : packet.lights)
+        EXPECT_GE(light.colorIntensity.x, 45.0f * exposure * 0.999f);
 }
 
 TEST_F(PrepareFrameTest, DropsALightWhoseRangeEndsBeforeTheView) {

@@ -96,9 +96,9 @@ TEST_F(Interface, LightUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kBindingLights).base_type_id);
     expectMembers(type, { MEMBER(LightUniforms, lights) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(LightUniforms));
-    expectMembers(record(type), { MEMBER(LightData, positionRange), MEMBER(LightData, colorIntensity),
-                                  MEMBER(LightData, directionScale), MEMBER(LightData, offset) });
-    EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(LightData));
+    expectMembers(record(type), { MEMBER(PunctualLight, positionRange), MEMBER(PunctualLight, colorIntensity),
+                                  MEMBER(PunctualLight, directionScale), MEMBER(PunctualLight, offset) });
+    EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(PunctualLight));
 }
 
 TEST_F(Interface, EveryResourceIsInTheViewLayout) {

@@ -25,7 +25,7 @@ struct MaterialScene {
     std::map<std::string, uint32_t> constants;            ///< bits by name
     std::map<std::string, std::vector<float>> parameters; ///< components by name; missing ones are 0
     FrameUniforms frame{};                                ///< matrices and viewport are filled in by the rig
-    std::vector<LightData> lights;
+    std::vector<PunctualLight> lights;
 };
 
 class MaterialRig {
