@@ -2,7 +2,7 @@
 #include <filament/Renderer.h>
 
 #include "backend/stream/RecordingGuards.h"
-#include "filament_core/base/OutOfMemory.h"
+#include "base/OutOfMemory.h"
 #include "filament_core/engine/FrameResourceCache.h"
 #include "filament_core/engine/FrameSummary.h"
 #include "filament_core/engine/FrameTimingLog.h"

@@ -50,7 +50,7 @@ void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines
 void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     PassSettings const& settings = context.settings;
     const TextureId color = targets.color;
-    const framegraph::TextureDesc like = graph.texture(color).desc;
+    const framegraph::GraphTextureDesc like = graph.texture(color).desc;
     const TextureId depth = graph.createTexture({ .width = like.width,
                                                   .height = like.height,
                                                   .format = Format::D32F,

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Several views of one engine that take turns: none makes the others pay, and each keeps its picture.
 #include "backend/layers/Traced.h"
-#include "tests/filament_core/engine/MaterialFixture.h"
+#include "tests/filament_core/engine/materials/MaterialFixture.h"
 
 #include <gmock/gmock.h>
 

@@ -43,7 +43,7 @@ struct BufferMemory {
     std::map<uint32_t, std::map<uint8_t, backend::BindGroupEntry>> groups;
     uint32_t created = 0;
 
-    void execute(CmdCreateBuffer const& c) { buffers[c.handle.bits].resize(c.desc.bytes), ++created; }
+    void execute(CmdCreateBuffer const& c) { buffers[c.handle.bits].resize(c.desc.size), ++created; }
     void execute(CmdUpdateBuffer const& c) {
         std::vector<std::byte>& buffer = buffers.at(c.buffer.bits);
         ASSERT_LE(c.offset + c.bytes.size(), buffer.size());

@@ -217,7 +217,7 @@ TEST_P(DrawListCountTest, ARandomSceneIsCoveredAndHasTheSameBitsForAnyNumberOfWo
         addLight(scene, { .type = scene::LightRecord::Type::Point, .intensity = 1.0f + static_cast<float>(i) });
     }
     const FramePacket reference = frame(0);
-    expectCoversItsObjects(reference);
+    expectCoversItsObjects(reference.mainView());
     for (int workers : { 1, 2, 3, 16 }) {
         EXPECT_EQ(hashPacket(frame(workers)), hashPacket(reference)) << workers << " workers";
     }
