@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The built-in functions of GLSL that the shader library calls, for its text as C++. They come from GLM, for float and
-/// for double. `using namespace glsl` makes them known to a namespace that includes GLSL.
-///   Rules   a built-in that is not here may not be used in shaders/lib: C++, and so the tests, would not know it.
+/// The built-in GLSL functions that the shader library calls, for compiling it as C++. They come from GLM, for float
+/// and for double. `using namespace glsl` makes them visible in a namespace that includes GLSL.
+///   Rules   shaders/lib must not use built-ins that are missing here: the C++ code and the tests would not compile.
 #pragma once
 
 #include <glm/common.hpp>

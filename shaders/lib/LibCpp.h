@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The shader library as C++: the very text that the GPU runs, in namespace filament::shader::lib over GLM's types.
-///   Use     tests check the BRDF before it has a pixel; the environment baker samples with the same functions.
-///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and the C++ compiler rounds
-///           transcendental functions its own way.
+/// The shader library as C++: exactly the text that the GPU runs, in namespace filament::shader::lib, on GLM's types.
+///   Use     tests check the BRDF before anything is drawn; the environment baker samples with the same functions.
+///   Differs arrays decay to pointers (irradianceSh takes 9 float4), OUT(T) is T&, and the C++ library rounds
+///   transcendental functions in its own way.
 ///   Rules   for the .glsl files: no swizzles but .x .y .z .w, literals end in f, vec3(v4) truncates, built-ins are
 ///           those of GlslBuiltIns.h, functions only.
 ///   Memory  none. Thread: pure functions.
@@ -21,13 +21,13 @@ using glm::vec4;
 
 using namespace glsl;
 
-// GLSL functions have no linkage: internal here, and not every includer calls every one.
+// GLSL functions have no linkage: they are internal here, and not every file that includes them calls all of them.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 namespace {
 
 #include "shaders/lib/math.glsl"
-// the rest in the order of the alphabet: the lobes that are added to brdf.glsl come after it
+// the others in alphabetical order: the lobes that extend brdf.glsl come after it
 #include "shaders/lib/aa.glsl"
 #include "shaders/lib/ao.glsl"
 #include "shaders/lib/brdf.glsl"

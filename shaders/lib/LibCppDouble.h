@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The shader library in double precision, in namespace filament::shader::lib64: what the formulas say when rounding
-/// does not matter. The reference renderer shades with it; the numerics tests measure fp32 and fp16 against it.
+/// The shader library in double precision, in namespace filament::shader::lib64: the formulas without significant
+/// rounding. The reference renderer shades with it; the numerics tests compare fp32 and fp16 with it.
 ///   Source  the build copies shaders/lib/*.glsl with `float` as double and literals without f
 ///           (cmake/DoublePrecisionGlsl.cmake); every file, every function, rebuilt when one of them changes. Link
 ///           shader_lib64.
-///   Differs from LibCpp.h in the types only: vec3 is glm::dvec3. Clamps that exist for fp32, such as kMinAlpha, stay:
-///           they belong to the material model.
+///   Differs from LibCpp.h only in its types: vec3 is glm::dvec3. Clamps that exist for fp32, such as kMinAlpha, stay:
+///   they are part of the material model.
 ///   Memory  none. Thread: pure functions.
 #pragma once
 
@@ -24,7 +24,7 @@ using vec4 = glm::dvec4;
 
 using namespace glsl;
 
-// GLSL functions have no linkage: internal here, and not every includer calls every one.
+// GLSL functions have no linkage: they are internal here, and not every file that includes them calls all of them.
 #pragma GCC diagnostic push
 #pragma GCC diagnostic ignored "-Wunused-function"
 namespace {

@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terms of the standard material: D, V, F, the diffuse lobe, and how material parameters become their arguments.
+// The terms of the standard material: D, V, F, the diffuse lobe, and the conversion of material parameters to their
+// arguments.
 //   Names     noh, nov, nol, voh: cosines between normal, view, light and half vector, in [0, 1].
-//   Roughness perceptual is what the user sets; alpha = perceptual^2 is what the terms take.
+//   Roughness perceptual roughness is what the user sets; alpha = perceptual^2 is what the terms take.
 //   Units     D and V in 1/sr, D * V * F is the specular BRDF (V contains the 1 / (4 nol nov)).
 
-// 0.045: alpha^2 = 4.1e-6 is the smallest whose 1 - noh^2 + alpha^2 noh^2 still has significant bits in fp32.
+// 0.045: alpha^2 = 4.1e-6 is the smallest value for which 1 - noh^2 + alpha^2 noh^2 still has significant bits in fp32.
 const float kMinPerceptualRoughness = 0.045f;
 // 2^(-14/4): alpha^2 = roughness^4 must not fall below the smallest normal half float, 2^-14.
 const float kMinPerceptualRoughnessMedium = 0.089f;
 const float kMinAlpha = 0.002025f; // kMinPerceptualRoughness^2
-// Keeps 0.5 / 0 finite where both view and light graze; four decades below the least sum of visible directions. In 16
-// bits, where that is 0, the smallest normal number: V ends at 8192.
+// Keeps 0.5 / 0 finite where both view and light graze; four decades below the smallest sum of visible directions. In
+// 16 bits, where that is 0, it is the smallest normal number: V is at most 8192.
 #ifdef HALF_PRECISION
 const float kMinVisibilityDenominator = 6.103515625e-5f;
 #else
@@ -32,18 +33,19 @@ float alphaFromPerceptual(float perceptualRoughness) { return perceptualRoughnes
 
 // GGX / Trowbridge-Reitz distribution of normals. Walter et al. 2007, "Microfacet Models for Refraction through Rough
 // Surfaces", eq. 33, as (alpha / (1 - noh^2 + (alpha noh)^2))^2 / pi.
-// 1 - noh^2 is factored so that the subtraction is exact for noh >= 1/2: what remains is the rounding of noh itself,
-// at most 3 % of D at kMinAlpha (see ndfGgxFromVectors). Squaring last keeps alpha^4 out of the intermediate values.
+// 1 - noh^2 is factored so that the subtraction is exact for noh >= 1/2. The remaining error is the rounding of noh
+// itself, at most 3 % of D at kMinAlpha (see ndfGgxFromVectors). Squaring last keeps alpha^4 out of the intermediate
+// values.
 // noh in [0, 1], alpha in [kMinAlpha, 1]. Returns 1/sr in [0, 1 / (pi alpha^2)]. fp32 only: in 16 bits 1 - noh has no
-// digits where the highlight is.
+// digits near the highlight.
 float ndfGgx(float noh, float alpha) {
     float a = noh * alpha;
     float k = alpha / ((1.0f - noh) * (1.0f + noh) + a * a);
     return k * k * kInversePi;
 }
 
-// The same distribution from the vectors: 1 - noh^2 = |n x h|^2 (Lagrange's identity) has no cancellation, so D is
-// good to a few ulp for any alpha and in 16 bits too. Costs a cross product more. n and h are unit vectors.
+// The same distribution from the vectors: 1 - noh^2 = |n x h|^2 (Lagrange's identity) does not cancel, so D is accurate
+// to a few ulp for any alpha, also in 16 bits. Costs one more cross product. n and h are unit vectors.
 float ndfGgxFromVectors(vec3 n, vec3 h, float alpha) {
     vec3 nxh = cross(n, h);
     float a = dot(n, h) * alpha;
@@ -62,14 +64,14 @@ float visibilitySmithGgxCorrelated(float nov, float nol, float alpha) {
 }
 
 // Without square roots: Hammon 2017, "PBR Diffuse Lighting for GGX+Smith Microsurfaces", slide 83.
-// Exact at alpha 0 and 1, a few per cent too dark between. Same ranges.
+// Exact at alpha 0 and 1, a few per cent too dark in between. Same ranges.
 float visibilitySmithGgxCorrelatedFast(float nov, float nol, float alpha) {
     return 0.5f / max(mix(2.0f * nol * nov, nol + nov, alpha), kMinVisibilityDenominator);
 }
 
-// Separable Smith masking and shadowing over 4 nol nov, as if the heights of the facets that hide from the light and
-// from the eye were unrelated. Walter et al. 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 23
-// and 34. Never brighter than visibilitySmithGgxCorrelated(). Same ranges.
+// Separable Smith masking and shadowing over 4 nol nov, as if masking and shadowing were independent. Walter et al.
+// 2007, "Microfacet Models for Refraction through Rough Surfaces", eq. 23 and 34. Never brighter than
+// visibilitySmithGgxCorrelated(). Same ranges.
 float visibilitySmithGgxUncorrelated(float nov, float nol, float alpha) {
     float a2 = alpha * alpha;
     float masking = nov + sqrt(nov * nov * (1.0f - a2) + a2);
@@ -83,15 +85,16 @@ vec3 fresnelSchlick(vec3 f0, float f90, float voh) { return f0 + (vec3(f90) - f0
 // Lambert 1760: a diffuse reflector scatters equally into all directions. Returns 1/sr.
 float diffuseLambert() { return kInversePi; }
 
-// Lambert's lobe times nol, reaching around to cosines of -wrap as if light went through: McAuley 2013, "Extension to
-// Energy-Conserving Wrapped Diffuse". (1 + wrap)^2 keeps its integral at 1. nol in [-1, 1], wrap in [0, 1]. Returns 1/sr.
+// Lambert's lobe times nol, extended to cosines of -wrap as if light passed through: McAuley 2013, "Extension to
+// Energy-Conserving Wrapped Diffuse". (1 + wrap)^2 keeps its integral at 1. nol in [-1, 1], wrap in [0, 1]. Returns
+// 1/sr.
 float diffuseWrapped(float nol, float wrap) {
     return max((nol + wrap) / ((1.0f + wrap) * (1.0f + wrap)), 0.0f) * kInversePi;
 }
 
-// Burley 2012, "Physically Based Shading at Disney", section 5.3: darker edges on smooth surfaces, brighter ones on rough.
-// With the factors of Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.3,
-// which keep its albedo at or below 1. All in [0, 1], perceptual roughness. Returns 1/sr.
+// Burley 2012, "Physically Based Shading at Disney", section 5.3: darker edges on smooth surfaces, brighter ones on
+// rough surfaces. The factors of Lagarde and de Rousiers 2014, "Moving Frostbite to Physically Based Rendering",
+// section 3.1.3, keep its albedo at or below 1. All in [0, 1], perceptual roughness. Returns 1/sr.
 float diffuseDisney(float nov, float nol, float voh, float perceptualRoughness) {
     float grazing = perceptualRoughness * (0.5f + 2.0f * voh * voh) - 1.0f;
     float in_ = 1.0f + grazing * pow5(1.0f - nol);
@@ -110,7 +113,7 @@ float f0FromIor(float ior) {
 }
 
 // Inverse of f0FromIor for f0 in [0, 1). The result is at least 1. (1 + r) / (1 - r) with r = sqrt(f0), written so that
-// what is subtracted from 1 is not rounded: 1 - r has no bits left for f0 close to 1.
+// the value subtracted from 1 is not rounded: 1 - r would have no bits left for f0 close to 1.
 float iorFromF0(float f0) {
     float r = sqrt(f0);
     return (1.0f + r) * (1.0f + r) / (1.0f - f0);
@@ -124,30 +127,31 @@ vec3 f0FromBaseColor(vec3 baseColor, float metallic, float reflectance) {
 // Metals have no diffuse lobe. All in [0, 1].
 vec3 diffuseColor(vec3 baseColor, float metallic) { return baseColor * (1.0f - metallic); }
 
-// The factor that returns to rough metals the energy lost to multiple scattering. Lagarde and Golubev 2018, "The Road
-// toward Unified Rendering with Unity's High Definition Rendering Pipeline"; dfg is the table of DfgTable.h.
+// The factor that restores the energy that rough metals lose to multiple scattering. Lagarde and Golubev 2018, "The
+// Road toward Unified Rendering with Unity's High Definition Rendering Pipeline"; dfg is the table of DfgTable.h.
 // dfg.y in (0, 1]. Returns values >= 1.
 vec3 energyCompensation(vec3 f0, vec2 dfg) { return vec3(1.0f) + f0 * (1.0f / dfg.y - 1.0f); }
 
-// Directional albedo of the specular lobe, one bounce: the second factor of the split sum.
-// dfg.x <= dfg.y: the integrals weighted by Schlick's (1 - voh)^5 and by 1. f90 in [0, 1]: how much of grazing light is
-// reflected. Multiply by energyCompensation() as well.
+// Directional albedo of the specular lobe for one bounce: the second factor of the split sum.
+// dfg.x <= dfg.y: the integrals weighted by Schlick's (1 - voh)^5 and by 1. f90 in [0, 1]: reflectance at grazing
+// angles. Multiply by energyCompensation() as well.
 vec3 specularDfg(vec3 f0, float f90, vec2 dfg) { return vec3(dfg.x * f90) + (dfg.y - dfg.x) * f0; }
 
-// The two values of the split-sum table averaged over all directions, weighted by the cosine; a fit of the integrals, 0.001 and
-// 0.003 off. alpha in [0, 1].
+// The two values of the split-sum table averaged over all directions, weighted by the cosine; a fit of the integrals
+// with errors of 0.001 and 0.003. alpha in [0, 1].
 vec2 dfgAverage(float alpha) {
     float weighted = 1.0f / (20.58f + alpha * (59.03f + alpha * 286.2f));
     float lost = alpha * (0.1269f + alpha * (1.8562f - alpha * (2.2382f - alpha * 0.8483f)));
     return vec2(weighted, 1.0f - lost);
 }
 
-// Light that a diffuse lobe sends on crosses the specular lobe above it twice, on its way in and out. One direction's factor
-// is what that lobe's directional albedo leaves; the product of both, over what is left of all directions, is reciprocal, and
-// specular and diffuse lobe together reflect what arrives. Kelemen and Szirmay-Kalos 2001, "A Microfacet Based Coupled
-// Specular-Matte BRDF Model with Importance Sampling", equation 5. diffuseEntry() is the one, diffuseExit() the other with the average.
-// albedo, averageAlbedo: of the specular lobe, all bounces; slightly more than 1 counts as 1. Where it reflects all but a 16th on
-// average, some of the rest is lost: the quotient would have no bits left.
+// Light that the diffuse lobe scatters crosses the specular lobe above it twice, on the way in and out. The factor for
+// one direction is the part that the specular lobe's directional albedo leaves. The product of both factors, divided by
+// the part left on average over all directions, is reciprocal, and both lobes together reflect all incident light.
+// Kelemen and Szirmay-Kalos 2001, "A Microfacet Based Coupled Specular-Matte BRDF Model with Importance Sampling",
+// equation 5. diffuseEntry() is one factor; diffuseExit() is the other, divided by the average.
+// albedo, averageAlbedo: of the specular lobe with all bounces; slightly more than 1 counts as 1. If the average leaves
+// less than a 16th, some light is lost: the quotient would have no bits left.
 vec3 diffuseEntry(vec3 albedo) { return max(vec3(1.0f) - albedo, vec3(0.0f)); }
 vec3 diffuseExit(vec3 albedo, vec3 averageAlbedo) {
     return diffuseEntry(albedo) / max(vec3(1.0f) - averageAlbedo, vec3(0.0625f));

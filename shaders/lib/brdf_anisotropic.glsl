@@ -1,30 +1,30 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GGX lobe of brushed and woven surfaces: D, V, and where image-based light comes from. Vectors named *Local are in
+// The GGX lobe of brushed and woven surfaces: D, V, and the direction of image-based light. Vectors named *Local are in
 // the frame of tangent x, bitangent y and normal z; alpha.x is the roughness along the tangent, alpha.y along the
-// bitangent. With alpha.x = alpha.y every function is its isotropic counterpart of brdf.glsl.
+// bitangent. If alpha.x = alpha.y, every function equals its isotropic counterpart in brdf.glsl.
 
-// Of the shading normal in a bent one: the square of what remains where the eye looks along the grooves is still a normal
-// number of 16 bits.
+// Weight of the shading normal in a bent one: if the view runs along the grooves, the square of the remainder is still
+// a normal number in 16 bits.
 const float kMinShadingNormalWeight = 0.03125f;
-// A view behind the shading normal may cancel it: the result is short then, but a number.
+// A view from behind the shading normal may cancel it: the result is then short, but valid.
 const float kMinBentLength2 = 6.103515625e-5f;
 
-// The roughness of both directions. Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks": one is
-// stretched by as much as the other is narrowed. alpha in [0, 1], anisotropy in [-1, 1], positive: the highlight is
-// drawn out along the tangent. minAlpha: what the precision holds, as for clampPerceptualRoughness(). Returns
+// The roughness along both directions. Kulla and Conty 2017, "Revisiting Physically Based Shading at Imageworks": one
+// is stretched by as much as the other is narrowed. alpha in [0, 1], anisotropy in [-1, 1]; a positive value stretches
+// the highlight along the tangent. minAlpha: the minimum for the precision, as for clampPerceptualRoughness(). Returns
 // [minAlpha, 2].
 vec2 anisotropicAlpha(float alpha, float anisotropy, float minAlpha) {
     return max(alpha * vec2(1.0f + anisotropy, 1.0f - anisotropy), vec2(minAlpha));
 }
 
-// The same as KHR_materials_anisotropy defines it: only the direction along the tangent becomes rougher, up to 1.
+// The definition of KHR_materials_anisotropy: only the direction along the tangent becomes rougher, up to 1.
 // alpha, strength in [0, 1]. Returns [minAlpha, 1].
 vec2 anisotropicAlphaFromStrength(float alpha, float strength, float minAlpha) {
     return max(vec2(mix(alpha, 1.0f, strength * strength), alpha), vec2(minAlpha));
 }
 
 // Burley 2012, "Physically Based Shading at Disney", eq. 13, with numerator and denominator divided by alpha.x alpha.y:
-// no power of alpha higher than the second remains, and nothing cancels, which 16 bits need.
+// alpha occurs at most squared and nothing cancels, which 16 bits require.
 // halfLocal unit, alpha in [kMinAlpha, 2]. Returns 1/sr in [0, 1 / (pi alpha.x alpha.y)].
 float ndfGgxAnisotropic(vec3 halfLocal, vec2 alpha) {
     float product = alpha.x * alpha.y;
@@ -46,7 +46,7 @@ float visibilitySmithGgxAnisotropic(vec3 viewLocal, vec3 lightLocal, vec2 alpha)
 }
 
 // Half vector distributed as D(h) noh: a disc stretched by both roughnesses. Burley 2012, eq. 14, without the quotient
-// that is infinite at the rim. u in [0, 1)^2, alpha >= 0. fp32 only: a ratio of the roughnesses of 250 times the rounding
+// that is infinite at the rim. u in [0, 1)^2, alpha >= 0. fp32 only: a roughness ratio of 250 multiplies the rounding
 // of 2 pi u.
 vec3 importanceSampleGgxAnisotropic(vec2 u, vec2 alpha) {
     float phi = kTwoPi * u.x;
@@ -55,10 +55,11 @@ vec3 importanceSampleGgxAnisotropic(vec2 u, vec2 alpha) {
     return h / sqrt(dot(h, h));
 }
 
-// What image-based light is reflected about, as the cube map holds round lobes only: the normal turned towards the view
-// within the plane across the grooves. Revie 2012, "Implementing Fur Using Deferred Shading", GPU Pro 2, as McAuley
-// 2015, "Rendering the World of Far Cry 4", uses it. The amount vanishes with the roughness, where the lobe is a mirror's.
-// n, t, b, view unit and n the cross product of t and b; anisotropy in [-1, 1], perceptualRoughness in [0, 1].
+// The normal about which image-based light is reflected, since the cube map holds isotropic lobes only: the shading
+// normal turned towards the view within the plane across the grooves. Revie 2012, "Implementing Fur Using Deferred
+// Shading", GPU Pro 2, as used by McAuley 2015, "Rendering the World of Far Cry 4". The amount vanishes with the
+// roughness, where the lobe is that of a mirror.
+// n, t, b, view unit, and n is the cross product of t and b; anisotropy in [-1, 1], perceptualRoughness in [0, 1].
 // Returns a unit vector; n for anisotropy 0.
 vec3 anisotropicNormal(vec3 n, vec3 t, vec3 b, vec3 view, float anisotropy, float perceptualRoughness) {
     vec3 across = anisotropy < 0.0f ? t : b;

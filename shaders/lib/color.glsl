@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// From scene-referred linear Rec. 709 to what a display takes: tone mappers, transfer functions, dither noise.
-// The tone mappers, except toneMapMobile(), square scene-referred values, which exceeds 16 bits: they are fp32 only.
+// From scene-referred linear Rec. 709 to display values: tone mappers, transfer functions, dither noise.
+// The tone mappers, except toneMapMobile(), square scene-referred values, which exceeds the range of 16 bits: they are
+// fp32 only.
 
 const int kToneMapLinear = 0; // clamps
 const int kToneMapAces = 1;   // the ACES rendering transforms, with their desaturation of highlights
@@ -11,7 +12,8 @@ const int kToneMapMobile = 3; // one division, transfer function included
 float luminance(vec3 linear) { return dot(linear, vec3(0.2126f, 0.7152f, 0.0722f)); }
 
 // ACES reference rendering and output transform for a Rec. 709 display, fitted by Hill: "ACES.hlsl" of Pettineo's
-// BakingLab, 2016. The two matrices go to and from the space where the curve is applied, which desaturates bright colours.
+// BakingLab, 2016. The two matrices convert to and from the space in which the curve is applied, which desaturates
+// bright colours.
 // x >= 0; the result may leave [0, 1] by a few per cent in saturated colours.
 vec3 toneMapAces(vec3 x) {
     vec3 v = vec3(dot(x, vec3(0.59719f, 0.35458f, 0.04823f)), dot(x, vec3(0.07600f, 0.90834f, 0.01566f)),
@@ -21,19 +23,19 @@ vec3 toneMapAces(vec3 x) {
             dot(y, vec3(-0.00327f, -0.07276f, 1.07602f)));
 }
 
-// The curve of ACES per component and brighter: Narkowicz 2015, "ACES Filmic Tone Mapping Curve". x >= 0; the result
-// exceeds 1 from x = 7.2 on, by 3 % at most.
+// The curve of ACES per component, brighter: Narkowicz 2015, "ACES Filmic Tone Mapping Curve". x >= 0; the result
+// exceeds 1 from x = 7.2 on, by at most 3 %.
 vec3 toneMapFilmic(vec3 x) { return (x * (2.51f * x + 0.03f)) / (x * (2.43f * x + 0.59f) + 0.14f); }
 
-// About toneMapFilmic() followed by the sRGB transfer, in one division: Guy and Agopian 2018, "High performance on
-// mobile". The result goes to the display as it is: no srgbFromLinear() after it.
+// Approximates toneMapFilmic() followed by the sRGB transfer function in one division: Guy and Agopian 2018, "High
+// performance on mobile". The result is displayed directly: do not apply srgbFromLinear().
 vec3 toneMapMobile(vec3 x) { return x / (x + vec3(0.155f)) * 1.019f; }
 
-// Whether the mapper's result is display code already, so that no transfer function may follow.
+// Whether the mapper's result is already encoded for the display, so that no transfer function may follow.
 bool toneMapIncludesTransfer(int mapper) { return mapper == kToneMapMobile; }
 
-// Scene-referred, exposed linear colour -> [0, 1]. Negative components (out of gamut) count as 0; huge values are cut
-// at 1e4, where all curves are flat, so that x^2 cannot overflow fp32 on the way.
+// Scene-referred, exposed linear colour -> [0, 1]. Negative components (out of gamut) count as 0; values above 1e4,
+// where all curves are flat, are clamped so that x^2 does not overflow fp32.
 vec3 toneMap(vec3 color, int mapper) {
     vec3 x = clamp(color, 0.0f, 1e4f);
     if (mapper == kToneMapAces) {
@@ -46,9 +48,10 @@ vec3 toneMap(vec3 color, int mapper) {
     return saturate(x);
 }
 
-// Inverse of toneMapFilmic(), per component: the root of its quadratic, in the one of two forms that does not cancel.
-// What a tone-mapped picture must emit to look like itself. x in [0, 1]; 1 is the light where the curve reaches 1. fp32
-// only: the bright end is steep.
+// Inverse of toneMapFilmic(), per component: the root of its quadratic, in the form that does not cancel. The light
+// that an already tone-mapped picture must emit to look unchanged. x in [0, 1]; 1 gives the light at which the curve
+// reaches 1.
+// fp32 only: the bright end is steep.
 float inverseTonemap(float x) {
     float y = saturate(x);
     float a = 2.51f - 2.43f * y;
@@ -72,27 +75,29 @@ float linearFromSrgb(float x) {
 vec3 srgbFromLinear(vec3 x) { return vec3(srgbFromLinear(x.x), srgbFromLinear(x.y), srgbFromLinear(x.z)); }
 vec3 linearFromSrgb(vec3 x) { return vec3(linearFromSrgb(x.x), linearFromSrgb(x.y), linearFromSrgb(x.z)); }
 
-// inverseTonemap() of what a display shows: the transfer function is undone first. [0, 1]. fp32 only.
+// inverseTonemap() of a display value: the transfer function is undone first. [0, 1]. fp32 only.
 vec3 inverseTonemapSRGB(vec3 x) { return inverseTonemap(linearFromSrgb(saturate(x))); }
 
-// Video to colour, both with the transfer function: JFIF 1.02, the full range of ITU-R BT.601. y, cbcr in [0, 1].
-// Returns values that may leave [0, 1]: not every triple is a colour.
+// Video to colour, both encoded with the transfer function: JFIF 1.02, the full range of ITU-R BT.601. y, cbcr in [0,
+// 1].
+// The result may leave [0, 1]: not every triple is a colour.
 vec3 ycbcrToRgb(float y, vec2 cbcr) {
     float cb = cbcr.x - 0.5f;
     float cr = cbcr.y - 0.5f;
     return vec3(y + 1.402f * cr, y - 0.344136f * cb - 0.714136f * cr, y + 1.772f * cb);
 }
 
-// Noise that is nearly uniform in every 3x3 block: for dithering and for rotating sample patterns. Jimenez 2014,
-// "Next Generation Post Processing in Call of Duty: Advanced Warfare". pixel: gl_FragCoord.xy. Returns [0, 1). fp32 only:
-// 16 bits do not count the pixels of a line.
+// Noise that is nearly uniform in every 3x3 block, for dithering and for rotating sample patterns. Jimenez 2014, "Next
+// Generation Post Processing in Call of Duty: Advanced Warfare". pixel: gl_FragCoord.xy. Returns [0, 1). fp32 only: 16
+// bits cannot count the pixels of a line.
 float interleavedGradientNoise(vec2 pixel) {
     return fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
 }
 
-// ---- the axes of a tone-mapping table (ToneTable.h): stops of light, so that shadows get as many entries as highlights.
-// The offset makes the first cells nearly linear: the table holds black. 16 stops, [0, 256); all curves are flat beyond.
-// fp32 only, both ways: the logarithm of 16 stops leaves 16 bits no digits for the place between two entries.
+// ---- the axes of a tone-mapping table (ToneTable.h): logarithmic, so that shadows get as many entries as highlights.
+// The offset makes the first cells nearly linear, so that the table includes black. 16 stops, [0, 256); all curves are
+// flat beyond.
+// fp32 only, both ways: the logarithm of 16 stops leaves 16 bits no digits for the position between two entries.
 const float kToneTableOffset = 0.00390625f; // 2^-8
 const float kToneTableStops = 16.0f;
 

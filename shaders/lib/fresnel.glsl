@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fresnel's equations, for whoever wants more than Schlick's term (brdf.glsl): dielectrics and metals in one formula.
+// Fresnel's equations, more exact than Schlick's term (brdf.glsl): dielectrics and metals in one formula.
 // All fp32 only: n^2 k^2 of mirrors exceeds 16 bits.
 
 // 1 - 2^-10: keeps n and k^2 of a perfect mirror finite, and their squares within fp32.
@@ -7,7 +7,7 @@ const float kMaxExactF0 = 0.9990234375f;
 
 // Unpolarised reflectance of a boundary between air and a medium of complex index n + ik, one component.
 // Born and Wolf, "Principles of Optics", section 14.2, in the real form of Lagarde 2013, "Memo on Fresnel Equations".
-// n^2 - sin^2 and a^2 = (root + t0) / 2 are spelled so that neither n = 1, n = 0 nor a large k cancels.
+// n^2 - sin^2 and a^2 = (root + t0) / 2 are written so that n = 1, n = 0 and large k do not cancel.
 // cosine in [0, 1] to the normal of the facet; n >= 0, k2 = k^2 >= 0. Returns [0, 1].
 float fresnelComplex(float cosine, float n, float k2) {
     float c2 = cosine * cosine;
@@ -25,10 +25,10 @@ float fresnelComplex(float cosine, float n, float k2) {
     return clamp(0.5f * s * (1.0f + (t3 - t4) / max(t3 + t4, 1e-10f)), 0.0f, 1.0f);
 }
 
-// n and k from what an artist sets: the reflectance r at normal incidence and the edge tint. Gulbrandsen 2014, "Artist
-// Friendly Metallic Fresnel", eq. 5 to 7. A tint of 0 gives k = 0, which is a dielectric of reflectance r; 1 is a metal
-// with the brightest edge. k^2 = (high - n) (n - 1 / high), the two n of k = 0 being roots of the same equation, with
-// both factors as sums of positive terms. Returns (n, k^2).
+// n and k from the artist's parameters: the reflectance r at normal incidence and the edge tint. Gulbrandsen 2014,
+// "Artist Friendly Metallic Fresnel", eq. 5 to 7. A tint of 0 gives k = 0, a dielectric of reflectance r; a tint of 1
+// gives a metal with the brightest edge. k^2 = (high - n) (n - 1 / high), where the two n with k = 0 are roots of the
+// same equation; both factors are sums of positive terms. Returns (n, k^2).
 vec2 complexIorFromTint(float f0, float edgeTint) {
     float r = min(f0, kMaxExactF0);
     float root = sqrt(r);

@@ -1,24 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lighting from a distant environment: which mip level, which direction, and the diffuse part.
+// Lighting from a distant environment: the mip level, the direction, and the diffuse part.
 
-// The mip level of the pre-filtered environment for a roughness. levelOfRoughnessOne * r * (2 - r) gives the rough
-// half of the range more levels than log2 would: with 5 levels they hold roughness^2 0, 0.018, 0.086, 0.25, 1.
+// The mip level of the pre-filtered environment for a roughness. levelOfRoughnessOne * r * (2 - r) gives rough surfaces
+// more levels than log2 would: 5 levels hold roughness^2 0, 0.018, 0.086, 0.25, 1.
 // perceptualRoughness in [0, 1]. Returns [0, levelOfRoughnessOne].
 float levelFromPerceptualRoughness(float perceptualRoughness, float levelOfRoughnessOne) {
     return levelOfRoughnessOne * perceptualRoughness * (2.0f - perceptualRoughness);
 }
 
-// Inverse of levelFromPerceptualRoughness, for whoever fills the levels. level in [0, levelOfRoughnessOne].
+// Inverse of levelFromPerceptualRoughness, used to fill the levels. level in [0, levelOfRoughnessOne].
 float perceptualRoughnessFromLevel(float level, float levelOfRoughnessOne) {
     return 1.0f - sqrt(max(1.0f - level / levelOfRoughnessOne, 0.0f));
 }
 
-// Other mappings of roughness to levels (RoughnessMapping of <filament/Quality.h>, in its order).
+// Other mappings of roughness to levels (RoughnessMapping in <filament/Quality.h>, in its order).
 const int kRoughnessQuadratic = 0;
-const int kRoughnessLogarithmic = 1; // every level doubles alpha; level 0 is the mirror all the same
+const int kRoughnessLogarithmic = 1; // every level doubles alpha, but level 0 is a mirror
 const int kRoughnessLinear = 2;
 
-// Guy and Agopian 2018, "High performance on mobile", for the quadratic and the logarithmic one. Ranges as above.
+// Guy and Agopian 2018, "High performance on mobile", for the quadratic and logarithmic mappings. Ranges as above.
 float levelFromPerceptualRoughness(float perceptualRoughness, float levelOfRoughnessOne, int mapping) {
     float level = levelFromPerceptualRoughness(perceptualRoughness, levelOfRoughnessOne);
     if (mapping == kRoughnessLogarithmic) {
@@ -29,7 +29,7 @@ float levelFromPerceptualRoughness(float perceptualRoughness, float levelOfRough
     return level;
 }
 
-// Inverse of the above, but for the mirror at level 0 of the logarithmic one.
+// Inverse of the above, except for the mirror at level 0 of the logarithmic mapping.
 float perceptualRoughnessFromLevel(float level, float levelOfRoughnessOne, int mapping) {
     float roughness = perceptualRoughnessFromLevel(level, levelOfRoughnessOne);
     if (mapping == kRoughnessLogarithmic) {
@@ -40,22 +40,22 @@ float perceptualRoughnessFromLevel(float level, float levelOfRoughnessOne, int m
     return roughness;
 }
 
-// RGBM: a colour in [0, 1] and one factor for it in alpha; here of the square root of radiance, so that 8 bits reach
-// from 0 to kRgbmRange^2 = 256. Packed by Rgbm.h. Karis 2009, "RGBM color encoding"; the root is Lazarov's, 2011.
+// RGBM: a colour in [0, 1] with a common factor in alpha; here for the square root of radiance, so that 8 bits reach
+// from 0 to kRgbmRange^2 = 256. Packed by Rgbm.h. Karis 2009, "RGBM color encoding"; the root is from Lazarov, 2011.
 const float kRgbmRange = 16.0f;
 vec3 radianceFromRgbm(vec4 texel) {
     vec3 root = vec3(texel) * (texel.w * kRgbmRange);
     return root * root;
 }
 
-// Where a rough lobe really points: off the mirror direction r towards the normal n. Lagarde and de Rousiers 2014,
-// "Moving Frostbite to Physically Based Rendering", section 4.9.3, with the quadratic weight alpha^2.
-// Not normalised: a cube map look-up does not need it. n, r unit, alpha in [0, 1].
+// The effective direction of a rough lobe: it turns from the mirror direction r towards the normal n. Lagarde and de
+// Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 4.9.3, with the quadratic weight alpha^2.
+// Not normalised, since a cube map look-up does not need it. n, r unit, alpha in [0, 1].
 vec3 dominantSpecularDirection(vec3 n, vec3 r, float alpha) { return mix(r, n, alpha * alpha); }
 
-// The split-sum table (DfgTable.h) as a fit: nothing is fetched. Karis 2014, "Physically Based Shading on Mobile", after
-// Lazarov 2013, "Getting More Physical in Call of Duty: Black Ops II". Up to 0.09 off for dielectrics, 0.3 for metals,
-// whose excess or lack energyCompensation() takes back. nov, perceptualRoughness in [0, 1].
+// A fit of the split-sum table (DfgTable.h), without a fetch. Karis 2014, "Physically Based Shading on Mobile", after
+// Lazarov 2013, "Getting More Physical in Call of Duty: Black Ops II". Errors up to 0.09 for dielectrics and 0.3 for
+// metals, for which energyCompensation() corrects them. nov, perceptualRoughness in [0, 1].
 // Returns the two values of a table entry.
 vec2 dfgAnalytic(float nov, float perceptualRoughness) {
     vec4 r = perceptualRoughness * vec4(-1.0f, -0.0275f, -0.572f, 0.022f) + vec4(1.0f, 0.0425f, 1.04f, -0.04f);
@@ -65,8 +65,8 @@ vec2 dfgAnalytic(float nov, float perceptualRoughness) {
 }
 
 // Irradiance / pi: the radiance leaving a white Lambert reflector with normal n. Ramamoorthi and Hanrahan 2001, "An
-// Efficient Representation for Irradiance Environment Maps". The cosine lobe, the normalisation of the basis and 1/pi
-// are folded into the coefficients (IblBaker.h): only the polynomials are left.
+// Efficient Representation for Irradiance Environment Maps". The coefficients include the cosine lobe, the
+// normalisation of the basis and 1/pi (IblBaker.h), so only the polynomials remain.
 // sh[i].xyz in the environment's unit; n unit; bands 1, 2 or 3 cost 1, 4 or 9 coefficients. Returns values >= 0.
 vec3 irradianceSh(const vec4 sh[9], vec3 n, int bands) {
     vec3 e = vec3(sh[0]);

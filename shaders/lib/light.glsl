@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// How the light of points and spots arrives: candela in, lux at normal incidence out.
+// Attenuation of points and spots: candela in, lux at normal incidence out.
 
-// A light closer than a centimetre shines as if it were a centimetre away: real lights have a size.
+// A light closer than a centimetre is treated as a centimetre away: real lights have a size.
 const float kMinLightDistanceSquared = 1e-4f;
 
 // Inverse square law, faded smoothly to zero at the range. Karis 2013, "Real Shading in Unreal Engine 4", eq. 9, with

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Small arithmetic that every other file of shaders/lib builds on: put it first.
-// Literals carry the suffix f because this text is also compiled as C++ (LibCpp.h), where 1.0 would be a double.
+// Basic arithmetic that every other file of shaders/lib uses: include it first.
+// Literals have the suffix f because this text is also compiled as C++ (LibCpp.h), where 1.0 would be a double.
 
 // An output parameter in both languages: void f(OUT(vec3) result).
 #ifdef __cplusplus
@@ -24,7 +24,7 @@ float pow5(float x) {
 float saturate(float x) { return clamp(x, 0.0f, 1.0f); }
 vec3 saturate(vec3 x) { return clamp(x, 0.0f, 1.0f); }
 
-// 1 - e^-x without cancellation, for x >= 0: below 1/8 the series, whose rest is at most 5e-8 of the result.
+// 1 - e^-x without cancellation, for x >= 0: below 1/8 the series, whose remainder is at most 5e-8 of the result.
 float oneMinusExp(float x) {
     float series = x * (1.0f - x * (0.5f - x * (0.16666667f - x * (0.041666667f - x * 0.0083333333f))));
     return x < 0.125f ? series : 1.0f - exp(-x);

@@ -1,40 +1,41 @@
 // SPDX-License-Identifier: Apache-2.0
-// Relief without geometry: where a view ray that enters at uv meets a field of heights. For materials:
+// Relief without geometry: where a view ray that enters at uv meets a height field. Use in materials:
 //     #define PARALLAX_HEIGHT(uv) textureLod(materialParams_height, uv, 0.0).x
 //     #include "shaders/lib/parallax.glsl"
-// PARALLAX_HEIGHT gives heights in [0, 1], 1 at the surface; it is fetched in loops, so derivatives must not be implicit.
+// PARALLAX_HEIGHT gives heights in [0, 1], 1 at the surface. It is fetched in loops, so it must not use implicit
+// derivatives.
 //   viewTangent  unit, towards the eye, in tangent space: x along uv.x, y along uv.y, z > 0 along the normal.
-//   scale        depth of the field in units of uv.
-// fp32 only: coordinates of textures.
+//   scale        depth of the height field in units of uv.
+// fp32 only: texture coordinates.
 
 #ifndef PARALLAX_HEIGHT
 #define PARALLAX_HEIGHT(uv) 1.0f
 #endif
 
-// Below it the ray would run along the surface.
+// Below this the ray would run along the surface.
 const float kMinParallaxCosine = 0.0625f;
 
-// How far uv moves while the ray sinks through the whole field. Kaneko et al. 2001, "Detailed Shape Representation with
-// Parallax Mapping". fp32 only.
+// How far uv moves while the ray descends through the whole field. Kaneko et al. 2001, "Detailed Shape Representation
+// with Parallax Mapping". fp32 only.
 vec2 parallaxShift(vec3 viewTangent, float scale) {
     return vec2(viewTangent.x, viewTangent.y) * (scale / max(viewTangent.z, kMinParallaxCosine));
 }
 
-// Where two straight pieces cross: the ray from depth rayBefore to rayAfter, the field from fieldBefore to fieldAfter,
-// below the ray before and above it after. Returns the fraction of the way, [0, 1]. fp32 only.
+// Intersection of two line segments: the ray from depth rayBefore to rayAfter, and the field from fieldBefore to
+// fieldAfter, which is below the ray before and above it after. Returns the fraction of the way, [0, 1]. fp32 only.
 float parallaxCrossing(float rayBefore, float fieldBefore, float rayAfter, float fieldAfter) {
     float before = max(fieldBefore - rayBefore, 0.0f);
     float after = max(rayAfter - fieldAfter, 0.0f);
     return before / max(before + after, 1e-6f);
 }
 
-// One fetch: as if the field were flat at the depth below uv. fp32 only.
+// One fetch, as if the field were flat at the depth below uv. fp32 only.
 vec2 parallaxPlain(vec2 uv, vec3 viewTangent, float scale) {
     return uv - parallaxShift(viewTangent, scale) * (1.0f - PARALLAX_HEIGHT(uv));
 }
 
-// The first of so many layers that is below the field: McGuire and McGuire 2005, "Steep Parallax Mapping". Exact for what
-// is wider than a step. layers in [1, 256]. Returns uv and the layer's depth, [0, 1]. fp32 only.
+// The first layer that is below the field: McGuire and McGuire 2005, "Steep Parallax Mapping". Exact for features wider
+// than a step. layers in [1, 256]. Returns uv and the layer's depth, [0, 1]. fp32 only.
 vec3 parallaxSteep(vec2 uv, vec3 viewTangent, float scale, int layers) {
     float layerDepth = 1.0f / float(layers);
     vec2 stride = parallaxShift(viewTangent, scale) * layerDepth;
@@ -49,8 +50,8 @@ vec3 parallaxSteep(vec2 uv, vec3 viewTangent, float scale, int layers) {
     return vec3(at.x, at.y, min(depth, 1.0f));
 }
 
-// The steep search, and the field between its last two layers as a straight piece: Tatarchuk 2006, "Dynamic Parallax
-// Occlusion Mapping with Approximate Soft Shadows". Two fetches more. Returns as parallaxSteep(). fp32 only.
+// The steep search, with the field interpolated linearly between its last two layers: Tatarchuk 2006, "Dynamic Parallax
+// Occlusion Mapping with Approximate Soft Shadows". Two more fetches. Returns as parallaxSteep(). fp32 only.
 vec3 parallaxOcclusion(vec2 uv, vec3 viewTangent, float scale, int layers) {
     vec3 after = parallaxSteep(uv, viewTangent, scale, layers);
     float layerDepth = min(1.0f / float(layers), after.z);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Low-discrepancy points and how they become directions. z is the normal; u in [0, 1)^2.
+// Low-discrepancy points, and their mapping to directions. z is the normal; u in [0, 1)^2.
 
-// Van der Corput's sequence in base 2: the bits of i mirrored at the point. [0, 1); the low 8 bits, which a float could
-// not hold and would round up to 1, are cut. fp32 only, like hammersley(): indices and steps of 2^-24 need 24 bits.
+// Van der Corput's sequence in base 2: the bits of i mirrored at the binary point. [0, 1); the low 8 bits, which do not
+// fit a float and would round up to 1, are dropped. fp32 only, like hammersley(): indices and steps of 2^-24 need 24
+// bits.
 float radicalInverse(uint i) {
     uint bits = (i << 16u) | (i >> 16u);
     bits = ((bits & 0x55555555u) << 1u) | ((bits & 0xAAAAAAAAu) >> 1u);
@@ -16,8 +17,8 @@ float radicalInverse(uint i) {
 // Multivariable Problems".
 vec2 hammersley(uint i, float inverseCount) { return vec2(float(i) * inverseCount, radicalInverse(i)); }
 
-// A direction at azimuth 2 pi u around z and the given angle to it. Both sine and cosine, because next to the pole a
-// sine made of the cosine is a multiple of 2^-12: coarser than the narrowest lobes.
+// A direction at azimuth 2 pi u around z and the given angle with it. Takes both sine and cosine: near the pole a sine
+// computed from the cosine would be a multiple of 2^-12, coarser than the narrowest lobes.
 vec3 directionFromAngles(float u, float cosTheta, float sinTheta) {
     float phi = kTwoPi * u;
     return vec3(cos(phi) * sinTheta, sin(phi) * sinTheta, cosTheta);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fuzz and cloth: lobes of fibres that stand out of the surface and catch light at grazing angles.
+// Fuzz and cloth: lobes of fibres that stand up from the surface and catch light at grazing angles.
 //   Names     as in brdf.glsl; alpha = perceptualRoughness^2, clamped like that of GGX.
-//   Energy    what the sheen reflects is taken from the layer below it: sheenAlbedoScaling() with the third channel of
-//             the split-sum table (DfgTable.h), which integrates ndfCharlie() * visibilityNeubelt().
+//   Energy    light that the sheen reflects is removed from the layer below: sheenAlbedoScaling() with the third
+//             channel of the split-sum table (DfgTable.h), which integrates ndfCharlie() * visibilityNeubelt().
 
 // 2^-7: its square is the smallest normal half float, 2^-14. Distributions of fibres vanish at the pole anyway.
 const float kMinSheenSin2 = 0.0078125f;
-// Cosines are not taken to be less where their logarithm is: 16 bits know none.
+// Smaller cosines are clamped before taking the logarithm: 16 bits cannot represent them.
 #ifdef HALF_PRECISION
 const float kMinSheenCosine = 6.103515625e-5f;
 #else
@@ -21,8 +21,8 @@ float ndfCharlie(float noh, float alpha) {
     return (2.0f + inverseAlpha) * pow(sin2, 0.5f * inverseAlpha) * (0.5f * kInversePi);
 }
 
-// Velvet: an inverted Gaussian of the slope and a uniform part. Ashikhmin and Premoze 2007, "Distribution-based BRDFs",
-// with the factor that makes its integral 1. Wider than Charlie, and not 0 at the pole.
+// Velvet: an inverted Gaussian of the slope plus a uniform part. Ashikhmin and Premoze 2007, "Distribution-based
+// BRDFs", normalised to an integral of 1. Wider than Charlie, and not 0 at the pole.
 // noh in [0, 1], alpha in [kMinAlpha, 1]. Returns 1/sr in [0, 5 / pi].
 float ndfAshikhmin(float noh, float alpha) {
     float a2 = alpha * alpha;
@@ -38,8 +38,8 @@ float visibilityNeubelt(float nov, float nol) {
     return 0.25f / max(nov + nol - nov * nol, kMinVisibilityDenominator);
 }
 
-// The logarithm of Smith's lambda for Charlie: the fit of Estevez and Kulla 2017, eq. 3 and table 1, with the parameters
-// mixed by (1 - alpha)^2. cosine in [0, 1/2], alpha in [kMinAlpha, 1]. Returns [-3, 21].
+// The logarithm of Smith's lambda for Charlie: the fit of Estevez and Kulla 2017, eq. 3 and table 1, with the
+// parameters interpolated by (1 - alpha)^2. cosine in [0, 1/2], alpha in [kMinAlpha, 1]. Returns [-3, 21].
 float charlieLogLambdaFit(float cosine, float alpha) {
     float t = (1.0f - alpha) * (1.0f - alpha);
     float a = mix(21.5473f, 25.3245f, t);
@@ -50,16 +50,16 @@ float charlieLogLambdaFit(float cosine, float alpha) {
     return a / (1.0f + b * pow(cosine, c)) + d * cosine + e;
 }
 
-// The same for cosines in [0, 1]: the fit is continued by symmetry about 1/2.
+// The same for cosines in [0, 1]: the fit is extended by symmetry about 1/2.
 float charlieLogLambda(float cosine, float alpha) {
     float fit = charlieLogLambdaFit(min(cosine, 1.0f - cosine), alpha);
     return cosine < 0.5f ? fit : 2.0f * charlieLogLambdaFit(0.5f, alpha) - fit;
 }
 
-// Masking and shadowing that belong to Charlie, over 4 nol nov. Estevez and Kulla 2017, section 3; without their
-// softened terminator, which is not reciprocal. Lambda grows nearly as the cosine falls, so they are multiplied as
-// logarithms: their product fits into 16 bits, lambda does not.
-// nov, nol in [0, 1], of which those below kMinSheenCosine get too little; alpha in [kMinAlpha, 1]. Returns 1/sr, finite.
+// Masking and shadowing that match Charlie, over 4 nol nov. Estevez and Kulla 2017, section 3, without their softened
+// terminator, which is not reciprocal. Lambda grows nearly as fast as the cosine falls, so they are multiplied as
+// logarithms: the product fits into 16 bits, lambda does not.
+// nov, nol in [0, 1]; the result is too small below kMinSheenCosine; alpha in [kMinAlpha, 1]. Returns 1/sr, finite.
 float visibilityCharlie(float nov, float nol, float alpha) {
     float logProduct = log(max(nov, kMinSheenCosine)) + log(max(nol, kMinSheenCosine));
     float masking = exp(charlieLogLambda(nov, alpha) + logProduct);
@@ -67,21 +67,22 @@ float visibilityCharlie(float nov, float nol, float alpha) {
     return 0.25f / (nov * nol + masking + shadowing);
 }
 
-// How much of a sheen is drawn. albedo: the table's third channel, of which smooth fibres with Neubelt's visibility have
-// up to 6 at grazing angles: more than arrives. Above 1 it is divided out. Where light and view have their own albedo, the
-// lesser result keeps the lobe reciprocal. albedo >= 0. Returns (0, 1].
+// Scales a sheen to conserve energy. albedo: the table's third channel; smooth fibres with Neubelt's visibility reach 6
+// at grazing angles, more than the incident light. Values above 1 are divided out. If light and view have different
+// albedos, using the smaller result preserves reciprocity. albedo >= 0. Returns (0, 1].
 float sheenLimit(float albedo) { return 1.0f / max(albedo, 1.0f); }
 
-// What the layer below a sheen keeps. Estevez and Kulla 2017, section 5, as KHR_materials_sheen has it: the brightest
-// component decides, else the base would shine in the complement of the sheen's colour. albedo: the table's third channel
-// for one direction; the lesser of the results for view and light keeps lights reciprocal. sheenColor in [0, 1].
+// The fraction left to the layer below a sheen. Estevez and Kulla 2017, section 5, as in KHR_materials_sheen: the
+// brightest component decides, otherwise the base would be tinted with the complement of the sheen's colour. albedo:
+// the table's third channel for one direction; using the smaller result of view and light preserves reciprocity.
+// sheenColor in [0, 1].
 // Returns [0, 1].
 float sheenAlbedoScaling(vec3 sheenColor, float albedo) {
     return 1.0f - max(sheenColor.x, max(sheenColor.y, sheenColor.z)) * min(albedo, 1.0f);
 }
 
 // Half vector distributed as ndfCharlie() noh: sine = u^(alpha / (1 + 2 alpha)) inverts its integral. Estevez and Kulla
-// 2017, section 4. u in [0, 1)^2, alpha in [kMinAlpha, 1]. fp32 only: the least u has no place in 16 bits.
+// 2017, section 4. u in [0, 1)^2, alpha in [kMinAlpha, 1]. fp32 only: 16 bits cannot represent the smallest u.
 vec3 importanceSampleCharlie(vec2 u, float alpha) {
     float power = alpha / (1.0f + 2.0f * alpha);
     float minusLog = -2.0f * power * log(max(u.y, 1e-30f));

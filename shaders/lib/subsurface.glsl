@@ -1,16 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light scattered below the surface of wax, leaves and skin, for a light and for the sky: Barre-Brisebois and Bouchard 2011,
-// "Approximating Translucency for a Fast, Cheap and Convincing Subsurface Scattering Look", GPU Pro 2 - a lobe around the
-// light's direction, seen through the object, and a diffuse one that reaches around it. Both lobes are divided by their
-// integrals here, and the diffuse lobe of the surface gives what is scattered: no material gains.
-//   thickness  0: light passes, 1: none does. power: how narrow the transmitted lobe is, >= 0.
+// Light scattered below the surface of wax, leaves and skin, for lights and for the sky: Barre-Brisebois and Bouchard
+// 2011, "Approximating Translucency for a Fast, Cheap and Convincing Subsurface Scattering Look", GPU Pro 2: a lobe
+// around the light's direction, seen through the object, and a wrapped diffuse lobe. Here both lobes are divided by
+// their integrals, and the scattered light is removed from the surface's diffuse lobe, so that no material gains
+// energy.
+//   thickness  0: all light passes, 1: none. power: narrowness of the transmitted lobe, >= 0.
 
 const float kLn2 = 0.693147180559945f;
-// Below it the transmitted lobe is uniform to 1 part in 1000.
+// Below this the transmitted lobe is uniform to 1 part in 1000.
 const float kMinSubsurfacePower = 0.0009765625f;
 
-// What goes straight on: 2^(power (cos - 1)) of the angle to the light's direction, cut at a right angle. Its integral over
-// the sphere is 2 pi ((1 - 2^-power) / (power ln 2) + 2^-power). lov = light . view in [-1, 1]. Returns 1/sr.
+// The forward part: 2^(power (cos - 1)) of the angle with the light's direction, cut at a right angle. Its integral
+// over the sphere is 2 pi ((1 - 2^-power) / (power ln 2) + 2^-power). lov = light . view in [-1, 1]. Returns 1/sr.
 float subsurfaceForward(float lov, float power) {
     float p = max(power, kMinSubsurfacePower);
     float x = p * kLn2;
@@ -18,20 +19,21 @@ float subsurfaceForward(float lov, float power) {
     return exp2(p * (saturate(-lov) - 1.0f)) * (0.5f * kInversePi) / integral;
 }
 
-// What is scattered of one light, in place of a lobe times nol: half of it straight on, half of it around the surface, the
-// further the thinner it is. nol, lov in [-1, 1], thickness in [0, 1]. Times subsurfaceColor and illuminance.
+// The scattered part of one light, in place of a lobe times nol: half of it forward, half of it wrapped around the
+// surface, further for smaller thickness. nol, lov in [-1, 1], thickness in [0, 1]. Multiply by subsurfaceColor and
+// illuminance.
 // Returns 1/sr; its integral over light directions is 1 - thickness.
 float subsurfaceScatter(float nol, float lov, float thickness, float power) {
     float around = diffuseWrapped(nol, 1.0f - thickness);
     return (1.0f - thickness) * 0.5f * (around + subsurfaceForward(lov, power));
 }
 
-// The factor of the surface's diffuse lobe: what is not scattered below. In [0, 1].
+// The factor of the surface's diffuse lobe: the part that is not scattered below. In [0, 1].
 float subsurfaceDiffuseScaling(vec3 subsurfaceColor, float thickness) {
     return 1.0f - (1.0f - thickness) * max(subsurfaceColor.x, max(subsurfaceColor.y, subsurfaceColor.z));
 }
 
-// The perceptual roughness of the GGX lobe that is as wide as subsurfaceForward(), for a look-up of the environment behind
-// the object. Ours: the transmitted lobe is at half of its peak at an angle whose square is 2 / power, D where the square
-// of its half is (sqrt(2) - 1) alpha^2. Returns (0, 1].
+// The perceptual roughness of the GGX lobe as wide as subsurfaceForward(), for looking up the environment behind the
+// object. Own derivation: the transmitted lobe falls to half of its peak at an angle whose square is 2 / power, D where
+// the square of half the angle is (sqrt(2) - 1) alpha^2. Returns (0, 1].
 float subsurfaceForwardRoughness(float power) { return pow(max(0.82842712f * power, 1.0f), -0.25f); }
