@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Uniform blocks, bind groups and vertex locations that C++ and GLSL agree on. C++ reads this file; the material
-/// compiler puts shaders/interface/interface.glsl, its GLSL twin, before every shader; a test compares the two by
-/// reflection (names, offsets, sizes).
+/// Uniform blocks, bind groups and vertex locations shared by C++ and GLSL. C++ reads this file; the material compiler
+/// puts shaders/interface/interface.glsl, its GLSL twin, before every shader; a test compares the two by reflection
+/// (names, offsets, sizes).
 ///   std140 with float4 and float4x4 members only, so that both languages agree on the layout without padding rules.
 ///   Space   positions are relative to the camera: world axes, camera at the origin, metres.
 ///   Light   photometric values are pre-exposed on the CPU: multiplied by 1 / (1.2 * 2^EV100).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What every material may call in both stages: type names, mathematics, frame constants (materials guide, 4.5.1 to
+// Available to every material in both stages: type names, mathematics, frame constants (materials guide, 4.5.1 to
 // 4.5.4).
-// "World" is the camera-relative world of DESIGN: its axes are the user's, its origin is the camera.
+// "World" is camera-relative world space: its axes are the user's, its origin is the camera.
 
 #define bool2 bvec2
 #define bool3 bvec3
@@ -25,7 +25,7 @@ float max3(vec3 v) { return max(v.x, max(v.y, v.z)); }
 vec4 mulMat4x4Float3(mat4 m, vec3 v) { return m * vec4(v, 1.0); }
 vec3 mulMat3x3Float3(mat4 m, vec3 v) { return mat3(m) * v; }
 
-// A zero vector stays zero instead of becoming NaN: zero scales and collapsed tangents end here.
+// A zero vector stays zero instead of becoming NaN: the result for zero scales and collapsed tangents.
 vec3 normalizeOrZero(vec3 v) { return v * inversesqrt(max(dot(v, v), 1e-30)); }
 
 mat4 getClipFromWorldMatrix() { return frameUniforms.clipFromWorld; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What goes from the vertex to the fragment stage; VARYING is `out` or `in`. Only what the material reads exists.
-// The compiler adds the material's own variables at locations 5 to 8. INTERPOLATION is nothing or `flat`: then a
-// triangle has the normal, the colour and the variables of its last vertex; positions and texture coordinates stay smooth.
+// Interpolated from the vertex to the fragment stage; VARYING is `out` or `in`. Only values that the material reads
+// exist. The compiler adds the material's own variables at locations 5 to 8. INTERPOLATION is empty or `flat`: flat
+// gives a triangle the normal, colour and variables of its last vertex; positions and texture coordinates stay smooth.
 
 #if defined(NEEDS_WORLD_POSITION)
 layout(location = 0) VARYING vec3 vertex_worldPosition;

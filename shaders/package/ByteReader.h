@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ByteReader: little-endian values out of bytes that nobody vouches for.
+/// ByteReader: reads little-endian values from untrusted bytes.
 ///   Fails   reading past the end gives zeros and empty spans, and failed() stays true from then on.
-///   Memory  allocates only what it returns, never more than the bytes that are there.
+///   Memory  allocates only what it returns, never more than the remaining bytes.
 #pragma once
 
 #include <bit>

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// deflateBytes, inflateBytes: bytes in fewer bytes, by zlib; the same bytes for the same input and the same zlib.
+/// deflateBytes, inflateBytes: compression with zlib; the same input and version of zlib give the same bytes.
 ///   Form    the size (u32), then raw DEFLATE (RFC 1951) up to the last byte. No checksum: the file has one.
-///   Memory  inflate: the output, asked for only if its size is within `maxBytes` and within what so many bytes of
-///           DEFLATE can become; and zlib's state of some ten kilobytes.
-///   Fails   inflateBytes(): Corrupt for whatever is not exactly of this form. Both: std::bad_alloc.
+///   Memory  inflate: the output, allocated only if its size is within `maxBytes` and within what that many bytes of
+///           DEFLATE can expand to; and zlib's state of some ten kilobytes.
+///   Fails   inflateBytes(): Corrupt for anything that is not exactly of this form. Both: std::bad_alloc.
 ///   Pre     deflateBytes(): less than 4 GiB.
 ///   Thread  pure functions.
 #pragma once

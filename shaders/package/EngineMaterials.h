@@ -13,7 +13,7 @@
 namespace filament::shader {
 
 enum class Arithmetic : uint8_t {
-    Exact, ///< spelled out, so that both APIs compute the same bits (shaders/compiler/ExactLowering.h)
+    Exact, ///< written out, so that both APIs compute the same bits (shaders/compiler/ExactLowering.h)
     Plain, ///< left to the drivers
 };
 

@@ -2,8 +2,8 @@
 /// MaterialPackage: a compiled material as plain values, and its file form.
 ///   Format  own, little-endian: magic, version, 64-bit checksum, sections with lengths (unknown sections are skipped).
 ///           Byte-identical for equal content; documented in docs/package-format.md.
-///   Fails   readPackage(): Corrupt or Unsupported with the reason, for any bytes whatsoever; never crashes, never
-///           allocates more than a small multiple of the input.
+///   Fails   readPackage(): Corrupt or Unsupported with the reason, for any bytes; never crashes, and never allocates
+///           more than a small multiple of the input.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -46,8 +46,8 @@ struct Parameter {
     uint32_t arraySize = 0;                      ///< 0: not an array
     uint32_t offset = 0;                         ///< bytes in the MaterialParams block; textures: 0
     uint8_t binding = 0;                         ///< textures: binding in kGroupMaterial
-    SamplerFormat format = SamplerFormat::Float; ///< textures: what a fetch gives
-    Precision precision = Precision::Default;    ///< as the author asked
+    SamplerFormat format = SamplerFormat::Float; ///< textures: the type that a fetch returns
+    Precision precision = Precision::Default;    ///< as the author specified
     friend bool operator==(Parameter const&, Parameter const&) = default;
 };
 
@@ -59,8 +59,8 @@ struct Constant {
     friend bool operator==(Constant const&, Constant const&) = default;
 };
 
-/// What scene and view may ask of a material; a set of bits is a variant key. The first eight are the names of
-/// variantFilter (materials guide, 4.2.6). No variant has the bits marked *: nothing asks for them yet.
+/// Features that scene and view may request of a material; a set of bits is a variant key. The first eight are the
+/// names of variantFilter (materials guide, 4.2.6). Bits marked * are reserved: nothing requests them yet.
 enum VariantBit : uint16_t {
     kVariantSun = 1,            ///< directionalLighting
     kVariantPunctual = 2,       ///< dynamicLighting
@@ -70,11 +70,11 @@ enum VariantBit : uint16_t {
     kVariantVsm = 32,           ///< *
     kVariantSsr = 64,           ///< *
     kVariantStereo = 128,       ///< *
-    kVariantHalf = 256,         ///< lit in 16 bits, of materials with halfPrecision; not of the scene: of Quality
+    kVariantHalf = 256,         ///< lit in 16 bits, for materials with halfPrecision; selected by Quality
 };
 inline constexpr uint16_t kAllVariantBits = 511;
 
-/// Of blending custom: how what the material gives and what is there already are weighted.
+/// For custom blending: the weights of the material's result and of the existing colour.
 struct BlendFunction {
     backend::BlendFactor sourceColor = backend::BlendFactor::One, sourceAlpha = backend::BlendFactor::One;
     backend::BlendFactor targetColor = backend::BlendFactor::Zero, targetAlpha = backend::BlendFactor::Zero;
@@ -106,17 +106,17 @@ struct MaterialPackage {
     uint8_t featureLevel = 1; ///< 1 to 3
     bool doubleSided = false;
     bool colorWrite = true, depthWrite = true, depthCulling = true;
-    bool alphaToCoverage = false; ///< where there is more than one sample
+    bool alphaToCoverage = false; ///< if there is more than one sample
     bool instanced = false;
     bool vertexDomainDeviceJittered = false;
     bool shadowMultiplier = false, transparentShadow = false;
     float maskThreshold = 0.4f;
     uint16_t filteredVariants = 0;   ///< VariantBits that the material was compiled without
-    uint32_t requiredAttributes = 0; ///< bit n: AttributeLocation n is read, skins apart
+    uint32_t requiredAttributes = 0; ///< bit n: the material reads AttributeLocation n; skins are not included
     uint32_t uniformBytes = 0;       ///< size of the MaterialParams block, a multiple of 16; 0: none
     std::vector<Parameter> parameters;
     std::vector<Constant> constants;
-    std::vector<std::string> terms;  ///< members of MaterialInputs that the code sets: the others cost nothing
+    std::vector<std::string> terms;  ///< members of MaterialInputs that the code sets; the others cost nothing
     backend::ProgramLayout layout{}; ///< groups 0 and 1, the same for all variants; see programLayout()
     std::vector<Variant> variants;   ///< ascending by key
     friend bool operator==(MaterialPackage const&, MaterialPackage const&) = default;
@@ -128,7 +128,7 @@ struct MaterialPackage {
 
 /// Name of the parameter that holds the mask threshold of masked materials; its default is package.maskThreshold.
 inline constexpr std::string_view kMaskThresholdParameter = "_maskThreshold";
-/// Name of the bool that says whether back faces are turned around; its default is MaterialPackage::doubleSided.
+/// Name of the bool that says whether back faces are lit as front faces; its default is MaterialPackage::doubleSided.
 inline constexpr std::string_view kDoubleSidedParameter = "_doubleSided";
 
 Result<MaterialPackage> readPackage(std::span<const std::byte> bytes);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// corruptPackage(): the error for bytes that are no package; `what` is wrong with them.
+/// corruptPackage(): the error for invalid package bytes; `what` says what is wrong with them.
 #pragma once
 
 #include "base/Result.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What reader and writer of the package format share; the format is described in docs/package-format.md.
+/// Shared by the reader and the writer of the package format, which docs/package-format.md describes.
 #pragma once
 
 #include <cstddef>
@@ -15,8 +15,8 @@ constexpr uint32_t tag(const char (&text)[5]) {
 }
 
 inline constexpr uint32_t kMagic = tag("FMAT");
-inline constexpr uint32_t kVersion = 8;    ///< counts up when old readers would misunderstand a file
-inline constexpr size_t kHeaderBytes = 16; ///< magic, version, checksum of everything behind the header
+inline constexpr uint32_t kVersion = 8;    ///< incremented when old readers would misread a file
+inline constexpr size_t kHeaderBytes = 16; ///< magic, version, checksum of everything after the header
 
 inline constexpr uint32_t kSectionGeneral = tag("GENL");
 inline constexpr uint32_t kSectionParameters = tag("PARM");
@@ -29,9 +29,8 @@ inline constexpr uint32_t kSectionVariants = tag("VARI");
 inline constexpr uint32_t kMaxParameters = 1024;
 inline constexpr uint32_t kMaxConstants = 1024;
 inline constexpr uint32_t kMaxTerms = 64;
-/// Code is compressed, and variants share it, so a small file can stand for much of it: at most so many bytes as it
-/// lies in the section, and at most so many in all variants together. Not a multiple of the file: what was read can be
-/// written.
+/// Code is compressed and shared by variants, so a small file can stand for a lot of it. Limits both the unpacked
+/// section and the sum over all variants. Not a multiple of the file's size: anything that was read can be written.
 inline constexpr uint32_t kMaxCodeBytes = 64 << 20;
 inline constexpr uint32_t kMaxVariants = 512; ///< every set of VariantBits
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Where the parameters of a material lie in its MaterialParams block: std140 (OpenGL 4.6 specification, 7.6.2.2).
+/// The layout of a material's parameters in its MaterialParams block: std140 (OpenGL 4.6 specification, 7.6.2.2).
 ///   Used by the compiler (to assign), the reader (to check) and the engine (to write). Booleans are 32-bit words.
 ///   Fails   never; textures take no bytes.
 #pragma once
@@ -11,11 +11,11 @@
 
 namespace filament::shader {
 
-/// Of one value, not an array: 4, 8, 12 or 16; 48 and 64 for the matrices; 0 for textures.
+/// Size of one value, not an array: 4, 8, 12 or 16; 48 and 64 for the matrices; 0 for textures.
 uint32_t valueBytes(ParameterType type);
-/// Of a value that is not in an array. Array elements start at multiples of 16.
+/// Alignment of a value that is not in an array. Array elements start at multiples of 16.
 uint32_t valueAlignment(ParameterType type);
-/// From one array element to the next.
+/// Distance between array elements.
 uint32_t arrayStride(ParameterType type);
 /// All bytes of a parameter, arrays included.
 uint64_t parameterBytes(Parameter const& parameter);

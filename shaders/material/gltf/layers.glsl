@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The layers of the KHR_materials extensions on top of gltfSurface(). What a material does not use is neutral: a constant
-// that the driver knows when it makes the pipeline, and so takes the layer out.
-// Whoever includes this has gltfDiffuseTransmissionMaps() before it.
+// The layers of the KHR_materials extensions on top of gltfSurface(). Unused layers are neutral: constants that the
+// driver knows when it creates the pipeline, so it removes the layer.
+// A file that includes this must define gltfDiffuseTransmissionMaps() first.
 
 void gltfClearCoat(inout MaterialInputs material) {
     material.clearCoat = 0.0;
@@ -50,9 +50,9 @@ void gltfSpecular(inout MaterialInputs material) {
     }
 }
 
-// KHR_materials_anisotropy makes the direction along the tangent rougher: alpha t = mix(alpha, 1, strength^2), and leaves
-// the other as it is. The guide's anisotropy a stretches one and narrows the other: alpha (1 + a), alpha (1 - a). Both say
-// the same two roughnesses if alpha becomes their mean and a their difference over their sum.
+// KHR_materials_anisotropy makes the direction along the tangent rougher, alpha t = mix(alpha, 1, strength^2), and does
+// not change the other. The guide's anisotropy a stretches one and narrows the other: alpha (1 + a), alpha (1 - a).
+// Both give the same two roughnesses if alpha is set to their mean and a to their difference over their sum.
 void gltfAnisotropy(inout MaterialInputs material) {
     if (materialConstants_hasAnisotropy) {
         vec2 turn = materialParams.anisotropyRotation;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Maps that all lit glTF materials have: normals, occlusion, emission. glTF 2.0 specification, 3.9.3.
+// Maps shared by all lit glTF materials: normals, occlusion, emission. glTF 2.0 specification, 3.9.3.
 
 vec3 gltfNormal() {
     vec2 uv = mapUv(materialConstants_normalUv, materialConstants_normalTransform, materialParams.normalUvMatrix);
@@ -14,7 +14,7 @@ float gltfOcclusion() {
 
 float occlusionOf(float texel) { return 1.0 + materialParams.occlusionStrength * (texel - 1.0); }
 
-// Weight 0: glTF scenes are authored against a white of 1, not against nits under an exposure.
+// Weight 0: glTF scenes are authored for a white of 1, not for nits and an exposure.
 vec4 gltfEmissive() {
     vec4 emissive = vec4(materialParams.emissiveFactor, 0.0);
     if (materialConstants_hasEmissiveMap) {

@@ -3,7 +3,7 @@
 
 #include "shaders/material/gltf/surface.glsl"
 
-vec4 gltfDiffuseTransmissionMaps() { return vec4(1.0); } // there is no texture left for them: the loader says so
+vec4 gltfDiffuseTransmissionMaps() { return vec4(1.0); } // no texture is left for them: the loader warns
 
 #include "shaders/material/gltf/layers.glsl"
 

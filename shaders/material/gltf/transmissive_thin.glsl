@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// KHR_materials_transmission without a volume: a wall without thickness, whose colour is the base colour.
+// KHR_materials_transmission without a volume: an infinitely thin wall tinted by the base colour.
 
 #include "shaders/material/gltf/transmission.glsl"
 

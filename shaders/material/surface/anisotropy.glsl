@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Grooves: the specular lobe of the base stretched along the tangent, or across it where the amount is negative.
+// Grooves: the specular lobe of the base, stretched along the tangent, or across it if the amount is negative.
 
 #include "shaders/lib/brdf_anisotropic.glsl"
 
@@ -12,9 +12,9 @@ const float kMinGrooveAlpha = kMinAlpha;
 const float kGrooveSmooth = 0.5, kGrooveAcross = 0.03; // of groovesRoughness()
 
 struct Grooves {
-    float amount;            // in [-1, 1]; 0: none, and the rest is of no meaning
-    vec3 tangent, bitangent; // of the shading normal, unit; 0 where the geometry has no tangents
-    vec2 alpha;              // along both
+    float amount;            // in [-1, 1]; 0: none, and the other members are undefined
+    vec3 tangent, bitangent; // of the shading normal, unit; 0 if the geometry has no tangents
+    vec2 alpha;              // along tangent and bitangent
     vec3 view;               // in the frame of tangent, bitangent and normal
 };
 
@@ -31,19 +31,19 @@ Grooves groovesOf(MaterialInputs material, float alpha) {
     return grooves;
 }
 
-// What energyCompensation() gives is lost by a round lobe of this roughness; a stretched one loses less towards some views.
-// Of lights only: image-based light has a round lobe. The share is a bound over roughness, view and amount, not a fit: most
-// of what is not lost is not lost by slight grooves.
+// energyCompensation() restores the loss of an isotropic lobe of this roughness; a stretched one loses less towards
+// some views. Applies to lights only, since image-based light uses an isotropic lobe. The share is a bound over
+// roughness, view and amount, not a fit: slight grooves account for most of the difference.
 vec3 groovesCompensation(Grooves grooves, vec3 compensation) {
     float amount = max(grooves.amount, -grooves.amount);
     float share = 1.0 - amount * (0.85 - 0.25 * amount);
     return 1.0 + (compensation - 1.0) * share;
 }
 
-// The perceptual roughness of a round lobe that reflects as much towards this direction, or slightly more: what counts of a
-// stretched one is the roughness along the direction (Heitz 2014, "Understanding the Masking-Shadowing Function in
-// Microfacet-Based BRDFs", section 5.3), but less than that where facets lean across it, and never nothing. Both shares are
-// bounds for dielectrics over roughness, direction and amount: at most 0.004 is reflected beyond.
+// The perceptual roughness of an isotropic lobe that reflects as much towards this direction, or slightly more. A
+// stretched lobe behaves like its roughness along the direction (Heitz 2014, "Understanding the Masking-Shadowing
+// Function in Microfacet-Based BRDFs", section 5.3), but facets that lean across the direction reduce it, and it never
+// reaches zero. Both shares are bounds for dielectrics over roughness, direction and amount, exceeded by at most 0.004.
 highp float groovesRoughness(Grooves grooves, vec3 direction) {
     vec2 part = vec2(dot(grooves.tangent, direction), dot(grooves.bitangent, direction));
     part = part * part;
@@ -54,7 +54,7 @@ highp float groovesRoughness(Grooves grooves, vec3 direction) {
     return sqrt(sqrt(along * along * dot(part, squared) + across * across * dot(part.yx, squared)));
 }
 
-// D V of one light; nol is positive.
+// D V for one light; nol is positive.
 float groovesLobe(Grooves grooves, vec3 normal, vec3 halfway, vec3 light, float nol) {
     vec3 halfLocal =
             vec3(dot(grooves.tangent, halfway), dot(grooves.bitangent, halfway), saturate(dot(normal, halfway)));
@@ -63,7 +63,7 @@ float groovesLobe(Grooves grooves, vec3 normal, vec3 halfway, vec3 light, float 
             finite(visibilitySmithGgxAnisotropic(grooves.view, lightLocal, grooves.alpha));
 }
 
-// What the environment is looked up along, in place of the mirrored view.
+// The direction for looking up the environment, instead of the mirrored view.
 highp vec3 groovesReflected(Grooves grooves, vec3 normal, vec3 view, float perceptualRoughness) {
     highp vec3 bent = anisotropicNormal(
             normal, grooves.tangent, grooves.bitangent, view, grooves.amount, perceptualRoughness);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cloth: fibres that stand out of the surface over a diffuse lobe (materials guide, 3.3; shaders/lib/cloth.glsl). Fulfils the
-// contract of shading models: README.md.
+// Cloth: fibres that stand up over a diffuse lobe (materials guide, 3.3; shaders/lib/cloth.glsl). Implements the
+// interface of shading models: README.md.
 
 #include "shaders/lib/sheen.glsl"
 #include "shaders/lib/cloth.glsl"
@@ -8,16 +8,16 @@
 struct Surface {
     vec3 diffuse;         // times alpha if the material is transparent
     vec3 sheenColor;
-    vec3 subsurfaceColor; // 0: light does not reach through the threads
+    vec3 subsurfaceColor; // 0: light does not pass through the threads
     highp float perceptualRoughness;
     float alpha;
-    float sheenAlbedo;    // of white fibres, for the view
+    float sheenAlbedo;    // of white fibres, towards the view
     float visibility;     // ambient occlusion
     vec3 normal, view;
     float nov;
 };
 
-// What white fibres reflect under a cosine to view or light: channels of the table that have no fit.
+// Albedo of white fibres for a cosine with view or light: channels of the table for which there is no fit.
 float clothAlbedoTerm(highp float cosine, highp float perceptualRoughness) {
 #if defined(CLOTH_ASHIKHMIN)
     return textureLod(viewDfg, vec2(cosine, perceptualRoughness), 0.0).w;
@@ -72,7 +72,7 @@ float clothDistribution(float noh, float alpha) {
 #endif
 }
 
-// With its cosine.
+// Includes the cosine.
 vec3 clothDiffuse(Surface surface, float cosine, float nol, float voh) {
 #if defined(HAS_SUBSURFACE_COLOR)
     return diffuseCloth(cosine, surface.subsurfaceColor);
@@ -81,7 +81,7 @@ vec3 clothDiffuse(Surface surface, float cosine, float nol, float voh) {
 #endif
 }
 
-// The lesser of what view and light say about fibres keeps both directions alike.
+// Taking the smaller of the values for view and light preserves reciprocity.
 highp vec3 shadeLight(Surface surface, Light light) {
     highp vec3 reflected = vec3(0.0);
     float cosine = dot(surface.normal, light.direction);

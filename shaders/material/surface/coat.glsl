@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A clear coat above everything else, with a normal and a roughness of its own. What it reflects, by the albedo of its
-// lobe, is missing below: of the directions of view and light the one that lets less through decides, so that pairs of
-// directions may be exchanged and a white base under it sends back all that arrives.
+// A clear coat above everything else, with its own normal and roughness. The albedo of its lobe is removed from the
+// layers below. Of the view and light directions, the one with the smaller transmission decides, which preserves
+// reciprocity; a white base below the coat reflects all incident light.
 
 #include "shaders/lib/coat.glsl"
 
@@ -11,7 +11,7 @@ struct Coat {
     float alpha;
     vec3 normal;
     highp float nov;
-    vec2 dfg;       // of the coat's lobe towards the view
+    vec2 dfg;       // for the coat's lobe towards the view
 };
 
 Coat coatOf(MaterialInputs material) {
@@ -25,10 +25,10 @@ Coat coatOf(MaterialInputs material) {
     return coat;
 }
 
-// What the coat reflects of a white environment.
+// Reflectance of the coat in a white environment.
 float coatAlbedo(Coat coat) { return mix(coat.dfg.x, coat.dfg.y, kCoatF0) * coat.strength; }
 
-// The factor of what lies below, for the environment.
+// The factor of the layers below, for the environment.
 float coatLeaves(Coat coat) { return coatTransmissionFromDfg(coat.dfg, coat.strength); }
 
 // The same for one light. nol: at the coat's normal, in [0, 1].

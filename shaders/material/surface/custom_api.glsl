@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the author's surfaceShading() is given for each light (materials guide, 4.4.3), before the author's code.
+// Arguments of the author's surfaceShading() for each light (materials guide, 4.4.3), placed before the author's code.
 
 struct ShadingData {
     vec3 diffuseColor;         // times alpha
@@ -12,7 +12,7 @@ struct LightData {
     vec4 colorIntensity; // rgb: colour, its largest component is 1; w: pre-exposed lux or candela
     vec3 l;              // to the light, unit
     float NdotL;         // [0, 1]
-    vec3 worldPosition;  // of the sun: a metre away in its direction
+    vec3 worldPosition;  // for the sun: a metre away in its direction
     float attenuation;   // by distance and cone: 1 / m^2; 1 for the sun
     float visibility;    // 1: nothing casts shadows yet
 };

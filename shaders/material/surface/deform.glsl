@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skins and morph targets in the vertex stage, of variants with kVariantSkinning: first the targets, then the skin
-// (glTF 2.0, sections 3.7.2.2 and 3.7.3.3). What the rest of the stage calls the mesh is what comes out of here.
-// The result is finite whatever the bones are: a normal or tangent that a bone collapses stays as it was.
+// Skins and morph targets in the vertex stage of variants with kVariantSkinning: first the targets, then the skin (glTF
+// 2.0, sections 3.7.2.2 and 3.7.3.3). The rest of the stage uses the result as its mesh.
+// The result is finite for any bones: a normal or tangent that a bone collapses is not changed.
 
 layout(location = kAttributeJoints) in uvec4 mesh_joints;
 layout(location = kAttributeWeights) in vec4 mesh_weights;
@@ -11,7 +11,7 @@ layout(location = kAttributeWeights1) in vec4 mesh_weights1;
 #endif
 
 vec3 deformedPosition;
-vec4 skinRow0, skinRow1, skinRow2; // of the matrix from the bound vertex to object space
+vec4 skinRow0, skinRow1, skinRow2; // of the matrix from the bind pose to object space
 
 // The texel of one target and this vertex. `part`: 0 position, 1 normal, 2 tangent.
 vec3 morphDelta(int target, int part) {
@@ -48,7 +48,7 @@ bool hasSkin() { return morphUniforms.shape.w > 0.0; }
 vec3 normalizeOr(vec3 v, vec3 fallback) {
     float largest = max(abs(v.x), max(abs(v.y), abs(v.z)));
     if (!(largest > 1e-30)) return fallback;
-    vec3 scaled = v / largest; // so that the square neither vanishes nor overflows
+    vec3 scaled = v / largest; // so that the square neither underflows nor overflows
     return scaled * inversesqrt(dot(scaled, scaled));
 }
 
@@ -64,8 +64,8 @@ void deformPosition(vec3 position) {
     deformedPosition = vec3(dot(skinRow0, p), dot(skinRow1, p), dot(skinRow2, p));
 }
 
-// After deformPosition(). Normals go with the cofactor matrix, the inverse transpose times the determinant. Returns -1
-// where the bones mirror, else 1.
+// Call after deformPosition(). Normals are transformed by the cofactor matrix, the inverse transpose times the
+// determinant. Returns -1 if the bones mirror, otherwise 1.
 float deformFrame(inout vec3 normal, inout vec3 tangent) {
     if (morphUniforms.shape.y > 1.0) normal = morphed(normal, 1);
     if (morphUniforms.shape.y > 2.0) tangent = morphed(tangent, 2);

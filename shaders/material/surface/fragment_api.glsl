@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of surface materials, what goes before the material's own code: prepareMaterial() and the functions of the
+// Fragment stage of surface materials, before the material's own code: prepareMaterial() and the functions of the
 // guide, 4.5.7. MaterialInputs and initMaterial() come from the compiler (MaterialMembers.cpp).
 
 layout(location = 0) out vec4 fragment_color;
 
-// Grazing views would divide by zero in the visibility term and read outside of the DFG table.
+// Grazing views would divide by zero in the visibility term and read outside the DFG table.
 const float kMinNoV = 1e-4;
 
 // Filled by main() and prepareMaterial().
@@ -15,7 +15,7 @@ vec3 shading_view;
 vec3 shading_reflected;
 float shading_NoV;
 #if defined(HAS_NORMAL)
-bool shading_isBumped; // by anything but the geometry's own normal
+bool shading_isBumped; // the normal differs from the geometry's own
 #endif
 #if defined(HAS_CLEAR_COAT)
 vec3 shading_clearCoatNormal;
@@ -56,7 +56,7 @@ float getMaskThreshold() { return materialParams._maskThreshold; }
 vec3 getNormalizedViewportCoord() { return vec3(gl_FragCoord.xy * frameUniforms.viewport.zw, gl_FragCoord.z); }
 vec2 uvToRenderTargetUV(vec2 uv) { return uv; } // row 0 is the top row on both APIs
 
-// What the geometry says, before material(): view vector and tangent frame.
+// The geometry's values before material(): view vector and tangent frame.
 void computeShadingGeometry() {
 #if defined(NEEDS_WORLD_POSITION)
     shading_view = normalizeOrZero(-vertex_worldPosition); // the camera is the origin
@@ -64,14 +64,14 @@ void computeShadingGeometry() {
 #if defined(NEEDS_NORMAL)
     vec3 n = vertex_worldNormal;
 #if defined(NEEDS_TANGENT)
-    // Interpolated and not normalised, as MikkTSpace defines it: the result of the normal map is.
+    // Interpolated and not normalised, as MikkTSpace specifies: only the result of the normal map is normalised.
     vec3 t = vertex_worldTangent.xyz;
     vec3 b = cross(n, t) * vertex_worldTangent.w;
 #else
     vec3 t = vec3(0.0), b = vec3(0.0);
 #endif
 #if defined(DOUBLE_SIDED) || defined(DOUBLE_SIDED_BY_PARAMETER)
-    // The back of a surface is the same surface seen from behind: its whole frame looks the other way.
+    // The back is the same surface seen from behind: its whole frame is reversed.
     float side = gl_FrontFacing ? 1.0 : -1.0;
 #if defined(DOUBLE_SIDED_BY_PARAMETER)
     if (!materialParams._doubleSided) side = 1.0;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// From here on floats are half floats where nothing says otherwise: float16_t on Vulkan, mediump on OpenGL ES. Put
-// before the lighting of variants with kVariantHalf; all that came before keeps 32 bits. So does what says highp: sums of
-// light, and coordinates of textures (see halfFromRelaxed() of the compiler).
+// From here on, floats without a qualifier are half floats: float16_t on Vulkan, mediump on OpenGL ES. Included before
+// the lighting of variants with kVariantHalf; all code before it stays in 32 bits. So does everything marked highp:
+// sums of light, and texture coordinates (see halfFromRelaxed() of the compiler).
 
 precision mediump float;
 
-// What math.glsl computes, in this precision: a result of 32 bits would draw all that it meets into 32 bits.
+// Functions of math.glsl in this precision: a 32-bit result would convert everything it is combined with to 32 bits.
 float sqMedium(float x) { return x * x; }
 float pow5Medium(float x) {
     float x2 = x * x;

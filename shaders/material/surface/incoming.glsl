@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// What light arrives at a surface, whatever its model: one light, and the environment. All of it is pre-exposed, so that
-// sums stay within fp16 even under 110 000 lux.
+// The light that arrives at a surface, for any shading model: one light, and the environment. All of it is pre-exposed,
+// so that sums stay within fp16 even at 110 000 lux.
 
 struct Light {
     vec3 direction;   // to the light, unit
     vec3 illuminance; // at normal incidence
 #if defined(CUSTOM_SURFACE_SHADING)
-    highp vec3 color; // what is attenuated
+    highp vec3 color; // the unattenuated light
     highp float attenuation;
     highp vec3 position;
 #endif
@@ -16,7 +16,7 @@ highp vec3 environmentFromWorld(highp vec3 direction) {
     return direction * mat3(frameUniforms.worldFromEnvironment);
 }
 
-// Around a direction of the world, which need not be normalised: the mean over a lobe of this roughness. Before
+// The mean over a lobe of this roughness around a direction of the world, which need not be normalised. Before
 // frameUniforms.ambient.x.
 vec3 environmentRadiance(highp vec3 direction, highp float perceptualRoughness) {
     highp float level =
@@ -24,5 +24,5 @@ vec3 environmentRadiance(highp vec3 direction, highp float perceptualRoughness) 
     return radianceOfTexel(textureLod(viewSpecular, environmentFromWorld(direction), level));
 }
 
-// What a white Lambert reflector with this normal sends back. Before frameUniforms.ambient.x.
+// Reflected radiance of a white Lambert surface with this normal. Before frameUniforms.ambient.x.
 vec3 environmentIrradiance(highp vec3 normal) { return irradianceTerm(environmentFromWorld(normal)); }

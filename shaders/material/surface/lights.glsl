@@ -6,15 +6,15 @@
 highp vec3 punctualLights(Surface surface) {
     highp vec3 sum = vec3(0.0);
     int count = int(frameUniforms.ambient.w);
-    for (int i = 0; i < count; ++i) { // a loop, however few lights: unrolled code takes seconds to compile
-        PunctualLight light = lightUniforms.lights[i];
+    for (int i = 0; i < count; ++i) { // a loop even for few lights: unrolled code takes seconds to compile
+        LightRecord light = lightUniforms.lights[i];
         highp vec3 toLight = light.positionRange.xyz - vertex_worldPosition;
         highp float attenuation = distanceAttenuation(toLight, light.positionRange.w);
         if (attenuation <= 0.0) continue; // out of range
         highp vec3 direction = normalizeOrZero(toLight);
         if (light.colorIntensity.w > 0.0) {
             attenuation *= spotAttenuation(direction, light.directionScale.xyz, light.directionScale.w, light.offset.x);
-            if (attenuation <= 0.0) continue; // outside of the cone
+            if (attenuation <= 0.0) continue; // outside the cone
         }
         Light arriving;
         arriving.direction = direction;

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a light gives the diffuse lobe below the specular one, of the standard model and of specular-glossiness: the albedo of
-// the specular lobe decides, towards the view and towards the light (diffuseEntry() of shaders/lib/brdf.glsl).
+// The share of a light that reaches the diffuse lobe below the specular one, for the standard model and
+// specular-glossiness. It depends on the albedo of the specular lobe towards the view and towards the light
+// (diffuseEntry() of shaders/lib/brdf.glsl).
 
-// All that is reflected, whatever the roughness of the split-sum terms.
+// Total reflectance from the split-sum terms, whatever the roughness they were looked up with.
 vec3 reflectedShare(Surface surface, vec3 f0, vec2 dfg) {
     vec3 albedo = specularAlbedoTerm(f0, surface.f90, dfg);
 #if defined(REFRACTION)
@@ -24,7 +25,7 @@ vec3 reflectedTowards(Surface surface, vec3 direction, float cosine) {
     return reflectedShare(surface, f0, splitSumTerm(max(cosine, kMinNoV), roughness));
 }
 
-// Once for all lights.
+// Computed once for all lights.
 vec3 diffuseExitOf(Surface surface) {
     vec3 albedo = surface.specularAlbedo;
     vec3 f0 = surface.f0;
@@ -33,14 +34,14 @@ vec3 diffuseExitOf(Surface surface) {
     f0 = surface.film.bareF0;
 #endif
 #if defined(HAS_ANISOTROPY)
-    if (surface.grooves.amount != 0.0) { // the larger roughness has the lesser average: a bound
+    if (surface.grooves.amount != 0.0) { // the larger roughness has the smaller average: a bound
         albedo = reflectedTowards(surface, surface.view, surface.nov);
         alpha = min(max(surface.grooves.alpha.x, surface.grooves.alpha.y), 1.0);
     }
 #endif
     vec3 average = reflectedShare(surface, f0, dfgAverage(alpha));
 #if defined(HAS_IRIDESCENCE)
-    average *= 1.0 - surface.film.strength; // not known of what changes with the angle: some light is lost
+    average *= 1.0 - surface.film.strength; // the average of an angle-dependent film is unknown: some light is lost
 #endif
     return diffuseExitTerm(albedo, average);
 }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The standard model, and specular-glossiness, which says the same in other words: a diffuse and a specular lobe, and
-// whatever lies above them. Fulfils the contract of shading models: README.md.
+// The standard model and specular-glossiness, which differ only in their parameters: a diffuse and a specular lobe, and
+// the layers above them. Implements the interface of shading models: README.md.
 
 #include "shaders/material/surface/lit_surface.glsl"
 
@@ -102,7 +102,7 @@ float specularOfLight(Surface surface, vec3 halfway, vec3 light, float nol) {
 vec3 fresnelOfLight(Surface surface, float voh) {
     vec3 f;
 #if defined(HAS_IRIDESCENCE)
-    // A film looks different on every facet: here exactly, so that pairs of directions may be exchanged.
+    // A film looks different on every facet: evaluated exactly here, which preserves reciprocity.
     if (surface.film.strength > 0.0) {
         vec3 bare = fresnelTerm(surface.film.bareF0, surface.f90, surface.metallic, voh);
         f = mix(bare, filmReflectance(surface.film, voh), surface.film.strength);
@@ -133,7 +133,7 @@ highp vec3 addCoatOfLight(Surface surface, Light light, highp vec3 below) {
 
 #if !defined(CUSTOM_SURFACE_SHADING)
 
-// One way out of each function: an early return costs a loop in the code that the drivers see.
+// Each function has a single exit: an early return adds a loop to the code that the drivers see.
 highp vec3 shadeLight(Surface surface, Light light) {
     highp vec3 reflected = vec3(0.0);
     float nol = saturate(dot(surface.normal, light.direction));
@@ -158,7 +158,7 @@ highp vec3 shadeLight(Surface surface, Light light) {
         vec3 left = diffuseLeft(surface, light.direction, behind);
         reflected = surface.transmitted * left * diffuseLambert() * light.illuminance * behind;
 #if defined(HAS_SHEEN)
-        reflected *= sheenLeaves(surface.sheen); // crossed on the way out alone
+        reflected *= sheenLeaves(surface.sheen); // only crossed on the way out
 #endif
     }
 #endif

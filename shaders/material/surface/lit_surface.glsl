@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the standard model and specular-glossiness know of a surface, computed once for all light.
+// What the standard model and specular-glossiness know about a surface, computed once for all light.
 
 #include "shaders/lib/specular.glsl"
 
@@ -14,14 +14,14 @@ struct Surface {
     vec3 diffuse;             // albedo of the diffuse lobe, times alpha if the material is transparent
     vec3 f0;
     float f90;
-    float metallic;           // 1: Fresnel's exact term is a metal's
+    float metallic;           // 1: Fresnel's exact term uses the metal form
     highp float perceptualRoughness;
     float alpha;              // of the distribution: perceptualRoughness^2
     vec3 energyCompensation;
-    vec3 specularAlbedo;      // of the whole hemisphere, with all bounces
-    vec3 diffuseExit;         // factor of the diffuse lobe under lights that depends on the view
+    vec3 specularAlbedo;      // over the whole hemisphere, with all bounces
+    vec3 diffuseExit;         // view-dependent factor of the diffuse lobe under lights
     float visibility;         // ambient occlusion
-    vec3 normal, view;        // what prepareMaterial() found, in the precision of the lighting
+    vec3 normal, view;        // from prepareMaterial(), in the precision of the lighting
     float nov;
 #if defined(HAS_IRIDESCENCE)
     Film film;
@@ -31,7 +31,7 @@ struct Surface {
 #endif
 #if defined(REFRACTION)
     Refraction refraction;
-    vec3 through;             // share of the light behind that arrives
+    vec3 through;             // transmitted share of the light behind
 #endif
 #if defined(HAS_DIFFUSE_TRANSMISSION)
     vec3 transmitted;         // albedo of the diffuse lobe behind the surface
@@ -58,7 +58,7 @@ void setReflectances(MaterialInputs material, vec3 baseColor, inout Surface surf
 
 highp float roughnessOf(MaterialInputs material) { return material.roughness; }
 
-// Index and reflectance say the same; reflectance is what counts here where both are given.
+// Index and reflectance are two forms of the same quantity; if both are set, reflectance wins here.
 float reflectanceOf(MaterialInputs material) {
 #if defined(HAS_IOR) && !defined(HAS_REFLECTANCE)
     return reflectanceFromIor(material.ior);
@@ -77,7 +77,7 @@ void setReflectances(MaterialInputs material, vec3 baseColor, inout Surface surf
 
 #if defined(REFRACTION)
 
-// What bends light, where both are given.
+// The index that bends light, if both are set.
 float iorOf(MaterialInputs material) {
 #if defined(HAS_REFLECTANCE) && !defined(HAS_IOR)
     return iorFromReflectance(material.reflectance);
@@ -88,11 +88,11 @@ float iorOf(MaterialInputs material) {
 
 #endif
 
-// Nothing real reflects less than 2 %; darker f0 means that the material wants no reflection at all. Lagarde and de
-// Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
+// No real material reflects less than 2 %; a darker f0 means that the material wants no reflection at all. Lagarde and
+// de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
 float f90Of(vec3 f0) { return saturate(dot(f0, vec3(50.0 * 0.33))); }
 
-// Before anything lies above: KHR_materials_specular's weights.
+// Without the layers above: the weights of KHR_materials_specular.
 void weighReflectances(MaterialInputs material, vec3 baseColor, inout Surface surface) {
 #if defined(HAS_SPECULAR_WEIGHTS)
     float f0 = f0FromReflectance(reflectanceOf(material));
@@ -102,7 +102,7 @@ void weighReflectances(MaterialInputs material, vec3 baseColor, inout Surface su
 #endif
 }
 
-// What lies above changes what the base reflects: a coat its index, a film its colour.
+// The layers above change the reflectance of the base: a coat its index, a film its colour.
 void coverReflectances(inout Surface surface) {
 #if defined(HAS_IRIDESCENCE)
     surface.film.baseF0 = surface.f0;
@@ -136,7 +136,7 @@ void setSpecularAlbedo(inout Surface surface, highp float roughness) {
 
 #if defined(HAS_DIFFUSE_TRANSMISSION)
 
-// KHR_materials_diffuse_transmission: this part of what the diffuse lobe scatters leaves at the other side.
+// KHR_materials_diffuse_transmission: this share of the light scattered by the diffuse lobe leaves on the other side.
 void setTransmission(MaterialInputs material, inout Surface surface) {
     float part = saturate(material.diffuseTransmission);
     vec3 albedo = saturate(material.diffuseTransmissionColor) * (1.0 - material.metallic);
@@ -154,7 +154,8 @@ void setTransmission(MaterialInputs material, inout Surface surface) {
 
 #if defined(REFRACTION)
 
-// Both interfaces: what the far one of a thin layer sends back comes out with what the near one reflects.
+// Both interfaces: light reflected by the far side of a thin layer leaves together with the light reflected by the near
+// side.
 void setThrough(inout Surface surface) {
     surface.through = vec3(0.0);
     if (surface.refraction.transmission > 0.0) {
@@ -170,7 +171,7 @@ void setThrough(inout Surface surface) {
 void setLayers(MaterialInputs material, inout Surface surface) {
 #if defined(REFRACTION)
     surface.refraction = refractionOf(material, surface.diffuse, roughnessOf(material), iorOf(material));
-    surface.diffuse *= 1.0 - surface.refraction.transmission; // goes through instead
+    surface.diffuse *= 1.0 - surface.refraction.transmission; // this share passes through instead
 #endif
 #if defined(HAS_IRIDESCENCE)
     surface.film = filmOf(material);

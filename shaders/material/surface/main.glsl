@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of surface materials that are lit by something, entry point.
+// Fragment stage of lit surface materials, entry point.
 
 void main() {
     MaterialInputs inputs;

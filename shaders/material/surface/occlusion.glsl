@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Of ambient light only: what the surroundings of a point take from it (ambientOcclusion, bentNormal), and what the surface
-// itself takes from reflections that a normal map turns below it.
+// Affects ambient light only: occlusion by the surroundings (ambientOcclusion, bentNormal), and by the surface itself,
+// for reflections that a normal map turns below it.
 
 float ambientVisibility(MaterialInputs material) {
 #if defined(HAS_AMBIENT_OCCLUSION)
@@ -10,7 +10,7 @@ float ambientVisibility(MaterialInputs material) {
 #endif
 }
 
-// Where diffuse light comes from on average.
+// The mean direction of the diffuse light.
 highp vec3 openNormal(highp vec3 normal) {
 #if defined(HAS_BENT_NORMAL)
     return shading_bentNormal;
@@ -19,7 +19,7 @@ highp vec3 openNormal(highp vec3 normal) {
 #endif
 }
 
-// Diffuse light, given what there would be in the open; what is taken bounces as often as the albedo lets it.
+// Diffuse light, given the light without occlusion; the removed part bounces according to the albedo.
 vec3 seenDiffuse(vec3 light, float visibility, vec3 albedo) {
 #if defined(HAS_AMBIENT_OCCLUSION) && defined(MULTI_BOUNCE_AMBIENT_OCCLUSION)
     return light * multiBounceAo(visibility, albedo);
@@ -48,7 +48,7 @@ vec3 seenReflection(vec3 light, float visibility, float nov, highp vec3 reflecte
     return seen;
 }
 
-// Light around a direction that was reflected at a normal of a map: the surface itself hides what comes from below it.
+// Light reflected about a normal from a map: the surface itself hides light from below it.
 vec3 aboveHorizon(vec3 light, bool isBumped, highp vec3 reflected) {
     vec3 seen = light;
     if (isBumped) seen *= horizonOcclusion(reflected, shading_geometricNormal);

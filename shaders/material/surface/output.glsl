@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lit and unlit materials do alike before and after lighting: alpha mask, emissive, post-lighting colour, alpha.
+// Common to lit and unlit materials, before and after lighting: alpha mask, emissive, post-lighting colour, alpha.
 
 #if defined(BLEND_MODE_TRANSPARENT) || defined(BLEND_MODE_FADE)
 #define ALPHA_IS_COVERAGE
@@ -12,7 +12,7 @@ void applyMask(inout vec4 baseColor) {
 #endif
 }
 
-// Nits become picture values by the exposure, as far as the weight in alpha asks for it.
+// The exposure converts nits to picture values, weighted by alpha.
 void addEmissive(MaterialInputs material, inout vec4 color) {
 #if defined(HAS_EMISSIVE)
     float factor = mix(1.0, getExposure(), material.emissive.a);
@@ -23,8 +23,8 @@ void addEmissive(MaterialInputs material, inout vec4 color) {
 #endif
 }
 
-// The modes of postLightingBlending (materials guide, 4.2.17), with the post-lighting colour above the lit one. Like
-// blending of the same name by the device: multiply and screen weight all four channels.
+// The modes of postLightingBlending (materials guide, 4.2.17), with the post-lighting colour above the lit one. They
+// match the device's blending of the same name: multiply and screen weight all four channels.
 void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #if defined(HAS_POST_LIGHTING_COLOR)
     vec4 above = material.postLightingColor;
@@ -42,7 +42,7 @@ void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #endif
 }
 
-// Of an opaque surface it is 1, unless the device makes coverage of it.
+// 1 for an opaque surface, unless the device derives coverage from it.
 float outputAlpha(float alpha) {
 #if (defined(BLEND_MODE_OPAQUE) && !defined(ALPHA_TO_COVERAGE)) || defined(BLEND_MODE_MASKED)
     return 1.0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What authors set, as the shading models take it.
+// The author's parameters in the form that the shading models need.
 
-// Perceptual roughness within what the precision can shade.
+// Perceptual roughness clamped to the range of the precision.
 highp float clampedRoughness(highp float perceptualRoughness) {
 #if defined(HALF_PRECISION)
     return clamp(perceptualRoughness, kMinPerceptualRoughnessMedium, 1.0);
@@ -10,7 +10,7 @@ highp float clampedRoughness(highp float perceptualRoughness) {
 #endif
 }
 
-// The same; with SPECULAR_ANTI_ALIASING what the pixel cannot resolve in the geometry's normals is added.
+// The same; SPECULAR_ANTI_ALIASING adds the variation of the geometry's normals within a pixel.
 highp float shadedRoughness(highp float perceptualRoughness) {
     highp float roughness = perceptualRoughness;
 #if defined(SPECULAR_ANTI_ALIASING)
@@ -20,7 +20,7 @@ highp float shadedRoughness(highp float perceptualRoughness) {
     return clampedRoughness(roughness);
 }
 
-// The colour to be lit: fading scales the lit colour as a whole (surface/main.glsl), so alpha is taken out of it first.
+// The colour to be lit. Fading scales the lit colour as a whole (surface/main.glsl), so alpha is divided out first.
 vec3 shadedBaseColor(highp vec4 baseColor) {
     vec3 color = baseColor.rgb;
 #if defined(BLEND_MODE_FADE)

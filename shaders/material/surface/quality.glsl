@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terms of lit materials that <filament/Quality.h> chooses. The choices are specialisation constants: what is not
-// chosen is not in the program. 0 is the default everywhere.
+// The terms of lit materials that <filament/Quality.h> selects. The choices are specialisation constants, so a program
+// contains only the selected terms. 0 is always the default.
 
 const int kVisibilityFast = 1;
 const int kVisibilityUncorrelated = 2;
@@ -11,14 +11,14 @@ const int kIrradianceLastSpecularLevel = 1;
 const int kIrradianceCube = 2;
 const int kEncodingRgbm = 1;
 
-// Half floats end at 65504, and infinity times the cosine of a grazing light would be NaN.
+// Half floats end at 65504, and infinity times the cosine of grazing light would be NaN.
 #if defined(HALF_PRECISION)
 float finite(float x) { return min(x, 65504.0); }
 #else
 float finite(float x) { return x; }
 #endif
 
-// 1 - n.h is a rounding error in half floats where D peaks: there from the cross product of the vectors.
+// In half floats 1 - n.h is only rounding error where D peaks: computed from the cross product of the vectors instead.
 float distributionTerm(vec3 normal, vec3 halfway, float alpha) {
 #if defined(HALF_PRECISION)
     return ndfGgxFromVectors(normal, halfway, alpha);
@@ -28,7 +28,7 @@ float distributionTerm(vec3 normal, vec3 halfway, float alpha) {
 }
 
 float visibilityTerm(float nov, float nol, float alpha) {
-#if defined(QUALITY_LOW) // the material's own quality: slightly off, whatever the view asks for
+#if defined(QUALITY_LOW) // the material's own quality: slightly inaccurate, whatever the view selects
     return finite(visibilitySmithGgxCorrelatedFast(nov, nol, alpha));
 #else
     float v;
@@ -43,7 +43,7 @@ float visibilityTerm(float nov, float nol, float alpha) {
 #endif
 }
 
-// f90 is below 1 only where the material wants no reflection (surfaceOf()): that goes for the exact term as well.
+// f90 is below 1 only for materials without reflection (surfaceOf()); that applies to the exact term as well.
 vec3 fresnelTerm(vec3 f0, float f90, float metallic, float voh) {
     vec3 f;
     if (quality_fresnel == kFresnelExact) {
@@ -80,11 +80,11 @@ vec3 energyCompensationTerm(vec3 f0, vec2 dfg) {
     return factor;
 }
 
-// Directional albedo of the specular lobe, all bounces.
+// Directional albedo of the specular lobe with all bounces.
 vec3 specularAlbedoTerm(vec3 f0, float f90, vec2 dfg) { return specularDfg(f0, f90, dfg) * energyCompensationTerm(f0, dfg); }
 
-// The two factors of the diffuse lobe under lights: towards one direction what the specular lobe leaves, towards the other that
-// over what it leaves on average.
+// The two factors of the diffuse lobe under lights: one is the part that the specular lobe leaves towards one
+// direction; the other is that for the other direction, divided by the average part left.
 vec3 diffuseEntryTerm(vec3 albedo) {
     vec3 share = vec3(1.0);
     if (quality_withoutDiffuseCoupling == 0) share = diffuseEntry(albedo);

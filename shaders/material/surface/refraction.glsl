@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-// Light from behind a surface, for models that let it through: its direction, its blur, its colour. The environment stands
-// for the scene behind. In 32 bits wherever the lighting is: directions are.
+// Light from behind a surface, for models that transmit it: its direction, its blur, its colour. The environment stands
+// for the scene behind. Directions are in 32 bits, whatever the precision of the lighting.
 
 struct Refraction {
-    vec3 tint;         // what remains of light that goes through, without the interfaces: base colour and absorption
+    vec3 tint;         // what remains of transmitted light without the interfaces: base colour and absorption
     float transmission;
     float ior;
     float dispersion;
-    float perceptualRoughness; // of the view of what is behind
+    float perceptualRoughness; // for looking up the light behind
 };
 
-// Lengths are metres of the world. Where no distance is known absorption is a share (materials guide, 3.1.22).
+// Lengths are metres in world space. Without a known distance, absorption is a fraction (materials guide, 3.1.22).
 vec3 absorbedOnTheWay(MaterialInputs material, float ior) {
     vec3 remains = vec3(1.0);
 #if defined(HAS_ABSORPTION)
@@ -25,7 +25,7 @@ vec3 absorbedOnTheWay(MaterialInputs material, float ior) {
     return remains;
 }
 
-// color: of the diffuse lobe, whose place what goes through takes.
+// color: of the diffuse lobe, which transmitted light replaces.
 Refraction refractionOf(MaterialInputs material, vec3 color, float perceptualRoughness, float ior) {
     Refraction refraction;
     refraction.transmission = saturate(material.transmission);
@@ -40,7 +40,7 @@ Refraction refractionOf(MaterialInputs material, vec3 color, float perceptualRou
     return refraction;
 }
 
-// The share of the light behind that arrives, both interfaces included. f: albedo of the near interface.
+// The share of the light behind that arrives, with both interfaces. f: albedo of the near interface.
 vec3 transmittedShare(Refraction refraction, vec3 f) {
 #if defined(REFRACTION_THIN)
     return refraction.transmission * thinTransmittance(f, refraction.tint);
@@ -49,7 +49,7 @@ vec3 transmittedShare(Refraction refraction, vec3 f) {
 #endif
 }
 
-// What the far interface adds to the albedo f of the near one. A ball's is left out: what it reflects leaves elsewhere.
+// What the far interface adds to the albedo f of the near one. A ball's is omitted: that light leaves elsewhere.
 vec3 farReflectedShare(Refraction refraction, vec3 f) {
 #if defined(REFRACTION_THIN)
     return refraction.transmission * thinFarReflectance(f, refraction.tint);
@@ -59,8 +59,9 @@ vec3 farReflectedShare(Refraction refraction, vec3 f) {
 }
 
 #if defined(REFRACTION_THIN)
-// A light behind a thin layer, with its cosine: what a light mirrored to the front would reflect, if all of it were reflected,
-// in the form of KHR_materials_transmission's implementation notes. Balls gather light in a point, which nothing shows here.
+// A light behind a thin layer, including its cosine: the reflection of the light mirrored to the front, as if all of it
+// were reflected, in the form of KHR_materials_transmission's implementation notes. Balls focus light into a point,
+// which is not shown here.
 vec3 lightThrough(Refraction refraction, vec3 normal, vec3 view, float nov, Light light) {
     vec3 seen = vec3(0.0);
     float cosine = dot(normal, light.direction);
@@ -82,7 +83,7 @@ vec3 environmentBehind(Refraction refraction) {
     float roughness = refraction.perceptualRoughness;
     vec3 radiance = environmentRadiance(refractedSolid(shading_normal, shading_view, refraction.ior), roughness);
 #if defined(HAS_DISPERSION)
-    if (refraction.dispersion > 0.0) { // green stays where it was
+    if (refraction.dispersion > 0.0) { // green keeps its direction
         vec3 ior = dispersedIor(refraction.ior, refraction.dispersion);
         radiance.r = environmentRadiance(refractedSolid(shading_normal, shading_view, ior.r), roughness).r;
         radiance.b = environmentRadiance(refractedSolid(shading_normal, shading_view, ior.b), roughness).b;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A sheen above the base and below the coat: fibres of Charlie's distribution with Neubelt's visibility. Of two directions
-// the one that leaves less decides, for the lobe as for the base: so pairs of directions may be exchanged.
+// A sheen above the base and below the coat: fibres with Charlie's distribution and Neubelt's visibility. For the lobe
+// and for the base, the direction that leaves less decides, which preserves reciprocity.
 
 #include "shaders/lib/sheen.glsl"
 
@@ -8,7 +8,7 @@ struct Sheen {
     vec3 color;        // black: none
     highp float perceptualRoughness;
     float alpha;
-    highp float albedo; // of a white one towards the view, unlimited
+    highp float albedo; // of a white sheen towards the view, not limited to 1
 };
 
 // The split-sum table's third channel; there is no fit for it.
@@ -27,15 +27,15 @@ Sheen sheenOf(MaterialInputs material) {
     return sheen;
 }
 
-// What the sheen sends back of the environment, given what it gathers from there.
+// Reflection of the environment, given its radiance over the lobe.
 vec3 sheenOfEnvironment(Sheen sheen, vec3 radiance) {
     return sheen.color * radiance * (sheen.albedo * sheenLimit(sheen.albedo));
 }
 
-// The factor of what lies below, for the environment.
+// The factor of the layers below, for the environment.
 float sheenLeaves(Sheen sheen) { return sheenAlbedoScaling(sheen.color, sheen.albedo); }
 
-// For one light: the lobe's rgb, and the factor of what lies below in w.
+// For one light: the lobe's rgb, and the factor of the layers below in w.
 vec4 sheenOfLight(Sheen sheen, float nov, float nol, float noh) {
     highp float albedo = sheenAlbedoTerm(nol, sheen.perceptualRoughness);
     float limit = min(sheenLimit(sheen.albedo), sheenLimit(albedo));

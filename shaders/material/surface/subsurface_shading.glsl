@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-// The standard model over a medium that light crosses (materials guide, 3.2; shaders/lib/subsurface.glsl). Fulfils the contract
-// of shading models: README.md.
+// The standard model over a translucent medium (materials guide, 3.2; shaders/lib/subsurface.glsl). Implements the
+// interface of shading models: README.md.
 
 #include "shaders/lib/subsurface.glsl"
 
 struct Surface {
-    vec3 diffuse;             // without what is scattered below; times alpha if the material is transparent
-    vec3 scatter;             // albedo of what is scattered below; a metal scatters nothing
+    vec3 diffuse;             // without the light scattered below; times alpha if the material is transparent
+    vec3 scatter;             // albedo of the light scattered below; a metal scatters nothing
     float thickness;          // [0, 1]: 1 lets nothing through
     float power;
     vec3 f0;
@@ -48,7 +48,7 @@ Surface surfaceOf(MaterialInputs material) {
     return surface;
 }
 
-// Half of what is scattered comes around the surface, the other half straight through the object.
+// Half of the scattered light wraps around the surface, the other half passes straight through the object.
 highp vec3 shadeEnvironment(Surface surface) {
     vec3 irradiance = environmentIrradiance(openNormal(surface.normal));
     vec3 through = environmentRadiance(-shading_view, subsurfaceForwardRoughness(surface.power));

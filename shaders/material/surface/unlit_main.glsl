@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of unlit surface materials, entry point: the base colour as it is, no light and no exposure.
+// Fragment stage of unlit surface materials, entry point: the base colour without light and exposure.
 
 #if defined(SHADOW_MULTIPLIER)
-// The share of the sun that a shadow takes: what the material gives is the colour of a full shadow (materials guide,
-// 4.2.29). Nothing casts shadows yet, so that an invisible shadow plane is invisible.
+// The share of sunlight that a shadow removes: the material's colour is that of a full shadow (materials guide,
+// 4.2.29). Nothing casts shadows yet, so an invisible shadow plane stays invisible.
 const float kShadowing = 0.0;
 #endif
 

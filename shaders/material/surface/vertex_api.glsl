@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertex stage of surface materials, what goes before the material's own code: attributes, MaterialVertexInputs and the
-// functions of the guide, 4.5.6.
+// Vertex stage of surface materials, before the material's own code: attributes, MaterialVertexInputs and the functions
+// of the guide, 4.5.6.
 
 #if defined(FULL_SCREEN_TRIANGLE)
-// Covers the picture at the far plane, without attributes: (-1, -1), (3, -1), (-1, 3).
+// Covers the picture at the far plane without attributes: (-1, -1), (3, -1), (-1, 3).
 vec3 meshPosition() {
     return vec3(gl_VertexIndex == 1 ? 3.0 : -1.0, gl_VertexIndex == 2 ? 3.0 : -1.0, frameUniforms.exposure.w);
 }
@@ -35,13 +35,13 @@ vec4 getPosition() { return vec4(meshPosition(), 1.0); }
 int getVertexIndex() { return gl_VertexIndex; }
 int getEyeIndex() { return 0; }
 #if defined(INSTANCED)
-// The index that the application gave the renderable: which renderables share a draw call does not show.
+// The index that the application gave the renderable; it does not reveal which renderables share a draw call.
 int getInstanceIndex() { return int(objectUniforms.objects[mesh_instance].flags.y); }
 #endif
 
 #if defined(VERTEX_DOMAIN_OBJECT)
 
-// The camera, where objects are not relative to it (Quality::cameraRelative); else 0, and x - 0 is x.
+// The camera's position if objects are not relative to it (Quality::cameraRelative); otherwise 0, and x - 0 is x.
 vec3 objectOrigin() { return frameUniforms.cameraPosition.xyz * frameUniforms.cameraPosition.w; }
 
 mat4 getWorldFromModelMatrix() {
@@ -51,7 +51,7 @@ mat4 getWorldFromModelMatrix() {
     return m;
 }
 
-// The cofactor matrix: the inverse transpose times the determinant, which exists for singular matrices, too. Its sign
+// The cofactor matrix: the inverse transpose times the determinant, which also exists for singular matrices. Its sign
 // is that of the determinant, hence the flag of mirrored objects.
 mat3 getWorldFromModelNormalMatrix() {
     ObjectRecord object = objectUniforms.objects[mesh_instance];
