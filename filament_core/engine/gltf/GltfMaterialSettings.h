@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfMaterialSettings: a glTF material in the words of the engine's glTF packages (shaders/material/gltf_*.mat):
+/// GltfMaterialSettings: a glTF material in the words of the engine's glTF packages (shaders/material/gltf):
 /// which package, specialised to what, with which parameters and maps.
 ///   In      a material as the loader made it.   Out: plain values; no engine, no device.
 ///   Cost    a package is chosen by what has to be compiled differently: shading model, refraction, blending.
