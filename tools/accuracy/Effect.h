@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Effect: one row of the accuracy table: a choice, its values, the truth that each is measured against, and what it
-/// costs. Rows are objects of effects.json; docs/accuracy.html begins with how to add one.
+/// Effect: one row of the accuracy table: a choice, its values, the reference for each value, and the cost. Rows are
+/// objects in effects.json; docs/accuracy.html begins with how to add one.
 ///   Value    one word ("fast": CHOICE=fast) or settings separated by spaces ("diffuseIrradiance=sphericalHarmonics
-///            shBands=2"). Without "values": all that Settings.h knows of the choice.
-///   Fails    InvalidArgument, NotFound: row, field, what would be right. Every word of every value is tried.
-///   Thread   any; pure but for reading the file.
+///            shBands=2"). Without "values": all values that Settings.h knows for the choice.
+///   Fails    InvalidArgument, NotFound: row, field, what is valid. Every word of every value is checked.
+///   Thread   any; pure except for reading the file.
 #pragma once
 
 #include "base/Result.h"
@@ -21,12 +21,12 @@ struct Value {
 };
 
 enum class ReferenceKind : uint8_t {
-    Setting,      ///< the engine with `set`: the finest that it offers
-    Scene,        ///< the engine in another scene, where the difficulty is absent
+    Setting,      ///< the engine with `set`: its most exact result
+    Scene,        ///< the engine in another scene without the difficulty
     Supersampled, ///< the engine with `set` at `factor` times the resolution, averaged in linear light
-    Traced,       ///< tools/reference: one reflection of light that nothing blocks, terms as `set` has them
-    OtherBackend, ///< the engine with the same value on the second backend: how far the two APIs part
-    Furnace,      ///< a white furnace: what reflects everything looks like its environment
+    Traced,       ///< tools/reference: one reflection of unoccluded light, with the terms of `set`
+    OtherBackend, ///< the engine with the same value on the second backend: how far the two APIs differ
+    Furnace,      ///< a white furnace: a surface that reflects everything looks like its environment
     Integral,     ///< numbers instead of a picture: an integral in double precision, by name
 };
 
@@ -39,24 +39,24 @@ struct Reference {
     uint32_t samples = 64; ///< Traced: per pixel
 };
 
-/// The scene of whole frames, unless a row or the command line says otherwise.
+/// The scene of whole frames, unless a row or the command line names another.
 inline constexpr const char* kWholeFrame = "frame";
 
 enum class Cost : uint8_t {
-    Frame,       ///< milliseconds of the device for a whole frame
+    Frame,       ///< device milliseconds for a whole frame
     Environment, ///< milliseconds to load the environment, from its file and without a cache
     Model,       ///< milliseconds to load the model
 };
 
 struct Effect {
-    std::string name; ///< what --effect takes
+    std::string name; ///< the name for --effect
     std::string title;
-    std::string question;          ///< that the row answers, one sentence
+    std::string question;          ///< answered by the row, one sentence
     std::string scene;             ///< scenes/NAME.json or NAME/FEATURE, in which the error is measured
     std::vector<std::string> base; ///< settings of all values in that scene
     std::vector<Value> values;
-    size_t standard = 0; ///< what the engine does unless told otherwise; times are ratios to it
-    size_t best = 0;     ///< whole frames are compared with this value's
+    size_t standard = 0; ///< the engine's default; times are ratios to it
+    size_t best = 0;     ///< whole frames are compared with those of this value
     Reference reference{};
     Cost cost = Cost::Frame;
     std::string frame = kWholeFrame; ///< the scene in which the frame is timed

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// describeMachine: where and of what the figures are: processor, cores, system; commit; date (UTC).
-///   Fails   never: what the system does not tell is "unknown".
+/// describeMachine: the origin of the figures: processor, cores, system; commit; date (UTC).
+///   Fails   never: unavailable information is "unknown".
 #pragma once
 
 #include "tools/accuracy/Results.h"

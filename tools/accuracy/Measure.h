@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// measure: the rows of the accuracy table, filled in.
+/// measure: fills in the rows of the accuracy table.
 ///   Error  of each value in the effect's own scene against its reference, and of the whole frame against the effect's
-///          best value; on the first backend: the pictures of the second have the same bits where exactness is on.
-///   Time   on every backend: the values take turns (A B C, B C A, ...), so that a machine that slows down does so for
-///          all.
+///          best value; on the first backend only, because the second has the same bits where exactness is on.
+///   Time   on every backend: values take turns (A B C, B C A, ...), so that a machine that slows down affects all of
+///          them.
 ///   Thread one at a time.
-///   Fails  what loaders and devices say. An effect whose assets are not there is skipped, with the reason.
+///   Fails  errors of loaders and devices. An effect whose assets are missing is skipped, with the reason.
 ///   Cost   a minute or two for everything on two cores; the first run compiles pipelines.
 #pragma once
 
@@ -20,21 +20,21 @@ namespace filament::accuracy {
 
 struct MeasureOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
-    std::string frame = kWholeFrame; ///< another scene of whole frames, for rows that do not have one of their own
-    uint2 size{ 960, 540 };          ///< of whole frames that are timed
-    uint2 errorSize{ 640, 360 };     ///< of whole frames that are compared
+    std::string frame = kWholeFrame; ///< scene of whole frames for rows without one
+    uint2 size{ 960, 540 };          ///< of timed whole frames
+    uint2 errorSize{ 640, 360 };     ///< of compared whole frames
     uint32_t rounds = 15;            ///< of frames
     uint32_t loadRounds = 3;         ///< of loads, which take seconds
-    uint32_t mostTraced = 1u << 20;  ///< samples a pixel of references, at most
-    std::filesystem::path pictures;  ///< every picture that an error is of, as PNG; empty: none
+    uint32_t mostTraced = 1u << 20;  ///< maximum samples per pixel of references
+    std::filesystem::path pictures;  ///< folder for every picture that an error was computed from, as PNG; empty: none
     conformance::SceneFolders folders{};
 };
 
-/// What is being done, and how much of all is.
+/// The current step, and the fraction done.
 using MeasureProgress = std::function<void(std::string const& what, double done)>;
 
-/// Fills `effects` and `skipped` in; machine, commit and date are the caller's.
-/// `table`: every effect, for the best of all; `chosen`: names, empty for all.
+/// Fills in `effects` and `skipped`; the caller fills in machine, commit and date.
+/// `table`: every effect, to find the best of all; `chosen`: names, empty for all.
 Result<Results> measure(std::vector<Effect> const& table, std::vector<std::string> const& chosen,
                         SceneLibrary const& scenes, MeasureOptions const& options, MeasureProgress const& progress);
 

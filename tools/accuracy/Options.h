@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Options: what filament-accuracy's command line asks for, checked.
-///   Fails   InvalidArgument in one line that names the option, the value and what would be right.
+/// Options: the checked command line of filament-accuracy.
+///   Fails   InvalidArgument in one line that names the option, the value and what is valid.
 #pragma once
 
 #include "tools/accuracy/Measure.h"
@@ -21,7 +21,7 @@ struct Options {
     MeasureOptions measure{};
 };
 
-/// No value: the help text was asked for and is printed.
+/// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
 } // namespace filament::accuracy

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Picture: linear light as floats, and how far one is from another.
-///   Error   of a pixel: |test - reference| / (|reference| + 1 % of the reference's mean), lengths of RGB vectors:
-///           relative, without letting the darkest pixels decide. Pixels that are black in both pictures (background)
-///           do not count.
+/// Picture: linear light as floats, and the difference between two pictures.
+///   Error   of a pixel: |test - reference| / (|reference| + 1 % of the reference's mean), as lengths of RGB vectors:
+///           relative, but not dominated by the darkest pixels. Pixels that are black in both pictures (background) do
+///           not count.
 ///   Thread  any; pure.
 #pragma once
 
@@ -18,17 +18,17 @@ struct Picture {
     std::vector<float3> pixels; ///< row 0 at the top
 };
 
-/// RGBA8: sRGB codes become linear light. RGBA16F: as it is.
+/// RGBA8: converts sRGB codes to linear light. RGBA16F: unchanged.
 Picture pictureOf(Image const& image);
-/// RGBA8 in sRGB codes, values above 1 clamped: to look at.
+/// RGBA8 in sRGB codes, with values above 1 clamped, for viewing.
 Image displayImage(Picture const& picture);
-/// Each pixel the mean of `factor` x `factor` of a picture whose sides are multiples of that.
+/// Each pixel is the mean of `factor` x `factor` pixels of a picture whose sides are multiples of `factor`.
 Picture boxFiltered(Picture const& picture, uint32_t factor);
 
-/// Which pixels of two pictures of the same objects count.
+/// Which pixels count when two pictures of the same objects are compared.
 enum class Edges : uint8_t {
     Count,
-    Skip, ///< not those beside background: a rasteriser and a ray differ about who owns them
+    Skip, ///< not pixels beside background: a rasteriser and a ray disagree about them
 };
 
 struct ErrorFigures {
@@ -36,7 +36,7 @@ struct ErrorFigures {
     double flip = 0;         ///< mean FLIP, [0, 1]
 };
 
-/// Pictures of one size.
+/// Both pictures have the same size.
 ErrorFigures compare(Picture const& reference, Picture const& test, Edges edges = Edges::Count);
 
 } // namespace filament::accuracy

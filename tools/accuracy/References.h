@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// References: the picture that an effect's values are measured against.
+/// References: the picture that an effect's values are compared with.
 ///   Thread  one at a time.
-///   Fails   what the scenes, the engine and tools/reference say.
+///   Fails   errors of the scenes, the engine and tools/reference.
 #pragma once
 
 #include "tools/accuracy/Effect.h"
@@ -11,7 +11,7 @@
 
 namespace filament::accuracy {
 
-/// Where references are made.
+/// Where references are rendered.
 struct ReferenceStage {
     Studio& studio;
     SceneLibrary const& scenes;
@@ -32,7 +32,7 @@ Result<Settings> settingsFor(conformance::SceneSpec const& scene, std::vector<st
 Result<Picture> shoot(Studio& studio, conformance::SceneSpec const& scene, Settings const& settings, uint2 size,
                       bool linear);
 
-/// Not for Integral, which has no picture, and OtherBackend, which has one for each value.
+/// Not for Integral, which has no picture, or OtherBackend, which has one per value.
 Result<Truth> makeTruth(Reference const& reference, conformance::SceneSpec const& scene,
                         std::vector<std::string> const& base, ReferenceStage const& stage);
 

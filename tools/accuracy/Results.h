@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Results: what was measured, as values, as JSON and as CSV. The JSON is the table that QualityBudget reads.
+/// Results: the measurements, as values, as JSON and as CSV. QualityBudget reads the JSON.
 ///   JSON    { "program", "version", "machine", "driver", "commit", "date", "frame", "size", "rounds", "effects": [ {
 ///             "name", "title", "question", "reference", "command", "cost", "frame", "linear", "standard", "best",
 ///             "values": [ {
 ///               "value", "set", "error" (whole frame), "ownError", "ownMax", "ownFlip", "frameFlip", "totalError",
 ///               "milliseconds", "millisecondsInterval", "ratio", "interval" (of the ratio) } ] } ],
 ///           "skipped" }. The last four fields of a value are objects, one entry per backend.
-///   CSV     one line a value and backend.
+///   CSV     one line per value and backend.
 ///   Thread  any; pure.
 #pragma once
 
@@ -42,11 +42,11 @@ struct EffectResult {
     std::vector<ValueResult> values; ///< as effect.values
     bool linear = true;              ///< pictures are scene-linear, not display-referred
     double referenceError = 0;       ///< standard error of a traced reference; 0: none
-    std::string command;             ///< that measures this row again
+    std::string command;             ///< repeats the measurement of this row
 };
 
 struct Skipped {
-    std::string name, reason; ///< what it needs and is not there
+    std::string name, reason; ///< the row, and which file it lacks
 };
 
 struct Results {

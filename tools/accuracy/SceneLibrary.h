@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneLibrary: the scenes that errors are measured in, by name: files as those of the conformance tests
-/// (docs/conformance.md), in a folder.
-///   Fails   NotFound with the nearest name; what the scene files themselves say.
+/// SceneLibrary: the scenes in which errors are measured, by name: a folder of files in the format of the conformance
+/// tests (docs/conformance.md).
+///   Fails   NotFound with the nearest name; errors of the scene files.
 ///   Thread  read-only after read().
 #pragma once
 
@@ -12,7 +12,7 @@ namespace filament::accuracy {
 class SceneLibrary {
 public:
     static Result<SceneLibrary> read(std::filesystem::path const& folder);
-    /// The pointer lives as long as the library.
+    /// The pointer is valid as long as the library.
     Result<conformance::SceneSpec const*> find(std::string const& name) const;
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CommandLine: words into values, for the tools that draw. CLI11 sorts the words out; these say what is wrong with
-/// them.
-///   Fails   InvalidArgument in one line that names the option, the value and what would be right.
-///   Thread  pure functions, but for the help text on standard output.
+/// CommandLine: converts the words of a command line to values, for the tools that draw. CLI11 sorts the words; these
+/// functions report what is wrong with them.
+///   Fails   InvalidArgument in one line that names the option, the value and what is valid.
+///   Thread  pure functions, except for the help text on standard output.
 #pragma once
 
 #include "base/Result.h"
@@ -25,7 +25,7 @@ std::optional<double> finiteNumber(std::string const& word);
 std::optional<uint32_t> wholeNumber(std::string const& word, uint32_t low, uint32_t high);
 std::string joined(std::vector<std::string> const& words);
 
-/// `N` numbers that pass `accepts`; an absent option leaves `result` alone.
+/// `N` numbers that pass `accepts`; an absent option does not change `result`.
 template <size_t N, class Accept>
 Result<void> convertNumbers(const char* option, std::vector<std::string> const& words, const char* cure,
                             std::array<double, N>& result, Accept const& accepts) {
@@ -38,10 +38,10 @@ Result<void> convertNumbers(const char* option, std::vector<std::string> const& 
     return accepts(result) ? Result<void>{} : Result<void>(invalidOption(option, joined(words), cure));
 }
 
-/// "on" or "off"; an empty word leaves `result` alone.
+/// "on" or "off"; an empty word does not change `result`.
 Result<void> convertSwitch(const char* option, std::string const& word, bool& result);
 
-/// False: the help text was asked for and is printed.
+/// False: the help text was requested and has been printed.
 Result<bool> parseWords(CLI::App& app, int argc, const char* const* argv);
 
 } // namespace filament::tools

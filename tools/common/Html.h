@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Html: text and bytes as they may stand in an HTML page.
+/// Html: encodes text and bytes for an HTML page.
 ///   Thread  any; pure.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Machine: where and of what measured figures are.
-///   Fails   never: what the system does not tell is "unknown".
+/// Machine: describes the machine and the build that figures were measured with.
+///   Fails   never: unavailable information is "unknown".
 #pragma once
 
 #include <string>
@@ -9,7 +9,7 @@ namespace filament::tools {
 
 /// Processor, cores, system, load.
 std::string describeMachine();
-/// The commit that was built, "-dirty" if files differ from it.
+/// The commit that was built, with "-dirty" if files differ from it.
 std::string builtCommit();
 
 } // namespace filament::tools

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Program: what main() of a tool does besides its job.
+/// Program: the common part of main() of every tool.
 ///   Out     the exit status: that of the job; 0 after the help text; 1 after one line on standard error that says what
-///           failed, out of memory included.
+///           failed, including running out of memory.
 ///   Thread  the main thread.
 #pragma once
 
@@ -13,14 +13,15 @@
 
 namespace filament::tools {
 
-/// Says so; the exit status.
+/// Prints the error and returns the exit status.
 inline int failed(Error const& error) {
     printError(error.message);
     return 1;
 }
 
-/// parse(argc, argv) gives Result<std::optional<Options>>, none after the help text; run(options) the exit status.
-/// `name`: a string literal. `cure`: what to try where memory runs out.
+/// parse(argc, argv) returns Result<std::optional<Options>>, empty after the help text; run(options) returns the exit
+/// status.
+/// `name`: a string literal. `cure`: advice for running out of memory.
 template <class Parse, class Run>
 int runProgram(std::string_view name, int argc, const char* const* argv, Parse&& parse, Run&& run,
                std::string_view cure = {}) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneFiles: from the options to files that exist: where to read, where to write.
-///   Thread  one; the showcase is made on a job system of its own.
+/// SceneFiles: turns options into existing files: where to read, where to write.
+///   Thread  one; the showcase is generated on a separate job system.
 ///   Fails   Unreadable with the path and what to give instead.
 #pragma once
 
@@ -9,11 +9,11 @@
 
 namespace filament::tools {
 
-/// The folder of the pictures, made if it is missing.
+/// The folder of the pictures, created if it is missing.
 Result<void> makeOutFolder(SceneOptions const& options);
 
-/// The files of the command line. Written into the folder of the pictures: the showcase where there is no model, its
-/// sky where neither environment nor sun is asked for. `--environment none` is none.
+/// The files of the command line. Without a model the showcase is written into the folder of the pictures, and without
+/// environment and sun its sky. `--environment none` means none.
 Result<showcase::Files> chooseFiles(SceneOptions const& options);
 
 } // namespace filament::tools

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneOptions: what every tool that draws a model is asked in the same words: what, under which light, from where,
-/// how bright, and where to put the picture. One command line for filament-render and filament-reference.
-///   Fails   convertSceneOptions(): InvalidArgument in one line that names the option, the value and what would be
-///           right.
+/// SceneOptions: the options shared by all tools that draw a model: what, under which light, from where, how bright,
+/// and where to put the picture. filament-render and filament-reference share this command line.
+///   Fails   convertSceneOptions(): InvalidArgument in one line that names the option, the value and what is valid.
 #pragma once
 
 #include "base/Result.h"
@@ -35,7 +34,7 @@ struct SceneOptions {
     Exposure exposure{ .aperture = 16, .shutterSeconds = 0.008f, .iso = 100 };
     Lux iblIntensity{ 30'000 };
     std::optional<SunLight> sun;
-    bool skybox = true; ///< where there is an environment
+    bool skybox = true; ///< if there is an environment
     ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
     Quality quality{};
     bool exactShaders = true;                    ///< --set exact=off
@@ -44,7 +43,7 @@ struct SceneOptions {
     std::filesystem::path out = "out";
 };
 
-/// The words of those options as they were given.
+/// The words of those options as given.
 struct SceneWords {
     std::string model, environment, size = "1280x720", fov = "40", iblIntensity = "30000", skybox, toneMapper = "aces",
                                     dither, out = "out";

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Baselines: the pictures of an earlier day, as a hash and a thumbnail each, with the machine that made them.
-///   Rule    on the same driver and CPU features the hash decides. Elsewhere the thumbnail does, by FLIP, and the
-///           report says so. A case without a baseline fails: store one with --update-baselines.
+/// Baselines: stored pictures, as a hash and a thumbnail each, with the machine that produced them.
+///   Rule    with the same driver and CPU features the hash must match. Otherwise the thumbnails are compared with
+///           FLIP, and the report says so. A case without a baseline fails: store one with --update-baselines.
 ///   File    tests/conformance/baselines.json: one machine, every case as a hash and 16 x 16 RGB.
 ///   Thread  one.  Fails  Unreadable, Corrupt with the path.
 #pragma once
@@ -12,12 +12,12 @@
 
 namespace filament::conformance {
 
-inline constexpr uint32_t kThumbnail = 16; ///< pixels a side
+inline constexpr uint32_t kThumbnail = 16; ///< pixels per side
 inline constexpr double kThumbnailFlip = 0.02;
 
 struct Machine {
     std::string device, driver;
-    std::string cpuFeatures; ///< "avx avx2 fma", those that software renderers use
+    std::string cpuFeatures; ///< "avx avx2 fma": those that software renderers use
     friend bool operator==(Machine const&, Machine const&) = default;
 };
 Machine thisMachine(std::string device, std::string driver);
@@ -29,12 +29,12 @@ struct BaselineVerdict {
 
 class Baselines {
 public:
-    /// A file that does not exist is one without cases.
+    /// A missing file counts as one without cases.
     static Result<Baselines> read(std::filesystem::path const& file);
     Result<void> write(std::filesystem::path const& file) const;
 
     BaselineVerdict check(std::string const& name, Image const& image, Machine const& machine) const;
-    /// Forgets all cases if they are of another machine.
+    /// Drops all cases if they are from another machine.
     void store(std::string const& name, Image const& image, Machine const& machine);
 
 private:
@@ -46,7 +46,7 @@ private:
 };
 
 std::string hashOf(Image const& image);
-/// Box-filtered sRGB codes, RGBA8; half floats are clamped and encoded first.
+/// Box-filtered sRGB codes, RGBA8; half floats are first clamped and encoded.
 Image thumbnailOf(Image const& image);
 
 } // namespace filament::conformance

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// BuiltModel: the model of a scene file that lists objects instead of naming a file, as a real .glb.
+/// BuiltModel: builds a real .glb for a scene file that lists objects instead of naming a file.
 ///   In      { "objects": [ { "shape": "sphere", "at": [0, 1, 0], "material": { "color": [1, 0, 0, 1] } } ] }
-///   Out     the bytes of a binary glTF file: what is drawn has been through the loader. The same JSON, the same bytes.
+///   Out     the bytes of a binary glTF file, so that the objects pass through the loader. The same JSON gives the same
+///           bytes.
 ///   Fails   InvalidArgument with the field.
 ///   Thread  any; pure.
 #pragma once

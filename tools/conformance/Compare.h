@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// comparePictures: do two pictures agree as a comparator demands, and by how much do they not.
-///   Rule    bits are demanded of one device, and of Mesa's CPU drivers among each other; between other devices a case
-///           that asks for bits is compared by FLIP with its bounds (comparatorFor).
-///   Thread  any; pure.  Fails  InvalidArgument when sizes or formats differ.
+/// comparePictures: whether two pictures agree as their comparator demands, and by how much they differ.
+///   Rule    identical bits are required on the same device, and between Mesa's CPU drivers; between other devices a
+///           case that requires bits is compared by FLIP with its bounds (comparatorFor).
+///   Thread  any; pure.  Fails  InvalidArgument if sizes or formats differ.
 #pragma once
 
 #include "tools/conformance/Results.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ImageChecks: what is wrong with a picture whatever it shows, and where two attachments part.
-///   Fails   never; an empty text or optional means: nothing to say.
+/// ImageChecks: checks that apply to any picture, and the first difference between two attachments.
+///   Fails   never; an empty text or optional means that nothing was found.
 ///   Thread  any; pure.
 #pragma once
 
@@ -14,13 +14,13 @@
 
 namespace filament::conformance {
 
-/// Why a picture cannot be right: all black, one colour everywhere, not-a-number or infinity, no pixels.
+/// Why a picture cannot be correct: all black, a single colour, NaN or infinity, no pixels.
 std::string faultOf(Image const& image);
 
-/// The first component of any floating-point attachment that is not finite: pass, attachment, pixel, command positions.
+/// The first non-finite component of any floating-point attachment: pass, attachment, pixel, command positions.
 std::string notFinite(backend::CapturedFrame const& frame);
 
-/// Texel `index` as numbers; the components that the format lacks are 0.
+/// Texel `index` as numbers; components that the format lacks are 0.
 std::array<float, 4> texel(Format format, std::span<const std::byte> bytes, size_t index);
 
 struct PixelDifference {

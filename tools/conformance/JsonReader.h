@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// JsonReader: one JSON object read strictly, field by field: a key that nobody asked for is an error that names the
-/// nearest one that is known.
-///   Use     reader.read("size", spec.size); ... return reader.finish();  An absent field leaves the value alone.
-///   Fails   the first thing that is wrong is kept: "helmet.json: camera.fov: expected a number".
+/// JsonReader: reads one JSON object strictly, field by field: an unknown key is an error that names the nearest known
+/// one.
+///   Use     reader.read("size", spec.size); ... return reader.finish();  An absent field does not change the value.
+///   Fails   the first error is kept: "helmet.json: camera.fov: expected a number".
 ///   Thread  one.
 #pragma once
 
@@ -23,7 +23,7 @@ using Json = nlohmann::ordered_json;
 
 class JsonReader {
 public:
-    /// `where` begins every message.
+    /// Every message begins with `where`.
     JsonReader(Json const& object, std::string where);
 
     bool has(const char* key) { return find(key) != nullptr; }
@@ -42,7 +42,7 @@ public:
         numbers(key, all, N);
         for (int i = 0; i < N; ++i) value[i] = static_cast<T>(all[i]);
     }
-    /// An enumerator by its name: `fromName(text)` gives an optional.
+    /// An enumerator by name: `fromName(text)` returns an optional.
     template <class E, class FromName>
     void choice(const char* key, E& value, const char* cure, FromName const& fromName) {
         std::string word;

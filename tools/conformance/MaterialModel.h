@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialModel: a scene whose "model" is a material: { "material": "PATH.mat" } with, as wanted,
-///   "values"   { "NAME": "1,0.5" }: parameters and constants, before those of the file's "// show:" line;
-///   "mesh"     instead of the file's;
-///   "edits"    { "TEXT": "OTHER TEXT" }: pieces of the file that are replaced before it is compiled.
+/// MaterialModel: a scene whose "model" is a material: { "material": "PATH.mat" } and optionally
+///   "values"   { "NAME": "1,0.5" }: parameters and constants, which override those of the file's "// show:" line;
+///   "mesh"     replaces the file's mesh;
+///   "edits"    { "TEXT": "OTHER TEXT" }: pieces of the file to replace before compiling.
 ///   Paths are relative to the scene file.
-///   Fails  InvalidArgument: file, field, what would be right; and as readMaterialFile().
+///   Fails  InvalidArgument: file, field, what is valid; and as readMaterialFile().
 #pragma once
 
 #include "tools/conformance/SceneFile.h"
@@ -12,7 +12,7 @@
 
 namespace filament::conformance {
 
-/// What such a scene says.
+/// The contents of such a scene.
 struct MaterialModelFile {
     std::shared_ptr<const tools::MaterialFile> file; ///< compiled
     std::string mesh;                                ///< empty: the file's

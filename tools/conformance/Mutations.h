@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Mutations: named defects, put into the command stream of one engine. What compares pictures must notice each of
-/// them; if it does not, it proves nothing. No code of the engine knows of them.
-///   Identity "none" changes nothing and must not be noticed: it shows that the others are.
+/// Mutations: named defects, injected into the command stream of one engine. A comparison of pictures must detect each
+/// of them; otherwise it proves nothing. The engine has no code for them.
+///   Identity "none" changes nothing and must not be detected: it shows that the detections are real.
 ///   Limits   "mipBias" edits SPIR-V: Vulkan only.
-///   Fails    an unknown name gives none, and mutationNames() says which there are.
+///   Fails    an unknown name gives none, and mutationNames() lists the known ones.
 #pragma once
 
 #include "backend/layers/Captured.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Options: what filament-conformance's command line asks for, checked.
-///   Fails   InvalidArgument in one line that names the option, the value and what would be right.
+/// Options: the checked command line of filament-conformance.
+///   Fails   InvalidArgument in one line that names the option, the value and what is valid.
 #pragma once
 
 #include "base/Result.h"
@@ -33,11 +33,11 @@ struct Options {
     std::string bisect;                       ///< the case to bisect; empty: run
     std::vector<std::filesystem::path> merge; ///< folders of results; empty: run
     bool exact = true;                        ///< --set exact=off: the engine's shaders without it
-    std::vector<std::pair<std::string, std::string>> quality; ///< --set NAME=VALUE: of every case, over what it says
+    std::vector<std::pair<std::string, std::string>> quality; ///< --set NAME=VALUE: overrides every case
     bool list = false;
 };
 
-/// No value: the help text was asked for and is printed.
+/// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
 /// "2/8", or "auto": SLURM_ARRAY_TASK_ID and ..._COUNT, or JOB_COMPLETION_INDEX and JOB_COMPLETIONS.

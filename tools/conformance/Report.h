@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Report: results for machines (JUnit XML) and for people (one HTML file with everything in it).
-///   In      results, and the folder in which their pictures are.
+/// Report: results for programs (JUnit XML) and for people (one self-contained HTML file).
+///   In      results, and the folder that contains their pictures.
 ///   Out     OUT/junit.xml, OUT/report.html: pictures, differences, both pictures in turn, the first differing pixel.
-///   Fails   Unreadable with the path. A picture that is not there is left out.
+///   Fails   Unreadable with the path. A missing picture is left out.
 ///   Thread  any.
 #pragma once
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Results: what a run found, as plain values, and as results.json. Shards of one run merge to the same file that the
-/// whole run would have written: nothing in it depends on when or in which order cases ran (times are beside it, in
-/// times.json).
-///   Fails   readResults: Unreadable or Corrupt with the path. merge: InvalidArgument if two runs do not belong
-///           together.
-///   Thread  any; pure but for files.
+/// Results: the findings of a run, as plain values and as results.json. Shards of one run merge to the same file that
+/// the whole run would have written: nothing in it depends on the time or order of cases (times are in times.json
+/// beside it).
+///   Fails   readResults: Unreadable or Corrupt with the path. merge: InvalidArgument if runs do not belong together.
+///   Thread  any; pure except for files.
 #pragma once
 
 #include "tools/conformance/JsonReader.h"
@@ -19,13 +18,13 @@ namespace filament::conformance {
 enum class Status : uint8_t { Passed, Failed, Skipped };
 const char* toString(Status status);
 
-/// One picture of a case against the reference picture of that case.
+/// One picture of a case compared with the reference picture of that case.
 struct Comparison {
     std::string configuration; ///< "gles", "vulkan workers 8"
     bool passed = false;
-    uint64_t differing = 0;             ///< pixels that are not the same bits
+    uint64_t differing = 0;             ///< pixels whose bits differ
     uint32_t maxDifference = 0;         ///< in 1/255
-    double flipMean = -1, flipP99 = -1; ///< -1: not asked for
+    double flipMean = -1, flipP99 = -1; ///< -1: not requested
     std::string first;                  ///< the first differing pixel, with its command-stream position; empty: none
     std::string image, difference;      ///< files in the folder of the results; empty: equal
 };
@@ -41,7 +40,7 @@ struct CaseResult {
     Status status = Status::Failed;
     std::vector<std::string> reasons; ///< why it failed or was skipped
     std::string hash;                 ///< of the reference picture
-    std::string baseline;             ///< what the comparison with the stored picture said
+    std::string baseline;             ///< the result of the comparison with the stored picture
     std::string image;                ///< of the reference configuration
     std::vector<Comparison> comparisons;
     std::vector<Kill> kills;
@@ -65,7 +64,7 @@ Summary summaryOf(Results const& results);
 Json toJson(Results const& results);
 Result<void> writeResults(std::filesystem::path const& folder, Results const& results);
 Result<Results> readResults(std::filesystem::path const& folder);
-/// The cases of all; a case may be in one only.
+/// All cases of all parts; a case may be in one part only.
 Result<Results> merge(std::vector<Results> parts);
 
 } // namespace filament::conformance

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Runner: draws the cases of a shard in every configuration, compares, looks inside, lets mutants loose.
+/// Runner: draws the cases of a shard in every configuration, compares them, inspects frames, and tests mutations.
 ///   Configurations  each backend with one worker, captured; then 0, 2 and 8 workers, pinned and on big cores. The
-///                   first one makes the reference picture.
+///                   first one produces the reference picture.
 ///   Out     the results; pictures in OUT/images.
-///   Memory  one engine a configuration, one case at a time.
-///   Fails   a device or a scene folder that is not there; what goes wrong in a case is a result of that case.
-///   Cost    about a second a case on two cores with Mesa's CPU drivers, half of it for mutants.
+///   Memory  one engine per configuration, one case at a time.
+///   Fails   a missing device or scene folder; errors within a case are results of that case.
+///   Cost    about a second per case on two cores with Mesa's CPU drivers, half of it for mutations.
 #pragma once
 
 #include "tools/conformance/Baselines.h"
@@ -21,10 +21,10 @@ struct Configuration {
 };
 std::vector<Configuration> configurationsOf(Options const& options);
 
-/// What --set says goes over what the cases say.
+/// Values of --set override those of the cases.
 void overrideQuality(std::vector<SceneSpec>& cases, Options const& options);
 
-/// The cases that --only names, of those every shard.count-th one.
+/// The cases selected by --only, and every shard.count-th one of those.
 std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& options);
 
 Result<Results> runCases(Options const& options, std::vector<SceneSpec> const& cases);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneAssets: from the words of a scene file to files, lights and a camera: for every program that draws such scenes.
-///   Model        objects to build, "showcase", "asset:PATH", or a path beside the scene file.
+/// SceneAssets: turns the text of a scene file into files, lights and a camera, for every program that draws such
+/// scenes.
+///   Model        objects to build, "showcase", "asset:PATH", or a path relative to the scene file.
 ///   Environment  "sky" (analytic, without its sun), "white" (radiance 1 everywhere), "studio" (dim, with four
 ///                lamps of up to 300 times its radiance), "showcase", or a path as above.
-///   Memory       what is built is written once into the folder `work`; several processes may do so at once.
+///   Memory       built files are written once into the folder `work`; several processes may do so at once.
 ///   Thread       any.
-///   Fails        what the builders and the file system say. An asset that is not there: see missingFile().
+///   Fails        errors of the builders and the file system. For a missing asset see missingFile().
 #pragma once
 
 #include "tools/conformance/SceneFile.h"
@@ -14,23 +15,23 @@
 
 namespace filament::conformance {
 
-/// Where built files go, and where "asset:" begins; empty: nowhere.
+/// The folder for built files, and the folder of "asset:"; empty: none.
 struct SceneFolders {
     std::filesystem::path work, assets;
 };
 
-/// The first file of a case that does not exist; empty: all are there.
+/// The first missing file of a case; empty: none is missing.
 std::string missingFile(SceneSpec const& spec, std::filesystem::path const& assets);
 
 Result<std::filesystem::path> modelFile(SceneSpec const& spec, SceneFolders const& folders);
 /// Empty: the case has no environment.
 Result<std::filesystem::path> environmentFile(SceneSpec const& spec, SceneFolders const& folders);
 
-/// The lights of the case where they stand, its origin added.
+/// The lights of the case at their final positions, with its origin added.
 std::vector<LightSpec> placedLights(SceneSpec const& spec);
-/// Where each copy of the model stands.
+/// The transform of each copy of the model.
 std::vector<double4x4> placedCopies(SceneSpec const& spec);
-/// `bounds`: of the whole scene, for a case that does not say where its camera is.
+/// `bounds`: of the whole scene, for a case without a camera.
 Camera cameraOf(SceneSpec const& spec, Box const& bounds);
 
 } // namespace filament::conformance

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneFile: one .json of tests/conformance/scenes as values: what stands there, under which light, from where, how it
-/// is finished, and how two pictures of it are compared. docs/conformance.md describes the fields.
-///   Features  a scene's "features" are named changes of the same file (RFC 7396 merge patches): each is a case of its
-///             own, "spheres/msaa" beside "spheres".
-///   Fails     InvalidArgument, Unreadable: file, field, what would be right.
-///   Thread    any; pure but for reading files.
+/// SceneFile: one .json of tests/conformance/scenes as values: the objects, the light, the camera, the post-processing,
+/// and how two pictures of it are compared. docs/conformance.md describes the fields.
+///   Features  a scene's "features" are named changes of the same file (RFC 7396 merge patches). Each is a separate
+///             case: "spheres/msaa" beside "spheres".
+///   Fails     InvalidArgument, Unreadable: file, field, what is valid.
+///   Thread    any; pure except for reading files.
 #pragma once
 
 #include "tools/conformance/JsonReader.h"
@@ -26,7 +26,7 @@ namespace filament::conformance {
 
 enum class ComparatorKind : uint8_t { Bits, Tolerance, Flip };
 
-/// How two pictures of a case must agree.
+/// How closely two pictures of a case must agree.
 struct Comparator {
     ComparatorKind kind = ComparatorKind::Bits;
     uint32_t tolerance = 2;                ///< Tolerance: in 1/255, every component of every pixel
@@ -38,31 +38,31 @@ using LightSpec = std::variant<SunLight, PointLight, SpotLight>;
 struct SceneSpec {
     std::string name;             ///< "spheres" or "spheres/msaa"
     Json model;                   ///< a path, "asset:PATH" below the asset folder, or objects to build
-    std::filesystem::path folder; ///< where the scene file is: paths are relative to it
+    std::filesystem::path folder; ///< folder of the scene file: paths are relative to it
     std::string environment;      ///< "sky", "asset:...", a path; empty: none
     EnvironmentSettings environmentSettings{};
     EnvironmentLoadOptions environmentOptions{ .faceSize = 64, .samples = 128 };
     GltfLoadOptions modelOptions{};
-    std::optional<double> animationSeconds; ///< none: the model is at rest
-    uint32_t animation = 0;                 ///< which one of the file
+    std::optional<double> animationSeconds; ///< none: the rest pose
+    uint32_t animation = 0;                 ///< index in the file
     std::vector<LightSpec> lights;
-    std::vector<double4x4> copies; ///< where the model stands; never empty
+    std::vector<double4x4> copies; ///< transforms of the model; never empty
     double3 origin{ 0.0 };         ///< of everything: model, lights, camera
-    std::optional<double3> eye;    ///< none: where all of the model is seen
+    std::optional<double3> eye;    ///< none: a place from which the whole model is visible
     double3 at{ 0.0 };
     Lens lens{ .verticalFovDegrees = 40 };
     Exposure exposure{};
     View view{};         ///< without its camera
     bool linear = false; ///< scene-linear half floats: no tone mapping
-    uint32_t frames = 1; ///< drawn before the one that is compared, and with it
+    uint32_t frames = 1; ///< frames drawn, including the one that is compared
     Comparator comparator{};
-    std::vector<std::string> kills; ///< mutations that this case must notice
+    std::vector<std::string> kills; ///< mutations that this case must detect
 };
 
 /// The cases of one file: the scene itself, then its features in order.
 Result<std::vector<SceneSpec>> readSceneFile(std::filesystem::path const& file);
 
-/// All cases of all .json files of a folder (not of folders in it), ascending by name.
+/// All cases of all .json files of a folder (not its subfolders), ascending by name.
 Result<std::vector<SceneSpec>> readScenes(std::filesystem::path const& folder);
 
 } // namespace filament::conformance

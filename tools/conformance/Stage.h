@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Stage: one engine on one backend that draws cases, one after the other.
-///   In      set(case), then shoot() as often as wanted.   Out: the pixels, the errors, what a frame did inside.
-///   Memory  the model and the environment of the last case stay: the features of a scene load nothing again.
-///   Thread  one stage a thread.
-///   Fails   what the loaders and the device say. An asset that is not there: see missingFile().
+///   In      set(case), then shoot() any number of times.   Out: the pixels, the errors, the contents of a frame.
+///   Memory  the model and the environment of the last case are kept, so the features of a scene load nothing again.
+///   Thread  one stage per thread.
+///   Fails   errors of the loaders and the device. For a missing asset see missingFile().
 #pragma once
 
 #include "backend/layers/Captured.h"
@@ -24,10 +24,10 @@ struct StageOptions {
     int workers = 1;
     ThreadAffinity affinity = ThreadAffinity::None;
     bool exact = true;            ///< EngineOptions::exactShaders
-    bool validation = false;      ///< EngineOptions::validation: what it says is in Shot::errors
-    bool capture = false;         ///< shoot() may ask what a frame did inside
+    bool validation = false;      ///< EngineOptions::validation: its messages are in Shot::errors
+    bool capture = false;         ///< shoot() may inspect a frame
     std::filesystem::path work;   ///< built models, the sky, baked environments
-    std::filesystem::path assets; ///< where "asset:" begins; empty: nowhere
+    std::filesystem::path assets; ///< the folder of "asset:"; empty: none
 };
 
 struct Shot {
@@ -44,7 +44,7 @@ public:
 
     DeviceDescription const& device() const { return mEngine.device(); }
     Result<void> set(SceneSpec const& spec);
-    /// Draws the case's frames; the last one is looked at.
+    /// Draws the case's frames and returns the last one.
     Result<Shot> shoot(std::optional<backend::CaptureRequest> const& request = {});
 
 private:
@@ -62,7 +62,7 @@ private:
     std::optional<Model> mModel;
     std::optional<tools::MaterialStand> mMaterial; ///< instead of a model
     std::optional<Environment> mEnvironment;
-    std::optional<Scene> mScene; // ends before model and environment
+    std::optional<Scene> mScene; // destroyed before model and environment
     Owned<SwapChain> mTarget;
     View mView;
     uint32_t mFrames = 1;

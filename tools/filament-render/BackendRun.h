@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// runBackend: the frames of one command line on one backend, and all that was measured on the way.
-///   In      checked options, paths that are not empty where there is something to load.
-///   Out     the pixels of the last frame; the first frame is measured apart, the others overlap as they do in an
+/// runBackend: draws the frames of one command line on one backend and returns all measurements.
+///   In      checked options, and paths that are not empty if there is something to load.
+///   Out     the pixels of the last frame. The first frame is measured separately; the others overlap as in an
 ///           application: nothing waits for the device between them.
 ///   Thread  one run at a time.
-///   Fails   DeviceUnavailable and what the loaders say; errors that the device reported while it drew are in `errors`.
+///   Fails   DeviceUnavailable and errors of the loaders; errors that the device reported while drawing are in
+///           `errors`.
 #pragma once
 
 #include "base/Result.h"
@@ -19,14 +20,14 @@
 
 namespace filament::tools {
 
-/// Milliseconds from the start of the run's step to its end.
+/// Milliseconds that each step of the start took.
 struct StartTimes {
     double engine = 0, model = 0, environment = 0;
     double firstFrame = 0;        ///< render() until the device is idle
-    double startToFirstFrame = 0; ///< all of the above and what is between them
+    double startToFirstFrame = 0; ///< all of the above and the time in between
 };
 
-/// One frame as the app thread saw it.
+/// One frame as seen by the app thread.
 struct FrameSample {
     double milliseconds = 0;      ///< from one render() to the next
     uint64_t heapAllocations = 0; ///< of all threads in that time
@@ -41,8 +42,8 @@ struct BackendRun {
     std::vector<std::string> errors;   ///< of the device, one line each
     StartTimes start{};
     std::vector<FrameSample> samples;  ///< without the first frame
-    double pipelinedMilliseconds = 0;  ///< a frame of those on average, until the device is idle
-    std::vector<FrameTimings> timings; ///< one a frame, oldest first
+    double pipelinedMilliseconds = 0;  ///< average time of those frames, until the device is idle
+    std::vector<FrameTimings> timings; ///< one per frame, oldest first
     FrameStatistics statistics{};      ///< of the last frame
     EngineStatistics afterFirstFrame{}, atEnd{};
     std::string explanation;
@@ -51,11 +52,11 @@ struct BackendRun {
 };
 
 /// Samples before this one belong to the warm-up. Three frames use every set of frame data once; the driver thread may
-/// be two frames behind the app and the device two behind the driver, so that their rings have gone round by the
+/// be two frames behind the app and the device two behind the driver, so their rings have wrapped around by the
 /// seventh.
 inline constexpr size_t kWarmUpSamples = 7;
 
-/// The names of files and of keys in reports: "vulkan", "gles".
+/// Used in file names and as keys in reports: "vulkan", "gles".
 const char* fileStem(Backend backend);
 
 Result<BackendRun> runBackend(Options const& options, Backend backend, std::filesystem::path const& model,

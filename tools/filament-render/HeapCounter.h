@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// HeapCounter: how often this process asked for memory with `new`. Linking it replaces the global operators.
-///   Thread  any; every thread is counted, the workers and the driver thread as well.
-///   Does not  see malloc: what C libraries and device drivers take is theirs.
-///   Cost    one relaxed atomic increment an allocation.
+/// HeapCounter: counts how often this process allocates with `new`. Linking it replaces the global operators.
+///   Thread  any; all threads are counted, including the workers and the driver thread.
+///   Does not  see malloc: allocations of C libraries and device drivers are not counted.
+///   Cost    one relaxed atomic increment per allocation.
 #pragma once
 
 #include <cstdint>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Options: what filament-render's command line asks for, checked.
-///   Fails   parseOptions: InvalidArgument in one line that names the option, the value and what would be right.
+/// Options: the checked command line of filament-render.
+///   Fails   parseOptions: InvalidArgument in one line that names the option, the value and what is valid.
 #pragma once
 
 #include "base/Result.h"
@@ -21,11 +21,11 @@ struct Options : SceneOptions {
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles };
     std::string requireDevice;
     uint32_t frames = 1;
-    std::vector<std::pair<std::string, std::string>> values; ///< of the parameters of a material
+    std::vector<std::pair<std::string, std::string>> values; ///< for the parameters of a material
     uint32_t copies = 1;                                     ///< of the model, on a grid
     uint32_t tolerance = 0;                                  ///< in 1/255
     PictureFormat format = PictureFormat::Png;
-    std::optional<double> seconds; ///< of the animation and of what materials see as time; none: at rest, 0
+    std::optional<double> seconds; ///< time of the animation and of materials; none: rest pose, 0
     std::string animation;         ///< name or index; empty: the first, if there is a time
     bool timing = false, explain = false, trace = false;
     std::filesystem::path traceJobs; ///< empty: none
@@ -33,11 +33,11 @@ struct Options : SceneOptions {
     ThreadAffinity affinity = ThreadAffinity::None;
     bool listDevices = false;
     std::optional<double> budgetMilliseconds; ///< device time of a frame: the quality is chosen to fit
-    std::filesystem::path costs;              ///< table for that; empty: the library's
-    std::filesystem::path measureCosts;       ///< where to write such a table of this scene; empty: nowhere
+    std::filesystem::path costs;              ///< its cost table; empty: the library's
+    std::filesystem::path measureCosts;       ///< file for a new cost table of this scene; empty: none
 };
 
-/// No value: the help text was asked for and is printed.
+/// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
 } // namespace filament::tools

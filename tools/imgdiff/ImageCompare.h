@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compareImages: how many pixels of two pictures are the same bits, and how far apart the others are.
+/// compareImages: how many pixels of two pictures are identical, and how far the others differ.
 ///   In      two images of one size and format: RGBA8 or RGBA16F, tightly packed.
-///   Out     counts, and the largest difference of a component in steps of 1/255 (half floats: rounded up, so that
-///           0 means identical; not-a-number against anything else is 255).
-///   Thread  any; no shared state.  Cost: about 2 ms a megapixel.
-///   Fails   InvalidArgument when sizes, formats or byte counts do not fit each other.
+///   Out     counts, and the largest difference of a component in steps of 1/255 (half floats are rounded up, so that 0
+///           means identical; NaN against anything else is 255).
+///   Thread  any; no shared state.  Cost: about 2 ms per megapixel.
+///   Fails   InvalidArgument if sizes, formats or byte counts do not match.
 #pragma once
 
 #include "base/Result.h"
@@ -28,8 +28,8 @@ struct ImageComparison {
 
 Result<ImageComparison> compareImages(Image const& a, Image const& b);
 
-/// A picture of the differences, RGBA8: `a` dimmed to a quarter where the bits agree, yellow (1/255) to red (from
-/// 16/255 on) where they do not. The images must be comparable (compareImages succeeded).
+/// A picture of the differences, RGBA8: `a` dimmed to a quarter where the bits agree, from yellow (1/255) to red
+/// (16/255 and more) where they do not. The images must be comparable (compareImages succeeded).
 Image differenceImage(Image const& a, Image const& b);
 
 } // namespace filament::tools

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialFile: a .mat file (compiled here) or a .fmat file, and how it wants to be looked at.
-///   Show    a .mat file may say in one comment line on what it is shown and what its parameters and constants are:
+/// MaterialFile: a .mat file (compiled here) or a .fmat file, and how to show it.
+///   Show    one comment line of a .mat file may choose the mesh and the values of its parameters and constants:
 ///               // show: mesh=sphere tint=1,0.5,0.2 normalMap=brick/normal
 ///           mesh=sphere|plane|box|torus|scroll|screen|billboard (MaterialMeshes.h); slab=true puts a grey block
-///           through the object; instances=N draws N of them, numbered, in a row. Every other key is a parameter or a
+///           through the object; instances=N draws N numbered copies in a row. Every other key is a parameter or a
 ///           constant: numbers, true, false, or the name of a picture (MaterialPictures.h). "name[]" is an array, its
 ///           elements one after the other.
 ///   Thread  any.
-///   Memory  packages are compiled once in a process for each text, and kept.
-///   Fails   what the compiler says, or Unreadable with the path.
+///   Memory  each text is compiled once per process and kept.
+///   Fails   errors of the compiler, or Unreadable with the path.
 #pragma once
 
 #include "base/Result.h"
@@ -31,23 +31,23 @@ struct MaterialShow {
 };
 
 struct MaterialFile {
-    std::string name; ///< of the file, without folder and ending
+    std::string name; ///< the file's name without folder and extension
     std::vector<std::byte> bytes;
-    shader::MaterialPackage package; ///< what the bytes say
+    shader::MaterialPackage package; ///< the contents of the bytes
     MaterialShow show;
 };
 
-/// A piece of the text that is replaced before it is compiled; it must be there.
+/// A piece of the text to replace before compiling; it must occur.
 using TextEdit = std::pair<std::string, std::string>;
 
 /// NotFound: an edit does not apply.
 Result<std::shared_ptr<const MaterialFile>> readMaterialFile(std::filesystem::path const& path,
                                                              std::vector<TextEdit> const& edits = {});
 
-/// Whether the path names a material, by its ending.
+/// Whether the path names a material, judged by its extension.
 bool isMaterialFile(std::filesystem::path const& path);
 
-/// The line "// show: ..." of a material's text; defaults where there is none.
+/// Parses the line "// show: ..." of a material's text; defaults if there is none.
 Result<MaterialShow> readMaterialShow(std::string_view text, std::string_view fileName);
 
 } // namespace filament::tools

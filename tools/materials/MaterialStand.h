@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialStand: a material on the mesh that its file asks for, with the values that it asks for.
-///   In      a MaterialFile; values and a mesh given besides go before those of the file.
-///   Life    the stand owns what it shows: it must outlive the scenes that it was added to.
+/// MaterialStand: a material on the mesh and with the values that its file chooses.
+///   In      a MaterialFile; values and a mesh given in addition override those of the file.
+///   Life    the stand owns what it shows: it must outlive the scenes it was added to.
 ///   Thread  that of the engine.
-///   Fails   NotFound or InvalidArgument that names file, parameter and cure; what the engine says of the material.
+///   Fails   NotFound or InvalidArgument naming file, parameter and cure; errors of the engine.
 #pragma once
 
 #include "tools/materials/MaterialFile.h"
@@ -23,7 +23,7 @@ public:
     static Result<MaterialStand> make(Engine& engine, MaterialFile const& file, MaterialValues const& values = {},
                                       std::string const& mesh = {});
 
-    /// Other values for parameters that it has; those of constants stay.
+    /// Changes the values of its parameters; constants cannot change.
     Result<void> set(Engine& engine, MaterialFile const& file, MaterialValues const& values);
     void addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1.0)) const;
     Material material() const { return mMaterial; }

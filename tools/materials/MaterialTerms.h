@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialTerms: every shading model and every layer alone, and all layers together, as changes of one material.
-///   In      terms.mat, whose parameters are color, metallic, roughness, strength (of the layer), smallRoughness (of a
-///           coat and of what refracts), tint (of a sheen, of cloth, of what is below a surface) and normalMap.
+/// MaterialTerms: every shading model and every layer alone, and all layers together, as variations of one material.
+///   In      terms.mat, whose parameters are color, metallic, roughness, strength (of the layer), smallRoughness (for
+///           coats and refraction), tint (for sheen, cloth and subsurface) and normalMap.
 ///   Thread  any; pure.
 #pragma once
 

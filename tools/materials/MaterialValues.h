@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialValues: words to values of parameters and constants: "0.5", "1,0,0.2", "true".
-///   Forms   as many numbers as the type has components, separated by commas; matrices column by column; arrays element
-///           by element.
+/// MaterialValues: parses values of parameters and constants: "0.5", "1,0,0.2", "true".
+///   Forms   as many numbers as the type has components, separated by commas; matrices by column; arrays by element.
 ///   Thread  that of the engine.
-///   Fails   InvalidArgument: the name, the word and how many numbers its type has.
+///   Fails   InvalidArgument: the name, the text and the number of values of the type.
 #pragma once
 
 #include "shaders/package/Package.h"
@@ -18,7 +17,7 @@ namespace filament::tools {
 
 using MaterialValues = std::vector<std::pair<std::string, std::string>>;
 
-/// Of a parameter that is no texture.
+/// Sets a parameter that is not a texture.
 Result<void> setMaterialValue(Engine& engine, MaterialInstance instance, shader::Parameter const& parameter,
                               std::string const& words);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A study as text: for people on the terminal, for docs/numerics.md, and for programs.
+/// A study as text: for the terminal, for docs/numerics.md, and for programs.
 ///   Thread  pure functions. Memory: the text. Deterministic for equal studies. Fails: never.
 #pragma once
 
@@ -9,15 +9,15 @@
 
 namespace filament::shader::numerics {
 
-/// One line a row: the largest error of each column; below it what breaks its promises.
+/// One line per row: the largest error of each column, followed by broken promises.
 std::string terminalTable(Study const& study);
-/// One line a row and column, with every count.
+/// One line per row and column, with every count.
 std::string csvOf(Study const& study);
 std::string jsonOf(Study const& study);
 /// docs/numerics.md.
 std::string markdownOf(Study const& study);
 
-/// "pow5(float)", "toneMap(vec3, int), ACES": how the tables call a row.
+/// "pow5(float)", "toneMap(vec3, int), ACES": the name of a row in the tables.
 std::string titleOf(Row const& row);
 /// All rows and columns together.
 size_t violationCount(Study const& study);

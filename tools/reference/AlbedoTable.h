@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// AlbedoTable: a smooth function of cosine and roughness, computed once on a grid and interpolated cubically.
-///   Grid    rows are even in the logarithm of roughness, columns in the cube root of the cosine: smooth surfaces at
-///           grazing angles, where albedos bend, get most of the table.
+///   Grid    rows are uniform in the logarithm of roughness, columns in the cube root of the cosine: most of the table
+///           covers smooth surfaces at grazing angles, where albedos change fastest.
 ///   In      cosine in [0, 1], perceptualRoughness in [0.045, 1].
-///   Thread  read-only after construction. Memory: sizeof(Value) a node.
+///   Thread  read-only after construction. Memory: sizeof(Value) per node.
 #pragma once
 
 #include "base/math/Math.h"
@@ -18,7 +18,7 @@ namespace filament::reference {
 template <class Value>
 class AlbedoTable {
 public:
-    /// `valueAt(cosine, perceptualRoughness)` gives the nodes.
+    /// `valueAt(cosine, perceptualRoughness)` computes the nodes.
     template <class F>
     AlbedoTable(int cosines, int roughnesses, F const& valueAt)
             : mCosines(cosines), mRoughnesses(roughnesses), mEntries(static_cast<size_t>(cosines * roughnesses)) {
@@ -46,7 +46,7 @@ public:
         return sum;
     }
 
-    /// Over the hemisphere, weighted by twice the cosine: what a uniform sky finds.
+    /// Mean over the hemisphere, weighted by twice the cosine: the value for a uniform sky.
     Value average(double perceptualRoughness) const {
         constexpr int kSteps = 64;
         Value sum(0.0);
@@ -65,7 +65,7 @@ private:
                  (t - 1) * t * t / 2 };
     }
 
-    // One entry beyond the border the table goes on as the parabola through its last three.
+    // One entry beyond the border, the table continues as the parabola through its last three entries.
     Value at(int x, int y) const {
         const int column = std::clamp(x, 0, mCosines - 1), row = std::clamp(y, 0, mRoughnesses - 1);
         const int dx = column - x, dy = row - y;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ClothLobes: the base of the cloth model: fibres in the place of the specular lobe, and a diffuse lobe that light
-/// also reaches from behind (shaders/lib/cloth.glsl).
+/// ClothLobes: the base of the cloth model: fibres in place of the specular lobe, and a diffuse lobe that light also
+/// reaches from behind (shaders/lib/cloth.glsl).
 ///   Space   world. Thread: a value. Memory: none.
 #pragma once
 

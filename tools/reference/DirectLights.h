@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DirectLights: suns, points and spots: light from one direction each, with the engine's attenuation formulas.
-///   Method  one light is chosen for a point, in proportion to the illuminance (luminance of lux, facing the light,
-///           nothing in between) that it gives there: a light that cannot contribute is never chosen, and alone it is
-///           chosen always.
+/// DirectLights: suns, points and spots: light from a single direction each, with the engine's attenuation formulas.
+///   Method  one light is chosen per point, in proportion to its illuminance there (luminance of lux, facing the light,
+///           unoccluded). A light that cannot contribute is never chosen, and a single light is always chosen.
 ///   Units   lux at normal incidence times `factor`.
-///   Memory  80 bytes a light. Thread: read-only after construction.
+///   Memory  80 bytes per light. Thread: read-only after construction.
 #pragma once
 
 #include "base/math/Math.h"
@@ -18,7 +17,7 @@ namespace filament::reference {
 
 struct DirectSample {
     double3 direction{ 0.0 };   ///< from the point to the light, unit
-    double3 illuminance{ 0.0 }; ///< over the probability of the choice; zero: no light reaches the point
+    double3 illuminance{ 0.0 }; ///< divided by the probability of the choice; zero: no light reaches the point
     double distance = std::numeric_limits<double>::infinity();
 };
 
@@ -36,7 +35,7 @@ private:
     struct Light {
         bool isSun = false, isSpot = false;
         double3 position{ 0.0 };
-        double3 axis{ 0.0 };            // in which the light travels, unit
+        double3 axis{ 0.0 };            // direction in which the light travels, unit
         double3 intensity{ 0.0 };       // lux or candela, times factor
         double inverseSquaredRange = 0; // 1/m^2
         double spotScale = 0, spotOffset = 0;

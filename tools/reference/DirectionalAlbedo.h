@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DirectionalAlbedo: how much of the light from everywhere the specular lobe sends to the viewer after one bounce,
-/// with and without Fresnel's weight: the exact numbers behind the engine's DfgTable.
+/// DirectionalAlbedo: the fraction of uniform light that the specular lobe reflects to the viewer in one bounce, with
+/// and without Fresnel's weight: the exact values behind the engine's DfgTable.
 ///   Method  integrate(): quadrature over visible half vectors (Heitz 2018, "Sampling the GGX Distribution of Visible
 ///           Normals"), where the integrand G2 / G1 is bounded and smooth; midpoints in an angle of the disc's radius
-///           and in its azimuth. lookUp(): cubic interpolation in a table of those, error below 2e-4 (a test says so).
-///   Thread  any; the table is made once in a process.
+///           and in its azimuth. lookUp(): cubic interpolation in a table of those, with an error below 2e-4 (tested).
+///   Thread  any; the table is computed once per process.
 ///   Memory  96 KiB.  Cost: about 0.25 s the first time.
 #pragma once
 
@@ -18,11 +18,11 @@ double2 integrateDirectionalAlbedo(double nov, double alpha, int radii = 32, int
 
 /// perceptualRoughness in [0.045, 1].
 double2 directionalAlbedo(double nov, double perceptualRoughness);
-/// Over the hemisphere, weighted by twice the cosine.
+/// Mean over the hemisphere, weighted by twice the cosine.
 double2 averageDirectionalAlbedo(double perceptualRoughness);
 
-/// What a clear coat reflects by Fresnel's equations, and the same of light from everywhere. A table of its own, made
-/// at the first call.
+/// The reflectance of a clear coat by Fresnel's equations, for uniform light. A separate table, computed at the first
+/// call.
 double coatAlbedo(double nov, double perceptualRoughness);
 double averageCoatAlbedo(double perceptualRoughness);
 

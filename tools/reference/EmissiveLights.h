@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// EmissiveLights: surfaces that glow, as lights that can be sampled: a lamp of a few triangles is found at once.
-///   Method  one triangle in proportion to its area times what it emits (luminance, the mean of four points on it),
-///           then a point uniform in area. A triangle that is dark at those points is never picked: paths find it by
-///           chance, with the whole weight, so that pictures stay unbiased.
+/// EmissiveLights: glowing surfaces as lights that can be sampled, so that a lamp of a few triangles is found at once.
+///   Method  picks a triangle in proportion to its area times its emission (luminance, the mean of four points on it),
+///           then a point uniform in area. A triangle that is dark at those points is never picked. Paths find it by
+///           chance, with the full weight, so that pictures stay unbiased.
 ///   Source  Pharr, Jakob, Humphreys 2023, "Physically Based Rendering", sections 6.5.4 and 12.2.
-///   Unit    radiance as SurfaceSample::emitted: into the picture as it is, not exposed.
-///   Memory  40 bytes an emissive triangle, 4 a part. Thread: read-only after construction.
+///   Unit    radiance as in SurfaceSample::emitted: added to the picture without exposure.
+///   Memory  40 bytes per emissive triangle, 4 per part. Thread: read-only after construction.
 #pragma once
 
 #include "tools/reference/Distribution.h"
@@ -25,13 +25,13 @@ struct EmissiveSample {
 class EmissiveLights {
 public:
     EmissiveLights() = default;
-    /// Keeps referring to `parts`.
+    /// Keeps a reference to `parts`.
     explicit EmissiveLights(std::vector<Part> const& parts);
 
     bool empty() const { return mTriangles.empty(); }
     /// u in [0, 1)^2, choice in [0, 1).
     EmissiveSample sample(double3 position, double2 u, double choice) const;
-    /// Of sample() for the point that a ray in `direction` (unit) has hit.
+    /// Density of sample() for the point that a ray in `direction` (unit) has hit.
     double pdf(Hit const& hit, double3 direction) const;
 
 private:
@@ -44,7 +44,7 @@ private:
 
     std::vector<Part> const* mParts = nullptr;
     std::vector<Triangle> mTriangles;
-    std::vector<uint32_t> mFirstOfPart; // all triangles of an emissive part are there, in order; else kNone
+    std::vector<uint32_t> mFirstOfPart; // an emissive part has all its triangles here, in order; others: kNone
     Distribution mChoice;
 };
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Film: what the passes saw, and how far apart they were.
-///   Method  passes are independent estimates of the picture: the mean of their means is the result, the spread of
-///           their means over the root of their number its standard error (Owen 1998, "Scrambling Sobol' and
-///           Niederreiter-Xing Points": randomised quasi-Monte Carlo). It holds for any arrangement of samples inside
-///           of a pass.
-///   Thread  add(): one thread a pixel, many pixels at once; the rest: one.
-///   Memory  48 bytes a pixel.
+/// Film: accumulates the passes and measures how much they differ.
+///   Method  passes are independent estimates of the picture. The mean of their means is the result; the spread of
+///           their means divided by the square root of their number is its standard error (Owen 1998, "Scrambling
+///           Sobol' and Niederreiter-Xing Points": randomised quasi-Monte Carlo). This holds for any arrangement of
+///           samples within a pass.
+///   Thread  add(): one thread per pixel, many pixels at once; the rest: one.
+///   Memory  48 bytes per pixel.
 #pragma once
 
 #include "tools/reference/Reference.h"
@@ -26,9 +26,9 @@ public:
     void finishPass() { ++mPasses; }
     uint32_t passes() const { return mPasses; }
 
-    /// meanLuminance and relativeError; an error is known from two passes on.
+    /// meanLuminance and relativeError; the error is known from two passes on.
     void measure(RenderStatistics& statistics) const;
-    /// Colours and standard errors.
+    /// Writes colours and standard errors.
     void develop(ReferenceImage& image) const;
 
 private:

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Part: one primitive of a model, placed in the world: triangles for Embree, and what the vertex stage makes of the
-/// attributes (shaders/material/surface/vertex_main.glsl) in double precision.
-///   In      a primitive of triangles and the transform of its node; attributes in any format that the loader packs.
-///   Out     positions relative to `origin`, as floats: what Embree intersects is what is interpolated.
-///   Memory  96 bytes a vertex, 12 a triangle. Thread: one part on one thread; then read-only.
+/// Part: one primitive of a model, placed in the world: triangles for Embree, and the results of the vertex stage
+/// (shaders/material/surface/vertex_main.glsl) in double precision.
+///   In      a primitive of triangles and the transform of its node; attributes in any format that the loader writes.
+///   Out     positions relative to `origin`, as floats: the same positions are intersected and interpolated.
+///   Memory  96 bytes per vertex, 12 per triangle. Thread: one part on one thread; read-only afterwards.
 #pragma once
 
 #include "base/math/Math.h"
@@ -25,10 +25,10 @@ struct Part {
     std::vector<double4> tangents;                ///< world; w: sign of the bitangent
     std::vector<float4> colors;                   ///< empty: white
     std::vector<float2> uvs[2];                   ///< empty: (0, 0)
-    std::vector<uint32_t> indices;                ///< three a triangle
-    double sceneFromMesh = 1;                     ///< metres of the file's scene for a metre of the mesh
-    double worldFromScene = 1;                    ///< metres of the world for one of those
-    bool isMirrored = false;                      ///< the transform turns the winding around
+    std::vector<uint32_t> indices;                ///< three per triangle
+    double sceneFromMesh = 1;                     ///< metres of the file's scene per metre of the mesh
+    double worldFromScene = 1;                    ///< metres of the world per metre of the scene
+    bool isMirrored = false;                      ///< the transform reverses the winding
 };
 
 /// The attribute at `location` of every vertex; missing components are 0, 0, 0, 1. Empty if there is none.
@@ -37,16 +37,16 @@ std::vector<uint32_t> decodeIndices(assets::PrimitiveData const& primitive);
 
 Part makePart(assets::PrimitiveData const& primitive, double4x4 const& worldFromObject, double3 origin);
 
-/// Where a ray met a triangle: barycentric weights of its second and third corner.
+/// The point where a ray hit a triangle: barycentric weights of its second and third corner.
 struct TrianglePoint {
     uint32_t triangle = 0;
     double u = 0, v = 0;
 };
 
-/// Interpolated attributes at a point, and the triangle's plane. Not normalised, as varyings are not.
+/// Interpolated attributes at a point, and the triangle's plane. Not normalised, like varyings.
 struct Varyings {
     double3 position{ 0.0 };
-    double3 faceNormal{ 0, 0, 1 }; ///< unit, out of the front face
+    double3 faceNormal{ 0, 0, 1 }; ///< unit, on the front side
     double longestEdge = 0;
     double3 normal{ 0, 0, 1 };
     double4 tangent{ 0, 0, 0, 1 };
@@ -55,9 +55,9 @@ struct Varyings {
 };
 
 Varyings varyingsAt(Part const& part, TrianglePoint const& point);
-/// Only the part of them that the base colour needs: alpha tests run for many triangles that no ray keeps.
+/// Only the attributes that the base colour needs: alpha tests run for many triangles that a ray then discards.
 Varyings colorVaryingsAt(Part const& part, TrianglePoint const& point);
-/// Out of the front face, any length.
+/// Pointing to the front side, any length.
 double3 faceNormal(Part const& part, uint32_t triangle);
 
 } // namespace filament::reference

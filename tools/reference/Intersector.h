@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Intersector: which triangle a ray meets. The only file that knows Embree (version 3, single rays, robust mode).
-///   In      parts, which it keeps referring to.
-///   Alpha   triangles are there where their material's mask lets them be; blended ones are always there: the caller
-///           decides what passes through, and goes on with the triangles passed in `Ray::passed`.
-///   Thread  build: one. Queries: any number at once. The tree is built by one thread, so that it is always the same.
-///   Memory  about 100 bytes a triangle.  Fails: OutOfMemory, DeviceUnavailable with Embree's reason.
+/// Intersector: finds the triangle that a ray hits. Only this file uses Embree (version 3, single rays, robust mode).
+///   In      parts, to which it keeps a reference.
+///   Alpha   triangles exist where their material's mask does not cut them away. Blended triangles always exist: the
+///           caller decides whether light passes, and continues with the triangles passed in `Ray::passed`.
+///   Thread  build: one. Queries: any number at once. One thread builds the tree, so that it is always the same.
+///   Memory  about 100 bytes per triangle.  Fails: OutOfMemory, DeviceUnavailable with Embree's reason.
 #pragma once
 
 #include "base/Result.h"
@@ -18,7 +18,7 @@
 
 namespace filament::reference {
 
-/// Triangles that a ray has gone through; a ray that has no room for more stops seeing.
+/// Triangles that a ray has passed through; if there is no room for more, the ray ends.
 struct PassedTriangles {
     struct Triangle {
         uint32_t part = 0, index = 0;
@@ -32,7 +32,7 @@ struct Ray {
     double3 origin{ 0.0 }; ///< relative to the scene's origin
     double3 direction{ 0, 0, -1 };
     double nearest = 0, farthest = std::numeric_limits<double>::infinity();
-    bool skipsBackFaces = false;             ///< of single-sided materials: what the camera does not see
+    bool skipsBackFaces = false;             ///< of single-sided materials, which the camera does not see
     PassedTriangles const* passed = nullptr; ///< not hit again
 };
 
@@ -47,7 +47,7 @@ public:
     static Result<Intersector> build(std::span<const Part> parts);
 
     std::optional<Hit> nearest(Ray const& ray) const;
-    /// Whether anything is hit at all; blended triangles count.
+    /// Whether anything is hit; blended triangles count.
     bool isOccluded(Ray const& ray) const;
 
 private:
@@ -55,7 +55,7 @@ private:
         void operator()(void* scene) const;
     };
     explicit Intersector(void* scene) : mScene(scene) {}
-    std::unique_ptr<void, Deleter> mScene; // RTCScene, which keeps its device
+    std::unique_ptr<void, Deleter> mScene; // RTCScene, which keeps its device alive
 };
 
 } // namespace filament::reference

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the glTF materials of the engine (shaders/material/gltf_*.glsl) make of a point: textures and factors in, a
-/// SurfaceSample out, with the KHR_materials extensions but iridescence.
-///   Normals  as MikkTSpace asks: the interpolated frame is not normalised, the result of the normal map is. Seen from
-///            behind, a surface's whole frame looks the other way.
+/// Evaluates the engine's glTF materials (shaders/material/gltf) at a point: textures and factors in, a SurfaceSample
+/// out, with all KHR_materials extensions except iridescence.
+///   Normals  as in MikkTSpace: the interpolated frame is not normalised, but the result of the normal map is. Seen
+///            from behind, a surface's whole frame is reversed.
 ///   Thread   pure functions.
 #pragma once
 
@@ -11,10 +11,10 @@
 
 namespace filament::reference {
 
-/// `view`: unit, towards where the ray came from.
+/// `view`: unit, towards the origin of the ray.
 SurfaceSample surfaceAt(Part const& part, TrianglePoint const& point, double3 view);
 
-/// Whether an alpha mask cuts the surface away at this point. Opaque and blended materials: never.
+/// Whether an alpha mask cuts the surface away at this point; never for opaque and blended materials.
 bool isMaskedOut(Part const& part, TrianglePoint const& point);
 
 /// 1 for opaque and masked materials.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the KHR_materials extensions add to a metallic-roughness surface, as shaders/material/gltf/layers.glsl and
-/// gltf/transmission.glsl hand it to the engine's shading.
+/// Adds the KHR_materials extensions to a metallic-roughness surface, as gltf/layers.glsl and gltf/transmission.glsl of
+/// shaders/material pass them to the engine's shading.
 ///   Not here  iridescence: TracedScene warns.
 ///   Thread    pure functions.
 #pragma once
@@ -10,8 +10,8 @@
 
 namespace filament::reference {
 
-/// In: normal, tangent, opacity, metallic, diffuse, f0, f90 and perceptualRoughness as without extensions.
-/// `baseColor`: times opacity if the material blends. `roughness`: perceptual, [0, 1], not clamped yet.
+/// In: normal, tangent, opacity, metallic, diffuse, f0, f90 and perceptualRoughness without extensions.
+/// `baseColor`: times opacity if the material blends. `roughness`: perceptual, [0, 1], not yet clamped.
 void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, SurfaceSample& surface);
 
 } // namespace filament::reference

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialPoint: a point of a glTF material as its shader sees it: maps, and the frame that normal maps turn in.
-///   Space   world. Seen from behind, the whole frame looks the other way.
-///   Memory  refers to its part and varyings, which outlive it. Thread: pure functions.
+/// MaterialPoint: a point of a glTF material as its shader sees it: maps, and the frame of normal maps.
+///   Space   world. Seen from behind, the whole frame is reversed.
+///   Memory  refers to its part and varyings, which must outlive it. Thread: pure functions.
 #pragma once
 
 #include "tools/reference/Geometry.h"
@@ -16,18 +16,18 @@ struct MaterialPoint {
     double side = 1; ///< -1: seen from behind
 
     assets::MaterialData const& material() const { return *part.material; }
-    /// Of a map that is there.
+    /// For a map that exists.
     double4 fetch(assets::TextureRef const& texture) const;
-    /// Red and green are one map each, of which those that are not there are 1.
+    /// Red and green are one map each; missing ones are 1.
     double2 fetchScalars(assets::TexturePair const& pair) const;
     /// RGB is one map, alpha the other.
     double4 fetchColorAndScalar(assets::TexturePair const& pair) const;
 
-    /// From the frame of the tangent, of any length.
+    /// From the tangent frame, any length.
     double3 toWorld(double3 local) const;
-    /// Unit, of the geometry.
+    /// The geometry's normal, unit.
     double3 smoothNormal() const;
-    /// Unit; smoothNormal() where there is no map.
+    /// Unit; smoothNormal() if there is no map.
     double3 mappedNormal(assets::TextureRef const& map, double scale) const;
 };
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What all lobes of microfacets share: frames, GGX by visible normals, and how an interface splits light.
+/// Shared by all microfacet lobes: frames, GGX with visible normals, and reflectance and transmittance of an interface.
 ///   Space   local: z is the normal. Views lie above the horizon (liftedAboveHorizon()).
 ///   Source  Heitz 2018, "Sampling the GGX Distribution of Visible Normals"; Walter et al. 2007, "Microfacet Models for
 ///           Refraction through Rough Surfaces".
@@ -17,25 +17,25 @@ struct Frame {
 
     Frame() = default;
     explicit Frame(double3 normal);
-    /// x along `tangent` as far as it is perpendicular to the normal; any x if nothing of it is.
+    /// x is the part of `tangent` perpendicular to the normal; arbitrary if there is none.
     Frame(double3 normal, double3 tangent);
     double3 toLocal(double3 v) const { return { glm::dot(v, tangent), glm::dot(v, bitangent), glm::dot(v, normal) }; }
     double3 toWorld(double3 v) const { return tangent * v.x + bitangent * v.y + normal * v.z; }
 };
 
-/// With a cosine of at least kMinNov.
+/// Moves the view to a cosine of at least kMinNov.
 double3 liftedAboveHorizon(double3 view);
 
-/// A half vector as often as `view` sees it. u in (0, 1)^2.
+/// A half vector, distributed as seen from `view`. u in (0, 1)^2.
 double3 sampleVisibleNormal(double3 view, double2 alpha, double2 u);
 /// Smith's masking of one direction, on either side of the surface: [0, 1].
 double smithMasking(double3 direction, double2 alpha);
-/// Of half vectors, 1/sr. Isotropic where both roughnesses are equal.
+/// Density of half vectors, 1/sr. Isotropic if both roughnesses are equal.
 double ggx(double3 halfway, double2 alpha);
 /// Density of sampleVisibleNormal() for light mirrored by those half vectors; 0 below the horizon of the half vectors.
 double visibleReflectionPdf(double3 view, double3 light, double2 alpha);
 
-/// How much an interface reflects, from outside or from inside of a solid.
+/// The reflectance of an interface, from outside or from inside a solid.
 class Interface {
 public:
     Interface(SurfaceSample const& surface, FresnelTerm term)
@@ -44,10 +44,10 @@ public:
 
     double3 f0() const { return mF0; }
     double f90() const { return mF90; }
-    /// cosine in [0, 1] to the facet, on the side of the view. 1 where all light is reflected inside. Of a thin sheet:
-    /// with what its other side reflects, after all bounces between both.
+    /// cosine in [0, 1] with the facet, on the side of the view. 1 under total internal reflection. For a thin sheet:
+    /// including its other side, after all bounces between both.
     double3 reflectance(double cosine) const;
-    /// What goes on behind the surface: into or out of a solid, or through both sides of the sheet.
+    /// Light that continues behind the surface: into or out of a solid, or through both sides of the sheet.
     double3 transmittance(double cosine) const;
 
 private:

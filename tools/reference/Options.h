@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Options: what filament-reference's command line asks for, checked.
-///   Fails   parseOptions: InvalidArgument in one line that names the option, the value and what would be right.
+/// Options: the checked command line of filament-reference.
+///   Fails   parseOptions: InvalidArgument in one line that names the option, the value and what is valid.
 #pragma once
 
 #include "tools/common/SceneOptions.h"
@@ -17,7 +17,7 @@ struct Options : tools::SceneOptions {
     double rotationDegrees = 0; ///< of the environment around +Y
 };
 
-/// No value: the help text was asked for and is printed.
+/// No value: the help text was requested and has been printed.
 Result<std::optional<Options>> parseOptions(int argc, const char* const* argv);
 
 } // namespace filament::reference

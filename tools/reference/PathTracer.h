@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PathTracer: the radiance along one camera ray, estimated from one sample's numbers.
-///   Method  unidirectional paths; at every surface one light sample each of the environment and of the direct lights,
-///           the environment combined with the BSDF's sample by the power heuristic (Veach 1997, "Robust Monte Carlo
-///           Methods for Light Transport Simulation", section 9.2). Russian roulette from the fifth event on.
-///           Blended surfaces are chosen or passed by chance, with the weights that keep the mean.
-///   Inside  a path may enter solids; the way inside is absorbed. Shadow rays stop at them: what lies behind is found
-///           by paths alone, so that light from one direction makes caustics of much noise. One solid at a time: where
-///           two touch or overlap each is in air. Where a solid disperses light, a path takes one of three colours.
-///   Visible single-sided materials are not seen from behind by the camera; every other ray meets both sides, as light
-///           would. Light is not carried through a triangle by its shading normal. Emissive surfaces light others
-///           when paths happen to meet them.
+/// PathTracer: estimates the radiance along one camera ray from the numbers of one sample.
+///   Method  unidirectional paths. At every surface one light sample each of the environment and of the direct lights;
+///           the environment is combined with the BSDF's sample by the power heuristic (Veach 1997, "Robust Monte Carlo
+///           Methods for Light Transport Simulation", section 9.2). Russian roulette from the fifth event on. Blended
+///           surfaces are hit or passed at random, with weights that preserve the mean.
+///   Inside  a path may enter solids and is absorbed inside. Shadow rays stop at them: paths alone find the lights
+///           behind, so directional light makes noisy caustics. One solid at a time: where two touch or overlap, each
+///           behaves as if in air. Where a solid disperses light, a path chooses one of three colours.
+///   Sides   the camera does not see single-sided materials from behind; all other rays hit both sides. Light cannot
+///           pass through a triangle because of its shading normal. Emissive surfaces light others.
 ///   Out     exposed, as in the engine's scene-linear target.
 ///   Thread  radiance(): any, all at once.
 #pragma once
@@ -24,7 +23,7 @@ class PathTracer {
 public:
     PathTracer(TracedScene const& scene, ReferenceSettings const& settings, double exposure, double3 background);
 
-    /// `ray` relative to the scene's origin. `rays` counts those traced.
+    /// `ray` is relative to the scene's origin. `rays` counts the rays traced.
     double3 radiance(Ray const& ray, SampleStream const& numbers, uint64_t& rays) const;
 
 private:

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Reference: the picture that the engine approximates, by Monte Carlo integration in double precision.
-///   In      models, lights and an environment as the engine takes them; a camera; settings.
-///   Out     scene-linear Rec. 709 times exposure, the scale of the engine's RGBA16F target, and for every pixel the
-///           standard error of its mean. No clamping: the estimate is unbiased but for `maxBounces`.
-///   Thread  render(): any, one call per TracedScene or many at once; works on the job system. The same bits for any
+///   In      models, lights and an environment in the engine's formats; a camera; settings.
+///   Out     scene-linear Rec. 709 times exposure, on the scale of the engine's RGBA16F target, and the standard error
+///           of the mean of every pixel. Nothing is clamped: the estimate is unbiased except for `maxBounces`.
+///   Thread  render(): any, several calls per TracedScene at once; works on the job system. The same bits for any
 ///           number of workers.
-///   Memory  72 bytes a pixel while it runs; the scene about 200 bytes a triangle and the models' images.
-///   Fails   InvalidArgument in one line for settings outside of their ranges; OutOfMemory from Embree.
+///   Memory  72 bytes per pixel while it runs; for the scene about 200 bytes per triangle, and the models' images.
+///   Fails   InvalidArgument in one line for settings outside their ranges; OutOfMemory from Embree.
 ///   Cost    README.md
 #pragma once
 
@@ -31,7 +31,8 @@ namespace filament::reference {
 // ---- what is drawn
 
 struct SurfaceSample;
-/// What a material says beyond the words of its file, at every point of the model. Called on any thread, often.
+/// Changes a material at every point of the model, for properties that its file cannot express. Called often, on any
+/// thread.
 using SurfaceFinish = std::function<void(SurfaceSample&)>;
 
 struct ReferenceModel {
@@ -40,23 +41,23 @@ struct ReferenceModel {
     SurfaceFinish finish{};
 };
 
-/// An equirectangular picture, placed as <filament/Environment.h> says; between its pixels bilinear.
+/// An equirectangular picture, oriented as in <filament/Environment.h>; interpolated bilinearly.
 struct ReferenceEnvironment {
     std::shared_ptr<const assets::HdrImage> image;
-    Lux illuminance{ 30'000 }; ///< what radiance 1 of the picture stands for
+    Lux illuminance{ 30'000 }; ///< illuminance that radiance 1 of the picture stands for
     float rotationRadians = 0; ///< around +Y
-    bool skybox = true;        ///< seen by the camera; it gives light in any case
+    bool skybox = true;        ///< visible to the camera; it gives light in any case
 };
 
 struct ReferenceScene {
     std::vector<ReferenceModel> models;
     std::optional<ReferenceEnvironment> environment;
-    std::vector<SunLight> suns; ///< all of them shine; the engine keeps the brightest
+    std::vector<SunLight> suns; ///< all of them shine; the engine uses only the brightest
     std::vector<PointLight> points;
     std::vector<SpotLight> spots;
 };
 
-/// Of all parts, as the engine's Model::bounds() has it: for fitToUnitCube().
+/// Bounds of all parts, like the engine's Model::bounds(): for fitToUnitCube().
 Box modelBounds(assets::ModelData const& model);
 
 // ---- how it is drawn
@@ -69,16 +70,16 @@ struct ReferenceView {
 
 enum class Integrator : uint8_t {
     Path,       ///< global illumination: visibility and all bounces
-    Unoccluded, ///< one reflection of light that nothing blocks: the integral that image-based lighting approximates
+    Unoccluded, ///< one reflection of unoccluded light: the integral that image-based lighting approximates
 };
 
-/// Which technique finds the environment and glowing surfaces. Both and each alone have the same mean; the others exist
+/// Which technique finds the environment and glowing surfaces. Both have the same mean as each alone; the others exist
 /// to test that.
 enum class Sampling : uint8_t { Both, Bsdf, Light };
 
 enum class PixelFilter : uint8_t {
     Box,    ///< the mean over the pixel
-    Center, ///< the radiance at its centre: the very point that a rasteriser without anti-aliasing shades
+    Center, ///< the radiance at its centre: the point that a rasteriser without anti-aliasing shades
 };
 
 enum class Switch : uint8_t { Auto, Off, On };
@@ -88,12 +89,12 @@ struct ReferenceSettings {
     uint32_t samplesPerPixel = 256; ///< [1, 2^20]: rounded up to whole passes
     float relativeError = 0;        ///< > 0: stop when RenderStatistics::relativeError is below it
     uint32_t maxBounces =
-            64; ///< [1, 4096] reflections, going through does not count; Russian roulette ends most paths much earlier
+            64; ///< [1, 4096] reflections, without transmissions; Russian roulette ends most paths much earlier
     uint32_t seed = 1;
     PixelFilter filter = PixelFilter::Box;
     Sampling sampling = Sampling::Both;
     BsdfModel bsdf{};
-    Switch occlusionMap = Switch::Auto; ///< Auto: used by Unoccluded, not by Path, which finds the real occlusion
+    Switch occlusionMap = Switch::Auto; ///< Auto: used by Unoccluded, not by Path, which computes the real occlusion
 };
 
 // ---- what comes out
@@ -104,7 +105,7 @@ struct RenderStatistics {
     double relativeError = 0;
     double meanLuminance = 0;
     uint64_t rays = 0;        ///< traced, shadow rays among them
-    uint64_t lostSamples = 0; ///< not finite and counted as black: a defect to report, 0
+    uint64_t lostSamples = 0; ///< not finite, counted as black: a defect to report, normally 0
     double seconds = 0;
 };
 
@@ -121,7 +122,7 @@ struct RenderProgress {
     double seconds = 0;                         ///< since the start
 };
 
-/// After every pass, on the calling thread; false stops, and what is there is returned.
+/// Called after every pass on the calling thread; false stops the rendering, which returns the result so far.
 using Progress = std::function<bool(RenderProgress const&)>;
 
 /// A scene ready to be traced: rays find surfaces, surfaces find materials. Immutable.
@@ -131,9 +132,9 @@ struct TracedSceneDeleter {
 };
 using TracedScenePtr = std::unique_ptr<TracedScene const, TracedSceneDeleter>;
 
-/// Fails: InvalidArgument for a missing model or picture and for lights that are not finite.
+/// Fails: InvalidArgument for a missing model or picture, and for lights that are not finite.
 Result<TracedScenePtr> prepare(ReferenceScene const& scene, jobs::JobSystem& jobs);
-/// One line each: what the scene holds and no ray can hit (lines, points), and what is left out of its materials.
+/// One line each for objects that no ray can hit (lines, points) and for unsupported parts of materials.
 std::vector<std::string> const& warnings(TracedScene const& scene);
 
 Result<ReferenceImage> render(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings,

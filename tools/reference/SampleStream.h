@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SampleStream: the numbers of one path, as a function of (seed, pixel, pass, sample, dimension) and of nothing else.
-///   Source  pairs of dimensions are Sobol' (0,2)-sequences padded to any number of dimensions: Kollig and Keller 2002,
-///           "Efficient Multidimensional Sampling". Each pair is shuffled and scrambled after Owen by hashing: Burley
-///           2020, "Practical Hash-based Owen Scrambling", with Laine and Karras' permutation.
-///   Error   the samples of a pass lie evenly; passes are independent of each other and so are pixels: the spread of
-///           the passes' means tells the error without bias.
+/// SampleStream: the random numbers of one path, a function of (seed, pixel, pass, sample, dimension) only.
+///   Source  pairs of dimensions are Sobol' (0,2)-sequences, padded to any number of dimensions: Kollig and Keller
+///           2002, "Efficient Multidimensional Sampling". Hashing shuffles each pair and scrambles it after Owen:
+///           Burley 2020, "Practical Hash-based Owen Scrambling", with the permutation of Laine and Karras.
+///   Error   the samples of a pass are evenly distributed; passes and pixels are independent of each other: the spread
+///           of the passes' means gives an unbiased error.
 ///   Memory  none. Thread: a value.
 #pragma once
 
@@ -33,7 +33,7 @@ constexpr uint32_t reversed(uint32_t x) {
     return ((x & 0x55555555u) << 1) | ((x & 0xAAAAAAAAu) >> 1);
 }
 
-/// A bit depends on itself and the lower ones only: on reversed bits this is Owen's scramble.
+/// A bit depends only on itself and lower bits: applied to reversed bits this is Owen's scramble.
 constexpr uint32_t permutedUpwards(uint32_t x, uint32_t seed) {
     x += seed;
     x ^= x * 0x6c50b47cu;
@@ -54,14 +54,14 @@ constexpr uint32_t second(uint32_t index) {
     return result;
 }
 
-/// The middle of one of 2^32 cells: in (0, 1), never 0 or 1.
+/// The centre of one of 2^32 cells: in (0, 1), never 0 or 1.
 constexpr double unitFromBits(uint32_t bits) { return (bits + 0.5) * 0x1p-32; }
 
 } // namespace sobol
 
 class SampleStream {
 public:
-    /// `stream` tells pixels and passes apart; samples of one stream have indices 0, 1, 2, ...
+    /// `stream` identifies pixel and pass; samples of one stream have indices 0, 1, 2, ...
     SampleStream(uint64_t stream, uint32_t index) : mStream(stream), mIndex(index) {}
 
     /// The two numbers of a pair of dimensions, in (0, 1).

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// StandardLobes: the base of the standard material: a diffuse lobe and a GGX lobe, round or stretched.
+/// StandardLobes: the base of the standard material: a diffuse lobe and an isotropic or anisotropic GGX lobe.
 ///   Value   f(view, light) * cos, in 1/sr: diffuse lobe, and D V F * energy compensation, from shaders/lib in double.
-///   Sampler one lobe in proportion to the lobes' albedos: half vectors that the viewer sees, or cosine.
+///   Sampler chooses a lobe in proportion to the lobes' albedos: visible half vectors, or cosine.
 ///   Thread  a value. Memory: none.
 #pragma once
 
@@ -13,7 +13,7 @@
 
 namespace filament::reference {
 
-/// What the diffuse and the specular lobe of a base reflect; layers above change both in their own ways.
+/// The reflectance of a base's diffuse and specular lobe; the layers above change each in a different way.
 struct LobeValues {
     double3 diffuse{ 0.0 }, specular{ 0.0 };
 };
@@ -22,24 +22,24 @@ class StandardLobes {
 public:
     StandardLobes(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion);
 
-    /// f * cos(light, normal), zero below the horizon. `light`: world, unit. The lobe of the split sum stands in for
-    /// the specular one and may reach below the horizon, as the engine's does.
+    /// f * cos(light, normal), zero below the horizon. `light`: world, unit. With SplitSum, its lobe replaces the
+    /// specular lobe and may extend below the horizon, as in the engine.
     LobeValues evaluate(double3 light, LightSource source) const;
     /// A direction of the world, or none. u and choice in (0, 1).
     std::optional<double3> sample(double2 u, double choice) const;
-    /// Of sample(), per steradian.
+    /// Density of sample(), per steradian.
     double pdf(double3 light) const;
-    /// What DiffuseLight::Harmonics multiplies irradiance / pi around the normal by; 0 with an integral.
+    /// The factor of irradiance / pi around the normal with DiffuseLight::Harmonics; 0 with an integral.
     double3 harmonicAlbedo() const;
-    /// About how much of all light both lobes reflect: for choosing between layers.
+    /// Approximate fraction of all light that both lobes reflect: for choosing between layers.
     double3 albedo() const { return mAlbedo; }
     double3 specularAlbedo() const { return mSpecularAlbedo; }
-    /// The share of light from either side that a diffuse lobe gets. `light`: as above.
+    /// The share of light from either side that reaches a diffuse lobe. `light`: as above.
     double3 diffuseShare(double3 light, LightSource source) const;
 
 private:
     double specularOcclusionOf(SurfaceSample const& surface) const;
-    double3 mirroredView(SurfaceSample const& surface) const; ///< local; what the engine looks up the environment along
+    double3 mirroredView(SurfaceSample const& surface) const; ///< local; the engine's look-up direction
     double visibility(double3 light) const;
     double diffuseTerm(double nol, double voh) const;
     LobeValues lobesAt(double3 local, LightSource source) const;
@@ -50,7 +50,7 @@ private:
     BsdfModel mModel;
     Interface mInterface;
     Frame mFrame;
-    double3 mView; // local, lifted to nov = kMinNov where it is below that
+    double3 mView; // local, lifted to nov = kMinNov if it is below that
     double mRoughness;
     double2 mAlpha; // along tangent and bitangent
     double3 mDiffuse;

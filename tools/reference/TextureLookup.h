@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// lookUp: a texture at a coordinate, as the GPU filters its largest level, in double precision.
+/// lookUp: samples a texture at a coordinate, as the GPU filters its largest level, in double precision.
 ///   In      RGBA8 or RGBA8Srgb images of ModelData with their samplers.
 ///   Out     linear components; sRGB is decoded before filtering, alpha never.
-///   Differs from the engine: no mip levels. The mean over many samples of a pixel is the filtered truth that mip maps
-///           approximate. The magnification filter is used at any distance.
+///   Differs from the engine: no mip levels. The mean over many samples of a pixel is the exact result that mip maps
+///   approximate. The magnification filter is used at any distance.
 ///   Thread  pure functions.
 #pragma once
 
@@ -13,7 +13,7 @@ namespace filament::reference {
 
 double4 lookUp(assets::Image const& image, backend::SamplerDesc const& sampler, double2 uv);
 
-/// The texel that a coordinate outside of [0, size) means.
+/// The texel for a coordinate outside [0, size).
 int wrapped(int coordinate, int size, backend::WrapMode mode);
 
 } // namespace filament::reference

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// TracedScene: everything that a path asks for: the next surface, what lies between two points, the lights.
-///   Space   positions are relative to `origin()`, the middle of what is drawn, so that floats keep their digits far
+/// TracedScene: everything that a path queries: the next surface, the transmittance between two points, the lights.
+///   Space   positions are relative to `origin()`, the centre of the scene, so that floats keep their precision far
 ///           from the world's origin.
 ///   Light   lux and radiance, not exposed.
 ///   Thread  read-only after prepare().
@@ -21,7 +21,7 @@ public:
     double3 origin() const { return mOrigin; }
     std::optional<Hit> nearest(Ray const& ray) const { return mIntersector.nearest(ray); }
     Part const& part(Hit const& hit) const { return mParts[hit.part]; }
-    /// The share of light that passes from the ray's origin to `ray.farthest`: blended surfaces let some of it through.
+    /// The fraction of light that passes from the ray's origin to `ray.farthest`: blended surfaces transmit part of it.
     double transmittance(Ray const& ray) const;
 
     EnvironmentLight const& environment() const { return mEnvironment; }

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SceneBuilder: shapes, pictures and materials put together to a glTF scene, one mesh and one node a call.
+/// SceneBuilder: combines shapes, pictures and materials into a glTF scene, one mesh and one node per call.
 ///   Thread  one thread at a time.
-///   Fails   only addPictures(), when the encoder does.
+///   Fails   only addPictures(), if the encoder does.
 #pragma once
 
 #include "filament_core/assets/gltf/GltfWriter.h"
@@ -13,7 +13,7 @@
 
 namespace filament::showcase {
 
-/// Images of one TextureSet in the scene; kNone where it has none.
+/// Images of one TextureSet in the scene; kNone for missing ones.
 struct TextureSetImages {
     uint32_t color = assets::kNone, normal = assets::kNone, surface = assets::kNone, emission = assets::kNone;
 };
@@ -24,7 +24,7 @@ public:
 
     Result<TextureSetImages> addPictures(std::string const& name, TextureSet const& set);
     uint32_t add(assets::MaterialData material);
-    /// `rotationRadians` turns around +Y.
+    /// `rotationRadians` rotates around +Y.
     void place(std::string name, Shape const& shape, uint32_t material, float3 position, float rotationRadians = 0);
     /// Light from infinitely far away. `towardsLight` need not be unit.
     void addSun(float3 towardsLight, float3 color, float lux);

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Showcase: a scene and a sky made by code, for whoever has no files of his own yet.
+/// Showcase: a generated scene and sky, for users without files of their own.
 ///   Out     a material chart on a stage ten metres wide: seven roughnesses of a dielectric and of four metals,
 ///           textured, normal-mapped, masked, blended, emissive and vertex-coloured objects, one sun; about 95 000
 ///           triangles. The sky is in units of 22 klx: filament-render's default intensity makes it a third brighter
-///           than a real one, for the sake of the reflections.
+///           than a real one, for clearer reflections.
 ///   Thread  runs on the job system; the same bytes for any number of workers.
-///   Fails   Unreadable when the folder cannot be written.
-///   Cost    about 0.3 s on two cores; bench by `filament-render --timing`.
+///   Fails   Unreadable if the folder cannot be written.
+///   Cost    about 0.3 s on two cores; measure with `filament-render --timing`.
 #pragma once
 
 #include "base/Result.h"
@@ -24,7 +24,7 @@ struct Files {
     std::filesystem::path environment; ///< showcase.hdr
 };
 
-/// Writes both into `folder`, which is made if it is missing; files that are there are replaced.
+/// Writes both into `folder`, which is created if missing; existing files are replaced.
 Result<Files> writeFiles(std::filesystem::path const& folder, jobs::JobSystem& jobs);
 
 } // namespace filament::showcase

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GpuEvaluator: rows at points, in the fragment shaders of one device.
-///   In      any number of rows with their points; rows of one group of 8 share a program and a draw.
-///   Out     one list of results per row, as the device left them: infinities and NaN included.
-///   Thread  the one that made it. Memory: 64 B a point on the device while evaluate() runs.
+/// GpuEvaluator: evaluates rows at points in the fragment shaders of one device.
+///   In      any number of rows with their points; groups of 8 rows share a program and a draw.
+///   Out     one list of results per row, exactly as the device returned them, including infinities and NaN.
+///   Thread  the one that created it. Memory: 64 B per point on the device while evaluate() runs.
 ///   Fails   make(): the driver's reason. evaluate(): the compiler's or the device's.
-///   Cost    0.2 s a group for a driver that has not seen its program, milliseconds with MESA_SHADER_CACHE_DIR.
+///   Cost    0.2 s per group if the driver has not cached its program, milliseconds with MESA_SHADER_CACHE_DIR.
 #pragma once
 
 #include "backend/create/CreateDriver.h"
@@ -28,7 +28,7 @@ public:
 
     /// "llvmpipe (LLVM 15.0.6, 256 bits), Mesa 22.3.6"
     std::string deviceName() const;
-    /// Whether the device has arithmetic of 16 bits at all.
+    /// Whether the device supports 16-bit arithmetic.
     bool hasHalf() const { return mStream->info().features.halfFloatShaders; }
     Result<std::vector<Results>> evaluate(std::span<const Task> tasks, Format format);
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// groupProgram: a fragment shader that evaluates several rows, one of them at each pixel.
-///   In      texel i of the three inputs: s; u and, in w, the row's index in the group; v.
-///   Out     RGBA32F: the components of the result, 0 behind them.
-///   Half    what lit materials in half precision get: mediump text, of which the compiler makes 16-bit SPIR-V and
+/// groupProgram: a fragment shader that evaluates several rows, one per pixel.
+///   In      texel i of the three inputs: s; u, with the row's index in the group in w; v.
+///   Out     RGBA32F: the components of the result, followed by 0.
+///   Half    as for lit materials in half precision: mediump text, from which the compiler makes 16-bit SPIR-V and
 ///           ESSL. Inputs and output stay 32-bit.
-///   Cost    one program for several rows: a driver needs a third of a second for each program that it has not seen.
-///   Thread  any. Fails: NotFound if the sources of shaders/lib are not where the build left them; what the compiler
-///           says.
+///   Cost    several rows share a program because a driver needs a third of a second for each new program.
+///   Thread  any. Fails: NotFound if the sources of shaders/lib are missing; errors of the compiler.
 #pragma once
 
 #include "shaders/compiler/CompileProgram.h"
@@ -14,7 +13,7 @@
 
 namespace filament::shader::numerics {
 
-/// `library`: what libraryText() returned, or a mutant of it.
+/// `library`: the result of libraryText(), or a mutated form of it.
 Result<ProgramShaders> groupProgram(std::string const& library, std::span<Row const* const> rows, Format format);
 
 /// The text of shaders/lib with math.glsl first, and the rows' own wrappers.

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// NUMERICS_CALL: one expression over s, u and v as text, as fp32 and as fp64 (Row.h). For the files of rows only.
-///   Rules   of shaders/lib/LibCpp.h; literals must be exact in 16 bits, because the truth takes them as they stand.
+/// NUMERICS_CALL: one expression over s, u and v as text, as fp32 and as fp64 (Row.h). Only for the files of rows.
+///   Rules   those of shaders/lib/LibCpp.h; literals must be exact in 16 bits, because the reference evaluation uses
+///           them as written.
 #pragma once
 
 #include "shaders/lib/LibCpp.h"
@@ -31,7 +32,7 @@ inline Packed pack(glm::dvec3 x) { return { { x, 0 }, 3 }; }
 inline Packed pack(glm::vec2 x) { return pack(glm::dvec2(x)); }
 inline Packed pack(glm::vec3 x) { return pack(glm::dvec3(x)); }
 
-// The functions of the library are internal to each file that includes it: so are these two.
+// The functions of the library are internal to each file that includes it, and so are these two.
 #define NUMERICS_CALL(...)                                                                                             \
     Call {                                                                                                             \
         .text = #__VA_ARGS__,                                                                                          \

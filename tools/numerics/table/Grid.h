@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// gridOf, beyondOf: the values of one argument inside of its interval, and those that it must not have.
+/// gridOf, beyondOf: the values of one argument inside its interval, and values outside it.
 ///   Memory  vectors of at most about 80 values. Thread: any. Fails: never.
 #pragma once
 
@@ -9,10 +9,10 @@ namespace filament::shader::numerics {
 
 struct Grid {
     std::vector<glm::vec4> values; ///< numbers in x, vectors in xyz, quaternions in all four
-    uint32_t orderedCount = 0;     ///< so many from the front are rising numbers, or rising greys
+    uint32_t orderedCount = 0;     ///< the first so many values are ascending numbers or greys
 };
 
-/// `divisions`: into how many even parts the interval, and its first unit, are cut besides.
+/// `divisions`: additional even subdivisions of the interval, and of its first unit.
 Grid gridOf(Argument const& argument, Format format, uint32_t divisions);
 
 struct Beyond {

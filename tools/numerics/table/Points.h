@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// pointsOf: where a row is evaluated.
-///   Inside  lines: the first argument walks its whole grid, in order, while the others stand still; so one list serves
-///           the errors and the monotonicity. Grids are dense at the ends of the interval, at 0 and at 1, with
-///           denormals, one ulp, and one value per decade between. Other arguments: every combination of their grids,
-///           or, where that is more than kMaxLines, all corners and a deterministic choice.
-///   Outside values beyond each interval, the largest of the format, both infinities and NaN, one argument at a time.
-///   Half    every value is one that 16 bits hold, so that the truth sees the same inputs.
+/// pointsOf: the points at which a row is evaluated.
+///   Inside  lines: the first argument goes through its whole grid in order while the others are fixed, so one list
+///           serves both errors and monotonicity. Grids are dense at the ends of the interval, at 0 and at 1, with
+///           denormals, one ulp, and one value per decade in between. For the other arguments: every combination of
+///           their grids, or, if these are more than kMaxLines, all corners and a deterministic selection.
+///   Outside values beyond each interval, the largest value of the format, both infinities and NaN, for one argument at
+///   a time.
+///   Half    every value is exact in 16 bits, so that the reference sees the same inputs.
 ///   Thread  any. Memory: at most kMaxLines * about 60 points of 44 B. Fails: never.
 #pragma once
 
@@ -30,12 +31,12 @@ struct Points {
     uint32_t lineLength = 0;    ///< inside[i * lineLength ..] is one line
     uint32_t orderedLength = 0; ///< the first so many points of each line are ordered by the first argument
     std::vector<Point> outside;
-    std::vector<OutsideInput> outsideInputs; ///< of the same index
+    std::vector<OutsideInput> outsideInputs; ///< parallel to `outside`
 };
 
 Points pointsOf(Row const& row, Format format);
 
-/// The nearest value of 16 bits; a larger one becomes infinite.
+/// The nearest 16-bit value; a value out of range becomes infinite.
 float halfRounded(float value);
 
 } // namespace filament::shader::numerics

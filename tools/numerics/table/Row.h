@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Row: what the numerics table says about one function of shaders/lib; adding a function is adding a row.
-///   Inputs  up to ten numbers: s.x .. s.w, then the vectors u and v. Each names the interval that the function's
-///           comment promises to handle; the grid (Points.h) is dense at its ends and goes beyond them.
-///   Call    one text that is valid in C++, in both precisions, and in GLSL: NUMERICS_CALL compiles it three times.
-///   Limits  the largest relative error against the double evaluation of the same, already rounded, inputs. A function
-///           that cannot work in 16 bits names the reason, and its comment in shaders/lib says "fp32 only".
+/// Row: the entry of one function of shaders/lib in the numerics table; a new function needs a new row.
+///   Inputs  up to ten numbers: s.x .. s.w, then the vectors u and v. Each has the interval that the function's comment
+///           promises to support; the grid (Points.h) is dense at its ends and extends beyond them.
+///   Call    a text that is valid in C++, in both precisions, and in GLSL: NUMERICS_CALL compiles it three times.
+///   Limits  the largest relative error against the double-precision evaluation of the same, already rounded, inputs. A
+///           function that cannot work in 16 bits gives the reason, and its comment in shaders/lib says "fp32 only".
 ///   Thread  any; rows are constants. Memory: the table is built once and kept.
 #pragma once
 
@@ -25,21 +25,21 @@ namespace filament::shader::numerics {
 inline constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 enum class Kind : uint8_t {
-    Number,    ///< anything in [low, high]
-    Integer,   ///< whole numbers in [low, high]
-    Direction, ///< unit vectors, many of them within a grazing angle of an axis
+    Number,    ///< any value in [low, high]
+    Integer,   ///< integers in [low, high]
+    Direction, ///< unit vectors, many of them nearly aligned with an axis or perpendicular to it
     Colour,    ///< three components in [low, high]
     Offset,    ///< vectors of any direction with lengths in [low, high]
     Rotation,  ///< unit quaternions, in s
 };
 
-/// An argument and where it is defined. The half interval is what 16 bits are asked to handle.
+/// An argument and its interval. The half interval is the one that 16 bits must support.
 struct Argument {
     std::string_view name = "unused";
     Kind kind = Kind::Number;
     double low = 0, high = 0;
     double halfLow = low, halfHigh = high;
-    bool open = false; ///< high itself does not belong to the interval
+    bool open = false; ///< high is excluded
 };
 
 struct Interval {
@@ -48,18 +48,18 @@ struct Interval {
 
 enum class Monotone : uint8_t { No, Rising, Falling };
 
-/// What a call returned: as many of the numbers as `count` says.
+/// The result of a call: the first `count` numbers.
 struct Packed {
     glm::dvec4 value{ 0.0 };
     uint32_t count = 1;
 };
 
-/// Largest relative error. The error of a result smaller than `negligible` is relative to that size instead.
+/// Largest relative error. The error of a result smaller than `negligible` is relative to `negligible`.
 struct Limits {
     double cpp = 0, gpu = 0, half = 0;
     double negligible = 1e-30;
-    double halfNegligible = std::max(negligible, 0x1p-14); ///< below the smallest normal number digits are lost
-    double halfLargest = 65504; ///< results of 16 bits above it only have to be finite and in range
+    double halfNegligible = std::max(negligible, 0x1p-14); ///< below the smallest normal number, digits are lost
+    double halfLargest = 65504; ///< 16-bit results above it only have to be finite and in range
     std::string_view why;
 };
 
@@ -72,26 +72,26 @@ struct Call {
 struct Row {
     std::string_view file;     ///< without .glsl
     std::string_view function; ///< name(types), as the source declares it
-    std::string_view part;     ///< which case or result of it, where it has several rows
+    std::string_view part;     ///< the case or result, if the function has several rows
     Call call;
     std::array<Argument, 4> s{};
     Argument u{}, v{};
     Interval range{};
     Monotone monotone = Monotone::No; ///< in the first argument of s, or in the greys of u where s has none
     Limits limits{};
-    std::string_view noError;  ///< the reason why a relative error says nothing
+    std::string_view noError;  ///< the reason why a relative error is meaningless
     std::string_view fp32Only; ///< the reason why 16 bits are not enough
-    /// What arguments somewhat outside of their intervals give: a step, 0.1, 1, 100 (4 in 16 bits). Empty: it may leave
-    /// its range, or overflow, but is a number. Else anything; for which arguments, and why. The largest numbers,
-    /// infinities and NaN promise nothing: they overflow, and GLSL leaves min, max and clamp of NaN open. What came out
-    /// of all of them is in the table's last column.
+    /// Results for arguments somewhat outside their intervals, by a step, 0.1, 1, or 100 (4 in 16 bits). Empty: the
+    /// result may leave its range or overflow, but is a number. Otherwise anything is allowed; the text says for which
+    /// arguments, and why. The largest numbers, infinities and NaN are always exempt: they overflow, and GLSL leaves
+    /// min, max and clamp of NaN undefined. The table's last column shows what happened for all of them.
     std::string_view openOutside;
 };
 
 /// Every row, by file.
 std::span<const Row> rows();
 
-// The rows of one source each; rows() joins them.
+// The rows of one source file each; rows() joins them.
 std::vector<Row> mathRows();
 std::vector<Row> brdfRows();
 std::vector<Row> scatterRows(); ///< cloth, refraction, specular, subsurface
@@ -101,14 +101,14 @@ std::vector<Row> colorRows();
 std::vector<Row> imageRows();    ///< aa, ao, ibl
 std::vector<Row> geometryRows(); ///< light, sampling, tangent
 
-/// An argument that the row does not name has an empty interval.
+/// An argument that the row does not use has an empty interval.
 inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }
 
-/// The same limit for the CPU and for the GPU. half: 0 where fp32Only says that there is none.
+/// The same limit for CPU and GPU. half: 0 if fp32Only is set.
 inline Limits relative(double single, double half, std::string_view why) {
     return { .cpp = single, .gpu = single, .half = half, .why = why };
 }
-/// Of results up to 1, where a smaller one may be what is left of a difference.
+/// For results up to 1, where a small result may be the remainder of a difference.
 inline Limits absolute(double single, double half, std::string_view why) {
     return { .cpp = single, .gpu = single, .half = half, .negligible = 1, .why = why };
 }
