@@ -34,8 +34,8 @@ inline void spinFor(int64_t nanoseconds) {
     while (wallNow() < end) relax();
 }
 
-/// When a job that somebody else must start has started. wait() gives up after a second, so that a lost wake-up shows
-/// as a latency of a second and not as a hang.
+/// Records when a job started that another thread must run. wait() gives up after a second, so that a lost wake-up
+/// appears as a latency of a second instead of a hang.
 class StartSignal {
 public:
     void raise() { mStarted.store(wallNow(), std::memory_order_release); }
@@ -52,8 +52,8 @@ private:
     std::atomic<int64_t> mStarted{ 0 };
 };
 
-/// Sleeps until the other threads of this process do too, or 100 ms have passed. Thread pools spin for up to 20 ms
-/// after their last job (libgomp); whoever is measured next must not pay for that.
+/// Sleeps until the other threads of this process sleep too, or 100 ms have passed. Thread pools spin for up to 20 ms
+/// after their last job (libgomp), and the next contender must not pay for that.
 void settle();
 
 } // namespace filament::bench

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FutexSleeper: a thread that does nothing but sleep on a futex: what the operating system itself takes to wake one.
-///   Use     the floor of the wake-up workloads: no runtime whose threads sleep can be faster.
-///   Thread  made, used and destroyed on one thread.
+/// FutexSleeper: a thread that only sleeps on a futex: measures how long the operating system takes to wake a thread.
+///   Use     the lower bound of the wake-up workloads: no runtime with sleeping threads can be faster.
+///   Thread  created, used and destroyed on one thread.
 #pragma once
 
 #include <atomic>
@@ -23,7 +23,7 @@ public:
 private:
     void sleepAndAnswer(bool pinned);
 
-    std::atomic<uint32_t> mWord{ 0 }; ///< raised to wake; what the thread sleeps on
+    std::atomic<uint32_t> mWord{ 0 }; ///< incremented to wake the thread that sleeps on it
     std::atomic<int64_t> mAwake{ 0 }; ///< when it ran, 0: not yet
     std::atomic<bool> mStopping{ false };
     std::thread mThread;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Machine: where and on what the figures were taken, for the report.
-///   Fails   never: what the system does not tell is "unknown".
+/// Machine: describes the machine for the report.
+///   Fails   never: unavailable information is "unknown".
 #pragma once
 
 #include <string>

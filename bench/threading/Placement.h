@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Placement: which cores a measurement uses, pinning for the length of a scope, and a process that hogs a core.
+/// Placement: the cores that a measurement uses, pinning for a scope, and a process that hogs a core.
 ///   Thread  pinning acts on the calling thread.
-///   Fails   a core that cannot be pinned to leaves the thread where it was; a hog that cannot be started runs nowhere:
-///           HogProcess::isRunning() says so.
+///   Fails   if a core cannot be used, the thread stays where it was; HogProcess::isRunning() reports whether the hog
+///           could be started.
 #pragma once
 
 #include <sys/types.h>
@@ -14,11 +14,11 @@ namespace filament::bench {
 /// Logical cores that this process could use when it started, ascending; asked once.
 std::vector<int> const& allowedCores();
 
-/// The core of thread `index` when threads are pinned one a core: 0 is the caller.
+/// The core of thread `index` when threads are pinned one per core: 0 is the caller.
 int coreOfThread(unsigned index);
 
-/// Ties the calling thread to a core; the destructor, on the same thread, gives it all allowed cores. (Not the mask
-/// from before: a pool may have started the thread from one that was pinned.)
+/// Pins the calling thread to a core; the destructor, on the same thread, allows all cores again. (It does not restore
+/// the previous mask: a pool may have started the thread from a pinned one.)
 class PinnedScope {
 public:
     explicit PinnedScope(int core);
@@ -30,7 +30,7 @@ public:
 /// The calling thread may run on this core only. False if the system refuses.
 bool pinToCore(int core);
 
-/// A real other process that spins on one core, asleep until told to hog. It dies with this process.
+/// A real separate process that spins on one core when told to, and sleeps otherwise. It ends with this process.
 class HogProcess {
 public:
     explicit HogProcess(int core);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Runtime: the same workloads on one way of using several threads. One file each: OursRuntime.cpp, OneTbbRuntime.cpp,
+/// Runtime: the same workloads on one threading library. One file each: OursRuntime.cpp, OneTbbRuntime.cpp,
 /// OpenMpRuntime.cpp, StdAsyncRuntime.cpp, SerialRuntime.cpp; read them side by side.
-///   Use     enter(), then any of the workloads any number of times, then leave(); timing is the caller's.
+///   Use     enter(), then any of the workloads any number of times, then leave(); the caller measures time.
 ///   Thread  one thread, the same for all calls. `threads` includes it.
-///   Rule    each is written as its users would: the calling thread takes part, groups are reused where the library
-///           allows it, no tuning that needs to know the machine.
-///   Fails   makeRuntime() never; a workload that a runtime has no word for says so by its return value.
+///   Rule    each is written as its users would write it: the calling thread takes part, groups are reused if the
+///           library allows it, and nothing is tuned to the machine.
+///   Fails   makeRuntime() never; the return value says if a runtime does not support a workload.
 #pragma once
 
 #include "bench/threading/SpinWork.h"
@@ -24,7 +24,7 @@ inline constexpr RuntimeKind kAllRuntimes[] = { RuntimeKind::Ours, RuntimeKind::
 const char* toString(RuntimeKind kind); ///< "ours", "tbb", "openmp", "async", "serial"
 
 struct RuntimeOptions {
-    unsigned threads = 1; ///< that work, with the caller
+    unsigned threads = 1; ///< that work, including the caller
     bool pinned = false;  ///< thread i stays on coreOfThread(i) between enter() and leave()
 };
 
@@ -41,19 +41,19 @@ public:
     virtual uint32_t tree(uint32_t depth) = 0;
     /// `count` items in one parallel loop, `repeats` times.
     virtual void loop(SpinWork const& work, uint64_t count, uint64_t repeats) = 0;
-    /// `links` empty jobs, each the continuation of the one before, which hands it over when it ends (where the runtime
-    /// knows such a thing; otherwise as graph()); `repeats` times.
+    /// `links` empty jobs, each the continuation of the previous one, which returns it when it ends (if the runtime
+    /// supports this; otherwise as graph()); `repeats` times.
     virtual void chain(uint32_t links, uint64_t repeats) = 0;
-    /// The same, but it is said beforehand what follows what.
+    /// The same, but the order is declared in advance.
     virtual void graph(uint32_t links, uint64_t repeats) = 0;
-    /// The same with jobs that start their successor themselves, as any other job.
+    /// The same, but each job starts its successor itself, like any other job.
     virtual void relay(uint32_t links, uint64_t repeats) = 0;
     /// One job per entry, which spins that many steps, in this order.
     virtual void spinJobs(std::span<const uint32_t> steps) = 0;
     /// After `idle` nanoseconds without work: nanoseconds from "start a job" until another thread runs it.
     virtual std::optional<int64_t> wakeUp(int64_t idle) = 0;
 
-    /// More jobs at once would take too long or too much memory; workloads scale down to this and say so.
+    /// More jobs at once would take too long or too much memory; workloads scale down to this number and say so.
     virtual uint32_t affordableJobs() const { return std::numeric_limits<uint32_t>::max(); }
 };
 

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SpinWork: work of a known length that no compiler shortens and every runtime runs as the same instructions.
-///   A step is one addition that needs the result of the one before it; an empty asm statement keeps the compiler from
-///   folding or vectorising them. A range of items is one run of steps, compiled once, in SpinWork.cpp: a loop over
-///   items of three steps each would measure how the branch predictor likes the code around it (0.5 to 1.3 ns for the
-///   same item).
+/// SpinWork: work of a known length that compilers cannot shorten and every runtime executes with the same
+/// instructions.
+///   A step is one addition that depends on the previous one; an empty asm statement keeps the compiler from folding or
+///   vectorising them. A range of items is one run of steps, compiled once, in SpinWork.cpp: a loop over items of three
+///   steps each would measure how well the branch predictor handles the surrounding code (0.5 to 1.3 ns for the same
+///   item).
 ///   Thread  any.
-///   Limits  the length of a step is measured once, at the first use; a core that changes its clock changes it. The
-///           serial column says what an item really took.
+///   Limits  the length of a step is measured once, at its first use, and changes with the core's clock. The serial
+///           column shows the real time per item.
 #pragma once
 
 #include <cstdint>
@@ -16,7 +17,7 @@ namespace filament::bench {
 /// `steps` additions from `value` on.
 uint64_t spinSteps(uint64_t value, uint64_t steps);
 
-/// The compiler must assume that somebody looks at `value`.
+/// Makes the compiler assume that the value is used.
 inline void keep(uint64_t value) { asm volatile("" : : "r"(value)); }
 
 /// How many steps take `nanoseconds`.
@@ -28,7 +29,7 @@ struct SpinWork {
 
     static SpinWork ofItems(double nanoseconds) { return { nanoseconds, stepsFor(nanoseconds) }; }
 
-    /// Items [begin, end), one after the other. Ranges that divide a loop make as many steps as the whole loop.
+    /// Items [begin, end) in sequence. Ranges that divide a loop make as many steps as the whole loop.
     uint64_t run(uint64_t begin, uint64_t end, uint64_t value) const {
         return spinSteps(value, stepsBefore(end) - stepsBefore(begin));
     }

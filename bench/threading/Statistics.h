@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Statistics: order statistics of samples, and ratios of samples that were taken in the same round.
 ///   Thread  any.
-///   Fails   never: of no samples at all every figure is 0.
+///   Fails   never: without samples every figure is 0.
 ///   Source  quantiles by linear interpolation between order statistics: Hyndman and Fan 1996, "Sample quantiles in
 ///           statistical packages", definition 7.
 #pragma once
@@ -19,8 +19,8 @@ struct Quartiles {
 double quantile(std::span<const double> values, double p);
 Quartiles quartiles(std::span<const double> values);
 
-/// a[i] / b[i] for every round i that both have. A machine that slows down for a while slows down both: the ratio of a
-/// round is steadier than the ratio of the medians. Rounds with b[i] == 0 are left out.
+/// a[i] / b[i] for every round i that both have. A machine that slows down for a while slows down both, so the ratio
+/// within a round is steadier than the ratio of the medians. Rounds with b[i] == 0 are left out.
 std::vector<double> pairedRatios(std::span<const double> a, std::span<const double> b);
 
 } // namespace filament::bench

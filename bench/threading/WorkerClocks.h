@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// WorkerClocks: how much CPU time other threads of this process have used, whatever they did with it: jobs, looking
-/// for work, falling asleep. A thread that another process preempts does not go on counting, unlike a stopwatch in a
-/// job.
+/// WorkerClocks: the CPU time of other threads of this process, for any purpose: jobs, looking for work, falling
+/// asleep. Unlike a stopwatch inside a job, it stops while another process preempts the thread.
 ///   Thread  any. The threads named must be alive.
-///   Fails   never: a thread that ended counts as it did last, which is nothing.
+///   Fails   never: for a thread that has ended the time does not advance.
 #pragma once
 
 #include <sys/types.h>
@@ -14,10 +13,10 @@
 
 namespace filament::bench {
 
-/// Threads of this process that debuggers show by this name; 15 bytes at most.
+/// Threads of this process with this name in debuggers; at most 15 bytes.
 std::vector<pid_t> threadsNamed(std::string_view wanted);
 
-/// Nanoseconds that these threads have been on a core since they started, all together.
+/// Total nanoseconds that these threads have run on a core since they started.
 int64_t cpuNanosecondsOf(std::vector<pid_t> const& threads);
 
 } // namespace filament::bench

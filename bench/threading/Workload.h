@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Workload: something to measure, by whom, and what the figures must be. measureRounds() measures all contenders in
-/// turns, A B C A B C ..., so that a machine that slows down for a while slows down all of them.
-///   Out     Series: a figure a round for each contender; Verdicts of the targets.
+/// Workload: what to measure, the contenders, and the targets. measureRounds() measures all contenders in turns, A B C
+/// A B C ..., so that a machine that slows down for a while affects all of them.
+///   Out     Series: one figure per round and contender; Verdicts of the targets.
 ///   Thread  main thread.
-///   Limits  the figures of a round belong together, those of different rounds need not: ratios are formed within a
-///           round (Statistics.h), never between runs.
+///   Limits  only figures of the same round are comparable: ratios are formed within a round (Statistics.h), never
+///           between runs.
 #pragma once
 
 #include <cstdint>
@@ -17,13 +17,13 @@ namespace filament::bench {
 
 struct Settings {
     int rounds = 31;
-    unsigned threads = 2;  ///< that work, with the caller
+    unsigned threads = 2;  ///< that work, including the caller
     double sampleNs = 2e6; ///< a sample repeats its work until it takes this long
-    bool quick = false;    ///< small sizes: proves that it works, measures nothing
+    bool quick = false;    ///< small sizes: shows that it works, measures nothing
     unsigned workers() const { return threads - 1; }
 };
 
-/// Appends the figures of one round: one, or several of equal standing (latencies).
+/// Appends the figures of one round: one, or several equivalent ones (latencies).
 using Sampler = std::function<void(std::vector<double>& figures)>;
 
 struct Contender {
@@ -34,13 +34,13 @@ struct Contender {
 
 enum class Figure : uint8_t { Median, P99, Ratio };
 
-/// Figure of one contender, for Ratio over that of `other` in the same round, against a limit.
+/// A limit for the figure of one contender, or with Ratio for its ratio to `other` in the same round.
 struct Target {
     std::string contender = "ours";
     Figure figure = Figure::Median;
     std::string other = "";
     double limit = 0;
-    bool atLeast = false; ///< otherwise at most
+    bool atLeast = false; ///< otherwise it is an upper limit
 };
 
 struct Workload {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Workloads: the list of everything that threading_bench measures. README.md says what each one means.
-///   Memory  a workload is made when its turn comes and destroyed after its last round, with its threads and engines.
-///   Fails   make() says why a workload cannot run here.
+/// Workloads: the list of everything that threading_bench measures. README.md describes each one.
+///   Memory  a workload is created before its first round and destroyed after its last, with its threads and engines.
+///   Fails   make() says why a workload cannot run on this machine.
 #pragma once
 
 #include "base/Result.h"
@@ -34,11 +34,11 @@ void addFrameWorkloads(WorkloadList& list, Settings const& settings);   ///< Fra
 /// Does its work `repeats` times.
 using RepeatedWork = std::function<void(Runtime& runtime, uint64_t repeats)>;
 
-/// One figure a round: nanoseconds of `work` over `items` of it, repeated until a sample takes Settings::sampleNs.
-/// Before it the runtime is warmed up, after it everybody goes to sleep; neither is counted.
+/// One figure per round: nanoseconds of `work` over its `items`, repeated until a sample takes Settings::sampleNs. The
+/// runtime is warmed up before it and goes to sleep after it; neither is counted.
 Sampler timed(std::shared_ptr<Runtime> runtime, RepeatedWork work, double items, double sampleNs);
 
-/// timed() once, without repeating: for work that takes milliseconds. Returns nanoseconds.
+/// timed() once, without repetition, for work that takes milliseconds. Returns nanoseconds.
 double timeOnce(Runtime& runtime, std::function<void(Runtime&)> const& work);
 
 /// "64 of 1024 jobs, scaled", or empty if nothing was scaled.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FailingAllocator: this test program's operator new, which can be told to fail.
-///   In      whose allocation, and which one: an AllocationFailure, for as long as it lives.
-///   Out     whether it struck and for which function; how many blocks live.
+/// FailingAllocator: the test program's operator new, which can be made to fail.
+///   In      an AllocationFailure, for its lifetime: whose allocation fails, and which one.
+///   Out     whether it occurred and in which function; the number of live blocks.
 ///   Thread  one AllocationFailure at a time. "The app thread" is the one that makes it.
-///   Limits  what calls malloc() itself (C libraries, drivers) does not fail.
-///   Cost    an atomic load and two counters an allocation.
+///   Limits  direct calls of malloc() (C libraries, drivers) do not fail.
+///   Cost    an atomic load and two counters per allocation.
 #pragma once
 
 #include <cstdint>
@@ -13,7 +13,7 @@
 namespace filament::test {
 
 enum class Whose : uint8_t {
-    App,    ///< the thread that asks for the failure
+    App,    ///< the thread that requests the failure
     Driver, ///< a driver thread
     Jobs,   ///< any thread, inside of a job
 };
@@ -21,7 +21,7 @@ const char* toString(Whose whose);
 
 enum class Callers : uint8_t {
     All,
-    ThisProgram, ///< not the libraries of a device, who have their own ways with exhausted memory
+    ThisProgram, ///< not the libraries of a device, which handle exhausted memory in their own ways
 };
 
 enum class Lasting : uint8_t {
@@ -37,13 +37,13 @@ public:
     AllocationFailure(AllocationFailure const&) = delete;
     AllocationFailure& operator=(AllocationFailure const&) = delete;
 
-    /// Ends it, and tells whether an allocation failed.
+    /// Ends it, and returns whether an allocation failed.
     bool stop();
-    /// Of the failure that struck last: the innermost functions of the engine on the stack of its first allocation.
+    /// For the last failure: the innermost functions of the engine on the stack of the first failed allocation.
     static std::string lastSite();
 };
 
-/// Blocks that operator new gave and operator delete has not taken back, of all threads.
+/// Blocks from operator new that have not been deleted, over all threads.
 int64_t liveBlocks();
 
 } // namespace filament::test

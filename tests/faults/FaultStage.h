@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FaultStage: an engine with a small scene, to break in every place.
+/// FaultStage: an engine with a small scene, for injecting faults anywhere.
 ///   In      a backend, workers, and the injector of backend/layers/Faulty.   Out: pictures, or errors.
 ///   Thread  the app thread.
 #pragma once
@@ -23,7 +23,7 @@
 
 namespace filament::test {
 
-/// FILAMENT_STRESS: every place instead of some.
+/// FILAMENT_STRESS: test every place instead of some.
 inline bool isStress() { return std::getenv("FILAMENT_STRESS") != nullptr; }
 
 /// What the tests write lies here.
@@ -72,7 +72,7 @@ public:
 
     /// One frame, waited for.
     Result<Image> draw() { return mRenderer->renderToImage(mScene, mView); }
-    /// The next frame has to place every sphere anew.
+    /// Makes the next frame place every sphere again.
     void move() {
         double4x4 worldFromRoot(1);
         worldFromRoot[3] = double4(0.1, 0.2, -0.3, 1);
@@ -81,7 +81,7 @@ public:
     Renderer& renderer() { return *mRenderer; }
     Scene& scene() { return mScene; }
     View& view() { return mView; }
-    /// What the frame rendered last was made of; 0 if it was left out.
+    /// The packet hash of the last frame; 0 if it was skipped.
     uint64_t packetHash() {
         mEngine.waitIdle();
         uint64_t newest = 0;

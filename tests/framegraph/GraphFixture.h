@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the tests of the frame graph share: a graph with its arena, a stream on the null driver, short ways to declare.
+/// Shared by the tests of the frame graph: a graph with its arena, a stream on the null driver, helpers to declare
+/// passes.
 #pragma once
 
 #include "backend/layers/Validated.h"

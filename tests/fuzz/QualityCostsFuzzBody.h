@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The body that the fuzzer and the replay test share: whatever the bytes are, reading a cost table ends in an error of
-/// one line or in a table that is in its ranges and writes out to a fixed point.
+/// Shared by the fuzzer and the replay test: for any bytes, reading a cost table gives an error of one line, or a table
+/// whose values are in range and which writes out to a fixed point.
 #pragma once
 
 #include "base/Assert.h"
@@ -30,7 +30,7 @@ inline bool fuzzQualityCostsOnce(std::span<const uint8_t> input) {
                             "intervals are finite");
         }
     }
-    // Digits beyond those that are written are rounded once.
+    // Digits beyond those written are rounded once.
     const Result<QualityCosts> again = readQualityCosts(toJson(*costs), "again");
     FILAMENT_ASSERT(again.ok(), "what was written can be read");
     FILAMENT_ASSERT(toJson(*again) == toJson(*costs), "writing what was read changes nothing");

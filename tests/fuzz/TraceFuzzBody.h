@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The body that the fuzzer and the replay test share: whatever the bytes are, reading a trace ends in an error or in
-/// streams that write out to a fixed point, and that the validator can judge without a crash.
+/// Shared by the fuzzer and the replay test: for any bytes, reading a trace gives an error, or streams that write out
+/// to a fixed point and that the validator can judge without a crash.
 #pragma once
 
 #include "backend/layers/Trace.h"

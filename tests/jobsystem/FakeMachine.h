@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FakeMachine: the XML that hwloc would export on a machine of another shape.
+/// FakeMachine: the XML that hwloc would export on a different machine.
 ///   FakeMachine("pack:1 l3:2 core:2 pu:2").kind({ 0, 1 }, { { "FrequencyMaxMHz", "5100" } }).xml()
 #pragma once
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FakeRoot: an empty directory to be filled with files and taken for "/"; removed at the end.
+/// FakeRoot: a temporary directory that tests fill with files and use as "/".
 #pragma once
 
 #include <unistd.h>

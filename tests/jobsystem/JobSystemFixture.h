@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the tests of the job system share: a fixture over numbers of workers, a gate, a recursion to feed it with.
+/// Shared by the tests of the job system: a fixture over numbers of workers, a gate, a recursive workload.
 #pragma once
 
 #include "jobsystem/JobSystem.h"
@@ -23,7 +23,7 @@ protected:
 
 inline std::string workersName(testing::TestParamInfo<int> const& parameter) { return std::to_string(parameter.param); }
 
-/// False if `condition` does not become true within ten seconds: a test that would hang fails instead.
+/// False if `condition` does not become true within ten seconds, so that a hanging test fails instead.
 template <class Condition>
 bool becomesTrue(Condition&& condition) {
     const auto deadline = std::chrono::steady_clock::now() + std::chrono::seconds(10);

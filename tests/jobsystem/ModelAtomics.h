@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ModelAtomics: the policy that puts the job system's lock-free parts under the ModelChecker. Atomic<T> is spelled
-/// like std::atomic<T>; Plain<T> is a value that threads must not race for.
-///   Thread  the threads of the checker. Before and after them the scenario may use atomics as a single thread does.
+/// ModelAtomics: the policy that runs the job system's lock-free parts under the ModelChecker. Atomic<T> has the
+/// interface of std::atomic<T>; Plain<T> is a value without synchronisation, whose races are detected.
+///   Thread  the threads of the checker. Before and after them the scenario may use atomics from a single thread.
 ///   Limits  T is at most 8 bytes and trivially copyable.
 #pragma once
 
@@ -62,7 +62,7 @@ public:
                                                                    : order;
         return compare_exchange_strong(expected, desired, order, failure, where);
     }
-    // Where they fail for no reason, a loop goes round once more and nothing new can be seen.
+    // A spurious failure makes a loop repeat, which shows nothing new.
     bool compare_exchange_weak(T& expected, T desired, Order success, Order failure, Where where = Where::current()) {
         return compare_exchange_strong(expected, desired, success, failure, where);
     }

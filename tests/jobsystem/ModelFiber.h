@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Fiber: a stack of its own that runs when it is told to, on the thread that tells it; the sanitizers know about it.
+/// Fiber: a separate stack that runs when switched to, on the switching thread; the sanitizers are informed about it.
 ///   Thread  one.
 ///   Memory  256 KiB of stack.
 ///   Fails   an exception must not leave the body.
@@ -14,7 +14,7 @@ namespace filament::jobs::model {
 
 class Fiber {
 public:
-    /// Stands for the thread's own stack; may be switched to and from, and has no body.
+    /// Represents the thread's own stack; can be switched to and from, and has no body.
     Fiber();
     /// `body` starts at the first switchTo() and must end in one.
     explicit Fiber(std::function<void()> body);
@@ -22,7 +22,7 @@ public:
     Fiber(Fiber const&) = delete;
     Fiber& operator=(Fiber const&) = delete;
 
-    /// Goes on there; returns when something switches back to this one.
+    /// Continues there; returns when something switches back to this fiber.
     void switchTo(Fiber& next);
 
 private:

@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ModelMemory: the memory that a program of the C++20 model may see, one step at a time.
-///   In      operations on atomics, by thread.  Out: which stores an operation may read from or come after; the caller
+/// ModelMemory: what a program may read under the C++20 memory model, one step at a time.
+///   In      operations on atomics, by thread.  Out: the stores that an operation may read from or follow; the caller
 ///           picks one. All picks over all interleavings are all behaviours.
 ///   Source  the view machine of Kang, Hur, Lahav, Vafeiadis and Dreyer 2017, "A promising semantics for relaxed-memory
 ///           concurrency", section 3, without promises; seq_cst accesses and release sequences as in [atomics.order]
-///           and [intro.races] of C++20. A store keeps its place in the modification order of its object, a thread a
+///           and [intro.races] of C++20. A store has a place in the modification order of its object; a thread has a
 ///           view: the oldest store of each object that it may still read. Release stores carry the view of their
-///           thread, acquire loads take it over.
+///           thread, and acquire loads adopt it.
 ///   Shows   store buffering, stale reads, writes seen in different orders by different threads, modification orders
-///           that differ from the order of execution. That is all that x86 does, and all that ARMv8 does except:
+///           that differ from the order of execution. This covers all behaviours of x86, and all of ARMv8 except:
 ///   Limits  a load never reads from a store that is later in its own thread's future (load buffering), and the order
-///           of seq_cst operations is the order of execution, therefore consistent with happens-before, which POWER is
-///           not. No fences. 4 threads, 32 objects, 64 stores to each.
+///           of seq_cst operations is the order of execution, hence consistent with happens-before, which does not hold
+///           on POWER. No fences. 4 threads, 32 objects, 64 stores to each.
 ///   Thread  one.
 #pragma once
 
@@ -25,7 +25,7 @@ inline constexpr int kMaxThreads = 4;
 inline constexpr int kMaxLocations = 32;
 inline constexpr int kMaxStores = 63;
 
-/// What a thread knows: the oldest store it may read, by location, and how far each other thread is known to be.
+/// A thread's knowledge: by location the oldest store it may read, and by thread how far the others have come.
 struct View {
     std::array<uint8_t, kMaxLocations> seen{};
     std::array<uint16_t, kMaxThreads> clock{};

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// measureInTurns: two ways of doing the same, one after the other in every iteration, so that a machine that is busy
-/// with something else slows both. Medians: a pre-empted iteration does not count.
-///   Out   counters: ns (median of a, an item), and `ratio` (median of a / median of b).
+/// measureInTurns: measures two implementations alternately in every iteration, so that a busy machine slows both. Uses
+/// medians, so a pre-empted iteration has no effect.
+///   Out   counters: ns (median of a, per item), and `ratio` (median of a / median of b).
 #pragma once
 
 #include <benchmark/benchmark.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the benchmarks of this folder share: scenes in which everything is visible, and clocks.
+/// Shared by the benchmarks of this folder: scenes in which everything is visible, and clocks.
 #pragma once
 
 #include "filament_core/prepare/DrawList.h"
@@ -16,8 +16,8 @@
 
 namespace filament::prepare {
 
-/// Scene, view and jobs as the arguments "renderables", "looks" (1, or 64 materials x 16 meshes, or one each) and
-/// "workers" (threads besides the caller) say.
+/// Scene, view and jobs according to the arguments "renderables", "looks" (1, or 64 materials x 16 meshes, or one each)
+/// and "workers" (threads besides the caller).
 struct Setup {
     explicit Setup(benchmark::State const& state)
             : count(static_cast<uint32_t>(state.range(0))), jobs({ .workers = static_cast<int>(state.range(2)) }),
@@ -40,7 +40,7 @@ struct Setup {
     ViewCounts counts;
 };
 
-/// Memory as upload commands carry it: aligned to cache lines.
+/// Memory like that of upload commands: aligned to cache lines.
 class UploadMemory {
 public:
     explicit UploadMemory(size_t objects) : mBytes((objects + 1) * sizeof(shader::ObjectData)) {
@@ -57,7 +57,7 @@ private:
     std::span<shader::ObjectData> mObjects;
 };
 
-/// Times of one thing, in seconds: medians, because neighbours on the machine make some of them long.
+/// Times of one operation in seconds: medians, because other processes make some of them long.
 class Samples {
 public:
     /// Calls and times `function`; returns its wall time.
@@ -71,10 +71,10 @@ public:
     }
 
     double wall() { return median(mWall); }
-    /// All threads of the process together, waiting included.
+    /// All threads of the process together, including waiting.
     double threads() { return median(mThreads); }
 
-    /// Counters: nanoseconds a renderable.
+    /// Counters: nanoseconds per renderable.
     void report(benchmark::State& state, uint32_t renderables) {
         state.counters["wall_ns"] = wall() * 1e9 / renderables;
         state.counters["threads_ns"] = threads() * 1e9 / renderables;

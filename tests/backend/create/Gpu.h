@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Gpu: short ways to say what a test of the driver contract draws. One per test and API; what it made it destroys.
-///   Stream  everything goes through CommandStream, the Validated layer and the API's own validation. One stream for
-///           each API and process, so that start-up is paid once.
-///   Checks  finish() fails the test if the driver reported anything that the test did not take, or kept device memory.
+/// Gpu: describes what a test of the driver contract draws. One per test and API; it destroys what it created.
+///   Stream  everything goes through CommandStream, the Validated layer and the API's own validation. Each API has one
+///           stream per process, so that start-up is paid once.
+///   Checks  finish() fails the test if the driver reported anything that the test did not take, or leaked device
+///           memory.
 #pragma once
 
 #include "backend/stream/CommandStream.h"
@@ -31,12 +32,12 @@ Bytes bytesOf(std::vector<T> const& values) {
 
 /// A triangle that covers the target; gl_Position.z = 0.5.
 extern const std::string_view kFullScreenVertex;
-/// Vertices as they are: location 0 vec4 position (clip space), location 1 vec4 color.
+/// Passes vertices through: location 0 vec4 position (clip space), location 1 vec4 color.
 extern const std::string_view kColorVertex;
 /// location 0 of the fragment stage: the color of kColorVertex.
 extern const std::string_view kColorFragment;
 
-/// A fragment stage of version 450 whose main() is `body`; `declarations` stand before it; writes `vec4 result`.
+/// A fragment stage of version 450 with `body` as main(); `declarations` come before it; it writes `vec4 result`.
 std::string fragmentOf(std::string_view declarations, std::string_view body);
 
 struct Program {
@@ -44,7 +45,7 @@ struct Program {
     ProgramLayout layout{};
 };
 
-/// What a full-screen draw into a fresh target needs; everything else has a default.
+/// What a full-screen draw into a new target needs; the rest has defaults.
 struct Paint {
     uint32_t width = 4, height = 4;
     Format format = Format::RGBA32F;
@@ -77,10 +78,10 @@ public:
     /// A sampled 2D texture of one level.
     TextureHandle image(Format format, uint32_t width, uint32_t height, Bytes const& texels);
     SamplerHandle sampler(SamplerDesc desc = {});
-    /// Compiles GLSL 450 for this API (once a process and text). No uniform buffer is dynamic unless it is listed.
+    /// Compiles GLSL 450 for this API (once per process and text). Only listed uniform buffers are dynamic.
     Program program(std::string_view vertex, std::string_view fragment,
                     std::vector<ConstantValue> const& constants = {}, std::vector<shader::SetBinding> dynamic = {});
-    /// Code as it is, for programs that must fail.
+    /// Uses the code unchanged, for programs that must fail.
     ProgramHandle rawProgram(std::string_view vertex, std::string_view fragment);
     PipelineHandle pipeline(PipelineDesc desc);
     BindGroupHandle group(Program const& program, uint32_t index, std::vector<BindGroupEntry> const& entries);
@@ -99,7 +100,7 @@ public:
     }
     void upload(TextureHandle texture, Rect rect, Bytes const& texels, uint8_t level = 0, uint16_t layer = 0,
                 uint16_t layers = 1);
-    /// A full-screen draw into a fresh target of paint.format; returns the target.
+    /// A full-screen draw into a new target of paint.format; returns the target.
     TextureHandle paint(Program const& program, Paint const& paint = {});
     void submit();
     Ticket nextTicket() { return mStream.nextTicket(); }
@@ -108,7 +109,7 @@ public:
     void destroyEarly(ProgramHandle program);
 
     // ---- answers
-    /// Waits. What is read is also what the two APIs are compared by.
+    /// Waits. The texels are also compared between the two APIs.
     Bytes read(TextureHandle texture, Rect rect, uint8_t level = 0, uint16_t layer = 0);
     template <class T>
     std::vector<T> readAs(TextureHandle texture, Rect rect, uint8_t level = 0, uint16_t layer = 0) {
@@ -123,7 +124,7 @@ public:
     /// Errors so far; a test that provokes errors takes them.
     std::vector<DriverError> takeErrors();
 
-    /// Destroys everything and checks that nothing went wrong. Returns all read-backs in order.
+    /// Destroys everything and checks for errors. Returns all read-backs in order.
     std::vector<Bytes> finish();
 
 private:

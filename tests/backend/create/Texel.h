@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Texel: the formats of backend/api spelled out a second time, slowly, to check drivers against.
-///   encodeTexel  the bytes of one colour as its format stores it, rounded to nearest.
+/// Texel: an independent, slow implementation of the formats of backend/api, to check drivers against.
+///   encodeTexel  the bytes of one colour in its format, rounded to nearest.
 ///   decodeTexel  what a shader reads from these bytes: components that the format lacks are 0, 0, 0, 1.
 ///   Uncompressed colour formats only.
 #pragma once

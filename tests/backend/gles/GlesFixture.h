@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GlesTest: a driver on this thread, handles for it, and what it answered.
+/// GlesTest: a driver on this thread, its handles, and its results.
 #pragma once
 
 #include "backend/gles/Executor.h"
@@ -168,7 +168,7 @@ protected:
         return values;
     }
 
-    /// The error that the test provokes: exactly one, of this kind, naming this.
+    /// The error that the test provokes: exactly one, of this kind, with this name.
     void expectError(DriverErrorKind kind, std::string_view naming) {
         ASSERT_EQ(sink.errors.size(), 1u);
         EXPECT_EQ(sink.errors[0].kind, kind);

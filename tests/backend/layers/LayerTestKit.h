@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A small correct stream that uses every command, for tests to break in one place.
+/// A small valid stream that uses every command, for tests to break in one place.
 #pragma once
 
 #include "backend/api/Driver.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Replaces the global operator new of this test program by one that counts.
+/// Replaces the global operator new of this test program by a counting one.
 #pragma once
 
 #include <cstdint>

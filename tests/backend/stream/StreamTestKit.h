@@ -23,8 +23,8 @@ namespace filament::backend {
 
 using namespace std::chrono_literals;
 
-/// Closed until open(); those who wait() go on then. Opens at the end of the scope, so that no test leaves anyone
-/// behind.
+/// Closed until open(); threads in wait() then continue. It opens at the end of the scope, so that a test leaves no
+/// thread waiting.
 class Gate {
 public:
     ~Gate() { open(); }
@@ -39,7 +39,7 @@ public:
         mChanged.notify_all();
         mChanged.wait(lock, [&] { return mIsOpen; });
     }
-    /// Until `count` threads in all have come to wait().
+    /// Waits until `count` threads in all have reached wait().
     void waitForArrival(int count = 1) {
         std::unique_lock lock(mMutex);
         mChanged.wait(lock, [&] { return mArrived >= count; });
@@ -73,10 +73,10 @@ private:
     std::vector<std::string> mLines;
 };
 
-/// What a test wants to know about a driver's life, and to make it do.
+/// Observes the life of a driver, and makes it do things.
 struct Script {
     std::atomic<int> executed{ 0 }, idled{ 0 }, destroyed{ 0 };
-    std::atomic<bool> strayThread{ false }; ///< called from another thread than the one that made it
+    std::atomic<bool> strayThread{ false }; ///< called from a thread other than the one that created it
     std::string threadName;
     std::function<void(ResultSink&)> onExecute; ///< runs inside execute()
 };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// A Vulkan driver with validation, and short ways to record what the tests of this folder draw.
-///   Skips the test when the machine has no Vulkan device; fails it when validation had anything to say.
+///   Skips the test if the machine has no Vulkan device; fails it if validation reports anything.
 #pragma once
 
 #include "backend/stream/CommandBuffer.h"
@@ -54,7 +54,7 @@ protected:
     }
 
     void TearDown() override {
-        driver.reset(); // what is destroyed too late or never is a validation message as well
+        driver.reset(); // validation also reports objects destroyed too late or never
         for (auto const& error : sink.errors) {
             const bool isValidation = error.kind == DriverErrorKind::Validation;
             EXPECT_TRUE(!isValidation) << error.message;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the image tests share: an engine on a named backend, pictures as floats, skips in plain words.
+/// Shared by the image tests: an engine on a named backend, pictures as floats, and clear skip messages.
 #pragma once
 
 #include "base/math/Half.h"
@@ -104,7 +104,7 @@ inline Difference differenceOf(Image const& a, Image const& b) {
     return difference;
 }
 
-/// A test of files that lie beside the checkout.
+/// A test that uses files beside the checkout.
 class AssetTest : public testing::Test {
 protected:
     void SetUp() override {

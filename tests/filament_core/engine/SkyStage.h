@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SkyStage: a square or a sphere of one material under an environment whose radiance is known in every direction.
+/// SkyStage: a square or a sphere of one material under an environment with known radiance in every direction.
 ///   Pictures are those of onBothApis() (MaterialStage.h): scene-linear, and the same bits on both APIs.
 #pragma once
 
@@ -12,7 +12,7 @@
 
 namespace filament::test {
 
-/// Radiance `base` + slope * direction, the same at every roughness, and what a white diffuse surface makes of it.
+/// Radiance `base` + slope * direction, the same at every roughness, and its reflection by a white diffuse surface.
 struct Sky {
     float3 base{ 1 };
     float3 slope{ 0 };
@@ -23,7 +23,7 @@ struct Sky {
 inline constexpr Sky kWhiteSky{};
 inline constexpr Sky kDirectionSky{ float3(0.5f), float3(0.5f) }; // shows directions as colours
 
-/// Keeps alive what a scene's light needs.
+/// Keeps the objects of a scene's light alive.
 struct SkyObjects {
     Owned<Texture> cube;
     Owned<IndirectLight> light;
@@ -69,7 +69,7 @@ inline void addSphere(MaterialStage& stage, MaterialInstance instance) {
 inline constexpr uint16_t kNoLights = shader::kVariantSun | shader::kVariantPunctual,
                           kSunOnly = shader::kVariantPunctual;
 
-/// What main() of a material sets, and its properties.
+/// Text of a material with this code in main() and these properties.
 inline std::string text(std::string_view properties, std::string_view code) {
     return fmt::format("material {{ name : stage, {} }}\nfragment {{ void material(inout MaterialInputs material) {{\n"
                        "prepareMaterial(material);\n{}\n}} }}",

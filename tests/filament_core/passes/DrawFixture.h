@@ -47,7 +47,7 @@ public:
                  .mirrored = mirrored };
     }
 
-    /// One object a draw; neighbours often share geometry or material, as sorted lists do.
+    /// One object per draw; neighbours often share geometry or material, as in sorted lists.
     std::vector<prepare::DrawCall> randomDraws(size_t count, uint32_t seed) const {
         std::mt19937 random(seed);
         std::vector<prepare::DrawCall> draws;

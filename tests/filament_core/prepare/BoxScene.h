@@ -58,7 +58,7 @@ struct BoxScene {
         return add(world, instance, mesh);
     }
 
-    /// `count` boxes all over a cube in front of gridView(), every one visible; meshes and materials in turn.
+    /// `count` boxes distributed over a cube in front of gridView(), all visible; meshes and materials take turns.
     void addCube(uint32_t count, uint32_t materialCount, uint32_t meshCount) {
         std::vector<scene::MaterialInstance*> looks;
         for (uint32_t i = 0; i < materialCount; ++i) looks.push_back(material());
@@ -70,7 +70,7 @@ struct BoxScene {
         }
     }
 
-    /// A view that holds all of addCube(count).
+    /// A view that contains all of addCube(count).
     static ViewInput cubeView(uint32_t count) {
         const double side = 1.5 * std::cbrt(static_cast<double>(count)) + 2;
         return { .camera = Camera::lookAt({ 0, 0, side }, { 0, 0, 0 }, { .verticalFovDegrees = 60 }),

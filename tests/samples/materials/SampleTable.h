@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SampleTable: what each file of samples/materials is expected to show.
+/// SampleTable: the expected effect of each file in samples/materials.
 #pragma once
 
 #include "tools/materials/MaterialFile.h"
@@ -11,15 +11,15 @@
 
 namespace filament::samples {
 
-/// What the property does to the mean of the picture.
+/// Effect of the property on the mean of the picture.
 enum class Effect : uint8_t { Differs, Brighter, Darker };
 
 struct Sample {
     std::string name;
-    tools::TextEdit without; ///< takes the property away; empty: nothing shows it yet
+    tools::TextEdit without; ///< removes the property; empty: it has no visible effect yet
     Effect effect = Effect::Differs;
     uint8_t samplesOfAPixel = 1;
-    bool hasLamp = true; ///< besides sun and sky
+    bool hasLamp = true; ///< in addition to sun and sky
 };
 
 inline std::ostream& operator<<(std::ostream& out, Sample const& sample) { return out << sample.name; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One body for the fuzzer (tests/fuzz/MaterialTextFuzz.cpp) and for the replay test: any text is a material or an
-/// error that says where, up to the GLSL that would be handed to glslang.
+/// Shared by the fuzzer (tests/fuzz/MaterialTextFuzz.cpp) and the replay test: any text gives a material, or an error
+/// with its position. Runs up to the GLSL that would be passed to glslang.
 #pragma once
 
 #include "base/Assert.h"
@@ -13,19 +13,19 @@
 
 namespace filament::shader::test {
 
-/// Every include exists and holds the same text: it may include itself.
+/// Every include exists and has the same text, so a file may include itself.
 inline std::optional<std::string> includedByEverybody(std::string_view) {
     return "\"culling\" : \"none\", #include \"again.inc\"\n";
 }
 
-/// "file:line: reason"; the file may be an included one, whose name is as odd as the text.
+/// "file:line: reason"; the file may be an included one, whose name is as arbitrary as the text.
 inline void expectReason(Error const& error) {
     const size_t reason = error.message.find(": ");
     FILAMENT_ASSERT(reason != std::string::npos && reason + 2 < error.message.size(),
                     "every refusal says where and why");
 }
 
-/// Whether GLSL came out.
+/// Whether GLSL was produced.
 inline bool fuzzMaterialText(std::string_view text) {
     Result<MaterialText> parsed = parseMaterialText(text, "fuzz.mat", includedByEverybody);
     if (!parsed) return expectReason(parsed.error()), false;

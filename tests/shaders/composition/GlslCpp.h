@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GlslCpp: what scripts/glsl_to_cpp.py expects around its text: types and built-in functions of GLSL in double, and
-/// textures that are functions.
-///   Thread  one: the text has global variables, as a fragment has.
-///   Not     derivatives (they are 0: a flat surface), images, integers of 32 bits beyond what the texts use.
+/// GlslCpp: what the text from scripts/glsl_to_cpp.py needs: types and built-in functions of GLSL in double precision,
+/// and textures as functions.
+///   Thread  one: the text has global variables, like a fragment.
+///   Not     derivatives (they are 0: a flat surface), images, 32-bit integers beyond what the texts use.
 #pragma once
 
 #include "shaders/lib/GlslBuiltIns.h"
@@ -92,7 +92,7 @@ LanesOf<V, Lanes...> lanesOf(V& v) {
     return { v };
 }
 
-/// Nothing is looked up but the split-sum table; everything else is white: a white furnace.
+/// Only the split-sum table is looked up; all other textures are white: a white furnace.
 struct samplerCube {};
 struct sampler2D {
     vec4 (*texel)(vec2 uv) = nullptr; ///< null: white

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// BothDevices: a test that asks a rig on Vulkan and the same rig on OpenGL ES, and is skipped where one is missing.
-///   Rig     static std::unique_ptr<Rig> make(backend::BackendType), null where no such device is installed.
-///   Memory  the rigs are made once a process: a context takes longer than a hundred pictures.
+/// BothDevices: a test that runs a rig on Vulkan and on OpenGL ES, and is skipped if one is missing.
+///   Rig     static std::unique_ptr<Rig> make(backend::BackendType), null if no such device is installed.
+///   Memory  the rigs are created once per process: a context takes longer than a hundred pictures.
 #pragma once
 
 #include "backend/create/CreateDriver.h"
@@ -29,7 +29,7 @@ private:
     };
 
     static Rigs& rigs() {
-        static auto* const made = new Rigs; // ends with the process: drivers do not like static destruction
+        static auto* const made = new Rigs; // lives until the process ends: drivers do not support static destruction
         return *made;
     }
 };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ExpressionRig: evaluates a GLSL expression on one device for many random inputs and gives back the bits.
+/// ExpressionRig: evaluates a GLSL expression on one device for many random inputs and returns the bits.
 ///   In      a vec4 expression of a, b, c (vec4, in [-4, 4]), p (vec4, in (0, 1)), m, n (mat4), and the samplers
 ///           plain (nearest), smooth_ (trilinear, with mips), cube (trilinear).
 ///   Fails   values(): the error of the compiler or of the driver.
@@ -23,7 +23,7 @@ public:
     /// Null where no such device is installed.
     static std::unique_ptr<ExpressionRig> make(backend::BackendType type);
 
-    /// 4 words an input: the IEEE bits of the result.
+    /// 4 words per input: the IEEE bits of the result.
     Result<std::vector<uint32_t>> values(std::string const& expression, bool exact);
 
 private:

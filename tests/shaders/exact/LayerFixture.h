@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LayerBits: materials of a few lines, drawn on both devices, which must agree to the bit.
+/// LayerBits: small materials drawn on both devices, which must agree to the bit.
 #pragma once
 
 #include "tests/shaders/exact/PictureFixture.h"
@@ -14,7 +14,7 @@ using Pixels = std::vector<float>;
 
 class LayerBits : public PictureFixture {
 protected:
-    /// `code` runs behind prepareMaterial(), `before` ahead of it; `amount` is the parameter materialParams.amount.
+    /// `code` runs after prepareMaterial(), `before` runs before it; `amount` is the parameter materialParams.amount.
     static MaterialScene scene(std::string const& code, float amount = 1, std::string const& properties = "",
                                std::string const& before = "") {
         MaterialScene scene;
@@ -33,7 +33,7 @@ protected:
         return scene;
     }
 
-    /// A sun, and lights around the surface of which one grazes it.
+    /// A sun, and lights around the surface, one of which grazes it.
     static MaterialScene lights(MaterialScene scene) {
         scene.variant = kVariantSun | kVariantPunctual;
         scene.frame.sunDirection = { 0.36f, 0.48f, 0.8f, 1 };

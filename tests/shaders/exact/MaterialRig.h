@@ -20,7 +20,7 @@ inline constexpr uint32_t kPictureSide = 64;
 
 struct MaterialScene {
     std::string material = "gltf_lit_opaque";
-    std::string source; ///< of a material to compile in its place, unless empty
+    std::string source; ///< compiled instead of an engine material, unless empty
     uint16_t variant = 0;
     std::map<std::string, uint32_t> constants;            ///< bits by name
     std::map<std::string, std::vector<float>> parameters; ///< components by name; missing ones are 0

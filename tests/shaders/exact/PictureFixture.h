@@ -13,14 +13,14 @@ namespace filament::shader::test {
 
 class PictureFixture : public BothDevices<MaterialRig> {
 protected:
-    /// Renders on both, expects finite values and, but for variants in 16 bits, equal bits. Returns the RGBA picture,
-    /// or nothing after an error.
+    /// Renders on both, expects finite values and, except for variants in 16 bits, equal bits. Returns the RGBA
+    /// picture, or nothing after an error.
     static std::vector<float> draw(MaterialScene const& scene) {
         const Result<std::vector<float>> onVulkan = vulkan().render(scene), onGles = gles().render(scene);
         EXPECT_TRUE(onVulkan) << (onVulkan ? "" : onVulkan.error().message) << scene.source;
         EXPECT_TRUE(onGles) << (onGles ? "" : onGles.error().message) << scene.source;
         if (!onVulkan || !onGles) return {};
-        if ((scene.variant & kVariantHalf) == 0) { // each driver rounds to 16 bits where it likes
+        if ((scene.variant & kVariantHalf) == 0) { // each driver chooses where it rounds to 16 bits
             EXPECT_EQ(differentValues(*onVulkan, *onGles), 0u)
                     << "variant " << scene.variant << ", " << (scene.source.empty() ? scene.material : scene.source);
         }

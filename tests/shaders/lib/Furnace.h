@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Integrals over directions in double, with the shader library in double (LibCppDouble.h): what every lobe and every
-/// stack of layers is held against. Midpoints in both angles; the polar one may crowd around the pole or the horizon.
+/// Integrals over directions in double precision with the shader library in double (LibCppDouble.h): the reference for
+/// every lobe and every stack of layers. Midpoints in both angles; the polar one may be concentrated at the pole or the
+/// horizon.
 #pragma once
 
 #include "shaders/lib/LibCppDouble.h"
@@ -11,15 +12,15 @@
 namespace filament::shader::lib64 {
 
 inline constexpr double kPiOfTests = std::numbers::pi;
-/// What rounding and quadrature may add to an albedo of 1.
+/// Allowance for rounding and quadrature above an albedo of 1.
 inline constexpr double kNoGain = 1.005;
 
 inline vec3 viewAt(double nov) { return { std::sqrt(1 - nov * nov), 0, nov }; }
 
 struct Quadrature {
     int polar = 400, azimuth = 128;
-    double polePower = 1;    ///< cosine = 1 - t^power: above 1 crowds around the normal
-    double horizonPower = 2; ///< cosine = t^power, where polePower is 1: above 1 crowds around the horizon
+    double polePower = 1;    ///< cosine = 1 - t^power: above 1 concentrates points at the normal
+    double horizonPower = 2; ///< cosine = t^power, if polePower is 1: above 1 concentrates points at the horizon
 };
 
 /// Integral of f(unit vector with z > 0) over solid angle. f returns double or vec3.
@@ -40,7 +41,7 @@ auto integrateUpper(F&& f, Quadrature q = {}) {
     return sum * (2 * kPiOfTests / q.azimuth);
 }
 
-/// The same over half vectors for a narrow lobe: f(l, h) is what reaches v from l, cosine included, and dl = 4 voh dh.
+/// The same over half vectors for a narrow lobe: f(l, h) is the light from l to v, cosine included, and dl = 4 voh dh.
 template <class F>
 auto integrateHalf(vec3 v, F&& f, Quadrature q) {
     return integrateUpper(

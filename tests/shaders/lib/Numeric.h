@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Brute-force integration and edge grids for the tests of shaders/lib: slow, obvious, in double.
+/// Brute-force integration and edge grids for the tests of shaders/lib: slow, simple, in double precision.
 #pragma once
 
 #include "shaders/lib/LibCpp.h"
@@ -12,12 +12,12 @@ namespace filament::shader::lib {
 
 inline constexpr double kPiExact = std::numbers::pi;
 
-/// Cosines, roughnesses and visibilities that shading must survive, zero and one among them.
+/// Cosines, roughnesses and visibilities that shading must support, including zero and one.
 inline constexpr std::array<float, 13> kEdges{ 0.0f, 1e-30f, 1e-10f, 1e-6f,     1e-4f,       0.01f, 0.1f,
                                                0.5f, 0.9f,   0.999f, 0.999999f, 0.99999994f, 1.0f };
 
 /// Integral of f(direction) over the upper hemisphere: midpoints in azimuth and in t, cosine = 1 - t^power, which
-/// crowds the points around the pole for narrow lobes.
+/// concentrates points at the pole for narrow lobes.
 template <class F>
 double integrateHemisphere(F&& f, int polarSteps = 512, int azimuthSteps = 64, double power = 2) {
     double sum = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One body for the fuzzer (tests/fuzz/PackageFuzz.cpp) and for the replay test: any bytes give a package or an error.
+/// Shared by the fuzzer (tests/fuzz/PackageFuzz.cpp) and the replay test: any bytes give a package or an error.
 #pragma once
 
 #include "base/Assert.h"
@@ -14,7 +14,7 @@ namespace filament::shader::test {
 
 inline constexpr size_t kPackageChecksumAt = 8, kPackageContentAt = 16;
 
-/// The same bytes with a checksum that matches, so that mutations reach the code behind it.
+/// The same bytes with a valid checksum, so that mutations reach the code behind the check.
 inline std::vector<std::byte> withValidChecksum(std::span<const std::byte> bytes) {
     std::vector<std::byte> fixed(bytes.begin(), bytes.end());
     if (fixed.size() < kPackageContentAt) return fixed;
@@ -24,7 +24,7 @@ inline std::vector<std::byte> withValidChecksum(std::span<const std::byte> bytes
     return fixed;
 }
 
-/// What was read can be written, and reads back as the same. Returns whether the bytes were a package.
+/// A package that was read can be written, and reads back the same. Returns whether the bytes were a package.
 inline bool readAndRewrite(std::span<const std::byte> bytes) {
     const Result<MaterialPackage> package = readPackage(bytes);
     if (!package) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Pictures that the tests of the comparison make up.
+/// Generated pictures for the tests of comparisons.
 #pragma once
 
 #include <filament/Image.h>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Surfaces in a frame that is no axis of anything, integrals over all directions, and whether samples fall as their
-/// density says.
+/// Surfaces in a frame aligned with no axis, integrals over all directions, and tests that samples follow their
+/// density.
 #pragma once
 
 #include "shaders/lib/LibCppDouble.h"
@@ -18,7 +18,7 @@ inline double3 directionAt(double cosine, double azimuth) {
     return { sine * std::cos(azimuth), sine * std::sin(azimuth), cosine };
 }
 
-/// A frame that is no axis of anything.
+/// A frame aligned with no axis.
 inline const double3 kNormal = glm::normalize(double3(0.3, -0.5, 0.8));
 
 inline double3 inFrame(double3 local) {
@@ -38,8 +38,8 @@ inline SurfaceSample surfaceOf(double roughness, double metallic, double3 baseCo
     return surface;
 }
 
-/// Integral over the sphere, midpoints; cosine = 1 - 2 t^4 from the mirror direction of a view at azimuth 0, around
-/// which lobes crowd.
+/// Integral over the sphere by midpoints; cosine = 1 - 2 t^4 from the mirror direction of a view at azimuth 0, where
+/// lobes are concentrated.
 template <class F>
 auto integrate(double viewCosine, F const& f, int polarSteps = 160, int azimuthSteps = 160) {
     const double3 axis = inFrame(directionAt(viewCosine, kPiExact));
@@ -55,7 +55,7 @@ auto integrate(double viewCosine, F const& f, int polarSteps = 160, int azimuthS
     return sum * (2 * kPiExact / (double(polarSteps) * azimuthSteps));
 }
 
-/// How often sample() gives no direction.
+/// How often sample() returns no direction.
 inline double shareWithoutDirection(Bsdf const& bsdf) {
     constexpr uint32_t kCount = 1u << 14;
     uint32_t lost = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Models made by hand, skies made by formula, and the statistics that tests of random estimates need.
+/// Models built by code, skies from formulas, and statistics for tests of random estimates.
 #pragma once
 
 #include "filament_core/assets/environment/IblDirections.h"
@@ -20,7 +20,7 @@ namespace filament::reference {
 
 inline constexpr double kPiExact = std::numbers::pi;
 
-/// The exposure whose factor is 1: pictures show lux and radiance as they are.
+/// The exposure with factor 1: pictures show lux and radiance unchanged.
 inline Exposure plainExposure() { return { .aperture = 1, .shutterSeconds = 1.2f, .iso = 100 }; }
 
 struct TestVertex {
@@ -160,7 +160,7 @@ inline ReferenceEnvironment uniformSky(float radiance = 1) {
     return { .image = makeSky(8, [=](double3) { return float3(radiance); }), .illuminance = Lux{ 1 } };
 }
 
-/// Looks from `eye` at `at` through a narrow lens, so that a small picture is almost one direction.
+/// Looks from `eye` at `at` through a narrow lens, so that a small picture covers almost a single direction.
 inline ReferenceView viewFrom(double3 eye, double3 at, uint2 size = { 8, 8 }, float fovDegrees = 1) {
     return { .camera = Camera::lookAt(eye, at, { .verticalFovDegrees = fovDegrees }, plainExposure()), .size = size };
 }
@@ -192,7 +192,7 @@ inline Estimate estimated(ReferenceScene const& scene, ReferenceView const& view
     return estimateOf(rendered(scene, view, settings));
 }
 
-/// Within four standard errors, plus what rounding and tessellation may add.
+/// Within four standard errors, plus an allowance for rounding and tessellation.
 inline void expectAgrees(double mean, double error, double expected, double slack, const char* what) {
     EXPECT_LE(std::abs(mean - expected), 4 * error + slack)
             << what << ": " << mean << " +- " << error << ", expected " << expected;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfFuzzBody: loads arbitrary bytes as glTF; one body for the fuzzer (tests/fuzz/GltfFuzz.cpp) and the mutation
-///   test. A file may be refused, with one line of text, or give a model that keeps every promise of ModelData.h.
+/// test. A file may be rejected, with one line of text, or give a model that keeps every promise of ModelData.h.
 #pragma once
 
 #include "filament_core/assets/gltf/GltfLoader.h"
@@ -160,7 +160,7 @@ inline const char* brokenPromise(ModelData const& model) {
     return broken;
 }
 
-/// Returns whether the file was loaded. Ends the process when something is wrong that no file may cause.
+/// Returns whether the file was loaded. Ends the process on an error that no file may cause.
 inline bool fuzzGltf(std::span<const std::byte> file, std::filesystem::path const& baseDirectory = "no such folder") {
     jobs::JobSystem jobs({ .workers = 0 });
     const Result<ModelData> model = loadGltfFromMemory(file, baseDirectory, jobs);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfTestFile: small glTF files written by tests, and reading back what the loader made of them.
+/// GltfTestFile: small glTF files written by tests, and access to the loaded result.
 #pragma once
 
 #include "filament_core/assets/gltf/GltfLoader.h"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the tests of pictures and environments share: a folder that vanishes, pictures made of a function.
+/// Shared by the tests of pictures and environments: a temporary folder, pictures generated from a function.
 #pragma once
 
 #include "filament_core/assets/environment/IblDirections.h"
@@ -54,7 +54,7 @@ HdrImage pictureOf(uint32_t height, F&& radiance, uint32_t samples = 1) {
     return image;
 }
 
-/// Up to `changes` random bytes replaced, one time in four also cut short. The same for the same seed.
+/// Replaces up to `changes` random bytes, and one time in four also truncates. The same for the same seed.
 inline std::vector<std::byte> damaged(std::vector<std::byte> bytes, uint32_t seed, uint32_t changes = 8) {
     std::mt19937 random(seed);
     for (uint64_t i = 0, count = 1 + random() % changes; i < count; ++i) {

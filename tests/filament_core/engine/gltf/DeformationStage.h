@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DeformationStage: a lit scene with spheres that hang on bones or have morph targets.
-///   drawOnBoth() builds the same stage on Vulkan and on OpenGL ES, with validation on, and expects no message and
-///   equal bits.
+/// DeformationStage: a lit scene with spheres that follow bones or have morph targets.
+///   drawOnBoth() builds the same stage on Vulkan and OpenGL ES with validation, and expects no messages and equal
+///   bits.
 #pragma once
 
 #include "tests/filament_core/engine/RenderFixture.h"
@@ -15,7 +15,7 @@
 
 namespace filament::test {
 
-/// How many bones each vertex hangs on.
+/// Number of bones per vertex.
 enum class Joints : uint8_t { None, Four, Eight };
 
 class DeformationStage {
@@ -77,7 +77,7 @@ public:
     Engine& engine() { return mEngine; }
 
 private:
-    /// Hangs on one bone by a half, on a second by a quarter, and on two more.
+    /// Half weight on one bone, a quarter on a second, and the rest on two more.
     struct Vertex {
         scenes::SphereVertex base;
         std::array<uint8_t, 4> joints{ 0, 1, 2, 3 }, joints1{ 3, 2, 1, 0 };
@@ -95,7 +95,7 @@ public:
     View view;
 };
 
-/// The picture, which both devices draw alike, without a message.
+/// The picture, which both devices must draw identically and without messages.
 inline Image drawOnBoth(std::function<void(DeformationStage&)> const& build) {
     std::vector<Image> images;
     for (const Backend backend : kBothApis) {
@@ -112,7 +112,7 @@ inline Image drawOnBoth(std::function<void(DeformationStage&)> const& build) {
     return images[0];
 }
 
-/// Some edge pixels may fall on the other side: positions are rounded along another way.
+/// Allows differences at some edge pixels: positions are rounded in a different way.
 inline void expectNearlyEqual(Image const& a, Image const& b, const char* what) {
     const Difference difference = differenceOf(a, b);
     EXPECT_LE(difference.pixels, a.pixels.size() / 4 / 50) << what << ", largest " << difference.largest;

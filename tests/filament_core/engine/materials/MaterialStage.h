@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// MaterialStage: an engine with materials from .mat text and a few meshes, for pictures whose colours are known.
-///   onBothApis() builds the same stage on Vulkan and on OpenGL ES, with validation on, expects that nobody reports an
-///   error and that both pictures have the same bits, and returns the picture: scene-linear half floats.
+///   onBothApis() builds the same stage on Vulkan and OpenGL ES with validation, expects no errors and equal bits, and
+///   returns the picture: scene-linear half floats.
 #pragma once
 
 #include "shaders/compiler/MaterialCompiler.h"
@@ -35,7 +35,8 @@ public:
         view.clearColor = float4(0, 0, 0, 1);
     }
 
-    /// None, and a failure, where the text does not compile. Variants that a test does not need only take time.
+    /// None, and a test failure, if the text does not compile. Filter variants that a test does not need: they only
+    /// take time.
     MaterialInstance material(std::string_view text, uint16_t filteredVariants = 0) {
         const Result<shader::MaterialPackage> package =
                 shader::compileMaterial(text, "stage.mat", { .filteredVariants = filteredVariants });
@@ -116,7 +117,7 @@ private:
     std::vector<Owned<MaterialInstance>> mInstances;
 
 public:
-    Scene scene; ///< before what it shows in the order of destruction
+    Scene scene; ///< destroyed before the objects it shows
 };
 
 /// build(MaterialStage&) puts things on the stage.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// One flat patch, one sun and an environment made of numbers: pixels whose radiance has a closed form.
+/// One flat patch, one sun and a synthetic environment: the radiance of pixels has a closed form.
 #pragma once
 
 #include "tests/filament_core/engine/RenderFixture.h"
@@ -13,8 +13,8 @@
 
 namespace filament::test {
 
-/// The plane z = 0 between -1 and 1, normal +z, seen from an angle of its normal, exposure undone: pixels are
-/// radiances. The sun and the environment are off until asked for.
+/// The plane z = 0 between -1 and 1, normal +z, seen at an angle, with the exposure undone: pixels are radiances. The
+/// sun and the environment are off until added.
 class Patch {
 public:
     explicit Patch(Engine& engine, double viewDegrees = 0, MaterialDesc const& material = lit())

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What tests of comparisons share: where the committed rows and scenes are, a folder to write to, small pictures.
+/// Shared by the tests of comparisons: the committed rows and scenes, a folder for output, small pictures.
 #pragma once
 
 #include "tools/accuracy/comparison/Comparison.h"
