@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfJson: reads fields of an untrusted JSON tree.
+/// JsonTree: reads fields of an untrusted JSON tree.
 ///   A JsonNode is a value and its path ("meshes[2].primitives[0].mode"), or missing. A field of a missing node is
 ///   another missing node, and its value is the fallback. A value of the wrong kind is an error with its path.
 ///   Thread  read-only after parse; the diagnostics belong to one thread.
 ///   Limits  integers up to 2^53 (exact in a JSON double). Values nested deeper than any field of glTF are null. Only
-///           GltfJson.cpp includes the JSON library.
+///           JsonTree.cpp includes the JSON library.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"
