@@ -62,7 +62,7 @@ Result<void> checkSampler(scene::Material const& material, Parameter const& para
                 material.name, toString(parameter.type));
 }
 
-Result<void> checkTexture(scene::Material const& material, Parameter const& parameter, TextureDesc const& texture,
+Result<void> checkTexture(scene::Material const& material, Parameter const& parameter, DeviceTextureDesc const& texture,
                           std::string_view name) {
     if (texture.type != kindOf(parameter.type)) {
         return fail(ErrorCode::InvalidArgument, "parameter '{}' of material '{}' is {}, but texture '{}' is {}",

@@ -7,7 +7,7 @@ highp vec3 punctualLights(Surface surface) {
     highp vec3 sum = vec3(0.0);
     int count = int(frameUniforms.ambient.w);
     for (int i = 0; i < count; ++i) { // a loop even for few lights: unrolled code takes seconds to compile
-        LightRecord light = lightUniforms.lights[i];
+        PunctualLight light = lightUniforms.lights[i];
         highp vec3 toLight = light.positionRange.xyz - vertex_worldPosition;
         highp float attenuation = distanceAttenuation(toLight, light.positionRange.w);
         if (attenuation <= 0.0) continue; // out of range
