@@ -49,6 +49,7 @@ struct FrameView {
 };
 /// In `execute` of a pass, when the packet is on the device.
 inline FrameView viewOf(FrameContext const& context, size_t view) {
+    FILAMENT_ASSERT(view < context.views.size(), "a view is on the device when passes draw it");
     return { context.packet.views[view], context.views[view] };
 }
 

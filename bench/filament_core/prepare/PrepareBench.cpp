@@ -104,6 +104,25 @@ void frame(benchmark::State& state) {
     samples.report(state, setup.count);
 }
 
+/// Frames of `renderables` with shadow views besides the main one, each of which sees all of them; counters a renderable
+/// and view.
+void views(benchmark::State& state) {
+    Setup setup(state);
+    std::vector<ViewInput> inputs(static_cast<size_t>(state.range(3)), setup.view);
+    for (ViewInput& input : std::span(inputs).subspan(1)) input.kind = ViewKind::Shadow;
+    Samples samples;
+    for (auto _ : state) {
+        setup.arena.reset();
+        state.SetIterationTime(samples.time(
+                [&] { benchmark::DoNotOptimize(prepareFrame(setup.jobs, setup.arena, setup.boxes.scene, inputs)); }));
+    }
+    samples.report(state, setup.count * static_cast<uint32_t>(inputs.size()));
+}
+BENCHMARK(views)
+        ->ArgNames({ kRenderables, kLooks, kWorkers, "views" })
+        ->ArgsProduct({ { 10'000 }, { 1024 }, { 0, 1 }, { 1, 2, 5 } })
+        ->UseManualTime();
+
 void arguments(benchmark::internal::Benchmark* bench) {
     bench->ArgNames({ kRenderables, kLooks, kWorkers })
             ->ArgsProduct({ { 1000, 10'000, 100'000 }, { 1, 1024 }, { 0, 1 } })
