@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CodeScan: which words a piece of GLSL has outside of its comments. Decides which interpolants the getters need.
-///   May say yes too often (a function that is never called), never no for code that really calls it.
-///   Thread  any, once made. Memory: the words of the text.
+/// CodeScan: the words of a piece of GLSL outside its comments. Decides which interpolants the getters need.
+///   May report too many (a function that is never called), but never misses one that the code really calls.
+///   Thread  any, after construction. Memory: the words of the text.
 #pragma once
 
 #include <cstdint>

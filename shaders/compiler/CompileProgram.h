@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compileProgram: two GLSL 450 stages -> the SPIR-V that Vulkan takes and the ESSL 3.10 that OpenGL ES takes.
+/// compileProgram: compiles two GLSL 450 stages to SPIR-V for Vulkan and ESSL 3.10 for OpenGL ES.
 ///   Steps   glslang (SPIR-V 1.3, Vulkan 1.1 rules) -> SPIRV-Tools performance passes -> exact lowering -> reflection
 ///           -> SPIR-V, and SPIRV-Cross -> ESSL. Both languages come from the same lowered module.
-///   Exact   `exact` spells out the operations that Mesa expands differently for the two languages (ExactLowering.h)
-///           and forbids reordering (ForbidReordering.h): both devices do the same arithmetic in the same order. All
-///           of it is highp, whatever the source says (FullPrecision.h), but for fragment stages with halfFragment.
-///   ESSL    bindings are numbered with backend::flatBinding; without `exact` what the source says is mediump is;
-///           a subpass input becomes a framebuffer fetch of the colour attachment of the same index; the value of
-///           specialisation constant N is the macro SPIRV_CROSS_CONSTANT_ID_N, defined behind the #version line.
+///   Exact   `exact` writes out the operations that Mesa expands differently for the two languages (ExactLowering.h)
+///           and forbids reordering (ForbidReordering.h): both devices do the same arithmetic in the same order. All of
+///           it is highp, whatever the source says (FullPrecision.h), except for fragment stages with halfFragment.
+///   ESSL    bindings are numbered with backend::flatBinding; without `exact`, mediump in the source stays mediump; a
+///           subpass input becomes a framebuffer fetch of the colour attachment of the same index; the value of
+///           specialisation constant N is the macro SPIRV_CROSS_CONSTANT_ID_N, defined after the #version line.
 ///   Thread  any; calls are independent and equal input gives equal bytes.
 ///   Fails   InvalidArgument with "file:line: reason" for GLSL errors and for a layout that lacks a binding;
-///           Unsupported for what ESSL cannot express. Cost: 5 to 50 ms, half of it the optimiser.
+///           Unsupported for code that ESSL cannot express. Cost: 5 to 50 ms, half of it in the optimiser.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -36,18 +36,20 @@ enum class Optimization : uint8_t {
 };
 
 struct ProgramCompileOptions {
-    bool exact = true; ///< same bits on both APIs
-    /// What the fragment stage marks mediump is computed in 16 bits on Vulkan, too (halfFromRelaxed()), which needs
-    /// DeviceFeatures::halfFloatShaders. Otherwise Vulkan computes it in 32 bits: Mesa ignores RelaxedPrecision.
+    bool exact = true; ///< the same bits on both APIs
+    /// Parts of the fragment stage marked mediump are computed in 16 bits on Vulkan too (halfFromRelaxed()), which
+    /// needs DeviceFeatures::halfFloatShaders. Otherwise Vulkan computes them in 32 bits: Mesa ignores
+    /// RelaxedPrecision.
     bool halfFragment = false;
     Optimization optimization = Optimization::Performance;
-    bool spirv = true; ///< languages wanted; reflection happens in any case
+    bool spirv = true; ///< requested languages; reflection always happens
     bool essl = true;
     /// Uniform buffers with a dynamic offset; nothing: all of group 0.
     std::optional<std::vector<SetBinding>> dynamicUniformBuffers = std::nullopt;
-    /// The layout to number by, which must contain every binding that the shaders use; nothing: reflected from them.
+    /// The layout used for numbering, which must contain every binding that the shaders use; nothing: reflected from
+    /// them.
     std::optional<backend::ProgramLayout> layout = std::nullopt;
-    std::string_view vertexName = "vertex"; ///< stands before the line in errors, until a #line names another
+    std::string_view vertexName = "vertex"; ///< precedes the line in errors, until a #line names another file
     std::string_view fragmentName = "fragment";
 };
 
@@ -64,8 +66,8 @@ struct StageShader {
     uint32_t vertexInputs = 0; ///< of a vertex stage
 };
 
-/// One stage by itself, with options.layout. Programs whose stages are equal share what this gives: the other stage has
-/// no influence on it.
+/// One stage alone, with options.layout. Programs with equal stages share the result: the other stage has no influence
+/// on it.
 Result<StageShader> compileStage(std::string_view glsl, backend::ShaderStage stage,
                                  ProgramCompileOptions const& options);
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Cost: what the fragment stages of a material do, counted, beside the cheapest lit material.
-///   Out     instructions of the optimised SPIR-V by kind, each once: not how often a loop runs, and not what a driver
-///           folds when the specialisation constants are known.
+/// Cost: counts the operations of a material's fragment stages, compared with the cheapest lit material.
+///   Out     instructions of the optimised SPIR-V by kind, each counted once: regardless of loops, and before the
+///           driver folds specialisation constants.
 ///   Thread  any. Fails: as compileMaterial(). Cost: two materials compiled.
 #pragma once
 
@@ -15,8 +15,8 @@
 namespace filament::shader {
 
 struct InstructionCounts {
-    uint32_t arithmetic = 0;     ///< also comparisons, conversions and choices without a branch
-    uint32_t transcendental = 0; ///< also roots, and what is made of them: normalize, length
+    uint32_t arithmetic = 0;     ///< includes comparisons, conversions and selections without a branch
+    uint32_t transcendental = 0; ///< includes roots and functions that contain them: normalize, length
     uint32_t control = 0;        ///< branches, calls, discards
     uint32_t memory = 0;         ///< loads and stores: uniforms, interpolants, outputs
     uint32_t fetches = 0;        ///< of textures
@@ -28,7 +28,7 @@ struct InstructionCounts {
 /// Of a valid SPIR-V module.
 InstructionCounts countInstructions(std::span<const uint32_t> module);
 
-/// A table for people: the terms that are in, and a row for each variant.
+/// A table as text: the terms in the material, and a row for each variant.
 Result<std::string> costReport(std::string_view text, std::string_view fileName, CompileOptions options = {});
 
 } // namespace filament::shader

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DefinitionRules: what no single property can say of a material: contradictions, and how many samplers it may have.
-///   Thread  any. Fails: InvalidArgument at the line of the property that asks too much, with the cure.
+/// DefinitionRules: rules that involve several properties: contradictions, and the number of samplers.
+///   Thread  any. Fails: InvalidArgument at the line of the offending property, with the cure.
 #pragma once
 
 #include "shaders/compiler/MaterialDefinition.h"

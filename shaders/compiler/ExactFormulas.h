@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The formulas of ExactLowering: what each operation of GLSL means, as the sequence that both APIs execute.
+/// The formulas of ExactLowering: each GLSL operation as the sequence that both APIs execute.
 ///   Sources  GLSL 4.50 specification, chapter 8 (definitions); cited where the definition leaves the order open.
 #pragma once
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// forbidReordering: marks every floating-point operation and function of a module as one that a driver may neither
-/// fuse nor reorder nor replace (SPIR-V: NoContraction; `precise` in the ESSL made from it).
+/// forbidReordering: marks every floating-point operation and function of a module so that drivers may not fuse,
+/// reorder or replace it (SPIR-V: NoContraction; `precise` in the ESSL made from it).
 ///   Why     Mesa's GLSL compiler balances chains such as ((a + b) + c) + d into (a + b) + (c + d); its SPIR-V front
 ///           end does not (measured: every third result of a four-component dot product differed).
 ///   In      valid SPIR-V. Thread: any. Fails: never for a valid module. Cost: one pass over the words; no measurable

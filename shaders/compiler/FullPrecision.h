@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// fullPrecision: mediump and lowp taken back. One device computes them in 16 bits and the other in 32 (Mesa ignores
-/// RelaxedPrecision, not ESSL's mediump), so exact programs have neither, whatever precision the source asks for.
+/// fullPrecision: removes mediump and lowp. One device computes them in 16 bits and the other in 32 (Mesa ignores
+/// RelaxedPrecision, but not ESSL's mediump), so exact programs have neither, whatever precision the source requests.
 ///   In      a module of glslang.  Out: the same without the decoration RelaxedPrecision.
 ///   Thread  any; pure.  Fails: never.
 #pragma once

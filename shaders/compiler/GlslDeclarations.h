@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The declarations that a material's lists turn into: the MaterialParams block, samplers, constants and variables.
+/// The declarations generated from a material's lists: the MaterialParams block, samplers, constants and variables.
 ///   Thread  any. Fails: never.
 #pragma once
 

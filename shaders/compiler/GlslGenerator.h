@@ -11,7 +11,7 @@
 
 namespace filament::shader {
 
-/// What the author's code makes necessary; equal for all variants.
+/// What the author's code requires; equal for all variants.
 struct MaterialNeeds {
     bool worldPosition = false, normal = false, tangent = false;
     bool clipSpaceTransform = false;
@@ -22,7 +22,7 @@ struct MaterialNeeds {
     bool has(std::string_view term) const;
 };
 
-/// What the names in the code say: getters and the functions that must be there. The terms come from findTerms().
+/// Derived from the names in the code: getters and required functions. The terms come from findTerms().
 Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes);
 
 /// The bits of a variant that change the text of its vertex stage; the others change the fragment stage.

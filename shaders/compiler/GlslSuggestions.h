@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GlslSuggestions: "did you mean" for the errors of the GLSL compiler, which knows no names of materials.
-///   Thread  any. Fails: never; an error about nothing that a material declares stays as it is.
+/// GlslSuggestions: "did you mean" for errors of the GLSL compiler, which does not know the names of materials.
+///   Thread  any. Fails: never; other errors are not changed.
 #pragma once
 
 #include "shaders/compiler/MaterialDefinition.h"

@@ -23,12 +23,12 @@ Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::Shad
 Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv,
                                             Optimization goal = Optimization::Performance);
 
-/// Computes in 16-bit floats whatever is marked RelaxedPrecision, with conversions where the two kinds meet. Vulkan
-/// drivers may do so by themselves; Mesa's does not, so the compiler does.
-///   Limits  of optimizeSpirv()'s making: no calls, no local variables. The coordinates of textures must be computed in
-///           32 bits: Mesa 22 takes a conversion from 16 bits away and then stops the process ("Cannot emit physreg
-///           copy instruction").
-///   Fails   Unsupported if there is something that SPIRV-Tools cannot convert.
+/// Converts everything marked RelaxedPrecision to 16-bit floats, with conversions at the boundaries. Vulkan drivers may
+/// do so themselves; Mesa's does not, so the compiler does.
+///   Limits  output of optimizeSpirv(): no calls, no local variables. Texture coordinates must be computed in 32 bits:
+///           Mesa 22 removes a conversion from 16 bits and then aborts the process ("Cannot emit physreg copy
+///           instruction").
+///   Fails   Unsupported for operations that SPIRV-Tools cannot convert.
 Result<std::vector<uint32_t>> halfFromRelaxed(std::span<const uint32_t> spirv);
 
 /// Drops the names, which no driver needs.

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compileMaterial: the text of a .mat file -> a package with every variant in both languages.
+/// compileMaterial: compiles the text of a .mat file to a package with every variant in both languages.
 ///   Steps   parse (Jsonish) -> check (MaterialDefinition) -> which properties does the code set (CodeScan)?
 ///           -> generate GLSL per variant (GlslGenerator) -> compile (CompileProgram) -> package.
 ///   Thread  any; with `jobs` the variants are compiled in parallel. The bytes do not depend on it.
-///   Memory  what the package holds, and some megabytes a thread while compiling.
+///   Memory  the contents of the package, and some megabytes per thread while compiling.
 ///   Fails   InvalidArgument or Unsupported, "file:line: reason" in the author's file, also for errors of the GLSL.
-///   Cost    about 50 ms a variant.
+///   Cost    about 50 ms per variant.
 #pragma once
 
 #include "base/Result.h"
@@ -24,28 +24,28 @@ class JobSystem;
 namespace filament::shader {
 
 struct CompileOptions {
-    bool exact = true; ///< same bits on both APIs (ExactLowering.h)
+    bool exact = true; ///< the same bits on both APIs (ExactLowering.h)
     Optimization optimization = Optimization::Performance;
-    bool spirv = true; ///< languages that the package gets
+    bool spirv = true; ///< languages in the package
     bool essl = true;
-    Platform platform = Platform::All; ///< whose defaults
-    uint16_t filteredVariants = 0; ///< VariantBits never asked for, besides those of the material's own variantFilter
+    Platform platform = Platform::All; ///< which defaults
+    uint16_t filteredVariants = 0;     ///< VariantBits never requested, besides the material's own variantFilter
     /// Files besides the engine's own (which are asked first): usually those beside the .mat.
     IncludeResolver includes{};
-    jobs::JobSystem* jobs = nullptr; ///< null: on the calling thread alone
+    jobs::JobSystem* jobs = nullptr; ///< null: compile on the calling thread only
 };
 
 Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view fileName,
                                         CompileOptions const& options = {});
 
-/// What the compiler hands to glslang, for reading: both stages of every variant.
+/// The text passed to glslang, for reading: both stages of every variant.
 Result<std::string> preprocessMaterial(std::string_view text, std::string_view fileName,
                                        CompileOptions const& options = {});
 
-/// The terms that are in, as their macros, in one line (MaterialAnalysis.h).
+/// The terms in the material, as macros on one line (MaterialAnalysis.h).
 Result<std::string> describeTerms(std::string_view text, std::string_view fileName, CompileOptions const& options = {});
 
-/// What the material declares, as JSON: the guide's `--reflect parameters`. The code is not compiled.
+/// The material's declarations as JSON: the guide's `--reflect parameters`. The code is not compiled.
 Result<std::string> reflectParameters(std::string_view text, std::string_view fileName,
                                       CompileOptions const& options = {});
 

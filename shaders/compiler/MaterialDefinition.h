@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialDefinition: what a .mat file says, checked and with defaults filled in, before any code is generated.
+/// MaterialDefinition: the contents of a .mat file, checked and with defaults filled in, before any code is generated.
 ///   In      MaterialText (Jsonish.h). Out: plain values.
 ///   Thread  any. Fails: InvalidArgument with "file:line: reason": misspelt names with a suggestion, values out of
-///           range, properties that contradict each other (DefinitionRules.h), more samplers than the feature level
-///           has.
+///           range, contradictory properties (DefinitionRules.h), more samplers than the feature level allows.
 #pragma once
 
 #include "shaders/compiler/Jsonish.h"
@@ -15,7 +14,7 @@
 
 namespace filament::shader {
 
-/// What only the generated code needs to know of a parameter; same order as MaterialPackage::parameters.
+/// Data about a parameter that only the generated code needs; same order as MaterialPackage::parameters.
 struct ParameterSource {
     SourcePosition at;
 };
@@ -35,14 +34,14 @@ struct SpecularAntiAliasing {
 enum class SpecularAmbientOcclusion : uint8_t { None, Simple, BentNormals };
 enum class ClothDistribution : uint8_t { Charlie, Ashikhmin };
 
-/// A property that the author wrote, and where.
+/// A property that the author wrote, and its position.
 struct GivenProperty {
     std::string name;
     SourcePosition at;
 };
 
 struct MaterialDefinition {
-    MaterialPackage package; ///< everything but attributes, layout and variants
+    MaterialPackage package; ///< everything except attributes, layout and variants
     std::vector<ParameterSource> parameterSources;
     std::vector<Variable> variables;
     uint32_t requiredAttributes = 0; ///< bit n: location n, from `requires`
@@ -60,7 +59,7 @@ struct MaterialDefinition {
     GlslBlock fragment;
     std::string fileName;
 
-    /// Where the author wrote a property; null: it has its default.
+    /// The position of a property in the file; null: it has its default.
     SourcePosition const* find(std::string_view property) const;
     /// An error about a property, at its line; about the file if it has its default.
     Error errorAbout(std::string_view property, std::string const& message,

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// MaterialMembers: the members of MaterialInputs (materials guide, 4.4.2), one row each: who has it, what it is at
-/// first, when it costs nothing, and the term that comes into the shader otherwise.
-///   The rows are the only place that knows: the struct, initMaterial() and the analysis of what a material sets
-///   (MaterialAnalysis.h) follow from them.
+/// MaterialMembers: the members of MaterialInputs (materials guide, 4.4.2), one row each: which materials have it, its
+/// initial value, when it costs nothing, and the term it adds to the shader otherwise.
+///   The rows are the only source: the struct, initMaterial() and the analysis of what a material sets
+///   (MaterialAnalysis.h) are derived from them.
 ///   Thread  any; constant data.
 #pragma once
 
@@ -17,8 +17,8 @@ namespace filament::shader {
 
 enum class Absent : uint8_t {
     Never,     ///< always read: no term
-    Untouched, ///< the term is in as soon as the code writes the member, whatever it writes
-    Neutral,   ///< the term is in unless the member is `neutral` wherever the code has run
+    Untouched, ///< the term is included as soon as the code writes the member
+    Neutral,   ///< the term is included unless the member is always `neutral` after the code has run
 };
 
 struct MaterialMember {
@@ -28,9 +28,9 @@ struct MaterialMember {
     bool (*isMemberOf)(MaterialDefinition const&) = nullptr;
     Absent absent = Absent::Never;
     std::string_view term;          ///< the macro that the texts test; empty: none
-    std::array<float, 4> neutral{}; ///< NaN: any value is
-    bool isPrepared = false;        ///< prepareMaterial() takes it: what is written behind that has no effect
-    bool isTangential = isPrepared; ///< what it says is said in tangent space: needs tangents
+    std::array<float, 4> neutral{}; ///< NaN: any value
+    bool isPrepared = false;        ///< prepareMaterial() reads it: later writes have no effect
+    bool isTangential = isPrepared; ///< given in tangent space: needs tangents
 };
 
 std::span<const MaterialMember> materialMembers();

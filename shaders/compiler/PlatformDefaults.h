@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What `matc --platform` changes: the defaults that the materials guide gives for phones and for desktops. One package
-/// runs on both; what the author states is as stated on both.
+/// The effect of `matc --platform`: the defaults that the materials guide gives for phones and for desktops. One
+/// package runs on both, and properties that the author states are the same on both.
 ///   Mobile  quality low; no multi-bounce and no specular occlusion (4.2.8, 4.2.32, 4.2.33).
 ///   Desktop quality high.   All: as Desktop, and the quality stays "default".
 ///   Thread  any. Fails: never.

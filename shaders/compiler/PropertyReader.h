@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Typed access to JsonValues: each function gives the value or the error that tells the author what to write instead.
+/// Typed access to JsonValues: each function returns the value, or an error that tells the author what to write
+/// instead.
 ///   Names of values are compared without regard to case (materials guide, 4.1.1).
 #pragma once
 
@@ -17,14 +18,14 @@ bool equalIgnoringCase(std::string_view a, std::string_view b);
 
 Result<void> expectKind(JsonValue const& value, JsonValue::Kind kind, std::string_view what);
 Result<void> readBool(JsonValue const& value, std::string_view what, bool& out);
-/// Refuses numbers outside [low, high].
+/// An error for numbers outside [low, high].
 Result<void> readNumber(JsonValue const& value, std::string_view what, float low, float high, float& out);
 /// A GLSL identifier that does not collide with the engine's prefixes.
 Result<void> readIdentifier(JsonValue const& value, std::string_view what, std::string& out);
 Result<void> readPrecision(JsonValue const& value, Precision& out);
 /// The member of an object, or null.
 JsonValue const* findMember(JsonValue const& object, std::string_view key);
-/// Refuses members of `object` that are not listed.
+/// An error for members of `object` that are not listed.
 Result<void> expectOnly(JsonValue const& object, std::span<const std::string_view> known, std::string_view what);
 
 Error unknownName(JsonValue const& value, std::string_view what, std::span<const std::string_view> known);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Reads the bind group layout and the vertex inputs out of the SPIR-V of one stage or both.
+/// Reads the bind group layout and the vertex inputs from the SPIR-V of one or both stages.
 ///   Thread  any. Cost: two parses.
-///   Fails   InvalidArgument: a set or binding beyond the limits, the same binding declared as two different things,
-///           a resource kind that no BindingType stands for (storage buffers, separate samplers, arrays of samplers).
+///   Fails   InvalidArgument: a set or binding beyond the limits, the same binding declared in two different ways, a
+///           kind of resource without a BindingType (storage buffers, separate samplers, arrays of samplers).
 #pragma once
 
 #include "backend/api/Descriptions.h"

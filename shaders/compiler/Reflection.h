@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Reflection: what a definition declares, as JSON in the form of the materials guide, 5.2.4.
+/// Reflection: the declarations of a definition as JSON, in the form of the materials guide, 5.2.4.
 ///   Thread  any. Fails: never.
 #pragma once
 
@@ -9,7 +9,7 @@
 
 namespace filament::shader {
 
-/// The author's parameters in the order of the file; sizes are texts, as in the guide.
+/// The author's parameters in the order of the file; sizes are strings, as in the guide.
 std::string parametersAsJson(MaterialDefinition const& definition);
 
 } // namespace filament::shader

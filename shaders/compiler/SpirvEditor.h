@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SpirvEditor: reads a SPIR-V module and writes it again with single instructions replaced by several.
+/// SpirvEditor: reads a SPIR-V module and writes it again, replacing single instructions by several.
 ///   In      a valid module (of glslang or SPIRV-Tools); the words must outlive the editor.
 ///   Out     rewrite(): the new module; ids of results keep their numbers, names and decorations.
 ///   Thread  one at a time. Memory: a table by id and the new words.
-///   Limits  knows the types of values and 32-bit float constants; everything else is copied as it is.
-///   Fails   never for a valid module; FILAMENT_ASSERT for one that is cut short.
+///   Limits  knows the types of values and 32-bit float constants; everything else is copied unchanged.
+///   Fails   never for a valid module; FILAMENT_ASSERT for a truncated one.
 #pragma once
 
 #include <spirv_cross/spirv.hpp>
@@ -26,19 +26,18 @@ public:
 
     struct Instruction {
         spv::Op op = spv::OpNop;
-        Id type = 0, result = 0;            ///< 0 where the instruction has none
-        std::span<const uint32_t> operands; ///< behind type and result
+        Id type = 0, result = 0;            ///< 0 if the instruction has none
+        std::span<const uint32_t> operands; ///< after type and result
     };
 
     explicit SpirvEditor(std::span<const uint32_t> module);
 
-    /// Returns the id that holds the value of the instruction, after emitting what computes it; 0: keep the
-    /// instruction.
+    /// Emits code for the instruction and returns the id of its value; 0 keeps the instruction.
     using Replace = std::function<Id(Instruction const&)>;
     /// Offers every instruction inside functions to `replace`, in order.
     std::vector<uint32_t> rewrite(Replace const& replace);
 
-    // ---- what the module says
+    // ---- queries
     Id typeOf(Id value) const;
     bool isFloat32(Id type) const; ///< scalar, vector or matrix of 32-bit floats
     bool isVector(Id type) const;
@@ -46,7 +45,7 @@ public:
     Id elementType(Id type) const;        ///< of a vector: its scalar; of a matrix: its column; of a scalar: itself
     /// Components of a 32-bit float constant; empty for everything else.
     std::span<const float> constantOf(Id value) const;
-    /// Follows from constants and specialisation constants alone, so the driver can know it when it compiles.
+    /// Depends only on constants and specialisation constants, so the driver knows it when it compiles.
     bool isConstantExpression(Id value) const;
     Id extendedInstructions() const;              ///< the GLSL.std.450 import; 0: none
     bool isExtended(Instruction const& at) const; ///< an OpExtInst of GLSL.std.450
@@ -78,7 +77,7 @@ private:
     Id findOrMakeType(spv::Op op, Id element, uint32_t count);
 
     std::span<const uint32_t> mModule;
-    size_t mGlobals = 0;   ///< word index behind the annotations
+    size_t mGlobals = 0;   ///< word index after the annotations
     size_t mFunctions = 0; ///< word index of the first function
     std::vector<Id> mTypeOf;
     std::unordered_map<Id, Type> mTypes;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Value: a 32-bit float scalar, vector or matrix of the module being edited; its operators emit instructions, so that
-/// a formula in C++ is the formula in the shader, operation by operation, in the order written.
+/// Value: a 32-bit float scalar, vector or matrix of the module being edited. Its operators emit instructions, so that
+/// a C++ formula becomes the same formula in the shader, operation by operation, in the order written.
 ///   Thread  that of the editor. Fails: never.
 #pragma once
 

@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// StageText: the GLSL of one stage being put together from the engine's files, generated lines and the author's
-/// blocks.
+/// StageText: assembles the GLSL of one stage from the engine's files, generated lines and the author's blocks.
 ///   Every piece is preceded by a #line directive, so that errors name the author's file and line.
-///   Includes are followed recursively, each file at most once a stage.
+///   Includes are followed recursively, each file at most once per stage.
 ///   Thread  one at a time. Limits: 4 MiB of text.
-///   Fails   InvalidArgument, "file:line: cannot find ..." for an include that nobody knows.
+///   Fails   InvalidArgument, "file:line: cannot find ..." for an unknown include.
 #pragma once
 
 #include "shaders/compiler/Jsonish.h"
@@ -21,7 +20,7 @@ public:
 
     void line(std::string_view text);
     void define(std::string_view name, std::string_view value = {});
-    /// The next lines stem from `at`, until the next piece. Nothing happens for positions without a file.
+    /// The following lines come from `at`, until the next piece. Does nothing for positions without a file.
     void originate(SourcePosition const& at);
     Result<void> include(std::string_view path);
     Result<void> block(GlslBlock const& block);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The properties of a material that are one value: enumerators, switches and numbers (materials guide, 4.2).
-///   Out     the table of all properties that are not lists, each with the function that reads it.
+///   Out     the table of all properties that are not lists, each with its reading function.
 ///   Fails   as MaterialDefinition.h says.
 #pragma once
 

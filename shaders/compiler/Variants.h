@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Which variants of a material exist: one for every combination of what the scene may ask of it and no filter
+/// The variants of a material: one for every combination of features that the scene may request and that no filter
 /// excludes.
 ///   Thread  any. Fails: never.
 #pragma once
@@ -11,8 +11,8 @@
 
 namespace filament::shader {
 
-/// The bits that can change the code of such a material: none for post-process ones, no lights for unlit ones,
-/// kVariantHalf only where the material asks for it. What is given in object space can be deformed.
+/// The bits that can change the code of such a material: none for post-process materials, no lights for unlit ones,
+/// kVariantHalf only if the material requests it. Materials in object space can be deformed.
 uint16_t selectableBits(MaterialDefinition const& definition);
 
 /// Ascending; always contains 0. `selectable`: see above.
