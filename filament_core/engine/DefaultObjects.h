@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The objects that every engine has: white texture, black cube, split-sum table, instance indices.
+/// Objects of every engine: white texture, black cube, split-sum table, instance indices.
 #pragma once
 
 #include "filament_core/engine/EngineImpl.h"
@@ -7,7 +7,7 @@
 namespace filament {
 
 void createDefaultObjects(Engine::Impl& engine);
-/// Also the engine's own materials. Afterwards only what the user forgot is left.
+/// Also the engine's own materials. Afterwards only objects that the user did not destroy are left.
 void destroyDefaultObjects(Engine::Impl& engine);
 
 } // namespace filament

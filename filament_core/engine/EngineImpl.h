@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Engine::Impl: the rooms of one engine, wired together, and the tables behind the public handles.
+/// Engine::Impl: the rooms of one engine, connected, and the tables behind the public handles.
 ///   Thread  the app thread.
 ///   Fails   create...() and set() throw std::bad_alloc and change nothing; Engine's functions of the same names turn
-///           it into an error. What ends or destroys something never fails.
+///           this into an error. Functions that end or destroy something never fail.
 ///   Stream  creations are recorded into `pending` and travel with the next frame or the next flush(): nothing waits.
 #pragma once
 
@@ -31,7 +31,7 @@ namespace filament {
 namespace engine {
 
 struct TextureState {
-    backend::TextureHandle handle;     ///< none: refused, see createTexture()
+    backend::TextureHandle handle;     ///< none: rejected, see createTexture()
     backend::DeviceTextureDesc desc{}; ///< debugName is empty: see `name`
     std::string name;
 };
@@ -79,7 +79,7 @@ struct SwapChainState {
     std::string name;
 };
 
-/// Objects that every engine has.
+/// Objects of every engine.
 struct Defaults {
     Texture blackCube; ///< 1x1, for scenes without an environment
     /// 1x1, see unsetTexture().
@@ -97,18 +97,18 @@ struct Engine::Impl {
     Impl(Impl const&) = delete;
     Impl& operator=(Impl const&) = delete;
 
-    /// Hands everything pending to the driver thread.
+    /// Sends everything pending to the driver thread.
     void flush();
-    /// Moves everything pending, dirty parameters included, in front of a frame.
+    /// Records everything pending, including changed parameters, before a frame.
     void drainPending(backend::CommandBuffer& commands);
-    /// The next slice of what compile() was asked for, behind a frame / when no frame is on its way. Never waits.
+    /// The next slice of the requests to compile(), after a frame or when there is none. Never waits.
     void recordCompilations(backend::CommandBuffer& commands);
     void advanceCompilation();
     void collectErrors();
-    /// A line for takeErrors(), as long as there is memory for it.
+    /// Adds a line to takeErrors(), if there is memory for it.
     void report(std::string_view line) noexcept;
     void reportOutOfMemory(std::string_view doing, std::string_view object = {}) noexcept;
-    /// What `make` returns; none and a line for takeErrors() if there is no memory for it.
+    /// Returns what `make` returns; none, and a line for takeErrors(), if memory runs out.
     template <class F>
     auto orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&>;
     double secondsSinceStart(int64_t steadyNanoseconds) const;
@@ -126,9 +126,9 @@ struct Engine::Impl {
     void destroy(Texture texture);
     void destroy(MorphTargets targets);
     void destroy(SwapChain swapChain);
-    /// The split-sum table of a size in [16, 256]; baked when first asked for, then kept.
+    /// The split-sum table of a size in [16, 256]; baked at its first use and kept.
     Texture dfgTable(uint32_t size);
-    /// The colours of a tone mapper as a table (ToneTable.h); baked when first asked for, then kept.
+    /// The colours of a tone mapper as a table (ToneTable.h); baked at its first use and kept.
     Texture toneTable(ToneMapper mapper, uint32_t size);
     Result<Compilation> compile(Material material, CompileDesc const& desc);
     Result<Material> createMaterial(MaterialDesc const& desc);
@@ -147,8 +147,8 @@ struct Engine::Impl {
     void markDirty(MaterialInstance instance);
     template <class Write>
     Result<void> change(MaterialInstance instance, std::string_view parameter, Write&& write);
-    /// What a sampler shows that the app has not set: opaque white (integers: 1), of the sampler's kind. Made when
-    /// first asked for.
+    /// The texture of a sampler that the app has not set: opaque white (integers: 1), of the sampler's kind. Created at
+    /// its first use.
     Texture unsetTexture(shader::Parameter const& sampler);
     /// None: the texture is larger than the device allows.
     backend::TextureHandle textureHandle(Texture texture) const { return textures.get(texture).handle; }
@@ -157,12 +157,12 @@ struct Engine::Impl {
     EngineOptions options;
     std::chrono::steady_clock::time_point start = std::chrono::steady_clock::now();
     std::unique_ptr<backend::CommandStream> stream;
-    jobs::CorePins driverPin; ///< before `jobs`, so that no worker is pinned there
+    jobs::CorePins driverPin; ///< before `jobs`, so that no worker is pinned to its core
     jobs::JobSystem jobs;
     DeviceDescription device;
     backend::CommandBuffer pending;
     std::vector<std::string> errors;
-    uint32_t untoldErrors = 0; ///< there was no memory for their lines
+    uint32_t untoldErrors = 0; ///< errors whose lines found no memory
 
     scene::GeometryLayouts layouts;
     passes::PipelineCache pipelines;

@@ -30,7 +30,7 @@ struct FrameSummary {
 
 FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, framegraph::CompiledGraph const& plan);
 
-/// One decision a line. `plan`: of the same frame; one without a graph is left out.
+/// One decision per line. `plan`: of the same frame; ignored if it has no graph.
 std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const& plan);
 
 } // namespace filament::engine

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FrameTimingLog: when each frame was prepared, recorded and replayed, and what its passes cost the device.
-///   Thread  the app thread; answers are polled from the stream.
+/// FrameTimingLog: when each frame was prepared, recorded and replayed, and the device time of its passes.
+///   Thread  the app thread; results are polled from the stream.
 ///   Trace   with EngineOptions::traceJobs, frames and replays become spans beside the jobs.
 ///   Memory  the last 64 frames, 16 passes each, in place: writing allocates nothing. Older frames are overwritten.
 #pragma once
@@ -29,14 +29,14 @@ public:
 
     /// After submit().
     void add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers);
-    /// Frames whose replay has finished and whose timers have answered.
+    /// Frames whose replay has finished and whose timers have results.
     std::vector<FrameTimings> take();
 
 private:
     struct Pass {
         std::array<char, 32> name{};
         backend::Ticket ticket;
-        double milliseconds = -1; ///< < 0: no answer yet
+        double milliseconds = -1; ///< < 0: no result yet
     };
     struct Record {
         uint64_t frame = 0;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// HandleTable: the objects of one type behind their handles. Addresses are stable.
 ///   Thread  the app thread.
-///   Fails   add(): std::bad_alloc, and the table is as before.
-///           a handle that was destroyed or never made asserts, naming the type.
+///   Fails   add(): std::bad_alloc, and the table is unchanged. A handle that was destroyed or never created is an
+///           assertion that names the type.
 #pragma once
 
 #include "base/Handle.h"
@@ -22,7 +22,7 @@ public:
     Handle<Tag> add(Args&&... args) {
         auto state = std::make_unique<State>(std::forward<Args>(args)...);
         reserveOne();
-        const Handle<Tag> handle = mHandles.allocate(); // nothing fails from here on
+        const Handle<Tag> handle = mHandles.allocate(); // nothing below can fail
         if (handle.index() >= mStates.size()) mStates.resize(handle.index() + 1);
         mGiven.resize(mStates.size());
         mGiven[handle.index()] = handle;
@@ -68,10 +68,10 @@ private:
 
     HandleAllocator<Tag> mHandles;
     std::vector<std::unique_ptr<State>> mStates;
-    std::vector<Handle<Tag>> mGiven; // parallel to mStates: the handle given out last
+    std::vector<Handle<Tag>> mGiven; // parallel to mStates: the last handle allocated
 };
 
-/// An object that is not complete yet: removed from its table at the end of the scope unless it is kept.
+/// An incomplete object: removed from its table at the end of the scope unless it is kept.
 template <class Tag, class State>
 class Draft {
 public:

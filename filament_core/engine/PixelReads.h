@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PixelReads: the pixels of images, on their way from the device to the app. What Renderer says of its tickets.
+/// PixelReads: pixels on their way from the device to the app; implements the tickets of Renderer.
 ///   Thread  the app thread.
-///   Memory  an entry a ticket, until it is taken.
-///   Fails   ask(): a ticket of 0 where memory runs out, take() then gives an image without bytes at once. Pixels that
-///           never come, of an image that the device refused or on a lost device: an image without bytes from take(),
-///           an error from wait(). A ticket that is not under way is a caller's bug.
+///   Memory  one entry per ticket, until it is taken.
+///   Fails   ask(): a ticket of 0 if memory runs out; take() then returns an image without bytes at once. For pixels
+///           that never arrive, because the device refused the image or was lost, take() returns an image without bytes
+///           and wait() an error. An unknown ticket is a bug of the caller.
 #pragma once
 
 #include "filament_core/engine/EngineImpl.h"
@@ -32,10 +32,10 @@ private:
     bool isRefused(Image const& image) const;
 
     Engine::Impl& mEngine;
-    Pending mPending; ///< everything but the bytes
+    Pending mPending; ///< everything except the bytes
 };
 
-/// Of an image that the device could not make.
+/// For an image that the device could not create.
 Error noImage(uint32_t width, uint32_t height);
 
 } // namespace filament::engine

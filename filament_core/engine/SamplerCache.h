@@ -23,7 +23,7 @@ public:
             commands.record(backend::CmdCreateSampler{ handle, sampler });
             return mSamplers.back().second = handle.keep();
         } catch (...) {
-            mSamplers.pop_back(); // known is what is recorded
+            mSamplers.pop_back(); // a cache contains exactly what is recorded
             throw;
         }
     }

@@ -11,21 +11,21 @@
 namespace filament {
 
 struct Scene::Impl {
-    /// What a copy of a model is made of, for what changes it as a whole. Only of models with variants.
+    /// The parts of one copy of a model, for changes to the whole copy. Only for models with variants.
     struct ModelCopy {
         Node root;
         Model::Impl const* model = nullptr;
-        std::vector<Renderable> renderables; ///< parallel to the model's; some may be removed already
+        std::vector<Renderable> renderables; ///< parallel to the model's; some may have been removed
     };
 
-    /// The data after all changes of nodes: what frames and bounds are made from.
+    /// The data after all changes of nodes, from which frames and bounds are computed.
     scene::SceneData const& upToDate() const {
         prepare::updateTransforms(engine.jobs, data);
         return data;
     }
 
     Engine::Impl& engine;
-    mutable scene::SceneData data; ///< what is derived from nodes is written when somebody asks for it
+    mutable scene::SceneData data; ///< data derived from nodes is computed on demand
     std::vector<ModelCopy> copies;
 };
 

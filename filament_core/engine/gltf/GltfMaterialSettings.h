@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GltfMaterialSettings: a glTF material in the words of the engine's glTF packages (shaders/material/gltf):
-/// which package, specialised to what, with which parameters and maps.
+/// GltfMaterialSettings: which of the engine's glTF packages (shaders/material/gltf) a glTF material uses, with which
+/// constants, parameters and maps.
 ///   In      a material as the loader made it.   Out: plain values; no engine, no device.
-///   Cost    a package is chosen by what has to be compiled differently: shading model, refraction, blending.
-///           Everything else is a specialisation constant, and what is not used is not in the pipeline. Without any
-///           layer the package is gltf_lit, whose text has none.
+///   Cost    packages differ only where the code must: shading model, refraction, blending. Everything else is a
+///           specialisation constant, and unused features are not in the pipeline. A material without layers uses
+///           gltf_lit, whose text has none.
 ///   Thread  any.
 #pragma once
 
@@ -25,12 +25,12 @@ struct GltfMap {
 
 struct GltfMaterialSettings {
     std::string package;
-    std::vector<MaterialConstant> constants; ///< only those that differ from their defaults
+    std::vector<MaterialConstant> constants; ///< only those that differ from the defaults
     std::vector<std::pair<const char*, ParameterValue>> parameters;
     std::vector<GltfMap> maps;
 };
 
-/// `scale`: metres in the file's scene for a metre of the mesh, > 0; what a volume absorbs grows with it.
+/// `scale`: metres in the file's scene per metre of the mesh, > 0; the absorption of a volume grows with it.
 GltfMaterialSettings settingsOf(assets::MaterialData const& material, bool hasVertexColor, float scale = 1);
 
 } // namespace filament

@@ -13,11 +13,11 @@ namespace filament {
 
 class GltfMaterials {
 public:
-    /// `textures[i]` is images[i] of the model, once they are uploaded.
+    /// `textures[i]` is images[i] of the model after uploading.
     GltfMaterials(Engine::Impl& engine, Model::Impl& model, std::vector<Texture> const& textures)
             : mEngine(engine), mModel(model), mTextures(textures) {}
 
-    /// `scale`: metres in the file's scene for a metre of the mesh; volumes are as thick as that makes them.
+    /// `scale`: metres in the file's scene per metre of the mesh; it scales the thickness of volumes.
     MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale);
 
 private:

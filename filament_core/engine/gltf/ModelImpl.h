@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Model::Impl: what loadGltf made, owned until the model is destroyed.
+/// Model::Impl: the result of loadGltf, owned until the model is destroyed.
 #pragma once
 
 #include "filament_core/assets/gltf/Animation.h"
@@ -15,7 +15,7 @@
 namespace filament {
 
 struct Model::Impl {
-    static constexpr uint32_t kRoot = ~0u; ///< the node that a copy of the model hangs below
+    static constexpr uint32_t kRoot = ~0u; ///< the node that a copy of the model is attached to
 
     static constexpr uint32_t kNoSkin = ~0u;
 
@@ -23,10 +23,10 @@ struct Model::Impl {
         std::string name;
         uint32_t parent = kRoot; ///< into `nodes`, before this one
         double4x4 parentFromNode{ 1.0 };
-        assets::NodePose pose{}; ///< the same in parts
+        assets::NodePose pose{}; ///< the same, decomposed
     };
     struct PartSkin {
-        uint32_t node = kRoot;        ///< into `nodes`: where the renderables hang
+        uint32_t node = kRoot;        ///< into `nodes`: the node that the renderables are attached to
         std::vector<uint32_t> joints; ///< into `nodes`
         std::vector<float4x4> jointFromBind;
     };

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CompileQueue: programs and pipelines that are wanted before something is drawn with them, handed to the driver
-/// thread in slices.
+/// CompileQueue: programs and pipelines requested before their first draw, sent to the driver thread in slices.
 ///   In      wishes: a material with the states of its instances, vertex layouts, variants, passes.
 ///   Out     creations recorded into frames; how many of them have been replayed.
-///   Order   priorities from the highest, then first come, first served. One slice is under way at a time: the next
-///           one goes when the driver thread is done with it, so that no frame waits behind more than one.
+///   Order   highest priority first, then in order of arrival. One slice is under way at a time: the next one is sent
+///           when the driver thread has finished it, so that no frame waits for more than one.
 ///   Thread  the app thread.
-///   Memory  16 bytes a wish until it is done; 16 bytes a compilation for good.
-///   Fails   add() and recordSlice(): std::bad_alloc, and what was not recorded still waits.
+///   Memory  16 bytes per wish until it is done; 16 bytes per compilation permanently.
+///   Fails   add() and recordSlice(): std::bad_alloc; anything not recorded stays queued.
 #pragma once
 
 #include "filament_core/passes/Pipelines.h"
@@ -21,7 +20,7 @@
 
 namespace filament::engine {
 
-/// A pipeline, or (without geometry) a program alone, or (full screen) a pipeline of a material that has no geometry.
+/// A pipeline, or (without geometry) only a program, or (full screen) a pipeline of a material without geometry.
 struct CompileWish {
     static constexpr uint16_t kNoGeometry = 0xFFFF;
     uint32_t slot = 0;                     ///< of PipelineCache
@@ -35,7 +34,7 @@ struct CompileWish {
 
 struct CompileJob {
     scene::Material const* material = nullptr;
-    std::vector<scene::MaterialInstance> states; ///< no more of instances than what selects pipelines
+    std::vector<scene::MaterialInstance> states; ///< the part of the instances that selects pipelines
     std::vector<CompileWish> wishes;
     std::function<void(CompileProgress const&)> onProgress;
 };
@@ -44,24 +43,24 @@ class CompileQueue {
 public:
     explicit CompileQueue(passes::PipelineCache& pipelines) : mPipelines(pipelines) {}
 
-    /// Wishes that exist already do not count.
+    /// Wishes that already exist do not count.
     Compilation add(CompileJob job, CompilePriority priority);
     CompileProgress progress(Compilation compilation) const;
 
     /// Whether recordSlice() would record something now.
     bool isWaiting() const;
-    /// Into the submission of that number, unless an earlier slice is still under way.
+    /// Records into the submission of that number, unless an earlier slice is under way.
     void recordSlice(backend::CommandBuffer& commands, uint64_t submission);
-    /// Counts what is done by now, and tells those who asked to be told.
+    /// Counts what is finished, and calls the callbacks.
     void collect(uint64_t replayedSubmissions);
-    /// Nothing more of a material that goes away: what is left of its wishes counts as done.
+    /// Stops work for a material that is destroyed: its remaining wishes count as done.
     void forget(scene::Material const& material);
 
 private:
     struct Waiting {
         uint64_t id = 0;
         CompileJob job;
-        size_t next = 0; ///< wish
+        size_t next = 0; ///< index of the wish
     };
     using Queue = std::deque<Waiting>;
 

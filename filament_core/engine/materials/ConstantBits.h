@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ConstantBits: values of material constants as the 32 bits that programs are specialised with, and back.
+/// ConstantBits: converts values of material constants to the 32 bits that programs are specialised with, and back.
 ///   Bits    0 or 1 of a bool, two's complement of an int, IEEE 754 of a float.
 ///   Thread  pure functions.   Memory: none.   Fails: never.
 #pragma once

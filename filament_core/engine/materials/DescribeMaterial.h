@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// describeMaterial: a package and the constants that it was loaded with, as the public <filament/Material.h>.
-///   Out     what the author declared; the compiler's own parameters are left out.
+/// describeMaterial: a package and the constants it was loaded with, as the public <filament/Material.h>.
+///   Out     the author's declarations, without the compiler's own parameters.
 ///   Thread  pure.   Fails: std::bad_alloc.
 #pragma once
 

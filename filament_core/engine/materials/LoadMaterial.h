@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// loadMaterial: the bytes of a package and the constants that an app gives -> a material without device objects.
+/// loadMaterial: turns the bytes of a package and the app's constants into a material without device objects.
 ///   Thread  pure.   Memory: the material, and the text of an error.
-///   Fails   as readPackage(); NotFound for a constant that the material lacks, with the nearest name that it has;
-///           InvalidArgument for one of another type.
+///   Fails   as readPackage(); NotFound, with the nearest name, for a constant that the material lacks; InvalidArgument
+///           for a constant of another type.
 #pragma once
 
 #include "base/Result.h"

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Parameters: typed values into the MaterialParams block of an instance (std140, shaders/package/ParameterLayout.h).
-///   In      a parameter of the package, the block, what the app gave.
+/// Parameters: writes typed values into the MaterialParams block of an instance (std140,
+/// shaders/package/ParameterLayout.h).
+///   In      a parameter of the package, the block, the app's value.
 ///   Thread  pure functions.   Memory: only for the text of an error.
-///   Fails   InvalidArgument with both types, or with the elements that the array lacks; nothing is written then.
+///   Fails   InvalidArgument with both types, or with the elements that the array lacks; nothing is written in that
+///           case.
 #pragma once
 
 #include "base/Result.h"

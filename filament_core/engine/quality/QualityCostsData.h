@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The cost table that the library brings along, quality_costs.json beside this file, as the build put it in.
+/// The cost table included in the library: quality_costs.json beside this file, embedded by the build.
 #pragma once
 
 #include <string_view>
