@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Driver: replays command streams on one device.
 ///   Thread  created, used and destroyed on one thread, the driver thread; info() and statistics() from any.
-///   Fails   a broken command stream is a bug of the caller (layers/Validated names it). What the device refuses
-///           (out of memory, a shader that does not compile, a lost device) goes to ResultSink::onError, and the
-///           stream goes on without that object: draws with it are skipped.
+///   Fails   a broken command stream is a bug of the caller (layers/Validated names it). Failures of the device (out of
+///           memory, a shader that does not compile, a lost device) are reported to ResultSink::onError. The stream
+///           continues without that object: draws with it are skipped.
 #pragma once
 
 #include "backend/api/Commands.h"
@@ -43,7 +43,7 @@ struct DeviceFeatures {
     bool halfFloatShaders = false; ///< 16-bit floats in fragment shaders: float16_t in SPIR-V; ESSL has mediump always
 };
 
-/// What can be known about a device; constant for the life of the driver.
+/// Properties of a device; constant for the life of the driver.
 struct DeviceInfo {
     BackendType backend = BackendType::Null;
     ShaderLanguage shaderLanguage = ShaderLanguage::SpirV;
@@ -53,14 +53,14 @@ struct DeviceInfo {
     DeviceFeatures features;
 };
 
-/// Running totals since the driver was made.
+/// Running totals since the driver was created.
 struct DriverStatistics {
     uint64_t commands = 0;
     uint64_t draws = 0;
     uint64_t pipelinesCreated = 0;
     uint64_t programsCreated = 0;
     uint64_t programsFromCache = 0;  ///< of programsCreated: taken from DriverOptions::cacheDirectory, not compiled
-    uint64_t pipelinesFromCache = 0; ///< of pipelinesCreated, as far as the device tells
+    uint64_t pipelinesFromCache = 0; ///< of pipelinesCreated, if the device reports it
     uint64_t passes = 0;
     uint64_t pipelinesCreatedInPasses = 0; ///< late creations: each one is a hitch
     uint64_t deviceBytes = 0;              ///< memory now allocated for buffers and textures
@@ -68,13 +68,13 @@ struct DriverStatistics {
 
 enum class DriverErrorKind : uint8_t { Validation, ShaderCompile, OutOfMemory, DeviceLost, Other };
 
-/// Where a driver answers. Called on the driver thread only; implementations return quickly.
+/// Receives the driver's results. Called on the driver thread only; implementations return quickly.
 class ResultSink {
 public:
     virtual ~ResultSink() = default;
     virtual void onReadback(Ticket ticket, std::span<const std::byte> bytes) = 0;
     virtual void onTimer(Ticket ticket, uint64_t nanoseconds) = 0;
-    /// One line: what, on which object (debug name), and what to do.
+    /// One line: what failed, on which object (debug name), and how to fix it.
     virtual void onError(DriverErrorKind kind, std::string_view message) = 0;
 };
 
@@ -83,7 +83,7 @@ public:
     virtual ~Driver() = default;
     virtual DeviceInfo const& info() const = 0;
     virtual void execute(CommandView commands) = 0;
-    /// Returns when the device has finished everything and every ticket is answered.
+    /// Returns when the device has finished everything and every ticket has a result.
     virtual void waitIdle() = 0;
     virtual DriverStatistics statistics() const = 0;
 };
@@ -91,8 +91,8 @@ public:
 struct DriverOptions {
     std::string requireDevice; ///< case-insensitive part of DeviceInfo::deviceName; empty: the first usable one
     bool validation = false;   ///< Vulkan layers with synchronization validation; KHR_debug on GLES -> onError
-    /// Where compiled programs are kept from run to run, a file for each device, at most kProgramCacheBytes; empty:
-    /// nowhere. Read when the driver is made, written when it ends.
+    /// The folder that keeps compiled programs between runs, one file per device, at most kProgramCacheBytes; empty:
+    /// none. Read when the driver is created, written when it ends.
     std::filesystem::path cacheDirectory{};
 };
 inline constexpr uint64_t kProgramCacheBytes = 64u << 20;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// formatInfo(f), vertexFormatInfo(f): the one table about formats; a backend adds only its native enum.
+/// formatInfo(f), vertexFormatInfo(f): the only table about formats; a backend adds only its native enum.
 #pragma once
 
 #include <filament/Format.h>
@@ -23,7 +23,7 @@ struct FormatInfo {
     FormatKind kind;
     bool isFloat; ///< stores values beyond [0, 1]
     bool isSrgb;
-    bool isRenderable; ///< may be an attachment on every device we accept
+    bool isRenderable; ///< can be an attachment on every supported device
 };
 
 FormatInfo const& formatInfo(Format format);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The names of everything a driver keeps. Made by the recording side (backend/stream), so that creating never waits.
+/// The handles of everything that a driver owns. The recording side (backend/stream) allocates them, so creating never
+/// waits.
 #pragma once
 
 #include "base/Handle.h"
@@ -13,7 +14,7 @@ using ProgramHandle = Handle<struct ProgramTag>;
 using PipelineHandle = Handle<struct PipelineTag>;
 using BindGroupHandle = Handle<struct BindGroupTag>;
 
-/// Names one answer of the driver (a read-back, a timer). Never reused within a process; zero is none.
+/// Identifies one result of the driver (a read-back, a timer). Never reused within a process; zero is none.
 struct Ticket {
     uint64_t value = 0;
     explicit operator bool() const { return value != 0; }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ReplayProgress: which command a replay is in, for whoever watches it from another thread.
-///   In      a WatchedReplay on the replaying thread; without one, replay() publishes to nobody.
-///   Out     command(): an address inside the stream, to be compared and not to be followed: the stream may end at any
+/// ReplayProgress: the command that a replay is in, for observers on other threads.
+///   In      a WatchedReplay on the replaying thread; without one, replay() publishes nothing.
+///   Out     command(): an address inside the stream. Compare it, but do not dereference it: the stream may end at any
 ///           time. Null before, between and after streams.
 ///   Thread  written by the replaying thread, read by any.
-///   Cost    one plain store a command, one look at a thread_local a stream.
+///   Cost    one plain store per command, one thread_local read per stream.
 #pragma once
 
 #include <atomic>
@@ -19,7 +19,7 @@ public:
     void enter(const std::byte* command) { mCommand.store(command, std::memory_order_relaxed); }
     void leave() { mCommand.store(nullptr, std::memory_order_relaxed); }
 
-    /// Where the calling thread's replays publish; null: nowhere.
+    /// The target of the calling thread's replays; null: none.
     static ReplayProgress* ofThisThread() { return tCurrent; }
 
 private:

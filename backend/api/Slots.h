@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Slots: what a driver keeps behind handles of one type.
-///   A handle finds its object only while index and generation agree; anything else finds nothing.
+/// Slots: a driver's objects, by handles of one type.
+///   A handle finds its object only if index and generation agree; otherwise it finds nothing.
 ///   Thread  the driver thread.
-///   Memory  one heap object each, so that addresses stay while others come and go; 16 bytes a slot, as many slots as
-///           handles were ever alive at once.
-///   Cost    one index and one comparison a look-up.
+///   Memory  one heap block per object, so addresses are stable; 16 bytes per slot, as many slots as handles were ever
+///           alive at once.
+///   Cost    one index and one comparison per look-up.
 #pragma once
 
 #include "base/Handle.h"
@@ -24,7 +24,7 @@ public:
         return slot.handle == handle ? slot.object.get() : nullptr;
     }
 
-    /// A null object (its creation failed) is found as nothing.
+    /// A null object (its creation failed) cannot be found.
     void put(H handle, std::unique_ptr<T> object) {
         if (handle.index() >= mSlots.size()) mSlots.resize(handle.index() + size_t{ 1 });
         mSlots[handle.index()] = { handle, std::move(object) };

@@ -1,15 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Captured: a driver around a driver that shows what a frame did inside: every attachment of every pass, the frame cut
-/// off after its N-th draw, and the same stream with one thing changed. An instrument for tools; without it nothing of
-/// this runs.
+/// Captured: a layer that shows what a frame did inside: it reads every attachment of every pass, cuts the frame off
+/// after its N-th draw, or changes one thing in the stream. An instrument for tools; not used otherwise.
 ///   In      FrameCapture::arm() before a frame is rendered.  Out: FrameCapture::take() once the device is idle.
-///   Stores  while the layer is there, attachments are created readable and not in tile memory only; in an armed frame
-///           all of them are stored. What they contain does not change by that.
+///   Stores  with the layer, attachments are created readable and not only in tile memory; in an armed frame all of
+///           them are stored. This does not change their contents.
 ///   Thread  arm(), take(): any. The layer and a StreamEdit: the driver thread.
 ///   Memory  descriptions of live textures and pipelines; the contents of one captured frame.
 ///   Limits  multisampled attachments are not read; their resolve targets are.
-///   Fails   never; an attachment that the device did not answer has no bytes.
-///   Cost    about 20 ns a command; an armed frame waits for its read-backs.
+///   Fails   never; an attachment without a result from the device has no bytes.
+///   Cost    about 20 ns per command; an armed frame waits for its read-backs.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -29,7 +28,7 @@ inline constexpr uint32_t kAllDraws = ~0u;
 
 struct CaptureRequest {
     bool attachments = true;        ///< read every attachment back when its pass ends
-    uint32_t drawLimit = kAllDraws; ///< draws of the frame after so many are left out; passes still begin and end
+    uint32_t drawLimit = kAllDraws; ///< draws of the frame beyond this number are skipped; passes still begin and end
 };
 
 struct CapturedAttachment {
@@ -58,11 +57,11 @@ struct CapturedPass {
 struct CapturedFrame {
     uint64_t frame = 0;
     std::vector<CapturedPass> passes; ///< in order
-    std::vector<CapturedDraw> draws;  ///< all of the frame, those left out as well
+    std::vector<CapturedDraw> draws;  ///< all of the frame, including skipped ones
 };
 
-/// Changes commands on their way to the driver: a mutation that a test must notice. inspect() sees each stream before
-/// its commands are edited one by one. Spans in a command may be pointed to memory that lives until the next inspect().
+/// Changes commands on their way to the driver: a mutation that a test must detect. inspect() sees each stream before
+/// its commands are edited one by one. Spans in a command may point to memory that lives until the next inspect().
 class StreamEdit {
 public:
     virtual ~StreamEdit() = default;
@@ -75,18 +74,18 @@ public:
     virtual void edit(CmdUpdateBuffer&) {}
 };
 
-/// The tool's end of the layer: EngineOptions::debug.capture. One engine each.
+/// The tool's interface to the layer: EngineOptions::debug.capture. One per engine.
 class FrameCapture {
 public:
     explicit FrameCapture(std::unique_ptr<StreamEdit> edit = nullptr) : mEdit(std::move(edit)) {}
 
-    /// The next frame that reaches the driver is captured. Replaces a request that no frame has met yet.
+    /// Captures the next frame that reaches the driver. Replaces a request that has not been served yet.
     void arm(CaptureRequest const& request);
-    /// The captured frame, once; nothing while none was rendered since arm().
+    /// The captured frame, once; nothing if none was rendered since arm().
     std::optional<CapturedFrame> take();
 
 private:
-    friend class CapturedDriver; // the layer's end: takes requests, gives frames and answers
+    friend class CapturedDriver; // the layer: takes requests, delivers frames and results
     friend class CaptureSink;
 
     struct Pending {
@@ -107,8 +106,8 @@ private:
 
 using DriverMaker = std::function<Result<std::unique_ptr<Driver>>(ResultSink&)>;
 
-/// The driver of `make` with the layer around it; `make` gets a sink that keeps the layer's own answers from `sink`,
-/// which must outlive the result.
+/// The driver of `make` with the layer around it. `make` gets a sink that hides the layer's own results from `sink`,
+/// which must outlive the returned driver.
 Result<std::unique_ptr<Driver>> captured(std::shared_ptr<FrameCapture> capture, ResultSink& sink,
                                          DriverMaker const& make);
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// EnumNames: the enumerators of backend/api as text, both ways. Traces are written and read with these tables.
-///   enumName(value)       "RGBA16F"; "" for a value that is no enumerator.
-///   enumFromName<E>(text) nothing for a text that names none.
+/// EnumNames: the enumerators of backend/api as text, in both directions. Traces are written and read with these
+/// tables.
+///   enumName(value)       "RGBA16F"; "" for a value that is not an enumerator.
+///   enumFromName<E>(text) nothing for an unknown name.
 ///   Sets of flags (kIsFlags) are the names of their bits joined by '|', "0" if empty.
 #pragma once
 

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Faulty: a driver around a driver that fails on request: what devices do once in a million frames, at any command.
-///   In      FaultInjector::arm() says what happens from the next stream on: which command loses the device, which
+/// Faulty: a layer that fails on request: faults that devices rarely show, at any command.
+///   In      FaultInjector::arm() sets the faults from the next stream on: which command loses the device, which
 ///           creation runs out of memory, how slow the driver is.
-///   Out     the commands up to the fault reach the driver inside, in the middle of a pass or not; a refused creation
-///           does not, and whatever uses the object meets a driver that has never heard of it. Both are told like a
-///           real device tells them: ResultSink::onError.
+///   Out     the commands up to the fault reach the inner driver, even in the middle of a pass. A refused creation does
+///           not reach it, and commands that use the object find a driver that does not know it. Both are reported like
+///           those of a real device: ResultSink::onError.
 ///   Thread  FaultInjector: any. The layer: the driver thread.
-///   Memory  a list of the pieces of the stream that are forwarded.
-///   Fails   only as asked.
-///   Cost    unarmed: one lock a stream. Armed: about 5 ns a command.
+///   Memory  a list of the parts of the stream that are forwarded.
+///   Fails   only as requested.
+///   Cost    unarmed: one lock per stream. Armed: about 5 ns per command.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -24,34 +24,34 @@ namespace filament::backend {
 /// Zero: never.
 struct Faults {
     uint64_t loseDeviceAt = 0;   ///< at this command, counted from 1 since arm(); it is not executed, nor are others
-    uint64_t refuseCreation = 0; ///< this creation of an object, counted from 1 since arm(), is out of memory
-    std::chrono::microseconds streamDelay{ 0 };  ///< every stream takes so much longer
-    std::chrono::microseconds commandDelay{ 0 }; ///< every command takes so much longer, and counts as running
+    uint64_t refuseCreation = 0; ///< this creation of an object, counted from 1 since arm(), runs out of memory
+    std::chrono::microseconds streamDelay{ 0 };  ///< added to every stream
+    std::chrono::microseconds commandDelay{ 0 }; ///< added to every command, which counts as running
 };
 
-/// The end of the layer that tests hold: EngineOptions::debug.faults. One engine each.
+/// The tests' interface to the layer: EngineOptions::debug.faults. One per engine.
 class FaultInjector {
 public:
-    /// From the next stream on; the counts start again.
+    /// Takes effect with the next stream; the counts restart.
     void arm(Faults const& faults);
 
-    /// Since arm(): how many commands and creations came by, those behind a fault included.
+    /// Number of commands and creations since arm(), including those after a fault.
     uint64_t commandsSeen() const;
     uint64_t creationsSeen() const;
     /// Whether a device was lost or a creation refused since arm().
     bool hasStruck() const;
 
 private:
-    friend class FaultyDriver; // the layer's end: reads the faults and counts
+    friend class FaultyDriver; // the layer: reads the faults and counts
 
     mutable std::mutex mMutex;
     Faults mFaults;
     uint64_t mCommands = 0, mCreations = 0;
     bool mHasStruck = false;
-    uint64_t mArmed = 0; // how often: what a stream counted for earlier faults is not written back
+    uint64_t mArmed = 0; // number of calls: counts for earlier faults are not written back
 };
 
-/// `sink` gets the injected errors and must outlive the result; the inner driver keeps its own sink.
+/// `sink` receives the injected errors and must outlive the result; the inner driver keeps its own sink.
 std::unique_ptr<Driver> faulty(std::unique_ptr<Driver> inner, std::shared_ptr<FaultInjector> injector,
                                ResultSink& sink);
 

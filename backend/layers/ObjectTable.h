@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ObjectTable: which objects of one type live, and what they were made with; changes of one stream can be undone.
+/// ObjectTable: the live objects of one type and their descriptions; the changes of one stream can be undone.
 ///   Thread  one.
 ///   Memory  live objects, plus those destroyed since the last commit().
-///   Cost    one hash look-up a call.
+///   Cost    one hash look-up per call.
 #pragma once
 
 #include "base/Handle.h"
@@ -23,7 +23,7 @@ public:
         return it == mLive.end() ? nullptr : &it->second;
     }
 
-    /// Whether an object lives under this index, of whatever generation.
+    /// Whether an object is alive at this index, with any generation.
     bool occupied(Handle<Tag> handle) const {
         const auto it = mGenerations.find(handle.index());
         return it != mGenerations.end() && it->second != 0;
@@ -42,7 +42,7 @@ public:
         mChanges.push_back({ handle, std::nullopt });
     }
 
-    /// The object must live.
+    /// The object must be alive.
     void destroy(Handle<Tag> handle) {
         const auto it = mLive.find(handle);
         mChanges.push_back({ handle, std::move(it->second) });
@@ -53,7 +53,7 @@ public:
 
     void commit() { mChanges.clear(); }
 
-    /// As if nothing had happened since the last commit().
+    /// Undoes everything since the last commit().
     void rollback() {
         for (auto it = mChanges.rbegin(); it != mChanges.rend(); ++it) {
             if (it->destroyed) {
@@ -75,7 +75,7 @@ private:
     };
     std::unordered_map<Handle<Tag>, Object> mLive;
     std::unordered_map<uint32_t, uint32_t> mGenerations; // index -> live generation, 0: none
-    std::unordered_map<uint32_t, Handle<Tag>> mLastDead; // index -> what was destroyed last
+    std::unordered_map<uint32_t, Handle<Tag>> mLastDead; // index -> last destroyed object
     std::vector<Change> mChanges;
 };
 

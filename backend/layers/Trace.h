@@ -5,10 +5,10 @@
 ///            '#' begins a comment.
 ///   Values   numbers; names of enumerators, flags joined by '|'; handles index.generation; "text" with \xNN escapes;
 ///            {structs}; [arrays], trailing defaults left out; bytes as hex, above 64 as @offset+size in the side file.
-///   Blob     the side file (FILE.bin): large payloads one after the other, in the order of the text.
+///   Blob     the side file (FILE.bin): large payloads in sequence, in the order of the text.
 ///   Exact    write(read(write(x))) == write(x), byte for byte; floats are shortest round-trip decimals.
-///   Fails    readTrace() with Corrupt and a line number for any bytes whatsoever; never crashes, never allocates more
-///            than a small multiple of its input.
+///   Fails    readTrace() with Corrupt and a line number, for any bytes; never crashes, and never allocates more than a
+///            small multiple of its input.
 #pragma once
 
 #include "backend/stream/CommandBuffer.h"
@@ -30,7 +30,7 @@ struct TraceText {
 /// The first line of a trace.
 std::string_view traceHeader();
 
-/// Appends one submission; `blobBase` is how many bytes the side file had before out.blob.
+/// Appends one submission; `blobBase` is the size of the side file before out.blob.
 void writeTrace(CommandView commands, TraceText& out, size_t blobBase = 0);
 
 /// One command buffer for each submission of the trace.

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Traced: a driver around a driver that writes every stream to a file before executing it: a crash leaves the trace.
+/// Traced: a layer that writes every stream to a file before executing it, so that the trace survives a crash.
 ///   Out     PATH (text, see Trace.h) and PATH.bin (large payloads), flushed after each stream.
-///   Fails   trace(): Unreadable if the files cannot be made. Later a full disk ends the trace with one warning in the
-///           log; the driver goes on.
-///   Thread  as the driver inside.  Cost: about 1 us a command and the bytes of its payloads.
+///   Fails   trace(): Unreadable if the files cannot be created. If the disk fills up later, the trace ends with one
+///           warning in the log, and the driver continues.
+///   Thread  as the inner driver.  Cost: about 1 us per command and the bytes of its payloads.
 /// replayTrace: sends a trace into a fresh stream. The same commands with the same handles give the same bits.
 #pragma once
 
@@ -22,8 +22,8 @@ Result<std::unique_ptr<Driver>> trace(std::unique_ptr<Driver> inner, std::filesy
 /// One command buffer for each submission. Unreadable or Corrupt with file and line.
 Result<std::vector<CommandBuffer>> loadTrace(std::filesystem::path const& path);
 
-/// Submits all of a trace to a stream on which nothing lives yet: handles and tickets are those of the recording.
-///   Returns the tickets that the trace asks for, in order.
+/// Submits a whole trace to a stream without live objects: handles and tickets are those of the recording.
+///   Returns the tickets requested by the trace, in order.
 Result<std::vector<Ticket>> replayTrace(std::filesystem::path const& path, CommandStream& to);
 
 } // namespace filament::backend

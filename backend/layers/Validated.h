@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Validated: a driver around a driver that knows the rules of the contract and names every one that a stream breaks.
+/// Validated: a layer that checks the rules of the contract and reports every one that a stream breaks.
 ///   In      any driver.  Out: the same driver, each stream checked before it is forwarded.
 ///   Fails   onError(Validation, "command 17 Draw in pass 'opaque': group 1 is not bound; ..."): command, object by its
-///           debug name, the rule, the cure. A stream with errors is forwarded, unless a real driver could crash on it:
-///           then the whole stream is dropped, which is an error of its own.
-///   Memory  a model of all live objects, and 8 bytes for each ticket ever used.
-///   Thread  as the driver inside.
-///   Cost    about 0.1 us a command; nothing when the layer is not used.
+///           debug name, the rule, the cure. A stream with errors is forwarded unless it could crash a real driver:
+///           then the whole stream is dropped, which is reported as another error.
+///   Memory  a model of all live objects, and 8 bytes per ticket ever used.
+///   Thread  as the inner driver.
+///   Cost    about 0.1 us per command; nothing if the layer is not used.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -15,7 +15,7 @@
 
 namespace filament::backend {
 
-/// `sink` gets the broken rules and must outlive the result; the inner driver keeps its own sink.
+/// `sink` receives the broken rules and must outlive the result; the inner driver keeps its own sink.
 std::unique_ptr<Driver> validate(std::unique_ptr<Driver> inner, ResultSink& sink);
 
 } // namespace filament::backend

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Validator: the rules of backend/api, and a model of the driver's state to check them against.
-///   In      one stream after the other.  Out: reports to the sink; whether the stream may reach a driver.
+///   In      streams in sequence.  Out: reports to the sink; whether the stream may reach a driver.
 ///   Files   ValidatorObjects.cpp (create, destroy), ValidatorContents.cpp (update, upload, blit, read),
 ///           ValidatorPasses.cpp (passes, subpasses, timers, frames), ValidatorDraws.cpp (what a draw needs).
 ///   Thread  one.
@@ -23,7 +23,7 @@ class Validator {
 public:
     Validator(DeviceInfo const& info, ResultSink& sink) : mInfo(info), mSink(sink) {}
 
-    /// False: a driver could crash on this stream. The model is then as it was before it.
+    /// False: the stream could crash a driver. The model is then unchanged.
     bool check(CommandView commands);
 
     void execute(CmdCreateBuffer const& command);
@@ -66,11 +66,11 @@ public:
     void execute(CmdDrawIndexed const& command);
 
 private:
-    /// What a broken rule leads to in a real driver: a wrong picture, or a crash (then the stream is dropped).
+    /// The effect of a broken rule in a real driver: a wrong picture, or a crash (then the stream is dropped).
     enum class Harm : uint8_t { WrongResult, Crash };
     enum class Place : uint8_t { OutsidePasses, InsidePass, Anywhere };
 
-    /// What objects were made with. Names are owned: the stream that carried them is gone.
+    /// The descriptions of objects. Names are owned: the stream that carried them is gone.
     struct BufferModel {
         std::string name;
         BufferDesc desc;
@@ -98,7 +98,7 @@ private:
         std::vector<BindGroupEntry> entries;
     };
 
-    /// What a pass has bound; all of it is forgotten at every subpass.
+    /// The bindings of a pass; every subpass resets them.
     struct Bound {
         PipelineHandle pipeline;
         std::array<BindGroupHandle, kMaxBindGroups> groups{};
@@ -189,7 +189,7 @@ private:
     const char* mCommand = "";
     std::string_view mObject;
     bool mCrashes = false;        // any command so far
-    bool mCommandCrashes = false; // the current one: such an object is not entered into the model
+    bool mCommandCrashes = false; // the current one: its object is not added to the model
 };
 
 // ---------------------------------------------------------------------------------------------- shared templates

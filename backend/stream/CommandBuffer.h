@@ -4,8 +4,8 @@
 ///   Memory  chunks of 64 KiB, larger for larger payloads; grows without limit, never aborts, never overruns.
 ///           reset() keeps the chunks, so a steady frame allocates nothing; an oversized chunk that one whole frame
 ///           did not need is freed.
-///   Fails   record(), allocate(), append(): std::bad_alloc, and everything is as before. reset(), rollBack() and
-///           recordInReserve() never: whoever runs out of memory in the middle can still end what it began.
+///   Fails   record(), allocate(), append(): std::bad_alloc, and nothing has changed. reset(), rollBack() and
+///           recordInReserve() never fail: a caller that runs out of memory in the middle can still end what it began.
 ///   Names   every span and string_view given to record() inside a command is copied into the buffer.
 #pragma once
 
@@ -34,7 +34,7 @@ public:
     }
 
     /// Uninitialised payload memory that lives as long as this buffer's contents; align <= 64. Point a command's span
-    /// at it and use recordAdopted() to avoid the copy (large uploads).
+    /// at it and call recordAdopted() to avoid the copy (large uploads).
     std::span<std::byte> allocate(size_t bytes, size_t alignment = 16);
 
     /// record() for commands whose spans already point into this buffer.
@@ -43,8 +43,8 @@ public:
         append(command);
     }
 
-    /// record() without failure for a command without payload, into room that every buffer with a command keeps: for
-    /// the ends of a frame, a timer and a group, once each. False if there is not even that: nothing was ever recorded.
+    /// record() that cannot fail, for a command without payload, in room that every buffer with a command reserves: for
+    /// the ends of a frame, a timer and a group, once each. False if nothing was ever recorded.
     template <class C>
     bool recordInReserve(C const& command) {
         static_assert(!kHasPayload<C>, "payloads need memory of their own");
@@ -59,17 +59,16 @@ public:
         return true;
     }
 
-    /// A place in the stream, until the next reset() or append() of this buffer to another.
+    /// A position in the stream, valid until the next reset() or append() of this buffer to another.
     struct Mark {
         std::byte* commands = nullptr;
         size_t chunks = 0, commandCount = 0;
     };
     Mark mark() const { return { mCommands.at, mChunks.size(), mCommandCount }; }
-    /// Forgets the commands since mark(); their payloads stay until reset(). contains() may still say that they are
-    /// there.
+    /// Drops the commands since mark(); their payloads stay until reset(). contains() may still report them.
     void rollBack(Mark const& mark);
 
-    /// Moves all commands of `tail` behind the ones here; `tail` is left empty.
+    /// Appends all commands of `tail`, which is then empty.
     void append(CommandBuffer&& tail);
 
     void reset();
@@ -123,19 +122,18 @@ private:
             startChunk(kBytes);
         std::byte* const at = mCommands.at;
         new (at) CommandHeader{ kCommandId<C>, static_cast<uint32_t>(kBytes) };
-        new (at + kCommandAlignment) C(command); // in place: no detour over the stack
+        new (at + kCommandAlignment) C(command); // in place, without a copy on the stack
         mCommands.at = at + kBytes;
         ++mCommandCount;
         mKinds |= uint64_t{ 1 } << kCommandId<C>;
     }
 
-    /// The size of the newest chunk follows from mCommands; it is written down when somebody asks, not with each
-    /// command.
+    /// Writes the size of the newest chunk, which is derived from mCommands on demand instead of with each command.
     void seal() const {
         if (mChunks.empty()) return;
         CommandChunk& newest = mChunks.back();
         const auto size = static_cast<size_t>(mCommands.at - newest.data);
-        if (newest.size != size) newest.size = size; // a buffer that is only looked at is not written to
+        if (newest.size != size) newest.size = size; // a buffer that is only read is not written to
     }
     Block& takeBlock(size_t bytes);
     Block takeSpare(size_t index);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CommandFields: the one list of what is inside a command, by name. Copying payloads, the text dump, its reader and
-/// the validation messages all walk it, so that a new field is written down once.
-///   Use     visitFields(value, [](const char* name, auto& field) { ... }) in the order of declaration;
-///           kFields<T>.name is the name in dumps ("Draw"), HasFields<T> tells a struct from a leaf.
-///   Checked a struct that gains a field which is not listed here does not compile.
+/// CommandFields: the only list of the fields of commands, by name. Payload copying, the text dump, its reader and the
+/// validation messages all iterate over it, so a new field is written down once.
+///   Use     visitFields(value, [](const char* name, auto& field) { ... }) in the order of declaration; kFields<T>.name
+///           is the name in dumps ("Draw"), HasFields<T> distinguishes a struct from a leaf.
+///   Checked a struct with a field that is not listed here does not compile.
 ///   Cost    everything folds at compile time.
 #pragma once
 
@@ -36,7 +36,7 @@ namespace detail {
 
 struct AnyValue {
     template <class T>
-    constexpr operator T() const noexcept; // only ever named in unevaluated code
+    constexpr operator T() const noexcept; // only used in unevaluated code
 };
 template <class S, size_t... I>
 constexpr bool hasMembers(std::index_sequence<I...>) {
@@ -78,7 +78,7 @@ constexpr void visitFields(S& value, Visitor&& visitor) {
                kFields<std::remove_cv_t<S>>.fields);
 }
 
-// One line a field: the name in dumps is the name in the code.
+// One line per field: the name in dumps is the name in the code.
 #define FILAMENT_FIELD(S, member)                                                                                      \
     Field<S, decltype(S::member)> { #member, &S::member }
 

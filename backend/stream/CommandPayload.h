@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CommandPayload: makes a command independent of its caller's memory by copying what its spans and names point to.
+/// CommandPayload: makes a command independent of its caller's memory, by copying the data of its spans and names.
 ///   In/out  adoptPayload(command, memory): every span and string_view field, at any depth, is copied into memory and
-///           points there afterwards. Empty ones point nowhere.
+///           then points there. Empty ones point nowhere.
 ///   Memory  memory.allocate(bytes, alignment) -> std::span<std::byte>.
-///   Cost    one memcpy a payload; nothing at all for commands without payload (most of them).
+///   Cost    one memcpy per payload; nothing for commands without payload (most of them).
 #pragma once
 
 #include "backend/stream/CommandFields.h"

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// CommandStream: the app's end of the driver. Gives out handles and command buffers, owns the driver thread.
+/// CommandStream: the app's side of the driver. Allocates handles and command buffers, and owns the driver thread.
 ///   Thread  handles and tickets: any. acquire()/submit(): one app thread. Results: any.
 ///   Memory  three command buffers, reused; acquire() waits while two submitted frames are still unreplayed.
-///   Fails   start() if no driver can be made. Afterwards device errors come out of takeErrors(). Where the app's
-///           thread runs out of memory, std::bad_alloc leaves the function that allocates and nothing has changed;
-///           submit(), destroy() and free() never fail. Where the driver thread does, the device is lost, and says so.
+///   Fails   start() if no driver can be created. After that takeErrors() returns the errors of the device. If the
+///           app's thread runs out of memory, the function throws std::bad_alloc and nothing has changed; submit(),
+///           destroy() and free() never fail. If the driver thread runs out of memory, the device is lost, with an
+///           error.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -21,7 +22,7 @@
 
 namespace filament::backend {
 
-/// Runs on the driver thread; makes the driver that the thread will own.
+/// Runs on the driver thread; creates the driver that the thread will own.
 using DriverFactory = std::function<Result<std::unique_ptr<Driver>>(ResultSink&)>;
 
 struct DriverError {
@@ -34,7 +35,7 @@ struct FrameTiming {
     uint64_t frame = 0;       ///< CmdBeginFrame::frame, or the running number of the submission
     int64_t submitted = 0;    ///< submit() called
     int64_t replayBegin = 0;  ///< the driver thread took it
-    int64_t replayEnd = 0;    ///< the driver thread is done with it (the GPU may still work)
+    int64_t replayEnd = 0;    ///< the driver thread has finished it (the GPU may still work)
     int64_t backPressure = 0; ///< how long acquire() had waited for this submission's buffer
     bool isFrame = false;     ///< it has a CmdBeginFrame
     uint64_t hash = 0;        ///< hashStream() of it, with CommandStreamOptions::hashStreams
@@ -45,9 +46,9 @@ struct LatencyDistribution {
     int64_t min = 0, median = 0, p99 = 0, max = 0;
 };
 
-/// Of the last frames (submissions with a CmdBeginFrame that reached the driver), 256 at most.
+/// Over the last frames (submissions with a CmdBeginFrame that reached the driver), at most 256.
 struct LatencyStatistics {
-    uint32_t frames = 0;                ///< how many the figures are of
+    uint32_t frames = 0;                ///< number of frames in the figures
     LatencyDistribution submitToReplay; ///< waiting for the driver thread
     LatencyDistribution replay;         ///< on the driver thread
     LatencyDistribution submitToEnd;    ///< both
@@ -56,17 +57,17 @@ struct LatencyStatistics {
 
 struct CommandStreamOptions {
     uint32_t maxFramesAhead = 2; ///< submitted but not yet replayed
-    int driverCore = -1;         ///< pin the driver thread to this core; -1: do not
+    int driverCore = -1;         ///< pin the driver thread to this core; -1: no pinning
     bool ownThread = true;       ///< false: replay inside submit(), on the caller (single-threaded platforms, tests)
     bool hashStreams = false;    ///< FrameTiming::hash; the driver thread reads every stream once more
-    /// A driver thread that stays in one command for so long is reported in the log, once, by whoever waits for it. 0:
-    /// not.
+    /// If the driver thread stays in one command for this long, the waiting thread reports it in the log, once. 0:
+    /// never.
     std::chrono::milliseconds stallWarning = std::chrono::seconds(10);
 };
 
 class CommandStream {
 public:
-    /// Starts the driver thread and waits until the factory answered.
+    /// Starts the driver thread and waits for the factory's result.
     static Result<std::unique_ptr<CommandStream>> start(DriverFactory factory, CommandStreamOptions options = {});
     /// Replays what was submitted, waits for the device, ends the thread.
     ~CommandStream();
@@ -83,15 +84,15 @@ public:
     ProgramHandle allocateProgram();
     PipelineHandle allocatePipeline();
     BindGroupHandle allocateBindGroup();
-    /// Returns the name for reuse; call right after recording the matching CmdDestroy.
+    /// Returns the handle for reuse; call right after recording the matching CmdDestroy.
     void free(BufferHandle handle);
     void free(TextureHandle handle);
     void free(SamplerHandle handle);
     void free(ProgramHandle handle);
     void free(PipelineHandle handle);
     void free(BindGroupHandle handle);
-    /// Records the destruction and returns the name. Never fails: if there is no memory to record it, object and name
-    /// stay until the driver ends.
+    /// Records the destruction and returns the handle. Never fails: without memory to record it, object and handle stay
+    /// until the driver ends.
     template <class Tag>
     void destroy(CommandBuffer& commands, Handle<Tag> handle) noexcept;
     /// Live handles of all types: zero when everything was destroyed.
@@ -101,11 +102,11 @@ public:
     // ---- frames
     /// An empty buffer to record into. Waits for back-pressure (see options.maxFramesAhead).
     CommandBuffer& acquire();
-    /// Hands the acquired buffer to the driver thread; returns at once.
+    /// Passes the acquired buffer to the driver thread; returns at once.
     void submit(CommandBuffer& commands);
-    /// Waits until everything submitted was replayed and the device is idle.
+    /// Waits until everything submitted has been replayed and the device is idle.
     void waitIdle();
-    /// How many buffers were submitted, and how many of them the driver thread is done with.
+    /// Number of submitted buffers, and how many of them the driver thread has finished.
     uint64_t submissions() const;
     uint64_t replayedSubmissions() const;
     /// Nanoseconds that acquire() has waited in total.
@@ -114,13 +115,13 @@ public:
     LatencyStatistics latency() const;
 
     // ---- answers
-    /// Whether the device is gone for good: nothing that was submitted is answered any more.
+    /// Whether the device is lost: submitted work gets no more results.
     bool isDeviceLost() const;
-    /// The bytes of a read-back, once; nothing while it is under way.
+    /// The bytes of a read-back, once; nothing while it is pending.
     std::optional<std::vector<std::byte>> takeReadback(Ticket ticket);
-    /// The blocking form, for read-backs that were submitted. Timeout if it takes longer (it says which command the
-    /// driver thread is in), DeviceLost if the device is gone, NotFound if the device finished all work without an
-    /// answer (the read-back failed: see takeErrors()).
+    /// Blocks until a submitted read-back arrives. Timeout if it takes longer (with the command that the driver thread
+    /// is in), DeviceLost if the device is gone, NotFound if the device finished all work without a result (the
+    /// read-back failed: see takeErrors()).
     Result<std::vector<std::byte>> waitReadback(Ticket ticket,
                                                 std::chrono::milliseconds timeout = std::chrono::seconds(60));
     std::optional<uint64_t> takeTimer(Ticket ticket); ///< GPU nanoseconds
@@ -152,7 +153,7 @@ void CommandStream::destroy(CommandBuffer& commands, Handle<Tag> handle) noexcep
     free(handle);
 }
 
-/// A handle whose creation is not recorded yet: goes back unless it is kept.
+/// A handle whose creation is not recorded yet: it is freed unless it is kept.
 template <class Tag>
 class NewHandle {
 public:
@@ -171,8 +172,8 @@ private:
     Handle<Tag> mHandle;
 };
 
-/// The buffer that acquire() gives, submitted at the end of the scope, whatever happens before: what is recorded has
-/// been promised to those who remember the objects.
+/// The buffer from acquire(), submitted at the end of the scope whatever happens before: caches rely on what is
+/// recorded.
 class FrameCommands {
 public:
     explicit FrameCommands(CommandStream& stream) : mStream(stream), mCommands(stream.acquire()) {}

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DriverThread: owns a driver and the thread that it lives on; replays submitted buffers in order.
-///   Thread  the driver is made, used and destroyed on the own thread (or, without one, on the caller's). start(),
-///           acquire(), submit(): one app thread. waitIdle(), requestIdle(), statistics(), latency(): any while it
-///           lives.
+/// DriverThread: owns a driver and its thread; replays submitted buffers in order.
+///   Thread  the driver is created, used and destroyed on its own thread (or, without one, on the caller's). start(),
+///           acquire(), submit(): one app thread. waitIdle(), requestIdle(), statistics(), latency(): any, during its
+///           lifetime.
 ///   Memory  maxFramesAhead + 1 command buffers, reused in turn. A steady frame allocates nothing.
-///   Stuck   whoever waits here looks at the driver thread from time to time, and reports in which command it is stuck.
-///   Fails   start() with the factory's error, or OutOfMemory. After DeviceLost buffers come and go, but are no longer
-///           replayed. A driver that throws std::bad_alloc has done half of something: that loses the device, too.
-///   Cost    a submit is one lock and one wake-up; the threads block, nobody spins.
+///   Stuck   threads that wait here check the driver thread from time to time, and report the command in which it is
+///           stuck.
+///   Fails   start() with the factory's error, or OutOfMemory. After DeviceLost, buffers are accepted but no longer
+///           replayed. If a driver throws std::bad_alloc, its state is incomplete, so the device is lost too.
+///   Cost    a submit is one lock and one wake-up; threads block instead of spinning.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -45,7 +46,7 @@ public:
 
     CommandBuffer& acquire();
     void submit(CommandBuffer& commands);
-    /// Asks for an idle device after everything submitted so far; ResultMailbox::onIdle() answers with the number.
+    /// Requests an idle device after everything submitted so far; ResultMailbox::onIdle() reports that number.
     uint64_t requestIdle();
     void waitIdle();
 
@@ -80,11 +81,11 @@ private:
 
     mutable std::mutex mMutex;
     std::condition_variable mWork;     // for the driver thread
-    std::condition_variable mProgress; // for everybody else
+    std::condition_variable mProgress; // for all other threads
     // Submissions are numbered from 1; the count of each stage is the number of the last one that passed it.
     uint64_t mSubmitted = 0;
     uint64_t mReplayed = 0;
-    uint64_t mIdleWanted = 0; // highest submission after which somebody wants an idle device
+    uint64_t mIdleWanted = 0; // highest submission after which an idle device was requested
     uint64_t mIdleReached = 0;
     uint64_t mBackPressure = 0;
     LatencyLog mLatency;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What keeps a recording in order when memory runs out in the middle of it: creations that are recorded stay recorded,
-/// because somebody remembers the objects; everything else is recorded in full or not at all.
+/// Keep a recording consistent when memory runs out in the middle: recorded creations stay recorded, because caches
+/// contain the objects; everything else is recorded completely or not at all.
 ///   Thread  as the command buffer.   Fails: never.
 #pragma once
 
@@ -8,7 +8,7 @@
 
 namespace filament::backend {
 
-/// Records a command at the end of the scope, whatever happened in it.
+/// Records a command at the end of the scope, whatever happens in it.
 template <class C>
 struct InReserve {
     CommandBuffer& commands;
@@ -16,7 +16,7 @@ struct InReserve {
     ~InReserve() { commands.recordInReserve(command); }
 };
 
-/// Forgets the commands of the scope unless they are complete.
+/// Drops the commands of the scope unless they are complete.
 class AllOrNothing {
 public:
     explicit AllOrNothing(CommandBuffer& commands) : mCommands(commands), mBefore(commands.mark()) {}

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ReplayWatch: what the driver thread is doing, in words, and a warning when it is stuck in it.
-///   In      the driver thread says what it begins and ends; replay() says which command it is in (ReplayProgress).
+/// ReplayWatch: describes what the driver thread is doing, and warns when it is stuck.
+///   In      the driver thread reports what it begins and ends; replay() reports the current command (ReplayProgress).
 ///   Out     describe(): "in command DrawIndexed (number 1234 of frame 17, pass 'color', after pipeline 'helmet') for
 ///           10.2 s". check(): the same as a warning in the log, once for each stall.
-///   Thread  begin...(), end(): the driver thread. The rest: any; there is no thread of its own: whoever waits for the
-///           driver thread calls check() every period(). A stall is timed from when somebody first looked at it.
-///   Memory  the names of the pipelines that live.
+///   Thread  begin...(), end(): the driver thread. The rest: any. There is no watchdog thread: a thread that waits for
+///           the driver thread calls check() every period(). A stall is timed from the first such check.
+///   Memory  the names of live pipelines.
 ///   Fails   never.
 ///   Cost    a short lock at the start and the end of a stream. A description walks the stream up to the command.
 #pragma once
@@ -25,22 +25,22 @@ class ReplayWatch {
 public:
     using PipelineNames = std::unordered_map<PipelineHandle, std::string>;
 
-    /// `limit`: how long nothing may change before check() warns; zero: never.
+    /// `limit`: check() warns if nothing changes for this long; zero: never.
     explicit ReplayWatch(std::chrono::milliseconds limit) : mLimit(limit) {}
 
     // ---- the driver thread
     void beginMakingDriver() { begin(Activity::MakingDriver); }
     void beginEndingDriver() { begin(Activity::EndingDriver); }
-    /// The device is waited for.
+    /// Waiting for the device.
     void beginSettling() { begin(Activity::Settling); }
-    /// `commands` stay as they are until end().
+    /// `commands` must not change until end().
     void beginReplay(CommandBuffer const& commands, uint64_t frame);
     void end();
     ReplayProgress& progress() { return mProgress; }
 
     // ---- any thread
     bool warns() const { return mLimit.count() > 0; }
-    /// How often those who wait look.
+    /// Interval between checks.
     std::chrono::milliseconds period() const;
     void check();
     std::string describe();
@@ -64,7 +64,7 @@ private:
     uint64_t mFrame = 0;
     bool mIsNumberedByApp = false, mChangesPipelines = false;
     const std::byte* mSeenCommand = nullptr;
-    Clock::time_point mSince{}; // of the activity, or of the first look at mSeenCommand
+    Clock::time_point mSince{}; // start of the activity, or of the first check of mSeenCommand
     bool mHasWarned = false;
     PipelineNames mPipelineNames;
 };

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ResultMailbox: where the driver leaves answers and anyone picks them up.
-///   Thread  any; one short lock a call. The on...() half is called on the driver thread.
-///   Memory  read-backs wait until they are taken. Timers, frame timings and errors are bounded: of what nobody takes,
-///           the oldest timers and timings and the newest errors are dropped (how many errors is told).
-///   Fails   never for lack of memory: a read-back then is answered without bytes, an error in fewer words.
+/// ResultMailbox: where the driver leaves results and any thread picks them up.
+///   Thread  any; one short lock per call. The on...() functions are called on the driver thread.
+///   Memory  read-backs wait until they are taken. Timers, frame timings and errors are bounded: if nobody takes them,
+///           the oldest timers and timings and the newest errors are dropped (the number of dropped errors is
+///           reported).
+///   Fails   never for lack of memory: a read-back then has no bytes, and an error fewer words.
 ///   Cost    a read-back is one vector and one copy; the rest allocates nothing after the first frames.
 #pragma once
 
@@ -30,16 +31,16 @@ public:
     void onReadback(Ticket ticket, std::span<const std::byte> bytes) override;
     void onTimer(Ticket ticket, uint64_t nanoseconds) override;
     void onError(DriverErrorKind kind, std::string_view message) override;
-    /// The driver ran out of host memory in `doing` (a literal) and cannot go on: the device counts as lost.
+    /// The driver ran out of host memory in `doing` (a literal) and cannot continue: the device counts as lost.
     void onOutOfMemory(const char* doing) noexcept;
     void onReplayed(FrameTiming const& timing);
-    /// The driver has answered everything up to this submission: wakes those who wait in vain.
+    /// The driver has finished everything up to this submission: wakes threads whose results will never come.
     void onIdle(uint64_t submission);
 
     std::optional<std::vector<std::byte>> takeReadback(Ticket ticket);
     enum class Wait : uint8_t { Answered, TimedOut, DeviceLost, NeverAsked };
-    /// Waits until the ticket can be taken, or until it is known that it never can: the device is lost, or it finished
-    /// `submission` without an answer.
+    /// Waits until the ticket can be taken, or until it certainly never can: the device is lost, or it finished
+    /// `submission` without a result.
     Wait waitFor(Ticket ticket, uint64_t submission, std::chrono::steady_clock::time_point deadline);
     std::optional<uint64_t> takeTimer(Ticket ticket);
     std::vector<DriverError> takeErrors();
@@ -58,7 +59,7 @@ private:
     std::vector<Timer> mTimers;         // oldest first
     std::vector<FrameTiming> mTimings;  // oldest first
     std::vector<DriverError> mErrors;   // oldest first
-    const char* mOutOfMemory = nullptr; // doing what; told once
+    const char* mOutOfMemory = nullptr; // in which activity; reported once
     size_t mDroppedErrors = 0;
     uint64_t mIdleSubmission = 0;
     bool mDeviceLost = false;

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// hashStream: a 64-bit content hash of a recorded stream: equal streams, equal hashes, on every machine and run.
 ///   In      the commands in order, every field and every byte of their payloads, by value.
-///   Ignores padding, addresses, and where chunks end. Tickets count by their first appearance in the stream, because
-///           they are numbered per process; frame numbers and handles count as they are.
-///   Use     two recordings are the same bits: serial against parallel, one run against another.
+///   Ignores padding, addresses, and chunk boundaries. Tickets are hashed by their first appearance in the stream,
+///   because they are numbered per process; frame numbers and handles are hashed as they are.
+///   Use     check that two recordings have the same bits: serial and parallel, or two runs.
 ///   Memory  a list of the stream's tickets, nothing else.
-///   Cost    about 15 ns a command and the bytes of the payloads at 4 bytes a cycle: bench/backend/stream.
+///   Cost    about 15 ns per command, and the bytes of the payloads at 4 bytes per cycle: bench/backend/stream.
 #pragma once
 
 #include "backend/api/Commands.h"
