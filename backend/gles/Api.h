@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Api: the OpenGL ES functions as a table, one per context, found through eglGetProcAddress.
-///   Why     nothing links against libGLESv2, and every driver of the process may talk to another implementation.
-///   Use     gl.BindTexture(...) for glBindTexture. Entries below "optional" may be called only after Quirks said so:
-///           an implementation may answer with an entry point for a function that it does not have.
+///   Why     nothing links against libGLESv2, and every driver in the process may use another implementation.
+///   Use     gl.BindTexture(...) for glBindTexture. Call entries below "optional" only if Quirks allows it: an
+///           implementation may return an entry point for a function that it does not have.
 #pragma once
 
 #include <EGL/egl.h>
@@ -61,7 +61,7 @@ struct Api {
 #undef X
 
     using Lookup = __eglMustCastToProperFunctionPointerType (*)(const char*);
-    /// Null if all of ES 3.1 is there, else the name of the first function that is not.
+    /// Null if all of ES 3.1 is available, otherwise the name of the first missing function.
     const char* load(Lookup lookup);
 };
 

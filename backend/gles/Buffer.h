@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Buffers: vertex, index and uniform memory.
 ///   Thread  the driver thread.
-///   Fails   out of memory is reported; the buffer stays in the table with name 0, and what uses it is skipped.
+///   Fails   out of memory is reported; the buffer stays in the table with name 0, and commands that use it are
+///           skipped.
 #pragma once
 
 #include "backend/api/Slots.h"
@@ -21,12 +22,12 @@ public:
     ~Buffers();
 
     void create(BufferHandle handle, BufferDesc const& desc);
-    /// The GL name that is gone now (0 if none): other caches must forget it first, see take().
+    /// The deleted GL name (0 if none): other caches must forget it first, see take().
     std::unique_ptr<Buffer> take(BufferHandle handle) { return mBuffers.take(handle); }
     void destroy(Buffer const& buffer);
     void update(BufferHandle handle, uint64_t offset, std::span<const std::byte> bytes);
 
-    /// Null if it does not exist or could not be made.
+    /// Null if it does not exist or could not be created.
     Buffer const* find(BufferHandle handle) const;
 
 private:

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ContextState: what is set in the context; every setter returns at once when nothing changes.
+/// ContextState: a cache of the context's state; every setter returns at once if nothing changes.
 ///   Why     validation of redundant calls is a large part of an OpenGL ES frame; here each setter costs a compare.
-///   Thread  the driver thread, context current. Every call that changes what is cached goes through here.
-///   Before  a GL object is deleted its forget...() is called: OpenGL unbinds deleted names and gives them out again.
+///   Thread  the driver thread, context current. Every call that changes cached state goes through here.
+///   Before  deleting a GL object call its forget...(): OpenGL unbinds deleted names and reuses them.
 #pragma once
 
 #include "backend/gles/Formats.h"
@@ -17,7 +17,7 @@ inline constexpr uint32_t kMaxTextureUnits = kMaxBindGroups * kMaxBindings;
 
 class ContextState {
 public:
-    /// Brings a new context into the state that the members say.
+    /// Sets a new context to the state of the members.
     ContextState(Api const& gl, Quirks const& quirks);
 
     void useProgram(GLuint program);
@@ -32,7 +32,7 @@ public:
     void setRaster(RasterState const& raster);
     void setDepthStencil(DepthStencilState const& wanted, uint8_t frontReference, uint8_t backReference);
     void setBlend(uint32_t attachment, BlendState const& wanted);
-    /// Write masks as clears need them: everything is written.
+    /// Write masks for clears: everything is written.
     void allowClears(uint32_t colorCount);
     /// The value of an attribute without an array, (0, 0, 0, 1), in the type that the shader declares.
     void setConstantAttribute(uint32_t location, GLenum scalarType);

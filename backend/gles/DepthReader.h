@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DepthReader: puts depth where it can be read, for devices without NV_read_depth.
+/// DepthReader: makes depth readable on devices without NV_read_depth.
 ///   The rectangle is blitted into a 2D depth texture of the same format (which also takes it out of arrays and cubes)
 ///   and drawn from there into an R32F texture, texel by texel; both copies are exact.
-///   Thread  the driver thread, outside of passes; leaves its own bindings in ContextState, which knows.
+///   Thread  the driver thread, outside of passes; ContextState records the bindings that it leaves.
 ///   Memory  two textures per read-back, deleted when the next one begins.
 #pragma once
 

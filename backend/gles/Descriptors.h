@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Bind groups, which OpenGL ES does not know: lists on the CPU, applied to numbered slots when a draw needs them.
-///   Numbers depend on the program (flatBinding), so a group is applied lazily: when it was bound anew, or when the
-///           program's numbers for it differ from those it was applied with.
+/// Bind groups, which OpenGL ES lacks: lists on the CPU, applied to numbered slots when a draw needs them.
+///   Numbers depend on the program (flatBinding), so a group is applied lazily: when it was bound again, or when the
+///   program's numbers for it differ from those it was applied with.
 ///   Thread  the driver thread.
-///   Fails   a group with a buffer, texture or sampler that could not be made is unusable; draws with it are skipped.
+///   Fails   a group with a buffer, texture or sampler that could not be created is unusable; draws with it are
+///           skipped.
 #pragma once
 
 #include "backend/gles/Buffer.h"
@@ -34,11 +35,11 @@ class Descriptors {
 public:
     explicit Descriptors(ContextState& state) : mState(state) {}
 
-    /// Nothing is bound any more: at the start of a pass or subpass.
+    /// Unbinds everything: at the start of a pass or subpass.
     void reset();
     void bind(uint32_t index, BindGroup const* group, std::array<uint32_t, kMaxDynamicOffsets> const& dynamicOffsets);
     void setProgram(Program const& program);
-    /// Brings what the program reads into its slots. False if a group is unusable or missing.
+    /// Binds what the program reads to its slots. False if a group is unusable or missing.
     bool apply();
 
 private:

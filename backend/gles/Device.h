@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Device: what every part of the driver works on: the functions, the cached state, and where errors go.
-/// OpenDevice: a context that this driver can work with, before anything is made in it.
-///   Thread  the driver thread. openDevice(), chooseDevice() leave the context that they made current.
-///   Fails   chooseDevice(): DeviceUnavailable, naming what refused, or which devices there are.
+/// Device: shared by every part of the driver: the functions, the cached state, and the destination of errors.
+/// OpenDevice: a context that this driver can use, before anything is created in it.
+///   Thread  the driver thread. openDevice() and chooseDevice() leave their context current.
+///   Fails   chooseDevice(): DeviceUnavailable, with the reason of the refusal or the list of devices.
 #pragma once
 
 #include "backend/gles/Context.h"
@@ -24,7 +24,7 @@ Result<OpenDevice> openDevice(Egl const& egl, DisplaySource source, bool debug);
 /// The device that DriverOptions::requireDevice names, or the first usable one.
 Result<OpenDevice> chooseDevice(DriverOptions const& options);
 
-/// Takes away what a device has; for tests.
+/// Disables features of a device, for tests.
 using QuirkFilter = void (*)(Quirks&);
 
 struct Device {
@@ -40,11 +40,11 @@ struct Device {
 
     /// The first error since the last call, GL_NO_ERROR if none. Clears the rest.
     GLenum takeError();
-    /// Around the calls that make an object: created() reports why it could not be made and returns false.
+    /// Call these around creating an object: created() reports why it failed and returns false.
     void beginCreation();
     bool created(const char* what, std::string_view name);
 
-    /// Asks whether the context still works; reports DeviceLost the first time that it does not.
+    /// Checks whether the context still works; reports DeviceLost the first time it does not.
     void checkLost();
 
     /// Names an object for debuggers; free unless messages are on.

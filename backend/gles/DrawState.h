@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DrawState: what the stream has bound; prepareDraw() brings into the context what a draw needs and it lacks.
+/// DrawState: what the stream has bound; prepareDraw() sets the parts that a draw needs and the context lacks.
 ///   Thread  the driver thread, context current.
-///   Fails   prepareDraw() says no when something that the pipeline needs is missing or could not be made.
-///   Cost    a handful of compares for a draw after which nothing changed: ContextState knows what the context has.
+///   Fails   prepareDraw() returns false if something that the pipeline needs is missing or could not be created.
+///   Cost    a few compares for a draw without changes: ContextState knows the state of the context.
 #pragma once
 
 #include "backend/gles/Descriptors.h"
@@ -28,10 +28,10 @@ public:
     void setVertexBuffer(uint32_t slot, Buffer const* buffer, uint64_t offset);
     void setIndexBuffer(Buffer const* buffer, uint64_t offset, IndexFormat type);
 
-    /// Makes the context ready; false: skip the draw. `base` is what the draw call itself cannot say.
+    /// Prepares the context; false: skip the draw. `base` is what the draw call itself cannot express.
     bool prepareDraw(bool indexed, DrawBase base);
 
-    /// Of the pipeline that prepareDraw() said yes to.
+    /// Of the pipeline that the last successful prepareDraw() used.
     GLenum topology() const { return mPipeline->topology; }
     VertexSources const& sources() const { return mSources; }
 

@@ -1,9 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// The OpenGL ES 3.1+ driver, off-screen through EGL without a window system.
-///   In      command streams whose programs are ESSL 3.10 text.  Out: answers to the ResultSink.
-///   Thread  createGlesDriver(): the thread that will drive it. listGlesDevices(): any; leaves the thread's EGL state
-///           as it was.
-///           Several drivers on several threads, or on one, do not disturb each other.
+///   In      command streams whose programs are ESSL 3.10 text.  Out: results to the ResultSink.
+///   Thread  createGlesDriver(): the thread that will use it. listGlesDevices(): any; restores the thread's EGL state.
+///           Several drivers, on several threads or on one, do not interfere.
 ///   Limits  ES 3.1 with EXT_clip_control and EXT_color_buffer_float (ES 3.2 has the latter); others are not listed.
 ///   Fails   DeviceUnavailable: no libEGL, no driver behind it, or no device of the required name; the message says
 ///           which, and what to install.

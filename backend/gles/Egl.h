@@ -2,9 +2,9 @@
 /// Egl: libEGL opened at run time, and the displays of the process.
 ///   Why     a machine without libEGL must still start and run another backend.
 ///   Thread  any; the library is opened once and stays open.
-///   Memory  a display stays initialised until the process ends. EGL does not count: terminating one ends every context
-///           on it, also those of code that we do not know. It also unloads Mesa's driver, which costs the next driver
-///           24 ms of 31 and leaks what the library kept in its globals (measured, Mesa 22.3.6).
+///   Memory  a display stays initialised until the process ends. EGL does not count references: terminating a display
+///           ends every context on it, including those of other code. It also unloads Mesa's driver, which costs the
+///           next driver 24 ms of 31 and leaks the library's globals (measured, Mesa 22.3.6).
 ///   Fails   load(), openDisplay(): DeviceUnavailable with the packages to install.
 #pragma once
 
@@ -53,10 +53,10 @@ private:
     bool mDevicePlatform = false;
 };
 
-/// True if the space-separated list names this extension, whole.
+/// True if the space-separated list contains this whole extension name.
 bool hasExtension(const char* list, std::string_view name);
 
-/// Keeps what EGL remembers per thread (client API, current context) and puts it back.
+/// Saves EGL's per-thread state (client API, current context) and restores it.
 class ThreadBindingGuard {
 public:
     explicit ThreadBindingGuard(Egl const& egl);

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Executor: the OpenGL ES Driver. Owns the context and everything made in it; one function per command.
-///   Answers  tickets are answered when the device got there: looked for after every stream, at every CmdEndFrame, and
-///            in waitIdle(), which waits. Two frames are in flight at most.
-///   Thread   the driver thread; info() and statistics() any. Makes its context current whenever it is entered, so that
-///            several drivers may live on one thread.
-///   Fails    as Driver says. What could not be made was reported then; commands that need it do nothing. After a lost
-///            device streams are swallowed.
+/// Executor: the OpenGL ES Driver. Owns the context and everything created in it; one function per command.
+///   Answers  a ticket gets its result when the device has reached it, which is checked after every stream, at every
+///            CmdEndFrame, and in waitIdle(), which waits. At most two frames are in flight.
+///   Thread   the driver thread; info() and statistics() any. Makes its context current on every entry, so that several
+///            drivers can live on one thread.
+///   Fails    as Driver says. Objects that could not be created were reported; commands that need them do nothing.
+///            After a lost device, streams are ignored.
 ///   Files    Executor.cpp frames and life time, ExecuteObjects.cpp, ExecuteContents.cpp, ExecutePasses.cpp.
 #pragma once
 
@@ -24,7 +24,7 @@ namespace filament::backend::gles {
 
 class Executor final : public Driver {
 public:
-    /// `filter`, for tests, takes away what the device has, to run the ways around.
+    /// `filter`, for tests, disables features of the device, to test the workarounds.
     static Result<std::unique_ptr<Executor>> create(DriverOptions const& options, ResultSink& sink,
                                                     QuirkFilter filter = nullptr);
     Executor(OpenDevice device, DriverOptions const& options, ResultSink& sink);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Fence: a point in the device's work that can be asked for or waited for.
+/// Fence: a point in the device's work that can be polled or waited for.
 ///   Thread  the driver thread.
-///   Fails   a lost context counts as reached, so that nobody waits for ever; Device::lost is set.
+///   Fails   a lost context counts as reached, so that nobody waits forever; Device::lost is set.
 #pragma once
 
 #include "backend/gles/Device.h"
@@ -13,7 +13,7 @@ namespace filament::backend::gles {
 class Fence {
 public:
     Fence() = default;
-    /// Behind all work so far.
+    /// After all work so far.
     explicit Fence(Device& device) : mDevice(&device), mSync(device.gl.FenceSync(GL_SYNC_GPU_COMMANDS_COMPLETE, 0)) {}
     ~Fence() {
         if (mSync) mDevice->gl.DeleteSync(mSync);

@@ -17,7 +17,7 @@ struct GlFormat {
 
 GlFormat const& glFormat(Format format);
 
-/// One attribute as glVertexAttribFormat / glVertexAttribIFormat wants it.
+/// One attribute as parameters of glVertexAttribFormat / glVertexAttribIFormat.
 GLenum glVertexType(VertexFormat format);
 
 GLenum glTextureTarget(DeviceTextureDesc const& desc);
@@ -30,8 +30,8 @@ GLenum glWrap(WrapMode mode);
 GLenum glMinFilter(SamplerDesc const& desc);
 GLenum glFilter(Filter filter);
 
-/// FrontFace is said about the picture, row 0 at the top. OpenGL decides in window coordinates with y up and row 0 at
-/// y = 0, so what it calls clockwise looks counter-clockwise in the picture.
+/// FrontFace refers to the picture with row 0 at the top. OpenGL uses window coordinates with y up and row 0 at y = 0,
+/// so its clockwise looks counter-clockwise in the picture.
 inline GLenum glFrontFace(FrontFace face) { return face == FrontFace::CounterClockwise ? GL_CW : GL_CCW; }
 
 /// "GL_OUT_OF_MEMORY" and the like.

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Framebuffers: the framebuffer objects of this context, made once per set of attachments.
+/// Framebuffers: the framebuffer objects of this context, created once per set of attachments.
 ///   Thread  the driver thread.
-///   Memory  one GL object per set of attachments that was ever used; dropped with the first texture in it that goes.
-///   Fails   get() reports a set that the driver refuses, once, and answers 0 for it from then on.
+///   Memory  one GL object per set of attachments ever used, dropped when the first of its textures is destroyed.
+///   Fails   get() reports a set that the driver refuses, once, and returns 0 for it from then on.
 #pragma once
 
 #include "backend/gles/Texture.h"
@@ -11,7 +11,7 @@
 
 namespace filament::backend::gles {
 
-/// One image of a texture. Every key here is free of padding, so that its bytes can be hashed.
+/// One image of a texture. All keys here have no padding, so that their bytes can be hashed.
 struct ImageKey {
     GLuint texture = 0;
     GLenum target = 0;
@@ -20,7 +20,7 @@ struct ImageKey {
     friend bool operator==(ImageKey const&, ImageKey const&) = default;
 };
 
-/// What is attached. Images of textures that could not be made must not get here.
+/// The attachments. Images of textures that could not be created must not be passed.
 struct FramebufferKey {
     std::array<ImageKey, kMaxColorAttachments> colors{};
     ImageKey depth{};
@@ -39,11 +39,11 @@ public:
 
     /// The object's name; 0 if the driver refuses (reported under `what`). May change the bound framebuffers.
     GLuint get(FramebufferKey const& wanted, std::string_view what);
-    /// One colour or depth image alone, to copy from or to: two objects a kind, attached anew for every image, because
+    /// A colour or depth image alone, to copy from or to. Two objects per kind, attached again for every image, because
     /// an image is seldom copied twice. Valid until the next call for the same side. May change the bound framebuffers.
     enum class Side : uint8_t { Read, Draw };
     GLuint single(Side side, Texture const& texture, uint32_t level, uint32_t layer);
-    /// Drops every framebuffer with this texture in it.
+    /// Drops every framebuffer that contains this texture.
     void forget(GLuint texture);
 
 private:

@@ -3,7 +3,7 @@
 ///   A merged pass is one framebuffer with all colour attachments; its later subpasses read the earlier ones through
 ///   framebuffer fetch, so going to the next one costs nothing.
 ///   Thread  the driver thread.
-///   Fails   a pass with an attachment that could not be made is skipped with its draws; the creation was reported.
+///   Fails   a pass with an attachment that could not be created is skipped with its draws; the creation was reported.
 #pragma once
 
 #include "backend/gles/Framebuffers.h"

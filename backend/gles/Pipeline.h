@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Pipeline: a program with all fixed-function state, worked out once.
-///   OpenGL ES has no such object: applying one is a handful of compares against ContextState.
+/// Pipeline: a program with all fixed-function state, converted once.
+///   OpenGL ES has no such object: applying one is a few compares against ContextState.
 ///   Thread  the driver thread.
-///   Memory  keeps its program alive, as a Vulkan pipeline does.
+///   Memory  keeps its program alive, like a Vulkan pipeline.
 #pragma once
 
 #include "backend/gles/Program.h"
@@ -27,7 +27,7 @@ struct Pipeline {
 
 Pipeline makePipeline(PipelineDesc const& desc, std::shared_ptr<Program const> program, Vertices& vertices);
 
-/// Sets everything but the vertex buffers and bind groups.
+/// Sets everything except the vertex buffers and bind groups.
 void applyPipeline(ContextState& state, Pipeline const& pipeline, uint8_t frontReference, uint8_t backReference);
 
 } // namespace filament::backend::gles

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Program: a linked vertex and fragment shader, with what draws need to know about it.
 ///   In      ESSL 3.10 text whose blocks and textures carry `layout(binding = flatBinding(...))`; an empty fragment
-///           shader means that only depth is written. Specialisation constants become
-///           `#define SPIRV_CROSS_CONSTANT_ID_<id> value` behind the #version line: the names that SPIRV-Cross gives
-///           them, whose own default stands inside #ifndef.
+///           shader means that only depth is written. Specialisation constants become `#define
+///           SPIRV_CROSS_CONSTANT_ID_<id> value` after the #version line: SPIRV-Cross uses these names and defines
+///           their defaults inside #ifndef.
 ///   Thread  the driver thread.
 ///   Fails   reported as ShaderCompile; name() is 0 and draws are skipped.
 #pragma once
@@ -15,10 +15,10 @@
 
 namespace filament::backend::gles {
 
-/// The lines that give the constants their values.
+/// The lines that define the constants.
 std::string constantDefinitions(std::span<const ConstantValue> constants);
 
-/// Number of every binding among the uniform blocks or the texture units of the program; 0xFF has none.
+/// The number of every binding among the uniform blocks or texture units of the program; 0xFF: none.
 using FlatBindings = std::array<std::array<uint8_t, kMaxBindings>, kMaxBindGroups>;
 FlatBindings flatBindings(ProgramLayout const& layout);
 

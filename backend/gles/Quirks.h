@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Quirks: in what this implementation differs from the next one; the only place that reads extension strings.
-///   A bit that is false has a way around it, named here. Remove a bit when every device we accept has it.
+/// Quirks: differences between implementations; the only code that reads extension strings.
+///   A false bit has a workaround, named here. Remove a bit when every supported device has it.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -22,11 +22,11 @@ struct Quirks {
     bool debugMessages = false;    ///< KHR_debug or ES 3.2
     bool resetStatus = false;      ///< else a lost context shows as GL_CONTEXT_LOST from glGetError only
 
-    /// Asks the current context. Unsupported names what is missing for this driver.
+    /// Queries the current context. Unsupported names what this driver is missing.
     static Result<Quirks> probe(Api const& gl);
 };
 
-/// What the current context is and can do.
+/// The properties of the current context.
 DeviceInfo describeDevice(Api const& gl, Quirks const& quirks);
 
 } // namespace filament::backend::gles

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Read-backs: texels into a buffer of the driver, answered when the device got there.
+/// Read-backs: texels into a buffer of the driver, delivered when the device has written them.
 ///   Out     tightly packed rows, row 0 first, in the texture's own format; depth formats as 32-bit floats.
 ///   Thread  the driver thread.
 ///   Memory  one pixel buffer per unanswered ticket.
-///   Fails   a texture that cannot be read is reported; its ticket stays without an answer.
+///   Fails   a texture that cannot be read is reported; its ticket gets no result.
 #pragma once
 
 #include "backend/gles/DepthReader.h"
@@ -22,11 +22,11 @@ public:
     ~Readbacks();
 
     void read(CmdReadTexture const& command);
-    /// Answers what is there; `wait`: everything.
+    /// Delivers the results that are ready; `wait`: all of them.
     void poll(bool wait);
 
 private:
-    /// How the device hands out texels of a format, and what must be done with them.
+    /// How the device returns texels of a format, and how they must be converted.
     struct Plan {
         GLenum format = 0, type = 0;
         uint32_t texelBytes = 0;

@@ -10,10 +10,10 @@
 
 namespace filament::backend::gles {
 
-/// Text in pieces, as glShaderSource takes it.
+/// Text in pieces, for glShaderSource.
 using ShaderText = std::initializer_list<std::string_view>;
 
-/// The linked program, or 0 (reported under `name`). With Device::programs: from there, if it is there, or kept there.
+/// The linked program, or 0 (reported under `name`). Device::programs, if present, provides it or stores it.
 GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name);
 
 } // namespace filament::backend::gles

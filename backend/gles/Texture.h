@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Textures: storage and uploads.
 ///   Thread  the driver thread.
-///   Memory  immutable storage; attachments are textures as well (multisampled ones too), so that any can be sampled.
-///   Fails   out of memory or a format that the device lacks is reported; the texture stays in the table with name 0,
-///           and what uses it is skipped.
+///   Memory  immutable storage; attachments are textures too (also multisampled ones), so that all can be sampled.
+///   Fails   out of memory or an unsupported format is reported; the texture stays in the table with name 0, and
+///           commands that use it are skipped.
 #pragma once
 
 #include "backend/api/Slots.h"
@@ -30,7 +30,7 @@ public:
     std::unique_ptr<Texture> take(TextureHandle handle) { return mTextures.take(handle); }
     void destroy(Texture const& texture);
     void upload(CmdUploadTexture const& command);
-    /// Null if it does not exist or could not be made.
+    /// Null if it does not exist or could not be created.
     Texture const* find(TextureHandle handle) const;
 
 private:

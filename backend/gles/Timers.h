@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Timers: how long the device worked between two places of the stream.
-///   Each is a pair of time stamps, so they nest. One that spans a disjoint event (a clock change) answers 0.
+/// Timers: how long the device worked between two points of the stream.
+///   Each is a pair of time stamps, so they can nest. One that spans a disjoint event (a clock change) returns 0.
 ///   Thread  the driver thread.
-///   Memory  query objects are reused; as many live as timers are unanswered.
+///   Memory  query objects are reused; there are as many as pending timers.
 #pragma once
 
 #include "backend/gles/Device.h"
@@ -19,7 +19,7 @@ public:
 
     void begin(Ticket ticket);
     void end(Ticket ticket);
-    /// Answers those whose time stamps are there; `wait`: all that have ended.
+    /// Delivers timers whose time stamps are ready; `wait`: all that have ended.
     void poll(bool wait);
 
 private:

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Vertices: vertex array objects, one per vertex layout, and the buffers bound to them.
 ///   Thread  the driver thread.
-///   Memory  one GL object per different layout that a pipeline ever had; layouts are few, so none is dropped.
+///   Memory  one GL object per distinct layout of any pipeline; layouts are few, so none is dropped.
 #pragma once
 
 #include "backend/gles/Buffer.h"
@@ -23,7 +23,7 @@ struct VertexArray {
     GLuint indexBuffer = 0;                      ///< as bound in the object
 };
 
-/// What a pass has bound so far. Names are 0 when nothing usable is bound.
+/// What a pass has bound so far. Names are 0 if nothing usable is bound.
 struct VertexSources {
     std::array<VertexArray::Slot, kMaxVertexBuffers> slots{};
     GLuint indexBuffer = 0;
@@ -31,7 +31,7 @@ struct VertexSources {
     IndexFormat indexFormat = IndexFormat::UInt16;
 };
 
-/// Where a draw starts reading, for devices that cannot say it in the draw call.
+/// First vertex of a draw, for devices that cannot pass it in the draw call.
 struct DrawBase {
     uint32_t instance = 0;
     int32_t vertex = 0;
@@ -44,9 +44,9 @@ public:
 
     /// Stays valid as long as this object.
     VertexArray& get(VertexLayout const& layout);
-    /// Makes the object current with these buffers in it. False if a buffer that the layout needs is missing.
+    /// Makes the object current with these buffers. False if a buffer that the layout needs is missing.
     bool bind(VertexArray& array, VertexSources const& sources, bool indexed, DrawBase base);
-    /// Takes a buffer out of every object, before its name is deleted.
+    /// Removes a buffer from every object, before its name is deleted.
     void forget(GLuint buffer);
 
 private:

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Executor: the Vulkan Driver. Owns everything of one device and records one function per command.
-///   Serial   every replayed stream ends in a submission, every CmdEndFrame as well; two frames are in flight at most.
-///   Answers  tickets are answered when their submission has finished: looked for at the start of a stream, at every
-///            CmdEndFrame, and in waitIdle(), which waits.
+/// Executor: the Vulkan Driver. Owns all objects of one device; has one function per command.
+///   Serial   every replayed stream ends in a submission, and so does every CmdEndFrame; at most two frames are in
+///            flight.
+///   Answers  a ticket gets its result when its submission has finished, which is checked at the start of a stream, at
+///            every CmdEndFrame, and in waitIdle(), which waits.
 ///   Thread   the driver thread; info() and statistics() any.
-///   Fails    as Driver says. An object that could not be made is missing: draws, passes and copies with it are
-///            skipped, its read-backs are answered with no bytes. After a lost device streams are swallowed.
+///   Fails    as Driver says. An object that could not be created is missing: draws, passes and copies with it are
+///            skipped, and its read-backs return no bytes. After a lost device, streams are ignored.
 ///   Files    Executor.cpp frames and life time, ExecuteObjects.cpp, ExecuteContents.cpp, ExecutePasses.cpp.
 #pragma once
 
@@ -36,7 +37,7 @@ namespace filament::backend::vulkan {
 class Executor final : public Driver {
 public:
     static Result<std::unique_ptr<Executor>> create(DriverOptions const& options, ResultSink& sink);
-    /// On a device that somebody else chose.
+    /// On a device chosen by the caller.
     static Result<std::unique_ptr<Executor>> create(std::unique_ptr<Device> device, ResultSink& sink,
                                                     std::filesystem::path const& cacheDirectory = {});
     ~Executor() override;
@@ -99,9 +100,9 @@ private:
     void submit();
     void submitAtEnd();
     void answer();
-    /// A submission that fails leaves nothing to go on with: the device counts as lost.
+    /// After a failed submission nothing can continue: the device counts as lost.
     bool check(VkResult result, std::string_view what);
-    /// OutOfMemory as such, anything else as `kind`.
+    /// Reports OutOfMemory as such, anything else as `kind`.
     void report(Error const& error, DriverErrorKind kind = DriverErrorKind::Other);
     template <class H, class T>
     void store(Slots<H, T>& slots, H handle, Result<std::unique_ptr<T>> made, DriverErrorKind kind);

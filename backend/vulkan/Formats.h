@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Our enums as Vulkan's. Pure functions; every enumerator has an answer.
+/// Converts our enums to Vulkan's. Pure functions, defined for every enumerator.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -23,13 +23,13 @@ VkAttachmentLoadOp native(LoadOp op);
 VkAttachmentStoreOp native(StoreOp op);
 VkIndexType native(IndexFormat type);
 
-/// Vulkan measures the sign of a triangle's area with y pointing down the picture, and calls positive
-/// counter-clockwise: that is how the triangle looks with row 0 at the top, so the names agree.
+/// Vulkan computes the sign of a triangle's area with y pointing down, and calls positive counter-clockwise. That is
+/// how the triangle looks with row 0 at the top, so the names agree.
 VkFrontFace native(FrontFace face);
 
-/// All aspects of the format: what a barrier or an attachment view names.
+/// All aspects of the format, for barriers and attachment views.
 VkImageAspectFlags aspectsOf(Format format);
-/// The one aspect that is sampled and copied: colour, or depth without stencil.
+/// The aspect that is sampled and copied: colour, or depth without stencil.
 VkImageAspectFlags copyAspectOf(Format format);
 
 VkSampleCountFlagBits sampleBits(uint32_t samples);

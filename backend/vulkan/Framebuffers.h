@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Framebuffers: VkFramebuffer objects, made once per render pass and set of attachments.
+/// Framebuffers: VkFramebuffer objects, created once per render pass and set of attachments.
 ///   Thread  the driver thread.
-///   Memory  they live until one of their textures goes: take() hands out those that draw into it.
-///   Fails   get() with a null handle when the device is out of memory.
+///   Memory  they live until one of their textures is destroyed: take() returns those that use it.
+///   Fails   get() with a null handle if the device is out of memory.
 #pragma once
 
 #include "backend/vulkan/RenderPasses.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Instance: the loader, the instance and the validation messenger.
-///   Thread  create(): any, also several at once. Afterwards one thread at a time.
+///   Thread  create(): any, also several at once. After that one thread at a time.
 ///   Fails   DeviceUnavailable without a loader, without Vulkan 1.1 or without any driver.
-///   Validation  asked for but not installed: one ResultSink::onError, and on without it.
+///   Validation  if requested but not installed: one ResultSink::onError, and no validation.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -13,7 +13,7 @@
 
 namespace filament::backend::vulkan {
 
-/// What we call on the instance and its physical devices. The last three are null without debug utils.
+/// The functions that we call on the instance and its physical devices. The last three are null without debug utils.
 struct InstanceFunctions {
     PFN_vkDestroyInstance vkDestroyInstance = nullptr;
     PFN_vkEnumeratePhysicalDevices vkEnumeratePhysicalDevices = nullptr;
@@ -34,7 +34,7 @@ struct InstanceFunctions {
 
 class Instance {
 public:
-    /// `sink` hears validation messages and must outlive the instance; null: no validation.
+    /// `sink` receives validation messages and must outlive the instance; null: no validation.
     static Result<std::unique_ptr<Instance>> create(ResultSink* sink);
     ~Instance();
     Instance(Instance const&) = delete;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Memory: the Allocator on a real device; picks the memory type.
+/// Memory: the Allocator on a real device; chooses the memory type.
 ///   Thread  the driver thread.
 ///   Memory  mappable types are mapped once per block and stay mapped; only host-coherent memory is ever mapped.
-///   Fails   allocate() answers nothing when no allowed memory type has room.
+///   Fails   allocate() returns nothing if no allowed memory type has room.
 #pragma once
 
 #include "backend/vulkan/Allocator.h"
@@ -10,7 +10,7 @@
 
 namespace filament::backend::vulkan {
 
-/// What the memory is for; decides the order of the types tried.
+/// The purpose of the memory; determines the order in which types are tried.
 enum class MemoryPurpose : uint8_t {
     Device,    ///< the GPU reads and writes
     Transient, ///< tile memory, where it exists
@@ -18,7 +18,7 @@ enum class MemoryPurpose : uint8_t {
     Readback,  ///< the GPU writes, the host reads; always mapped
 };
 
-/// The types of `typeBits` that serve the purpose, the best first; count in `count`.
+/// The types of `typeBits` that serve the purpose, best first; their number in `count`.
 struct MemoryTypeOrder {
     uint32_t types[VK_MAX_MEMORY_TYPES] = {};
     uint32_t count = 0;

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Pass: the pass being recorded: layouts, load and store operations and resolves around the draws.
-///   begin() moves every attachment into the layout of its first use, and all other sampled textures to where shaders
-///   read them, in one barrier; end() tells Barriers where the attachments are.
+///   begin() moves every attachment into the layout of its first use, and all other sampled textures to the layout for
+///   reading, in one barrier; end() tells Barriers the final layouts of the attachments.
 ///   Thread  the driver thread.
-///   Fails   a pass with an attachment that could not be made is skipped with its draws; the creation was reported.
+///   Fails   a pass with an attachment that could not be created is skipped with its draws; the creation was reported.
 #pragma once
 
 #include "backend/api/Slots.h"

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// PhysicalDevice: what one device offers, asked once, and which one of several to take.
+/// PhysicalDevice: the properties of one device, queried once, and the choice between several devices.
 ///   Thread  any; plain values afterwards.
 ///   Needs   Vulkan 1.1, one queue family with graphics, and every format that formatInfo() calls renderable.
-///           Everything else (anisotropy, depth clamp, BC formats, provoking vertex, half floats) is used when there.
+///           Everything else (anisotropy, depth clamp, BC formats, provoking vertex, half floats) is used if available.
 #pragma once
 
 #include "backend/api/Driver.h"
@@ -37,8 +37,8 @@ struct PhysicalDevice {
 /// All devices of the instance, usable or not, in the order of the loader.
 std::vector<PhysicalDevice> surveyDevices(Instance const& instance);
 
-/// Index of the device to take: the first one whose name contains `required` (case-insensitive; empty: any), GPUs
-/// before CPUs. DeviceUnavailable lists what there is, and why it does not do.
+/// Index of the device to use: the first one whose name contains `required` (case-insensitive; empty: any), GPUs before
+/// CPUs. DeviceUnavailable lists the devices and why they are unsuitable.
 Result<size_t> chooseDevice(std::span<const PhysicalDevice> devices, std::string_view required);
 
 } // namespace filament::backend::vulkan

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Pipeline: a program with all other fixed state.
 ///   Thread  the driver thread.
-///   Limits  fragment outputs that the program does not write leave their attachment alone. A device without
-///           independentBlend blends and masks all attachments like attachment 0.
+///   Limits  attachments without an output in the program keep their contents. A device without independentBlend blends
+///           and masks all attachments like attachment 0.
 ///   Fails   create(): Internal or OutOfMemory with the names of pipeline and program.
 ///   Cost    create() compiles: milliseconds on lavapipe, which compiles the rest at the first draw.
 #pragma once

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Program: two shader modules, their constants and edges.
+/// Program: two shader modules, their constants, inputs and outputs.
 ///   Thread  the driver thread.
-///   Memory  may be destroyed once its pipelines are made.
-///   Fails   create(): Corrupt with the program's name for SPIR-V that cannot be read; Internal or OutOfMemory
-///   otherwise.
+///   Memory  may be destroyed once its pipelines have been created.
+///   Fails   create(): Corrupt with the program's name for SPIR-V that cannot be read; otherwise Internal or
+///           OutOfMemory.
 #pragma once
 
 #include "backend/vulkan/Descriptors.h"

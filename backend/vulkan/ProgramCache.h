@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ProgramCache: the pipeline cache of the device, kept from run to run in DriverOptions::cacheDirectory.
+/// ProgramCache: the pipeline cache of the device, kept between runs in DriverOptions::cacheDirectory.
 ///   Thread  the driver thread.
-///   Memory  what the driver keeps; at most kProgramCacheBytes on disk.
-///   Fails   never: without a cache pipelines are made anew. Data begin with the device's own header, so a driver
-///   ignores
-///           what another one wrote.
+///   Memory  that of the driver; at most kProgramCacheBytes on disk.
+///   Fails   never: without a cache, pipelines are created again. The data begins with the device's own header, so a
+///           driver ignores data of another one.
 #pragma once
 
 #include "backend/vulkan/Device.h"

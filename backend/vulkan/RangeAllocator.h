@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-/// RangeAllocator: offsets inside one block of memory, nothing else; knows no device.
+/// RangeAllocator: offsets inside one block of memory; independent of any device.
 ///   Source  two-level segregated fit: Masmano, Ripoll, Crespo, Real, "TLSF: a New Dynamic Memory Allocator for
-///           Real-Time Systems", 2004. Free ranges live in bins of 8 steps per power of two; two bitmaps find the first
-///           bin that surely fits; neighbours merge when a range is freed.
-///   In      bytes > 0 and a power-of-two alignment.  Out: an aligned offset and the node to give back.
+///           Real-Time Systems", 2004. Free ranges are in bins of 8 steps per power of two; two bitmaps find the first
+///           bin that certainly fits; neighbours merge when a range is freed.
+///   In      bytes > 0 and a power-of-two alignment.  Out: an aligned offset and the node to free.
 ///   Thread  one at a time.
-///   Memory  32 bytes of host memory a live or free range.
+///   Memory  32 bytes of host memory per live or free range.
 ///   Limits  sizes are rounded up to kGranule; up to 1/8 of a block may be unusable for one request (the bin steps).
-///   Fails   allocate() answers nothing when no free range surely fits.
+///   Fails   allocate() returns nothing if no free range certainly fits.
 ///   Cost    allocate and free: constant time, no loop over ranges.
 #pragma once
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Readbacks: bytes on their way to the app.
 ///   In      a ticket, a host buffer that the GPU copies into, and the serial of the submission that does it.
-///   Out     answer(): one ResultSink call for every ticket whose submission has finished, in the order of asking.
+///   Out     answer(): one ResultSink call for every ticket whose submission has finished, in the order of requests.
 ///   Thread  the driver thread.
 ///   Memory  a host buffer per read-back until it is answered.
-///   Fails   a read-back without memory is answered with no bytes.
+///   Fails   a read-back without memory returns no bytes.
 #pragma once
 
 #include "backend/api/Driver.h"

@@ -2,14 +2,14 @@
 /// RenderPasses: VkRenderPass objects by what they do with their attachments.
 ///   Attachments  in the order of VkFramebuffer: colours, depth, resolve targets (ascending by colour).
 ///   Locations    shader output i writes colour attachment i of the pass in every subpass; input attachment index i
-///   reads
-///                colour attachment i. A subpass does not write what it reads: colorMask without inputMask counts.
-///   Layouts      every attachment enters in the layout of its first use and stays in the layout of its last one;
-///                Barriers moves it there before and knows where it is afterwards. Inside, by-region dependencies from
-///                every subpass to every later one order writes before reads.
+///                reads colour attachment i. A subpass does not write what it reads: colorMask without inputMask
+///                counts.
+///   Layouts      every attachment enters in the layout of its first use and leaves in the layout of its last use;
+///                Barriers moves it there before and tracks it afterwards. Inside, by-region dependencies from every
+///                subpass to every later one order writes before reads.
 ///   Thread       the driver thread.
 ///   Memory       they live as long as the driver (dozens).
-///   Fails        with a null handle when the device is out of memory.
+///   Fails        with a null handle if the device is out of memory.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -23,7 +23,7 @@ namespace filament::backend::vulkan {
 
 inline constexpr uint32_t kMaxAttachments = 2 * kMaxColorAttachments + 1;
 
-/// What decides a VkRenderPass. Everything beyond colorCount and subpassCount has its default value.
+/// What determines a VkRenderPass. Everything beyond colorCount and subpassCount has its default value.
 struct RenderPassKey {
     PassLayout layout{};
     std::array<LoadOp, kMaxColorAttachments> loads{};
@@ -34,7 +34,7 @@ struct RenderPassKey {
 };
 
 RenderPassKey keyOf(PassDesc const& desc);
-/// A render pass that pipelines for this layout are made with; load and store operations do not matter for them.
+/// A render pass for creating pipelines with this layout; load and store operations do not matter for them.
 RenderPassKey keyOf(PassLayout const& layout);
 
 /// Colour attachments that a subpass writes, and that it reads.

@@ -1,9 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// RingCursor: where the next bytes of a ring buffer go, and which bytes the GPU has not read yet; knows no device.
+/// RingCursor: where the next bytes of a ring buffer go, and which bytes the GPU has not read yet; independent of any
+/// device.
 ///   In      the serial of the submission that will read the bytes; later the serial that has finished.
 ///   Thread  one at a time.
 ///   Memory  one entry per submission in flight.
-///   Fails   allocate() answers nothing while the ring is too full; bytes > size() never fit.
+///   Fails   allocate() returns nothing while the ring is too full; bytes > size() never fit.
 ///   Cost    constant.
 #pragma once
 

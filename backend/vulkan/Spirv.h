@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Spirv: what a shader module reads and writes at its edges, from its words.
-///   In      any bytes; a module that is cut short or lies about itself gives an error, never a crash or a hang.
+/// Spirv: the inputs and outputs of a shader module, read from its words.
+///   In      any bytes; a truncated or inconsistent module gives an error, never a crash or a hang.
 ///   Out     the locations and types of vertex inputs, the locations of fragment outputs.
 ///   Source  SPIR-V 1.6 specification, sections 2.3 (physical layout) and 3.52 (instructions).
 ///   Thread  any; a pure function.

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Submissions: command buffers on their way to the GPU, and what must live until it is done with them.
-///   Serial  every submission has a number, one more than the one before. Work recorded now carries recordingSerial();
-///           everything up to finishedSerial() is done.
+/// Submissions: command buffers in flight, and objects that must live until the GPU is done with them.
+///   Serial  submissions are numbered consecutively. Work recorded now has recordingSerial(); everything up to
+///           finishedSerial() is done.
 ///   Thread  the driver thread.
 ///   Memory  kSlots command buffers with a fence each; open() waits for the oldest when all are in flight.
-///   Fails   with the VkResult of the call; DEVICE_LOST stays.
+///   Fails   with the VkResult of the call; DEVICE_LOST is permanent.
 #pragma once
 
 #include "backend/vulkan/Device.h"
@@ -26,7 +26,7 @@ public:
 
     VkResult initialize();
 
-    /// Makes commands() recordable, waiting for a free slot if need be.
+    /// Makes commands() recordable, waiting for a free slot if necessary.
     VkResult open();
     bool isOpen() const { return mIsOpen; }
     VkCommandBuffer commands() const { return mSlots[mCurrent].commands; } ///< between open() and submit()
@@ -35,7 +35,7 @@ public:
     uint64_t recordingSerial() const { return mSubmitted + 1; }
     uint64_t finishedSerial() const { return mFinished; }
 
-    /// Learns what has finished and destroys what was kept for it; does not wait.
+    /// Finds out what has finished and destroys the objects kept for it; does not wait.
     VkResult poll();
     VkResult wait(uint64_t serial);
 

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Timers: how long the device worked between two places of the stream. Pairs of time stamps, so they nest.
+/// Timers: how long the device worked between two points of the stream. Pairs of time stamps, so they can nest.
 ///   In      a ticket, and the serial of the submission that the end is recorded in.
 ///   Out     answer(): one ResultSink call for every ticket whose submission has finished, in the order of ending.
 ///   Thread  the driver thread.
 ///   Memory  two time stamps per timer, from pools of 128 that are reused.
-///   Fails   a timer of a device without time stamps is answered with 0.
+///   Fails   a timer of a device without time stamps returns 0.
 #pragma once
 
 #include "backend/api/Driver.h"

@@ -3,9 +3,9 @@
 ///   In      a number of bytes.  Out: where to write them, and the buffer and offset to copy from; valid until the
 ///           submission being recorded has finished.
 ///   Thread  the driver thread.
-///   Memory  one mapped ring of 4 MiB that doubles up to 32 MiB when it is too small for what is in flight; beyond
-///           that, and for anything above half a ring, a buffer of its own.
-///   Fails   stage() answers nothing when the device has no memory left.
+///   Memory  one mapped ring of 4 MiB that doubles up to 32 MiB if it is too small for the data in flight; beyond that,
+///           and for anything larger than half a ring, a separate buffer.
+///   Fails   stage() returns nothing if the device has no memory left.
 #pragma once
 
 #include "backend/vulkan/Buffer.h"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Vertices: where the vertex inputs of a program come from.
-///   Limits  attributes that the program does not read are left out; those that the layout lacks come from a buffer of
+/// Vertices: the sources of a program's vertex inputs.
+///   Limits  attributes that the program does not read are skipped; those that the layout lacks come from a buffer of
 ///           zeros with stride 0 at slot kZeroBufferSlot, which makes them (0, 0, 0, 1).
 ///   Thread  any; a pure function.
 #pragma once
