@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The steps of compile(), each a function of what the steps before it found; Compile.cpp is their table of contents.
+/// The steps of compile(), each a function of the results of earlier steps; Compile.cpp is their table of contents.
 ///   Memory  results live in the graph's arena.
 ///   Fails   checkDeclarations() asserts; the others rely on it.
 #pragma once

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compile(): from declarations to a plan. record(): from a plan to commands. rehearse(): what recording would ask for.
-/// In between, CompiledGraph is plain data that tells what was decided and why; Explain.h prints it.
+/// compile(): from declarations to a plan. record(): from a plan to commands. rehearse(): what recording would need.
+/// CompiledGraph in between is plain data that records every decision and its reason; Explain.h prints it.
 ///   Thread  one at a time, for each pool.
 ///   Memory  the plan lives in the graph's arena and refers to graph and pool; valid until one of them is reset.
 ///   Fails   compile() asserts on a graph that breaks a rule, naming pass and texture (see Check.cpp).
 ///           std::bad_alloc leaves record() between two passes: what is recorded can be submitted.
-///   Cost    declare 0.06, compile 1.1, record 0.06 us a pass, for 20 passes; compile() is quadratic in them.
+///   Cost    declare 0.06, compile 1.1, record 0.06 us per pass, for 20 passes; compile() is quadratic in the number of
+///           passes.
 #pragma once
 
 #include "backend/api/Descriptions.h"
@@ -23,7 +24,7 @@ namespace filament::framegraph {
 
 inline constexpr uint32_t kNone = ~0u;
 
-/// Why a pass runs, or that it does not.
+/// Why a pass runs, or does not.
 enum class Reason : uint8_t { Unread, SideEffect, WritesOutput, ReadLater };
 
 /// Why a pass that reads an input at the current pixel is part of the pass before it, or is not.
@@ -52,7 +53,7 @@ struct PassDecision {
     bool runs() const { return reason != Reason::Unread; }
 };
 
-/// An attachment of a group; the operations of the backend pass are the group's, not those of one subpass.
+/// An attachment of a group; load and store operations are those of the group, not of one subpass.
 struct GroupAttachment {
     TextureId texture;
     uint8_t level = 0;
@@ -100,7 +101,7 @@ struct CompiledGraph {
     std::span<const TexturePlan> textures; ///< by TextureId::index()
 
     bool runs(PassId pass) const { return passes[pass.index()].runs(); }
-    /// What pipelines of a pass that runs and has attachments are made for, with subpass().
+    /// The layout for pipelines of a pass that runs and has attachments; use it with subpass().
     backend::PassLayout const& passLayout(PassId pass) const { return groups[passes[pass.index()].group].layout; }
     uint8_t subpass(PassId pass) const { return passes[pass.index()].subpass; }
     /// None if no pass that runs uses it.
@@ -115,13 +116,14 @@ struct PassTimer {
     backend::Ticket ticket;
 };
 
-/// Appends the whole frame. `timers`, if given, gets one ticket for each group, in order; the stream has the answers.
-/// `ranges`, if given, lets passes record their draws in parallel (PassContext::recordRanges); the bits are the same.
+/// Appends the whole frame. `timers`, if given, receives one ticket for each group, in order; the stream has the
+/// results. `ranges`, if given, lets passes record their draws in parallel (PassContext::recordRanges); the bits are
+/// the same.
 void record(backend::CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers = nullptr,
             RangeRecorder* ranges = nullptr);
 
-/// Calls beforePass of every pass that runs, in order, and nothing else: for whoever wants to know in advance what a
-/// frame like this needs. Asserts that a pass records nothing meanwhile (PassContext::isRehearsal()).
+/// Calls beforePass of every pass that runs, in order, and nothing else, to find out in advance what such a frame
+/// needs. Asserts that no pass records anything (PassContext::isRehearsal()).
 void rehearse(CompiledGraph const& plan);
 
 } // namespace filament::framegraph

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FrameGraph: which passes a frame has and which textures each of them reads and writes. Declarations only: nothing is
-/// created, ordered or recorded here; compile() decides, record() does.
+/// FrameGraph: the passes of a frame, and the textures that each of them reads and writes. Declarations only: nothing
+/// is created, ordered or recorded here; compile() decides, and record() records.
 ///   In      textures (created or imported) and passes in the order in which they should run.
 ///   Thread  one at a time.
 ///   Memory  pass code lives in the arena; lists keep their capacity over reset(). A steady frame allocates nothing.
 ///           Captures of pass code are trivially destructible. Names are literals or live as long as the arena.
 ///   Limits  65 535 textures and passes.
-///   Fails   asserts on a declaration that contradicts itself, naming pass and texture: here and in compile().
+///   Fails   asserts on a contradictory declaration, naming pass and texture: here and in compile().
 ///
 ///   TextureId hdr = graph.createTexture({ .width = w, .height = h, .format = Format::RGBA16F, .name = "hdr" });
 ///   graph.addPass("sky", [&](PassBuilder& b) { b.writeColor(0, hdr, { .overwrites = true }); },
@@ -29,7 +29,7 @@
 
 namespace filament::framegraph {
 
-/// A texture as the graph sees it; how it may be used follows from what the passes do with it.
+/// A texture as the graph sees it; its usage is derived from the passes that use it.
 struct GraphTextureDesc {
     uint32_t width = 1, height = 1;
     backend::Format format = backend::Format::RGBA8;
@@ -42,11 +42,11 @@ struct GraphTextureDesc {
 
 enum class InitialContents : uint8_t { Undefined, Keep };
 
-/// What a pass does with the contents that its attachment had before.
+/// What a pass does with the previous contents of its attachment.
 enum class Previous : uint8_t {
-    Keep,      ///< draws over them (contents that never were written are undefined)
+    Keep,      ///< draws over them (contents never written before are undefined)
     Clear,     ///< replaces them by a colour first
-    Overwrite, ///< covers every pixel: they are not even loaded
+    Overwrite, ///< covers every pixel: the contents are not loaded
 };
 
 struct ColorTarget {
@@ -114,16 +114,16 @@ public:
     void writeDepth(TextureId texture, DepthTarget const& target = {});
     /// Attached for testing only; the pass's pipelines must not write it.
     void testDepth(TextureId texture, uint8_t level = 0, uint16_t layer = 0);
-    /// Through a sampler, anywhere. Not together with an attachment of the same texture.
+    /// Through a sampler, anywhere. Not combined with an attachment of the same texture.
     void readSampled(TextureId texture);
     /// At the current pixel only. If the pass could be merged with the one that wrote the texture, it is a subpass
     /// input (PassContext::isMerged() is true), otherwise the pass must sample it at the pixel's centre.
     void readInput(TextureId texture);
     /// Blits from it, reads it back, generates mips.
     void readTransfer(TextureId texture);
-    /// Uploads or blits to it, generates mips; what is not written keeps its contents.
+    /// Uploads or blits to it, generates mips; the rest keeps its contents.
     void writeTransfer(TextureId texture);
-    /// The pass runs even if nobody reads what it writes (read-backs, uploads to buffers).
+    /// The pass runs even if nothing reads its results (read-backs, uploads to buffers).
     void sideEffect();
 
 private:
@@ -144,7 +144,7 @@ public:
     TextureId createTexture(GraphTextureDesc const& desc);
     /// A texture that exists outside. What passes write to it is kept.
     TextureId importTexture(backend::TextureHandle texture, GraphTextureDesc const& desc, InitialContents contents);
-    /// Contents are wanted after the frame although no pass reads them. Imported textures are outputs anyway.
+    /// The contents are needed after the frame although no pass reads them. Imported textures are always outputs.
     void markOutput(TextureId texture);
 
     /// `setup(PassBuilder&)` is called at once, `execute(PassContext&)` by record(), if the pass runs. A pass with

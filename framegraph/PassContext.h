@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PassContext: what the code of a pass sees while its commands are recorded. PassCode: that code, stored in an arena.
 ///   Thread  the one that calls record(); bodies of recordRanges(): any.
-///   Memory  captures live in the graph's arena and are never destructed: trivially destructible ones only.
+///   Memory  captures live in the graph's arena and are never destroyed: trivially destructible ones only.
 ///   Fails   asserts on textures that the pass did not declare, and on creating objects inside a pass.
 #pragma once
 
@@ -50,9 +50,10 @@ public:
             : mPlan(plan), mCommands(commands), mRanges(ranges), mIsRehearsal(isRehearsal) {}
 
     backend::CommandBuffer& commands() { return mCommands; }
-    /// body(commands, begin, end) for the ranges [0, grain), [grain, 2 grain), ... of `count` items, in parallel where
-    /// record() was given a RangeRecorder, joined in order behind what commands() holds. The stream does not depend on
-    /// that: a body records into the buffer that it is given, starts from nothing bound, and only reads what it shares.
+    /// body(commands, begin, end) for the ranges [0, grain), [grain, 2 grain), ... of `count` items. They run in
+    /// parallel if record() was given a RangeRecorder, and are joined in order after the contents of commands(). The
+    /// stream does not depend on that: a body records into the buffer it is given, starts with nothing bound, and only
+    /// reads shared data.
     template <class Body>
     void recordRanges(size_t count, size_t grain, Body&& body) {
         if (mRanges)
@@ -63,7 +64,7 @@ public:
     /// To allocate handles and tickets.
     backend::CommandStream& stream();
 
-    /// body(begin, end) for the same ranges, where nothing is recorded: what a pass has to find out before it records.
+    /// body(begin, end) for the same ranges without recording: for work before recording.
     template <class Body>
     void forEachRange(size_t count, size_t grain, Body&& body) {
         if (mRanges)
@@ -76,21 +77,21 @@ public:
     backend::TextureHandle texture(TextureId id) const;
     GraphTextureDesc const& desc(TextureId id) const;
 
-    /// What pipelines of this pass are made for. Passes without attachments have none.
+    /// The layout for pipelines of this pass. Passes without attachments have none.
     backend::PassLayout const& passLayout() const;
     uint8_t subpass() const;
     backend::Rect area() const;
-    /// True: the texture is a subpass input (BindingType::InputAttachment). False: the pass has to sample it.
+    /// True: the texture is a subpass input (BindingType::InputAttachment). False: the pass must sample it.
     bool isMerged(TextureId id) const;
     /// Index of a colour attachment of this pass, or of its subpass input, in the backend pass: the output location
     /// that the fragment shader writes, and BindingDesc::inputAttachment. The declared slot, unless the pass is merged.
     uint8_t colorIndex(TextureId id) const;
 
-    /// beforePass is called by rehearse(): nothing will be drawn. Choose pipelines as always, record nothing.
+    /// rehearse() called beforePass: nothing will be drawn. Choose pipelines as usual, but record nothing.
     bool isRehearsal() const { return mIsRehearsal; }
 
-    /// A bind group that lives for this frame; equal ones are made once and kept while frames go on asking for them.
-    /// None in a rehearsal. In `beforePass` and in passes without attachments only.
+    /// A bind group that lives for this frame; equal ones are created once and kept while frames request them. None in
+    /// a rehearsal. Only in `beforePass` and in passes without attachments.
     backend::BindGroupHandle bindGroup(backend::BindGroupLayout const& layout,
                                        std::span<const backend::BindGroupEntry> entries, std::string_view name);
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-/// RangeRecorder: records a long list of items on the job system, each range of it into a command buffer of its own,
-/// and joins the buffers in order.
+/// RangeRecorder: records a long list of items on the job system, each range into its own command buffer, and joins the
+/// buffers in order.
 ///   In      count, grain, and body(commands, begin, end), which records the items [begin, end).
-///   Bits    the ranges follow from count and grain alone, and a body knows nothing of what other ranges bound: the
-///           stream has the same commands and payloads for any number of workers, also in turn (recordRangesInTurn).
-///   Thread  record(): one at a time, the thread whose buffer it is; it works along. body: any, at the same time.
-///   Memory  a buffer for each range of the longest list so far. append() swaps blocks, so a steady frame allocates
+///   Bits    the ranges depend on count and grain only, and a body knows nothing about the bindings of other ranges:
+///           the stream has the same commands and payloads for any number of workers, also without parallelism
+///           (recordRangesInTurn).
+///   Thread  record(): one at a time, the thread that owns the buffer, which takes part. body: any, in parallel.
+///   Memory  one buffer per range of the longest list so far. append() swaps blocks, so a steady frame allocates
 ///           nothing.
 ///   Fails   std::bad_alloc: `commands` then ends somewhere in the list.
-///   Cost    bench/filament_core/passes; joining takes about 50 ns a range. One range, or no workers: straight into
-///           `commands`.
+///   Cost    bench/filament_core/passes; joining takes about 50 ns per range. A single range, or no workers: recorded
+///           directly into `commands`.
 #pragma once
 
 #include "backend/stream/CommandBuffer.h"
@@ -22,7 +23,7 @@
 
 namespace filament::framegraph {
 
-/// The ranges [0, grain), [grain, 2 grain), ... one after the other; the last one ends at `count`.
+/// The ranges [0, grain), [grain, 2 grain), ... in sequence; the last one ends at `count`.
 template <class Body>
 void recordRangesInTurn(backend::CommandBuffer& commands, size_t count, size_t grain, Body& body) {
     FILAMENT_ASSERT(grain > 0, "recordRanges: a range holds at least one item");
@@ -55,12 +56,12 @@ public:
     jobs::JobSystem& jobs() { return mJobs; }
 
 private:
-    /// On cache lines of its own: neighbours are written by different threads.
+    /// On separate cache lines: different threads write to neighbours.
     struct alignas(64) Lane {
         backend::CommandBuffer commands;
     };
 
-    /// What a list that failed leaves behind is not joined to the next one.
+    /// Drops the remains of a failed list, so that they are not joined to the next one.
     struct EmptyLanes {
         std::vector<Lane>& lanes;
         ~EmptyLanes() {

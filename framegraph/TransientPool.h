@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// TransientPool: the textures (and bind groups) behind the transients of frame graphs, reused over passes and frames.
+/// TransientPool: the textures and bind groups behind the transients of frame graphs, reused across passes and frames.
 ///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes share a texture.
 ///   Thread  one at a time.
-///   Memory  device memory of everything that one of the last `keepFrames` graphs used; small lists on the heap that
-///           stop growing after warm-up.
-///   Fails   std::bad_alloc, and the pool is as before but for what it promised to that graph. destroyAll() never; it
-///           is called before the end, or the destructor asserts.
+///   Memory  device memory of everything used by one of the last `keepFrames` graphs; small lists on the heap that stop
+///           growing after warm-up.
+///   Fails   std::bad_alloc: the pool is unchanged except for promises to that graph. destroyAll() never fails; call it
+///           before the end, or the destructor asserts.
 ///   Cost    a linear search over a few dozen entries for each transient.
 #pragma once
 
@@ -26,7 +26,7 @@ namespace filament::framegraph {
 
 class TransientPool {
 public:
-    /// `keepFrames`: how many graphs in a row may go without an object before it is destroyed.
+    /// `keepFrames`: the number of consecutive graphs that may not use an object before it is destroyed.
     explicit TransientPool(backend::CommandStream& stream, uint32_t keepFrames = 16);
     ~TransientPool();
     TransientPool(TransientPool const&) = delete;
@@ -36,15 +36,15 @@ public:
 
     /// Starts a graph: every texture is free again.
     void beginGraph();
-    /// A texture of this description that nobody else uses from `first` to `last`. Lifetimes of one graph are asked for
-    /// with `first` ascending.
+    /// A texture of this description that is free from `first` to `last`. Request the lifetimes of one graph with
+    /// ascending `first`.
     backend::TextureHandle acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last);
     /// See PassContext::bindGroup(). Records the creation if it is new.
     backend::BindGroupHandle bindGroup(backend::CommandBuffer& commands, backend::BindGroupDesc const& desc);
 
     /// Creates what acquire() promised since the last call.
     void recordCreations(backend::CommandBuffer& commands);
-    /// Destroys what was not used for too long.
+    /// Destroys what has not been used for too long.
     void recordEvictions(backend::CommandBuffer& commands);
     void destroyAll(backend::CommandBuffer& commands);
 
