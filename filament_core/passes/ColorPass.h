@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Colour pass: opaque and masked geometry, then the sky where nothing covers it, then blended geometry.
 ///   Draws   pre-exposed scene-linear light, and a reversed depth buffer that lives only as long as the pass.
-///   Skips   the sky when the scene has none; what has no pipeline.
+///   Skips   the sky if the scene has none; draws without a pipeline.
 #pragma once
 
 #include "filament_core/passes/FrameContext.h"

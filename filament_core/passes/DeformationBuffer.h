@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// DeformationBuffer: skins and morph weights of one frame on the device, and the bind groups through which draws see
-/// them: one for each texture of morph targets that is in use, with windows of the buffer as dynamic offsets.
+/// DeformationBuffer: skins and morph weights of one frame on the device, and their bind groups: one for each texture
+/// of morph targets in use, with windows of the buffer as dynamic offsets.
 ///   In      a DeformationList.   Out: what to bind, by slot of scene::Deformations.
 ///   Memory  a sampler, a texel, and a buffer that grows to the largest frame and stays; none before the first frame
-///           that deforms anything. A group that no frame used for kKeptFrames frames is given up, and with it what it
-///           remembers of a texture.
-///   Fails   std::bad_alloc; what is recorded then fits what is remembered.
+///           with deformations. A group that no frame used for kKeptFrames frames is dropped, with everything known
+///           about its texture.
+///   Fails   std::bad_alloc; recorded commands and remembered objects still agree.
 ///   Thread  the app thread, with the workers for the data. Records outside of passes.
 #pragma once
 
@@ -41,7 +41,7 @@ private:
     void makeFixed(backend::CommandStream& stream, backend::CommandBuffer& commands);
     void dropUnused(backend::CommandStream& stream, backend::CommandBuffer& commands, uint32_t keptFrames);
 
-    backend::TextureHandle mNoDeltas; ///< in the place of morph targets that are not there
+    backend::TextureHandle mNoDeltas; ///< replaces missing morph targets
     backend::SamplerHandle mNearest;
     backend::BufferHandle mBuffer;
     uint32_t mBytes = 0; ///< capacity for blocks

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Draw lists -> draw commands. Pipelines are chosen first, outside of the pass; recording then only reads.
 ///   Thread  choosePipelines(), recordDrawRanges(): as the pass. recordDraws(): any, into a buffer of its own.
-///   Bits    a range binds everything that its first draw needs, so that the stream does not depend on who recorded it.
+///   Bits    a range binds everything that its first draw needs, so the stream does not depend on which thread recorded
+///           it.
 ///   Cost    bench/filament_core/passes: state that did not change since the last draw is not recorded again.
 #pragma once
 
@@ -15,17 +16,17 @@
 
 namespace filament::passes {
 
-/// About 10 us of recording: what waking a thread for a range is worth.
+/// About 10 us of recording: enough to make waking a thread for a range worthwhile.
 inline constexpr size_t kDrawsPerRange = 1024;
 
-/// Parallel to `draws`; none where a draw has no pipeline. For `beforePass` of a pass: what is not made yet is
-/// recorded into its commands, in the order of drawing; all are none for a frame that is only expected. Looks up in
-/// ranges, on the job system where there is one.
+/// Parallel to `draws`; none if a draw has no pipeline. Call in `beforePass`: missing pipelines are recorded into its
+/// commands, in drawing order; for a frame that is only expected all are none. Looks up in ranges, on the job system if
+/// there is one.
 std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext& pass, Arena& arena,
                                                          PipelineSource const& pipelines, uint32_t slot,
                                                          std::span<const prepare::DrawCall> draws, uint8_t variant);
 
-/// What all draws of a pass share.
+/// Shared by all draws of a pass.
 struct DrawContext {
     ViewGroup view;
     backend::BufferHandle instanceIds;
@@ -33,11 +34,11 @@ struct DrawContext {
     TextureFilter textureFilter = TextureFilter::AsAuthored;
 };
 
-/// One range, as if nothing were bound. Draws without a pipeline are skipped.
+/// One range, starting with nothing bound. Draws without a pipeline are skipped.
 void recordDraws(backend::CommandBuffer& commands, DrawContext const& context, std::span<const prepare::DrawCall> draws,
                  std::span<const backend::PipelineHandle> pipelines);
 
-/// A whole list, in ranges of kDrawsPerRange: on the job system where the frame is recorded with one.
+/// A whole list, in ranges of kDrawsPerRange: on the job system if the frame is recorded with one.
 void recordDrawRanges(framegraph::PassContext& pass, DrawContext const& context,
                       std::span<const prepare::DrawCall> draws, std::span<const backend::PipelineHandle> pipelines);
 

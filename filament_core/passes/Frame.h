@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// describeFrame: which passes a frame has, and in which order: one line a pass. The table of contents of this room.
+/// describeFrame: the passes of a frame and their order, one line per pass. The table of contents of this room.
 ///   In      the packet, the view's settings and the engine's resources, as a FrameContext; where the picture goes.
 ///   Out     declarations in the graph. No GPU work: framegraph::record() draws them, framegraph::rehearse() only asks
 ///           them what they need.
@@ -13,7 +13,7 @@
 
 namespace filament::passes {
 
-/// Where the picture goes: a texture of the engine, one sample a pixel.
+/// The destination of the picture: a texture of the engine, one sample per pixel.
 struct FrameOutput {
     backend::TextureHandle texture;
     uint32_t width = 1, height = 1;
@@ -23,8 +23,8 @@ struct FrameOutput {
     bool isSceneLinear() const { return format == backend::Format::RGBA16F; }
 };
 
-/// In the arena: passes keep a pointer to it. What uploads make (FrameContext::views and what follows) is set later,
-/// before the graph is recorded.
+/// In the arena: passes keep a pointer to it. Results of uploads (FrameContext::views and the members after it) are set
+/// later, before the graph is recorded.
 FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet, FrameResources const& resources,
                                View const& view);
 

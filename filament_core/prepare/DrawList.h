@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// From visible renderables to draw calls, one step a function; prepareFrame calls them in this order, with sortItems()
-/// (SortItems.h) between the two.
-///   Thread  jobs over ranges; what depends on the ranges before is a prefix sum between two loops.
-///   Memory  the arena: 16 B a visible renderable, 32 B a draw call.
+/// From visible renderables to draw calls, one function per step; prepareFrame calls them in this order, with
+/// sortItems() (SortItems.h) in between.
+///   Thread  jobs over ranges; anything that depends on earlier ranges is a prefix sum between two loops.
+///   Memory  the arena: 16 B per visible renderable, 32 B per draw call.
 #pragma once
 
 #include "filament_core/prepare/CullRenderables.h"
@@ -16,7 +16,7 @@ namespace filament::prepare {
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
                               VisibleItems const& visible);
 
-/// Of a sorted list, what does not blend.
+/// The part of a sorted list that does not blend.
 std::span<const SortItem> withoutBlended(std::span<const SortItem> sorted);
 
 struct DrawLists {
@@ -24,7 +24,7 @@ struct DrawLists {
 };
 
 /// Neighbours of one draw become one instanced draw call; none crosses a window of shader::kObjectsPerWindow objects.
-/// Blended neighbours merge too: instances draw in order. What has two passes is two draw calls an object.
+/// Blended neighbours merge too, because instances draw in order. Objects with two passes get two draw calls each.
 DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
                          std::span<const SortItem> items, ViewCounts& counts);
 

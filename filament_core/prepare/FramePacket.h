@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FramePacket: what the views of one frame see (a ViewPacket each), and what they share. The only thing that passes
-/// read of a scene.
+/// FramePacket: what the views of one frame see (a ViewPacket each), and what they share. Passes read nothing else of a
+/// scene.
 ///   In      made by prepareFrame (PrepareFrame.h).
 ///   Thread  a plain value, read-only once made.
 ///   Memory  spans into the frame arena and the columns of the scene: valid until the end of the frame, or until the
@@ -18,7 +18,7 @@
 
 namespace filament::prepare {
 
-/// Where the objects of a view are to be read from; writeObjects() (ObjectData.h) makes them what shaders see.
+/// Where the objects of a view are read from; writeObjects() (ObjectData.h) converts them for the shaders.
 struct ObjectList {
     std::span<const SortItem> order; ///< of drawing
     std::span<const scene::Placement> placements;
@@ -52,7 +52,7 @@ struct DeformationPlace {
     backend::TextureHandle deltas; ///< none: no morph targets
 };
 
-/// Skins and morph weights of what is visible; writeDeformations() (DeformationData.h) makes them what shaders see.
+/// Skins and morph weights of visible objects; writeDeformations() (DeformationData.h) converts them for the shaders.
 struct DeformationList {
     std::span<const scene::Deformation> deformations;
     std::span<const scene::SkinRecord> skins;
@@ -87,7 +87,7 @@ struct ViewPacket {
     ViewCounts counts;
 };
 
-/// The environment of the scene, the same for all views; what depends on a camera's exposure is in their uniforms.
+/// The environment of the scene, the same for all views; values that depend on a camera's exposure are in the uniforms.
 struct EnvironmentPacket {
     backend::TextureHandle specular;   ///< none: no indirect light
     backend::TextureHandle irradiance; ///< none: the coefficients of the uniforms only
@@ -105,8 +105,8 @@ struct FramePacket {
     ViewPacket const& mainView() const { return views[0]; }
 };
 
-/// Of everything in a packet and behind it, object data included: contents, never addresses. Equal for any number of
-/// workers.
+/// A hash of everything in a packet and behind it, including object data: contents, never addresses. The same for any
+/// number of workers.
 uint64_t hashPacket(FramePacket const& packet);
 
 } // namespace filament::prepare

@@ -2,9 +2,9 @@
 /// prepareFrame: scene and views -> FramePacket, on the job system. The table of contents of this room.
 ///   In      the scene as it is now, and the views: the main one first, one at least.   Out: one FramePacket in
 ///           `arena`, its views in the same order.
-///   Thread  the app thread; it works along with the workers until all are done.
+///   Thread  the app thread, which takes part in the work until all is done.
 ///   Memory  the arena only.
-///   Bits    the packet is the same for any number of workers, and a view's part of it whatever other views there are;
+///   Bits    the packet is the same for any number of workers, and a view's part of it does not depend on other views;
 ///           deformations are placed for all views together.
 ///   Fails   std::bad_alloc. Cost: that of its views, one after the other; bench/filament_core/prepare.
 #pragma once

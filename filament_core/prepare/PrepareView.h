@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// prepareView: what one view sees of a scene -> ViewPacket, on the job system.
-///   In      the scene as it is now, and the view. Several views of a frame: one call each, in turn.
-///   Out     the packet, and what culling has seen: deformations are placed for all views together.
-///   Thread  the thread whose the arena is; it works along with the workers until all are done.
+///   In      the current scene, and the view. For several views of a frame: one call each, in turn.
+///   Out     the packet, and the visible draws: deformations are placed for all views together.
+///   Thread  the thread that owns the arena; it takes part in the work until all is done.
 ///   Memory  the arena only.
 ///   Bits    the same for any number of workers: jobs are pure functions of index ranges.
 ///   Fails   std::bad_alloc. Cost: bench/filament_core/prepare.

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LightSelector: which lights a view shades with: the brightest sun, and the punctual lights whose range reaches into
-/// the frustum.
-///   Thread  the constructor: whose the arena is. select(): any, once; it runs beside culling.
-///   Memory  the arena, all of it in the constructor: 8 B a light and 64 B a light that can be kept.
-///   Limits  kMaxPunctualLights; of more, the brightest at the camera are kept (ties by order in the scene).
-///   Fails   never. Cost: about 15 ns a light, 60 ns where more reach the view than can be kept (they are sorted).
+/// LightSelector: the lights that a view shades with: the brightest sun, and the punctual lights whose range reaches
+/// into the frustum.
+///   Thread  the constructor: the thread that owns the arena. select(): any, once; it runs beside culling.
+///   Memory  the arena, all in the constructor: 8 B per light, and 64 B per light that can be kept.
+///   Limits  kMaxPunctualLights; if there are more, those brightest at the camera are kept (ties by order in the
+///           scene).
+///   Fails   never. Cost: about 15 ns per light, 60 ns if more reach the view than can be kept (they are sorted).
 #pragma once
 
 #include "base/Arena.h"
@@ -19,7 +20,7 @@ class LightSelector {
 public:
     LightSelector(Arena& arena, scene::Lights const& lights);
 
-    /// Writes the sun and the light count into `frame`, and the light counts into `counts`; touches nothing else of
+    /// Writes the sun and the light count into `frame`, and the light counts into `counts`; changes nothing else in
     /// them. Returns the punctual lights.
     std::span<const shader::PunctualLight> select(ViewSpace const& space, shader::FrameUniforms& frame,
                                                   ViewCounts& counts) const;

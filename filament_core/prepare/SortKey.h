@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// SortKey: the order of drawing as one number, smaller first. Equal keys keep the order of the scene.
+/// SortKey: the drawing order as one number, smaller first. Equal keys keep the order of the scene.
 ///
 ///   opaque   63    0
 ///            55-62 slice      where the renderable's slice of its draw begins, four steps an octave
@@ -11,16 +11,15 @@
 ///   blended  63    1
 ///            31-62 depth      of the renderable, every bit, inverted: back to front
 ///
-/// A draw is what instances can share: geometry, material instance and side. Its renderables, wherever they are in the
-/// scene, are cut into slices by depth, and slices of all draws lie front to back. A slice is as thin as a quarter of
-/// an octave where a draw has many renderables, and as thick as the whole draw where it has few: about
-/// kSliceMembers or more are worth a draw call of their own. So n copies of one mesh take ceil(n / window) draw calls,
-/// a few copies one, and what is in front hides what is behind. Where every mesh is there once, the order is front to
-/// back by quarters of an octave, and by state within one. bench/filament_core/prepare/DrawOrderBench.cpp counts draws
-/// and overdraw beside other orders.
+/// A draw is what instances can share: geometry, material instance and side. Its renderables are cut into slices by
+/// depth, and the slices of all draws are sorted front to back. A slice is as thin as a quarter of an octave if a draw
+/// has many renderables, and as thick as the whole draw if it has few: a draw call of its own pays for about
+/// kSliceMembers or more. So n copies of one mesh take ceil(n / window) draw calls, a few copies take one, and near
+/// objects hide far ones. If every mesh exists once, the order is front to back by quarters of an octave, and by state
+/// within one. bench/filament_core/prepare/DrawOrderBench.cpp counts draws and overdraw and compares other orders.
 ///
-///   Depth   along the view direction, from 2^-16 m to 2^48 m; what is nearer (behind the camera, not a number) or
-///           farther counts as the end of that range. Blended: from 0 on.
+///   Depth   along the view direction, from 2^-16 m to 2^48 m; values outside that range (including behind the camera
+///           and NaN) count as its ends. Blended: from 0 on.
 #pragma once
 
 #include "filament_core/scene/Drawables.h"
@@ -31,7 +30,7 @@
 
 namespace filament::prepare {
 
-/// A visible renderable and its place in the order of drawing.
+/// A visible renderable and its position in the drawing order.
 struct SortItem {
     uint64_t key = 0; ///< from culling until writeKeys(): the bits of its depth
     uint32_t renderable = 0;
