@@ -21,6 +21,37 @@ if(FILAMENT_SANITIZE)
     target_link_options(filament_options INTERFACE -fsanitize=${FILAMENT_SANITIZE})
 endif()
 
+# ---- precompiled headers: one for the rooms and tools, one for the tests, each compiled once and used by many targets.
+# A compiler takes them only where every option agrees: programs' mains (-fPIE) and files that are optimised otherwise
+# go without.
+option(FILAMENT_PCH "Precompile what most files include; OFF shows whether each file includes what it uses" ON)
+
+# ccache keeps objects that came from a precompiled header only if it is told that no macro of the date matters.
+foreach(language C CXX)
+    if(FILAMENT_PCH AND CMAKE_${language}_COMPILER_LAUNCHER MATCHES "^([^;]*/)?ccache$")
+        set(CMAKE_${language}_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
+            ${CMAKE_${language}_COMPILER_LAUNCHER})
+    endif()
+endforeach()
+
+function(filament_precompiled_header name)
+    cmake_parse_arguments(ARG "" "HEADER" "LINK;OPTIONS" ${ARGN})
+    if(FILAMENT_PCH)
+        set(source ${CMAKE_BINARY_DIR}/precompiled/${name}.cpp)
+        file(CONFIGURE OUTPUT ${source} CONTENT "// carries ${ARG_HEADER}\n")
+        add_library(${name} OBJECT ${source})
+        target_link_libraries(${name} PRIVATE filament_options ${ARG_LINK})
+        target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
+        target_precompile_headers(${name} PRIVATE <cmake/precompiled/${ARG_HEADER}>)
+    endif()
+endfunction()
+
+function(filament_use_precompiled target header)
+    if(TARGET ${header})
+        target_precompile_headers(${target} REUSE_FROM ${header})
+    endif()
+endfunction()
+
 # filament_core/scene -> scene, backend/vulkan -> backend_vulkan
 function(filament_room_name folder result)
     string(REGEX REPLACE "^filament_core/" "" name ${folder})
@@ -46,6 +77,7 @@ function(filament_room folder)
     if(sources)
         add_library(${name} STATIC ${sources})
         target_link_libraries(${name} PUBLIC filament_options ${ARG_LINK})
+        filament_use_precompiled(${name} precompiled_rooms)
     else()
         add_library(${name} INTERFACE)
         target_link_libraries(${name} INTERFACE filament_options ${ARG_LINK})
@@ -60,15 +92,23 @@ function(filament_program name)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 endfunction()
 
+# What tests compile themselves runs once: beyond -O1 the compiler takes longer than the tests save. HOT programs, which
+# compute for seconds in their own objects, keep the preset's level and go without the precompiled header.
+set(FILAMENT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
+
 # One test program per mirrored folder: tests/<folder>/*.cpp.
 function(filament_tests folder)
-    cmake_parse_arguments(ARG "GPU" "" "SUBFOLDERS;LINK" ${ARGN})
+    cmake_parse_arguments(ARG "GPU;HOT" "" "SUBFOLDERS;LINK" ${ARGN})
     string(REPLACE "/" "_" name ${folder})
     filament_glob(sources tests/${folder} SUBFOLDERS ${ARG_SUBFOLDERS})
     if(NOT sources)
         return()
     endif()
     filament_program(${name}_tests SOURCES ${sources} LINK ${ARG_LINK} tool_paths GTest::gmock GTest::gtest_main)
+    if(NOT ARG_HOT)
+        target_compile_options(${name}_tests PRIVATE ${FILAMENT_TEST_OPTIONS})
+        filament_use_precompiled(${name}_tests precompiled_tests)
+    endif()
     add_test(NAME ${name} COMMAND ${name}_tests)
     if(ARG_GPU)
         set_tests_properties(${name} PROPERTIES LABELS gpu)
