@@ -42,9 +42,9 @@ struct CmdUploadTexture {
     Rect rect{};
     std::span<const std::byte> bytes;
 };
-/// Fills levels 1.. of every layer from level 0, each the 2x2 box average of the one above (linear light for sRGB).
+/// Fills levels 1.. of every layer from level 0, each the 2x2 box average of the one above. Not of sRGB: upload those.
 struct CmdGenerateMips { TextureHandle texture; };
-/// Copies with scaling between single-sampled colour textures.
+/// Copies with scaling between single-sampled colour textures. The target is not sRGB; an sRGB source is decoded.
 struct CmdBlit {
     TextureHandle source, target;
     uint8_t sourceLevel = 0, targetLevel = 0;

@@ -23,7 +23,7 @@ struct FormatInfo {
     FormatKind kind;
     bool isFloat; ///< stores values beyond [0, 1]
     bool isSrgb;
-    bool isRenderable; ///< can be an attachment on every supported device
+    bool isRenderable; ///< every supported device can attach it to a framebuffer
 };
 
 FormatInfo const& formatInfo(Format format);
@@ -31,6 +31,10 @@ FormatInfo const& formatInfo(Format format);
 inline bool isCompressed(Format format) { return formatInfo(format).blockSize > 1; }
 inline bool hasDepth(Format format) { return formatInfo(format).kind >= FormatKind::Depth; }
 inline bool hasStencil(Format format) { return formatInfo(format).kind == FormatKind::DepthStencil; }
+
+/// Whether commands other than uploads may write it: passes, blits, mip generation. A driver would have to encode sRGB
+/// then, and its bits differ between processors (docs/conformance.md, "How far the promise reaches").
+inline bool isWritable(Format format) { return formatInfo(format).isRenderable && !formatInfo(format).isSrgb; }
 
 /// Bytes of one tightly packed image of width x height texels (partial blocks count whole).
 uint64_t imageBytes(Format format, uint32_t width, uint32_t height);

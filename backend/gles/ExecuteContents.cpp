@@ -18,12 +18,21 @@ GLint bottom(Rect const& rect) { return rect.y + static_cast<GLint>(rect.height)
 
 } // namespace
 
-bool Executor::canCopy(Texture const& texture, const char* what) {
+bool Executor::canRead(Texture const& texture, const char* what) {
     FormatInfo const& format = formatInfo(texture.desc.format);
     if (format.isRenderable && format.kind <= FormatKind::UnsignedInteger && texture.desc.samples == 1) return true;
     mDevice.error(DriverErrorKind::Other,
                   "{} needs single-sampled textures of a renderable colour format, not {} x{}; skipped", what,
                   format.name, texture.desc.samples);
+    return false;
+}
+
+bool Executor::canWrite(Texture const& texture, const char* what) {
+    if (!canRead(texture, what)) return false;
+    if (isWritable(texture.desc.format)) return true;
+    mDevice.error(DriverErrorKind::Other,
+                  "{} would let the driver encode {}, which has other bits on other processors; upload the texels",
+                  what, formatInfo(texture.desc.format).name);
     return false;
 }
 
@@ -40,14 +49,14 @@ void Executor::copy(Image const& source, Image const& target, Filter filter) {
 void Executor::execute(CmdBlit const& command) {
     Texture const* source = mTextures.find(command.source);
     Texture const* target = mTextures.find(command.target);
-    if (!source || !target || !canCopy(*source, "a blit") || !canCopy(*target, "a blit")) return;
+    if (!source || !target || !canRead(*source, "a blit") || !canWrite(*target, "a blit")) return;
     copy({ *source, command.sourceLevel, command.sourceLayer, command.sourceRect },
          { *target, command.targetLevel, command.targetLayer, command.targetRect }, command.filter);
 }
 
 void Executor::execute(CmdGenerateMips const& command) {
     Texture const* texture = mTextures.find(command.texture);
-    if (!texture || !canCopy(*texture, "generating mips")) return;
+    if (!texture || !canWrite(*texture, "generating mips")) return;
     for (uint32_t layer = 0; layer < texture->desc.layers; ++layer) {
         for (uint32_t level = 1; level < texture->desc.levels; ++level) {
             copy({ *texture, level - 1, layer, wholeLevel(texture->desc, level - 1) },

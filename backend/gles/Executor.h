@@ -93,7 +93,8 @@ private:
     void publishStatistics();
 
     // contents
-    bool canCopy(Texture const& texture, const char* what);
+    bool canRead(Texture const& texture, const char* what);
+    bool canWrite(Texture const& texture, const char* what);
     void copy(Image const& source, Image const& target, Filter filter);
 
     // passes

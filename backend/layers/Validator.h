@@ -66,7 +66,8 @@ public:
     void execute(CmdDrawIndexed const& command);
 
 private:
-    /// The effect of a broken rule in a real driver: a wrong picture, or a crash (then the stream is dropped).
+    /// The effect of a broken rule in a real driver: a wrong picture, or a crash (then the stream is dropped). Bits that
+    /// differ between processors count as a crash: they must not reach a picture.
     enum class Harm : uint8_t { WrongResult, Crash };
     enum class Place : uint8_t { OutsidePasses, InsidePass, Anywhere };
 
@@ -149,6 +150,7 @@ private:
     bool checkRegion(TextureModel const& texture, std::string_view role, uint32_t level, uint32_t layer,
                      uint32_t layerCount, Rect const& rect);
     bool checkBlitSide(TextureModel const& texture, std::string_view role, TextureUsage usage);
+    void checkWrite(Format format, std::string_view what);
     void checkTicket(Ticket ticket);
     void checkPassLayout(PassLayout const& layout);
     void checkSubpasses(PassLayout const& layout);

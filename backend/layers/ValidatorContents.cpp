@@ -83,6 +83,14 @@ void Validator::execute(CmdGenerateMips const& command) {
             Harm::Crash, "generating mips needs TransferSource and TransferTarget");
     require(format.kind == FormatKind::Color && format.isRenderable, Harm::Crash,
             "mips of {} cannot be generated; upload them", format.name);
+    checkWrite(texture->desc.format, "generating mips");
+}
+
+void Validator::checkWrite(Format format, std::string_view what) {
+    require(isWritable(format) || !formatInfo(format).isRenderable, Harm::Crash,
+            "{} would let the driver encode {}, which has other bits on other processors; encode in a shader or on the "
+            "CPU, write a format without Srgb or upload the texels",
+            what, formatInfo(format).name);
 }
 
 bool Validator::checkBlitSide(TextureModel const& texture, std::string_view role, TextureUsage usage) {
@@ -104,6 +112,7 @@ void Validator::execute(CmdBlit const& command) {
     mObject = target->name;
     if (!checkBlitSide(*source, "source", TextureUsage::TransferSource)) return;
     if (!checkBlitSide(*target, "target", TextureUsage::TransferTarget)) return;
+    checkWrite(target->desc.format, fmt::format("a blit to '{}'", target->name));
     checkRegion(*source, "source", command.sourceLevel, command.sourceLayer, 1, command.sourceRect);
     checkRegion(*target, "target", command.targetLevel, command.targetLayer, 1, command.targetRect);
     const FormatKind from = formatInfo(source->desc.format).kind, to = formatInfo(target->desc.format).kind;

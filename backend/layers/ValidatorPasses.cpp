@@ -26,6 +26,7 @@ void Validator::checkPassLayout(PassLayout const& layout) {
         FormatInfo const& format = formatInfo(layout.colorFormats[i]);
         require(layout.colorFormats[i] != Format::None && format.isRenderable && !hasDepth(layout.colorFormats[i]),
                 Harm::Crash, "colour {} has format {}, which is no renderable colour format", i, format.name);
+        checkWrite(layout.colorFormats[i], fmt::format("a pass with colour {}", i));
     }
     require(layout.depthFormat == Format::None || hasDepth(layout.depthFormat), Harm::Crash,
             "depth has colour format {}", formatInfo(layout.depthFormat).name);

@@ -82,6 +82,13 @@ void Executor::execute(CmdUploadTexture const& command) {
 // ---------------------------------------------------------------------------------------------- blits
 
 bool Executor::canBlit(Texture const& texture, VkFormatFeatureFlags needed, std::string_view what) {
+    if ((needed & VK_FORMAT_FEATURE_BLIT_DST_BIT) != 0 && formatInfo(texture.format()).isSrgb) {
+        report(fail(ErrorCode::Unsupported,
+                    "{} of texture '{}' would let the driver encode {}, which has other bits on other processors; "
+                    "upload the texels",
+                    what, texture.name(), formatInfo(texture.format()).name));
+        return false;
+    }
     VkFormatProperties properties{};
     mDevice->instance().fn().vkGetPhysicalDeviceFormatProperties(mDevice->physical().handle, native(texture.format()),
                                                                  &properties);

@@ -2,6 +2,7 @@
 // Textures, buffers, targets: public descriptions -> commands.
 #include "backend/stream/RecordingGuards.h"
 #include "base/Log.h"
+#include "filament_core/assets/image/MipMaps.h"
 #include "filament_core/engine/EngineImpl.h"
 
 #include <algorithm>
@@ -30,6 +31,9 @@ backend::DeviceTextureDesc backendDesc(filament::TextureDesc const& desc) {
                     "a cube has six square layers");
     const uint32_t full = fullMipCount(desc.width, desc.height);
     FILAMENT_ASSERT(desc.levels <= full, "a texture has at most floor(log2(size)) + 1 levels");
+    FILAMENT_ASSERT(!desc.renderable || isWritable(desc.format),
+                    "a renderable texture, or a swap chain, has a format that passes can write, not sRGB: RGBA8 gets "
+                    "the same encoded colours");
     TextureUsage usage = TextureUsage::Sampled | TextureUsage::TransferTarget | TextureUsage::TransferSource;
     if (desc.renderable) usage = usage | TextureUsage::ColorAttachment;
     return { .type = textureType(desc.kind),
@@ -57,6 +61,30 @@ void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::Textu
                                           desc.pixels.subspan(offset, bytes) });
         offset += bytes;
     }
+}
+
+/// Encoding sRGB is no driver's task: Mesa's CPU drivers do it with the processor's estimate of the reciprocal square
+/// root, whose bits are not the same on every processor (docs/conformance.md).
+bool makesMipsHere(filament::TextureDesc const& desc) { return desc.generateMips && desc.format == Format::RGBA8Srgb; }
+
+assets::Image mipsOf(filament::TextureDesc const& desc) {
+    assets::Image base{ .width = desc.width, .height = desc.height, .layers = desc.layers };
+    FILAMENT_ASSERT(base.levelBytes(0) <= desc.pixels.size(), "`pixels` holds all layers of level 0");
+    const auto level0 = desc.pixels.first(base.levelBytes(0));
+    base.data.assign(level0.begin(), level0.end());
+    return assets::withMipMaps(std::move(base), true);
+}
+
+void uploadPixels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc) {
+    if (!makesMipsHere(desc)) {
+        uploadLevels(commands, handle, desc);
+        if (desc.generateMips) commands.record(CmdGenerateMips{ handle });
+        return;
+    }
+    const assets::Image mips = mipsOf(desc);
+    filament::TextureDesc whole = desc;
+    whole.levels = mips.levels, whole.generateMips = false, whole.pixels = mips.data;
+    uploadLevels(commands, handle, whole);
 }
 
 BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<const std::byte> data,
@@ -93,8 +121,7 @@ Texture Engine::Impl::createTexture(filament::TextureDesc const& desc) {
     NewHandle handle(*stream, stream->allocateTexture());
     AllOrNothing all(pending);
     pending.record(CmdCreateTexture{ handle, created });
-    if (!desc.pixels.empty()) uploadLevels(pending, handle, desc);
-    if (desc.generateMips && !desc.pixels.empty()) pending.record(CmdGenerateMips{ handle });
+    if (!desc.pixels.empty()) uploadPixels(pending, handle, desc);
     all.complete();
     state.handle = handle.keep();
     return draft.keep();

@@ -12,6 +12,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
+#include <iterator>
+#include <string_view>
 
 namespace filament::conformance {
 namespace {
@@ -37,17 +40,18 @@ std::optional<Image> imageFromHex(std::string const& text) {
 
 } // namespace
 
+std::string cpuFeatures(bool hasAvx, bool hasFma, const char* override) {
+    constexpr std::string_view kWithoutAvx[] = { "nosse", "sse", "sse2", "sse3", "ssse3", "sse4.1" };
+    if (override && std::ranges::find(kWithoutAvx, std::string_view(override)) != std::end(kWithoutAvx))
+        hasAvx = hasFma = false;
+    return fmt::format("{} {}", hasAvx ? "avx" : "no-avx", hasFma ? "fma" : "no-fma");
+}
+
 Machine thisMachine(std::string device, std::string driver) {
     Machine machine{ .device = std::move(device), .driver = std::move(driver) };
 #if defined(__x86_64__)
-    const std::pair<const char*, bool> features[] = { { "sse4.1", __builtin_cpu_supports("sse4.1") != 0 },
-                                                      { "avx", __builtin_cpu_supports("avx") != 0 },
-                                                      { "avx2", __builtin_cpu_supports("avx2") != 0 },
-                                                      { "fma", __builtin_cpu_supports("fma") != 0 },
-                                                      { "avx512f", __builtin_cpu_supports("avx512f") != 0 } };
-    for (auto const& [name, isThere] : features) {
-        if (isThere) machine.cpuFeatures += fmt::format("{}{}", machine.cpuFeatures.empty() ? "" : " ", name);
-    }
+    machine.cpuFeatures = cpuFeatures(__builtin_cpu_supports("avx") != 0, __builtin_cpu_supports("fma") != 0,
+                                      std::getenv("GALLIUM_OVERRIDE_CPU_CAPS"));
 #else
     machine.cpuFeatures = "not x86-64";
 #endif

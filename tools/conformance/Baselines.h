@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Baselines: stored pictures, as a hash and a thumbnail each, with the machine that produced them.
-///   Rule    with the same driver and CPU features the hash must match. Otherwise the thumbnails are compared with
-///           FLIP, and the report says so. A case without a baseline fails: store one with --update-baselines.
+///   Rule    with the same driver the hash must match, on every x86-64 processor with AVX and FMA. Otherwise the
+///           thumbnails are compared with FLIP, and the report says so. A case without a baseline fails: store one with
+///           --update-baselines.
 ///   File    tests/conformance/baselines.json: one machine, every case as a hash and 16 x 16 RGB.
 ///   Thread  one.  Fails  Unreadable, Corrupt with the path.
 #pragma once
@@ -14,13 +15,19 @@ namespace filament::conformance {
 
 inline constexpr uint32_t kThumbnail = 16; ///< pixels per side
 inline constexpr double kThumbnailFlip = 0.02;
+/// Machine::cpuFeatures of the processors that draw the same bits (docs/conformance.md).
+inline constexpr const char* kPromisedFeatures = "avx fma";
 
 struct Machine {
     std::string device, driver;
-    std::string cpuFeatures; ///< "avx avx2 fma": those that software renderers use
+    std::string cpuFeatures; ///< "avx fma", or what of it Mesa does without: pictures have the bits of this class
     friend bool operator==(Machine const&, Machine const&) = default;
 };
 Machine thisMachine(std::string device, std::string driver);
+
+/// Machine::cpuFeatures of an x86-64 processor. `override` is GALLIUM_OVERRIDE_CPU_CAPS, null if it is not set: up to
+/// "sse4.1" it makes Mesa do without AVX, and so without FMA.
+std::string cpuFeatures(bool hasAvx, bool hasFma, const char* override);
 
 struct BaselineVerdict {
     bool passed = false;

@@ -200,6 +200,23 @@ public:
     }
 };
 
+/// One code of one texel of one mip level is one off. Of textures with one layer and four bytes a texel.
+class MipTexelEdit final : public PayloadEdit {
+public:
+    MipTexelEdit(uint32_t level, uint32_t texel) : mLevel(level), mTexel(texel) {}
+
+    using PayloadEdit::edit;
+    void edit(CmdUploadTexture& command) override {
+        const bool isSmallest = command.level > 0 && command.rect.width == 1 && command.rect.height == 1;
+        if (mLevel == kSmallestLevel ? !isSmallest : command.level != mLevel) return;
+        const size_t at = size_t{ mTexel } * 4;
+        if (at < command.bytes.size()) copy(command.bytes)[at] ^= std::byte{ 1 };
+    }
+
+private:
+    uint32_t mLevel, mTexel;
+};
+
 class MipBiasEdit final : public PayloadEdit {
 public:
     using PayloadEdit::edit;
@@ -254,6 +271,7 @@ std::unique_ptr<StreamEdit> make() {
 std::unique_ptr<StreamEdit> roughness() { return std::make_unique<ParameterEdit>("roughnessFactor", 1, 1.01f); }
 std::unique_ptr<StreamEdit> metallic() { return std::make_unique<ParameterEdit>("metallicFactor", 1, 0.98f); }
 std::unique_ptr<StreamEdit> emissive() { return std::make_unique<ParameterEdit>("emissiveFactor", 3, 1.02f); }
+std::unique_ptr<StreamEdit> lastMip() { return mipTexelEdit(kSmallestLevel, 0); }
 std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
 
 constexpr Mutation kMutations[] = {
@@ -263,6 +281,7 @@ constexpr Mutation kMutations[] = {
     { "srgb", "sRGB decoding dropped", make<SrgbDroppedEdit> },
     { "lightOff", "one light off", make<LightOffEdit> },
     { "mipBias", "mip bias + 0.5", make<MipBiasEdit> },
+    { "lastMip", "one code of the smallest mip level one off", lastMip },
     { "depthCompare", "depth test always passes", make<DepthCompareEdit> },
     { "cullFace", "front faces culled instead of back faces", make<CullFaceEdit> },
     { "blendOff", "blending off", make<BlendOffEdit> },
@@ -287,6 +306,10 @@ std::vector<std::string_view> mutationNames() {
     std::vector<std::string_view> names;
     for (Mutation const& mutation : kMutations) names.push_back(mutation.name);
     return names;
+}
+
+std::unique_ptr<StreamEdit> mipTexelEdit(uint32_t level, uint32_t texel) {
+    return std::make_unique<MipTexelEdit>(level, texel);
 }
 
 // SPIR-V 1.6 specification: 2.3 (instructions), 3.14 (image operands; Bias is bit 0 and so its operand comes first).

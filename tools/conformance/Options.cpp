@@ -2,6 +2,7 @@
 #include "tools/conformance/Options.h"
 
 #include "tools/common/CommandLine.h"
+#include "tools/conformance/Machines.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/paths/Paths.h"
 
@@ -9,6 +10,7 @@
 
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 
 namespace filament::conformance {
@@ -40,16 +42,18 @@ struct Words {
     std::string baselines = tools::sourceDir() / "tests/conformance/baselines.json";
     std::string assets = tools::assetDir();
     std::string out = "conformance", shard = "0/1", threads, mutations;
-    std::vector<std::string> backends, merge, set;
+    std::vector<std::string> backends, machines, merge, set;
+    std::string journal;
 };
 
 void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--scenes", words.scenes, "folder of scene files")->type_name("DIR");
     app.add_option("--assets", words.assets, "where \"asset:\" paths of scenes begin")->type_name("DIR");
-    app.add_option("--baselines", words.baselines, "file of stored pictures")->type_name("FILE");
+    app.add_option("--baselines", words.baselines, "file of stored pictures, or none")->type_name("FILE");
     app.add_flag("--update-baselines", options.updateBaselines, "store the pictures of this run as baselines");
     app.add_option("-o,--out", words.out, "folder of the report")->type_name("DIR");
     app.add_option("--only", options.only, "cases whose names contain one of these")->type_name("TEXT...");
+    app.add_option("--cases", options.cases, "of those, the cases with these names")->type_name("NAME...");
     app.add_option("--shard", words.shard, "every N-th case beginning with case I; or auto, from the scheduler")
             ->type_name("I/N");
     app.add_option("--merge", words.merge, "do not run: join the results of shards")->type_name("DIR...");
@@ -58,6 +62,11 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies")
             ->type_name("on|off");
     app.add_option("--mutations", words.mutations, "check that defects are noticed")->type_name("on|off");
+    app.add_option("--machines", words.machines,
+                   "draw the cases again in child processes that play other machines: none, all, or those that --list "
+                   "prints")
+            ->type_name("NAME...");
+    app.add_option("--journal", words.journal, "write down each case as it begins and ends")->type_name("FILE");
     app.add_option("--set", words.set, "exact=off, or a quality choice of docs/quality.md, in every case; repeatable")
             ->type_name("NAME=VALUE")
             ->expected(1)
@@ -85,6 +94,23 @@ Result<void> convertBackends(std::vector<std::string> const& words, Options& opt
     return {};
 }
 
+Result<void> convertMachines(std::vector<std::string> const& words, Options& options) {
+    for (std::string const& word : words) {
+        if (word == "none") continue;
+        if (word != "all" && !findMachine(word))
+            return invalidOption("--machines", word, "none, all, or one of those that --list prints");
+        for (std::string const& name : word == "all" ? quickMachines() : std::vector{ word }) {
+            if (std::ranges::find(options.machines, name) == options.machines.end()) options.machines.push_back(name);
+        }
+    }
+    std::error_code unknown;
+    options.program = std::filesystem::read_symlink("/proc/self/exe", unknown);
+    if (unknown && !options.machines.empty())
+        return fail(ErrorCode::Unreadable,
+                    "--machines starts this program again and cannot find it: /proc/self/exe: {}", unknown.message());
+    return {};
+}
+
 Result<void> convertSet(std::vector<std::string> const& words, Options& options) {
     for (std::string const& word : words) {
         const size_t equals = word.find('=');
@@ -104,10 +130,13 @@ Result<void> convertSet(std::vector<std::string> const& words, Options& options)
 
 Result<void> convert(Words const& words, Options& options) {
     options.scenes = words.scenes, options.baselines = words.baselines, options.assets = words.assets;
+    if (words.baselines == "none") options.baselines.clear();
     options.out = words.out;
+    options.journal = words.journal;
     options.merge.assign(words.merge.begin(), words.merge.end());
     if (auto done = convertBackends(words.backends, options); !done) return done;
     if (auto done = convertSet(words.set, options); !done) return done;
+    if (auto done = convertMachines(words.machines, options); !done) return done;
     if (auto done = tools::convertSwitch("--threads", words.threads, options.threads); !done) return done;
     if (auto done = tools::convertSwitch("--mutations", words.mutations, options.mutations); !done) return done;
     if (!options.mutate.empty() && !findMutation(options.mutate))

@@ -19,14 +19,19 @@ struct Shard {
 };
 
 struct Options {
-    std::filesystem::path scenes, baselines, assets;
+    std::filesystem::path scenes, assets;
+    std::filesystem::path baselines; ///< empty: pictures are not compared with stored ones
     std::filesystem::path out = "conformance";
     std::vector<Backend> backends{ Backend::Vulkan, Backend::Gles }; ///< the first is the reference
     std::string requireDevice;
-    std::vector<std::string> only; ///< cases whose names contain one of these; empty: all
+    std::vector<std::string> only;  ///< cases whose names contain one of these; empty: all
+    std::vector<std::string> cases; ///< of those, the ones with these names; empty: all
     Shard shard{};
     bool threads = true; ///< also 0, 2 and 8 workers, and the affinity policies
     bool mutations = true;
+    std::vector<std::string> machines; ///< simulated machines (Machines.h) whose child processes draw the cases again
+    std::filesystem::path program;     ///< what they run: this program
+    std::filesystem::path journal;     ///< where the run writes down how far it is (Journal.h); empty: nowhere
     bool updateBaselines = false;
     std::string build;                        ///< name of this build in the results
     std::string mutate;                       ///< with --bisect: the defect of the first backend; empty: none

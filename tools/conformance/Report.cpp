@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/common/Html.h"
+#include "tools/conformance/Machines.h"
 
 #include <algorithm>
 #include <map>
@@ -67,6 +68,22 @@ std::string summaryTable(Results const& results) {
     return html + "</table>";
 }
 
+std::string machineTable(Results const& results) {
+    if (results.machines.empty()) return {};
+    std::string html = "<h2>Machines</h2><table><tr><th>machine</th><th>what is different there</th><th>device</th>"
+                       "<th>promised</th><th>cases</th><th>same bits</th><th>differ</th><th>faults</th></tr>";
+    for (auto const& [name, device] : results.machines) {
+        const MachineSummary s = summaryOf(results, name);
+        SimulatedMachine const* machine = findMachine(name);
+        html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td><td>{}</td>", escaped(name),
+                            escaped(machine ? machine->what : ""), escaped(device),
+                            machine && machine->sameBits ? "the same bits" : "no", s.cases, s.identical);
+        html += fmt::format("<td>{}{}</td><td>{}</td></tr>", s.differing,
+                            s.differing ? fmt::format(" ({} pixels)", s.differingPixels) : "", s.faults);
+    }
+    return html + "</table>";
+}
+
 std::string mutationTable(Results const& results) {
     std::map<std::string, std::pair<uint32_t, uint32_t>> rows; // caught, tried
     for (CaseResult const& result : results.cases) {
@@ -85,8 +102,9 @@ std::string mutationTable(Results const& results) {
 
 std::string comparisonHtml(Comparison const& c, CaseResult const& result, std::filesystem::path const& folder) {
     std::string html = fmt::format("<p class=\"{}\">{}: ", c.passed ? "passed" : "failed", escaped(c.configuration));
-    html += c.differing == 0 ? std::string("the same bits")
-                             : fmt::format("{} pixels differ, by {}/255 at most", c.differing, c.maxDifference);
+    if (c.differing > 0) html += fmt::format("{} pixels differ, by {}/255 at most", c.differing, c.maxDifference);
+    if (c.isIdentical()) html += "the same bits";
+    if (!c.fault.empty()) html += (c.differing > 0 ? "; " : "") + escaped(c.fault);
     if (c.flipMean >= 0) html += fmt::format("; FLIP mean {:.5f}, 99th percentile {:.5f}", c.flipMean, c.flipP99);
     if (!c.first.empty()) html += "<br>first: " + escaped(c.first);
     html += "</p>";
@@ -104,7 +122,7 @@ std::string caseHtml(CaseResult const& result, std::filesystem::path const& fold
     if (!result.baseline.empty()) html += "<p>baseline: " + escaped(result.baseline) + "</p>";
     size_t equal = 0;
     for (Comparison const& c : result.comparisons) {
-        if (c.passed && c.differing == 0)
+        if (c.passed && c.isIdentical())
             ++equal;
         else
             html += comparisonHtml(c, result, folder);
@@ -139,7 +157,8 @@ std::string junitOf(Results const& results) {
 }
 
 std::string htmlOf(Results const& results, std::filesystem::path const& folder) {
-    std::string html = kHead + summaryTable(results) + mutationTable(results) + "<h2>Cases</h2>";
+    std::string html =
+            kHead + summaryTable(results) + machineTable(results) + mutationTable(results) + "<h2>Cases</h2>";
     for (const bool failed : { true, false }) { // what needs attention first
         for (CaseResult const& result : results.cases) {
             if ((result.status == Status::Failed) == failed) html += caseHtml(result, folder);
@@ -161,6 +180,18 @@ std::string summaryLine(Results const& results) {
                        s.passed, s.failed, s.skipped, s.identical, s.comparisons, s.caught, s.mutants,
                        s.mutants ? fmt::format(" ({:.1f} %)", 100.0 * s.caught / s.mutants) : "",
                        totalSeconds(results));
+}
+
+std::string machineLines(Results const& results) {
+    std::string text;
+    for (auto const& [name, device] : results.machines) {
+        const MachineSummary s = summaryOf(results, name);
+        SimulatedMachine const* machine = findMachine(name);
+        text += fmt::format("machine {}: {} of {} cases have the same bits, {} differ{}, {} with faults\n", name,
+                            s.identical, s.cases, s.differing, machine && machine->sameBits ? "" : " (not promised)",
+                            s.faults);
+    }
+    return text;
 }
 
 } // namespace filament::conformance

@@ -16,6 +16,8 @@ std::string htmlOf(Results const& results, std::filesystem::path const& folder);
 /// results.json, times.json, junit.xml and report.html.
 Result<void> writeReport(std::filesystem::path const& folder, Results const& results);
 
+/// For the terminal: a line for each simulated machine; empty without.
+std::string machineLines(Results const& results);
 /// For the terminal: counts, kill rate, time.
 std::string summaryLine(Results const& results);
 

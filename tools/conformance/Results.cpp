@@ -2,11 +2,14 @@
 #include "tools/conformance/Results.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "tools/conformance/Machines.h"
 
 #include <algorithm>
 
 namespace filament::conformance {
 namespace {
+
+constexpr std::string_view kMachinePrefix = "machine ";
 
 Json toJson(Comparison const& c) {
     Json json{ { "configuration", c.configuration },
@@ -16,7 +19,67 @@ Json toJson(Comparison const& c) {
     if (c.flipMean >= 0) json["flipMean"] = c.flipMean, json["flipP99"] = c.flipP99;
     if (!c.first.empty()) json["first"] = c.first;
     if (!c.image.empty()) json["image"] = c.image, json["difference"] = c.difference;
+    if (!c.fault.empty()) json["fault"] = c.fault;
     return json;
+}
+
+Comparison comparisonFromJson(Json const& json) {
+    return { .configuration = json.at("configuration"),
+             .passed = json.at("passed"),
+             .differing = json.at("differing"),
+             .maxDifference = json.at("maxDifference"),
+             .flipMean = json.value("flipMean", -1.0),
+             .flipP99 = json.value("flipP99", -1.0),
+             .first = json.value("first", ""),
+             .image = json.value("image", ""),
+             .difference = json.value("difference", ""),
+             .fault = json.value("fault", "") };
+}
+
+Status statusFromJson(std::string const& text) {
+    for (const Status status : { Status::Passed, Status::Skipped }) {
+        if (text == toString(status)) return status;
+    }
+    return Status::Failed;
+}
+
+Json machinesToJson(Results const& results) {
+    Json json = Json::object();
+    for (auto const& [name, device] : results.machines) {
+        const MachineSummary summary = summaryOf(results, name);
+        SimulatedMachine const* machine = findMachine(name);
+        json[name] = { { "device", device },
+                       { "sameBitsPromised", machine && machine->sameBits },
+                       { "cases", summary.cases },
+                       { "identical", summary.identical },
+                       { "differing", summary.differing },
+                       { "differingPixels", summary.differingPixels },
+                       { "faults", summary.faults } };
+    }
+    return json;
+}
+
+Result<void> writeJson(std::filesystem::path const& path, Json const& json) {
+    const std::string text = json.dump(2) + '\n';
+    return assets::replaceFile(path, std::as_bytes(std::span(text)));
+}
+
+Result<Json> readJson(std::filesystem::path const& path) {
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
+    if (!bytes) return bytes.error();
+    const auto* text = reinterpret_cast<const char*>(bytes->data());
+    Json json = Json::parse(text, text + bytes->size(), nullptr, false);
+    if (json.is_discarded()) return fail(ErrorCode::Corrupt, "{}: not JSON", path.string());
+    return json;
+}
+
+} // namespace
+
+std::string machineConfiguration(std::string_view machine) { return fmt::format("{}{}", kMachinePrefix, machine); }
+
+std::string_view machineOf(Comparison const& comparison) {
+    const std::string_view name = comparison.configuration;
+    return name.starts_with(kMachinePrefix) ? name.substr(kMachinePrefix.size()) : std::string_view();
 }
 
 Json toJson(CaseResult const& result) {
@@ -35,25 +98,6 @@ Json toJson(CaseResult const& result) {
     return json;
 }
 
-Comparison comparisonFromJson(Json const& json) {
-    return { .configuration = json.at("configuration"),
-             .passed = json.at("passed"),
-             .differing = json.at("differing"),
-             .maxDifference = json.at("maxDifference"),
-             .flipMean = json.value("flipMean", -1.0),
-             .flipP99 = json.value("flipP99", -1.0),
-             .first = json.value("first", ""),
-             .image = json.value("image", ""),
-             .difference = json.value("difference", "") };
-}
-
-Status statusFromJson(std::string const& text) {
-    for (const Status status : { Status::Passed, Status::Skipped }) {
-        if (text == toString(status)) return status;
-    }
-    return Status::Failed;
-}
-
 CaseResult caseFromJson(Json const& json) {
     CaseResult result{ .name = json.at("name"), .status = statusFromJson(json.at("status")) };
     result.reasons = json.value("reasons", std::vector<std::string>());
@@ -66,22 +110,6 @@ CaseResult caseFromJson(Json const& json) {
         result.kills.push_back({ kill.at("mutation"), kill.at("caught"), kill.at("differing") });
     return result;
 }
-
-Result<void> writeJson(std::filesystem::path const& path, Json const& json) {
-    const std::string text = json.dump(2) + '\n';
-    return assets::replaceFile(path, std::as_bytes(std::span(text)));
-}
-
-Result<Json> readJson(std::filesystem::path const& path) {
-    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
-    if (!bytes) return bytes.error();
-    const auto* text = reinterpret_cast<const char*>(bytes->data());
-    Json json = Json::parse(text, text + bytes->size(), nullptr, false);
-    if (json.is_discarded()) return fail(ErrorCode::Corrupt, "{}: not JSON", path.string());
-    return json;
-}
-
-} // namespace
 
 const char* toString(Status status) {
     switch (status) {
@@ -108,7 +136,22 @@ Summary summaryOf(Results const& results) {
         }
         for (Comparison const& comparison : result.comparisons) {
             ++summary.comparisons;
-            summary.identical += comparison.differing == 0;
+            summary.identical += comparison.isIdentical();
+        }
+    }
+    return summary;
+}
+
+MachineSummary summaryOf(Results const& results, std::string_view machine) {
+    MachineSummary summary;
+    for (CaseResult const& result : results.cases) {
+        for (Comparison const& comparison : result.comparisons) {
+            if (machineOf(comparison) != machine) continue;
+            ++summary.cases;
+            summary.identical += comparison.isIdentical();
+            summary.faults += !comparison.fault.empty();
+            summary.differing += comparison.fault.empty() && comparison.differing > 0;
+            summary.differingPixels += comparison.differing;
         }
     }
     return summary;
@@ -118,6 +161,7 @@ Json toJson(Results const& results) {
     const Summary summary = summaryOf(results);
     Json json{ { "build", results.build }, { "reference", results.reference } };
     for (auto const& [backend, device] : results.devices) json["devices"][backend] = device;
+    if (!results.machines.empty()) json["machines"] = machinesToJson(results);
     json["summary"] = { { "passed", summary.passed },       { "failed", summary.failed },
                         { "skipped", summary.skipped },     { "comparisons", summary.comparisons },
                         { "identical", summary.identical }, { "mutants", summary.mutants },
@@ -140,6 +184,8 @@ Result<Results> readResults(std::filesystem::path const& folder) {
     try {
         Results results{ .build = json->at("build"), .reference = json->at("reference") };
         results.devices = json->value("devices", std::map<std::string, std::string>());
+        for (auto const& [name, machine] : json->value("machines", Json::object()).items())
+            results.machines[name] = machine.at("device");
         for (Json const& one : json->at("cases")) results.cases.push_back(caseFromJson(one));
         results.seconds = times->get<std::map<std::string, double>>();
         return results;
@@ -161,6 +207,7 @@ Result<Results> merge(std::vector<Results> parts) {
                 return fail(ErrorCode::InvalidArgument, "results of '{}' do not merge with those of '{}'", device,
                             known->second);
         }
+        all.machines.merge(part.machines);
         std::move(part.cases.begin(), part.cases.end(), std::back_inserter(all.cases));
         all.seconds.merge(part.seconds);
     }

@@ -20,14 +20,21 @@ const char* toString(Status status);
 
 /// One picture of a case compared with the reference picture of that case.
 struct Comparison {
-    std::string configuration; ///< "gles", "vulkan workers 8"
+    std::string configuration; ///< "gles", "vulkan workers 8", "machine width-128"
     bool passed = false;
     uint64_t differing = 0;             ///< pixels whose bits differ
     uint32_t maxDifference = 0;         ///< in 1/255
     double flipMean = -1, flipP99 = -1; ///< -1: not requested
     std::string first;                  ///< the first differing pixel, with its command-stream position; empty: none
     std::string image, difference;      ///< files in the folder of the results; empty: equal
+    std::string fault;                  ///< why there is no picture, or what is wrong with it; empty: nothing
+
+    bool isIdentical() const { return differing == 0 && fault.empty(); }
 };
+
+/// Of a comparison with a picture that a child process drew (Machines.h): its configuration and back.
+std::string machineConfiguration(std::string_view machine);
+std::string_view machineOf(Comparison const& comparison); ///< empty: this process drew it
 
 struct Kill {
     std::string mutation;
@@ -47,11 +54,12 @@ struct CaseResult {
 };
 
 struct Results {
-    std::string build;                          ///< "Release"
-    std::string reference;                      ///< configuration that the others are compared with
-    std::map<std::string, std::string> devices; ///< backend -> device and driver
-    std::vector<CaseResult> cases;              ///< ascending by name
-    std::map<std::string, double> seconds;      ///< by case
+    std::string build;                           ///< "Release"
+    std::string reference;                       ///< configuration that the others are compared with
+    std::map<std::string, std::string> devices;  ///< backend -> device and driver
+    std::map<std::string, std::string> machines; ///< simulated machine -> device that its processes found
+    std::vector<CaseResult> cases;               ///< ascending by name
+    std::map<std::string, double> seconds;       ///< by case
 };
 
 struct Summary {
@@ -61,6 +69,15 @@ struct Summary {
 };
 Summary summaryOf(Results const& results);
 
+/// What the cases say of one simulated machine.
+struct MachineSummary {
+    uint32_t cases = 0, identical = 0, differing = 0, faults = 0; ///< faults are not among the differing
+    uint64_t differingPixels = 0;
+};
+MachineSummary summaryOf(Results const& results, std::string_view machine);
+
+Json toJson(CaseResult const& result);
+CaseResult caseFromJson(Json const& json); ///< throws Json::exception
 Json toJson(Results const& results);
 Result<void> writeResults(std::filesystem::path const& folder, Results const& results);
 Result<Results> readResults(std::filesystem::path const& folder);

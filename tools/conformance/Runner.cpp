@@ -4,6 +4,8 @@
 #include "base/Assert.h"
 #include "tools/common/Console.h"
 #include "tools/conformance/Compare.h"
+#include "tools/conformance/Journal.h"
+#include "tools/conformance/MachineRun.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/imgdiff/ImageCompare.h"
 
@@ -80,6 +82,7 @@ private:
     }
 
     void checkBaseline(Baselines& baselines) {
+        if (mOptions.baselines.empty()) return;
         DeviceDescription const& device = mActors[0].stage->device();
         const Machine machine = thisMachine(device.device, device.driver);
         if (mOptions.updateBaselines) baselines.store(mSpec.name, mReference.image, machine);
@@ -188,6 +191,36 @@ Result<SceneSpec> findCase(std::vector<SceneSpec> const& cases, std::string cons
     return fail(ErrorCode::NotFound, "there is no case '{}'; --list prints all", name);
 }
 
+/// The cases in this process. Its engines are gone when it returns.
+Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& cases) {
+    Result<Baselines> baselines = Baselines::read(options.baselines);
+    if (!baselines) return baselines.error();
+    Result<std::vector<Actor>> actors = openActors(configurationsOf(options));
+    if (!actors) return actors.error();
+    Results results{ .build = options.build, .reference = actors->front().configuration.name };
+    for (Actor const& actor : *actors)
+        results.devices[toString(actor.stage->device().backend)] =
+                actor.stage->device().device + ", " + actor.stage->device().driver;
+    Journal journal(options.journal);
+    journal.devices(results.devices);
+    for (size_t i = 0; i < cases.size(); ++i) {
+        showCase(i, cases.size(), cases[i].name);
+        journal.begins(cases[i].name);
+        const auto start = std::chrono::steady_clock::now();
+        results.cases.push_back(CaseRun(options, *actors, cases[i]).run(*baselines));
+        results.seconds[cases[i].name] =
+                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+        journal.ends(results.cases.back());
+        tools::clearProgress();
+        for (std::string const& reason : results.cases.back().reasons)
+            std::printf("%-8s %s: %s\n", toString(results.cases.back().status), cases[i].name.c_str(), reason.c_str());
+    }
+    if (options.updateBaselines) {
+        if (const Result<void> written = baselines->write(options.baselines); !written) return written.error();
+    }
+    return results;
+}
+
 } // namespace
 
 std::vector<Configuration> configurationsOf(Options const& options) {
@@ -227,10 +260,15 @@ void overrideQuality(std::vector<SceneSpec>& cases, Options const& options) {
 }
 
 std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& options) {
+    const auto contains = [](std::string const& name, std::string const& part) {
+        return name.find(part) != std::string::npos;
+    };
+    const auto isOneOf = [](std::vector<std::string> const& words, auto const& matches) {
+        return words.empty() || std::ranges::any_of(words, matches);
+    };
     const auto wanted = [&](SceneSpec const& spec) {
-        return options.only.empty() || std::any_of(options.only.begin(), options.only.end(), [&](auto const& part) {
-                   return spec.name.find(part) != std::string::npos;
-               });
+        return isOneOf(options.only, [&](auto const& part) { return contains(spec.name, part); }) &&
+               isOneOf(options.cases, [&](auto const& name) { return spec.name == name; });
     };
     std::vector<SceneSpec> chosen;
     uint32_t index = 0;
@@ -241,27 +279,9 @@ std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& option
 }
 
 Result<Results> runCases(Options const& options, std::vector<SceneSpec> const& cases) {
-    Result<Baselines> baselines = Baselines::read(options.baselines);
-    if (!baselines) return baselines.error();
-    Result<std::vector<Actor>> actors = openActors(configurationsOf(options));
-    if (!actors) return actors.error();
-    Results results{ .build = options.build, .reference = actors->front().configuration.name };
-    for (Actor const& actor : *actors)
-        results.devices[toString(actor.stage->device().backend)] =
-                actor.stage->device().device + ", " + actor.stage->device().driver;
-    for (size_t i = 0; i < cases.size(); ++i) {
-        showCase(i, cases.size(), cases[i].name);
-        const auto start = std::chrono::steady_clock::now();
-        results.cases.push_back(CaseRun(options, *actors, cases[i]).run(*baselines));
-        results.seconds[cases[i].name] =
-                std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-        tools::clearProgress();
-        for (std::string const& reason : results.cases.back().reasons)
-            std::printf("%-8s %s: %s\n", toString(results.cases.back().status), cases[i].name.c_str(), reason.c_str());
-    }
-    if (options.updateBaselines) {
-        if (const Result<void> written = baselines->write(options.baselines); !written) return written.error();
-    }
+    Result<Results> results = runHere(options, cases);
+    if (!results) return results;
+    if (const Result<void> done = drawOnMachines(options, *results); !done) return done.error();
     return results;
 }
 

@@ -24,9 +24,10 @@ std::vector<Configuration> configurationsOf(Options const& options);
 /// Values of --set override those of the cases.
 void overrideQuality(std::vector<SceneSpec>& cases, Options const& options);
 
-/// The cases selected by --only, and every shard.count-th one of those.
+/// The cases that --only and --cases name, and every shard.count-th one of those.
 std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& options);
 
+/// Here, and then on the machines of --machines.
 Result<Results> runCases(Options const& options, std::vector<SceneSpec> const& cases);
 
 /// What --bisect prints.

@@ -3,6 +3,7 @@
 // pictures. Exit status 0: no case failed. 1: some did, or the run could not be made. docs/conformance.md.
 #include "tools/common/Console.h"
 #include "tools/common/Program.h"
+#include "tools/conformance/Machines.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Report.h"
 #include "tools/conformance/Runner.h"
@@ -16,7 +17,8 @@ using tools::failed;
 
 int finish(Options const& options, Results const& results) {
     if (const Result<void> written = writeReport(options.out, results); !written) return failed(written.error());
-    std::printf("%s\n%s\n", summaryLine(results).c_str(), (options.out / "report.html").c_str());
+    std::printf("%s%s\n%s\n", machineLines(results).c_str(), summaryLine(results).c_str(),
+                (options.out / "report.html").c_str());
     return summaryOf(results).failed ? 1 : 0;
 }
 
@@ -41,6 +43,9 @@ int list(std::vector<SceneSpec> const& cases) {
     for (SceneSpec const& spec : cases) std::printf("%s\n", spec.name.c_str());
     for (Mutation const& mutation : mutations())
         std::printf("mutation %s: %s\n", std::string(mutation.name).c_str(), std::string(mutation.what).c_str());
+    for (SimulatedMachine const& machine : simulatedMachines())
+        std::printf("machine %s (%s): %s\n", std::string(machine.name).c_str(),
+                    machine.sameBits ? "the same bits" : "other bits", std::string(machine.what).c_str());
     return 0;
 }
 

@@ -110,13 +110,13 @@ Level halve(uint32_t sourceWidth, uint32_t sourceHeight, Row const& row) {
     return level;
 }
 
-/// Level 1 from the 8-bit level 0, decoding three rows at a time.
-Level halveCodes(Image const& base, Encoding const& encoding) {
+/// Level 1 from `codes`, an 8-bit level 0, decoding three rows at a time.
+Level halveCodes(std::byte const* codes, uint32_t width, uint32_t height, Encoding const& encoding) {
     std::array<std::vector<uint16_t>, 3> decoded;
-    for (auto& row : decoded) row.resize(size_t{ base.width } * kChannels);
-    return halve(base.width, base.height, [&](uint32_t y) {
+    for (auto& row : decoded) row.resize(size_t{ width } * kChannels);
+    return halve(width, height, [&](uint32_t y) {
         std::vector<uint16_t>& row = decoded[y % 3];
-        decodeRow(&base.data[size_t{ y } * base.width * kChannels], base.width, encoding, row.data());
+        decodeRow(codes + size_t{ y } * width * kChannels, width, encoding, row.data());
         return row.data();
     });
 }
@@ -124,6 +124,19 @@ Level halveCodes(Image const& base, Encoding const& encoding) {
 Level halveLevel(Level const& level) {
     return halve(level.width, level.height,
                  [&](uint32_t y) { return &level.texels[size_t{ y } * level.width * kChannels]; });
+}
+
+/// Fills levels 1.. of one layer; `image` has room for them.
+void fillLevels(Image& image, uint32_t layer, Encoding const& encoding) {
+    const auto layerOf = [&](uint32_t level) {
+        return &image.data[image.levelOffset(level) + layer * (image.levelBytes(level) / image.layers)];
+    };
+    if (image.levels == 1) return;
+    Level level = halveCodes(layerOf(0), image.width, image.height, encoding);
+    for (uint32_t i = 1; i < image.levels; ++i) {
+        encodeLevel(level, encoding, layerOf(i));
+        if (i + 1 < image.levels) level = halveLevel(level);
+    }
 }
 
 /// Drops the levels that are larger than `maxSize`.
@@ -140,20 +153,15 @@ void dropLargeLevels(Image& image, uint32_t maxSize) {
 } // namespace
 
 Image withMipMaps(Image base, bool isColor, uint32_t maxSize) {
-    FILAMENT_ASSERT(base.format == backend::Format::RGBA8 && base.levels == 1 && base.layers == 1,
-                    "withMipMaps takes one RGBA8 image of one level");
+    FILAMENT_ASSERT(base.format == backend::Format::RGBA8 && base.levels == 1,
+                    "withMipMaps takes an RGBA8 image of one level");
     FILAMENT_ASSERT(base.data.size() == base.levelBytes(0) && !base.data.empty(), "the image must hold its pixels");
     const Encoding encoding{ isColor ? colorTransfer() : dataTransfer(), dataTransfer() };
     Image image = std::move(base);
     image.format = isColor ? backend::Format::RGBA8Srgb : backend::Format::RGBA8;
-    Level level;
-    if (image.width > 1 || image.height > 1) level = halveCodes(image, encoding);
     image.levels = backend::fullMipCount(image.width, image.height);
     image.data.resize(image.levelOffset(image.levels));
-    for (uint32_t i = 1; i < image.levels; ++i) {
-        encodeLevel(level, encoding, &image.data[image.levelOffset(i)]);
-        if (i + 1 < image.levels) level = halveLevel(level);
-    }
+    for (uint32_t layer = 0; layer < image.layers; ++layer) fillLevels(image, layer, encoding);
     dropLargeLevels(image, maxSize);
     return image;
 }

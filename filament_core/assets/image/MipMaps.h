@@ -14,7 +14,7 @@
 
 namespace filament::assets {
 
-/// `base` has one level and one layer, format RGBA8. The result has format RGBA8Srgb for colours and RGBA8 for data. It
+/// `base` has one level, format RGBA8, and any number of layers: each gets its own chain. The result has format RGBA8Srgb for colours and RGBA8 for data. It
 /// starts with the first level that is not larger than `maxSize` in any direction (0: no limit).
 Image withMipMaps(Image base, bool isColor, uint32_t maxSize = 0);
 

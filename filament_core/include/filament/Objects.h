@@ -54,8 +54,9 @@ struct TextureDesc {
     uint32_t width = 1, height = 1; ///< >= 1, at most DeviceInfo::maxTextureSize
     uint32_t layers = 1;            ///< 6 for a cube
     uint32_t levels = 1;            ///< mip levels given in `pixels`
-    bool generateMips = false;      ///< compute levels 1.. from level 0 on the device; `pixels` then has level 0 only
-    bool renderable = false;        ///< can be the colour of a RenderTarget
+    bool generateMips = false;      ///< compute levels 1.. from level 0, on the device or, for RGBA8Srgb, before the
+                                    ///< upload; `pixels` then has level 0 only
+    bool renderable = false;        ///< can be the colour of a RenderTarget; not with an sRGB format
     std::span<const std::byte> pixels{};
     std::string name{};
 };

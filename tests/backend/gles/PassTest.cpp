@@ -88,26 +88,6 @@ TEST_F(GlesTest, AResolvedPixelIsTheMeanOfItsSamples) {
     }
 }
 
-TEST_F(GlesTest, AnSrgbResolveAveragesLight) {
-    DeviceTextureDesc desc;
-    desc.format = Format::RGBA8Srgb;
-    desc.usage = TextureUsage::ColorAttachment;
-    desc.samples = 4;
-    const TextureHandle samples = texture(desc), resolved = target(Format::RGBA8Srgb, 1, 1);
-    PassDesc pass = colorPass(samples, Format::RGBA8Srgb, 1, 1);
-    pass.layout.samples = 4;
-    pass.layout.resolveMask = 1;
-    pass.colors[0].resolve = resolved;
-    constexpr std::string_view kHalfCovered = R"(#version 310 es
-        #extension GL_OES_sample_variables : require
-        layout(location = 0) out highp vec4 color;
-        void main() { color = vec4(1.0); gl_SampleMask[0] = 3; })";
-    drawFullScreen(pass, simplePipeline(program(kFullScreenVertex, kHalfCovered), pass.layout));
-    // Half of the light is 0.5, which sRGB stores as 187.5 (IEC 61966-2-1) and llvmpipe's polynomial as 187; the mean
-    // of the code values would be 128.
-    EXPECT_NEAR(read<Rgba>(resolved, { 0, 0, 1, 1 }).at(0)[0], 187.5, 0.5);
-}
-
 TEST_F(GlesTest, AttachmentsOfOnePassBlendAndMaskEachOnItsOwn) {
     const TextureHandle added = target(Format::RGBA32F, 1, 1), masked = target(Format::RGBA32F, 1, 1);
     PassDesc pass = colorPass(added, Format::RGBA32F, 1, 1, { 1, 1, 1, 1 });

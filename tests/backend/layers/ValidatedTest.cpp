@@ -70,6 +70,21 @@ TEST_F(Validated, IsSilentAboutACorrectMergedPass) {
     EXPECT_THAT(mErrors.messages, IsEmpty());
 }
 
+TEST_F(Validated, IsSilentAboutSrgbThatIsUploadedBlittedFromAndReadBack) {
+    execute(recordObjects);
+    execute([](CommandBuffer& to) {
+        const TextureHandle srgb = TextureHandle::make(20, 1);
+        using enum TextureUsage;
+        to.record(CmdCreateTexture{ srgb, { .format = Format::RGBA8Srgb, .usage = TransferTarget | TransferSource } });
+        const std::vector<std::byte> texel = bytes(4);
+        to.record(CmdUploadTexture{ .texture = srgb, .rect = { 0, 0, 1, 1 }, .bytes = texel });
+        to.record(CmdBlit{
+                .source = srgb, .target = kColor, .sourceRect = { 0, 0, 1, 1 }, .targetRect = { 0, 0, 1, 1 } });
+        to.record(CmdReadTexture{ .texture = srgb, .rect = { 0, 0, 1, 1 }, .ticket = { 5 } });
+    });
+    EXPECT_THAT(mErrors.messages, IsEmpty());
+}
+
 TEST_F(Validated, NamesCommandObjectPassRuleAndCureInOneLine) {
     execute(recordObjects);
     execute([](CommandBuffer& to) {
@@ -163,8 +178,29 @@ CmdBlit blitWith(std::function<void(CmdBlit&)> const& change) {
 
 using C = CommandBuffer;
 
+void makeSrgb(DeviceTextureDesc& desc) {
+    desc.format = Format::RGBA8Srgb, desc.levels = 4;
+    desc.usage = TextureUsage::Sampled | TextureUsage::TransferSource | TextureUsage::TransferTarget;
+}
+
 std::vector<Case> objectCases() {
     return {
+        { "SrgbAttachment",
+          [](C& to) {
+              to.record(textureWith(
+                      [](auto& d) { d.format = Format::RGBA8Srgb, d.usage = TextureUsage::ColorAttachment; }));
+          },
+          "a colour attachment would let the driver encode RGBA8Srgb" },
+        { "MultisampledSrgbAttachment",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.format = Format::RGBA8Srgb, d.usage = TextureUsage::ColorAttachment, d.samples = 4;
+              }));
+          },
+          "a colour attachment would let the driver encode RGBA8Srgb" },
+        { "PipelineOfAnSrgbPass",
+          [](C& to) { recordPipelineWith(to, [](auto& d) { d.pass.colorFormats[0] = Format::RGBA8Srgb; }); },
+          "a pass with colour 0 would let the driver encode RGBA8Srgb" },
         { "NoneHandle",
           [](C& to) {
               to.record(CmdCreateBuffer{ {}, { .size = 4 } });
@@ -341,6 +377,18 @@ std::vector<Case> contentCases() {
           "cuts through 4x4 blocks" },
         { "MipsWithoutUsage", [](C& to) { to.record(CmdGenerateMips{ kDepth }); },
           "needs TransferSource and TransferTarget" },
+        { "MipsOfSrgb",
+          [](C& to) {
+              to.record(textureWith(makeSrgb));
+              to.record(CmdGenerateMips{ TextureHandle::make(20, 1) });
+          },
+          "generating mips would let the driver encode RGBA8Srgb" },
+        { "BlitToSrgb",
+          [](C& to) {
+              to.record(textureWith(makeSrgb));
+              to.record(blitWith([](auto& c) { c.target = TextureHandle::make(20, 1); }));
+          },
+          "would let the driver encode RGBA8Srgb" },
         { "BlitWithoutUsage", [](C& to) { to.record(blitWith([](auto& c) { c.source = kDepth; })); },
           "source 'depth' lacks" },
         { "BlitOutside", [](C& to) { to.record(blitWith([](auto& c) {
@@ -393,6 +441,9 @@ std::vector<Case> passCases() {
         { "AttachmentOfOtherFormat",
           [](C& to) { recordPassWith(to, [](auto& d) { d.layout.colorFormats[0] = Format::RGBA16F; }); },
           "has format RGBA8, the layout says RGBA16F" },
+        { "AttachmentOfSrgb",
+          [](C& to) { recordPassWith(to, [](auto& d) { d.layout.colorFormats[0] = Format::RGBA8Srgb; }); },
+          "a pass with colour 0 would let the driver encode RGBA8Srgb" },
         { "AttachmentOfOtherSampleCount",
           [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].texture = kSamples4; }); },
           "has 4 samples, the layout says 1" },

@@ -100,6 +100,28 @@ TEST_F(DriverTest, ABlitScalesIntoItsRectangleAndLeavesTheRest) {
     EXPECT_EQ(readPixels(target, 6, 1), (std::vector<Rgba8>{ six[0], two[0], two[0], two[1], two[1], six[5] }));
 }
 
+TEST_F(DriverTest, NothingIsEncodedToSrgb) {
+    const TextureHandle image =
+            makeTexture({ .format = Format::RGBA8Srgb, .usage = kTransferBoth, .levels = 2, .width = 2, .height = 1 });
+    const TextureHandle plain = makeTexture({ .usage = kTransferBoth, .width = 2, .height = 1 });
+    const std::vector<Rgba8> level0 = gradient(2, 50), level1{ { 1, 2, 3, 4 } };
+    commands.record(CmdUploadTexture{ image, 0, 0, 1, { 0, 0, 2, 1 }, bytesOf(level0) });
+    commands.record(CmdUploadTexture{ image, 1, 0, 1, { 0, 0, 1, 1 }, bytesOf(level1) });
+    commands.record(CmdUploadTexture{ plain, 0, 0, 1, { 0, 0, 2, 1 }, bytesOf(level0) });
+    commands.record(CmdGenerateMips{ image });
+    commands.record(CmdBlit{ .source = plain,
+                             .target = image,
+                             .targetLevel = 1,
+                             .sourceRect = { 0, 0, 2, 1 },
+                             .targetRect = { 0, 0, 1, 1 } });
+    EXPECT_EQ(readPixels(image, 1, 1, 1), level1);
+    ASSERT_EQ(sink.errors.size(), 2u);
+    EXPECT_NE(sink.errors[0].message.find("mips of texture"), std::string::npos) << sink.errors[0].message;
+    EXPECT_NE(sink.errors[1].message.find("blit of texture"), std::string::npos) << sink.errors[1].message;
+    for (auto const& error : sink.errors)
+        EXPECT_NE(error.message.find("would let the driver encode RGBA8Srgb"), std::string::npos) << error.message;
+}
+
 class UpdateTest : public DriverTest {
 protected:
     /// Draws the uniform buffer's first value into pixel `x` of `target`.

@@ -113,8 +113,8 @@ TEST(Merge, RefusesACaseThatTwoShardsHave) {
     EXPECT_NE(merged.error().message.find("'a'"), std::string::npos) << merged.error().message;
 }
 
-const Machine kHere{ .device = "llvmpipe", .driver = "Mesa 22.3.6", .cpuFeatures = "avx avx2" };
-const Machine kThere{ .device = "llvmpipe", .driver = "Mesa 24.0", .cpuFeatures = "avx512f" };
+const Machine kHere{ .device = "llvmpipe", .driver = "Mesa 22.3.6", .cpuFeatures = "avx fma" };
+const Machine kThere{ .device = "llvmpipe", .driver = "Mesa 24.0", .cpuFeatures = "avx fma" };
 
 Baselines stored(Image const& image) {
     Baselines baselines;
@@ -144,6 +144,16 @@ TEST(Baselines, GoByTheThumbnailOnAnotherMachineAndSaySo) {
     EXPECT_TRUE(close.passed);
     EXPECT_NE(close.text.find("made on llvmpipe, Mesa 22.3.6"), std::string::npos) << close.text;
     EXPECT_FALSE(baselines.check("case", grey(110), kThere).passed);
+}
+
+// Makers, generations and wider vectors do not count; what rounds differently does.
+TEST(Baselines, OfOneClassOfProcessorsAreThoseWithAvxAndFma) {
+    for (const char* override : { static_cast<const char*>(nullptr), "avx", "avx2", "avx512", "" })
+        EXPECT_EQ(cpuFeatures(true, true, override), "avx fma");
+    for (const char* override : { "nosse", "sse", "sse2", "sse3", "ssse3", "sse4.1" })
+        EXPECT_EQ(cpuFeatures(true, true, override), "no-avx no-fma") << override;
+    EXPECT_EQ(cpuFeatures(true, false, nullptr), "avx no-fma");
+    EXPECT_EQ(cpuFeatures(false, false, nullptr), "no-avx no-fma");
 }
 
 TEST(Baselines, OfAnotherMachineAreForgottenWhenOneIsStored) {

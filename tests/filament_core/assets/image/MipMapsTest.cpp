@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/image/MipMaps.h"
 
+#include "filament_core/assets/image/ChannelTransfer.h"
+
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -124,6 +126,36 @@ TEST(MipMaps, TheSizeLimitDropsTheLargestLevels) {
     const auto tail = std::span(whole.data).subspan(whole.levelOffset(2));
     ASSERT_EQ(limited.data.size(), tail.size());
     EXPECT_EQ(std::memcmp(limited.data.data(), tail.data(), tail.size()), 0);
+}
+
+TEST(MipMaps, EachLayerHasTheChainThatItWouldHaveAlone) {
+    for (const auto& [width, height] : { std::pair{ 8u, 8u }, { 5u, 3u }, { 1u, 1u } }) {
+        const Image a = noise(width, height), b = noise(height, width);
+        Image both{ .width = width, .height = height, .layers = 2, .data = a.data };
+        both.data.insert(both.data.end(), b.data.begin(), b.data.end());
+        const Image mips = withMipMaps(both, true);
+        const Image first = withMipMaps(a, true),
+                    second = withMipMaps({ .width = width, .height = height, .data = b.data }, true);
+        ASSERT_EQ(mips.levels, first.levels);
+        for (uint32_t level = 0; level < mips.levels; ++level) {
+            const size_t bytes = first.levelBytes(level);
+            const std::byte* at = mips.data.data() + mips.levelOffset(level);
+            ASSERT_EQ(mips.levelBytes(level), 2 * bytes);
+            EXPECT_EQ(std::memcmp(at, first.data.data() + first.levelOffset(level), bytes), 0) << level;
+            EXPECT_EQ(std::memcmp(at + bytes, second.data.data() + second.levelOffset(level), bytes), 0) << level;
+        }
+    }
+}
+
+// pow() of doubles has other last bits in the C library's variants for processors with and without FMA (about 1e-16 of its
+// value, 1e-11 here). The table has the same entries everywhere, because none is that close to a rounding boundary.
+TEST(ChannelTransfer, NoEntryOfSrgbDependsOnTheLastBitsOfPow) {
+    for (int code = 0; code < 256; ++code) {
+        const long double unit = code / 255.0L;
+        const long double light = 65535 * (unit <= 0.04045L ? unit / 12.92L : std::pow((unit + 0.055L) / 1.055L, 2.4L));
+        EXPECT_EQ(colorTransfer().linearFromCode[static_cast<size_t>(code)], std::lround(light)) << code;
+        EXPECT_GT(std::abs(light - std::floor(light) - 0.5L), 1e-6L) << code;
+    }
 }
 
 TEST(MipMaps, OneTexelIsItsOwnChain) {

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// MesaEnvironment: the environment variables that Mesa's software rasteriser (llvmpipe, lavapipe) must find.
+///   Width   LP_NATIVE_VECTOR_WIDTH: 256 bits unless the user chose 128. Stored pictures were made with 256. With any
+///           other width Mesa 22.3 reads uninitialised memory as soon as a depth buffer is bound: its loads of depth
+///           know 4 and 8 lanes (lp_build_depth_stencil_load_swizzled).
+///   Cache   a directory of its own for every width but 256. Mesa 22.3 keeps compiled shaders on disk under a key that
+///           leaves the width out: code for 256 bits, run by a process of 128, writes past the end of its buffers.
+///   Thread  any; applyMesaEnvironment() before the first driver is loaded, because Mesa reads the variables then.
+///   Removal when Mesa's cache key has the width (lp_disk_cache_create).
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+namespace filament::backend {
+
+struct EnvironmentChange {
+    std::string name, value;
+};
+
+struct MesaEnvironment {
+    std::vector<EnvironmentChange> changes;
+    std::string note; ///< about a value of the user's that was not kept; empty: none
+};
+
+/// Pure. `lookup` is std::getenv or a stand-in.
+MesaEnvironment mesaEnvironment(std::function<const char*(const char*)> const& lookup);
+
+/// Makes the changes, once a process, and logs the note.
+void applyMesaEnvironment();
+
+} // namespace filament::backend

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Machines: other processors, as far as this one can play them. An environment makes Mesa's JIT compiler or the C
+/// library believe in another processor, or an emulator is one; child processes draw the cases there again
+/// (MachineRun.h).
+///   Table   the one place that says where the same bits are promised, and why; docs/conformance.md repeats it.
+///   Thread  any; constants.
+#pragma once
+
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace filament::conformance {
+
+struct SimulatedMachine {
+    std::string_view name;
+    std::pair<std::string_view, std::string_view> variable; ///< name and value; empty: none
+    std::string_view emulated;                              ///< a processor of qemu-x86_64; empty: none
+    bool sameBits = true;                                   ///< promised
+    std::string_view what;                                  ///< what is different there
+
+    bool isEmulated() const { return !emulated.empty(); }
+    /// What runs the program there; empty: nothing.
+    std::vector<std::string> launcher() const;
+};
+
+std::span<const SimulatedMachine> simulatedMachines();
+SimulatedMachine const* findMachine(std::string_view name);
+
+/// "all" for --machines: all but the emulated ones, which take a minute for what takes a second.
+std::vector<std::string> quickMachines();
+
+} // namespace filament::conformance
