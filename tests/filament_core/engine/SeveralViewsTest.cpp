@@ -10,7 +10,7 @@
 namespace filament {
 namespace {
 
-constexpr const char* kPhoto = R"(material { name : photo, shadingModel : unlit,
+constexpr const char* kPhoto = R"(material { name : photo, shadingModel : unlit, requires : [ uv0 ],
     parameters : [ { type : sampler2d, name : picture }, { type : float, name : gain } ] }
 fragment { void material(inout MaterialInputs material) {
     prepareMaterial(material);
