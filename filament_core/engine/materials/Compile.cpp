@@ -90,12 +90,6 @@ void addPipelines(CompileJob& job, Engine::Impl const& engine, Shapes const& sha
     }
 }
 
-/// Draws surfaces into something; a slot without attachments stands for passes that nobody knows yet.
-bool drawsSurfaces(passes::PassSlot const& slot) {
-    const bool hasTarget = slot.layout.colorCount > 0 || slot.layout.depthFormat != backend::Format::None;
-    return hasTarget && !slot.isFullScreen;
-}
-
 /// Programs first: the first pipelines then wait for nothing else.
 void addWishes(CompileJob& job, Engine::Impl& engine, std::span<const uint8_t> variants, Shapes const& shapes) {
     if (std::ranges::all_of(engine.pipelines.slots(), &passes::PassSlot::isFullScreen))
@@ -108,7 +102,8 @@ void addWishes(CompileJob& job, Engine::Impl& engine, std::span<const uint8_t> v
     }
     for (const uint8_t variant : variants) {
         for (uint32_t slot = 0; slot < slots.size(); ++slot) {
-            if (drawsSurfaces(slots[slot])) addPipelines(job, engine, shapes, slot, variant);
+            const bool isKnown = slots[slot].layout.colorCount > 0 && !slots[slot].isFullScreen;
+            if (isKnown) addPipelines(job, engine, shapes, slot, variant);
         }
     }
 }

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Materials prepared before they are drawn: nothing is made by the first draw, nobody waits, and what cannot be is
 // said.
-#include "filament_core/engine/EngineImpl.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
 #include <gmock/gmock.h>
@@ -207,18 +206,6 @@ TEST_P(Compile, PreparesProgramsWhenNoPassIsKnown) {
     const Owned<Material> other = test::loadMaterial(*mEngine, kPlaster);
     EXPECT_EQ(finish(*mEngine->compile(other, { .variants = VariantSet::DirectionalLighting })).total, 2u)
             << "with the sun, and without";
-}
-
-TEST_P(Compile, PreparesPipelinesForPassesOfDepthAlone) {
-    backend::PassLayout layout{ .depthFormat = backend::Format::D32F };
-    layout.subpasses[0].usesDepth = true;
-    mEngine->impl().pipelines.slot({ .layout = layout });
-    const Owned<Material> material = test::loadMaterial(*mEngine, kPlaster);
-    const uint64_t before = pipelines();
-    const CompileDesc desc{ .variants = VariantSet::None, .vertices = { mSquare->vertices() } };
-    EXPECT_EQ(finish(*mEngine->compile(material, desc)), (CompileProgress{ 2, 2 })) << "a program and a pipeline";
-    EXPECT_EQ(pipelines(), before + 1);
-    EXPECT_THAT(mEngine->takeErrors(), IsEmpty());
 }
 
 TEST_P(Compile, AVariantThatWasFilteredOutIsAnErrorThatNamesMaterialVariantAndFilter) {
