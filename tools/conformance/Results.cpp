@@ -184,8 +184,8 @@ Result<Results> readResults(std::filesystem::path const& folder) {
     try {
         Results results{ .build = json->at("build"), .reference = json->at("reference") };
         results.devices = json->value("devices", std::map<std::string, std::string>());
-        for (auto const& [name, machine] : json->value("machines", Json::object()).items())
-            results.machines[name] = machine.at("device");
+        const Json machines = json->value("machines", Json::object());
+        for (auto const& [name, machine] : machines.items()) results.machines[name] = machine.at("device");
         for (Json const& one : json->at("cases")) results.cases.push_back(caseFromJson(one));
         results.seconds = times->get<std::map<std::string, double>>();
         return results;

@@ -112,7 +112,7 @@ TEST_F(CommandLine, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
 }
 
 TEST_F(CommandLine, SteadyFramesWithASkyTakeNothingFromTheHeap) {
-    for (const char* more : { "", " --set toneMapping=table32 textureFilter=trilinear" }) {
+    for (const char* more : { "", " --set toneMapping=table32 --set textureFilter=trilinear" }) {
         const Outcome outcome = run("triangle.gltf --size 96x54 --environment showcase.hdr --frames 30 --out sky "
                                     "--timing --explain" +
                                     std::string(more));
