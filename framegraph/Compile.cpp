@@ -40,7 +40,6 @@ backend::PassLayout layoutOf(FrameGraph const& graph, PassGroup const& group) {
         if (group.colors[i].resolve) layout.resolveMask = static_cast<uint8_t>(layout.resolveMask | 1u << i);
     }
     if (group.depth.texture) layout.depthFormat = graph.texture(group.depth.texture).desc.format;
-    layout.resolvesDepth = static_cast<bool>(group.depth.resolve);
     return layout;
 }
 
@@ -54,11 +53,9 @@ CompiledGraph compile(FrameGraph const& graph, TransientPool& pool) {
     const auto lifetimes = firstAndLastUse(graph, order, groups);
     deriveLoadAndStore(graph, order, groups);
     const auto usage = deriveUsage(graph, order, lifetimes);
-    pool.beginGraph();
     const auto textures = assignTransients(graph, lifetimes, usage, pool);
-    const auto buffers = assignBuffers(graph, order, groups, pool);
     describePasses(graph, order, groups);
-    return { &graph, &pool, order.decisions, order.order, groups, textures, buffers };
+    return { &graph, &pool, order.decisions, order.order, groups, textures };
 }
 
 void describePasses(FrameGraph const& graph, PassOrder const& order, std::span<PassGroup> groups) {

@@ -15,30 +15,6 @@ using Text = std::back_insert_iterator<std::string>;
 
 std::string_view nameOf(CompiledGraph const& plan, TextureId texture) { return plan.graph->texture(texture).desc.name; }
 
-std::string_view nameOf(CompiledGraph const& plan, BufferId buffer) { return plan.graph->buffer(buffer).name; }
-
-/// "'bloom'", with level and layer where it has several.
-std::string nameOf(CompiledGraph const& plan, TextureId texture, uint8_t level, uint16_t layer) {
-    GraphTextureDesc const& desc = plan.graph->texture(texture).desc;
-    std::string name = fmt::format("'{}'", desc.name);
-    if (desc.levels > 1) name += fmt::format(" level {}", level);
-    if (desc.layers > 1) name += fmt::format(" layer {}", layer);
-    return name;
-}
-
-/// Which part of its texture an access touches: "level 2", "levels 0 to 4, layer 1"; nothing for all of it.
-std::string partOf(CompiledGraph const& plan, Access const& access) {
-    GraphTextureDesc const& desc = plan.graph->texture(access.texture).desc;
-    const auto span = [](const char* what, uint32_t first, uint32_t count) {
-        return count == 1 ? fmt::format("{} {}", what, first)
-                          : fmt::format("{}s {} to {}", what, first, first + count - 1);
-    };
-    std::string part;
-    if (access.range.levelCount < desc.levels) part = span("level", access.range.level, access.range.levelCount);
-    if (access.range.layerCount == desc.layers) return part;
-    return part + (part.empty() ? "" : ", ") + span("layer", access.range.layer, access.range.layerCount);
-}
-
 std::string reasonOf(CompiledGraph const& plan, PassDecision const& decision) {
     switch (decision.reason) {
     case Reason::Unread:
@@ -46,14 +22,9 @@ std::string reasonOf(CompiledGraph const& plan, PassDecision const& decision) {
     case Reason::SideEffect:
         return "runs: it has a side effect";
     case Reason::WritesOutput:
-        if (decision.becauseBuffer)
-            return fmt::format("runs: it writes output buffer '{}'", nameOf(plan, decision.becauseBuffer));
-        return fmt::format("runs: it writes output {}", nameOf(plan, decision.because, decision.level, decision.layer));
+        return fmt::format("runs: it writes output '{}'", nameOf(plan, decision.because));
     case Reason::ReadLater:
-        if (decision.becauseBuffer)
-            return fmt::format("runs: buffer '{}' is read by '{}'", nameOf(plan, decision.becauseBuffer),
-                               plan.graph->passes()[decision.reader].name);
-        return fmt::format("runs: {} is read by '{}'", nameOf(plan, decision.because, decision.level, decision.layer),
+        return fmt::format("runs: '{}' is read by '{}'", nameOf(plan, decision.because),
                            plan.graph->passes()[decision.reader].name);
     }
     return {};
@@ -91,9 +62,10 @@ const char* nameOf(LoadOp load) { return load == LoadOp::Load ? "load" : load ==
 const char* nameOf(StoreOp store) { return store == StoreOp::Store ? "store" : "discard"; }
 
 void putAttachment(Text text, CompiledGraph const& plan, std::string_view role, GroupAttachment const& attachment) {
-    fmt::format_to(text, "    {} {}: {}, {}", role,
-                   nameOf(plan, attachment.texture, attachment.level, attachment.layer), nameOf(attachment.load),
-                   nameOf(attachment.store));
+    fmt::format_to(text, "    {} '{}'", role, nameOf(plan, attachment.texture));
+    if (attachment.level > 0) fmt::format_to(text, " level {}", attachment.level);
+    if (attachment.layer > 0) fmt::format_to(text, " layer {}", attachment.layer);
+    fmt::format_to(text, ": {}, {}", nameOf(attachment.load), nameOf(attachment.store));
     if (attachment.resolve) fmt::format_to(text, ", resolve to '{}'", nameOf(plan, attachment.resolve));
     fmt::format_to(text, "\n");
 }
@@ -108,26 +80,12 @@ void putPasses(Text text, CompiledGraph const& plan) {
     }
 }
 
-// Reads of parts of textures; those of whole ones are left to the drawing.
-void putPartReads(Text text, CompiledGraph const& plan, PassGroup const& group) {
-    for (const uint32_t pass : plan.order.subspan(group.first, group.count)) {
-        for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
-            if (isAttachment(access.kind)) continue;
-            const std::string part = partOf(plan, access);
-            if (part.empty()) continue;
-            fmt::format_to(text, "    {} '{}' {}\n", isPureRead(access.kind) ? "reads" : "writes",
-                           nameOf(plan, access.texture), part);
-        }
-    }
-}
-
 void putGroups(Text text, CompiledGraph const& plan) {
     fmt::format_to(text, "groups:\n");
     for (size_t i = 0; i < plan.groups.size(); ++i) {
         PassGroup const& group = plan.groups[i];
         if (!group.hasAttachments()) {
             fmt::format_to(text, "  {} '{}' outside of passes\n", i, group.name);
-            putPartReads(text, plan, group);
             continue;
         }
         fmt::format_to(text, "  {} '{}' {} x {}, {} sample(s), {} subpass(es)\n", i, group.name, group.width,
@@ -135,13 +93,7 @@ void putGroups(Text text, CompiledGraph const& plan) {
         for (uint32_t c = 0; c < group.colorCount; ++c)
             putAttachment(text, plan, fmt::format("colour {}", c), group.colors[c]);
         if (group.depth.texture) putAttachment(text, plan, "depth", group.depth);
-        putPartReads(text, plan, group);
     }
-}
-
-const char* originOf(Texture const& texture) {
-    if (texture.history != HistoryRole::None) return ", history";
-    return texture.isImported ? ", imported" : texture.isOutput ? ", output" : "";
 }
 
 // Other transients behind the same handle.
@@ -162,60 +114,14 @@ void putTextures(Text text, CompiledGraph const& plan) {
         fmt::format_to(text, "  '{}' {} x {} {}", texture.desc.name, texture.desc.width, texture.desc.height,
                        backend::formatInfo(texture.desc.format).name);
         if (texture.desc.samples > 1) fmt::format_to(text, " {} samples", texture.desc.samples);
-        fmt::format_to(text, "{}", originOf(texture));
+        fmt::format_to(text, "{}", texture.isImported ? ", imported" : texture.isOutput ? ", output" : "");
         if (!of.lifetime.isUsed()) {
             fmt::format_to(text, ", unused\n");
             continue;
         }
         fmt::format_to(text, ", groups {} to {}", of.lifetime.first, of.lifetime.last);
         if (has(of.usage, backend::TextureUsage::Transient)) fmt::format_to(text, ", never leaves the tile");
-        if (texture.history == HistoryRole::Current) fmt::format_to(text, ", kept for the next frame");
-        if (texture.history == HistoryRole::Previous && of.historyAge == 0)
-            fmt::format_to(text, ", no frame before: cleared");
-        if (texture.history == HistoryRole::Previous && of.historyAge > 0)
-            fmt::format_to(text, ", written {} graph(s) ago", of.historyAge);
-        if (!texture.isImported && texture.history == HistoryRole::None) putSharing(text, plan, i);
-        fmt::format_to(text, "\n");
-    }
-}
-
-const char* nameOf(BufferUse use) {
-    switch (use) {
-    case BufferUse::Storage:
-        return "storage";
-    case BufferUse::Uniform:
-        return "uniforms";
-    case BufferUse::Vertex:
-        return "vertices";
-    case BufferUse::Index:
-        return "indices";
-    case BufferUse::Transfer:
-        return "transfer";
-    }
-    return "";
-}
-
-void putBuffers(Text text, CompiledGraph const& plan) {
-    if (plan.buffers.empty()) return;
-    fmt::format_to(text, "buffers:\n");
-    for (size_t i = 0; i < plan.buffers.size(); ++i) {
-        Buffer const& buffer = plan.graph->buffers()[i];
-        BufferPlan const& of = plan.buffers[i];
-        fmt::format_to(text, "  '{}' {} bytes{}", buffer.name, buffer.size,
-                       buffer.isImported ? ", imported"
-                       : buffer.isOutput ? ", output"
-                                         : "");
-        if (!of.lifetime.isUsed()) {
-            fmt::format_to(text, ", unused\n");
-            continue;
-        }
-        fmt::format_to(text, ", groups {} to {}", of.lifetime.first, of.lifetime.last);
-        const char* before = ", shares memory with ";
-        for (size_t j = 0; j < plan.buffers.size() && !buffer.isImported; ++j) {
-            if (j == i || plan.buffers[j].handle != of.handle) continue;
-            fmt::format_to(text, "{}'{}'", before, plan.graph->buffers()[j].name);
-            before = ", ";
-        }
+        if (!texture.isImported) putSharing(text, plan, i);
         fmt::format_to(text, "\n");
     }
 }
@@ -254,21 +160,14 @@ void putPassNodes(Text text, CompiledGraph const& plan) {
 void putEdges(Text text, CompiledGraph const& plan) {
     for (size_t pass = 0; pass < plan.passes.size(); ++pass) {
         for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
-            std::string label = partOf(plan, access);
-            if (access.kind == AccessKind::Input) label += label.empty() ? "pixel" : ", pixel";
-            if (!label.empty()) label = fmt::format(" [label=\"{}\"]", label);
             if (isPureRead(access.kind)) {
-                fmt::format_to(text, "  t{} -> p{}{};\n", access.texture.index(), pass, label);
+                fmt::format_to(text, "  t{} -> p{}{};\n", access.texture.index(), pass,
+                               access.kind == AccessKind::Input ? " [label=\"pixel\"]" : "");
             } else {
-                fmt::format_to(text, "  p{} -> t{}{};\n", pass, access.texture.index(), label);
+                fmt::format_to(text, "  p{} -> t{};\n", pass, access.texture.index());
             }
             if (access.resolve)
                 fmt::format_to(text, "  p{} -> t{} [label=\"resolve\"];\n", pass, access.resolve.index());
-        }
-        for (BufferAccess const& access : plan.graph->bufferAccesses(plan.graph->passes()[pass])) {
-            const char* form =
-                    access.writes ? "  p{1} -> b{0} [label=\"{2}\"];\n" : "  b{0} -> p{1} [label=\"{2}\"];\n";
-            fmt::format_to(text, fmt::runtime(form), access.buffer.index(), pass, nameOf(access.use));
         }
     }
 }
@@ -281,7 +180,6 @@ std::string toText(CompiledGraph const& plan) {
     putPasses(text, plan);
     putGroups(text, plan);
     putTextures(text, plan);
-    putBuffers(text, plan);
     return result;
 }
 
@@ -295,11 +193,6 @@ std::string toGraphviz(CompiledGraph const& plan) {
         fmt::format_to(text, "  t{} [shape=ellipse, label=\"{}\\n{} x {} {}\"{}];\n", i, escaped(texture.desc.name),
                        texture.desc.width, texture.desc.height, backend::formatInfo(texture.desc.format).name,
                        texture.isOutput ? ", peripheries=2" : "");
-    }
-    for (size_t i = 0; i < plan.buffers.size(); ++i) {
-        Buffer const& buffer = plan.graph->buffers()[i];
-        fmt::format_to(text, "  b{} [shape=cylinder, label=\"{}\\n{} bytes\"{}];\n", i, escaped(buffer.name),
-                       buffer.size, buffer.isOutput ? ", peripheries=2" : "");
     }
     putEdges(text, plan);
     fmt::format_to(text, "}}\n");

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FrameGraph: the passes of a frame, and the textures and buffers that each of them reads and writes. Declarations
-/// only: nothing is created, ordered or recorded here; compile() decides, and record() records.
-///   In      textures and buffers (created or imported) and passes in the order in which they should run.
+/// FrameGraph: the passes of a frame, and the textures that each of them reads and writes. Declarations only: nothing
+/// is created, ordered or recorded here; compile() decides, and record() records.
+///   In      textures (created or imported) and passes in the order in which they should run.
 ///   Thread  one at a time.
 ///   Memory  pass code lives in the arena; lists keep their capacity over reset(). A steady frame allocates nothing.
 ///           Captures of pass code are trivially destructible. Names are literals or live as long as the arena.
-///   Limits  65 535 textures, buffers and passes.
+///   Limits  65 535 textures and passes.
 ///   Fails   asserts on a contradictory declaration, naming pass and texture: here and in compile().
 ///
 ///   TextureId hdr = graph.createTexture({ .width = w, .height = h, .format = Format::RGBA16F, .name = "hdr" });
@@ -63,7 +63,6 @@ struct DepthTarget {
     bool overwrites = false;
     uint8_t level = 0;
     uint16_t layer = 0;
-    TextureId resolve{}; ///< single-sampled texture that receives sample 0; formats without stencil
 };
 
 enum class AccessKind : uint8_t { Color, Depth, DepthTest, Sampled, Input, TransferRead, TransferWrite };
@@ -81,45 +80,15 @@ struct Access {
     AccessKind kind = AccessKind::Sampled;
     Previous previous = Previous::Keep; ///< attachments
     uint8_t slot = 0;                   ///< Color: index when the pass runs by itself
-    backend::TextureRange range{};      ///< with counts: one level and layer for attachments and inputs
+    uint8_t level = 0;
+    uint16_t layer = 0;
     std::array<float, 4> clear{};
     TextureId resolve{};
 };
 
-enum class HistoryRole : uint8_t { None, Previous, Current };
-
 struct Texture {
     GraphTextureDesc desc;
     backend::TextureHandle imported{};
-    bool isImported = false;
-    InitialContents contents = InitialContents::Undefined;
-    bool isOutput = false; ///< wanted after the last pass: imported, marked, or what the next frame calls previous
-    HistoryRole history = HistoryRole::None; ///< Previous: the texture declared next is its Current
-    std::array<float, 4> clear{};            ///< Previous: what it holds where there is no frame before
-};
-
-/// A picture that outlives its frame.
-struct History {
-    TextureId previous; ///< as a frame before this one left it; only read
-    TextureId current;  ///< of this frame: written first, then read like any texture; previous of the next frame
-};
-
-/// What a pass does with a buffer: dispatches and fragment shaders see it as storage, draws as the others, and
-/// transfers upload it or read it back.
-enum class BufferUse : uint8_t { Storage, Uniform, Vertex, Index, Transfer };
-
-/// One pass's use of one buffer.
-struct BufferAccess {
-    BufferId buffer;
-    BufferUse use = BufferUse::Storage;
-    bool writes = false;
-    Previous previous = Previous::Keep; ///< writes: Overwrite replaces all bytes
-};
-
-struct Buffer {
-    std::string_view name{};
-    uint64_t size = 0;
-    backend::BufferHandle imported{};
     bool isImported = false;
     InitialContents contents = InitialContents::Undefined;
     bool isOutput = false; ///< wanted after the last pass: imported or marked
@@ -129,7 +98,6 @@ struct Pass {
     std::string_view name{};
     PassCode code;
     uint32_t firstAccess = 0, accessCount = 0;
-    uint32_t firstBufferAccess = 0, bufferAccessCount = 0;
     bool hasSideEffect = false;
 };
 
@@ -146,21 +114,16 @@ public:
     void writeDepth(TextureId texture, DepthTarget const& target = {});
     /// Attached for testing only; the pass's pipelines must not write it.
     void testDepth(TextureId texture, uint8_t level = 0, uint16_t layer = 0);
-    /// Through a sampler, anywhere in `range`: all of the texture, one level (backend::oneLevel(2)), one layer, ... The
-    /// pass may attach other levels and layers of the same texture. Bind groups name the same range or a part of it.
-    void readSampled(TextureId texture, backend::TextureRange range = {});
+    /// Through a sampler, anywhere. Not combined with an attachment of the same texture.
+    void readSampled(TextureId texture);
     /// At the current pixel only. If the pass could be merged with the one that wrote the texture, it is a subpass
     /// input (PassContext::isMerged() is true), otherwise the pass must sample it at the pixel's centre.
-    void readInput(TextureId texture, uint8_t level = 0, uint16_t layer = 0);
+    void readInput(TextureId texture);
     /// Blits from it, reads it back, generates mips.
-    void readTransfer(TextureId texture, backend::TextureRange range = {});
+    void readTransfer(TextureId texture);
     /// Uploads or blits to it, generates mips; the rest keeps its contents.
-    void writeTransfer(TextureId texture, backend::TextureRange range = {});
-    /// Dispatches, draws or transfers of this pass read it, as `use` says.
-    void readBuffer(BufferId buffer, BufferUse use);
-    /// Dispatches (Storage) or uploads (Transfer) write it; passes with attachments cannot. Overwrite: all of it.
-    void writeBuffer(BufferId buffer, BufferUse use, Previous previous = Previous::Keep);
-    /// The pass runs even if nothing reads its results (read-backs, uploads to buffers outside of the graph).
+    void writeTransfer(TextureId texture);
+    /// The pass runs even if nothing reads its results (read-backs, uploads to buffers).
     void sideEffect();
 
 private:
@@ -181,16 +144,6 @@ public:
     TextureId createTexture(GraphTextureDesc const& desc);
     /// A texture that exists outside. What passes write to it is kept.
     TextureId importTexture(backend::TextureHandle texture, GraphTextureDesc const& desc, InitialContents contents);
-    /// As createTexture(), importTexture() and markOutput(), for `size` bytes.
-    BufferId createBuffer(std::string_view name, uint64_t size);
-    BufferId importBuffer(backend::BufferHandle buffer, std::string_view name, uint64_t size, InitialContents contents);
-    void markOutput(BufferId buffer);
-    /// A picture that is kept from frame to frame under desc.name, with two textures of the pool that swap roles
-    /// whenever `current` was written. Without a frame before this one, or with one whose description was another,
-    /// `previous` is filled with `clear` (for depth formats {depth, stencil}) before the first pass:
-    /// PassContext::historyAge() tells. The textures share no memory with others, and go when TransientPool's
-    /// keepFrames graphs have not asked for them.
-    History history(GraphTextureDesc const& desc, std::array<float, 4> const& clear = {});
     /// The contents are needed after the frame although no pass reads them. Imported textures are always outputs.
     void markOutput(TextureId texture);
 
@@ -222,16 +175,10 @@ public:
         return std::span(mAccesses).subspan(pass.firstAccess, pass.accessCount);
     }
     Texture const& texture(TextureId id) const { return mTextures[id.index()]; }
-    std::span<const Buffer> buffers() const { return mBuffers; }
-    std::span<const BufferAccess> bufferAccesses(Pass const& pass) const {
-        return std::span(mBufferAccesses).subspan(pass.firstBufferAccess, pass.bufferAccessCount);
-    }
-    Buffer const& buffer(BufferId id) const { return mBuffers[id.index()]; }
     Arena& arena() const { return mArena; }
 
     // For PassBuilder; `pass` is the newest one.
-    void declare(uint32_t pass, Access access);
-    void declare(uint32_t pass, BufferAccess const& access);
+    void declare(uint32_t pass, Access const& access);
     void declareSideEffect(uint32_t pass) { mPasses[pass].hasSideEffect = true; }
 
 private:
@@ -239,15 +186,11 @@ private:
 
     PassBuilder beginPass(std::string_view name, PassCode code);
     TextureId addTexture(Texture const& texture);
-    BufferId addBuffer(Buffer const& buffer);
-    Pass& newest(uint32_t pass);
 
     Arena& mArena;
     std::vector<Pass> mPasses;
     std::vector<Texture> mTextures;
-    std::vector<Buffer> mBuffers;
     std::vector<Access> mAccesses; // pass after pass
-    std::vector<BufferAccess> mBufferAccesses;
 };
 
 } // namespace filament::framegraph

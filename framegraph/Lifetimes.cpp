@@ -6,7 +6,6 @@
 namespace filament::framegraph {
 namespace {
 
-using backend::BufferUsage;
 using backend::TextureUsage;
 
 TextureUsage usageOf(AccessKind kind, bool isMerged) {
@@ -28,32 +27,6 @@ TextureUsage usageOf(AccessKind kind, bool isMerged) {
     return {};
 }
 
-BufferUsage usageOf(BufferAccess const& access) {
-    switch (access.use) {
-    case BufferUse::Storage:
-        return BufferUsage::Storage;
-    case BufferUse::Uniform:
-        return BufferUsage::Uniform;
-    case BufferUse::Vertex:
-        return BufferUsage::Vertex;
-    case BufferUse::Index:
-        return BufferUsage::Index;
-    case BufferUse::Transfer:
-        break;
-    }
-    return access.writes ? BufferUsage{} : BufferUsage::TransferSource; // any buffer can be updated
-}
-
-/// The numbers of `lifetimes`, by first use: the order in which the pool is asked.
-std::span<uint32_t> byFirstUse(Arena& arena, std::span<const Lifetime> lifetimes) {
-    const std::span<uint32_t> numbers = arena.array<uint32_t>(lifetimes.size());
-    for (uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
-    std::sort(numbers.begin(), numbers.end(), [&](uint32_t a, uint32_t b) {
-        return lifetimes[a].first != lifetimes[b].first ? lifetimes[a].first < lifetimes[b].first : a < b;
-    });
-    return numbers;
-}
-
 // May live in tile memory: nothing but attachment of one group, and nobody wants it afterwards.
 bool isTransient(Texture const& texture, Lifetime const& lifetime, TextureUsage usage) {
     constexpr auto kElsewhere = TextureUsage::Sampled | TextureUsage::TransferSource | TextureUsage::TransferTarget;
@@ -71,25 +44,6 @@ backend::DeviceTextureDesc descOf(GraphTextureDesc const& desc, TextureUsage usa
              .width = desc.width,
              .height = desc.height,
              .debugName = desc.name };
-}
-
-// Both textures take each role in turn, and which passes of a frame run may change: so every usage that they may have.
-TextureUsage historyUsage(backend::Format format) {
-    using enum TextureUsage;
-    return backend::hasDepth(format) ? Sampled | DepthAttachment | TransferSource
-                                     : Sampled | ColorAttachment | InputAttachment | TransferSource | TransferTarget;
-}
-
-void assignHistory(FrameGraph const& graph, size_t previous, std::span<TexturePlan> plans, TransientPool& pool) {
-    TexturePlan& from = plans[previous];
-    TexturePlan& to = plans[previous + 1];
-    if (!from.lifetime.isUsed() && !to.lifetime.isUsed()) return;
-    GraphTextureDesc const& desc = graph.textures()[previous + 1].desc;
-    from.usage = to.usage = historyUsage(desc.format);
-    const PooledHistory pair = pool.history(descOf(desc, to.usage), to.lifetime.isUsed());
-    from.handle = pair.previous;
-    from.historyAge = pair.age;
-    to.handle = pair.current;
 }
 
 } // namespace
@@ -124,7 +78,7 @@ std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& or
             TextureUsage& of = usage[access.texture.index()];
             of = of | usageOf(access.kind, merged);
             if (!access.resolve) continue;
-            usage[access.resolve.index()] = usage[access.resolve.index()] | usageOf(access.kind, false);
+            usage[access.resolve.index()] = usage[access.resolve.index()] | TextureUsage::ColorAttachment;
             isResolved[access.resolve.index()] = true;
         }
     }
@@ -138,42 +92,18 @@ std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& or
 std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const Lifetime> lifetimes,
                                         std::span<const TextureUsage> usage, TransientPool& pool) {
     const std::span<TexturePlan> plans = graph.arena().array<TexturePlan>(lifetimes.size());
-    for (const uint32_t i : byFirstUse(graph.arena(), lifetimes)) {
+    const std::span<uint32_t> byFirstUse = graph.arena().array<uint32_t>(lifetimes.size());
+    for (uint32_t i = 0; i < byFirstUse.size(); ++i) byFirstUse[i] = i;
+    std::sort(byFirstUse.begin(), byFirstUse.end(), [&](uint32_t a, uint32_t b) {
+        return lifetimes[a].first != lifetimes[b].first ? lifetimes[a].first < lifetimes[b].first : a < b;
+    });
+    pool.beginGraph();
+    for (const uint32_t i : byFirstUse) {
         Texture const& texture = graph.textures()[i];
         plans[i] = { lifetimes[i], usage[i], texture.imported };
-        const bool isPooled = !texture.isImported && texture.history == HistoryRole::None;
-        if (!isPooled || !lifetimes[i].isUsed()) continue;
+        if (texture.isImported || !lifetimes[i].isUsed()) continue;
         const uint32_t last = texture.isOutput ? kNone : lifetimes[i].last; // an output outlives the last group
         plans[i].handle = pool.acquire(descOf(texture.desc, usage[i]), lifetimes[i].first, last);
-    }
-    for (size_t i = 0; i < plans.size(); ++i) {
-        if (graph.textures()[i].history == HistoryRole::Previous) assignHistory(graph, i, plans, pool);
-    }
-    return plans;
-}
-
-std::span<BufferPlan> assignBuffers(FrameGraph const& graph, PassOrder const& order, std::span<const PassGroup> groups,
-                                    TransientPool& pool) {
-    const std::span<BufferPlan> plans = graph.arena().array<BufferPlan>(graph.buffers().size());
-    const std::span<Lifetime> lifetimes = graph.arena().array<Lifetime>(plans.size());
-    for (uint32_t group = 0; group < groups.size(); ++group) {
-        for (const uint32_t pass : order.order.subspan(groups[group].first, groups[group].count)) {
-            for (BufferAccess const& access : graph.bufferAccesses(graph.passes()[pass])) {
-                const uint32_t i = access.buffer.index();
-                lifetimes[i].first = std::min(lifetimes[i].first, group);
-                lifetimes[i].last = std::max(lifetimes[i].last, group);
-                plans[i].usage = plans[i].usage | usageOf(access);
-            }
-        }
-    }
-    for (const uint32_t i : byFirstUse(graph.arena(), lifetimes)) {
-        Buffer const& buffer = graph.buffers()[i];
-        plans[i].lifetime = lifetimes[i];
-        plans[i].handle = buffer.imported;
-        if (buffer.isImported || !lifetimes[i].isUsed()) continue;
-        if (plans[i].usage == BufferUsage{}) plans[i].usage = BufferUsage::TransferSource; // only ever uploaded
-        const uint32_t last = buffer.isOutput ? kNone : lifetimes[i].last;
-        plans[i].handle = pool.acquire({ buffer.size, plans[i].usage, buffer.name }, lifetimes[i].first, last);
     }
     return plans;
 }

@@ -11,9 +11,10 @@ std::span<const uint32_t> passesOf(PassOrder const& order, PassGroup const& grou
     return order.order.subspan(group.first, group.count);
 }
 
+// Transfers and samplers may touch any level and layer of their texture; attachments touch one.
 bool overlaps(Access const& access, GroupAttachment const& attachment) {
-    return access.texture == attachment.texture &&
-           backend::contains(access.range, { attachment.level, 1, attachment.layer, 1 });
+    if (access.texture != attachment.texture) return false;
+    return !isAttachment(access.kind) || (access.level == attachment.level && access.layer == attachment.layer);
 }
 
 bool isResolvedTo(Access const& access, GroupAttachment const& attachment) {
@@ -22,7 +23,8 @@ bool isResolvedTo(Access const& access, GroupAttachment const& attachment) {
 
 bool isWrittenBefore(FrameGraph const& graph, PassOrder const& order, std::span<const PassGroup> earlier,
                      GroupAttachment const& attachment) {
-    if (graph.texture(attachment.texture).contents == InitialContents::Keep) return true;
+    Texture const& texture = graph.texture(attachment.texture);
+    if (texture.isImported && texture.contents == InitialContents::Keep) return true;
     for (PassGroup const& group : earlier) {
         for (const uint32_t pass : passesOf(order, group)) {
             for (Access const& access : graph.accesses(graph.passes()[pass])) {

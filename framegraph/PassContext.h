@@ -35,14 +35,6 @@ struct TextureId {
     friend bool operator==(TextureId, TextureId) = default;
 };
 
-/// Names a buffer of one graph until the graph's reset(); zero is none.
-struct BufferId {
-    uint32_t value = 0;
-    uint32_t index() const { return value - 1; }
-    explicit operator bool() const { return value != 0; }
-    friend bool operator==(BufferId, BufferId) = default;
-};
-
 /// Names a pass of one graph until the graph's reset(); zero is none.
 struct PassId {
     uint32_t value = 0;
@@ -84,12 +76,6 @@ public:
     /// The texture behind an id that this pass declared.
     backend::TextureHandle texture(TextureId id) const;
     GraphTextureDesc const& desc(TextureId id) const;
-    /// The buffer behind an id that this pass declared.
-    backend::BufferHandle buffer(BufferId id) const;
-
-    /// How many graphs ago History::previous, which this pass declared, was written: 1 for the graph before this one.
-    /// 0: never, or with another description; it holds the clear value.
-    uint32_t historyAge(TextureId previous) const;
 
     /// The layout for pipelines of this pass. Passes without attachments have none.
     backend::PassLayout const& passLayout() const;
@@ -105,8 +91,7 @@ public:
     bool isRehearsal() const { return mIsRehearsal; }
 
     /// A bind group that lives for this frame; equal ones are created once and kept while frames request them. None in
-    /// a rehearsal. Only in `beforePass` and in passes without attachments. Asserts that what it shows of a texture of
-    /// the graph lies within what the pass declared to read.
+    /// a rehearsal. Only in `beforePass` and in passes without attachments.
     backend::BindGroupHandle bindGroup(backend::BindGroupLayout const& layout,
                                        std::span<const backend::BindGroupEntry> entries, std::string_view name);
 
@@ -115,7 +100,6 @@ public:
 
 private:
     void requireDeclared(TextureId id) const;
-    void requireDeclaredRange(backend::BindGroupEntry const& entry, std::string_view group) const;
 
     CompiledGraph const& mPlan;
     backend::CommandBuffer& mCommands;

@@ -2,7 +2,6 @@
 #include "framegraph/TransientPool.h"
 
 #include "backend/stream/CommandStream.h"
-#include "backend/stream/RecordingGuards.h"
 #include "base/Assert.h"
 
 #include <algorithm>
@@ -10,20 +9,16 @@
 namespace filament::framegraph {
 namespace {
 
+using backend::BindGroupEntry;
+
 bool isSameButForTheName(backend::DeviceTextureDesc const& a, backend::DeviceTextureDesc const& b) {
     return a.type == b.type && a.format == b.format && a.usage == b.usage && a.samples == b.samples &&
            a.levels == b.levels && a.layers == b.layers && a.width == b.width && a.height == b.height;
 }
 
-bool isSameButForTheName(backend::BufferDesc const& a, backend::BufferDesc const& b) {
-    return a.size == b.size && a.usage == b.usage;
-}
-
-backend::TextureHandle allocate(backend::CommandStream& stream, backend::DeviceTextureDesc const&) {
-    return stream.allocateTexture();
-}
-backend::BufferHandle allocate(backend::CommandStream& stream, backend::BufferDesc const&) {
-    return stream.allocateBuffer();
+bool isSameEntry(BindGroupEntry const& a, BindGroupEntry const& b) {
+    return a.binding == b.binding && a.buffer == b.buffer && a.offset == b.offset && a.size == b.size &&
+           a.texture == b.texture && a.sampler == b.sampler;
 }
 
 } // namespace
@@ -32,81 +27,27 @@ TransientPool::TransientPool(backend::CommandStream& stream, uint32_t keepFrames
         : mStream(stream), mKeepFrames(keepFrames) {}
 
 TransientPool::~TransientPool() {
-    FILAMENT_ASSERT(mTextures.empty() && mBuffers.empty() && mHistories.empty() && mOutdated.empty() &&
-                            mBindGroups.empty(),
+    FILAMENT_ASSERT(mTextures.empty() && mBindGroups.empty(),
                     "TransientPool::destroyAll() comes before the destructor");
 }
 
 void TransientPool::beginGraph() { ++mGraph; }
 
-template <class Pooled, class Desc>
-auto TransientPool::acquireFrom(std::vector<Pooled>& pooled, Desc const& desc, uint32_t first, uint32_t last) {
-    const auto isFree = [&](Pooled const& one) {
-        return (one.lastGraph != mGraph || one.busyUntil < first) && isSameButForTheName(one.desc, desc);
+backend::TextureHandle TransientPool::acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last) {
+    const auto isFree = [&](PooledTexture const& pooled) {
+        return (pooled.lastGraph != mGraph || pooled.busyUntil < first) && isSameButForTheName(pooled.desc, desc);
     };
-    auto found = std::find_if(pooled.begin(), pooled.end(), isFree);
-    if (found == pooled.end()) {
-        backend::NewHandle handle(mStream, allocate(mStream, desc));
-        pooled.push_back({ .handle = handle });
+    auto found = std::find_if(mTextures.begin(), mTextures.end(), isFree);
+    if (found == mTextures.end()) {
+        backend::NewHandle handle(mStream, mStream.allocateTexture());
+        mTextures.push_back({ .handle = handle });
         handle.keep();
-        found = pooled.end() - 1;
+        found = mTextures.end() - 1;
     }
     if (!found->isCreated) found->desc = desc; // its name is of this graph
     found->lastGraph = mGraph;
     found->busyUntil = last;
     return found->handle;
-}
-
-backend::TextureHandle TransientPool::acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last) {
-    return acquireFrom(mTextures, desc, first, last);
-}
-
-backend::BufferHandle TransientPool::acquire(backend::BufferDesc const& desc, uint32_t first, uint32_t last) {
-    return acquireFrom(mBuffers, desc, first, last);
-}
-
-TransientPool::KeptHistory TransientPool::newHistory(backend::DeviceTextureDesc const& desc) {
-    backend::NewHandle first(mStream, mStream.allocateTexture()), second(mStream, mStream.allocateTexture());
-    KeptHistory made{ .name = std::string(desc.debugName), .desc = desc, .handles = { first, second } };
-    made.desc.debugName = {}; // lives no longer than the graph
-    first.keep();
-    second.keep();
-    return made;
-}
-
-PooledHistory TransientPool::history(backend::DeviceTextureDesc const& desc, bool writes) {
-    auto found = std::ranges::find(mHistories, desc.debugName, &KeptHistory::name);
-    const bool isOutdated = found != mHistories.end() && !isSameButForTheName(found->desc, desc);
-    if (found == mHistories.end() || isOutdated) {
-        mOutdated.reserve(mOutdated.size() + 1);
-        mHistories.reserve(mHistories.size() + 1);
-        KeptHistory made = newHistory(desc); // the last that may fail
-        if (isOutdated) {
-            mOutdated.push_back(std::exchange(*found, std::move(made)));
-        } else {
-            mHistories.push_back(std::move(made));
-            found = mHistories.end() - 1;
-        }
-    }
-    found->lastGraph = mGraph;
-    found->isWritten = writes;
-    const uint64_t age = found->writtenGraph > 0 ? mGraph - found->writtenGraph : 0;
-    return { found->handles[found->previous], found->handles[1 - found->previous], static_cast<uint32_t>(age) };
-}
-
-void TransientPool::keepHistory() {
-    for (KeptHistory& history : mHistories) {
-        if (history.lastGraph != mGraph || !history.isWritten) continue;
-        history.previous = static_cast<uint8_t>(1 - history.previous);
-        history.writtenGraph = mGraph;
-        history.isWritten = false;
-    }
-}
-
-void TransientPool::destroy(backend::CommandBuffer& commands, KeptHistory const& history) {
-    for (const backend::TextureHandle handle : history.handles) {
-        history.isCreated ? mStream.destroy(commands, handle) : mStream.free(handle);
-    }
 }
 
 backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& commands,
@@ -115,7 +56,7 @@ backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& comman
     const auto isSame = [&](PooledBindGroup const& pooled) {
         return pooled.layout == desc.layout &&
                std::equal(desc.entries.begin(), desc.entries.end(), pooled.entries.begin(),
-                          pooled.entries.begin() + pooled.count);
+                          pooled.entries.begin() + pooled.count, isSameEntry);
     };
     const auto found = std::find_if(mBindGroups.begin(), mBindGroups.end(), isSame);
     if (found != mBindGroups.end()) {
@@ -144,27 +85,6 @@ void TransientPool::recordCreations(backend::CommandBuffer& commands) {
         pooled.isCreated = true;
         pooled.desc.debugName = {}; // lives no longer than the graph
     }
-    for (PooledBuffer& pooled : mBuffers) {
-        if (pooled.isCreated || pooled.lastGraph != mGraph) continue;
-        commands.record(backend::CmdCreateBuffer{ pooled.handle, pooled.desc });
-        pooled.isCreated = true;
-        pooled.desc.debugName = {};
-    }
-    for (KeptHistory& history : mHistories) {
-        if (history.isCreated || history.lastGraph != mGraph) continue;
-        createHistory(commands, history);
-    }
-}
-
-void TransientPool::createHistory(backend::CommandBuffer& commands, KeptHistory& history) {
-    backend::AllOrNothing both(commands);
-    backend::DeviceTextureDesc desc = history.desc;
-    desc.debugName = history.name;
-    for (const backend::TextureHandle handle : history.handles) {
-        commands.record(backend::CmdCreateTexture{ handle, desc });
-    }
-    both.complete();
-    history.isCreated = true;
 }
 
 void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
@@ -174,20 +94,11 @@ void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
         mStream.destroy(commands, pooled.handle);
         return true;
     });
-    std::erase_if(mHistories, [&](KeptHistory const& history) {
-        if (!isStale(history)) return false;
-        destroy(commands, history);
-        return true;
-    });
-    for (KeptHistory const& history : mOutdated) destroy(commands, history);
-    mOutdated.clear();
-    const auto isEvicted = [&](auto const& pooled) {
+    std::erase_if(mTextures, [&](PooledTexture const& pooled) {
         if (!isStale(pooled)) return false;
         pooled.isCreated ? mStream.destroy(commands, pooled.handle) : mStream.free(pooled.handle);
         return true;
-    };
-    std::erase_if(mTextures, isEvicted);
-    std::erase_if(mBuffers, isEvicted);
+    });
 }
 
 void TransientPool::destroyAll(backend::CommandBuffer& commands) {

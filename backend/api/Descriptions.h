@@ -5,7 +5,6 @@
 
 #include "backend/api/Format.h"
 #include "backend/api/Handles.h"
-#include "backend/api/TextureRange.h"
 
 #include <filament/Sampler.h>
 
@@ -38,13 +37,7 @@ struct Viewport {
 
 // ---------------------------------------------------------------------------------------------- buffers
 
-enum class BufferUsage : uint8_t {
-    Vertex = 1,
-    Index = 2,
-    Uniform = 4,
-    Storage = 8,         ///< read and written by dispatches, read by fragment shaders
-    TransferSource = 16, ///< read back
-};
+enum class BufferUsage : uint8_t { Vertex = 1, Index = 2, Uniform = 4 };
 constexpr BufferUsage operator|(BufferUsage a, BufferUsage b) {
     return static_cast<BufferUsage>(static_cast<uint8_t>(a) | static_cast<uint8_t>(b));
 }
@@ -97,14 +90,13 @@ using SamplerDesc = filament::Sampler;
 
 // ---------------------------------------------------------------------------------------------- programs
 
-enum class ShaderStage : uint8_t { Vertex = 1, Fragment = 2, Both = 3, Compute = 4 };
+enum class ShaderStage : uint8_t { Vertex = 1, Fragment = 2, Both = 3 };
 
 enum class BindingType : uint8_t {
     UniformBuffer,        ///< offset fixed in the bind group
     DynamicUniformBuffer, ///< plus an offset given with each CmdBindGroup
     SampledTexture,       ///< texture and sampler together
     InputAttachment,      ///< the pixel that an earlier subpass wrote; no sampler
-    StorageBuffer,        ///< offset fixed in the bind group; dispatches read and write it, fragment shaders read it
 };
 
 struct BindingDesc {
@@ -132,11 +124,9 @@ struct BindGroupLayout {
 /// groups below the first one whose layout differs from the last pipeline's.
 using ProgramLayout = std::array<BindGroupLayout, kMaxBindGroups>;
 
-/// OpenGL ES knows no groups: uniform blocks, storage blocks and textures are numbered on, each kind by itself, group
-/// after group, in the order of the layout. The shader compiler and the GLES driver both number with this function, and
-/// nothing else.
-///   Returns the block index for uniform and storage buffers, the texture unit for sampled textures; 0xFF if there is
-///   none.
+/// OpenGL ES knows no groups: uniform blocks and textures are numbered on, group after group, in the order of the
+/// layout. The shader compiler and the GLES driver both number with this function, and nothing else.
+///   Returns the block index for uniform buffers, the texture unit for sampled textures; 0xFF if there is none.
 uint8_t flatBinding(ProgramLayout const& layout, uint32_t group, uint8_t binding);
 
 /// A specialisation constant: bool, int and float travel as 32 bits.
@@ -150,7 +140,6 @@ struct ProgramDesc {
     /// SPIR-V words (Vulkan) or ESSL text (GLES): whichever DeviceInfo::shaderLanguage asks for.
     std::span<const std::byte> vertex;
     std::span<const std::byte> fragment;
-    std::span<const std::byte> compute; ///< alone: a program for CmdDispatch
     std::span<const ConstantValue> constants;
     ProgramLayout layout{};
     std::string_view debugName;
@@ -173,8 +162,7 @@ struct PassLayout {
     Format depthFormat = Format::None;
     uint8_t colorCount = 0;
     uint8_t samples = 1;
-    uint8_t resolveMask = 0;    ///< colour attachments with a resolve target: the average of the samples
-    bool resolvesDepth = false; ///< the depth attachment has one: the value of sample 0
+    uint8_t resolveMask = 0; ///< colour attachments with a resolve target
     uint8_t subpassCount = 1;
     std::array<SubpassDesc, kMaxSubpasses> subpasses{};
     friend bool operator==(PassLayout const&, PassLayout const&) = default;
@@ -190,7 +178,7 @@ struct Attachment {
     LoadOp load = LoadOp::Clear;
     StoreOp store = StoreOp::Store;
     std::array<float, 4> clear{}; ///< colour, or {depth, stencil, -, -}
-    TextureHandle resolve;        ///< single-sampled target, level 0 layer 0; depth: of a format without stencil
+    TextureHandle resolve;        ///< colour only: single-sampled target, level 0 layer 0
 };
 
 /// Attachment i of `colors` has layout.colorFormats[i]. All have the size of `area` or are larger.
@@ -296,8 +284,7 @@ struct BlendState {
     friend bool operator==(BlendState const&, BlendState const&) = default;
 };
 
-/// A colour attachment that the program has no output for keeps its contents. Of a pipeline for CmdDispatch only the
-/// program and the name count.
+/// A colour attachment that the program has no output for keeps its contents.
 struct PipelineDesc {
     ProgramHandle program;
     PassLayout pass{};
@@ -313,16 +300,11 @@ struct PipelineDesc {
 
 struct BindGroupEntry {
     uint8_t binding = 0;
-    BufferHandle buffer; ///< uniform and storage buffers
-    uint64_t offset = 0; ///< bytes, a multiple of DeviceLimits::uniformOffsetAlignment or storageOffsetAlignment
-    uint32_t size = 0;   ///< bytes visible to the shader, <= DeviceLimits::maxUniformBlockBytes or maxStorageBlockBytes
+    BufferHandle buffer;   ///< uniform buffers
+    uint64_t offset = 0;   ///< bytes, a multiple of DeviceLimits::uniformOffsetAlignment
+    uint32_t size = 0;     ///< bytes visible to the shader, <= DeviceLimits::maxUniformBlockBytes
     TextureHandle texture; ///< sampled textures and input attachments
     SamplerHandle sampler; ///< sampled textures
-    /// What the shader sees of the texture: its level 0 and layer 0 are the first ones of the range. Cubes show all
-    /// their layers; an input attachment is one level and layer. A pass may attach other parts of a texture that it
-    /// samples.
-    TextureRange range{};
-    friend bool operator==(BindGroupEntry const&, BindGroupEntry const&) = default;
 };
 
 /// Immutable once made. Every binding of the layout has exactly one entry.

@@ -9,10 +9,10 @@ namespace {
 constexpr uint32_t kAllGroups = (1u << kMaxBindGroups) - 1;
 constexpr uint8_t kNoSlot = 0xFF;
 
-BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures& textures,
-                        Samplers const& samplers, std::string_view group) {
+BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures const& textures,
+                        Samplers const& samplers) {
     BindGroup::Slot slot{ .type = type };
-    if (type != BindingType::SampledTexture && type != BindingType::InputAttachment) {
+    if (type == BindingType::UniformBuffer || type == BindingType::DynamicUniformBuffer) {
         Buffer const* buffer = buffers.find(entry.buffer);
         slot.object = buffer ? buffer->name : 0;
         slot.offset = static_cast<GLintptr>(entry.offset);
@@ -20,17 +20,15 @@ BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers c
         return slot;
     }
     Texture const* texture = textures.find(entry.texture);
-    if (!texture) return slot;
-    const bool isSampled = type == BindingType::SampledTexture;
-    slot.object = isSampled ? textures.sampledName(entry.texture, entry.range, group) : texture->name;
-    slot.target = texture->target;
+    slot.object = texture ? texture->name : 0;
+    slot.target = texture ? texture->target : 0;
     slot.sampler = samplers.find(entry.sampler);
     return slot;
 }
 
 } // namespace
 
-BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures& textures,
+BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures const& textures,
                         Samplers const& samplers) {
     BindGroup group;
     group.slots.reserve(desc.layout.count);
@@ -39,7 +37,7 @@ BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textu
         const auto entry = std::find_if(desc.entries.begin(), desc.entries.end(),
                                         [&](BindGroupEntry const& at) { return at.binding == binding.binding; });
         FILAMENT_ASSERT(entry != desc.entries.end(), "every binding of a bind group layout has an entry");
-        group.slots.push_back(resolve(*entry, binding.type, buffers, textures, samplers, desc.debugName));
+        group.slots.push_back(resolve(*entry, binding.type, buffers, textures, samplers));
         group.isUsable = group.isUsable && group.slots.back().object != 0;
     }
     return group;
@@ -94,8 +92,6 @@ void Descriptors::applyGroup(uint32_t index) {
         if (slot.type == BindingType::SampledTexture) {
             mState.bindTexture(at, slot.target, slot.object);
             mState.bindSampler(at, slot.sampler);
-        } else if (slot.type == BindingType::StorageBuffer) {
-            mState.bindStorage(at, slot.object, slot.offset, slot.size);
         } else {
             mState.bindUniforms(at, slot.object, slot.offset + static_cast<GLintptr>(offset), slot.size);
         }

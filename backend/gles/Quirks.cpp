@@ -35,16 +35,6 @@ bool hasAny(Extensions const& names, std::initializer_list<const char*> wanted) 
     return std::any_of(wanted.begin(), wanted.end(), [&](const char* name) { return names.contains(name); });
 }
 
-uint32_t maxDispatchGroups(Api const& gl) {
-    GLint least = 65535; // what the specification asks for
-    for (GLuint direction = 0; direction < 3; ++direction) {
-        GLint most = 0;
-        gl.GetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, direction, &most);
-        least = direction == 0 ? most : std::min(least, most);
-    }
-    return static_cast<uint32_t>(least);
-}
-
 bool hasBlockCompression(Extensions const& names) {
     return names.contains("GL_EXT_texture_compression_s3tc") && names.contains("GL_EXT_texture_compression_rgtc") &&
            names.contains("GL_EXT_texture_compression_bptc") &&
@@ -75,7 +65,6 @@ Result<Quirks> Quirks::probe(Api const& gl) {
                           gl.Disablei &&
                           (es32 || hasAny(names, { "GL_EXT_draw_buffers_indexed", "GL_OES_draw_buffers_indexed" }));
     quirks.framebufferFetch = names.contains("GL_EXT_shader_framebuffer_fetch");
-    quirks.textureViews = gl.TextureView && hasAny(names, { "GL_EXT_texture_view", "GL_OES_texture_view" });
     quirks.timers = names.contains("GL_EXT_disjoint_timer_query") && gl.QueryCounter && gl.GetQueryObjectui64v;
     quirks.blockCompression = hasBlockCompression(names);
     quirks.depthClamp = names.contains("GL_EXT_depth_clamp");
@@ -101,13 +90,6 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
     limits.maxUniformBlockBytes = static_cast<uint32_t>(integer(gl, GL_MAX_UNIFORM_BLOCK_SIZE));
     limits.uniformOffsetAlignment = static_cast<uint32_t>(integer(gl, GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
     limits.maxTextureUnits = static_cast<uint32_t>(integer(gl, GL_MAX_TEXTURE_IMAGE_UNITS));
-    limits.maxStorageBuffers = static_cast<uint32_t>(std::min(
-            { integer(gl, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS), integer(gl, GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS) }));
-    limits.maxStorageBlockBytes = static_cast<uint32_t>(integer(gl, GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
-    limits.storageOffsetAlignment = static_cast<uint32_t>(integer(gl, GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT));
-    limits.maxDispatchGroups = maxDispatchGroups(gl);
-    limits.maxGroupInvocations = static_cast<uint32_t>(integer(gl, GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS));
-    limits.maxGroupBytes = static_cast<uint32_t>(integer(gl, GL_MAX_COMPUTE_SHARED_MEMORY_SIZE));
     limits.maxVertexAttributes =
             std::min(static_cast<uint32_t>(integer(gl, GL_MAX_VERTEX_ATTRIBS)), kMaxVertexAttributes);
     limits.maxSamples = std::min(static_cast<uint32_t>(integer(gl, GL_MAX_SAMPLES)), 4u);
@@ -118,8 +100,6 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
         .blockCompression = quirks.blockCompression,
         .depthClamp = quirks.depthClamp,
         .lastVertexProvokes = true, // OpenGL ES knows no other
-        .depthResolve = true,       // ES 3.1 samples multisampled depth
-        .textureViews = quirks.textureViews,
         .halfFloatShaders = true,
     };
     return info;

@@ -184,10 +184,7 @@ private:
             else
                 read(i, false, color.texture, color.level, color.layer);
         }
-        if (mPass.layout.depthFormat == Format::None) return;
-        if (mPass.layout.resolvesDepth)
-            read(mPass.layout.colorCount, true, mPass.depth.resolve, 0, 0);
-        else
+        if (mPass.layout.depthFormat != Format::None)
             read(mPass.layout.colorCount, true, mPass.depth.texture, mPass.depth.level, mPass.depth.layer);
     }
 

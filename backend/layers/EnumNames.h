@@ -26,8 +26,7 @@ inline constexpr bool kIsFlags = false;
 template <>
 inline constexpr bool kIsFlags<BufferUsage> = true;
 template <>
-inline constexpr std::array kEnumNames<BufferUsage>{ "Vertex"sv, "Index"sv, "Uniform"sv, "Storage"sv,
-                                                     "TransferSource"sv };
+inline constexpr std::array kEnumNames<BufferUsage>{ "Vertex"sv, "Index"sv, "Uniform"sv };
 template <>
 inline constexpr bool kIsFlags<TextureUsage> = true;
 template <>
@@ -37,7 +36,7 @@ inline constexpr std::array kEnumNames<TextureUsage>{ "Sampled"sv,         "Colo
 template <>
 inline constexpr bool kIsFlags<ShaderStage> = true;
 template <>
-inline constexpr std::array kEnumNames<ShaderStage>{ "Vertex"sv, "Fragment"sv, "Compute"sv };
+inline constexpr std::array kEnumNames<ShaderStage>{ "Vertex"sv, "Fragment"sv };
 
 template <>
 inline constexpr std::array kEnumNames<IndexFormat>{ "UInt16"sv, "UInt32"sv };
@@ -55,7 +54,7 @@ inline constexpr std::array kEnumNames<CompareOp>{ "None"sv,     "Never"sv,     
                                                    "NotEqual"sv, "GreaterEqual"sv, "Always"sv };
 template <>
 inline constexpr std::array kEnumNames<BindingType>{ "UniformBuffer"sv, "DynamicUniformBuffer"sv, "SampledTexture"sv,
-                                                     "InputAttachment"sv, "StorageBuffer"sv };
+                                                     "InputAttachment"sv };
 template <>
 inline constexpr std::array kEnumNames<ConstantValue::Type>{ "Bool"sv, "Int"sv, "Float"sv };
 template <>

@@ -10,18 +10,12 @@
 namespace filament::backend::vulkan {
 namespace {
 
-constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
-constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
-constexpr VkPipelineStageFlags kDrawShaders =
-        VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
-constexpr VkPipelineStageFlags kShaders = kDrawShaders | kCompute;
+constexpr VkPipelineStageFlags kShaders = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
 constexpr VkPipelineStageFlags kDepthTests =
         VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-constexpr VkPipelineStageFlags kDrawReaders = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | kDrawShaders;
-constexpr VkAccessFlags kBufferAccess = VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
-                                        VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
-                                        VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
-                                        VK_ACCESS_TRANSFER_WRITE_BIT;
+constexpr VkPipelineStageFlags kBufferReaders = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | kShaders;
+constexpr VkAccessFlags kBufferReads =
+        VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT;
 constexpr VkAccessFlags kColorAccess = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
 constexpr VkAccessFlags kDepthAccess =
         VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
@@ -36,10 +30,6 @@ constexpr std::array<UseInfo, static_cast<size_t>(Use::Count)> kUses{ {
           VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT },
         { VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthTests, kDepthAccess,
           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT },
-        // Resolving counts as colour output, also of depth (Vulkan 1.2, 7.1.2 and 8.4).
-        { VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthTests | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
-          kDepthAccess | kColorAccess,
-          VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT },
         // Load and store operations and earlier subpasses write it as a colour attachment.
         { VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
           VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,
@@ -105,9 +95,11 @@ void Barriers::forget(Texture& texture) {
 }
 
 void Barriers::bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end) {
-    if (mStorageWrites) publishWrites();
-    if (mReaders != 0) memory(mReaders, 0, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT); // of what is overwritten now
-    mReaders = 0;
+    constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+    if (mPassesSinceTransfer) {
+        memory(kBufferReaders, 0, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT); // draws have read what is overwritten now
+        mPassesSinceTransfer = false;
+    }
     if (buffer.overlapsWrites(mTransferEpoch, begin, end)) {
         memory(kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT);
         ++mTransferEpoch;
@@ -116,75 +108,22 @@ void Barriers::bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end) {
     mTransferWrites = true;
 }
 
-void Barriers::bufferRead() {
-    publishWrites();
-    mReaders |= kTransfer;
-}
-
-void Barriers::publishWrites() {
-    VkPipelineStageFlags stages = 0;
-    VkAccessFlags written = 0;
-    if (mTransferWrites) stages |= kTransfer, written |= VK_ACCESS_TRANSFER_WRITE_BIT;
-    if (mStorageWrites) stages |= kCompute, written |= VK_ACCESS_SHADER_WRITE_BIT;
-    if (stages == 0) return;
-    memory(stages, written, kDrawReaders | kCompute | kTransfer, kBufferAccess);
-    mTransferWrites = mStorageWrites = false;
-    ++mTransferEpoch;
-}
-
 void Barriers::hostRead() {
-    memory(kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
+    memory(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
+           VK_ACCESS_HOST_READ_BIT);
 }
 
-void Barriers::attach(Texture& texture, SubresourceRange const& range, Use use, Contents contents) {
-    image(texture, range, use, contents);
-    mAttached.push_back({ &texture, range });
-}
-
-bool Barriers::isAttached(Texture const& texture, uint32_t level, uint32_t layer) const {
-    return std::ranges::any_of(mAttached, [&](Attached const& at) {
-        return at.texture == &texture && level - at.range.level < at.range.levelCount &&
-               layer - at.range.layer < at.range.layerCount; // unsigned: below the first is far beyond the last
-    });
-}
-
-bool Barriers::settle(Texture& texture) {
-    if (std::ranges::find(mAttached, &texture, &Attached::texture) == mAttached.end()) {
-        image(texture, texture.uses.all(), Use::ShaderRead);
+void Barriers::beginPass(uint64_t pass) {
+    if (mTransferWrites) {
+        memory(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kBufferReaders, kBufferReads);
+        mTransferWrites = false;
+        ++mTransferEpoch;
+    }
+    std::erase_if(mUnsettled, [&](Texture* texture) {
+        if (texture->attachmentOfPass == pass) return false;
+        image(*texture, texture->uses.all(), Use::ShaderRead);
+        texture->isUnsettled = false;
         return true;
-    }
-    for (uint32_t level = 0; level < texture.levels(); ++level) {
-        for (uint32_t layer = 0; layer < texture.layers(); ++layer) {
-            if (!isAttached(texture, level, layer)) image(texture, { level, 1, layer, 1 }, Use::ShaderRead);
-        }
-    }
-    return false;
-}
-
-void Barriers::beginPass() {
-    publishWrites();
-    settleAll();
-    mAttached.clear();
-}
-
-void Barriers::endPass() { mReaders |= kDrawReaders; }
-
-void Barriers::beginDispatch() {
-    publishWrites();
-    if (mReaders != 0) memory(mReaders, 0, kCompute, VK_ACCESS_SHADER_WRITE_BIT); // of what the dispatch overwrites
-    mReaders = 0;
-    settleAll();
-}
-
-void Barriers::endDispatch() {
-    mStorageWrites = true;
-    mReaders |= kCompute;
-}
-
-void Barriers::settleAll() {
-    std::erase_if(mUnsettled, [this](Texture* texture) {
-        texture->isUnsettled = !settle(*texture);
-        return !texture->isUnsettled;
     });
 }
 

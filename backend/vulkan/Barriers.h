@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Barriers: makes commands that run in parallel on the GPU look serial.
-///   What is known  the last Use of every level and layer of every texture; which kinds of commands wrote buffers that
-///                  nobody was told about yet, and which stages read buffers since a writer last waited for them.
+///   What is known  the last Use of every level and layer of every texture, whether transfers wrote buffers that no
+///                  draw was told about, and whether draws read buffers since a transfer last waited for them.
 ///   How            image(), bufferWrite(), ... collect what the next command needs; flush() emits it as one
 ///                  vkCmdPipelineBarrier, or nothing. Sampled textures go back to ShaderRead together, when the next
-///                  pass or dispatch begins, so that uploads, blits and passes in a row cost one barrier, not one each.
-///                  Buffers are not told apart, but for transfers in a row: what was written becomes visible to all.
+///                  pass begins, so that uploads, blits and passes in a row cost one barrier, not one each.
 ///   Thread  the driver thread.
-///   Limits  a level and layer that is an attachment of a pass is not sampled in it.
+///   Limits  a texture that is an attachment of a pass is not sampled in it.
 #pragma once
 
 #include "backend/vulkan/Api.h"
@@ -28,8 +27,7 @@ enum class Use : uint8_t {
     ShaderRead, ///< where sampled textures rest
     ColorAttachment,
     DepthAttachment,
-    DepthResolve, ///< depth attachment that was resolved, and the target of that
-    InputRead,    ///< colour attachment that the last subpass using it read as an input attachment
+    InputRead, ///< colour attachment that the last subpass using it read as an input attachment
     Count,
 };
 
@@ -85,19 +83,12 @@ public:
     void leave(Texture& texture, SubresourceRange const& range, Use use);
     /// The next command is a transfer that writes bytes [begin, end) of the buffer.
     void bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end);
-    /// The next command is a transfer that reads a buffer of the stream.
-    void bufferRead();
     /// The host will read what transfers have written so far.
     void hostRead();
-    /// image(), for an attachment of the pass that beginPass() begins.
-    void attach(Texture& texture, SubresourceRange const& range, Use use, Contents contents);
-    /// The next command begins a pass: transfers become visible, and what shaders may sample becomes readable, except
-    /// for the attachments.
-    void beginPass();
-    void endPass();
-    /// The next command is a dispatch: as beginPass(), without attachments.
-    void beginDispatch();
-    void endDispatch();
+    /// The next command begins a pass: transfers become visible, sampled textures except those marked with
+    /// Texture::attachmentOfPass == `pass` become readable.
+    void beginPass(uint64_t pass);
+    void endPass() { mPassesSinceTransfer = true; }
     /// A new texture that shaders may sample before anything has written it.
     void add(Texture& texture);
     void forget(Texture& texture);
@@ -106,17 +97,6 @@ public:
     void flush(VolkDeviceTable const& fn, VkCommandBuffer commands);
 
 private:
-    struct Attached {
-        Texture* texture = nullptr;
-        SubresourceRange range;
-    };
-
-    bool isAttached(Texture const& texture, uint32_t level, uint32_t layer) const;
-    /// Makes all of the texture readable that is not attached; whether that is everything.
-    bool settle(Texture& texture);
-    void settleAll();
-    /// Makes what transfers and dispatches wrote to buffers visible to every command.
-    void publishWrites();
     void memory(VkPipelineStageFlags sourceStages, VkAccessFlags written, VkPipelineStageFlags targetStages,
                 VkAccessFlags access);
 
@@ -125,12 +105,10 @@ private:
     bool mHasMemoryBarrier = false;
     std::vector<VkImageMemoryBarrier> mImages;
 
-    std::vector<Texture*> mUnsettled;  // sampled textures with some part not in ShaderRead
-    std::vector<Attached> mAttached;   // of the pass that is about to begin
-    uint64_t mTransferEpoch = 1;       // transfers of one epoch are not ordered among each other
-    bool mTransferWrites = false;      // to buffers, not yet visible to shaders
-    bool mStorageWrites = false;       // of dispatches, not yet visible to anything
-    VkPipelineStageFlags mReaders = 0; // that have read buffers since a writer last waited for them
+    std::vector<Texture*> mUnsettled; // sampled textures with some part not in ShaderRead
+    uint64_t mTransferEpoch = 1;      // transfers of one epoch are not ordered among each other
+    bool mTransferWrites = false;     // to buffers, not yet visible to draws
+    bool mPassesSinceTransfer = false;
 };
 
 } // namespace filament::backend::vulkan

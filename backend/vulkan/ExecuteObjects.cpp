@@ -42,26 +42,15 @@ void Executor::execute(CmdCreatePipeline const& command) {
                                  desc.debugName);
         return report(error, DriverErrorKind::ShaderCompile);
     }
-    if (program->compute() != VK_NULL_HANDLE) {
-        store(mPipelines, command.handle,
-              Pipeline::createCompute(*mDevice, mProgramCache->handle(), *program, desc.debugName),
-              DriverErrorKind::ShaderCompile);
-        return countPipeline(command.handle);
-    }
     const VkRenderPass pass = mRenderPasses->get(keyOf(desc.pass));
     if (pass == VK_NULL_HANDLE) {
         return report(fail(ErrorCode::OutOfMemory, "pipeline '{}': no render pass", desc.debugName));
     }
     store(mPipelines, command.handle, Pipeline::create(*mDevice, mProgramCache->handle(), pass, *program, desc),
           DriverErrorKind::ShaderCompile);
-    countPipeline(command.handle);
-}
-
-void Executor::countPipeline(PipelineHandle handle) {
-    Pipeline const* const pipeline = mPipelines.find(handle);
-    if (!pipeline) return;
+    if (!mPipelines.find(command.handle)) return;
     ++mStatistics.pipelinesCreated;
-    mStatistics.pipelinesFromCache += pipeline->isFromCache();
+    mStatistics.pipelinesFromCache += mPipelines.find(command.handle)->isFromCache();
     if (mPass->isOpen()) ++mStatistics.pipelinesCreatedInPasses;
 }
 

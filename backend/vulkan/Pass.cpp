@@ -23,10 +23,11 @@ VkClearValue clearColor(Attachment const& attachment, Format format) {
 } // namespace
 
 Result<void> Pass::begin(PassDesc const& desc, VkCommandBuffer commands) {
+    ++mNumber;
     mLayout = desc.layout;
     mArea = desc.area;
     mColors = mResolves = {};
-    mDepth = mDepthResolve = nullptr;
+    mDepth = nullptr;
     mOpen = true;
     mUsable = false;
     FramebufferKey key;
@@ -38,7 +39,7 @@ Result<void> Pass::begin(PassDesc const& desc, VkCommandBuffer commands) {
     }
     mUsable = true;
     prepareAttachments(desc);
-    mBarriers.beginPass();
+    mBarriers.beginPass(mNumber);
     mBarriers.flush(mDevice.fn(), commands);
     recordBegin(desc, key, framebuffer, commands);
     return {};
@@ -75,14 +76,13 @@ bool Pass::collect(PassDesc const& desc, FramebufferKey& key) {
         mResolves[i] = mTextures.find(desc.colors[i].resolve);
         if (!add(mResolves[i], {}, key)) return false;
     }
-    if (!mLayout.resolvesDepth) return true;
-    mDepthResolve = mTextures.find(desc.depth.resolve);
-    return add(mDepthResolve, {}, key);
+    return true;
 }
 
 bool Pass::add(Texture* texture, SubresourceRange const& range, FramebufferKey& key) {
     const VkImageView view = texture ? texture->attachmentView(range.level, range.layer) : VK_NULL_HANDLE;
     if (view == VK_NULL_HANDLE) return false;
+    texture->attachmentOfPass = mNumber;
     key.views[key.viewCount++] = view;
     return true;
 }
@@ -90,18 +90,16 @@ bool Pass::add(Texture* texture, SubresourceRange const& range, FramebufferKey& 
 void Pass::prepareAttachments(PassDesc const& desc) {
     for (uint32_t i = 0; i < mLayout.colorCount; ++i) {
         const Use first = firstColorUse(mLayout, i);
-        mBarriers.attach(*mColors[i], mColorRanges[i], first, contentsFor(desc.colors[i].load));
-        if (mResolves[i]) mBarriers.attach(*mResolves[i], {}, Use::ColorAttachment, Contents::Discard);
+        mBarriers.image(*mColors[i], mColorRanges[i], first, contentsFor(desc.colors[i].load));
+        if (mResolves[i]) mBarriers.image(*mResolves[i], {}, Use::ColorAttachment, Contents::Discard);
     }
-    if (mDepthResolve) mBarriers.attach(*mDepthResolve, {}, Use::DepthResolve, Contents::Discard);
-    if (mDepth) mBarriers.attach(*mDepth, mDepthRange, Use::DepthAttachment, contentsFor(desc.depth.load));
+    if (mDepth) mBarriers.image(*mDepth, mDepthRange, Use::DepthAttachment, contentsFor(desc.depth.load));
 }
 
 void Pass::leaveAttachments() {
     for (uint32_t i = 0; i < mLayout.colorCount; ++i) {
         mBarriers.leave(*mColors[i], mColorRanges[i], lastColorUse(mLayout, i));
     }
-    if (mDepthResolve) mBarriers.leave(*mDepth, mDepthRange, Use::DepthResolve);
 }
 
 void Pass::recordBegin(PassDesc const& desc, FramebufferKey const& key, VkFramebuffer framebuffer,

@@ -47,9 +47,10 @@ private:
     PassLayout mLayout{};
     Rect mArea{};
     std::array<Texture*, kMaxColorAttachments> mColors{}, mResolves{};
-    Texture *mDepth = nullptr, *mDepthResolve = nullptr;
+    Texture* mDepth = nullptr;
     std::array<SubresourceRange, kMaxColorAttachments> mColorRanges{};
     SubresourceRange mDepthRange;
+    uint64_t mNumber = 0; // passes so far
     bool mOpen = false, mUsable = false;
 };
 

@@ -61,13 +61,6 @@ void readProperties(Instance const& instance, ExtensionList const& extensions, P
     info.limits.uniformOffsetAlignment = static_cast<uint32_t>(limits.minUniformBufferOffsetAlignment);
     info.limits.maxTextureUnits =
             std::min(limits.maxPerStageDescriptorSamplers, limits.maxPerStageDescriptorSampledImages);
-    info.limits.maxStorageBuffers = limits.maxPerStageDescriptorStorageBuffers;
-    info.limits.maxStorageBlockBytes = limits.maxStorageBufferRange;
-    info.limits.storageOffsetAlignment = static_cast<uint32_t>(limits.minStorageBufferOffsetAlignment);
-    info.limits.maxDispatchGroups = std::min({ limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
-                                               limits.maxComputeWorkGroupCount[2] });
-    info.limits.maxGroupInvocations = limits.maxComputeWorkGroupInvocations;
-    info.limits.maxGroupBytes = limits.maxComputeSharedMemorySize;
     info.limits.maxVertexAttributes = std::min(limits.maxVertexInputAttributes, kMaxVertexAttributes);
     const VkSampleCountFlags samples = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
     info.limits.maxSamples = (samples & VK_SAMPLE_COUNT_4_BIT) != 0 ? 4 : 1;
@@ -81,8 +74,6 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     device.creationFeedback = extensions.has(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);
-    device.depthResolve = extensions.has(VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME) &&
-                          extensions.has(VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);
     if (extensions.has(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) {
         provoking.pNext = features.pNext;
         features.pNext = &provoking;
@@ -98,8 +89,6 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     device.halfFloatShaders = half.shaderFloat16;
     DeviceInfo& info = device.info;
     info.features.mergedPasses = true; // subpasses are core
-    info.features.depthResolve = device.depthResolve;
-    info.features.textureViews = true; // so are image views
     info.features.blockCompression = features.features.textureCompressionBC;
     info.features.halfFloatShaders = device.halfFloatShaders;
     info.features.lastVertexProvokes = device.provokingVertexLast;
@@ -113,8 +102,7 @@ void readQueues(Instance const& instance, PhysicalDevice& device) {
     std::vector<VkQueueFamilyProperties> families(count);
     instance.fn().vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
     const auto graphics = std::ranges::find_if(families, [](auto const& family) {
-        constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT; // one family has both
-        return (family.queueFlags & kNeeded) == kNeeded && family.queueCount > 0;
+        return (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0 && family.queueCount > 0;
     });
     if (graphics == families.end()) {
         device.unusable = "no graphics queue";
