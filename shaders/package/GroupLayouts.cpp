@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/package/GroupLayouts.h"
+
+#include "shaders/interface/ShaderInterface.h"
+
+#include <algorithm>
+#include <span>
+
+namespace filament::shader {
+namespace {
+
+void mergeInputs(MaterialPackage const& package, backend::BindGroupLayout& group) {
+    uint8_t attachment = 0;
+    for (Parameter const& parameter : package.parameters) {
+        if (!parameter.currentPixel) continue;
+        const auto bindings = std::span(group.bindings).first(group.count);
+        const auto at = std::ranges::find(bindings, parameter.binding, &backend::BindingDesc::binding);
+        if (at == bindings.end()) continue;
+        at->type = backend::BindingType::InputAttachment;
+        at->inputAttachment = attachment++;
+    }
+}
+
+} // namespace
+
+PassKind passKind(MaterialDomain domain, ShadingModel shading) {
+    if (domain == MaterialDomain::PostProcess) return PassKind::Picture;
+    return shading == ShadingModel::Unlit ? PassKind::Unlit : PassKind::Lit;
+}
+
+backend::BindGroupLayout viewGroupLayout() {
+    using backend::BindingType;
+    using backend::ShaderStage;
+    backend::BindGroupLayout layout;
+    const auto add = [&](uint8_t binding, BindingType type, ShaderStage stages) {
+        layout.bindings[layout.count++] = { .binding = binding, .type = type, .stages = stages };
+    };
+    add(kBindingFrame, BindingType::DynamicUniformBuffer, ShaderStage::Both);
+    add(kBindingObjects, BindingType::DynamicUniformBuffer, ShaderStage::Both);
+    add(kBindingLights, BindingType::DynamicUniformBuffer, ShaderStage::Fragment);
+    return layout;
+}
+
+backend::BindGroupLayout passGroupLayout(PassKind kind) {
+    using backend::BindingType;
+    using backend::ShaderStage;
+    backend::BindGroupLayout layout;
+    layout.bindings[layout.count++] = { .binding = kBindingPass, .type = BindingType::UniformBuffer };
+    for (EngineTexture const& texture : kEngineTextures) {
+        if (texture.binding == kNotMadeYet || !isReadBy(texture, kind)) continue;
+        layout.bindings[layout.count++] = { .binding = texture.binding,
+                                            .type = BindingType::SampledTexture,
+                                            .stages = ShaderStage::Fragment };
+    }
+    return layout;
+}
+
+uint32_t samplerCount(backend::BindGroupLayout const& group) {
+    const auto isSampler = [](backend::BindingDesc const& binding) {
+        return binding.type == backend::BindingType::SampledTexture && binding.stages != backend::ShaderStage::Vertex;
+    };
+    const auto bindings = std::span(group.bindings).first(group.count);
+    return static_cast<uint32_t>(std::ranges::count_if(bindings, isSampler));
+}
+
+backend::BindGroupLayout deformationGroupLayout() {
+    using backend::BindingType;
+    using backend::ShaderStage;
+    backend::BindGroupLayout layout;
+    const auto add = [&](uint8_t binding, BindingType type) {
+        layout.bindings[layout.count++] = { .binding = binding, .type = type, .stages = ShaderStage::Vertex };
+    };
+    add(kBindingBones, BindingType::DynamicUniformBuffer);
+    add(kBindingMorph, BindingType::DynamicUniformBuffer);
+    add(kBindingMorphDeltas, BindingType::SampledTexture);
+    return layout;
+}
+
+backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t variantKey) {
+    backend::ProgramLayout layout = package.layout;
+    if ((variantKey & kVariantSkinning) != 0) layout[kGroupDeformation] = deformationGroupLayout();
+    if ((variantKey & kVariantMerged) != 0) mergeInputs(package, layout[kGroupMaterial]);
+    return layout;
+}
+
+} // namespace filament::shader
