@@ -90,8 +90,8 @@ void PassBuilder::readSampled(TextureId texture) {
     mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Sampled });
 }
 
-void PassBuilder::readInput(TextureId texture, uint8_t attachment) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Input, .slot = attachment });
+void PassBuilder::readInput(TextureId texture) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Input });
 }
 
 void PassBuilder::readTransfer(TextureId texture) {

@@ -2,12 +2,12 @@
 #include "filament_core/engine/FrameResourceCache.h"
 
 #include "base/Assert.h"
-#include "filament_core/passes/ToneMapPass.h"
 
 namespace filament::engine {
 namespace {
 
 using passes::FrameResources;
+using passes::ToneMapMaterials;
 
 constexpr Sampler kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
 constexpr Sampler kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
@@ -23,7 +23,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::EnvironmentPa
                                         passes::PipelineSource pipelines, bool isToneMapped) {
     FrameResources resources;
     resources.pipelines = pipelines;
-    resources.lighting = lighting(view, environment);
+    resources.viewTextures = viewTextures(view, environment);
     resources.nearestSampler = mEngine.samplers.get(kNearest, mEngine.pending);
     resources.instanceIds = mEngine.defaults.instanceIds;
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
@@ -32,12 +32,13 @@ FrameResources FrameResourceCache::find(View const& view, prepare::EnvironmentPa
     return resources;
 }
 
-passes::LightingTextures FrameResourceCache::lighting(View const& view, prepare::EnvironmentPacket const& environment) {
+passes::ViewTextures FrameResourceCache::viewTextures(View const& view, prepare::EnvironmentPacket const& environment) {
     const auto orBlack = [&](backend::TextureHandle cube) {
         return cube ? cube : mEngine.textureHandle(mEngine.defaults.blackCube);
     };
     return { .specular = orBlack(environment.specular),
              .dfg = mEngine.textureHandle(mEngine.dfgTable(view.quality.dfgTableSize)),
+             .sky = orBlack(environment.sky),
              .irradiance = orBlack(environment.irradiance),
              .trilinear = mEngine.samplers.get(kTrilinear, mEngine.pending),
              .bilinear = mEngine.samplers.get(kBilinear, mEngine.pending) };
@@ -49,18 +50,23 @@ scene::Material const* FrameResourceCache::skybox(bool isRgbm) {
     return known;
 }
 
-passes::ToneMap FrameResourceCache::toneMap(ColorGrading const& grading, ToneMapping mapping) {
+ToneMapMaterials FrameResourceCache::toneMap(ColorGrading const& grading, ToneMapping mapping) {
     const bool hasTable = mapping != ToneMapping::Analytic;
     const auto mapper = static_cast<size_t>(grading.toneMapper);
     FILAMENT_ASSERT(mapper < kToneMappers, "a tone mapper is one of its enumerators");
-    scene::Material const*& known = mToneMaps[mapper][grading.dither][hasTable];
-    if (!known) {
-        std::vector<MaterialConstant> constants{ { "dither", grading.dither }, { "fromTable", hasTable } };
+    ToneMapMaterials& known = mToneMaps[mapper][grading.dither][hasTable];
+    if (!known.merged || !known.sampled) {
+        std::vector<MaterialConstant> constants{ { "dither", grading.dither } };
         if (!hasTable) constants.push_back({ "toneMapper", static_cast<int32_t>(grading.toneMapper) });
-        known = &mEngine.fullScreenMaterial("tonemap", std::move(constants), passes::kToneMapInterface);
+        const auto material = [&](const char* package) {
+            return &mEngine.materials.get(mEngine.engineMaterial(package, constants));
+        };
+        known.merged = material(hasTable ? "tonemap_table" : "tonemap");
+        known.sampled = material(hasTable ? "tonemap_table_sampled" : "tonemap_sampled");
     }
-    if (!hasTable) return { known };
-    return { known, mEngine.textureHandle(mEngine.toneTable(grading.toneMapper, toneTableSize(mapping))) };
+    ToneMapMaterials found = known;
+    if (hasTable) found.table = mEngine.textureHandle(mEngine.toneTable(grading.toneMapper, toneTableSize(mapping)));
+    return found;
 }
 
 } // namespace filament::engine

@@ -11,9 +11,7 @@
 #include "filament_core/passes/PipelineSource.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/PassContext.h"
-#include "shaders/package/GroupLayouts.h"
 
-#include <array>
 #include <span>
 
 namespace filament::passes {
@@ -31,7 +29,6 @@ std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext
 /// Shared by all draws of a pass.
 struct DrawContext {
     ViewGroup view;
-    std::array<backend::BindGroupHandle, 2> passGroups; ///< of shader::PassKind::Lit and Unlit
     backend::BufferHandle instanceIds;
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
     TextureFilter textureFilter = TextureFilter::AsAuthored;

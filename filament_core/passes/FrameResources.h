@@ -10,25 +10,20 @@
 
 namespace filament::passes {
 
-/// The textures that lit materials read of their surroundings; every handle is set.
-struct LightingTextures {
-    backend::TextureHandle specular, dfg, irradiance;
-    backend::SamplerHandle trilinear; ///< of the specular levels
-    backend::SamplerHandle bilinear;  ///< of the others, and of the sky: one level each
-};
-
-struct ToneMap {
-    scene::Material const* material = nullptr; ///< tonemap, specialised to the mapper of the view
-    backend::TextureHandle table{};            ///< in which it looks colours up (ToneTable.h); none: it computes them
+/// The two forms of the post-process material, specialised to the view's tone mapper.
+struct ToneMapMaterials {
+    scene::Material const* merged = nullptr;  ///< reads a subpass input
+    scene::Material const* sampled = nullptr; ///< reads a texture of the same size
+    backend::TextureHandle table{}; ///< of materials that look colours up (ToneTable.h); none: they compute them
 };
 
 struct FrameResources {
     PipelineSource pipelines;
-    LightingTextures lighting{};
+    ViewTextures viewTextures{};
     backend::SamplerHandle nearestSampler;
     backend::BufferHandle instanceIds;       ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
     scene::Material const* skybox = nullptr; ///< full-screen material; null: the scene has no sky
-    ToneMap toneMap;                         ///< null where the picture stays scene-linear
+    ToneMapMaterials toneMap;                ///< null where the picture stays scene-linear
     bool hasHalfFloats = false;              ///< shaders may compute in 16 bits
 };
 

@@ -45,7 +45,7 @@ bool takesPrecision(ParameterType type) { return type > ParameterType::Bool4; }
 
 void declareBlock(StageText& out, MaterialDefinition const& definition) {
     if (definition.package.uniformBytes == 0) return;
-    out.line(fmt::format("layout(set = {}, binding = 0, std140) uniform MaterialParams {{", kGroupMaterial));
+    out.line("layout(set = 1, binding = 0, std140) uniform MaterialParams {");
     for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
         Parameter const& parameter = definition.package.parameters[i];
         if (isTexture(parameter.type)) continue;
@@ -57,18 +57,16 @@ void declareBlock(StageText& out, MaterialDefinition const& definition) {
     out.line("} materialParams;");
 }
 
-void declareTextures(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
+void declareTextures(StageText& out, MaterialDefinition const& definition) {
     uint32_t attachment = 0;
     for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
-        Parameter parameter = definition.package.parameters[i];
+        Parameter const& parameter = definition.package.parameters[i];
         if (!isTexture(parameter.type)) continue;
-        std::string index;
-        if (isSubpassInput(parameter, variantKey)) {
-            parameter.type = ParameterType::SubpassInput;
-            index = fmt::format("input_attachment_index = {}, ", attachment++);
-        }
+        const std::string index = parameter.type == ParameterType::SubpassInput
+                                          ? fmt::format("input_attachment_index = {}, ", attachment++)
+                                          : "";
         out.originate(definition.parameterSources[i].at);
-        out.line(fmt::format("layout({}set = {}, binding = {}) uniform {}{} materialParams_{};", index, kGroupMaterial,
+        out.line(fmt::format("layout({}set = 1, binding = {}) uniform {}{} materialParams_{};", index,
                              parameter.binding, glslPrecision(parameter.precision), samplerType(parameter),
                              parameter.name));
     }
@@ -105,15 +103,10 @@ void declareQuality(StageText& out) {
         out.line(fmt::format("layout(constant_id = {}) const int quality_{} = 0;", constant.id, constant.name));
 }
 
-void declareInterface(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
+void declareInterface(StageText& out, MaterialDefinition const& definition) {
     declareBlock(out, definition);
-    declareTextures(out, definition, variantKey);
+    declareTextures(out, definition);
     declareConstants(out, definition);
-}
-
-bool isSubpassInput(Parameter const& parameter, uint16_t variantKey) {
-    const bool isMerged = parameter.currentPixel && (variantKey & kVariantMerged) != 0;
-    return isMerged || parameter.type == ParameterType::SubpassInput;
 }
 
 void declareVariables(StageText& out, MaterialDefinition const& definition) {

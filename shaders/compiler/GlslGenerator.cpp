@@ -7,7 +7,7 @@
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/StageText.h"
 #include "shaders/interface/ShaderInterface.h"
-#include "shaders/package/GroupLayouts.h"
+#include "shaders/package/ViewLayout.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -245,19 +245,16 @@ Result<std::string> postVertex(IncludeResolver const& includes) {
     return std::move(out).take();
 }
 
-Result<std::string> postFragment(MaterialDefinition const& definition, uint16_t variantKey,
-                                 IncludeResolver const& includes) {
+Result<std::string> postFragment(MaterialDefinition const& definition, IncludeResolver const& includes) {
     StageText out(includes);
     beginStage(out, "in");
-    const auto inputs = std::ranges::count_if(definition.package.parameters, [&](Parameter const& parameter) {
-        return isSubpassInput(parameter, variantKey);
-    });
+    const auto inputs =
+            std::ranges::count(definition.package.parameters, ParameterType::SubpassInput, &Parameter::type);
     out.define("POST_OUTPUT_LOCATION", fmt::format("{}", inputs));
-    defineIf(out, (variantKey & kVariantMerged) != 0, "VARIANT_MERGED");
     Result<void> done = includeAll(
             out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
     if (!done) return done.error();
-    declareInterface(out, definition, variantKey);
+    declareInterface(out, definition);
     done = out.include("shaders/post/post_fragment_api.glsl");
     if (done) done = out.block(definition.fragment);
     if (done) done = out.include("shaders/post/post_fragment_main.glsl");
@@ -360,18 +357,6 @@ Result<std::string> generateProbe(MaterialDefinition const& definition, Material
     return std::move(out).take();
 }
 
-Result<std::string> generateObserver(MaterialDefinition const& definition, MaterialNeeds const& needs,
-                                     IncludeResolver const& includes) {
-    if (definition.package.domain == MaterialDomain::PostProcess) return postFragment(definition, 0, includes);
-    if (definition.customSurfaceShading)
-        return surfaceFragment(definition, needs, kVariantSun | kVariantPunctual, includes);
-    StageText out(includes);
-    if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
-    if (Result<void> done = out.block(definition.fragment); !done) return done.error();
-    defineObserverMain(out, definition);
-    return std::move(out).take();
-}
-
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                    uint16_t variantKey, IncludeResolver const& includes) {
     return definition.package.domain == MaterialDomain::PostProcess
@@ -382,7 +367,7 @@ Result<std::string> generateVertex(MaterialDefinition const& definition, Materia
 Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                      uint16_t variantKey, IncludeResolver const& includes) {
     return definition.package.domain == MaterialDomain::PostProcess
-                   ? postFragment(definition, variantKey, includes)
+                   ? postFragment(definition, includes)
                    : surfaceFragment(definition, needs, variantKey, includes);
 }
 
@@ -390,8 +375,7 @@ backend::ProgramLayout materialLayout(MaterialDefinition const& definition) {
     using backend::BindingType;
     using backend::ShaderStage;
     backend::ProgramLayout layout{};
-    layout[kGroupView] = viewGroupLayout();
-    layout[kGroupPass] = passGroupLayout(passKind(definition.package.domain, definition.package.shading));
+    layout[kGroupView] = viewGroupLayout(definition.package.domain);
     backend::BindGroupLayout& group = layout[kGroupMaterial];
     if (definition.package.uniformBytes > 0)
         group.bindings[group.count++] = { .binding = 0, .type = BindingType::UniformBuffer };

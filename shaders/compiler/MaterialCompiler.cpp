@@ -8,10 +8,9 @@
 #include "shaders/compiler/MaterialAnalysis.h"
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/Reflection.h"
-#include "shaders/compiler/TextureConditions.h"
 #include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
-#include "shaders/package/GroupLayouts.h"
+#include "shaders/package/ViewLayout.h"
 
 #include <algorithm>
 #include <optional>
@@ -24,6 +23,7 @@ namespace {
 struct Prepared {
     MaterialDefinition definition;
     MaterialNeeds needs;
+    backend::ProgramLayout layout{};
     IncludeResolver includes;
     std::vector<uint16_t> keys;
 };
@@ -53,10 +53,8 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     prepared.needs = *needs;
     Result<void> terms = findTerms(prepared.definition, prepared.includes, prepared.needs);
     if (!terms) return withSuggestion(terms.error(), prepared.definition);
-    Result<void> conditions = checkTextureConditions(prepared.definition, prepared.needs, prepared.includes);
-    if (!conditions) return withSuggestion(conditions.error(), prepared.definition);
+    prepared.layout = materialLayout(prepared.definition);
     MaterialPackage& package = prepared.definition.package;
-    package.layout = materialLayout(prepared.definition);
     package.filteredVariants |= options.filteredVariants;
     prepared.keys = variantKeys(selectableBits(prepared.definition), package.filteredVariants);
     return prepared;
@@ -94,7 +92,7 @@ Result<std::string> generate(Prepared const& prepared, Stage const& stage) {
                    : generateFragment(prepared.definition, prepared.needs, stage.key, prepared.includes);
 }
 
-/// The uniforms of the View and Deformation groups have dynamic offsets.
+/// The uniforms of groups 0 and 2 have dynamic offsets.
 std::vector<SetBinding> dynamicBuffers() {
     return { { kGroupView, kBindingFrame },
              { kGroupView, kBindingObjects },
@@ -113,7 +111,7 @@ Result<StageShader> compileOne(Prepared const& prepared, Stage const& stage, Com
                           .spirv = options.spirv,
                           .essl = options.essl,
                           .dynamicUniformBuffers = dynamicBuffers(),
-                          .layout = programLayout(prepared.definition.package, stage.key),
+                          .layout = programLayout(prepared.layout, stage.key),
                           .vertexName = prepared.definition.fileName,
                           .fragmentName = prepared.definition.fileName });
 }
@@ -139,6 +137,7 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     std::vector<Stage> stages = compileStages(*prepared, options);
 
     MaterialPackage package = prepared->definition.package;
+    package.layout = prepared->layout;
     const auto members = materialMembers();
     for (size_t i = 0; i < members.size(); ++i) {
         if ((prepared->needs.terms & termBit(i)) != 0) package.terms.emplace_back(members[i].name);

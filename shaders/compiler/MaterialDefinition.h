@@ -14,15 +14,9 @@
 
 namespace filament::shader {
 
-struct NamedAt {
-    std::string name;
-    SourcePosition at;
-};
-
 /// Data about a parameter that only the generated code needs; same order as MaterialPackage::parameters.
 struct ParameterSource {
     SourcePosition at;
-    std::vector<NamedAt> usedIf{}; ///< names of constants: Parameter::usedIf has their ids
 };
 
 struct Variable {
@@ -47,7 +41,7 @@ struct GivenProperty {
 };
 
 struct MaterialDefinition {
-    MaterialPackage package; ///< the compiler adds attributes, layout and variants
+    MaterialPackage package; ///< everything except attributes, layout and variants
     std::vector<ParameterSource> parameterSources;
     std::vector<Variable> variables;
     uint32_t requiredAttributes = 0; ///< bit n: location n, from `requires`

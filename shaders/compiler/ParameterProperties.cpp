@@ -74,30 +74,6 @@ Result<void> readFormat(JsonValue const& value, Parameter& out) {
     return readEnum(value, "format", kFormats, out.format);
 }
 
-/// Subpass inputs give vec4s, so what may become one does.
-Result<void> readCurrentPixel(JsonValue const& value, Parameter& out) {
-    if (Result<void> done = readBool(value, "currentPixel", out.currentPixel); !done) return done;
-    const bool isImage = out.type == ParameterType::Sampler2D && out.format == SamplerFormat::Float;
-    if (isImage || !out.currentPixel) return {};
-    return errorAt(value.at,
-                   fmt::format("only a sampler2d of format float has a current pixel, and '{}' is none", out.name));
-}
-
-/// Names of constants, which may be declared further down: resolveUsedIf() looks them up.
-Result<void> readUsedIf(JsonValue const& value, Parameter const& parameter, ParameterSource& out) {
-    if (!isTexture(parameter.type) || parameter.type == ParameterType::SubpassInput || parameter.currentPixel)
-        return errorAt(value.at,
-                       fmt::format("usedIf is for samplers that read anywhere, and '{}' is none", parameter.name));
-    const std::span<JsonValue const> items =
-            value.kind == JsonValue::Kind::Array ? std::span<JsonValue const>(value.items) : std::span(&value, 1);
-    for (JsonValue const& item : items) {
-        if (Result<void> isName = expectKind(item, JsonValue::Kind::String, "usedIf"); !isName) return isName;
-        out.usedIf.push_back({ item.text, item.at });
-    }
-    if (out.usedIf.empty()) return errorAt(value.at, "usedIf names at least one constant");
-    return {};
-}
-
 Result<void> requireMember(JsonValue const& object, std::string_view key, std::string_view what,
                            JsonValue const*& out) {
     out = findMember(object, key);
@@ -124,7 +100,7 @@ Result<NamedEntry> readEntry(JsonValue const& item, std::span<const std::string_
 }
 
 Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
-    static constexpr std::string_view kFields[] = { "name", "type", "precision", "format", "currentPixel", "usedIf" };
+    static constexpr std::string_view kFields[] = { "name", "type", "precision", "format" };
     Result<NamedEntry> entry = readEntry(item, kFields, "parameter");
     if (!entry) return entry.error();
     if (out.package.findParameter(entry->name)) {
@@ -135,13 +111,9 @@ Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
     if (JsonValue const* precision = findMember(item, "precision"); done && precision)
         done = readPrecision(*precision, parameter.precision);
     if (JsonValue const* format = findMember(item, "format"); done && format) done = readFormat(*format, parameter);
-    if (JsonValue const* own = findMember(item, "currentPixel"); done && own) done = readCurrentPixel(*own, parameter);
-    ParameterSource source{ .at = item.at };
-    if (JsonValue const* conditions = findMember(item, "usedIf"); done && conditions)
-        done = readUsedIf(*conditions, parameter, source);
     if (!done) return done;
     out.package.parameters.push_back(std::move(parameter));
-    out.parameterSources.push_back(std::move(source));
+    out.parameterSources.push_back({ item.at });
     return {};
 }
 
@@ -265,37 +237,6 @@ Result<void> readFilter(JsonValue const& item, MaterialDefinition& out) {
     return {};
 }
 
-Result<void> checkCurrentPixel(MaterialPackage const& package, Parameter const& parameter, SourcePosition const& at) {
-    if (!parameter.currentPixel) return {};
-    if (package.domain != MaterialDomain::PostProcess)
-        return errorAt(at, "currentPixel exists only in the domain postprocess");
-    const auto input = std::ranges::find(package.parameters, ParameterType::SubpassInput, &Parameter::type);
-    if (input == package.parameters.end()) return {};
-    return errorAt(at,
-                   fmt::format("'{}' is a subpassInput, so every pass of this material is merged and '{}' cannot be "
-                               "a texture; make both sampler2d with currentPixel : true",
-                               input->name, parameter.name));
-}
-
-/// ParameterSource::usedIf -> Parameter::usedIf. Vertex stages keep all of their textures.
-Result<void> resolveUsedIf(MaterialDefinition& definition, size_t index) {
-    Parameter& parameter = definition.package.parameters[index];
-    for (NamedAt const& name : definition.parameterSources[index].usedIf) {
-        Constant const* constant = definition.package.findConstant(name.name);
-        if (!constant)
-            return errorAt(name.at, fmt::format("there is no constant '{}'{}", name.name,
-                                                suggestion(name.name, namesOf(definition.package.constants))));
-        if (constant->type != ConstantType::Bool)
-            return errorAt(name.at, fmt::format("usedIf names constants of type bool, and '{}' is none", name.name));
-        parameter.usedIf.push_back(constant->id);
-    }
-    const std::string inCode = "materialParams_" + parameter.name;
-    const bool inVertex = definition.vertex && definition.vertex->text.find(inCode) != std::string::npos;
-    if (parameter.usedIf.empty() || !inVertex) return {};
-    return errorAt(definition.parameterSources[index].at,
-                   fmt::format("'{}' has usedIf, so only the fragment block can read it", parameter.name));
-}
-
 } // namespace
 
 Result<void> readParameters(JsonValue const& value, MaterialDefinition& out) {
@@ -340,8 +281,6 @@ Result<void> layOutParameters(MaterialDefinition& definition) {
         if (parameter.type == ParameterType::SubpassInput && definition.package.domain != MaterialDomain::PostProcess) {
             return errorAt(at, "subpass inputs exist only in the domain postprocess");
         }
-        if (Result<void> read = checkCurrentPixel(definition.package, parameter, at); !read) return read;
-        if (Result<void> known = resolveUsedIf(definition, i); !known) return known;
         parameter.binding = static_cast<uint8_t>(binding++);
     }
     uint64_t bytes = 0;

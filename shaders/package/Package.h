@@ -47,11 +47,7 @@ struct Parameter {
     uint32_t offset = 0;                         ///< bytes in the MaterialParams block; textures: 0
     uint8_t binding = 0;                         ///< textures: binding in kGroupMaterial
     SamplerFormat format = SamplerFormat::Float; ///< textures: the type that a fetch returns
-    /// Textures: ids of bool constants; the texture is read only where one of them is true. Empty: always.
-    std::vector<uint32_t> usedIf{};
-    bool isBound = true;       ///< not in the file: false after removeUnusedTextures() (RemoveUnusedTextures.h)
-    bool currentPixel = false; ///< a Sampler2D that is read only at the pixel being written; see kVariantMerged
-    Precision precision = Precision::Default; ///< as the author specified
+    Precision precision = Precision::Default;    ///< as the author specified
     friend bool operator==(Parameter const&, Parameter const&) = default;
 };
 
@@ -75,9 +71,8 @@ enum VariantBit : uint16_t {
     kVariantSsr = 64,           ///< *
     kVariantStereo = 128,       ///< *
     kVariantHalf = 256,         ///< lit in 16 bits, for materials with halfPrecision; selected by Quality
-    kVariantMerged = 512,       ///< for materials with currentPixel parameters: they are subpass inputs, not textures
 };
-inline constexpr uint16_t kAllVariantBits = 1023;
+inline constexpr uint16_t kAllVariantBits = 511;
 
 /// For custom blending: the weights of the material's result and of the existing colour.
 struct BlendFunction {
@@ -122,7 +117,7 @@ struct MaterialPackage {
     std::vector<Parameter> parameters;
     std::vector<Constant> constants;
     std::vector<std::string> terms;  ///< members of MaterialInputs that the code sets; the others cost nothing
-    backend::ProgramLayout layout{}; ///< of variant 0; programLayout() knows the others
+    backend::ProgramLayout layout{}; ///< groups 0 and 1, the same for all variants; see programLayout()
     std::vector<Variant> variants;   ///< ascending by key
     friend bool operator==(MaterialPackage const&, MaterialPackage const&) = default;
 

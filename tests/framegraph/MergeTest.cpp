@@ -104,46 +104,6 @@ TEST_F(MergePasses, NotOnADeviceWithoutMergedPasses) {
               (backend::SubpassDesc{ .colorMask = 1, .inputMask = 0, .usesDepth = false }));
 }
 
-TEST_F(MergePasses, NotWhereTheProgramExpectsItsInputAtAnotherAttachment) {
-    const TextureId first = color("first"), second = color("second"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) {
-        p.writeColor(0, first);
-        p.writeColor(1, second);
-    });
-    toneMap = pass("tone map", [&](PassBuilder& p) {
-        p.readInput(second, 0);
-        p.writeColor(0, out);
-    });
-    EXPECT_EQ(outcome(), Merge::OtherAttachments);
-}
-
-TEST_F(MergePasses, NotWhereTheProgramExpectsItsOutputAtAnotherAttachment) {
-    const TextureId first = color("first"), second = color("second"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) {
-        p.writeColor(0, first);
-        p.writeColor(1, second);
-    });
-    toneMap = pass("tone map", [&](PassBuilder& p) {
-        p.readInput(first, 0);
-        p.writeColor(0, out); // attachment 2 of the merged pass, and the program writes location 1
-    });
-    EXPECT_EQ(outcome(), Merge::OtherAttachments);
-}
-
-TEST_F(MergePasses, WhereTheProgramNumbersItsAttachmentsAsTheMergedPassDoes) {
-    const TextureId first = color("first"), second = color("second"), out = backbuffer();
-    pass("color", [&](PassBuilder& p) {
-        p.writeColor(0, first);
-        p.writeColor(1, second);
-    });
-    toneMap = pass("tone map", [&](PassBuilder& p) {
-        p.readInput(first, 0);
-        p.readInput(second, 1);
-        p.writeColor(0, out);
-    });
-    EXPECT_EQ(outcome(), Merge::Merged);
-}
-
 TEST_F(MergePasses, NotWithAnotherPassInBetween) {
     const TextureId hdr = color("hdr"), other = color("other"), out = backbuffer();
     pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr); });

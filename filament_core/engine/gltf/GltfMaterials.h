@@ -21,7 +21,6 @@ public:
     MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale);
 
 private:
-    size_t maxMaps() const;
     Material materialFor(GltfMaterialSettings const& settings);
 
     Engine::Impl& mEngine;

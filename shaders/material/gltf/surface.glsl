@@ -16,9 +16,9 @@ void gltfSurface(inout MaterialInputs material) {
         material.roughness *= surface.g;
         material.metallic *= surface.b;
     }
-    if (materialConstants_hasOcclusionMap || materialConstants_occlusionInMetallicRoughness) {
+    if (materialConstants_hasOcclusionMap) {
         float occlusion = surface.r;
-        if (materialConstants_hasOcclusionMap) occlusion = gltfOcclusion();
+        if (!materialConstants_occlusionInMetallicRoughness) occlusion = gltfOcclusion();
         material.ambientOcclusion = occlusionOf(occlusion);
     }
     material.emissive = gltfEmissive();

@@ -3,7 +3,7 @@
 
 #include "jobsystem/JobSystem.h"
 #include "shaders/interface/ShaderInterface.h"
-#include "shaders/package/GroupLayouts.h"
+#include "shaders/package/ViewLayout.h"
 #include "tests/shaders/compiler/SpirvTools.h"
 
 #include <gmock/gmock.h>
@@ -310,71 +310,6 @@ TEST(MaterialCompiler, GivesAllSurfaceMaterialsTheSameViewGroup) {
     ASSERT_TRUE(unlit && lit);
     EXPECT_EQ(unlit->layout[kGroupView], viewGroupLayout());
     EXPECT_EQ(lit->layout[kGroupView], viewGroupLayout());
-    EXPECT_EQ(unlit->layout[kGroupPass], passGroupLayout(PassKind::Unlit));
-    EXPECT_EQ(lit->layout[kGroupPass], passGroupLayout(PassKind::Lit));
-}
-
-constexpr const char* kBlend = R"(material { domain : postprocess,
-    parameters : [ { name : a, type : sampler2d, currentPixel : true }, { name : map, type : sampler2d },
-                   { name : b, type : sampler2d, currentPixel : true } ] }
-    fragment { void postProcess(inout PostProcessInputs inputs) {
-        inputs.color = getCurrentPixel(materialParams_a) * texture(materialParams_map, getNormalizedUV())
-                + getCurrentPixel(materialParams_b); } })";
-
-TEST(MaterialCompiler, MakesTexturesAndSubpassInputsOfWhatReadsItsOwnPixel) {
-    using enum backend::BindingType;
-    const Result<MaterialPackage> package = compile(kBlend);
-    ASSERT_TRUE(package) << package.error().message;
-    ASSERT_EQ(package->variants.size(), 2u);
-    const auto sampled = programLayout(*package, 0)[kGroupMaterial].bindings;
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(sampled[i].type, SampledTexture);
-    std::string const& alone = package->findVariant(0)->fragmentEssl;
-    EXPECT_THAT(alone, HasSubstr("layout(location = 0) out"));
-    EXPECT_THAT(alone, HasSubstr("texelFetch(materialParams_a"));
-
-    const auto merged = programLayout(*package, kVariantMerged)[kGroupMaterial].bindings;
-    const backend::BindingType types[] = { InputAttachment, SampledTexture, InputAttachment };
-    for (int i = 0; i < 3; ++i) EXPECT_EQ(merged[i].type, types[i]);
-    EXPECT_EQ(merged[2].inputAttachment, 1);
-    std::string const& behind = package->findVariant(kVariantMerged)->fragmentEssl;
-    EXPECT_THAT(behind, HasSubstr("layout(location = 0) inout"));
-    EXPECT_THAT(behind, HasSubstr("layout(location = 1) inout"));
-    EXPECT_THAT(behind, HasSubstr("layout(location = 2) out"));
-    EXPECT_THAT(behind, Not(HasSubstr("texelFetch")));
-}
-
-TEST(MaterialCompiler, MergesNothingThatReadsOtherPixels) {
-    const Result<MaterialPackage> package = compile(R"(material { domain : postprocess,
-        parameters : [ { name : a, type : sampler2d }, { name : b, type : sampler2d, currentPixel : false } ] }
-        fragment { void postProcess(inout PostProcessInputs inputs) {
-            inputs.color = texture(materialParams_a, getNormalizedUV()) + texture(materialParams_b, vec2(0.0)); } })");
-    ASSERT_TRUE(package) << package.error().message;
-    EXPECT_EQ(package->variants.size(), 1u);
-}
-
-TEST(MaterialCompiler, SeesThatATextureIsReadOnlyWhereOneOfItsConstantsIsTrue) {
-    const auto reads = [](const char* code) {
-        return compile(std::string(R"(material { requires : [ uv0 ],
-            constants : [ { name : hasA, type : bool }, { name : hasB, type : bool }, { name : n, type : int } ],
-            parameters : [ { name : map, type : sampler2d, usedIf : [ hasA, hasB ] } ] }
-            fragment {
-            vec4 texel() { return texture(materialParams_map, getUV0()); }
-            void material(inout MaterialInputs m) { prepareMaterial(m); )") +
-                       code + " } }");
-    };
-    for (const char* good : { "if (materialConstants_hasA || materialConstants_hasB) m.baseColor = texel();",
-                              "if (materialConstants_hasA) m.baseColor = texel();",
-                              "if (materialConstants_hasB) { for (int i = 0; i < materialConstants_n; ++i) "
-                              "m.baseColor += texel(); }",
-                              "m.baseColor = materialConstants_hasA ? texel() : vec4(1.0);", "m.metallic = 1.0;" }) {
-        const Result<MaterialPackage> package = reads(good);
-        ASSERT_TRUE(package) << good << ": " << package.error().message;
-        EXPECT_EQ(package->findParameter("map")->usedIf, (std::vector<uint32_t>{ 0, 1 }));
-    }
-    for (const char* bad :
-         { "m.baseColor = texel();", "if (materialConstants_n > 0) m.baseColor = texel();",
-           "if (!materialConstants_hasA) m.baseColor = texel();", "if (m.baseColor.x > 0.5) m.baseColor = texel();" })
-        EXPECT_FALSE(reads(bad)) << bad;
 }
 
 TEST(MaterialCompiler, ReadsAttachmentsInOrderAndWritesTheOneBehindThem) {
@@ -383,8 +318,7 @@ TEST(MaterialCompiler, ReadsAttachmentsInOrderAndWritesTheOneBehindThem) {
         fragment { void postProcess(inout PostProcessInputs inputs) {
             inputs.color = subpassLoad(materialParams_a) + subpassLoad(materialParams_b); } })");
     ASSERT_TRUE(package) << package.error().message;
-    EXPECT_EQ(package->layout[kGroupView], viewGroupLayout());
-    EXPECT_EQ(package->layout[kGroupPass], passGroupLayout(PassKind::Picture));
+    EXPECT_EQ(package->layout[kGroupView], viewGroupLayout(MaterialDomain::PostProcess));
     EXPECT_EQ(package->layout[kGroupMaterial].bindings[1].inputAttachment, 1);
     std::string const& essl = package->variants[0].fragmentEssl;
     EXPECT_THAT(essl, HasSubstr("layout(location = 0) inout"));

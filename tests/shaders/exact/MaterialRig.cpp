@@ -4,9 +4,8 @@
 #include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/package/EngineMaterials.h"
-#include "shaders/package/GroupLayouts.h"
 #include "shaders/package/ParameterLayout.h"
-#include "shaders/package/RemoveUnusedTextures.h"
+#include "shaders/package/ViewLayout.h"
 
 #include <cmath>
 #include <cstring>
@@ -90,15 +89,6 @@ float4x4 clipFromView() {
     return projection;
 }
 
-std::vector<ConstantValue> constantsOf(MaterialPackage const& package, MaterialScene const& scene) {
-    std::vector<ConstantValue> constants;
-    for (auto const& [name, bits] : scene.constants) {
-        Constant const* constant = package.findConstant(name);
-        constants.push_back({ constant->id, bits, constant->type });
-    }
-    return constants;
-}
-
 PassLayout passLayout() {
     PassLayout layout{ .depthFormat = Format::D32F, .colorCount = 1 };
     layout.colorFormats[0] = Format::RGBA32F;
@@ -139,16 +129,6 @@ TextureHandle MaterialRig::texture(CommandBuffer& commands, TextureType type, Fo
     return handle;
 }
 
-TextureHandle MaterialRig::pattern(CommandBuffer& commands, uint8_t binding) {
-    TextureHandle& made = mPatterns[binding];
-    if (made) return made;
-    std::vector<uint8_t> texels(kPatternSide * kPatternSide * 4);
-    std::mt19937 random(11u + binding);
-    for (uint8_t& byte : texels) byte = static_cast<uint8_t>(128 + random() % 128); // normals of a map look outwards
-    made = texture(commands, TextureType::Texture2D, Format::RGBA8, kPatternSide, bytesOf(texels));
-    return made;
-}
-
 void MaterialRig::createShared() {
     CommandBuffer& commands = mStream->acquire();
     const std::vector<Vertex> vertices = bumpyGrid();
@@ -165,6 +145,10 @@ void MaterialRig::createShared() {
     jobs::JobSystem jobs({ .workers = 1 });
     mDfg = texture(commands, TextureType::Texture2D, Format::RGBA16F, kDfgSide,
                    assets::bakeDfgTable(jobs, kDfgSide).data);
+    std::vector<uint8_t> pattern(kPatternSide * kPatternSide * 4);
+    std::mt19937 random(12);
+    for (uint8_t& byte : pattern) byte = static_cast<uint8_t>(128 + random() % 128); // normals of a map look outwards
+    mPattern = texture(commands, TextureType::Texture2D, Format::RGBA8, kPatternSide, bytesOf(pattern));
     mSampler = mStream->allocateSampler();
     commands.record(CmdCreateSampler{ mSampler, { .magFilter = Filter::Linear, .minFilter = Filter::Linear } });
 
@@ -189,6 +173,7 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
     frame.clipFromWorld = frame.clipFromView = clipFromView();
     frame.worldFromClip = glm::inverse(frame.clipFromWorld);
     frame.viewFromWorld = frame.worldFromEnvironment = float4x4(1.0f);
+    frame.viewport = { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide };
     frame.ambient.w = static_cast<float>(scene.lights.size());
     LightUniforms lights{};
     std::copy(scene.lights.begin(), scene.lights.end(), lights.lights.begin());
@@ -197,26 +182,14 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
     const std::vector<BindGroupEntry> entries{
         { .binding = kBindingFrame, .buffer = frameBuffer, .size = sizeof(FrameUniforms) },
         { .binding = kBindingObjects, .buffer = mObjects, .size = sizeof(ObjectUniforms) },
-        { .binding = kBindingLights, .buffer = lightBuffer, .size = sizeof(LightUniforms) }
+        { .binding = kBindingLights, .buffer = lightBuffer, .size = sizeof(LightUniforms) },
+        { .binding = kBindingSpecular, .texture = mWhiteCube, .sampler = mSampler },
+        { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler },
+        { .binding = kBindingSky, .texture = mWhiteCube, .sampler = mSampler },
+        { .binding = kBindingIrradiance, .texture = mWhiteCube, .sampler = mSampler }
     };
     const BindGroupHandle group = mStream->allocateBindGroup();
     commands.record(CmdCreateBindGroup{ group, { viewGroupLayout(), entries, "view" } });
-    return group;
-}
-
-BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage const& package) {
-    const PassUniforms pass{ { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide } };
-    const std::vector<BindGroupEntry> entries{
-        { .binding = kBindingPass,
-          .buffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&pass, 1))),
-          .size = sizeof(PassUniforms) },
-        { .binding = kBindingSpecular, .texture = mWhiteCube, .sampler = mSampler },
-        { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler },
-        { .binding = kBindingIrradiance, .texture = mWhiteCube, .sampler = mSampler }
-    };
-    const BindGroupLayout layout = passGroupLayout(passKind(package.domain, package.shading));
-    const BindGroupHandle group = mStream->allocateBindGroup();
-    commands.record(CmdCreateBindGroup{ group, { layout, std::span(entries).first(layout.count), "pass" } });
     return group;
 }
 
@@ -233,9 +206,8 @@ BindGroupHandle MaterialRig::materialGroup(CommandBuffer& commands, MaterialPack
                 { .buffer = buffer(commands, BufferUsage::Uniform, bytesOf(block)), .size = package.uniformBytes });
     }
     for (Parameter const& parameter : package.parameters) {
-        if (!isTexture(parameter.type) || !parameter.isBound) continue;
-        entries.push_back(
-                { .binding = parameter.binding, .texture = pattern(commands, parameter.binding), .sampler = mSampler });
+        if (isTexture(parameter.type))
+            entries.push_back({ .binding = parameter.binding, .texture = mPattern, .sampler = mSampler });
     }
     const BindGroupHandle group = mStream->allocateBindGroup();
     commands.record(CmdCreateBindGroup{ group, { package.layout[kGroupMaterial], entries, "material" } });
@@ -246,7 +218,11 @@ PipelineHandle MaterialRig::pipeline(CommandBuffer& commands, MaterialPackage co
                                      MaterialScene const& scene, PassLayout const& pass) {
     Variant const* variant = package.findVariant(scene.variant);
     const bool spirv = mStream->info().shaderLanguage == ShaderLanguage::SpirV;
-    const std::vector<ConstantValue> constants = constantsOf(package, scene);
+    std::vector<ConstantValue> constants;
+    for (auto const& [name, bits] : scene.constants) {
+        Constant const* constant = package.findConstant(name);
+        constants.push_back({ constant->id, bits, constant->type });
+    }
     const ProgramHandle program = mStream->allocateProgram();
     commands.record(CmdCreateProgram{ program,
                                       { .vertex = spirv ? std::as_bytes(std::span(variant->vertexSpirv))
@@ -270,15 +246,13 @@ PipelineHandle MaterialRig::pipeline(CommandBuffer& commands, MaterialPackage co
 
 void MaterialRig::draw(CommandBuffer& commands, MaterialPackage const& package, MaterialScene const& scene) {
     const PipelineHandle state = pipeline(commands, package, scene, passLayout());
-    const BindGroupHandle view = viewGroup(commands, scene), inPass = passGroup(commands, package);
-    const BindGroupHandle material = materialGroup(commands, package, scene);
+    const BindGroupHandle view = viewGroup(commands, scene), material = materialGroup(commands, package, scene);
     PassDesc pass{ .layout = passLayout(), .area = { 0, 0, kPictureSide, kPictureSide }, .debugName = "material" };
     pass.colors[0] = { .texture = mColor };
     pass.depth = { .texture = mDepth, .store = StoreOp::Discard };
     commands.record(CmdBeginPass{ pass });
     commands.record(CmdBindPipeline{ state });
     commands.record(CmdBindGroup{ .group = view, .index = kGroupView, .dynamicCount = 3 });
-    commands.record(CmdBindGroup{ .group = inPass, .index = kGroupPass });
     commands.record(CmdBindGroup{ .group = material, .index = kGroupMaterial });
     commands.record(CmdBindVertexBuffers{ .buffers = { mVertices, mInstance }, .count = 2 });
     commands.record(CmdBindIndexBuffer{ .buffer = mIndices });
@@ -287,11 +261,7 @@ void MaterialRig::draw(CommandBuffer& commands, MaterialPackage const& package, 
 }
 
 Result<MaterialPackage> MaterialRig::package(MaterialScene const& scene) {
-    if (scene.source.empty()) {
-        Result<MaterialPackage> read = readPackage(engineMaterial(scene.material));
-        if (read && scene.removesUnusedTextures) removeUnusedTextures(*read, constantsOf(*read, scene));
-        return read;
-    }
+    if (scene.source.empty()) return readPackage(engineMaterial(scene.material));
     const auto known = mCompiled.find(scene.source);
     if (known != mCompiled.end()) return known->second;
     Result<MaterialPackage> compiled = compileMaterial(scene.source, "test.mat");

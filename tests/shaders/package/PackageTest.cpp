@@ -52,8 +52,6 @@ MaterialPackage fullPackage() {
                              .type = ParameterType::Sampler2D,
                              .binding = 1,
                              .format = SamplerFormat::Int,
-                             .usedIf = { 0 },
-                             .currentPixel = true,
                              .precision = Precision::Medium } };
     package.uniformBytes = assignOffsets(package.parameters);
     package.constants = { { .name = "hasAlbedo", .id = 0 },
