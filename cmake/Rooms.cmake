@@ -21,10 +21,9 @@ if(FILAMENT_SANITIZE)
     target_link_options(filament_options INTERFACE -fsanitize=${FILAMENT_SANITIZE})
 endif()
 
-# ---- precompiled headers: what most files include of other projects, parsed once for all rooms and tools and once for
-# all tests. Nothing of ours: an edit rebuilds no more than without. Every file still includes what it uses. The compiler
-# takes a precompiled header only where every option agrees: programs' mains (-fPIE) and files that are optimised in
-# another way go without.
+# ---- precompiled headers: one for the rooms and tools, one for the tests, each compiled once and used by many targets.
+# A compiler takes them only where every option agrees: programs' mains (-fPIE) and files that are optimised otherwise
+# go without.
 option(FILAMENT_PCH "Precompile what most files include; OFF shows whether each file includes what it uses" ON)
 
 # ccache keeps objects that came from a precompiled header only if it is told that no macro of the date matters.
@@ -35,33 +34,25 @@ foreach(language C CXX)
     endif()
 endforeach()
 
-function(filament_precompile name)
-    cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
+function(filament_precompiled_header name)
+    cmake_parse_arguments(ARG "" "HEADER" "LINK;OPTIONS" ${ARGN})
     if(FILAMENT_PCH)
         set(source ${CMAKE_BINARY_DIR}/precompiled/${name}.cpp)
-        file(CONFIGURE OUTPUT ${source} CONTENT "// a target needs a source\n")
+        file(CONFIGURE OUTPUT ${source} CONTENT "// carries ${ARG_HEADER}\n")
         add_library(${name} OBJECT ${source})
         target_link_libraries(${name} PRIVATE filament_options ${ARG_LINK})
         target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
-        target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
+        target_precompile_headers(${name} PRIVATE <cmake/precompiled/${ARG_HEADER}>)
     endif()
 endfunction()
 
-function(filament_use_precompiled target name)
-    if(TARGET ${name})
-        target_precompile_headers(${target} REUSE_FROM ${name})
+function(filament_use_precompiled target header)
+    if(TARGET ${header})
+        target_precompile_headers(${target} REUSE_FROM ${header})
     endif()
 endfunction()
 
-set(FILAMENT_PRECOMPILED
-    <algorithm> <array> <atomic> <cmath> <cstdint> <cstring> <filesystem> <functional> <memory> <mutex> <optional> <span>
-    <string> <string_view> <unordered_map> <utility> <variant> <vector> <fmt/format.h> <glm/common.hpp>
-    <glm/geometric.hpp> <glm/mat3x3.hpp> <glm/mat4x4.hpp>)
-set(FILAMENT_PRECOMPILED_TESTS ${FILAMENT_PRECOMPILED}
-    <gmock/gmock.h> <gtest/gtest.h> <chrono> <cstdio> <cstdlib> <fstream> <limits> <map> <numeric> <random> <set> <sstream>
-    <thread>)
-
-# filament_core/base -> base, backend/vulkan -> backend_vulkan
+# filament_core/scene -> scene, backend/vulkan -> backend_vulkan
 function(filament_room_name folder result)
     string(REGEX REPLACE "^filament_core/" "" name ${folder})
     string(REPLACE "/" "_" name ${name})
@@ -107,7 +98,7 @@ set(FILAMENT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # One test program per mirrored folder: tests/<folder>/*.cpp.
 function(filament_tests folder)
-    cmake_parse_arguments(ARG "GPU;HOT" "" "LINK" ${ARGN})
+    cmake_parse_arguments(ARG "GPU;HOT" "" "SUBFOLDERS;LINK" ${ARGN})
     string(REPLACE "/" "_" name ${folder})
     filament_glob(sources tests/${folder} SUBFOLDERS ${ARG_SUBFOLDERS})
     if(NOT sources)

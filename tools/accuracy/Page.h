@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Page: the report as an HTML file: plots, tables, the command beside every number.
-///   Out     OUT/results.json, OUT/results.csv, OUT/plots/NAME.svg, the page, and its pictures in a folder of its name
-///           (PagePictures.h).
+/// Page: the report as one HTML file with everything in it: plots, tables, the command beside every number.
+///   Out     OUT/results.json, OUT/results.csv, OUT/plots/NAME.svg, and the page.
 ///   Plots   by tools/plot/plot.py; where it cannot run, a warning says why and the page has its tables only.
 ///   Fails   Unreadable with the path.
 ///   Thread  one.
@@ -10,9 +9,6 @@
 #include "tools/accuracy/Results.h"
 
 #include <filesystem>
-#include <map>
-#include <string>
-#include <vector>
 
 namespace filament::accuracy {
 
@@ -22,8 +18,7 @@ struct ReportPlaces {
     bool plots = true;
 };
 
-/// `plots`: where the page finds the plot of each effect, and of "frames".
-std::string htmlOf(Results const& results, std::map<std::string, std::string> const& plots,
+std::string htmlOf(Results const& results, std::filesystem::path const& plots,
                    std::vector<std::string> const& sections);
 
 Result<void> writeReport(Results const& results, ReportPlaces const& places);

@@ -9,7 +9,6 @@
 #include <filament/Color.h>
 
 #include <glm/common.hpp>
-#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

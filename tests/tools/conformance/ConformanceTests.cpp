@@ -4,7 +4,6 @@
 #include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <fstream>
 #include <set>

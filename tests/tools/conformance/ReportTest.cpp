@@ -5,7 +5,6 @@
 #include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 
 #include <fstream>
 

@@ -1,5 +1,4 @@
 // SPDX-License-Identifier: Apache-2.0
-// Size: AllReachTheirFields is a list: every option once on a command line, every field once.
 #include "tools/filament-render/Options.h"
 
 #include <gmock/gmock.h>
