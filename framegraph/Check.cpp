@@ -2,6 +2,7 @@
 // The rules of a graph. Every message names the pass, the texture and what to do.
 #include "framegraph/CompileSteps.h"
 #include "framegraph/Require.h"
+#include "framegraph/Subresources.h"
 
 #include <algorithm>
 
@@ -17,43 +18,96 @@ Size sizeOfLevel(GraphTextureDesc const& desc, uint8_t level) {
     return { std::max(1u, desc.width >> level), std::max(1u, desc.height >> level) };
 }
 
-/// A later pass that writes the texture, to tell a wrong order from a forgotten pass.
-std::string_view laterWriter(FrameGraph const& graph, uint32_t after, TextureId texture) {
+/// "texture 'bloom'", with level and layer where it has several.
+std::string nameOf(GraphTextureDesc const& desc, uint8_t level, uint16_t layer) {
+    std::string name = fmt::format("texture '{}'", desc.name);
+    if (desc.levels > 1) name += fmt::format(" level {}", level);
+    if (desc.layers > 1) name += fmt::format(" layer {}", layer);
+    return name;
+}
+
+bool writes(Access const& access, TextureId texture, backend::TextureRange const& part) {
+    if (isPureRead(access.kind)) return false;
+    if (access.resolve == texture && overlap(kResolved, part)) return true;
+    return access.texture == texture && overlap(access.range, part);
+}
+
+/// A later pass that writes this part of the texture, to tell a wrong order from a forgotten pass.
+std::string_view laterWriter(FrameGraph const& graph, uint32_t after, TextureId texture,
+                             backend::TextureRange const& part) {
     for (uint32_t pass = after + 1; pass < graph.passes().size(); ++pass) {
         for (Access const& access : graph.accesses(graph.passes()[pass])) {
-            const bool writes = !isPureRead(access.kind) && (access.texture == texture || access.resolve == texture);
-            if (writes) return graph.passes()[pass].name;
+            if (writes(access, texture, part)) return graph.passes()[pass].name;
         }
     }
     return {};
 }
 
-void checkWrittenBefore(FrameGraph const& graph, uint32_t pass, std::span<const bool> written) {
-    for (Access const& access : graph.accesses(graph.passes()[pass])) {
-        if (!isPureRead(access.kind) || written[access.texture.index()]) continue;
-        const std::string_view name = graph.passes()[pass].name, texture = graph.texture(access.texture).desc.name;
-        const std::string_view later = laterWriter(graph, pass, access.texture);
-        require(!later.empty(),
-                "pass '{}' reads texture '{}', which no pass writes: write it, or import it with its contents", name,
-                texture);
-        require(false, "pass '{}' reads texture '{}' before pass '{}' writes it: declare the writer first", name,
-                texture, later);
+void checkRange(FrameGraph const& graph, Pass const& pass, Access const& access) {
+    GraphTextureDesc const& desc = graph.texture(access.texture).desc;
+    backend::TextureRange const& range = access.range;
+    const bool isThere = exists(range, desc.levels, desc.layers);
+    if (isAttachment(access.kind)) {
+        require(isThere, "pass '{}': texture '{}' has {} levels and {} layers; level {}, layer {} is attached",
+                pass.name, desc.name, desc.levels, desc.layers, range.level, range.layer);
+    } else {
+        require(isThere, "pass '{}': texture '{}' has {} levels and {} layers; declared are {} from {} and {} from {}",
+                pass.name, desc.name, desc.levels, desc.layers, range.levelCount, range.level, range.layerCount,
+                range.layer);
     }
 }
 
-void markWritten(FrameGraph const& graph, uint32_t pass, std::span<bool> written) {
-    for (Access const& access : graph.accesses(graph.passes()[pass])) {
-        if (isPureRead(access.kind)) continue;
-        written[access.texture.index()] = true;
-        if (access.resolve) written[access.resolve.index()] = true;
+/// Which levels and layers hold something, from pass to pass.
+class Written {
+public:
+    explicit Written(FrameGraph const& graph)
+            : mGraph(graph), mSubresources(graph), mWritten(graph.arena().array<bool>(mSubresources.count())) {
+        for (uint32_t i = 0; i < graph.textures().size(); ++i) {
+            Texture const& texture = graph.textures()[i];
+            const bool isFilled = texture.isImported && texture.contents == InitialContents::Keep;
+            if (isFilled) add({ i + 1 }, Subresources::all(texture.desc));
+        }
     }
-}
+
+    void checkReads(uint32_t pass) const {
+        for (Access const& access : mGraph.accesses(mGraph.passes()[pass])) {
+            if (!isPureRead(access.kind)) continue;
+            mSubresources.any(access.texture, access.range, [&](uint32_t number, uint8_t level, uint16_t layer) {
+                if (!mWritten[number]) tellUnwritten(pass, access.texture, level, layer);
+                return false;
+            });
+        }
+    }
+
+    void addWrites(uint32_t pass) {
+        for (Access const& access : mGraph.accesses(mGraph.passes()[pass])) {
+            if (isPureRead(access.kind)) continue;
+            add(access.texture, access.range);
+            if (access.resolve) add(access.resolve, kResolved);
+        }
+    }
+
+private:
+    void add(TextureId texture, backend::TextureRange const& range) {
+        mSubresources.forEach(texture, range, [&](uint32_t number) { mWritten[number] = true; });
+    }
+
+    void tellUnwritten(uint32_t pass, TextureId texture, uint8_t level, uint16_t layer) const {
+        const std::string_view name = mGraph.passes()[pass].name;
+        const std::string what = nameOf(mGraph.texture(texture).desc, level, layer);
+        const std::string_view later = laterWriter(mGraph, pass, texture, { level, 1, layer, 1 });
+        require(!later.empty(), "pass '{}' reads {}, which no pass writes: write it, or import it with its contents",
+                name, what);
+        require(false, "pass '{}' reads {} before pass '{}' writes it: declare the writer first", name, what, later);
+    }
+
+    FrameGraph const& mGraph;
+    Subresources mSubresources;
+    std::span<bool> mWritten;
+};
 
 void checkAttachment(FrameGraph const& graph, Pass const& pass, Access const& access) {
     GraphTextureDesc const& desc = graph.texture(access.texture).desc;
-    require(access.level < desc.levels && access.layer < desc.layers,
-            "pass '{}': texture '{}' has {} levels and {} layers; level {}, layer {} is attached", pass.name, desc.name,
-            desc.levels, desc.layers, access.level, access.layer);
     require(backend::hasDepth(desc.format) == isDepth(access.kind),
             "pass '{}': texture '{}' has format {}: wrong for a {} attachment", pass.name, desc.name,
             backend::formatInfo(desc.format).name, isDepth(access.kind) ? "depth" : "colour");
@@ -67,7 +121,7 @@ void checkResolve(FrameGraph const& graph, Pass const& pass, Access const& acces
     require(from.samples > 1 && to.samples == 1,
             "pass '{}': resolves '{}' ({} samples) to '{}' ({} samples): needs many to one", pass.name, from.name,
             from.samples, to.name, to.samples);
-    require(from.format == to.format && sizeOfLevel(from, access.level) == sizeOfLevel(to, 0),
+    require(from.format == to.format && sizeOfLevel(from, access.range.level) == sizeOfLevel(to, 0),
             "pass '{}': resolves '{}' to '{}', which has another format or size", pass.name, from.name, to.name);
 }
 
@@ -90,7 +144,7 @@ void checkAttachmentsAgree(FrameGraph const& graph, Pass const& pass) {
         }
         if (!reference) reference = &access;
         GraphTextureDesc const& first = graph.texture(reference->texture).desc;
-        const Size expected = sizeOfLevel(first, reference->level), size = sizeOfLevel(desc, access.level);
+        const Size expected = sizeOfLevel(first, reference->range.level), size = sizeOfLevel(desc, access.range.level);
         require(size == expected, "pass '{}': attachment '{}' is {} x {}, attachment '{}' is {} x {}", pass.name,
                 desc.name, size.width, size.height, first.name, expected.width, expected.height);
         require(desc.samples == first.samples, "pass '{}': attachment '{}' has {} samples, attachment '{}' has {}",
@@ -99,29 +153,34 @@ void checkAttachmentsAgree(FrameGraph const& graph, Pass const& pass) {
     require((slots & (slots + 1)) == 0, "pass '{}': colour slots have gaps; number them 0, 1, ...", pass.name);
 }
 
-// A texture has one role in a pass, except that several levels or layers of it may be attached.
+// A level and layer has one role in a pass; other parts of the same texture may have other ones.
+void checkPairs(FrameGraph const& graph, Pass const& pass, Access const& a, std::span<const Access> accesses) {
+    GraphTextureDesc const& desc = graph.texture(a.texture).desc;
+    for (Access const& b : accesses) {
+        const bool isSame = &a == &b;
+        if (a.resolve) {
+            require((b.texture != a.resolve || !overlap(b.range, kResolved)) && (isSame || b.resolve != a.resolve),
+                    "pass '{}': texture '{}' is a resolve target and something else", pass.name,
+                    graph.texture(a.resolve).desc.name);
+        }
+        if (isSame || !isAttachment(a.kind) || a.texture != b.texture || !overlap(a.range, b.range)) continue;
+        const std::string what = nameOf(desc, a.range.level, a.range.layer);
+        require(isAttachment(b.kind), "pass '{}': {} is attached and read at the same time", pass.name, what);
+        require(false, "pass '{}': {} is attached twice", pass.name, what);
+    }
+}
+
 void checkRoles(FrameGraph const& graph, Pass const& pass) {
     const std::span<const Access> accesses = graph.accesses(pass);
     bool attaches = false, transfers = false, reads = false;
-    for (size_t i = 0; i < accesses.size(); ++i) {
-        Access const& a = accesses[i];
-        const std::string_view name = graph.texture(a.texture).desc.name;
-        attaches |= isAttachment(a.kind);
-        reads |= a.kind == AccessKind::Input;
-        require(isAttachment(a.kind) || graph.texture(a.texture).desc.samples == 1,
-                "pass '{}': reads multisampled texture '{}'; resolve it and read the target", pass.name, name);
-        transfers |= a.kind == AccessKind::TransferRead || a.kind == AccessKind::TransferWrite;
-        for (size_t j = 0; j < accesses.size(); ++j) {
-            Access const& b = accesses[j];
-            require(!isAttachment(a.kind) || b.texture != a.texture || isAttachment(b.kind),
-                    "pass '{}': texture '{}' is attached and read at the same time", pass.name, name);
-            require(i == j || !isAttachment(a.kind) || !isAttachment(b.kind) || a.texture != b.texture ||
-                            a.level != b.level || a.layer != b.layer,
-                    "pass '{}': texture '{}' is attached twice", pass.name, name);
-            require(!a.resolve || (b.texture != a.resolve && (i == j || b.resolve != a.resolve)),
-                    "pass '{}': texture '{}' is a resolve target and something else", pass.name,
-                    graph.texture(a.resolve ? a.resolve : a.texture).desc.name);
-        }
+    for (Access const& access : accesses) {
+        GraphTextureDesc const& desc = graph.texture(access.texture).desc;
+        attaches |= isAttachment(access.kind);
+        reads |= access.kind == AccessKind::Input;
+        transfers |= access.kind == AccessKind::TransferRead || access.kind == AccessKind::TransferWrite;
+        require(isAttachment(access.kind) || desc.samples == 1,
+                "pass '{}': reads multisampled texture '{}'; resolve it and read the target", pass.name, desc.name);
+        checkPairs(graph, pass, access, accesses);
     }
     require(attaches || !reads, "pass '{}': reads the current pixel of an input, but has no attachments", pass.name);
     require(!attaches || !transfers, "pass '{}': has attachments and transfers; make the transfers a pass of their own",
@@ -131,16 +190,15 @@ void checkRoles(FrameGraph const& graph, Pass const& pass) {
 } // namespace
 
 void checkDeclarations(FrameGraph const& graph) {
-    const std::span<bool> written = graph.arena().array<bool>(graph.textures().size());
-    for (size_t i = 0; i < written.size(); ++i) {
-        Texture const& texture = graph.textures()[i];
-        written[i] = texture.isImported && texture.contents == InitialContents::Keep;
+    for (Pass const& pass : graph.passes()) {
+        for (Access const& access : graph.accesses(pass)) checkRange(graph, pass, access);
     }
+    Written written(graph);
     for (uint32_t i = 0; i < graph.passes().size(); ++i) {
-        checkWrittenBefore(graph, i, written);
+        written.checkReads(i);
         checkAttachmentsAgree(graph, graph.passes()[i]);
         checkRoles(graph, graph.passes()[i]);
-        markWritten(graph, i, written);
+        written.addWrites(i);
     }
 }
 

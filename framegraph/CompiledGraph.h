@@ -44,7 +44,9 @@ enum class Merge : uint8_t {
 
 struct PassDecision {
     Reason reason = Reason::Unread;
-    TextureId because{};     ///< WritesOutput, ReadLater: the texture
+    TextureId because{}; ///< WritesOutput, ReadLater: the texture, and which part of it
+    uint8_t level = 0;
+    uint16_t layer = 0;
     uint32_t reader = kNone; ///< ReadLater: the pass that reads it
     Merge merge = Merge::NotAsked;
     uint32_t group = kNone; ///< kNone: culled

@@ -1,62 +1,87 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "framegraph/CompileSteps.h"
+#include "framegraph/Subresources.h"
 
 namespace filament::framegraph {
 namespace {
 
-/// Whether the contents of a texture are still wanted, seen from a point of the frame towards its end.
+/// Whether the contents of a level and layer are still wanted, seen from a point of the frame towards its end.
 struct Demand {
     bool isWanted = false;
     uint32_t reader = kNone; // kNone: wanted after the frame
 };
 
-bool isWhole(GraphTextureDesc const& desc) { return desc.levels == 1 && desc.layers == 1; }
+class Demands {
+public:
+    explicit Demands(FrameGraph const& graph)
+            : mGraph(graph), mSubresources(graph), mDemands(graph.arena().array<Demand>(mSubresources.count())) {
+        for (uint32_t i = 0; i < graph.textures().size(); ++i) {
+            Texture const& texture = graph.textures()[i];
+            if (texture.isOutput) set({ i + 1 }, Subresources::all(texture.desc), { .isWanted = true });
+        }
+    }
 
-PassDecision decide(FrameGraph const& graph, Pass const& pass, std::span<const Demand> demands) {
-    if (pass.hasSideEffect) return { .reason = Reason::SideEffect };
-    const auto wantedBy = [&](TextureId texture) -> PassDecision {
-        Demand const& demand = demands[texture.index()];
-        if (!demand.isWanted) return {};
-        return { .reason = demand.reader == kNone ? Reason::WritesOutput : Reason::ReadLater,
-                 .because = texture,
-                 .reader = demand.reader };
-    };
-    for (Access const& access : graph.accesses(pass)) {
-        if (isPureRead(access.kind)) continue;
-        if (const PassDecision decision = wantedBy(access.texture); decision.runs()) return decision;
-        if (!access.resolve) continue;
-        if (const PassDecision decision = wantedBy(access.resolve); decision.runs()) return decision;
+    PassDecision decide(Pass const& pass) const {
+        if (pass.hasSideEffect) return { .reason = Reason::SideEffect };
+        for (Access const& access : mGraph.accesses(pass)) {
+            if (isPureRead(access.kind)) continue;
+            if (const PassDecision decision = wantedBy(access.texture, access.range); decision.runs()) return decision;
+            if (!access.resolve) continue;
+            if (const PassDecision decision = wantedBy(access.resolve, kResolved); decision.runs()) return decision;
+        }
+        return {};
     }
-    return {};
-}
 
-// Before a pass that runs: what it replaces completely is not wanted, what it reads or draws over is.
-void stepBack(FrameGraph const& graph, uint32_t pass, std::span<Demand> demands) {
-    const std::span<const Access> accesses = graph.accesses(graph.passes()[pass]);
-    for (Access const& access : accesses) {
-        if (access.resolve && isWhole(graph.texture(access.resolve).desc)) demands[access.resolve.index()] = {};
-        const bool replaces = !isPureRead(access.kind) && access.previous != Previous::Keep;
-        if (replaces && isWhole(graph.texture(access.texture).desc)) demands[access.texture.index()] = {};
+    /// Before a pass that runs: what it replaces completely is not wanted, what it reads or draws over is.
+    void stepBack(uint32_t pass) {
+        const std::span<const Access> accesses = mGraph.accesses(mGraph.passes()[pass]);
+        for (Access const& access : accesses) {
+            if (access.resolve) set(access.resolve, kResolved, {});
+            const bool replaces = !isPureRead(access.kind) && access.previous != Previous::Keep;
+            if (replaces) set(access.texture, access.range, {});
+        }
+        for (Access const& access : accesses) {
+            const bool reads = isPureRead(access.kind) || access.previous == Previous::Keep;
+            if (reads) set(access.texture, access.range, { true, pass });
+        }
     }
-    for (Access const& access : accesses) {
-        const bool reads = isPureRead(access.kind) || access.previous == Previous::Keep;
-        if (reads) demands[access.texture.index()] = { true, pass };
+
+private:
+    void set(TextureId texture, backend::TextureRange const& range, Demand const& demand) {
+        mSubresources.forEach(texture, range, [&](uint32_t number) { mDemands[number] = demand; });
     }
-}
+
+    PassDecision wantedBy(TextureId texture, backend::TextureRange const& range) const {
+        PassDecision decision;
+        mSubresources.any(texture, range, [&](uint32_t number, uint8_t level, uint16_t layer) {
+            Demand const& demand = mDemands[number];
+            if (!demand.isWanted) return false;
+            decision = { .reason = demand.reader == kNone ? Reason::WritesOutput : Reason::ReadLater,
+                         .because = texture,
+                         .level = level,
+                         .layer = layer,
+                         .reader = demand.reader };
+            return true;
+        });
+        return decision;
+    }
+
+    FrameGraph const& mGraph;
+    Subresources mSubresources;
+    std::span<Demand> mDemands;
+};
 
 } // namespace
 
 PassOrder cullUnreadPasses(FrameGraph const& graph) {
     const auto passCount = static_cast<uint32_t>(graph.passes().size());
     const std::span<PassDecision> decisions = graph.arena().array<PassDecision>(passCount);
-    const std::span<Demand> demands = graph.arena().array<Demand>(graph.textures().size());
-    for (size_t i = 0; i < demands.size(); ++i) demands[i].isWanted = graph.textures()[i].isOutput;
-
+    Demands demands(graph);
     uint32_t running = 0;
     for (uint32_t pass = passCount; pass-- > 0;) {
-        decisions[pass] = decide(graph, graph.passes()[pass], demands);
+        decisions[pass] = demands.decide(graph.passes()[pass]);
         if (!decisions[pass].runs()) continue;
-        stepBack(graph, pass, demands);
+        demands.stepBack(pass);
         ++running;
     }
     const std::span<uint32_t> order = graph.arena().array<uint32_t>(running);

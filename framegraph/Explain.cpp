@@ -15,6 +15,28 @@ using Text = std::back_insert_iterator<std::string>;
 
 std::string_view nameOf(CompiledGraph const& plan, TextureId texture) { return plan.graph->texture(texture).desc.name; }
 
+/// "'bloom'", with level and layer where it has several.
+std::string nameOf(CompiledGraph const& plan, TextureId texture, uint8_t level, uint16_t layer) {
+    GraphTextureDesc const& desc = plan.graph->texture(texture).desc;
+    std::string name = fmt::format("'{}'", desc.name);
+    if (desc.levels > 1) name += fmt::format(" level {}", level);
+    if (desc.layers > 1) name += fmt::format(" layer {}", layer);
+    return name;
+}
+
+/// Which part of its texture an access touches: "level 2", "levels 0 to 4, layer 1"; nothing for all of it.
+std::string partOf(CompiledGraph const& plan, Access const& access) {
+    GraphTextureDesc const& desc = plan.graph->texture(access.texture).desc;
+    const auto span = [](const char* what, uint32_t first, uint32_t count) {
+        return count == 1 ? fmt::format("{} {}", what, first)
+                          : fmt::format("{}s {} to {}", what, first, first + count - 1);
+    };
+    std::string part;
+    if (access.range.levelCount < desc.levels) part = span("level", access.range.level, access.range.levelCount);
+    if (access.range.layerCount == desc.layers) return part;
+    return part + (part.empty() ? "" : ", ") + span("layer", access.range.layer, access.range.layerCount);
+}
+
 std::string reasonOf(CompiledGraph const& plan, PassDecision const& decision) {
     switch (decision.reason) {
     case Reason::Unread:
@@ -22,9 +44,9 @@ std::string reasonOf(CompiledGraph const& plan, PassDecision const& decision) {
     case Reason::SideEffect:
         return "runs: it has a side effect";
     case Reason::WritesOutput:
-        return fmt::format("runs: it writes output '{}'", nameOf(plan, decision.because));
+        return fmt::format("runs: it writes output {}", nameOf(plan, decision.because, decision.level, decision.layer));
     case Reason::ReadLater:
-        return fmt::format("runs: '{}' is read by '{}'", nameOf(plan, decision.because),
+        return fmt::format("runs: {} is read by '{}'", nameOf(plan, decision.because, decision.level, decision.layer),
                            plan.graph->passes()[decision.reader].name);
     }
     return {};
@@ -62,10 +84,9 @@ const char* nameOf(LoadOp load) { return load == LoadOp::Load ? "load" : load ==
 const char* nameOf(StoreOp store) { return store == StoreOp::Store ? "store" : "discard"; }
 
 void putAttachment(Text text, CompiledGraph const& plan, std::string_view role, GroupAttachment const& attachment) {
-    fmt::format_to(text, "    {} '{}'", role, nameOf(plan, attachment.texture));
-    if (attachment.level > 0) fmt::format_to(text, " level {}", attachment.level);
-    if (attachment.layer > 0) fmt::format_to(text, " layer {}", attachment.layer);
-    fmt::format_to(text, ": {}, {}", nameOf(attachment.load), nameOf(attachment.store));
+    fmt::format_to(text, "    {} {}: {}, {}", role,
+                   nameOf(plan, attachment.texture, attachment.level, attachment.layer), nameOf(attachment.load),
+                   nameOf(attachment.store));
     if (attachment.resolve) fmt::format_to(text, ", resolve to '{}'", nameOf(plan, attachment.resolve));
     fmt::format_to(text, "\n");
 }
@@ -80,12 +101,26 @@ void putPasses(Text text, CompiledGraph const& plan) {
     }
 }
 
+// Reads of parts of textures; those of whole ones are left to the drawing.
+void putPartReads(Text text, CompiledGraph const& plan, PassGroup const& group) {
+    for (const uint32_t pass : plan.order.subspan(group.first, group.count)) {
+        for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
+            if (isAttachment(access.kind)) continue;
+            const std::string part = partOf(plan, access);
+            if (part.empty()) continue;
+            fmt::format_to(text, "    {} '{}' {}\n", isPureRead(access.kind) ? "reads" : "writes",
+                           nameOf(plan, access.texture), part);
+        }
+    }
+}
+
 void putGroups(Text text, CompiledGraph const& plan) {
     fmt::format_to(text, "groups:\n");
     for (size_t i = 0; i < plan.groups.size(); ++i) {
         PassGroup const& group = plan.groups[i];
         if (!group.hasAttachments()) {
             fmt::format_to(text, "  {} '{}' outside of passes\n", i, group.name);
+            putPartReads(text, plan, group);
             continue;
         }
         fmt::format_to(text, "  {} '{}' {} x {}, {} sample(s), {} subpass(es)\n", i, group.name, group.width,
@@ -93,6 +128,7 @@ void putGroups(Text text, CompiledGraph const& plan) {
         for (uint32_t c = 0; c < group.colorCount; ++c)
             putAttachment(text, plan, fmt::format("colour {}", c), group.colors[c]);
         if (group.depth.texture) putAttachment(text, plan, "depth", group.depth);
+        putPartReads(text, plan, group);
     }
 }
 
@@ -160,11 +196,13 @@ void putPassNodes(Text text, CompiledGraph const& plan) {
 void putEdges(Text text, CompiledGraph const& plan) {
     for (size_t pass = 0; pass < plan.passes.size(); ++pass) {
         for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
+            std::string label = partOf(plan, access);
+            if (access.kind == AccessKind::Input) label += label.empty() ? "pixel" : ", pixel";
+            if (!label.empty()) label = fmt::format(" [label=\"{}\"]", label);
             if (isPureRead(access.kind)) {
-                fmt::format_to(text, "  t{} -> p{}{};\n", access.texture.index(), pass,
-                               access.kind == AccessKind::Input ? " [label=\"pixel\"]" : "");
+                fmt::format_to(text, "  t{} -> p{}{};\n", access.texture.index(), pass, label);
             } else {
-                fmt::format_to(text, "  p{} -> t{};\n", pass, access.texture.index());
+                fmt::format_to(text, "  p{} -> t{}{};\n", pass, access.texture.index(), label);
             }
             if (access.resolve)
                 fmt::format_to(text, "  p{} -> t{} [label=\"resolve\"];\n", pass, access.resolve.index());

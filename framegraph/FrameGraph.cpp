@@ -51,11 +51,13 @@ PassBuilder FrameGraph::beginPass(std::string_view name, PassCode code) {
     return { *this, static_cast<uint32_t>(mPasses.size() - 1) };
 }
 
-void FrameGraph::declare(uint32_t pass, Access const& access) {
+void FrameGraph::declare(uint32_t pass, Access access) {
     Pass& of = mPasses[pass];
     require(pass + 1 == mPasses.size(), "pass '{}': declare its textures inside its set-up, not later", of.name);
     require(access.texture && access.texture.index() < mTextures.size(),
             "pass '{}': declares a texture of another graph or frame", of.name);
+    GraphTextureDesc const& desc = mTextures[access.texture.index()].desc;
+    access.range = withCounts(access.range, desc.levels, desc.layers);
     mAccesses.push_back(access);
     ++of.accessCount;
 }
@@ -67,8 +69,7 @@ void PassBuilder::writeColor(uint8_t slot, TextureId texture, ColorTarget const&
                             .kind = AccessKind::Color,
                             .previous = previousOf(target.clear.has_value(), target.overwrites),
                             .slot = slot,
-                            .level = target.level,
-                            .layer = target.layer,
+                            .range = { target.level, 1, target.layer, 1 },
                             .clear = target.clear.value_or(std::array<float, 4>{}),
                             .resolve = target.resolve });
 }
@@ -77,29 +78,28 @@ void PassBuilder::writeDepth(TextureId texture, DepthTarget const& target) {
     mGraph.declare(mPass, { .texture = texture,
                             .kind = AccessKind::Depth,
                             .previous = previousOf(target.clear.has_value(), target.overwrites),
-                            .level = target.level,
-                            .layer = target.layer,
+                            .range = { target.level, 1, target.layer, 1 },
                             .clear = { target.clear.value_or(0.0f), static_cast<float>(target.clearStencil), 0, 0 } });
 }
 
 void PassBuilder::testDepth(TextureId texture, uint8_t level, uint16_t layer) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::DepthTest, .level = level, .layer = layer });
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::DepthTest, .range = { level, 1, layer, 1 } });
 }
 
-void PassBuilder::readSampled(TextureId texture) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Sampled });
+void PassBuilder::readSampled(TextureId texture, backend::TextureRange range) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Sampled, .range = range });
 }
 
-void PassBuilder::readInput(TextureId texture) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Input });
+void PassBuilder::readInput(TextureId texture, uint8_t level, uint16_t layer) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Input, .range = { level, 1, layer, 1 } });
 }
 
-void PassBuilder::readTransfer(TextureId texture) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::TransferRead });
+void PassBuilder::readTransfer(TextureId texture, backend::TextureRange range) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::TransferRead, .range = range });
 }
 
-void PassBuilder::writeTransfer(TextureId texture) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::TransferWrite });
+void PassBuilder::writeTransfer(TextureId texture, backend::TextureRange range) {
+    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::TransferWrite, .range = range });
 }
 
 void PassBuilder::sideEffect() { mGraph.declareSideEffect(mPass); }

@@ -80,8 +80,7 @@ struct Access {
     AccessKind kind = AccessKind::Sampled;
     Previous previous = Previous::Keep; ///< attachments
     uint8_t slot = 0;                   ///< Color: index when the pass runs by itself
-    uint8_t level = 0;
-    uint16_t layer = 0;
+    backend::TextureRange range{};      ///< with counts: one level and layer for attachments and inputs
     std::array<float, 4> clear{};
     TextureId resolve{};
 };
@@ -114,15 +113,16 @@ public:
     void writeDepth(TextureId texture, DepthTarget const& target = {});
     /// Attached for testing only; the pass's pipelines must not write it.
     void testDepth(TextureId texture, uint8_t level = 0, uint16_t layer = 0);
-    /// Through a sampler, anywhere. Not combined with an attachment of the same texture.
-    void readSampled(TextureId texture);
+    /// Through a sampler, anywhere in `range`: all of the texture, one level (backend::oneLevel(2)), one layer, ... The
+    /// pass may attach other levels and layers of the same texture. Bind groups name the same range or a part of it.
+    void readSampled(TextureId texture, backend::TextureRange range = {});
     /// At the current pixel only. If the pass could be merged with the one that wrote the texture, it is a subpass
     /// input (PassContext::isMerged() is true), otherwise the pass must sample it at the pixel's centre.
-    void readInput(TextureId texture);
+    void readInput(TextureId texture, uint8_t level = 0, uint16_t layer = 0);
     /// Blits from it, reads it back, generates mips.
-    void readTransfer(TextureId texture);
+    void readTransfer(TextureId texture, backend::TextureRange range = {});
     /// Uploads or blits to it, generates mips; the rest keeps its contents.
-    void writeTransfer(TextureId texture);
+    void writeTransfer(TextureId texture, backend::TextureRange range = {});
     /// The pass runs even if nothing reads its results (read-backs, uploads to buffers).
     void sideEffect();
 
@@ -178,7 +178,7 @@ public:
     Arena& arena() const { return mArena; }
 
     // For PassBuilder; `pass` is the newest one.
-    void declare(uint32_t pass, Access const& access);
+    void declare(uint32_t pass, Access access);
     void declareSideEffect(uint32_t pass) { mPasses[pass].hasSideEffect = true; }
 
 private:

@@ -11,10 +11,9 @@ std::span<const uint32_t> passesOf(PassOrder const& order, PassGroup const& grou
     return order.order.subspan(group.first, group.count);
 }
 
-// Transfers and samplers may touch any level and layer of their texture; attachments touch one.
 bool overlaps(Access const& access, GroupAttachment const& attachment) {
-    if (access.texture != attachment.texture) return false;
-    return !isAttachment(access.kind) || (access.level == attachment.level && access.layer == attachment.layer);
+    return access.texture == attachment.texture &&
+           backend::contains(access.range, { attachment.level, 1, attachment.layer, 1 });
 }
 
 bool isResolvedTo(Access const& access, GroupAttachment const& attachment) {

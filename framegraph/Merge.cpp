@@ -9,7 +9,8 @@ namespace {
 uint8_t withBit(uint8_t mask, uint32_t bit) { return static_cast<uint8_t>(mask | 1u << bit); }
 
 bool isSame(GroupAttachment const& attachment, Access const& access) {
-    return attachment.texture == access.texture && attachment.level == access.level && attachment.layer == access.layer;
+    return attachment.texture == access.texture && attachment.level == access.range.level &&
+           attachment.layer == access.range.layer;
 }
 
 uint32_t findColor(PassGroup const& group, Access const& access) {
@@ -19,16 +20,19 @@ uint32_t findColor(PassGroup const& group, Access const& access) {
     return found == end ? kNone : static_cast<uint32_t>(found - group.colors.begin());
 }
 
-bool attaches(PassGroup const& group, TextureId texture) {
-    if (group.depth.texture == texture) return true;
+/// Whether the group attaches anything that the access touches.
+bool attaches(PassGroup const& group, Access const& access) {
+    const auto touches = [&](GroupAttachment const& at) {
+        return at.texture == access.texture && backend::contains(access.range, { at.level, 1, at.layer, 1 });
+    };
     const auto end = group.colors.begin() + group.colorCount;
-    return std::any_of(group.colors.begin(), end, [&](auto const& color) { return color.texture == texture; });
+    return touches(group.depth) || std::any_of(group.colors.begin(), end, touches);
 }
 
 GroupAttachment attachmentOf(Access const& access) {
     return { .texture = access.texture,
-             .level = access.level,
-             .layer = access.layer,
+             .level = access.range.level,
+             .layer = access.range.layer,
              .previous = access.previous,
              .clear = access.clear,
              .resolve = access.resolve };
@@ -49,7 +53,7 @@ PassGroup groupOf(FrameGraph const& graph, uint32_t pass, uint32_t at) {
     subpass = { .colorMask = 0, .inputMask = 0, .usesDepth = false };
     for (Access const& access : graph.accesses(graph.passes()[pass])) {
         if (!isAttachment(access.kind)) continue;
-        takeSize(group, graph.texture(access.texture).desc, access.level);
+        takeSize(group, graph.texture(access.texture).desc, access.range.level);
         if (isDepth(access.kind)) {
             group.depth = attachmentOf(access);
             subpass.usesDepth = true;
@@ -99,8 +103,7 @@ bool readsInput(FrameGraph const& graph, uint32_t pass) {
 bool readsAttachmentsElsewhere(FrameGraph const& graph, PassGroup const& group, std::span<const uint32_t> passes) {
     for (const uint32_t pass : passes) {
         for (Access const& access : graph.accesses(graph.passes()[pass])) {
-            if (!isAttachment(access.kind) && access.kind != AccessKind::Input && attaches(group, access.texture))
-                return true;
+            if (!isAttachment(access.kind) && access.kind != AccessKind::Input && attaches(group, access)) return true;
         }
     }
     return false;

@@ -64,12 +64,30 @@ uint8_t PassContext::colorIndex(TextureId id) const {
     return 0;
 }
 
+void PassContext::requireDeclaredRange(backend::BindGroupEntry const& entry, std::string_view group) const {
+    Pass const& pass = mPlan.graph->passes()[mPass];
+    Access const* read = nullptr; // of another part of the same texture
+    for (Access const& access : mPlan.graph->accesses(pass)) {
+        if (mPlan.texture(access.texture) != entry.texture) continue;
+        if (access.kind != AccessKind::Sampled && access.kind != AccessKind::Input) continue;
+        GraphTextureDesc const& desc = mPlan.graph->texture(access.texture).desc;
+        if (contains(access.range, withCounts(entry.range, desc.levels, desc.layers))) return;
+        read = &access;
+    }
+    if (!read) return; // a texture that the graph does not know, or one that texture() has asserted about
+    require(false, "pass '{}': bind group '{}' shows another part of texture '{}' than the pass declared", pass.name,
+            group, mPlan.graph->texture(read->texture).desc.name);
+}
+
 backend::BindGroupHandle PassContext::bindGroup(backend::BindGroupLayout const& layout,
                                                 std::span<const backend::BindGroupEntry> entries,
                                                 std::string_view name) {
     require(!mInsidePass, "pass '{}': bind group '{}' is made inside of a pass; make it in beforePass",
             mPlan.graph->passes()[mPass].name, name);
     if (mIsRehearsal) return {};
+    for (backend::BindGroupEntry const& entry : entries) {
+        if (entry.texture) requireDeclaredRange(entry, name);
+    }
     return mPlan.pool->bindGroup(mCommands, { .layout = layout, .entries = entries, .debugName = name });
 }
 

@@ -91,7 +91,8 @@ public:
     bool isRehearsal() const { return mIsRehearsal; }
 
     /// A bind group that lives for this frame; equal ones are created once and kept while frames request them. None in
-    /// a rehearsal. Only in `beforePass` and in passes without attachments.
+    /// a rehearsal. Only in `beforePass` and in passes without attachments. Asserts that what it shows of a texture of
+    /// the graph lies within what the pass declared to read.
     backend::BindGroupHandle bindGroup(backend::BindGroupLayout const& layout,
                                        std::span<const backend::BindGroupEntry> entries, std::string_view name);
 
@@ -100,6 +101,7 @@ public:
 
 private:
     void requireDeclared(TextureId id) const;
+    void requireDeclaredRange(backend::BindGroupEntry const& entry, std::string_view group) const;
 
     CompiledGraph const& mPlan;
     backend::CommandBuffer& mCommands;

@@ -9,16 +9,9 @@
 namespace filament::framegraph {
 namespace {
 
-using backend::BindGroupEntry;
-
 bool isSameButForTheName(backend::DeviceTextureDesc const& a, backend::DeviceTextureDesc const& b) {
     return a.type == b.type && a.format == b.format && a.usage == b.usage && a.samples == b.samples &&
            a.levels == b.levels && a.layers == b.layers && a.width == b.width && a.height == b.height;
-}
-
-bool isSameEntry(BindGroupEntry const& a, BindGroupEntry const& b) {
-    return a.binding == b.binding && a.buffer == b.buffer && a.offset == b.offset && a.size == b.size &&
-           a.texture == b.texture && a.sampler == b.sampler;
 }
 
 } // namespace
@@ -56,7 +49,7 @@ backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& comman
     const auto isSame = [&](PooledBindGroup const& pooled) {
         return pooled.layout == desc.layout &&
                std::equal(desc.entries.begin(), desc.entries.end(), pooled.entries.begin(),
-                          pooled.entries.begin() + pooled.count, isSameEntry);
+                          pooled.entries.begin() + pooled.count);
     };
     const auto found = std::find_if(mBindGroups.begin(), mBindGroups.end(), isSame);
     if (found != mBindGroups.end()) {

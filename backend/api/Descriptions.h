@@ -5,6 +5,7 @@
 
 #include "backend/api/Format.h"
 #include "backend/api/Handles.h"
+#include "backend/api/TextureRange.h"
 
 #include <filament/Sampler.h>
 
@@ -305,6 +306,11 @@ struct BindGroupEntry {
     uint32_t size = 0;     ///< bytes visible to the shader, <= DeviceLimits::maxUniformBlockBytes
     TextureHandle texture; ///< sampled textures and input attachments
     SamplerHandle sampler; ///< sampled textures
+    /// What the shader sees of the texture: its level 0 and layer 0 are the first ones of the range. Cubes show all
+    /// their layers; an input attachment is one level and layer. A pass may attach other parts of a texture that it
+    /// samples.
+    TextureRange range{};
+    friend bool operator==(BindGroupEntry const&, BindGroupEntry const&) = default;
 };
 
 /// Immutable once made. Every binding of the layout has exactly one entry.

@@ -24,7 +24,7 @@ const char* Api::load(Lookup lookup) {
 #define X(name) name = reinterpret_cast<decltype(name)>(findSuffixed(lookup, "gl" #name));
     FILAMENT_GL_OPTIONAL_FUNCTIONS(X)
 #undef X
-#define X(name, type) name = reinterpret_cast<type>(lookup("gl" #name "EXT"));
+#define X(name, type) name = reinterpret_cast<type>(findSuffixed(lookup, "gl" #name));
     FILAMENT_GL_EXTENSION_FUNCTIONS(X)
 #undef X
     return nullptr;

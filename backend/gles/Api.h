@@ -42,13 +42,14 @@ namespace filament::backend::gles {
     X(DrawElementsInstancedBaseVertex) X(Enablei) X(GetGraphicsResetStatus) X(ObjectLabel) X(PopDebugGroup)     \
     X(PushDebugGroup)
 
-// Optional, extensions only.
+// Optional, extensions only; looked up like those above.
 #define FILAMENT_GL_EXTENSION_FUNCTIONS(X)                                                                      \
     X(ClipControl, PFNGLCLIPCONTROLEXTPROC)                                                                     \
     X(DrawArraysInstancedBaseInstance, PFNGLDRAWARRAYSINSTANCEDBASEINSTANCEEXTPROC)                             \
     X(DrawElementsInstancedBaseVertexBaseInstance, PFNGLDRAWELEMENTSINSTANCEDBASEVERTEXBASEINSTANCEEXTPROC)     \
     X(GetQueryObjectui64v, PFNGLGETQUERYOBJECTUI64VEXTPROC)                                                     \
-    X(QueryCounter, PFNGLQUERYCOUNTEREXTPROC)
+    X(QueryCounter, PFNGLQUERYCOUNTEREXTPROC)                                                                   \
+    X(TextureView, PFNGLTEXTUREVIEWEXTPROC)
 // clang-format on
 
 struct Api {

@@ -9,8 +9,8 @@ namespace {
 constexpr uint32_t kAllGroups = (1u << kMaxBindGroups) - 1;
 constexpr uint8_t kNoSlot = 0xFF;
 
-BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures const& textures,
-                        Samplers const& samplers) {
+BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures& textures,
+                        Samplers const& samplers, std::string_view group) {
     BindGroup::Slot slot{ .type = type };
     if (type == BindingType::UniformBuffer || type == BindingType::DynamicUniformBuffer) {
         Buffer const* buffer = buffers.find(entry.buffer);
@@ -20,15 +20,17 @@ BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers c
         return slot;
     }
     Texture const* texture = textures.find(entry.texture);
-    slot.object = texture ? texture->name : 0;
-    slot.target = texture ? texture->target : 0;
+    if (!texture) return slot;
+    const bool isSampled = type == BindingType::SampledTexture;
+    slot.object = isSampled ? textures.sampledName(entry.texture, entry.range, group) : texture->name;
+    slot.target = texture->target;
     slot.sampler = samplers.find(entry.sampler);
     return slot;
 }
 
 } // namespace
 
-BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures const& textures,
+BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures& textures,
                         Samplers const& samplers) {
     BindGroup group;
     group.slots.reserve(desc.layout.count);
@@ -37,7 +39,7 @@ BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textu
         const auto entry = std::find_if(desc.entries.begin(), desc.entries.end(),
                                         [&](BindGroupEntry const& at) { return at.binding == binding.binding; });
         FILAMENT_ASSERT(entry != desc.entries.end(), "every binding of a bind group layout has an entry");
-        group.slots.push_back(resolve(*entry, binding.type, buffers, textures, samplers));
+        group.slots.push_back(resolve(*entry, binding.type, buffers, textures, samplers, desc.debugName));
         group.isUsable = group.isUsable && group.slots.back().object != 0;
     }
     return group;

@@ -27,7 +27,7 @@ struct BindGroup {
     bool isUsable = true;
 };
 
-BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures const& textures,
+BindGroup makeBindGroup(BindGroupDesc const& desc, Buffers const& buffers, Textures& textures,
                         Samplers const& samplers);
 
 /// The groups bound in a pass.

@@ -65,6 +65,7 @@ Result<Quirks> Quirks::probe(Api const& gl) {
                           gl.Disablei &&
                           (es32 || hasAny(names, { "GL_EXT_draw_buffers_indexed", "GL_OES_draw_buffers_indexed" }));
     quirks.framebufferFetch = names.contains("GL_EXT_shader_framebuffer_fetch");
+    quirks.textureViews = gl.TextureView && hasAny(names, { "GL_EXT_texture_view", "GL_OES_texture_view" });
     quirks.timers = names.contains("GL_EXT_disjoint_timer_query") && gl.QueryCounter && gl.GetQueryObjectui64v;
     quirks.blockCompression = hasBlockCompression(names);
     quirks.depthClamp = names.contains("GL_EXT_depth_clamp");
@@ -100,6 +101,7 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
         .blockCompression = quirks.blockCompression,
         .depthClamp = quirks.depthClamp,
         .lastVertexProvokes = true, // OpenGL ES knows no other
+        .textureViews = quirks.textureViews,
         .halfFloatShaders = true,
     };
     return info;

@@ -15,6 +15,7 @@ struct Quirks {
     bool readDepth = false;        ///< NV_read_depth; else depth is drawn into an R32F texture first (Readback.cpp)
     bool indexedBlend = false;     ///< ES 3.2; else every attachment blends and masks like the first
     bool framebufferFetch = false; ///< needed for merged passes
+    bool textureViews = false;     ///< else a bind group shows whole textures only
     bool timers = false;           ///< else a timer answers 0
     bool blockCompression = false; ///< BC1..BC7 complete, or not offered
     bool depthClamp = false;       ///< else geometry in front of the near plane is clipped

@@ -103,6 +103,10 @@ void Textures::create(TextureHandle handle, DeviceTextureDesc const& desc) {
 
 void Textures::destroy(Texture const& texture) {
     if (texture.name == 0) return;
+    for (Texture::View const& view : texture.views) {
+        mDevice.state.forgetTexture(view.name);
+        mDevice.gl.DeleteTextures(1, &view.name);
+    }
     mDevice.state.forgetTexture(texture.name);
     mDevice.gl.DeleteTextures(1, &texture.name);
     mDevice.statistics.deviceBytes -= texture.bytes;
@@ -130,6 +134,41 @@ void Textures::upload(CmdUploadTexture const& command) {
 Texture const* Textures::find(TextureHandle handle) const {
     Texture const* texture = mTextures.find(handle);
     return texture && texture->name ? texture : nullptr;
+}
+
+// ---------------------------------------------------------------------------------------------- parts
+
+GLuint Textures::sampledName(TextureHandle handle, TextureRange const& range, std::string_view what) {
+    Texture* texture = mTextures.find(handle);
+    if (!texture || texture->name == 0) return 0;
+    DeviceTextureDesc const& desc = texture->desc;
+    const TextureRange part = withCounts(range, desc.levels, desc.layers);
+    if (part == TextureRange{ 0, desc.levels, 0, desc.layers }) return texture->name;
+    for (Texture::View const& view : texture->views) {
+        if (view.range == part) return view.name;
+    }
+    const GLuint name = createView(*texture, part, what);
+    if (name != 0) texture->views.push_back({ part, name });
+    return name;
+}
+
+GLuint Textures::createView(Texture const& texture, TextureRange const& range, std::string_view what) {
+    if (!mDevice.quirks.textureViews) {
+        mDevice.error(DriverErrorKind::Other,
+                      "bind group '{}': this device has no texture views, so it cannot show a part of a texture; see "
+                      "DeviceFeatures::textureViews",
+                      what);
+        return 0;
+    }
+    Api const& gl = mDevice.gl;
+    GLuint name = 0;
+    mDevice.beginCreation();
+    gl.GenTextures(1, &name); // without a target until it becomes a view
+    gl.TextureView(name, texture.target, texture.name, glFormat(texture.desc.format).internalFormat, range.level,
+                   range.levelCount, range.layer, range.layerCount);
+    if (mDevice.created("view for bind group", what)) return name;
+    gl.DeleteTextures(1, &name);
+    return 0;
 }
 
 } // namespace filament::backend::gles

@@ -1,13 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Textures: storage and uploads.
 ///   Thread  the driver thread.
-///   Memory  immutable storage; attachments are textures too (also multisampled ones), so that all can be sampled.
-///   Fails   out of memory or an unsupported format is reported; the texture stays in the table with name 0, and
-///           commands that use it are skipped.
+///   Memory  immutable storage; attachments are textures as well (multisampled ones too), so that any can be sampled.
+///           Parts are texture views, made once each: a level range set on the texture itself would show in every
+///           group.
+///   Fails   out of memory or a format that the device lacks is reported; the texture stays in the table with name 0,
+///           and what uses it is skipped.
 #pragma once
 
 #include "backend/api/Slots.h"
 #include "backend/gles/Device.h"
+
+#include <vector>
 
 namespace filament::backend::gles {
 
@@ -16,6 +20,12 @@ struct Texture {
     GLenum target = GL_TEXTURE_2D;
     DeviceTextureDesc desc{}; ///< without the debug name, which lived in the command
     uint64_t bytes = 0;
+
+    struct View {
+        TextureRange range;
+        GLuint name = 0;
+    };
+    std::vector<View> views{}; ///< one for each part that a bind group has shown
 };
 
 /// Bytes of all levels, layers and samples.
@@ -32,9 +42,13 @@ public:
     void upload(CmdUploadTexture const& command);
     /// Null if it does not exist or could not be created.
     Texture const* find(TextureHandle handle) const;
+    /// The GL name under which shaders see this part of the texture, of the same target; 0 if there is none (reported
+    /// under `what`).
+    GLuint sampledName(TextureHandle handle, TextureRange const& range, std::string_view what);
 
 private:
     void allocate(Texture const& texture);
+    GLuint createView(Texture const& texture, TextureRange const& range, std::string_view what);
 
     Device& mDevice;
     Slots<TextureHandle, Texture> mTextures;

@@ -147,6 +147,7 @@ private:
     void checkEntry(BindingDesc const& binding, BindGroupEntry const& entry);
     void checkUniformEntry(BindGroupEntry const& entry);
     void checkTextureEntry(BindingDesc const& binding, BindGroupEntry const& entry);
+    void checkEntryRange(BindingDesc const& binding, BindGroupEntry const& entry, TextureModel const& texture);
     bool checkRegion(TextureModel const& texture, std::string_view role, uint32_t level, uint32_t layer,
                      uint32_t layerCount, Rect const& rect);
     bool checkBlitSide(TextureModel const& texture, std::string_view role, TextureUsage usage);
@@ -164,7 +165,8 @@ private:
     void checkGroup(PipelineModel const& pipeline, uint32_t index);
     void checkGroupTextures(BindGroupModel const& group, uint32_t index);
     void checkVertexRange(PipelineModel const& pipeline, uint64_t lastVertex, uint64_t lastInstance);
-    bool isAttached(TextureHandle texture) const;
+    /// Whether the pass attaches any of the range, which has counts.
+    bool isAttached(TextureHandle texture, TextureRange const& range) const;
 
     template <class F>
     void forEachTable(F&& visit);

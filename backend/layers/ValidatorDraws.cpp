@@ -167,12 +167,14 @@ void Validator::checkGroupTextures(BindGroupModel const& group, uint32_t index) 
                 need(mTextures, entry.texture,
                      fmt::format("texture at binding {} of group {} '{}'", entry.binding, index, group.name));
         if (!texture) continue;
+        const TextureRange range = withCounts(entry.range, texture->desc.levels, texture->desc.layers);
         if (binding.type == BindingType::InputAttachment) {
-            require(mPass->desc.colors[binding.inputAttachment % kMaxColorAttachments].texture == entry.texture,
+            Attachment const& color = mPass->desc.colors[binding.inputAttachment % kMaxColorAttachments];
+            require(color.texture == entry.texture && color.level == range.level && color.layer == range.layer,
                     Harm::Crash, "binding {} of group {} '{}': input attachment '{}' is not colour {} of this pass",
                     entry.binding, index, group.name, texture->name, binding.inputAttachment);
         } else {
-            require(!isAttached(entry.texture), Harm::WrongResult,
+            require(!isAttached(entry.texture, range), Harm::WrongResult,
                     "binding {} of group {} '{}' samples '{}', an attachment of this pass; copy it or use a subpass "
                     "input",
                     entry.binding, index, group.name, texture->name);

@@ -282,9 +282,33 @@ void Validator::checkUniformEntry(BindGroupEntry const& entry) {
             entry.offset + entry.size, buffer->name, buffer->desc.size);
 }
 
+void Validator::checkEntryRange(BindingDesc const& binding, BindGroupEntry const& entry, TextureModel const& texture) {
+    DeviceTextureDesc const& desc = texture.desc;
+    const TextureRange range = withCounts(entry.range, desc.levels, desc.layers);
+    if (!require(exists(range, desc.levels, desc.layers), Harm::Crash,
+                 "binding {}: {} levels from {} and {} layers from {} of texture '{}', which has {} and {}",
+                 entry.binding, range.levelCount, range.level, range.layerCount, range.layer, texture.name, desc.levels,
+                 desc.layers)) {
+        return;
+    }
+    if (binding.type == BindingType::InputAttachment) {
+        require(range.levelCount == 1 && range.layerCount == 1, Harm::Crash,
+                "binding {}: an input attachment is one level and layer of '{}'; name them in the range", entry.binding,
+                texture.name);
+        return;
+    }
+    const bool isWhole = range.levelCount == desc.levels && range.layerCount == desc.layers;
+    require(isWhole || mInfo.features.textureViews, Harm::Crash,
+            "binding {} shows a part of texture '{}'; this device lacks DeviceFeatures::textureViews", entry.binding,
+            texture.name);
+    require(desc.type != TextureType::Cube || range.layerCount == 6, Harm::Crash,
+            "binding {}: cube '{}' shows all of its 6 layers, not {}", entry.binding, texture.name, range.layerCount);
+}
+
 void Validator::checkTextureEntry(BindingDesc const& binding, BindGroupEntry const& entry) {
     TextureModel const* texture = need(mTextures, entry.texture, "texture");
     if (!texture) return;
+    checkEntryRange(binding, entry, *texture);
     if (binding.type == BindingType::InputAttachment) {
         require(has(texture->desc.usage, TextureUsage::InputAttachment), Harm::Crash,
                 "binding {}: texture '{}' lacks TextureUsage::InputAttachment", entry.binding, texture->name);

@@ -176,12 +176,16 @@ void Validator::execute(CmdEndPass const&) {
     mBound = {};
 }
 
-bool Validator::isAttached(TextureHandle texture) const {
+bool Validator::isAttached(TextureHandle texture, TextureRange const& range) const {
     PassDesc const& desc = mPass->desc;
+    const auto touches = [&](Attachment const& at) {
+        return (at.texture == texture && overlap(range, { at.level, 1, at.layer, 1 })) ||
+               (at.resolve == texture && overlap(range, { 0, 1, 0, 1 }));
+    };
     for (uint32_t i = 0; i < colorCount(desc.layout); ++i) {
-        if (desc.colors[i].texture == texture || desc.colors[i].resolve == texture) return true;
+        if (touches(desc.colors[i])) return true;
     }
-    return desc.layout.depthFormat != Format::None && desc.depth.texture == texture;
+    return desc.layout.depthFormat != Format::None && touches(desc.depth);
 }
 
 // ---------------------------------------------------------------------------------------------- frames, timers, groups

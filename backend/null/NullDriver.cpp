@@ -41,6 +41,7 @@ DeviceInfo describeNullDevice() {
                       .blockCompression = true,
                       .depthClamp = true,
                       .lastVertexProvokes = true,
+                      .textureViews = true,
                       .halfFloatShaders = true };
     return info;
 }

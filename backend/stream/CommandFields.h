@@ -153,10 +153,13 @@ FILAMENT_FIELDS(PipelineDesc, "PipelineDesc", FILAMENT_FIELD(PipelineDesc, progr
                 FILAMENT_FIELD(PipelineDesc, subpass), FILAMENT_FIELD(PipelineDesc, vertices),
                 FILAMENT_FIELD(PipelineDesc, raster), FILAMENT_FIELD(PipelineDesc, depthStencil),
                 FILAMENT_FIELD(PipelineDesc, blend), FILAMENT_FIELD(PipelineDesc, debugName));
+FILAMENT_FIELDS(TextureRange, "TextureRange", FILAMENT_FIELD(TextureRange, level),
+                FILAMENT_FIELD(TextureRange, levelCount), FILAMENT_FIELD(TextureRange, layer),
+                FILAMENT_FIELD(TextureRange, layerCount));
 FILAMENT_FIELDS(BindGroupEntry, "BindGroupEntry", FILAMENT_FIELD(BindGroupEntry, binding),
                 FILAMENT_FIELD(BindGroupEntry, buffer), FILAMENT_FIELD(BindGroupEntry, offset),
                 FILAMENT_FIELD(BindGroupEntry, size), FILAMENT_FIELD(BindGroupEntry, texture),
-                FILAMENT_FIELD(BindGroupEntry, sampler));
+                FILAMENT_FIELD(BindGroupEntry, sampler), FILAMENT_FIELD(BindGroupEntry, range));
 FILAMENT_FIELDS(BindGroupDesc, "BindGroupDesc", FILAMENT_FIELD(BindGroupDesc, layout),
                 FILAMENT_FIELD(BindGroupDesc, entries), FILAMENT_FIELD(BindGroupDesc, debugName));
 

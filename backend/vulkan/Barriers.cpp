@@ -113,18 +113,42 @@ void Barriers::hostRead() {
            VK_ACCESS_HOST_READ_BIT);
 }
 
-void Barriers::beginPass(uint64_t pass) {
+void Barriers::attach(Texture& texture, SubresourceRange const& range, Use use, Contents contents) {
+    image(texture, range, use, contents);
+    mAttached.push_back({ &texture, range });
+}
+
+bool Barriers::isAttached(Texture const& texture, uint32_t level, uint32_t layer) const {
+    return std::ranges::any_of(mAttached, [&](Attached const& at) {
+        return at.texture == &texture && level - at.range.level < at.range.levelCount &&
+               layer - at.range.layer < at.range.layerCount; // unsigned: below the first is far beyond the last
+    });
+}
+
+bool Barriers::settle(Texture& texture) {
+    if (std::ranges::find(mAttached, &texture, &Attached::texture) == mAttached.end()) {
+        image(texture, texture.uses.all(), Use::ShaderRead);
+        return true;
+    }
+    for (uint32_t level = 0; level < texture.levels(); ++level) {
+        for (uint32_t layer = 0; layer < texture.layers(); ++layer) {
+            if (!isAttached(texture, level, layer)) image(texture, { level, 1, layer, 1 }, Use::ShaderRead);
+        }
+    }
+    return false;
+}
+
+void Barriers::beginPass() {
     if (mTransferWrites) {
         memory(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kBufferReaders, kBufferReads);
         mTransferWrites = false;
         ++mTransferEpoch;
     }
-    std::erase_if(mUnsettled, [&](Texture* texture) {
-        if (texture->attachmentOfPass == pass) return false;
-        image(*texture, texture->uses.all(), Use::ShaderRead);
-        texture->isUnsettled = false;
-        return true;
+    std::erase_if(mUnsettled, [this](Texture* texture) {
+        texture->isUnsettled = !settle(*texture);
+        return !texture->isUnsettled;
     });
+    mAttached.clear();
 }
 
 void Barriers::memory(VkPipelineStageFlags sourceStages, VkAccessFlags written, VkPipelineStageFlags targetStages,

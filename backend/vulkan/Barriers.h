@@ -6,7 +6,7 @@
 ///                  vkCmdPipelineBarrier, or nothing. Sampled textures go back to ShaderRead together, when the next
 ///                  pass begins, so that uploads, blits and passes in a row cost one barrier, not one each.
 ///   Thread  the driver thread.
-///   Limits  a texture that is an attachment of a pass is not sampled in it.
+///   Limits  a level and layer that is an attachment of a pass is not sampled in it.
 #pragma once
 
 #include "backend/vulkan/Api.h"
@@ -85,9 +85,11 @@ public:
     void bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end);
     /// The host will read what transfers have written so far.
     void hostRead();
-    /// The next command begins a pass: transfers become visible, sampled textures except those marked with
-    /// Texture::attachmentOfPass == `pass` become readable.
-    void beginPass(uint64_t pass);
+    /// image(), for an attachment of the pass that beginPass() begins.
+    void attach(Texture& texture, SubresourceRange const& range, Use use, Contents contents);
+    /// The next command begins a pass: transfers become visible, and what shaders may sample becomes readable, except
+    /// for the attachments.
+    void beginPass();
     void endPass() { mPassesSinceTransfer = true; }
     /// A new texture that shaders may sample before anything has written it.
     void add(Texture& texture);
@@ -97,6 +99,14 @@ public:
     void flush(VolkDeviceTable const& fn, VkCommandBuffer commands);
 
 private:
+    struct Attached {
+        Texture* texture = nullptr;
+        SubresourceRange range;
+    };
+
+    bool isAttached(Texture const& texture, uint32_t level, uint32_t layer) const;
+    /// Makes all of the texture readable that is not attached; whether that is everything.
+    bool settle(Texture& texture);
     void memory(VkPipelineStageFlags sourceStages, VkAccessFlags written, VkPipelineStageFlags targetStages,
                 VkAccessFlags access);
 
@@ -106,6 +116,7 @@ private:
     std::vector<VkImageMemoryBarrier> mImages;
 
     std::vector<Texture*> mUnsettled; // sampled textures with some part not in ShaderRead
+    std::vector<Attached> mAttached;  // of the pass that is about to begin
     uint64_t mTransferEpoch = 1;      // transfers of one epoch are not ordered among each other
     bool mTransferWrites = false;     // to buffers, not yet visible to draws
     bool mPassesSinceTransfer = false;

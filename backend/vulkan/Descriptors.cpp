@@ -32,6 +32,10 @@ BindingDesc const* findBinding(BindGroupLayout const& layout, uint8_t binding) {
     return found != bindings.end() ? &*found : nullptr;
 }
 
+VkImageView inputView(ResolvedEntry const& entry) {
+    return entry.texture->attachmentView(entry.entry.range.level, entry.entry.range.layer);
+}
+
 /// The object that a binding of this type needs and the entry lacks; null if it is complete.
 const char* missingIn(BindingType type, ResolvedEntry const& entry) {
     switch (type) {
@@ -39,10 +43,10 @@ const char* missingIn(BindingType type, ResolvedEntry const& entry) {
     case BindingType::DynamicUniformBuffer:
         return entry.buffer ? nullptr : "buffer";
     case BindingType::SampledTexture:
-        if (!entry.texture || !entry.texture->isSampled()) return "sampled texture";
+        if (!entry.texture || !entry.texture->sampledView(entry.entry.range)) return "sampled texture";
         return entry.sampler ? nullptr : "sampler";
     case BindingType::InputAttachment:
-        return entry.texture ? nullptr : "input attachment";
+        return entry.texture && inputView(entry) ? nullptr : "input attachment";
     }
     return nullptr;
 }
@@ -62,9 +66,10 @@ struct DescriptorWrites {
         write.pBufferInfo = &buffers[count];
         write.pImageInfo = &images[count];
         if (binding.type == BindingType::SampledTexture) {
-            images[count] = { entry.sampler->handle(), entry.texture->sampledView(), infoOf(Use::ShaderRead).layout };
+            const VkImageView view = entry.texture->sampledView(entry.entry.range);
+            images[count] = { entry.sampler->handle(), view, infoOf(Use::ShaderRead).layout };
         } else if (binding.type == BindingType::InputAttachment) {
-            images[count] = { VK_NULL_HANDLE, entry.texture->attachmentView(0, 0), infoOf(Use::InputRead).layout };
+            images[count] = { VK_NULL_HANDLE, inputView(entry), infoOf(Use::InputRead).layout };
         } else {
             buffers[count] = { entry.buffer->handle(), entry.entry.offset, entry.entry.size };
             entry.buffer->isUsed = true; // from now on a draw may read it at any time

@@ -23,7 +23,6 @@ VkClearValue clearColor(Attachment const& attachment, Format format) {
 } // namespace
 
 Result<void> Pass::begin(PassDesc const& desc, VkCommandBuffer commands) {
-    ++mNumber;
     mLayout = desc.layout;
     mArea = desc.area;
     mColors = mResolves = {};
@@ -39,7 +38,7 @@ Result<void> Pass::begin(PassDesc const& desc, VkCommandBuffer commands) {
     }
     mUsable = true;
     prepareAttachments(desc);
-    mBarriers.beginPass(mNumber);
+    mBarriers.beginPass();
     mBarriers.flush(mDevice.fn(), commands);
     recordBegin(desc, key, framebuffer, commands);
     return {};
@@ -82,7 +81,6 @@ bool Pass::collect(PassDesc const& desc, FramebufferKey& key) {
 bool Pass::add(Texture* texture, SubresourceRange const& range, FramebufferKey& key) {
     const VkImageView view = texture ? texture->attachmentView(range.level, range.layer) : VK_NULL_HANDLE;
     if (view == VK_NULL_HANDLE) return false;
-    texture->attachmentOfPass = mNumber;
     key.views[key.viewCount++] = view;
     return true;
 }
@@ -90,10 +88,10 @@ bool Pass::add(Texture* texture, SubresourceRange const& range, FramebufferKey& 
 void Pass::prepareAttachments(PassDesc const& desc) {
     for (uint32_t i = 0; i < mLayout.colorCount; ++i) {
         const Use first = firstColorUse(mLayout, i);
-        mBarriers.image(*mColors[i], mColorRanges[i], first, contentsFor(desc.colors[i].load));
-        if (mResolves[i]) mBarriers.image(*mResolves[i], {}, Use::ColorAttachment, Contents::Discard);
+        mBarriers.attach(*mColors[i], mColorRanges[i], first, contentsFor(desc.colors[i].load));
+        if (mResolves[i]) mBarriers.attach(*mResolves[i], {}, Use::ColorAttachment, Contents::Discard);
     }
-    if (mDepth) mBarriers.image(*mDepth, mDepthRange, Use::DepthAttachment, contentsFor(desc.depth.load));
+    if (mDepth) mBarriers.attach(*mDepth, mDepthRange, Use::DepthAttachment, contentsFor(desc.depth.load));
 }
 
 void Pass::leaveAttachments() {

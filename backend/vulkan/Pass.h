@@ -50,7 +50,6 @@ private:
     Texture* mDepth = nullptr;
     std::array<SubresourceRange, kMaxColorAttachments> mColorRanges{};
     SubresourceRange mDepthRange;
-    uint64_t mNumber = 0; // passes so far
     bool mOpen = false, mUsable = false;
 };
 

@@ -89,6 +89,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     device.halfFloatShaders = half.shaderFloat16;
     DeviceInfo& info = device.info;
     info.features.mergedPasses = true; // subpasses are core
+    info.features.textureViews = true; // so are image views
     info.features.blockCompression = features.features.textureCompressionBC;
     info.features.halfFloatShaders = device.halfFloatShaders;
     info.features.lastVertexProvokes = device.provokingVertexLast;

@@ -93,7 +93,7 @@ Result<void> checkSupport(Device const& device, DeviceTextureDesc const& desc, V
 } // namespace
 
 Texture::Texture(Device& device, DeviceTextureDesc const& desc)
-        : uses(desc.levels, desc.layers), mDevice(device), mFormat(desc.format),
+        : uses(desc.levels, desc.layers), mDevice(device), mType(desc.type), mFormat(desc.format),
           mAspects(aspectsOf(desc.format)), mExtent{ desc.width, desc.height }, mLevels(desc.levels),
           mLayers(desc.layers), mName(desc.debugName) {}
 
@@ -138,24 +138,35 @@ VkResult Texture::createView(VkImageViewType type, VkImageAspectFlags aspects, S
     return result;
 }
 
-VkImageView Texture::attachmentView(uint32_t level, uint32_t layer) {
-    for (AttachmentView const& each : mAttachmentViews) {
-        if (each.level == level && each.layer == layer) return each.view;
-    }
-    AttachmentView made{ level, layer, VK_NULL_HANDLE };
-    const SubresourceRange range{ level, 1, layer, 1 };
-    if (createView(VK_IMAGE_VIEW_TYPE_2D, mAspects, range, made.view) != VK_SUCCESS) return VK_NULL_HANDLE;
-    mAttachmentViews.push_back(made);
+VkImageView Texture::partView(std::vector<PartView>& views, SubresourceRange const& range, VkImageViewType type,
+                              VkImageAspectFlags aspects) {
+    const auto known = std::ranges::find(views, range, &PartView::range);
+    if (known != views.end()) return known->view;
+    PartView made{ range };
+    if (createView(type, aspects, range, made.view) != VK_SUCCESS) return VK_NULL_HANDLE;
+    views.push_back(made);
     return made.view;
 }
 
+VkImageView Texture::sampledView(TextureRange const& range) {
+    const TextureRange part = withCounts(range, static_cast<uint8_t>(mLevels), static_cast<uint16_t>(mLayers));
+    const SubresourceRange wanted{ part.level, part.levelCount, part.layer, part.layerCount };
+    if (!isSampled() || wanted == uses.all()) return mSampledView;
+    return partView(mSampledParts, wanted, viewType(mType), copyAspectOf(mFormat));
+}
+
+VkImageView Texture::attachmentView(uint32_t level, uint32_t layer) {
+    return partView(mAttachmentViews, { level, 1, layer, 1 }, VK_IMAGE_VIEW_TYPE_2D, mAspects);
+}
+
 bool Texture::owns(VkImageView view) const {
-    return std::ranges::any_of(mAttachmentViews, [view](AttachmentView const& each) { return each.view == view; });
+    return std::ranges::find(mAttachmentViews, view, &PartView::view) != mAttachmentViews.end();
 }
 
 Texture::~Texture() {
     VolkDeviceTable const& fn = mDevice.fn();
-    for (AttachmentView const& each : mAttachmentViews) fn.vkDestroyImageView(mDevice.handle(), each.view, nullptr);
+    for (PartView const& each : mAttachmentViews) fn.vkDestroyImageView(mDevice.handle(), each.view, nullptr);
+    for (PartView const& each : mSampledParts) fn.vkDestroyImageView(mDevice.handle(), each.view, nullptr);
     fn.vkDestroyImageView(mDevice.handle(), mSampledView, nullptr);
     fn.vkDestroyImage(mDevice.handle(), mImage, nullptr);
     if (mAllocation.bytes > 0) mDevice.memory().free(mAllocation);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Texture: a VkImage with its memory and views, and the last use of every level and layer.
 ///   Thread  the driver thread.
-///   Memory  Device memory; tile memory for Transient attachments where the device has it. One view for sampling, one
-///           per level and layer that has been an attachment.
+///   Memory  Device memory; tile memory for Transient attachments where the device has it. One view for sampling
+///           everything, and one for each part that a bind group has shown or a pass has attached.
 ///   Fails   create(): OutOfMemory with name and size, Unsupported with the format and usage that the device lacks.
 #pragma once
 
@@ -21,7 +21,9 @@ public:
     ~Texture() override;
 
     VkImage image() const { return mImage; }
-    VkImageView sampledView() const { return mSampledView; } ///< null without TextureUsage::Sampled
+    /// What shaders sample; made on first use, but for the view of everything. Null without TextureUsage::Sampled, or
+    /// if the device refuses.
+    VkImageView sampledView(TextureRange const& range);
     /// 2D view of one level and layer, made on first use; null if the device refuses.
     VkImageView attachmentView(uint32_t level, uint32_t layer);
     bool owns(VkImageView view) const;
@@ -38,25 +40,27 @@ public:
 
     // Bookkeeping of Barriers.
     SubresourceUses uses;
-    uint64_t attachmentOfPass = 0; ///< running number of the last pass that it is an attachment of
-    bool isUnsettled = false;      ///< listed for a transition to Use::ShaderRead
+    bool isUnsettled = false; ///< listed for a transition to Use::ShaderRead
 
 private:
+    struct PartView {
+        SubresourceRange range;
+        VkImageView view = VK_NULL_HANDLE;
+    };
+
     Texture(Device& device, DeviceTextureDesc const& desc);
     VkResult createImage(DeviceTextureDesc const& desc);
     VkResult createView(VkImageViewType type, VkImageAspectFlags aspects, SubresourceRange const& range,
                         VkImageView& view);
-
-    struct AttachmentView {
-        uint32_t level = 0, layer = 0;
-        VkImageView view = VK_NULL_HANDLE;
-    };
+    VkImageView partView(std::vector<PartView>& views, SubresourceRange const& range, VkImageViewType type,
+                         VkImageAspectFlags aspects);
 
     Device& mDevice;
     VkImage mImage = VK_NULL_HANDLE;
     VkImageView mSampledView = VK_NULL_HANDLE;
-    std::vector<AttachmentView> mAttachmentViews;
+    std::vector<PartView> mSampledParts, mAttachmentViews;
     Allocation mAllocation;
+    TextureType mType;
     Format mFormat;
     VkImageAspectFlags mAspects;
     VkExtent2D mExtent;

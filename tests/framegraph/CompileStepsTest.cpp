@@ -93,6 +93,46 @@ TEST_F(Cull, ClearingOneLayerKeepsThePassesOfTheOthers) {
     EXPECT_EQ(result.groups[1].depth.load, LoadOp::Clear);
 }
 
+TEST_F(Cull, OfAChainOnlyTheLevelsThatAreReadAreMade) {
+    const TextureId a = chain("bloom", 4), out = backbuffer();
+    std::array<uint32_t, 4> made{};
+    made[0] = pass("top", [&](PassBuilder& p) { p.writeColor(0, a, { .overwrites = true }); });
+    for (uint8_t level = 1; level < 4; ++level) {
+        made[level] = pass("down", [&](PassBuilder& p) {
+            p.readSampled(a, backend::oneLevel(static_cast<uint8_t>(level - 1)));
+            p.writeColor(0, a, { .overwrites = true, .level = level });
+        });
+    }
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(a, backend::oneLevel(2));
+        p.writeColor(0, out);
+    });
+    const Steps result = steps();
+    const auto& decisions = result.order.decisions;
+    EXPECT_TRUE(decisions[made[0]].runs() && decisions[made[1]].runs() && decisions[made[2]].runs());
+    EXPECT_FALSE(decisions[made[3]].runs()) << "nobody reads level 3";
+    EXPECT_EQ(decisions[made[1]].because, a);
+    EXPECT_EQ(decisions[made[1]].level, 1);
+    EXPECT_EQ(decisions[made[1]].reader, made[2]);
+    EXPECT_EQ(result.lifetimes[a.index()].first, 0u);
+    EXPECT_EQ(result.lifetimes[a.index()].last, 3u) << "the memory lives as long as any of its levels";
+    for (size_t group = 0; group < 3; ++group) EXPECT_EQ(result.groups[group].colors[0].store, StoreOp::Store);
+}
+
+TEST_F(Cull, ALevelThatIsReplacedBeforeItIsReadNeedsNoFirstWriter) {
+    const TextureId a = chain("bloom", 2), out = backbuffer();
+    const uint32_t lost = pass("lost", [&](PassBuilder& p) { p.writeColor(0, a, { .level = 1 }); });
+    const uint32_t kept = pass("kept", [&](PassBuilder& p) { p.writeColor(0, a); });
+    pass("replace", [&](PassBuilder& p) { p.writeColor(0, a, { .clear = { {} }, .level = 1 }); });
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(a);
+        p.writeColor(0, out);
+    });
+    const PassOrder order = cullUnreadPasses(graph);
+    EXPECT_FALSE(order.decisions[lost].runs());
+    EXPECT_TRUE(order.decisions[kept].runs());
+}
+
 TEST_F(Cull, AMarkedOutputKeepsItsPass) {
     const TextureId a = color("a");
     const uint32_t writer = pass("writer", [&](PassBuilder& p) { p.writeColor(0, a); });
@@ -205,6 +245,24 @@ TEST_F(LoadStore, LevelsOfATextureAreFollowedOneByOne) {
     EXPECT_EQ(s.groups[1].height, 16u);
     EXPECT_EQ(s.groups[2].colors[0].load, LoadOp::Load);
     for (int i = 0; i < 3; ++i) EXPECT_EQ(s.groups[i].colors[0].store, StoreOp::Store);
+}
+
+TEST_F(LoadStore, ALevelThatNobodySamplesIsNotStoredForTheSakeOfAnother) {
+    const TextureId a = chain("bloom", 2), ldr = color("ldr"), out = backbuffer();
+    pass("both", [&](PassBuilder& p) {
+        p.writeColor(0, a);
+        p.writeColor(1, ldr);
+    });
+    pass("level 1", [&](PassBuilder& p) { p.writeColor(0, a, { .level = 1 }); });
+    pass("show", [&](PassBuilder& p) {
+        p.readSampled(a, backend::oneLevel(1));
+        p.readSampled(ldr);
+        p.writeColor(0, out);
+    });
+    const Steps result = steps();
+    ASSERT_EQ(result.groups.size(), 3u);
+    EXPECT_EQ(result.groups[0].colors[0].store, StoreOp::Discard);
+    EXPECT_EQ(result.groups[1].colors[0].store, StoreOp::Store);
 }
 
 TEST_F(LoadStore, AnUploadCountsAsAWrite) {

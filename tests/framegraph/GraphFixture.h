@@ -35,6 +35,11 @@ protected:
     TextureId depth(std::string_view name) {
         return graph.createTexture({ .width = 64, .height = 32, .format = Format::D32F, .name = name });
     }
+    /// Levels of 64 x 32, 32 x 16, ...
+    TextureId chain(std::string_view name, uint8_t levels) {
+        return graph.createTexture(
+                { .width = 64, .height = 32, .format = Format::RGBA16F, .levels = levels, .name = name });
+    }
     TextureId backbuffer(InitialContents contents = InitialContents::Undefined) {
         return graph.importTexture(backend::TextureHandle::make(77, 1),
                                    { .width = 64, .height = 32, .format = Format::RGBA16F, .name = "backbuffer" },

@@ -149,6 +149,37 @@ TEST_F(MergePasses, NotIfTheLaterPassAlsoSamplesWhatTheEarlierOneWrote) {
     EXPECT_EQ(outcome(), Merge::ReadsElsewhere);
 }
 
+TEST_F(MergePasses, SamplingAnotherLevelOfAnAttachmentIsNoObstacle) {
+    const TextureId hdr = color("hdr"), a = chain("bloom", 2), out = backbuffer();
+    pass("fill", [&](PassBuilder& p) { p.writeColor(0, a, { .level = 1 }); });
+    pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr); });
+    const uint32_t both = pass("tone map", [&](PassBuilder& p) {
+        p.readInput(hdr);
+        p.readSampled(a, backend::oneLevel(1));
+        p.writeColor(0, out);
+        p.writeColor(1, a);
+    });
+    const Steps result = steps();
+    EXPECT_EQ(result.order.decisions[both].merge, Merge::Merged);
+}
+
+TEST_F(MergePasses, AnInputIsOneLevelOfItsTexture) {
+    const TextureId a = chain("bloom", 2), out = color("out", 32);
+    graph.markOutput(out);
+    pass("level 1", [&](PassBuilder& p) { p.writeColor(0, a, { .level = 1 }); });
+    const TextureId half =
+            graph.createTexture({ .width = 32, .height = 16, .format = Format::RGBA16F, .name = "half" });
+    graph.markOutput(half);
+    const uint32_t reader = pass("read", [&](PassBuilder& p) {
+        p.readInput(a, 1);
+        p.writeColor(0, half);
+    });
+    const Steps result = steps();
+    EXPECT_EQ(result.order.decisions[reader].merge, Merge::Merged);
+    EXPECT_EQ(result.groups[0].subpasses[1].inputMask, 1);
+    EXPECT_EQ(result.groups[0].colors[0].level, 1);
+}
+
 TEST_F(MergePasses, NotIfTheLaterPassWritesWhatTheEarlierOneSamples) {
     const TextureId hdr = color("hdr"), history = color("history");
     pass("before", [&](PassBuilder& p) { p.writeColor(0, history); });

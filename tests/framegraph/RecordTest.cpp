@@ -219,6 +219,56 @@ TEST_F(Record, AFrameAfterARehearsalIsTheSame) {
     EXPECT_EQ(frame(), "create hdr\nbegin color + tone map\npush color\npop\nnext\npush tone map\npop\nend\n");
 }
 
+TEST_F(Record, PassesSampleTheLevelAboveTheOneThatTheyWrite) {
+    const TextureId a = chain("bloom", 3), out = target();
+    BindGroupLayout sampled;
+    sampled.bindings[0] = { .binding = 0, .type = BindingType::SampledTexture, .stages = ShaderStage::Fragment };
+    sampled.count = 1;
+    std::vector<TextureRange> shown;
+    const SamplerHandle sampler = stream->allocateSampler();
+    graph.addPass(
+            "top", [&](PassBuilder& b) { b.writeColor(0, a, { .clear = { {} } }); }, [](PassContext&) {});
+    for (uint8_t level = 1; level < 3; ++level) {
+        graph.addPass(
+                "down",
+                [&](PassBuilder& b) {
+                    b.readSampled(a, oneLevel(static_cast<uint8_t>(level - 1)));
+                    b.writeColor(0, a, { .overwrites = true, .level = level });
+                },
+                [=](PassContext& c) {
+                    if (level == 1) c.commands().record(CmdCreateSampler{ sampler, {} });
+                    const BindGroupEntry above{ .texture = c.texture(a),
+                                                .sampler = sampler,
+                                                .range = oneLevel(static_cast<uint8_t>(level - 1)) };
+                    return c.bindGroup(sampled, { &above, 1 }, "above");
+                },
+                [](PassContext&, BindGroupHandle group) { EXPECT_TRUE(group); });
+    }
+    graph.addPass(
+            "show",
+            [&](PassBuilder& b) {
+                b.readSampled(a, oneLevel(2));
+                b.writeColor(0, out, { .overwrites = true });
+            },
+            [=](PassContext& c) {
+                c.commands().record(CmdDestroySampler{ sampler });
+                return 0;
+            },
+            [](PassContext&, int) {});
+    frame();
+    stream->free(sampler);
+    ASSERT_EQ(descs.size(), 4u);
+    EXPECT_EQ(descs[1].colors[0].level, 1);
+    EXPECT_EQ(descs[2].area, (Rect{ 0, 0, 16, 8 }));
+    EXPECT_EQ(pool->bindGroupCount(), 2u) << "two parts of one texture are two bind groups";
+    EXPECT_EQ(pool->textureCount(), 1u);
+    for (const char* line : { "1 'down' runs: 'bloom' level 1 is read by 'down'",
+                              "colour 0 'bloom' level 2: discard, store", "reads 'bloom' level 1\n" }) {
+        EXPECT_NE(explained.find(line), std::string::npos) << line << " is not in\n" << explained;
+    }
+    EXPECT_NE(graphviz.find("t0 -> p2 [label=\"level 1\"];"), std::string::npos) << graphviz;
+}
+
 TEST_F(Record, TimersMeasureGroups) {
     std::vector<PassTimer> timers;
     declareTwoPasses(false);
@@ -405,6 +455,24 @@ TEST_F(PassContextDeathTest, UsingATextureThatThePassDidNotDeclare) {
             "draw", [&](PassBuilder& b) { b.writeColor(0, out); }, [=](PassContext& c) { c.texture(a); });
     EXPECT_DEATH(frame(), "pass 'draw': uses texture 'a' without having declared it");
     graph.reset();
+}
+
+TEST_F(PassContextDeathTest, ShowingAnotherLevelThanTheDeclaredOne) {
+    const TextureId a = chain("bloom", 2), out = target();
+    graph.addPass(
+            "fill", [&](PassBuilder& b) { b.writeColor(0, a); }, [](PassContext&) {});
+    graph.addPass(
+            "show",
+            [&](PassBuilder& b) {
+                b.readSampled(a, oneLevel(0));
+                b.writeColor(0, out);
+            },
+            [=](PassContext& c) {
+                const BindGroupEntry entry{ .texture = c.texture(a) };
+                return c.bindGroup({}, { &entry, 1 }, "levels");
+            },
+            [](PassContext&, BindGroupHandle) {});
+    EXPECT_DEATH(frame(), "pass 'show': bind group 'levels' shows another part of texture 'bloom' than the pass");
 }
 
 TEST_F(PassContextDeathTest, MakingABindGroupInsideOfAPass) {

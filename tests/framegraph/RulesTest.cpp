@@ -153,6 +153,69 @@ TEST_F(GraphRulesDeathTest, ReadingInputsWithoutAttachments) {
     EXPECT_DEATH(checkDeclarations(graph), "pass 'read': reads the current pixel of an input, but has no attachments");
 }
 
+// ---------------------------------------------------------------------------------------------- levels and layers
+
+TEST_F(GraphRulesDeathTest, ReadingALevelThatNobodyWrites) {
+    const TextureId a = chain("bloom", 3), out = backbuffer();
+    pass("write", [&](PassBuilder& p) { p.writeColor(0, a, { .level = 1 }); });
+    pass("read", [&](PassBuilder& p) {
+        p.readSampled(a, { .level = 1 });
+        p.writeColor(0, out);
+    });
+    EXPECT_DEATH(checkDeclarations(graph), "pass 'read' reads texture 'bloom' level 2, which no pass writes");
+}
+
+TEST_F(GraphRulesDeathTest, ReadingALevelBeforeItIsWritten) {
+    const TextureId a = chain("bloom", 3);
+    pass("top", [&](PassBuilder& p) { p.writeColor(0, a); });
+    pass("down 2", [&](PassBuilder& p) {
+        p.readSampled(a, backend::oneLevel(1));
+        p.writeColor(0, a, { .level = 2 });
+    });
+    pass("down 1", [&](PassBuilder& p) {
+        p.readSampled(a, backend::oneLevel(0));
+        p.writeColor(0, a, { .level = 1 });
+    });
+    EXPECT_DEATH(checkDeclarations(graph),
+                 "pass 'down 2' reads texture 'bloom' level 1 before pass 'down 1' writes it");
+}
+
+TEST_F(GraphRulesDeathTest, SamplingTheLevelThatIsAttached) {
+    const TextureId a = chain("bloom", 3);
+    pass("top", [&](PassBuilder& p) { p.writeColor(0, a); });
+    pass("next", [&](PassBuilder& p) { p.writeColor(0, a, { .level = 1 }); });
+    pass("feedback", [&](PassBuilder& p) {
+        p.readSampled(a, { .level = 0, .levelCount = 2 });
+        p.writeColor(0, a, { .level = 1 });
+    });
+    EXPECT_DEATH(checkDeclarations(graph), "pass 'feedback': texture 'bloom' level 1 is attached and read at the same");
+}
+
+TEST_F(GraphRulesDeathTest, RangesThatLeaveTheTexture) {
+    const TextureId a = chain("bloom", 3), out = backbuffer();
+    pass("write", [&](PassBuilder& p) { p.writeColor(0, a); });
+    pass("read", [&](PassBuilder& p) {
+        p.readSampled(a, { .level = 1, .levelCount = 3 });
+        p.writeColor(0, out);
+    });
+    EXPECT_DEATH(checkDeclarations(graph),
+                 "pass 'read': texture 'bloom' has 3 levels and 1 layers; declared are 3 from 1 and 1 from 0");
+    graph.reset();
+    const TextureId b = chain("bloom", 3);
+    pass("read", [&](PassBuilder& p) { p.readTransfer(b, { .level = 3 }); });
+    EXPECT_DEATH(checkDeclarations(graph), "declared are 0 from 3");
+}
+
+TEST_F(GraphRulesDeathTest, ResolvingToTheLevelThatIsSampled) {
+    const TextureId ms = color("ms", 64, 4), a = chain("bloom", 2);
+    pass("fill", [&](PassBuilder& p) { p.writeColor(0, a, { .clear = { {} } }); });
+    pass("draw", [&](PassBuilder& p) {
+        p.readSampled(a, backend::oneLevel(0));
+        p.writeColor(0, ms, { .resolve = a });
+    });
+    EXPECT_DEATH(checkDeclarations(graph), "pass 'draw': texture 'bloom' is a resolve target and something else");
+}
+
 TEST_F(GraphRulesDeathTest, ForgottenNamesSizesAndHandles) {
     EXPECT_DEATH(graph.createTexture({ .width = 1, .height = 1 }), "has a name");
     EXPECT_DEATH(graph.createTexture({ .width = 0, .height = 1, .name = "thin" }),

@@ -336,6 +336,20 @@ std::vector<Case> groupCases() {
           "'color' lacks TextureUsage::Sampled" },
         { "CompareOnColor", [](C& to) { recordGroupWith(to, [](auto& e) { e[1].sampler = kCompare; }); },
           "a comparing sampler needs a depth format", Outcome::Forwarded },
+        { "RangeBeyondTheTexture", [](C& to) { recordGroupWith(to, [](auto& e) {
+                                                   e[1].range = { 3, 2, 0, 1 };
+                                               }); },
+          "2 levels from 3 and 1 layers from 0 of texture 'image', which has 4 and 1" },
+        { "RangeFromBeyondTheTexture", [](C& to) { recordGroupWith(to, [](auto& e) { e[1].range.layer = 1; }); },
+          "0 layers from 1 of texture 'image'" },
+        { "SomeLayersOfACube",
+          [](C& to) {
+              to.record(textureWith([](auto& d) { d.type = TextureType::Cube, d.layers = 6, d.height = d.width; }));
+              recordGroupWith(to, [](auto& e) {
+                  e[1].texture = TextureHandle::make(20, 1), e[1].range = { 0, 1, 0, 5 };
+              });
+          },
+          "shows all of its 6 layers, not 5" },
         { "MissingSampler", [](C& to) { recordGroupWith(to, [](auto& e) { e[1].sampler = {}; }); },
           "the sampler is none" },
     };
@@ -588,6 +602,25 @@ std::vector<Case> drawCases() {
               });
           },
           "samples 'depth', an attachment of this pass", Outcome::Forwarded },
+        { "SamplesTheLevelThatItAttaches",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.usage = TextureUsage::Sampled | TextureUsage::ColorAttachment, d.levels = 2,
+                  d.width = d.height = 32;
+              }));
+              recordGroupWith(to, [](auto& e) { e[1].texture = TextureHandle::make(20, 1), e[1].range = oneLevel(1); });
+              PassDesc desc = passDesc();
+              desc.colors[0] = { .texture = TextureHandle::make(20, 1), .level = 1 };
+              inPass(
+                      to,
+                      [](C& in) {
+                          in.record(
+                                  CmdBindGroup{ .group = BindGroupHandle::make(20, 1), .index = 1, .dynamicCount = 1 });
+                          in.record(CmdDraw{ .vertexCount = 3 });
+                      },
+                      desc);
+          },
+          "an attachment of this pass", Outcome::Forwarded },
         { "GroupOfADestroyedTexture",
           [](C& to) {
               to.record(CmdDestroyTexture{ kImage });
