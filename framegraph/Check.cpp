@@ -64,8 +64,7 @@ public:
             : mGraph(graph), mSubresources(graph), mWritten(graph.arena().array<bool>(mSubresources.count())) {
         for (uint32_t i = 0; i < graph.textures().size(); ++i) {
             Texture const& texture = graph.textures()[i];
-            const bool isFilled = texture.isImported && texture.contents == InitialContents::Keep;
-            if (isFilled) add({ i + 1 }, Subresources::all(texture.desc));
+            if (texture.contents == InitialContents::Keep) add({ i + 1 }, Subresources::all(texture.desc));
         }
     }
 
@@ -170,6 +169,14 @@ void checkPairs(FrameGraph const& graph, Pass const& pass, Access const& a, std:
     }
 }
 
+void checkNotPrevious(FrameGraph const& graph, Pass const& pass, Access const& access) {
+    for (const TextureId written : { isPureRead(access.kind) ? TextureId{} : access.texture, access.resolve }) {
+        require(!written || graph.texture(written).history != HistoryRole::Previous,
+                "pass '{}': writes texture '{}', which a frame before this one left; write the current one", pass.name,
+                graph.texture(written ? written : access.texture).desc.name);
+    }
+}
+
 void checkRoles(FrameGraph const& graph, Pass const& pass) {
     const std::span<const Access> accesses = graph.accesses(pass);
     bool attaches = false, transfers = false, reads = false;
@@ -180,6 +187,7 @@ void checkRoles(FrameGraph const& graph, Pass const& pass) {
         transfers |= access.kind == AccessKind::TransferRead || access.kind == AccessKind::TransferWrite;
         require(isAttachment(access.kind) || desc.samples == 1,
                 "pass '{}': reads multisampled texture '{}'; resolve it and read the target", pass.name, desc.name);
+        checkNotPrevious(graph, pass, access);
         checkPairs(graph, pass, access, accesses);
     }
     require(attaches || !reads, "pass '{}': reads the current pixel of an input, but has no attachments", pass.name);

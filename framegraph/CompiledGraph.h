@@ -92,6 +92,7 @@ struct TexturePlan {
     Lifetime lifetime;
     backend::TextureUsage usage{};
     backend::TextureHandle handle; ///< none if unused
+    uint32_t historyAge = 0;       ///< HistoryRole::Previous: see PassContext::historyAge()
 };
 
 struct CompiledGraph {

@@ -132,6 +132,11 @@ void putGroups(Text text, CompiledGraph const& plan) {
     }
 }
 
+const char* originOf(Texture const& texture) {
+    if (texture.history != HistoryRole::None) return ", history";
+    return texture.isImported ? ", imported" : texture.isOutput ? ", output" : "";
+}
+
 // Other transients behind the same handle.
 void putSharing(Text text, CompiledGraph const& plan, size_t texture) {
     const char* before = ", shares memory with ";
@@ -150,14 +155,19 @@ void putTextures(Text text, CompiledGraph const& plan) {
         fmt::format_to(text, "  '{}' {} x {} {}", texture.desc.name, texture.desc.width, texture.desc.height,
                        backend::formatInfo(texture.desc.format).name);
         if (texture.desc.samples > 1) fmt::format_to(text, " {} samples", texture.desc.samples);
-        fmt::format_to(text, "{}", texture.isImported ? ", imported" : texture.isOutput ? ", output" : "");
+        fmt::format_to(text, "{}", originOf(texture));
         if (!of.lifetime.isUsed()) {
             fmt::format_to(text, ", unused\n");
             continue;
         }
         fmt::format_to(text, ", groups {} to {}", of.lifetime.first, of.lifetime.last);
         if (has(of.usage, backend::TextureUsage::Transient)) fmt::format_to(text, ", never leaves the tile");
-        if (!texture.isImported) putSharing(text, plan, i);
+        if (texture.history == HistoryRole::Current) fmt::format_to(text, ", kept for the next frame");
+        if (texture.history == HistoryRole::Previous && of.historyAge == 0)
+            fmt::format_to(text, ", no frame before: cleared");
+        if (texture.history == HistoryRole::Previous && of.historyAge > 0)
+            fmt::format_to(text, ", written {} graph(s) ago", of.historyAge);
+        if (!texture.isImported && texture.history == HistoryRole::None) putSharing(text, plan, i);
         fmt::format_to(text, "\n");
     }
 }

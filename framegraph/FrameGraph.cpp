@@ -3,6 +3,8 @@
 
 #include "framegraph/Require.h"
 
+#include <algorithm>
+
 namespace filament::framegraph {
 namespace {
 
@@ -37,6 +39,25 @@ TextureId FrameGraph::importTexture(backend::TextureHandle texture, GraphTexture
     require(static_cast<bool>(texture), "texture '{}': imported without a handle", desc.name);
     return addTexture(
             { .desc = desc, .imported = texture, .isImported = true, .contents = contents, .isOutput = true });
+}
+
+History FrameGraph::history(GraphTextureDesc const& desc, std::array<float, 4> const& clear) {
+    require(backend::formatInfo(desc.format).isRenderable && desc.samples == 1,
+            "history '{}': needs a renderable format and one sample a pixel", desc.name);
+    for (Texture const& other : mTextures) {
+        require(other.history != HistoryRole::Current || other.desc.name != desc.name,
+                "history '{}': declared twice in one graph; declare it once and hand on its textures", desc.name);
+    }
+    constexpr std::string_view kPrevious = "previous ";
+    const std::span<char> name = mArena.array<char>(kPrevious.size() + desc.name.size());
+    desc.name.copy(std::ranges::copy(kPrevious, name.data()).out, desc.name.size());
+    GraphTextureDesc previous = desc;
+    previous.name = { name.data(), name.size() };
+    return { .previous = addTexture({ .desc = previous,
+                                      .contents = InitialContents::Keep,
+                                      .history = HistoryRole::Previous,
+                                      .clear = clear }),
+             .current = addTexture({ .desc = desc, .isOutput = true, .history = HistoryRole::Current }) };
 }
 
 void FrameGraph::markOutput(TextureId texture) {

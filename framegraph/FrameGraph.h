@@ -85,12 +85,22 @@ struct Access {
     TextureId resolve{};
 };
 
+enum class HistoryRole : uint8_t { None, Previous, Current };
+
 struct Texture {
     GraphTextureDesc desc;
     backend::TextureHandle imported{};
     bool isImported = false;
     InitialContents contents = InitialContents::Undefined;
-    bool isOutput = false; ///< wanted after the last pass: imported or marked
+    bool isOutput = false; ///< wanted after the last pass: imported, marked, or what the next frame calls previous
+    HistoryRole history = HistoryRole::None; ///< Previous: the texture declared next is its Current
+    std::array<float, 4> clear{};            ///< Previous: what it holds where there is no frame before
+};
+
+/// A picture that outlives its frame.
+struct History {
+    TextureId previous; ///< as a frame before this one left it; only read
+    TextureId current;  ///< of this frame: written first, then read like any texture; previous of the next frame
 };
 
 struct Pass {
@@ -144,6 +154,12 @@ public:
     TextureId createTexture(GraphTextureDesc const& desc);
     /// A texture that exists outside. What passes write to it is kept.
     TextureId importTexture(backend::TextureHandle texture, GraphTextureDesc const& desc, InitialContents contents);
+    /// A picture that is kept from frame to frame under desc.name, with two textures of the pool that swap roles
+    /// whenever `current` was written. Without a frame before this one, or with one whose description was another,
+    /// `previous` is filled with `clear` (for depth formats {depth, stencil}) before the first pass:
+    /// PassContext::historyAge() tells. The textures share no memory with others, and go when TransientPool's
+    /// keepFrames graphs have not asked for them.
+    History history(GraphTextureDesc const& desc, std::array<float, 4> const& clear = {});
     /// The contents are needed after the frame although no pass reads them. Imported textures are always outputs.
     void markOutput(TextureId texture);
 

@@ -46,6 +46,25 @@ backend::DeviceTextureDesc descOf(GraphTextureDesc const& desc, TextureUsage usa
              .debugName = desc.name };
 }
 
+// Both textures take each role in turn, and which passes of a frame run may change: so every usage that they may have.
+TextureUsage historyUsage(backend::Format format) {
+    using enum TextureUsage;
+    return backend::hasDepth(format) ? Sampled | DepthAttachment | TransferSource
+                                     : Sampled | ColorAttachment | InputAttachment | TransferSource | TransferTarget;
+}
+
+void assignHistory(FrameGraph const& graph, size_t previous, std::span<TexturePlan> plans, TransientPool& pool) {
+    TexturePlan& from = plans[previous];
+    TexturePlan& to = plans[previous + 1];
+    if (!from.lifetime.isUsed() && !to.lifetime.isUsed()) return;
+    GraphTextureDesc const& desc = graph.textures()[previous + 1].desc;
+    from.usage = to.usage = historyUsage(desc.format);
+    const PooledHistory pair = pool.history(descOf(desc, to.usage), to.lifetime.isUsed());
+    from.handle = pair.previous;
+    from.historyAge = pair.age;
+    to.handle = pair.current;
+}
+
 } // namespace
 
 std::span<Lifetime> firstAndLastUse(FrameGraph const& graph, PassOrder const& order,
@@ -101,9 +120,13 @@ std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const
     for (const uint32_t i : byFirstUse) {
         Texture const& texture = graph.textures()[i];
         plans[i] = { lifetimes[i], usage[i], texture.imported };
-        if (texture.isImported || !lifetimes[i].isUsed()) continue;
+        const bool isPooled = !texture.isImported && texture.history == HistoryRole::None;
+        if (!isPooled || !lifetimes[i].isUsed()) continue;
         const uint32_t last = texture.isOutput ? kNone : lifetimes[i].last; // an output outlives the last group
         plans[i].handle = pool.acquire(descOf(texture.desc, usage[i]), lifetimes[i].first, last);
+    }
+    for (size_t i = 0; i < plans.size(); ++i) {
+        if (graph.textures()[i].history == HistoryRole::Previous) assignHistory(graph, i, plans, pool);
     }
     return plans;
 }

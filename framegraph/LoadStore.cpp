@@ -22,8 +22,7 @@ bool isResolvedTo(Access const& access, GroupAttachment const& attachment) {
 
 bool isWrittenBefore(FrameGraph const& graph, PassOrder const& order, std::span<const PassGroup> earlier,
                      GroupAttachment const& attachment) {
-    Texture const& texture = graph.texture(attachment.texture);
-    if (texture.isImported && texture.contents == InitialContents::Keep) return true;
+    if (graph.texture(attachment.texture).contents == InitialContents::Keep) return true;
     for (PassGroup const& group : earlier) {
         for (const uint32_t pass : passesOf(order, group)) {
             for (Access const& access : graph.accesses(graph.passes()[pass])) {

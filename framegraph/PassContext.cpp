@@ -32,6 +32,14 @@ GraphTextureDesc const& PassContext::desc(TextureId id) const {
     return mPlan.graph->texture(id).desc;
 }
 
+uint32_t PassContext::historyAge(TextureId previous) const {
+    requireDeclared(previous);
+    require(mPlan.graph->texture(previous).history == HistoryRole::Previous,
+            "pass '{}': texture '{}' is not the previous one of a history", mPlan.graph->passes()[mPass].name,
+            mPlan.graph->texture(previous).desc.name);
+    return mPlan.textures[previous.index()].historyAge;
+}
+
 backend::PassLayout const& PassContext::passLayout() const { return mPlan.groups[mPlan.passes[mPass].group].layout; }
 
 uint8_t PassContext::subpass() const { return mPlan.passes[mPass].subpass; }

@@ -77,6 +77,10 @@ public:
     backend::TextureHandle texture(TextureId id) const;
     GraphTextureDesc const& desc(TextureId id) const;
 
+    /// How many graphs ago History::previous, which this pass declared, was written: 1 for the graph before this one.
+    /// 0: never, or with another description; it holds the clear value.
+    uint32_t historyAge(TextureId previous) const;
+
     /// The layout for pipelines of this pass. Passes without attachments have none.
     backend::PassLayout const& passLayout() const;
     uint8_t subpass() const;

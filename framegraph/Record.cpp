@@ -5,6 +5,8 @@
 #include "backend/stream/RecordingGuards.h"
 #include "framegraph/Require.h"
 
+#include <algorithm>
+
 namespace filament::framegraph {
 namespace {
 
@@ -61,10 +63,40 @@ void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup c
     wholePass.complete();
 }
 
+// Histories without a frame before this one: their previous textures get the clear value, level by level.
+void clearHistory(CommandBuffer& commands, Texture const& texture, TextureHandle handle) {
+    GraphTextureDesc const& desc = texture.desc;
+    PassDesc pass;
+    const bool isDepth = hasDepth(desc.format);
+    Attachment& attachment = isDepth ? pass.depth : pass.colors[0];
+    pass.layout.colorCount = isDepth ? 0 : 1;
+    (isDepth ? pass.layout.depthFormat : pass.layout.colorFormats[0]) = desc.format;
+    pass.debugName = desc.name;
+    for (uint8_t level = 0; level < desc.levels; ++level) {
+        for (uint16_t layer = 0; layer < desc.layers; ++layer) {
+            attachment = { .texture = handle, .level = level, .layer = layer, .clear = texture.clear };
+            pass.area = { 0, 0, std::max(1u, desc.width >> level), std::max(1u, desc.height >> level) };
+            AllOrNothing wholePass(commands);
+            commands.record(CmdBeginPass{ pass });
+            commands.record(CmdEndPass{});
+            wholePass.complete();
+        }
+    }
+}
+
+void clearHistories(CommandBuffer& commands, CompiledGraph const& plan) {
+    for (size_t i = 0; i < plan.textures.size(); ++i) {
+        Texture const& texture = plan.graph->textures()[i];
+        const bool isNew = texture.history == HistoryRole::Previous && plan.textures[i].historyAge == 0;
+        if (isNew && plan.textures[i].lifetime.isUsed()) clearHistory(commands, texture, plan.textures[i].handle);
+    }
+}
+
 } // namespace
 
 void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<PassTimer>* timers, RangeRecorder* ranges) {
     plan.pool->recordCreations(commands);
+    clearHistories(commands, plan);
     if (timers) timers->clear();
     for (PassGroup const& group : plan.groups) {
         if (!timers) {
@@ -77,6 +109,7 @@ void record(CommandBuffer& commands, CompiledGraph const& plan, std::vector<Pass
         const InReserve<CmdEndTimer> end{ commands, { ticket } };
         recordGroup(commands, plan, group, ranges);
     }
+    plan.pool->keepHistory();
     plan.pool->recordEvictions(commands);
 }
 

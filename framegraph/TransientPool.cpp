@@ -2,9 +2,11 @@
 #include "framegraph/TransientPool.h"
 
 #include "backend/stream/CommandStream.h"
+#include "backend/stream/RecordingGuards.h"
 #include "base/Assert.h"
 
 #include <algorithm>
+#include <utility>
 
 namespace filament::framegraph {
 namespace {
@@ -20,7 +22,7 @@ TransientPool::TransientPool(backend::CommandStream& stream, uint32_t keepFrames
         : mStream(stream), mKeepFrames(keepFrames) {}
 
 TransientPool::~TransientPool() {
-    FILAMENT_ASSERT(mTextures.empty() && mBindGroups.empty(),
+    FILAMENT_ASSERT(mTextures.empty() && mHistories.empty() && mOutdated.empty() && mBindGroups.empty(),
                     "TransientPool::destroyAll() comes before the destructor");
 }
 
@@ -41,6 +43,46 @@ backend::TextureHandle TransientPool::acquire(backend::DeviceTextureDesc const& 
     found->lastGraph = mGraph;
     found->busyUntil = last;
     return found->handle;
+}
+
+TransientPool::KeptHistory TransientPool::newHistory(backend::DeviceTextureDesc const& desc) {
+    backend::NewHandle first(mStream, mStream.allocateTexture()), second(mStream, mStream.allocateTexture());
+    KeptHistory made{ .name = std::string(desc.debugName), .desc = desc, .handles = { first, second } };
+    made.desc.debugName = {}; // lives no longer than the graph
+    first.keep();
+    second.keep();
+    return made;
+}
+
+PooledHistory TransientPool::history(backend::DeviceTextureDesc const& desc, bool writes) {
+    auto found = std::ranges::find(mHistories, desc.debugName, &KeptHistory::name);
+    if (found == mHistories.end()) {
+        mHistories.reserve(mHistories.size() + 1); // newHistory() is the last that may fail
+        mHistories.push_back(newHistory(desc));
+        found = mHistories.end() - 1;
+    } else if (!isSameButForTheName(found->desc, desc)) {
+        mOutdated.reserve(mOutdated.size() + 1);
+        mOutdated.push_back(std::exchange(*found, newHistory(desc)));
+    }
+    found->lastGraph = mGraph;
+    found->isWritten = writes;
+    const uint64_t age = found->writtenGraph > 0 ? mGraph - found->writtenGraph : 0;
+    return { found->handles[found->previous], found->handles[1 - found->previous], static_cast<uint32_t>(age) };
+}
+
+void TransientPool::keepHistory() {
+    for (KeptHistory& history : mHistories) {
+        if (history.lastGraph != mGraph || !history.isWritten) continue;
+        history.previous = static_cast<uint8_t>(1 - history.previous);
+        history.writtenGraph = mGraph;
+        history.isWritten = false;
+    }
+}
+
+void TransientPool::destroy(backend::CommandBuffer& commands, KeptHistory const& history) {
+    for (const backend::TextureHandle handle : history.handles) {
+        history.isCreated ? mStream.destroy(commands, handle) : mStream.free(handle);
+    }
 }
 
 backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& commands,
@@ -78,6 +120,21 @@ void TransientPool::recordCreations(backend::CommandBuffer& commands) {
         pooled.isCreated = true;
         pooled.desc.debugName = {}; // lives no longer than the graph
     }
+    for (KeptHistory& history : mHistories) {
+        if (history.isCreated || history.lastGraph != mGraph) continue;
+        createHistory(commands, history);
+    }
+}
+
+void TransientPool::createHistory(backend::CommandBuffer& commands, KeptHistory& history) {
+    backend::AllOrNothing both(commands);
+    backend::DeviceTextureDesc desc = history.desc;
+    desc.debugName = history.name;
+    for (const backend::TextureHandle handle : history.handles) {
+        commands.record(backend::CmdCreateTexture{ handle, desc });
+    }
+    both.complete();
+    history.isCreated = true;
 }
 
 void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
@@ -87,6 +144,13 @@ void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
         mStream.destroy(commands, pooled.handle);
         return true;
     });
+    std::erase_if(mHistories, [&](KeptHistory const& history) {
+        if (!isStale(history)) return false;
+        destroy(commands, history);
+        return true;
+    });
+    for (KeptHistory const& history : mOutdated) destroy(commands, history);
+    mOutdated.clear();
     std::erase_if(mTextures, [&](PooledTexture const& pooled) {
         if (!isStale(pooled)) return false;
         pooled.isCreated ? mStream.destroy(commands, pooled.handle) : mStream.free(pooled.handle);
