@@ -40,6 +40,7 @@ backend::PassLayout layoutOf(FrameGraph const& graph, PassGroup const& group) {
         if (group.colors[i].resolve) layout.resolveMask = static_cast<uint8_t>(layout.resolveMask | 1u << i);
     }
     if (group.depth.texture) layout.depthFormat = graph.texture(group.depth.texture).desc.format;
+    layout.resolvesDepth = static_cast<bool>(group.depth.resolve);
     return layout;
 }
 

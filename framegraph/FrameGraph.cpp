@@ -100,7 +100,8 @@ void PassBuilder::writeDepth(TextureId texture, DepthTarget const& target) {
                             .kind = AccessKind::Depth,
                             .previous = previousOf(target.clear.has_value(), target.overwrites),
                             .range = { target.level, 1, target.layer, 1 },
-                            .clear = { target.clear.value_or(0.0f), static_cast<float>(target.clearStencil), 0, 0 } });
+                            .clear = { target.clear.value_or(0.0f), static_cast<float>(target.clearStencil), 0, 0 },
+                            .resolve = target.resolve });
 }
 
 void PassBuilder::testDepth(TextureId texture, uint8_t level, uint16_t layer) {

@@ -97,7 +97,7 @@ std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& or
             TextureUsage& of = usage[access.texture.index()];
             of = of | usageOf(access.kind, merged);
             if (!access.resolve) continue;
-            usage[access.resolve.index()] = usage[access.resolve.index()] | TextureUsage::ColorAttachment;
+            usage[access.resolve.index()] = usage[access.resolve.index()] | usageOf(access.kind, false);
             isResolved[access.resolve.index()] = true;
         }
     }

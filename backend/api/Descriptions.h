@@ -163,7 +163,8 @@ struct PassLayout {
     Format depthFormat = Format::None;
     uint8_t colorCount = 0;
     uint8_t samples = 1;
-    uint8_t resolveMask = 0; ///< colour attachments with a resolve target
+    uint8_t resolveMask = 0;    ///< colour attachments with a resolve target: the average of the samples
+    bool resolvesDepth = false; ///< the depth attachment has one: the value of sample 0
     uint8_t subpassCount = 1;
     std::array<SubpassDesc, kMaxSubpasses> subpasses{};
     friend bool operator==(PassLayout const&, PassLayout const&) = default;
@@ -179,7 +180,7 @@ struct Attachment {
     LoadOp load = LoadOp::Clear;
     StoreOp store = StoreOp::Store;
     std::array<float, 4> clear{}; ///< colour, or {depth, stencil, -, -}
-    TextureHandle resolve;        ///< colour only: single-sampled target, level 0 layer 0
+    TextureHandle resolve;        ///< single-sampled target, level 0 layer 0; depth: of a format without stencil
 };
 
 /// Attachment i of `colors` has layout.colorFormats[i]. All have the size of `area` or are larger.

@@ -7,27 +7,26 @@
 #pragma once
 
 #include "backend/gles/Framebuffers.h"
+#include "backend/gles/FullScreenProgram.h"
 
 namespace filament::backend::gles {
 
 class DepthReader {
 public:
-    DepthReader(Device& device, Framebuffers& framebuffers) : mDevice(device), mFramebuffers(framebuffers) {}
-    ~DepthReader();
+    DepthReader(Device& device, Framebuffers& framebuffers);
+    ~DepthReader() { dropTextures(); }
 
     /// A framebuffer whose colour image holds the rectangle at (0, 0) as R32F; 0 if it cannot be made (reported).
     GLuint copy(Texture const& texture, uint32_t level, uint32_t layer, Rect const& rect);
 
 private:
     Texture makeTexture(Format format, Rect const& rect);
-    bool prepareProgram();
     void blit(Texture const& source, uint32_t level, uint32_t layer, Rect const& rect);
-    void draw(GLuint target, Rect const& rect);
     void dropTextures();
 
     Device& mDevice;
     Framebuffers& mFramebuffers;
-    GLuint mProgram = 0, mVertexArray = 0;
+    FullScreenProgram mProgram;
     Texture mDepth, mFloat;
 };
 

@@ -4,6 +4,20 @@
 #include <algorithm>
 
 namespace filament::backend::gles {
+namespace {
+
+// A blit may take any value between those of the samples (OpenGL ES 3.1, 16.2.1); Vulkan knows sample 0 everywhere.
+constexpr std::string_view kDepthResolveText = R"(#version 310 es
+precision highp float;
+layout(binding = 0) uniform highp sampler2DMS samples;
+void main() { gl_FragDepth = texelFetch(samples, ivec2(gl_FragCoord.xy), 0).r; }
+)";
+
+} // namespace
+
+Pass::Pass(Device& device, Textures const& textures, Framebuffers& framebuffers)
+        : mDevice(device), mTextures(textures), mFramebuffers(framebuffers),
+          mDepthResolve(device, kDepthResolveText, "depth resolve") {}
 
 void Pass::begin(PassDesc const& desc) {
     mDesc = desc;
@@ -28,6 +42,7 @@ void Pass::end() {
     for (uint32_t i = 0; i < mDesc.layout.colorCount; ++i) {
         if ((mDesc.layout.resolveMask >> i) & 1) resolve(i);
     }
+    if (mDesc.layout.resolvesDepth) resolveDepth();
     mDevice.state.bindFramebuffers(mFramebuffer, mFramebuffer);
     invalidate(discardedByStore());
     mFramebuffer = 0;
@@ -135,6 +150,15 @@ void Pass::resolve(uint32_t index) {
     mDevice.state.setScissor({}); // blits obey the scissor
     gl.ReadBuffer(GL_COLOR_ATTACHMENT0 + index);
     gl.BlitFramebuffer(area.x, area.y, right, bottom, area.x, area.y, right, bottom, GL_COLOR_BUFFER_BIT, GL_NEAREST);
+}
+
+void Pass::resolveDepth() {
+    Texture const* from = mTextures.find(mDesc.depth.texture);
+    Texture const* to = mTextures.find(mDesc.depth.resolve);
+    if (!from || !to) return;
+    const GLuint target = mFramebuffers.single(Framebuffers::Side::Draw, *to, 0, 0);
+    constexpr DepthStencilState kWriteAlways{ .depthCompare = CompareOp::Always, .depthWrite = true };
+    mDepthResolve.draw(target, mDesc.area, from->target, from->name, kWriteAlways);
 }
 
 } // namespace filament::backend::gles

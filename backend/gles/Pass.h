@@ -7,13 +7,13 @@
 #pragma once
 
 #include "backend/gles/Framebuffers.h"
+#include "backend/gles/FullScreenProgram.h"
 
 namespace filament::backend::gles {
 
 class Pass {
 public:
-    Pass(Device& device, Textures const& textures, Framebuffers& framebuffers)
-            : mDevice(device), mTextures(textures), mFramebuffers(framebuffers) {}
+    Pass(Device& device, Textures const& textures, Framebuffers& framebuffers);
 
     void begin(PassDesc const& desc);
     void nextSubpass() { ++mSubpass; }
@@ -42,10 +42,12 @@ private:
     Points discardedByLoad() const;
     Points discardedByStore() const;
     void resolve(uint32_t index);
+    void resolveDepth();
 
     Device& mDevice;
     Textures const& mTextures;
     Framebuffers& mFramebuffers;
+    FullScreenProgram mDepthResolve;
     PassDesc mDesc{};
     GLuint mFramebuffer = 0; // 0: skipped
     uint32_t mSubpass = 0;

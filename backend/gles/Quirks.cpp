@@ -101,6 +101,7 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
         .blockCompression = quirks.blockCompression,
         .depthClamp = quirks.depthClamp,
         .lastVertexProvokes = true, // OpenGL ES knows no other
+        .depthResolve = true,       // ES 3.1 samples multisampled depth
         .textureViews = quirks.textureViews,
         .halfFloatShaders = true,
     };

@@ -3,7 +3,25 @@
 
 #include "backend/gles/Repack.h"
 
+#include <cmath>
+#include <cstring>
+
 namespace filament::backend::gles {
+namespace {
+
+/// Samplers multiply by a rounded 1 / 65535; the contract promises the correctly rounded quotient, as Vulkan's copies
+/// of the integers give it.
+void roundToUnorm16(std::span<const std::byte> floats, std::vector<std::byte>& rounded) {
+    rounded.resize(floats.size());
+    for (size_t at = 0; at < floats.size(); at += sizeof(float)) {
+        float depth = 0;
+        std::memcpy(&depth, floats.data() + at, sizeof depth);
+        depth = std::round(depth * 65535.0f) / 65535.0f;
+        std::memcpy(rounded.data() + at, &depth, sizeof depth);
+    }
+}
+
+} // namespace
 
 Readbacks::~Readbacks() {
     for (Pending const& pending : mPending) mDevice.gl.DeleteBuffers(1, &pending.buffer);
@@ -24,7 +42,9 @@ std::optional<Readbacks::Source> Readbacks::open(CmdReadTexture const& command) 
     if (hasDepth(desc.format) && !readsAsFloat) {
         const GLuint copy = mDepthReader.copy(*texture, command.level, command.layer, command.rect);
         if (copy == 0) return {};
-        return Source{ copy, { 0, 0, command.rect.width, command.rect.height }, Format::R32F };
+        return Source{
+            copy, { 0, 0, command.rect.width, command.rect.height }, Format::R32F, desc.format == Format::D16
+        };
     }
     const GLuint single = mFramebuffers.single(Framebuffers::Side::Read, *texture, command.level, command.layer);
     return Source{ single, command.rect, desc.format };
@@ -52,6 +72,7 @@ void Readbacks::read(CmdReadTexture const& command) {
     mDevice.state.bindFramebuffers(source->framebuffer, source->framebuffer);
     const uint64_t texels = static_cast<uint64_t>(source->rect.width) * source->rect.height;
     Pending pending{ command.ticket, planFor(source->format), texels, 0, {} };
+    pending.plan.isUnorm16 = source->isUnorm16;
     mDevice.beginCreation();
     gl.GenBuffers(1, &pending.buffer);
     gl.BindBuffer(GL_PIXEL_PACK_BUFFER, pending.buffer);
@@ -78,6 +99,9 @@ void Readbacks::answer(Pending const& pending) {
         if (pending.plan.repackTo != Format::None) {
             mPacked.resize(pending.texels * formatInfo(pending.plan.repackTo).bytesPerBlock);
             repack(pending.plan.repackTo, texels, mPacked);
+            texels = mPacked;
+        } else if (pending.plan.isUnorm16) {
+            roundToUnorm16(texels, mPacked);
             texels = mPacked;
         }
         mDevice.sink.onReadback(pending.ticket, texels);

@@ -31,6 +31,7 @@ private:
         GLenum format = 0, type = 0;
         uint32_t texelBytes = 0;
         Format repackTo = Format::None; ///< None: the bytes are right as they are
+        bool isUnorm16 = false;         ///< floats that stand for multiples of 1 / 65535
     };
     struct Pending {
         Ticket ticket;
@@ -43,6 +44,7 @@ private:
         GLuint framebuffer = 0;
         Rect rect;
         Format format;
+        bool isUnorm16 = false;
     };
     std::optional<Source> open(CmdReadTexture const& command);
     Plan planFor(Format format) const; ///< asks the bound read framebuffer

@@ -184,7 +184,10 @@ private:
             else
                 read(i, false, color.texture, color.level, color.layer);
         }
-        if (mPass.layout.depthFormat != Format::None)
+        if (mPass.layout.depthFormat == Format::None) return;
+        if (mPass.layout.resolvesDepth)
+            read(mPass.layout.colorCount, true, mPass.depth.resolve, 0, 0);
+        else
             read(mPass.layout.colorCount, true, mPass.depth.texture, mPass.depth.level, mPass.depth.layer);
     }
 

@@ -159,6 +159,7 @@ private:
     void checkDepthAttachment(PassDesc const& desc);
     TextureModel const* checkAttachment(Attachment const& attachment, std::string_view role, Rect const& area);
     void checkResolve(PassDesc const& desc, uint32_t index);
+    void checkDepthResolve(PassDesc const& desc);
     void checkAttachedOnce(PassDesc const& desc);
 
     PipelineModel const* checkDrawState();

@@ -35,6 +35,12 @@ void Validator::checkPassLayout(PassLayout const& layout) {
             "a resolve needs samples > 1; clear resolveMask");
     require((layout.resolveMask >> colorCount(layout)) == 0, Harm::Crash,
             "resolveMask names attachments beyond colorCount");
+    require(!layout.resolvesDepth || (layout.samples > 1 && layout.depthFormat != Format::None), Harm::Crash,
+            "resolvesDepth needs a depth attachment of samples > 1");
+    require(!layout.resolvesDepth || !hasStencil(layout.depthFormat), Harm::Crash,
+            "resolvesDepth: format {} has stencil, which cannot be resolved", formatInfo(layout.depthFormat).name);
+    require(!layout.resolvesDepth || mInfo.features.depthResolve, Harm::Crash,
+            "this device lacks DeviceFeatures::depthResolve");
     checkSubpasses(layout);
 }
 
@@ -143,7 +149,26 @@ void Validator::checkDepthAttachment(PassDesc const& desc) {
             texture->name, texture->desc.samples, desc.layout.samples);
     require(has(texture->desc.usage, TextureUsage::DepthAttachment), Harm::Crash,
             "depth '{}' lacks TextureUsage::DepthAttachment", texture->name);
-    require(!desc.depth.resolve, Harm::WrongResult, "depth attachments do not resolve");
+    checkDepthResolve(desc);
+}
+
+void Validator::checkDepthResolve(PassDesc const& desc) {
+    const TextureHandle resolve = desc.depth.resolve;
+    if (!desc.layout.resolvesDepth) {
+        require(!resolve, Harm::WrongResult, "depth has a resolve target, but the layout does not say resolvesDepth");
+        return;
+    }
+    TextureModel const* texture = need(mTextures, resolve, "resolve target of depth");
+    if (!texture) return;
+    require(texture->desc.samples == 1, Harm::Crash, "resolve target '{}' has {} samples", texture->name,
+            texture->desc.samples);
+    require(texture->desc.format == desc.layout.depthFormat, Harm::Crash,
+            "resolve target '{}' has format {}, depth has {}", texture->name, formatInfo(texture->desc.format).name,
+            formatInfo(desc.layout.depthFormat).name);
+    require(has(texture->desc.usage, TextureUsage::DepthAttachment), Harm::Crash,
+            "resolve target '{}' lacks TextureUsage::DepthAttachment", texture->name);
+    require(covers(texture->desc, 0, desc.area), Harm::Crash, "resolve target '{}' is smaller than the area",
+            texture->name);
 }
 
 void Validator::checkAttachedOnce(PassDesc const& desc) {

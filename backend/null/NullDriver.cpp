@@ -41,6 +41,7 @@ DeviceInfo describeNullDevice() {
                       .blockCompression = true,
                       .depthClamp = true,
                       .lastVertexProvokes = true,
+                      .depthResolve = true,
                       .textureViews = true,
                       .halfFloatShaders = true };
     return info;

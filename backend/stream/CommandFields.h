@@ -121,7 +121,8 @@ FILAMENT_FIELDS(SubpassDesc, "SubpassDesc", FILAMENT_FIELD(SubpassDesc, colorMas
 FILAMENT_FIELDS(PassLayout, "PassLayout", FILAMENT_FIELD(PassLayout, colorFormats),
                 FILAMENT_FIELD(PassLayout, depthFormat), FILAMENT_FIELD(PassLayout, colorCount),
                 FILAMENT_FIELD(PassLayout, samples), FILAMENT_FIELD(PassLayout, resolveMask),
-                FILAMENT_FIELD(PassLayout, subpassCount), FILAMENT_FIELD(PassLayout, subpasses));
+                FILAMENT_FIELD(PassLayout, resolvesDepth), FILAMENT_FIELD(PassLayout, subpassCount),
+                FILAMENT_FIELD(PassLayout, subpasses));
 FILAMENT_FIELDS(Attachment, "Attachment", FILAMENT_FIELD(Attachment, texture), FILAMENT_FIELD(Attachment, level),
                 FILAMENT_FIELD(Attachment, layer), FILAMENT_FIELD(Attachment, load), FILAMENT_FIELD(Attachment, store),
                 FILAMENT_FIELD(Attachment, clear), FILAMENT_FIELD(Attachment, resolve));

@@ -30,6 +30,10 @@ constexpr std::array<UseInfo, static_cast<size_t>(Use::Count)> kUses{ {
           VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT },
         { VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthTests, kDepthAccess,
           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT },
+        // Resolving counts as colour output, also of depth (Vulkan 1.2, 7.1.2 and 8.4).
+        { VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthTests | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
+          kDepthAccess | kColorAccess,
+          VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT },
         // Load and store operations and earlier subpasses write it as a colour attachment.
         { VK_IMAGE_LAYOUT_SHADER_READ_ONLY_OPTIMAL,
           VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT,

@@ -27,7 +27,8 @@ enum class Use : uint8_t {
     ShaderRead, ///< where sampled textures rest
     ColorAttachment,
     DepthAttachment,
-    InputRead, ///< colour attachment that the last subpass using it read as an input attachment
+    DepthResolve, ///< depth attachment that was resolved, and the target of that
+    InputRead,    ///< colour attachment that the last subpass using it read as an input attachment
     Count,
 };
 

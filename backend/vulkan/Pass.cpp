@@ -26,7 +26,7 @@ Result<void> Pass::begin(PassDesc const& desc, VkCommandBuffer commands) {
     mLayout = desc.layout;
     mArea = desc.area;
     mColors = mResolves = {};
-    mDepth = nullptr;
+    mDepth = mDepthResolve = nullptr;
     mOpen = true;
     mUsable = false;
     FramebufferKey key;
@@ -75,7 +75,9 @@ bool Pass::collect(PassDesc const& desc, FramebufferKey& key) {
         mResolves[i] = mTextures.find(desc.colors[i].resolve);
         if (!add(mResolves[i], {}, key)) return false;
     }
-    return true;
+    if (!mLayout.resolvesDepth) return true;
+    mDepthResolve = mTextures.find(desc.depth.resolve);
+    return add(mDepthResolve, {}, key);
 }
 
 bool Pass::add(Texture* texture, SubresourceRange const& range, FramebufferKey& key) {
@@ -91,6 +93,7 @@ void Pass::prepareAttachments(PassDesc const& desc) {
         mBarriers.attach(*mColors[i], mColorRanges[i], first, contentsFor(desc.colors[i].load));
         if (mResolves[i]) mBarriers.attach(*mResolves[i], {}, Use::ColorAttachment, Contents::Discard);
     }
+    if (mDepthResolve) mBarriers.attach(*mDepthResolve, {}, Use::DepthResolve, Contents::Discard);
     if (mDepth) mBarriers.attach(*mDepth, mDepthRange, Use::DepthAttachment, contentsFor(desc.depth.load));
 }
 
@@ -98,6 +101,7 @@ void Pass::leaveAttachments() {
     for (uint32_t i = 0; i < mLayout.colorCount; ++i) {
         mBarriers.leave(*mColors[i], mColorRanges[i], lastColorUse(mLayout, i));
     }
+    if (mDepthResolve) mBarriers.leave(*mDepth, mDepthRange, Use::DepthResolve);
 }
 
 void Pass::recordBegin(PassDesc const& desc, FramebufferKey const& key, VkFramebuffer framebuffer,

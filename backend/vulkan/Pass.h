@@ -47,7 +47,7 @@ private:
     PassLayout mLayout{};
     Rect mArea{};
     std::array<Texture*, kMaxColorAttachments> mColors{}, mResolves{};
-    Texture* mDepth = nullptr;
+    Texture *mDepth = nullptr, *mDepthResolve = nullptr;
     std::array<SubresourceRange, kMaxColorAttachments> mColorRanges{};
     SubresourceRange mDepthRange;
     bool mOpen = false, mUsable = false;

@@ -74,6 +74,8 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     device.creationFeedback = extensions.has(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);
+    device.depthResolve = extensions.has(VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME) &&
+                          extensions.has(VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);
     if (extensions.has(VK_EXT_PROVOKING_VERTEX_EXTENSION_NAME)) {
         provoking.pNext = features.pNext;
         features.pNext = &provoking;
@@ -89,6 +91,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     device.halfFloatShaders = half.shaderFloat16;
     DeviceInfo& info = device.info;
     info.features.mergedPasses = true; // subpasses are core
+    info.features.depthResolve = device.depthResolve;
     info.features.textureViews = true; // so are image views
     info.features.blockCompression = features.features.textureCompressionBC;
     info.features.halfFloatShaders = device.halfFloatShaders;

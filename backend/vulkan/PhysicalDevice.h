@@ -28,6 +28,7 @@ struct PhysicalDevice {
     uint64_t copyOffsetAlignment = 4; ///< of bytes in a staging buffer
     bool provokingVertexLast = false;
     bool halfFloatShaders = false;
+    bool depthResolve = false;
     bool creationFeedback = false;      ///< says whether a pipeline came from a cache
     bool lazilyAllocatedMemory = false; ///< transient attachments may live in tile memory only
     Quirks quirks;

@@ -30,7 +30,7 @@ Use colorUseIn(PassLayout const& layout, uint32_t subpass, uint32_t index) {
 struct RenderPassParts {
     struct Subpass {
         std::array<VkAttachmentReference, kMaxColorAttachments> colors, inputs, resolves;
-        VkAttachmentReference depth = kUnused;
+        VkAttachmentReference depth = kUnused, depthResolve = kUnused;
         std::array<uint32_t, kMaxAttachments> preserved{};
         uint32_t preservedCount = 0;
     };
@@ -65,6 +65,8 @@ void describeAttachments(RenderPassKey const& key, RenderPassParts& parts) {
         if (!isIn(layout.resolveMask, i)) continue;
         add(layout.colorFormats[i], 1, LoadOp::Discard, StoreOp::Store, Use::ColorAttachment, Use::ColorAttachment);
     }
+    if (layout.resolvesDepth)
+        add(layout.depthFormat, 1, LoadOp::Discard, StoreOp::Store, Use::DepthResolve, Use::DepthResolve);
 }
 
 void describeSubpass(PassLayout const& layout, uint32_t index, RenderPassParts::Subpass& subpass) {
@@ -84,6 +86,7 @@ void describeSubpass(PassLayout const& layout, uint32_t index, RenderPassParts::
         }
     }
     if (!hasDepthAttachment) return;
+    if (layout.resolvesDepth) subpass.depthResolve = { resolve, infoOf(Use::DepthResolve).layout };
     if (layout.subpasses[index].usesDepth) {
         subpass.depth = { layout.colorCount, infoOf(Use::DepthAttachment).layout };
     } else {
@@ -108,6 +111,105 @@ void describeDependencies(PassLayout const& layout, RenderPassParts& parts) {
     }
 }
 
+/// The same parts for the second version of the call, the only one that can resolve depth.
+class RenderPassParts2 {
+public:
+    RenderPassParts2(PassLayout const& layout, RenderPassParts const& parts) : mAspects(aspectsOf(layout.depthFormat)) {
+        for (uint32_t i = 0; i < parts.attachmentCount; ++i) addAttachment(parts.attachments[i]);
+        for (VkSubpassDependency const& each : parts.dependencies) addDependency(each);
+        for (uint32_t i = 0; i < layout.subpassCount; ++i) addSubpass(layout, i, parts.subpasses[i]);
+    }
+    RenderPassParts2(RenderPassParts2 const&) = delete;
+    RenderPassParts2& operator=(RenderPassParts2 const&) = delete;
+
+    VkRenderPass create(Device& device) const {
+        auto info = make<VkRenderPassCreateInfo2>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO_2);
+        info.attachmentCount = static_cast<uint32_t>(mAttachments.size());
+        info.pAttachments = mAttachments.data();
+        info.subpassCount = mSubpassCount;
+        info.pSubpasses = mSubpasses.data();
+        info.dependencyCount = static_cast<uint32_t>(mDependencies.size());
+        info.pDependencies = mDependencies.data();
+        VkRenderPass pass = VK_NULL_HANDLE;
+        const VkResult result = device.fn().vkCreateRenderPass2KHR(device.handle(), &info, nullptr, &pass);
+        return result == VK_SUCCESS ? pass : VK_NULL_HANDLE;
+    }
+
+private:
+    struct Subpass {
+        std::array<VkAttachmentReference2, kMaxColorAttachments> colors, inputs, resolves;
+        VkAttachmentReference2 depth, depthResolve;
+        VkSubpassDescriptionDepthStencilResolve resolve;
+    };
+
+    static VkAttachmentReference2 reference(VkAttachmentReference const& of, VkImageAspectFlags aspects) {
+        auto to = make<VkAttachmentReference2>(VK_STRUCTURE_TYPE_ATTACHMENT_REFERENCE_2);
+        to.attachment = of.attachment;
+        to.layout = of.layout;
+        to.aspectMask = aspects;
+        return to;
+    }
+
+    void addAttachment(VkAttachmentDescription const& of) {
+        auto& to =
+                mAttachments.emplace_back(make<VkAttachmentDescription2>(VK_STRUCTURE_TYPE_ATTACHMENT_DESCRIPTION_2));
+        to.format = of.format;
+        to.samples = of.samples;
+        to.loadOp = of.loadOp;
+        to.storeOp = of.storeOp;
+        to.stencilLoadOp = of.stencilLoadOp;
+        to.stencilStoreOp = of.stencilStoreOp;
+        to.initialLayout = of.initialLayout;
+        to.finalLayout = of.finalLayout;
+    }
+
+    void addDependency(VkSubpassDependency const& of) {
+        auto& to = mDependencies.emplace_back(make<VkSubpassDependency2>(VK_STRUCTURE_TYPE_SUBPASS_DEPENDENCY_2));
+        to.srcSubpass = of.srcSubpass;
+        to.dstSubpass = of.dstSubpass;
+        to.srcStageMask = of.srcStageMask;
+        to.dstStageMask = of.dstStageMask;
+        to.srcAccessMask = of.srcAccessMask;
+        to.dstAccessMask = of.dstAccessMask;
+        to.dependencyFlags = of.dependencyFlags;
+    }
+
+    void addSubpass(PassLayout const& layout, uint32_t index, RenderPassParts::Subpass const& of) {
+        Subpass& part = mParts[index];
+        for (uint32_t i = 0; i < layout.colorCount; ++i) {
+            part.colors[i] = reference(of.colors[i], VK_IMAGE_ASPECT_COLOR_BIT);
+            part.inputs[i] = reference(of.inputs[i], VK_IMAGE_ASPECT_COLOR_BIT);
+            part.resolves[i] = reference(of.resolves[i], VK_IMAGE_ASPECT_COLOR_BIT);
+        }
+        part.depth = reference(of.depth, mAspects);
+        part.depthResolve = reference(of.depthResolve, mAspects);
+        part.resolve = make<VkSubpassDescriptionDepthStencilResolve>(
+                VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE);
+        part.resolve.depthResolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT; // the one that every device has
+        part.resolve.stencilResolveMode = VK_RESOLVE_MODE_NONE;
+        part.resolve.pDepthStencilResolveAttachment = &part.depthResolve;
+        auto& to = mSubpasses[mSubpassCount++];
+        to = make<VkSubpassDescription2>(VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_2);
+        to.pNext = &part.resolve;
+        to.pipelineBindPoint = VK_PIPELINE_BIND_POINT_GRAPHICS;
+        to.colorAttachmentCount = layout.colorCount;
+        to.pColorAttachments = part.colors.data();
+        to.pResolveAttachments = layout.resolveMask != 0 ? part.resolves.data() : nullptr;
+        to.inputAttachmentCount = readColors(layout, index) != 0 ? layout.colorCount : 0;
+        to.pInputAttachments = part.inputs.data();
+        to.pDepthStencilAttachment = &part.depth;
+        to.preserveAttachmentCount = of.preservedCount;
+        to.pPreserveAttachments = of.preserved.data();
+    }
+
+    VkImageAspectFlags mAspects;
+    std::vector<VkAttachmentDescription2> mAttachments;
+    std::vector<VkSubpassDependency2> mDependencies;
+    std::array<Subpass, kMaxSubpasses> mParts;
+    std::array<VkSubpassDescription2, kMaxSubpasses> mSubpasses{};
+    uint32_t mSubpassCount = 0;
+};
+
 VkRenderPass createRenderPass(Device& device, RenderPassKey const& key) {
     PassLayout const& layout = key.layout;
     RenderPassParts parts;
@@ -127,6 +229,7 @@ VkRenderPass createRenderPass(Device& device, RenderPassKey const& key) {
         subpasses[i].preserveAttachmentCount = part.preservedCount;
         subpasses[i].pPreserveAttachments = part.preserved.data();
     }
+    if (layout.resolvesDepth) return RenderPassParts2(layout, parts).create(device);
     auto info = make<VkRenderPassCreateInfo>(VK_STRUCTURE_TYPE_RENDER_PASS_CREATE_INFO);
     info.attachmentCount = parts.attachmentCount;
     info.pAttachments = parts.attachments.data();

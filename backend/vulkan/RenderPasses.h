@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// RenderPasses: VkRenderPass objects by what they do with their attachments.
-///   Attachments  in the order of VkFramebuffer: colours, depth, resolve targets (ascending by colour).
+///   Attachments  in the order of VkFramebuffer: colours, depth, resolve targets (ascending by colour), that of depth.
 ///   Locations    shader output i writes colour attachment i of the pass in every subpass; input attachment index i
 ///                reads colour attachment i. A subpass does not write what it reads: colorMask without inputMask
 ///                counts.
@@ -21,7 +21,7 @@
 
 namespace filament::backend::vulkan {
 
-inline constexpr uint32_t kMaxAttachments = 2 * kMaxColorAttachments + 1;
+inline constexpr uint32_t kMaxAttachments = 2 * kMaxColorAttachments + 2;
 
 /// What determines a VkRenderPass. Everything beyond colorCount and subpassCount has its default value.
 struct RenderPassKey {

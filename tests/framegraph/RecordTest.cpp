@@ -132,6 +132,29 @@ TEST_F(Record, MultisampledAttachmentsResolve) {
     EXPECT_EQ(descs[0].colors[0].store, StoreOp::Discard); // only the resolved picture is wanted
 }
 
+TEST_F(Record, MultisampledDepthIsReadThroughItsResolveTarget) {
+    const TextureId ms = graph.createTexture(
+            { .width = 64, .height = 32, .format = Format::D32F, .samples = 4, .name = "ms depth" });
+    const TextureId z = depth("depth"), out = target();
+    graph.addPass(
+            "depth", [&](PassBuilder& b) { b.writeDepth(ms, { .clear = 0.0f, .resolve = z }); }, [](PassContext&) {});
+    graph.addPass(
+            "occlusion",
+            [&](PassBuilder& b) {
+                b.readSampled(z);
+                b.writeColor(0, out, { .overwrites = true });
+            },
+            [](PassContext&) {});
+    frame();
+    ASSERT_EQ(descs.size(), 2u);
+    EXPECT_TRUE(descs[0].layout.resolvesDepth);
+    EXPECT_EQ(descs[0].layout.resolveMask, 0);
+    EXPECT_TRUE(descs[0].depth.resolve);
+    EXPECT_EQ(descs[0].depth.store, StoreOp::Discard); // only what was resolved is wanted
+    EXPECT_NE(explained.find("depth 'ms depth': clear, discard, resolve to 'depth'"), std::string::npos) << explained;
+    EXPECT_NE(explained.find("0 'depth' runs: 'depth' is read by 'occlusion'"), std::string::npos) << explained;
+}
+
 TEST_F(Record, APassWithoutAttachmentsRecordsOutsideOfPasses) {
     const TextureId a = color("a");
     graph.addPass(

@@ -152,6 +152,120 @@ DRIVER_TEST(Pass, MultisampledDepthIsTestedPerSample) {
     }
 }
 
+struct DepthScene {
+    TextureHandle resolved;
+    PassDesc pass{};
+    PipelineHandle pipeline;
+};
+
+DepthScene multisampledDepth(Gpu& gpu, Format format, uint32_t size) {
+    DepthScene scene{ .resolved = gpu.target(format, size, size) };
+    scene.pass.layout.depthFormat = format;
+    scene.pass.layout.samples = 4;
+    scene.pass.layout.resolvesDepth = true;
+    scene.pass.depth = { .texture = gpu.target(format, size, size, 4),
+                         .store = StoreOp::Discard,
+                         .resolve = scene.resolved };
+    scene.pass.area = { 0, 0, size, size };
+    scene.pass.debugName = "depth";
+    PipelineDesc desc =
+            pipelineFor(gpu.program(kColorVertex, "#version 450\nlayout(location = 0) in vec4 vertexColor;\n"
+                                                  "void main() {}\n"),
+                        scene.pass.layout);
+    useColorVertices(desc);
+    desc.raster.topology = PrimitiveType::TriangleStrip;
+    desc.depthStencil = { .depthCompare = CompareOp::Greater, .depthWrite = true };
+    scene.pipeline = gpu.pipeline(desc);
+    return scene;
+}
+
+/// Depth at a place of the picture, in pixels; samples of one pixel differ by at least 0.015.
+double slopingDepth(double x, double y) { return x / 16 + y / 256; }
+
+/// From the left edge to `right`, all rows.
+void drawSlope(Gpu& gpu, DepthScene const& scene, double right) {
+    const double size = scene.pass.area.width;
+    const auto corner = [&](double x, double y) {
+        const auto clip = [size](double at) { return static_cast<float>(at / size * 2 - 1); };
+        return ColorVertex{ { clip(x), clip(y), static_cast<float>(slopingDepth(x, y)), 1 }, {} };
+    };
+    const BufferHandle vertices =
+            gpu.buffer(BufferUsage::Vertex, std::vector<ColorVertex>{ corner(0, 0), corner(right, 0), corner(0, size),
+                                                                      corner(right, size) });
+    gpu.record(CmdBeginPass{ scene.pass });
+    gpu.record(CmdBindPipeline{ scene.pipeline });
+    gpu.record(CmdBindVertexBuffers{ .buffers = { vertices }, .count = 1 });
+    gpu.record(CmdDraw{ .vertexCount = 4 });
+    gpu.record(CmdEndPass{});
+}
+
+DRIVER_TEST(Pass, ResolvedDepthIsThatOfTheFirstSampleOfTheStandardPattern) {
+    constexpr uint32_t kSize = 8;
+    constexpr double kSampleX = 0.375, kSampleY = 0.125; // of sample 0
+    for (const Format format : { Format::D32F, Format::D16 }) {
+        SCOPED_TRACE(formatInfo(format).name);
+        for (const double right : { 8.0, 4.25, 4.5 }) { // in pixel 4, sample 0 lies between the two edges
+            const DepthScene scene = multisampledDepth(gpu, format, kSize);
+            drawSlope(gpu, scene, right);
+            const auto depths = gpu.readAs<float>(scene.resolved, { 0, 0, kSize, kSize });
+            for (uint32_t i = 0; i < depths.size(); ++i) {
+                const double x = i % kSize + kSampleX, y = i / kSize + kSampleY;
+                EXPECT_NEAR(depths[i], x < right ? slopingDepth(x, y) : 0, format == Format::D16 ? 1e-5 : 1e-6)
+                        << "edge at " << right << ", pixel " << i % kSize << ", " << i / kSize;
+            }
+        }
+    }
+}
+
+DRIVER_TEST(Pass, ThePassAfterADepthResolveSamplesTheTarget) {
+    constexpr uint32_t kSize = 8;
+    const DepthScene scene = multisampledDepth(gpu, Format::D32F, kSize);
+    drawSlope(gpu, scene, 8);
+    const Program show =
+            gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform highp sampler2D depth;",
+                                                      "result = texelFetch(depth, ivec2(gl_FragCoord.xy), 0);"));
+    const TextureHandle shown = gpu.paint(
+            show, { .width = kSize, .height = kSize, .group = gpu.imageGroup(show, scene.resolved, gpu.sampler()) });
+    drawSlope(gpu, scene, 4); // the target may be written again after it was read
+    const auto sampled = gpu.readAs<Rgba>(shown, { 0, 0, kSize, kSize });
+    const auto again = gpu.readAs<float>(scene.resolved, { 0, 0, kSize, kSize });
+    for (uint32_t i = 0; i < sampled.size(); ++i) {
+        EXPECT_NEAR(sampled[i][0], slopingDepth(i % kSize + 0.375, i / kSize + 0.125), 1e-6) << i;
+        EXPECT_EQ(again[i], i % kSize < 4 ? sampled[i][0] : 0) << i;
+    }
+}
+
+DRIVER_TEST(Pass, DepthOfEveryFormatIsSampledAsItReadsBack) {
+    for (const Format format : { Format::D16, Format::D32F, Format::D32FS8 }) {
+        SCOPED_TRACE(formatInfo(format).name);
+        const TextureHandle depth = gpu.target(format, 8, 8);
+        PassDesc pass;
+        pass.layout.depthFormat = format;
+        pass.depth = { .texture = depth };
+        pass.area = { 0, 0, 8, 8 };
+        const Program ramp = gpu.program(
+                kFullScreenVertex,
+                "#version 450\nvoid main() { gl_FragDepth = (gl_FragCoord.x * 8.0 + gl_FragCoord.y) / 73.0; }");
+        PipelineDesc desc = pipelineFor(ramp, pass.layout);
+        desc.depthStencil = { .depthCompare = CompareOp::Always, .depthWrite = true };
+        drawFullScreen(gpu, pass, gpu.pipeline(desc));
+        const Program show =
+                gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform highp sampler2D depth;",
+                                                          "result = texelFetch(depth, ivec2(gl_FragCoord.xy), 0);"));
+        const TextureHandle shown =
+                gpu.paint(show, { .width = 8, .height = 8, .group = gpu.imageGroup(show, depth, gpu.sampler()) });
+        const auto sampled = gpu.readAs<Rgba>(shown, { 0, 0, 8, 8 });
+        const auto stored = gpu.readAs<float>(depth, { 0, 0, 8, 8 });
+        for (uint32_t i = 0; i < 64; ++i) {
+            if (format == Format::D16)
+                EXPECT_FLOAT_EQ(sampled[i][0], stored[i]) << i; // samplers multiply by a rounded 1 / 65535
+            else
+                EXPECT_EQ(sampled[i][0], stored[i]) << i;
+            EXPECT_EQ(sampled[i][3], 1) << i;
+        }
+    }
+}
+
 DRIVER_TEST(Pass, SeveralAttachmentsResolveIntoTheirOwnTargets) {
     const TextureHandle a = gpu.target(Format::RGBA8, 2, 2, 4), b = gpu.target(Format::RGBA16F, 2, 2, 4);
     const TextureHandle resolvedA = gpu.target(Format::RGBA8, 2, 2), resolvedB = gpu.target(Format::RGBA16F, 2, 2);

@@ -475,6 +475,30 @@ std::vector<Case> passCases() {
           "a resolve needs samples > 1" },
         { "ResolveNotInMask", [](C& to) { recordPassWith(to, [](auto& d) { d.colors[0].resolve = kColor; }); },
           "resolveMask does not name it", Outcome::Forwarded },
+        { "DepthResolveNotInTheLayout", [](C& to) { recordPassWith(to, [](auto& d) { d.depth.resolve = kDepth; }); },
+          "depth has a resolve target, but the layout does not say", Outcome::Forwarded },
+        { "DepthResolveOfOneSample",
+          [](C& to) { recordPassWith(to, [](auto& d) { d.layout.resolvesDepth = true, d.depth.resolve = kDepth; }); },
+          "resolvesDepth needs a depth attachment of samples > 1" },
+        { "DepthResolveWithStencil",
+          [](C& to) {
+              recordPassWith(to, [](auto& d) {
+                  d.layout.resolvesDepth = true, d.layout.samples = 4, d.layout.depthFormat = Format::D32FS8;
+              });
+          },
+          "format D32FS8 has stencil" },
+        { "DepthResolveToAnotherFormat",
+          [](C& to) {
+              to.record(textureWith([](auto& d) {
+                  d.format = Format::D32F, d.usage = TextureUsage::DepthAttachment, d.samples = 4;
+              }));
+              recordPassWith(to, [](auto& d) {
+                  d.layout.colorCount = 0, d.layout.samples = 4, d.layout.resolvesDepth = true;
+                  d.depth = { .texture = TextureHandle::make(20, 1), .resolve = kColor };
+                  d.area = { 0, 0, 8, 8 };
+              });
+          },
+          "resolve target 'color' has format RGBA8, depth has D32F" },
         { "SameImageTwice",
           [](C& to) {
               recordPassWith(to, [](auto& d) {
