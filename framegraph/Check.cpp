@@ -43,6 +43,15 @@ std::string_view laterWriter(FrameGraph const& graph, uint32_t after, TextureId 
     return {};
 }
 
+std::string_view laterWriter(FrameGraph const& graph, uint32_t after, BufferId buffer) {
+    for (uint32_t pass = after + 1; pass < graph.passes().size(); ++pass) {
+        for (BufferAccess const& access : graph.bufferAccesses(graph.passes()[pass])) {
+            if (access.writes && access.buffer == buffer) return graph.passes()[pass].name;
+        }
+    }
+    return {};
+}
+
 void checkRange(FrameGraph const& graph, Pass const& pass, Access const& access) {
     GraphTextureDesc const& desc = graph.texture(access.texture).desc;
     backend::TextureRange const& range = access.range;
@@ -66,6 +75,9 @@ public:
             Texture const& texture = graph.textures()[i];
             if (texture.contents == InitialContents::Keep) add({ i + 1 }, Subresources::all(texture.desc));
         }
+        for (uint32_t i = 0; i < graph.buffers().size(); ++i) {
+            mWritten[mSubresources.of(BufferId{ i + 1 })] = graph.buffers()[i].contents == InitialContents::Keep;
+        }
     }
 
     void checkReads(uint32_t pass) const {
@@ -76,6 +88,9 @@ public:
                 return false;
             });
         }
+        for (BufferAccess const& access : mGraph.bufferAccesses(mGraph.passes()[pass])) {
+            if (!access.writes && !mWritten[mSubresources.of(access.buffer)]) tellUnwritten(pass, access.buffer);
+        }
     }
 
     void addWrites(uint32_t pass) {
@@ -83,6 +98,9 @@ public:
             if (isPureRead(access.kind)) continue;
             add(access.texture, access.range);
             if (access.resolve) add(access.resolve, kResolved);
+        }
+        for (BufferAccess const& access : mGraph.bufferAccesses(mGraph.passes()[pass])) {
+            if (access.writes) mWritten[mSubresources.of(access.buffer)] = true;
         }
     }
 
@@ -92,9 +110,16 @@ private:
     }
 
     void tellUnwritten(uint32_t pass, TextureId texture, uint8_t level, uint16_t layer) const {
+        tellUnwritten(pass, nameOf(mGraph.texture(texture).desc, level, layer),
+                      laterWriter(mGraph, pass, texture, { level, 1, layer, 1 }));
+    }
+
+    void tellUnwritten(uint32_t pass, BufferId buffer) const {
+        tellUnwritten(pass, fmt::format("buffer '{}'", mGraph.buffer(buffer).name), laterWriter(mGraph, pass, buffer));
+    }
+
+    void tellUnwritten(uint32_t pass, std::string const& what, std::string_view later) const {
         const std::string_view name = mGraph.passes()[pass].name;
-        const std::string what = nameOf(mGraph.texture(texture).desc, level, layer);
-        const std::string_view later = laterWriter(mGraph, pass, texture, { level, 1, layer, 1 });
         require(!later.empty(), "pass '{}' reads {}, which no pass writes: write it, or import it with its contents",
                 name, what);
         require(false, "pass '{}' reads {} before pass '{}' writes it: declare the writer first", name, what, later);
@@ -179,6 +204,17 @@ void checkNotPrevious(FrameGraph const& graph, Pass const& pass, Access const& a
     }
 }
 
+void checkBuffer(FrameGraph const& graph, Pass const& pass, BufferAccess const& access, bool attaches) {
+    if (!access.writes) return;
+    const std::string_view name = graph.buffer(access.buffer).name;
+    require(access.use == BufferUse::Storage || access.use == BufferUse::Transfer,
+            "pass '{}': writes buffer '{}', but not as storage or by a transfer", pass.name, name);
+    require(access.previous != Previous::Clear, "pass '{}': buffer '{}' cannot be cleared; overwrite it", pass.name,
+            name);
+    require(!attaches, "pass '{}': has attachments and writes buffer '{}'; write it in a pass of its own", pass.name,
+            name);
+}
+
 void checkRoles(FrameGraph const& graph, Pass const& pass) {
     const std::span<const Access> accesses = graph.accesses(pass);
     bool attaches = false, transfers = false, reads = false;
@@ -191,6 +227,10 @@ void checkRoles(FrameGraph const& graph, Pass const& pass) {
                 "pass '{}': reads multisampled texture '{}'; resolve it and read the target", pass.name, desc.name);
         checkNotPrevious(graph, pass, access);
         checkPairs(graph, pass, access, accesses);
+    }
+    for (BufferAccess const& access : graph.bufferAccesses(pass)) {
+        checkBuffer(graph, pass, access, attaches);
+        transfers |= access.use == BufferUse::Transfer;
     }
     require(attaches || !reads, "pass '{}': reads the current pixel of an input, but has no attachments", pass.name);
     require(!attaches || !transfers, "pass '{}': has attachments and transfers; make the transfers a pass of their own",

@@ -54,9 +54,11 @@ CompiledGraph compile(FrameGraph const& graph, TransientPool& pool) {
     const auto lifetimes = firstAndLastUse(graph, order, groups);
     deriveLoadAndStore(graph, order, groups);
     const auto usage = deriveUsage(graph, order, lifetimes);
+    pool.beginGraph();
     const auto textures = assignTransients(graph, lifetimes, usage, pool);
+    const auto buffers = assignBuffers(graph, order, groups, pool);
     describePasses(graph, order, groups);
-    return { &graph, &pool, order.decisions, order.order, groups, textures };
+    return { &graph, &pool, order.decisions, order.order, groups, textures, buffers };
 }
 
 void describePasses(FrameGraph const& graph, PassOrder const& order, std::span<PassGroup> groups) {

@@ -36,6 +36,10 @@ void deriveLoadAndStore(FrameGraph const& graph, PassOrder const& order, std::sp
 std::span<backend::TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& order,
                                              std::span<const Lifetime> lifetimes);
 
+/// First and last use, usage and handles of the buffers (Lifetimes.cpp).
+std::span<BufferPlan> assignBuffers(FrameGraph const& graph, PassOrder const& order, std::span<const PassGroup> groups,
+                                    TransientPool& pool);
+
 /// Handles: the imported ones, and textures of the pool for the rest; disjoint lifetimes share (Lifetimes.cpp).
 std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const Lifetime> lifetimes,
                                         std::span<const backend::TextureUsage> usage, TransientPool& pool);

@@ -47,7 +47,8 @@ struct PassDecision {
     TextureId because{}; ///< WritesOutput, ReadLater: the texture, and which part of it
     uint8_t level = 0;
     uint16_t layer = 0;
-    uint32_t reader = kNone; ///< ReadLater: the pass that reads it
+    BufferId becauseBuffer{}; ///< instead of a texture
+    uint32_t reader = kNone;  ///< ReadLater: the pass that reads it
     Merge merge = Merge::NotAsked;
     uint32_t group = kNone; ///< kNone: culled
     uint8_t subpass = 0;
@@ -95,6 +96,12 @@ struct TexturePlan {
     uint32_t historyAge = 0;       ///< HistoryRole::Previous: see PassContext::historyAge()
 };
 
+struct BufferPlan {
+    Lifetime lifetime;
+    backend::BufferUsage usage{};
+    backend::BufferHandle handle; ///< none if unused
+};
+
 struct CompiledGraph {
     FrameGraph const* graph = nullptr;
     TransientPool* pool = nullptr;
@@ -102,6 +109,7 @@ struct CompiledGraph {
     std::span<const uint32_t> order;      ///< passes that run
     std::span<const PassGroup> groups;
     std::span<const TexturePlan> textures; ///< by TextureId::index()
+    std::span<const BufferPlan> buffers;   ///< by BufferId::index()
 
     bool runs(PassId pass) const { return passes[pass.index()].runs(); }
     /// The layout for pipelines of a pass that runs and has attachments; use it with subpass().
@@ -109,6 +117,7 @@ struct CompiledGraph {
     uint8_t subpass(PassId pass) const { return passes[pass.index()].subpass; }
     /// None if no pass that runs uses it.
     backend::TextureHandle texture(TextureId texture) const { return textures[texture.index()].handle; }
+    backend::BufferHandle buffer(BufferId buffer) const { return buffers[buffer.index()].handle; }
 };
 
 /// Creates nothing: record() creates the textures that the pool lacks. Compile, record, then compile the next graph.

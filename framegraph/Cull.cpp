@@ -19,6 +19,9 @@ public:
             Texture const& texture = graph.textures()[i];
             if (texture.isOutput) set({ i + 1 }, Subresources::all(texture.desc), { .isWanted = true });
         }
+        for (uint32_t i = 0; i < graph.buffers().size(); ++i) {
+            mDemands[mSubresources.of(BufferId{ i + 1 })].isWanted = graph.buffers()[i].isOutput;
+        }
     }
 
     PassDecision decide(Pass const& pass) const {
@@ -28,6 +31,10 @@ public:
             if (const PassDecision decision = wantedBy(access.texture, access.range); decision.runs()) return decision;
             if (!access.resolve) continue;
             if (const PassDecision decision = wantedBy(access.resolve, kResolved); decision.runs()) return decision;
+        }
+        for (BufferAccess const& access : mGraph.bufferAccesses(pass)) {
+            Demand const& demand = mDemands[mSubresources.of(access.buffer)];
+            if (access.writes && demand.isWanted) return decisionOf(demand, { .becauseBuffer = access.buffer });
         }
         return {};
     }
@@ -44,6 +51,14 @@ public:
             const bool reads = isPureRead(access.kind) || access.previous == Previous::Keep;
             if (reads) set(access.texture, access.range, { true, pass });
         }
+        const std::span<const BufferAccess> buffers = mGraph.bufferAccesses(mGraph.passes()[pass]);
+        for (BufferAccess const& access : buffers) {
+            if (access.writes && access.previous != Previous::Keep) mDemands[mSubresources.of(access.buffer)] = {};
+        }
+        for (BufferAccess const& access : buffers) {
+            const bool reads = !access.writes || access.previous == Previous::Keep;
+            if (reads) mDemands[mSubresources.of(access.buffer)] = { true, pass };
+        }
     }
 
 private:
@@ -51,16 +66,18 @@ private:
         mSubresources.forEach(texture, range, [&](uint32_t number) { mDemands[number] = demand; });
     }
 
+    static PassDecision decisionOf(Demand const& demand, PassDecision decision) {
+        decision.reason = demand.reader == kNone ? Reason::WritesOutput : Reason::ReadLater;
+        decision.reader = demand.reader;
+        return decision;
+    }
+
     PassDecision wantedBy(TextureId texture, backend::TextureRange const& range) const {
         PassDecision decision;
         mSubresources.any(texture, range, [&](uint32_t number, uint8_t level, uint16_t layer) {
             Demand const& demand = mDemands[number];
             if (!demand.isWanted) return false;
-            decision = { .reason = demand.reader == kNone ? Reason::WritesOutput : Reason::ReadLater,
-                         .because = texture,
-                         .level = level,
-                         .layer = layer,
-                         .reader = demand.reader };
+            decision = decisionOf(demand, { .because = texture, .level = level, .layer = layer });
             return true;
         });
         return decision;

@@ -15,6 +15,8 @@ using Text = std::back_insert_iterator<std::string>;
 
 std::string_view nameOf(CompiledGraph const& plan, TextureId texture) { return plan.graph->texture(texture).desc.name; }
 
+std::string_view nameOf(CompiledGraph const& plan, BufferId buffer) { return plan.graph->buffer(buffer).name; }
+
 /// "'bloom'", with level and layer where it has several.
 std::string nameOf(CompiledGraph const& plan, TextureId texture, uint8_t level, uint16_t layer) {
     GraphTextureDesc const& desc = plan.graph->texture(texture).desc;
@@ -44,8 +46,13 @@ std::string reasonOf(CompiledGraph const& plan, PassDecision const& decision) {
     case Reason::SideEffect:
         return "runs: it has a side effect";
     case Reason::WritesOutput:
+        if (decision.becauseBuffer)
+            return fmt::format("runs: it writes output buffer '{}'", nameOf(plan, decision.becauseBuffer));
         return fmt::format("runs: it writes output {}", nameOf(plan, decision.because, decision.level, decision.layer));
     case Reason::ReadLater:
+        if (decision.becauseBuffer)
+            return fmt::format("runs: buffer '{}' is read by '{}'", nameOf(plan, decision.becauseBuffer),
+                               plan.graph->passes()[decision.reader].name);
         return fmt::format("runs: {} is read by '{}'", nameOf(plan, decision.because, decision.level, decision.layer),
                            plan.graph->passes()[decision.reader].name);
     }
@@ -172,6 +179,47 @@ void putTextures(Text text, CompiledGraph const& plan) {
     }
 }
 
+const char* nameOf(BufferUse use) {
+    switch (use) {
+    case BufferUse::Storage:
+        return "storage";
+    case BufferUse::Uniform:
+        return "uniforms";
+    case BufferUse::Vertex:
+        return "vertices";
+    case BufferUse::Index:
+        return "indices";
+    case BufferUse::Transfer:
+        return "transfer";
+    }
+    return "";
+}
+
+void putBuffers(Text text, CompiledGraph const& plan) {
+    if (plan.buffers.empty()) return;
+    fmt::format_to(text, "buffers:\n");
+    for (size_t i = 0; i < plan.buffers.size(); ++i) {
+        Buffer const& buffer = plan.graph->buffers()[i];
+        BufferPlan const& of = plan.buffers[i];
+        fmt::format_to(text, "  '{}' {} bytes{}", buffer.name, buffer.size,
+                       buffer.isImported ? ", imported"
+                       : buffer.isOutput ? ", output"
+                                         : "");
+        if (!of.lifetime.isUsed()) {
+            fmt::format_to(text, ", unused\n");
+            continue;
+        }
+        fmt::format_to(text, ", groups {} to {}", of.lifetime.first, of.lifetime.last);
+        const char* before = ", shares memory with ";
+        for (size_t j = 0; j < plan.buffers.size() && !buffer.isImported; ++j) {
+            if (j == i || plan.buffers[j].handle != of.handle) continue;
+            fmt::format_to(text, "{}'{}'", before, plan.graph->buffers()[j].name);
+            before = ", ";
+        }
+        fmt::format_to(text, "\n");
+    }
+}
+
 // ---------------------------------------------------------------------------------------------- graphviz
 
 std::string escaped(std::string_view name) {
@@ -217,6 +265,11 @@ void putEdges(Text text, CompiledGraph const& plan) {
             if (access.resolve)
                 fmt::format_to(text, "  p{} -> t{} [label=\"resolve\"];\n", pass, access.resolve.index());
         }
+        for (BufferAccess const& access : plan.graph->bufferAccesses(plan.graph->passes()[pass])) {
+            const char* form =
+                    access.writes ? "  p{1} -> b{0} [label=\"{2}\"];\n" : "  b{0} -> p{1} [label=\"{2}\"];\n";
+            fmt::format_to(text, fmt::runtime(form), access.buffer.index(), pass, nameOf(access.use));
+        }
     }
 }
 
@@ -228,6 +281,7 @@ std::string toText(CompiledGraph const& plan) {
     putPasses(text, plan);
     putGroups(text, plan);
     putTextures(text, plan);
+    putBuffers(text, plan);
     return result;
 }
 
@@ -241,6 +295,11 @@ std::string toGraphviz(CompiledGraph const& plan) {
         fmt::format_to(text, "  t{} [shape=ellipse, label=\"{}\\n{} x {} {}\"{}];\n", i, escaped(texture.desc.name),
                        texture.desc.width, texture.desc.height, backend::formatInfo(texture.desc.format).name,
                        texture.isOutput ? ", peripheries=2" : "");
+    }
+    for (size_t i = 0; i < plan.buffers.size(); ++i) {
+        Buffer const& buffer = plan.graph->buffers()[i];
+        fmt::format_to(text, "  b{} [shape=cylinder, label=\"{}\\n{} bytes\"{}];\n", i, escaped(buffer.name),
+                       buffer.size, buffer.isOutput ? ", peripheries=2" : "");
     }
     putEdges(text, plan);
     fmt::format_to(text, "}}\n");

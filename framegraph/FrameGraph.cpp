@@ -19,7 +19,9 @@ Previous previousOf(bool clears, bool overwrites) {
 void FrameGraph::reset() {
     mPasses.clear();
     mTextures.clear();
+    mBuffers.clear();
     mAccesses.clear();
+    mBufferAccesses.clear();
 }
 
 TextureId FrameGraph::addTexture(Texture const& texture) {
@@ -39,6 +41,34 @@ TextureId FrameGraph::importTexture(backend::TextureHandle texture, GraphTexture
     require(static_cast<bool>(texture), "texture '{}': imported without a handle", desc.name);
     return addTexture(
             { .desc = desc, .imported = texture, .isImported = true, .contents = contents, .isOutput = true });
+}
+
+BufferId FrameGraph::addBuffer(Buffer const& buffer) {
+    require(!buffer.name.empty(), "a buffer of a frame graph has a name");
+    require(buffer.size > 0, "buffer '{}': needs at least one byte", buffer.name);
+    require(mBuffers.size() < 0xFFFF, "buffer '{}': a frame graph holds 65 535 buffers", buffer.name);
+    mBuffers.push_back(buffer);
+    return { static_cast<uint32_t>(mBuffers.size()) };
+}
+
+BufferId FrameGraph::createBuffer(std::string_view name, uint64_t size) {
+    return addBuffer({ .name = name, .size = size });
+}
+
+BufferId FrameGraph::importBuffer(backend::BufferHandle buffer, std::string_view name, uint64_t size,
+                                  InitialContents contents) {
+    require(static_cast<bool>(buffer), "buffer '{}': imported without a handle", name);
+    return addBuffer({ .name = name,
+                       .size = size,
+                       .imported = buffer,
+                       .isImported = true,
+                       .contents = contents,
+                       .isOutput = true });
+}
+
+void FrameGraph::markOutput(BufferId buffer) {
+    require(buffer && buffer.index() < mBuffers.size(), "markOutput: the buffer belongs to another graph or frame");
+    mBuffers[buffer.index()].isOutput = true;
 }
 
 History FrameGraph::history(GraphTextureDesc const& desc, std::array<float, 4> const& clear) {
@@ -68,13 +98,29 @@ void FrameGraph::markOutput(TextureId texture) {
 PassBuilder FrameGraph::beginPass(std::string_view name, PassCode code) {
     require(!name.empty(), "a pass has a name");
     require(mPasses.size() < 0xFFFF, "pass '{}': a frame graph holds 65 535 passes", name);
-    mPasses.push_back({ .name = name, .code = code, .firstAccess = static_cast<uint32_t>(mAccesses.size()) });
+    mPasses.push_back({ .name = name,
+                        .code = code,
+                        .firstAccess = static_cast<uint32_t>(mAccesses.size()),
+                        .firstBufferAccess = static_cast<uint32_t>(mBufferAccesses.size()) });
     return { *this, static_cast<uint32_t>(mPasses.size() - 1) };
 }
 
-void FrameGraph::declare(uint32_t pass, Access access) {
+Pass& FrameGraph::newest(uint32_t pass) {
     Pass& of = mPasses[pass];
     require(pass + 1 == mPasses.size(), "pass '{}': declare its textures inside its set-up, not later", of.name);
+    return of;
+}
+
+void FrameGraph::declare(uint32_t pass, BufferAccess const& access) {
+    Pass& of = newest(pass);
+    require(access.buffer && access.buffer.index() < mBuffers.size(),
+            "pass '{}': declares a buffer of another graph or frame", of.name);
+    mBufferAccesses.push_back(access);
+    ++of.bufferAccessCount;
+}
+
+void FrameGraph::declare(uint32_t pass, Access access) {
+    Pass& of = newest(pass);
     require(access.texture && access.texture.index() < mTextures.size(),
             "pass '{}': declares a texture of another graph or frame", of.name);
     GraphTextureDesc const& desc = mTextures[access.texture.index()].desc;
@@ -86,42 +132,51 @@ void FrameGraph::declare(uint32_t pass, Access access) {
 // ---------------------------------------------------------------------------------------------- builder
 
 void PassBuilder::writeColor(uint8_t slot, TextureId texture, ColorTarget const& target) {
-    mGraph.declare(mPass, { .texture = texture,
-                            .kind = AccessKind::Color,
-                            .previous = previousOf(target.clear.has_value(), target.overwrites),
-                            .slot = slot,
-                            .range = { target.level, 1, target.layer, 1 },
-                            .clear = target.clear.value_or(std::array<float, 4>{}),
-                            .resolve = target.resolve });
+    mGraph.declare(mPass, Access{ .texture = texture,
+                                  .kind = AccessKind::Color,
+                                  .previous = previousOf(target.clear.has_value(), target.overwrites),
+                                  .slot = slot,
+                                  .range = { target.level, 1, target.layer, 1 },
+                                  .clear = target.clear.value_or(std::array<float, 4>{}),
+                                  .resolve = target.resolve });
 }
 
 void PassBuilder::writeDepth(TextureId texture, DepthTarget const& target) {
-    mGraph.declare(mPass, { .texture = texture,
-                            .kind = AccessKind::Depth,
-                            .previous = previousOf(target.clear.has_value(), target.overwrites),
-                            .range = { target.level, 1, target.layer, 1 },
-                            .clear = { target.clear.value_or(0.0f), static_cast<float>(target.clearStencil), 0, 0 },
-                            .resolve = target.resolve });
+    mGraph.declare(mPass,
+                   Access{ .texture = texture,
+                           .kind = AccessKind::Depth,
+                           .previous = previousOf(target.clear.has_value(), target.overwrites),
+                           .range = { target.level, 1, target.layer, 1 },
+                           .clear = { target.clear.value_or(0.0f), static_cast<float>(target.clearStencil), 0, 0 },
+                           .resolve = target.resolve });
 }
 
 void PassBuilder::testDepth(TextureId texture, uint8_t level, uint16_t layer) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::DepthTest, .range = { level, 1, layer, 1 } });
+    mGraph.declare(mPass, Access{ .texture = texture, .kind = AccessKind::DepthTest, .range = { level, 1, layer, 1 } });
 }
 
 void PassBuilder::readSampled(TextureId texture, backend::TextureRange range) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Sampled, .range = range });
+    mGraph.declare(mPass, Access{ .texture = texture, .kind = AccessKind::Sampled, .range = range });
 }
 
 void PassBuilder::readInput(TextureId texture, uint8_t level, uint16_t layer) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::Input, .range = { level, 1, layer, 1 } });
+    mGraph.declare(mPass, Access{ .texture = texture, .kind = AccessKind::Input, .range = { level, 1, layer, 1 } });
 }
 
 void PassBuilder::readTransfer(TextureId texture, backend::TextureRange range) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::TransferRead, .range = range });
+    mGraph.declare(mPass, Access{ .texture = texture, .kind = AccessKind::TransferRead, .range = range });
 }
 
 void PassBuilder::writeTransfer(TextureId texture, backend::TextureRange range) {
-    mGraph.declare(mPass, { .texture = texture, .kind = AccessKind::TransferWrite, .range = range });
+    mGraph.declare(mPass, Access{ .texture = texture, .kind = AccessKind::TransferWrite, .range = range });
+}
+
+void PassBuilder::readBuffer(BufferId buffer, BufferUse use) {
+    mGraph.declare(mPass, BufferAccess{ .buffer = buffer, .use = use });
+}
+
+void PassBuilder::writeBuffer(BufferId buffer, BufferUse use, Previous previous) {
+    mGraph.declare(mPass, BufferAccess{ .buffer = buffer, .use = use, .writes = true, .previous = previous });
 }
 
 void PassBuilder::sideEffect() { mGraph.declareSideEffect(mPass); }

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FrameGraph: the passes of a frame, and the textures that each of them reads and writes. Declarations only: nothing
-/// is created, ordered or recorded here; compile() decides, and record() records.
-///   In      textures (created or imported) and passes in the order in which they should run.
+/// FrameGraph: the passes of a frame, and the textures and buffers that each of them reads and writes. Declarations
+/// only: nothing is created, ordered or recorded here; compile() decides, and record() records.
+///   In      textures and buffers (created or imported) and passes in the order in which they should run.
 ///   Thread  one at a time.
 ///   Memory  pass code lives in the arena; lists keep their capacity over reset(). A steady frame allocates nothing.
 ///           Captures of pass code are trivially destructible. Names are literals or live as long as the arena.
-///   Limits  65 535 textures and passes.
+///   Limits  65 535 textures, buffers and passes.
 ///   Fails   asserts on a contradictory declaration, naming pass and texture: here and in compile().
 ///
 ///   TextureId hdr = graph.createTexture({ .width = w, .height = h, .format = Format::RGBA16F, .name = "hdr" });
@@ -104,10 +104,32 @@ struct History {
     TextureId current;  ///< of this frame: written first, then read like any texture; previous of the next frame
 };
 
+/// What a pass does with a buffer: dispatches and fragment shaders see it as storage, draws as the others, and
+/// transfers upload it or read it back.
+enum class BufferUse : uint8_t { Storage, Uniform, Vertex, Index, Transfer };
+
+/// One pass's use of one buffer.
+struct BufferAccess {
+    BufferId buffer;
+    BufferUse use = BufferUse::Storage;
+    bool writes = false;
+    Previous previous = Previous::Keep; ///< writes: Overwrite replaces all bytes
+};
+
+struct Buffer {
+    std::string_view name{};
+    uint64_t size = 0;
+    backend::BufferHandle imported{};
+    bool isImported = false;
+    InitialContents contents = InitialContents::Undefined;
+    bool isOutput = false; ///< wanted after the last pass: imported or marked
+};
+
 struct Pass {
     std::string_view name{};
     PassCode code;
     uint32_t firstAccess = 0, accessCount = 0;
+    uint32_t firstBufferAccess = 0, bufferAccessCount = 0;
     bool hasSideEffect = false;
 };
 
@@ -134,7 +156,11 @@ public:
     void readTransfer(TextureId texture, backend::TextureRange range = {});
     /// Uploads or blits to it, generates mips; the rest keeps its contents.
     void writeTransfer(TextureId texture, backend::TextureRange range = {});
-    /// The pass runs even if nothing reads its results (read-backs, uploads to buffers).
+    /// Dispatches, draws or transfers of this pass read it, as `use` says.
+    void readBuffer(BufferId buffer, BufferUse use);
+    /// Dispatches (Storage) or uploads (Transfer) write it; passes with attachments cannot. Overwrite: all of it.
+    void writeBuffer(BufferId buffer, BufferUse use, Previous previous = Previous::Keep);
+    /// The pass runs even if nothing reads its results (read-backs, uploads to buffers outside of the graph).
     void sideEffect();
 
 private:
@@ -155,6 +181,10 @@ public:
     TextureId createTexture(GraphTextureDesc const& desc);
     /// A texture that exists outside. What passes write to it is kept.
     TextureId importTexture(backend::TextureHandle texture, GraphTextureDesc const& desc, InitialContents contents);
+    /// As createTexture(), importTexture() and markOutput(), for `size` bytes.
+    BufferId createBuffer(std::string_view name, uint64_t size);
+    BufferId importBuffer(backend::BufferHandle buffer, std::string_view name, uint64_t size, InitialContents contents);
+    void markOutput(BufferId buffer);
     /// A picture that is kept from frame to frame under desc.name, with two textures of the pool that swap roles
     /// whenever `current` was written. Without a frame before this one, or with one whose description was another,
     /// `previous` is filled with `clear` (for depth formats {depth, stencil}) before the first pass:
@@ -192,10 +222,16 @@ public:
         return std::span(mAccesses).subspan(pass.firstAccess, pass.accessCount);
     }
     Texture const& texture(TextureId id) const { return mTextures[id.index()]; }
+    std::span<const Buffer> buffers() const { return mBuffers; }
+    std::span<const BufferAccess> bufferAccesses(Pass const& pass) const {
+        return std::span(mBufferAccesses).subspan(pass.firstBufferAccess, pass.bufferAccessCount);
+    }
+    Buffer const& buffer(BufferId id) const { return mBuffers[id.index()]; }
     Arena& arena() const { return mArena; }
 
     // For PassBuilder; `pass` is the newest one.
     void declare(uint32_t pass, Access access);
+    void declare(uint32_t pass, BufferAccess const& access);
     void declareSideEffect(uint32_t pass) { mPasses[pass].hasSideEffect = true; }
 
 private:
@@ -203,11 +239,15 @@ private:
 
     PassBuilder beginPass(std::string_view name, PassCode code);
     TextureId addTexture(Texture const& texture);
+    BufferId addBuffer(Buffer const& buffer);
+    Pass& newest(uint32_t pass);
 
     Arena& mArena;
     std::vector<Pass> mPasses;
     std::vector<Texture> mTextures;
+    std::vector<Buffer> mBuffers;
     std::vector<Access> mAccesses; // pass after pass
+    std::vector<BufferAccess> mBufferAccesses;
 };
 
 } // namespace filament::framegraph

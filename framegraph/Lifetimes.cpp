@@ -6,6 +6,7 @@
 namespace filament::framegraph {
 namespace {
 
+using backend::BufferUsage;
 using backend::TextureUsage;
 
 TextureUsage usageOf(AccessKind kind, bool isMerged) {
@@ -25,6 +26,32 @@ TextureUsage usageOf(AccessKind kind, bool isMerged) {
         return TextureUsage::TransferTarget;
     }
     return {};
+}
+
+BufferUsage usageOf(BufferAccess const& access) {
+    switch (access.use) {
+    case BufferUse::Storage:
+        return BufferUsage::Storage;
+    case BufferUse::Uniform:
+        return BufferUsage::Uniform;
+    case BufferUse::Vertex:
+        return BufferUsage::Vertex;
+    case BufferUse::Index:
+        return BufferUsage::Index;
+    case BufferUse::Transfer:
+        break;
+    }
+    return access.writes ? BufferUsage{} : BufferUsage::TransferSource; // any buffer can be updated
+}
+
+/// The numbers of `lifetimes`, by first use: the order in which the pool is asked.
+std::span<uint32_t> byFirstUse(Arena& arena, std::span<const Lifetime> lifetimes) {
+    const std::span<uint32_t> numbers = arena.array<uint32_t>(lifetimes.size());
+    for (uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
+    std::sort(numbers.begin(), numbers.end(), [&](uint32_t a, uint32_t b) {
+        return lifetimes[a].first != lifetimes[b].first ? lifetimes[a].first < lifetimes[b].first : a < b;
+    });
+    return numbers;
 }
 
 // May live in tile memory: nothing but attachment of one group, and nobody wants it afterwards.
@@ -111,13 +138,7 @@ std::span<TextureUsage> deriveUsage(FrameGraph const& graph, PassOrder const& or
 std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const Lifetime> lifetimes,
                                         std::span<const TextureUsage> usage, TransientPool& pool) {
     const std::span<TexturePlan> plans = graph.arena().array<TexturePlan>(lifetimes.size());
-    const std::span<uint32_t> byFirstUse = graph.arena().array<uint32_t>(lifetimes.size());
-    for (uint32_t i = 0; i < byFirstUse.size(); ++i) byFirstUse[i] = i;
-    std::sort(byFirstUse.begin(), byFirstUse.end(), [&](uint32_t a, uint32_t b) {
-        return lifetimes[a].first != lifetimes[b].first ? lifetimes[a].first < lifetimes[b].first : a < b;
-    });
-    pool.beginGraph();
-    for (const uint32_t i : byFirstUse) {
+    for (const uint32_t i : byFirstUse(graph.arena(), lifetimes)) {
         Texture const& texture = graph.textures()[i];
         plans[i] = { lifetimes[i], usage[i], texture.imported };
         const bool isPooled = !texture.isImported && texture.history == HistoryRole::None;
@@ -127,6 +148,32 @@ std::span<TexturePlan> assignTransients(FrameGraph const& graph, std::span<const
     }
     for (size_t i = 0; i < plans.size(); ++i) {
         if (graph.textures()[i].history == HistoryRole::Previous) assignHistory(graph, i, plans, pool);
+    }
+    return plans;
+}
+
+std::span<BufferPlan> assignBuffers(FrameGraph const& graph, PassOrder const& order, std::span<const PassGroup> groups,
+                                    TransientPool& pool) {
+    const std::span<BufferPlan> plans = graph.arena().array<BufferPlan>(graph.buffers().size());
+    const std::span<Lifetime> lifetimes = graph.arena().array<Lifetime>(plans.size());
+    for (uint32_t group = 0; group < groups.size(); ++group) {
+        for (const uint32_t pass : order.order.subspan(groups[group].first, groups[group].count)) {
+            for (BufferAccess const& access : graph.bufferAccesses(graph.passes()[pass])) {
+                const uint32_t i = access.buffer.index();
+                lifetimes[i].first = std::min(lifetimes[i].first, group);
+                lifetimes[i].last = std::max(lifetimes[i].last, group);
+                plans[i].usage = plans[i].usage | usageOf(access);
+            }
+        }
+    }
+    for (const uint32_t i : byFirstUse(graph.arena(), lifetimes)) {
+        Buffer const& buffer = graph.buffers()[i];
+        plans[i].lifetime = lifetimes[i];
+        plans[i].handle = buffer.imported;
+        if (buffer.isImported || !lifetimes[i].isUsed()) continue;
+        if (plans[i].usage == BufferUsage{}) plans[i].usage = BufferUsage::TransferSource; // only ever uploaded
+        const uint32_t last = buffer.isOutput ? kNone : lifetimes[i].last;
+        plans[i].handle = pool.acquire({ buffer.size, plans[i].usage, buffer.name }, lifetimes[i].first, last);
     }
     return plans;
 }

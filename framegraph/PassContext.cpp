@@ -32,6 +32,18 @@ GraphTextureDesc const& PassContext::desc(TextureId id) const {
     return mPlan.graph->texture(id).desc;
 }
 
+backend::BufferHandle PassContext::buffer(BufferId id) const {
+    Pass const& pass = mPlan.graph->passes()[mPass];
+    require(id && id.index() < mPlan.buffers.size(), "pass '{}': asks for a buffer of another graph or frame",
+            pass.name);
+    const auto accesses = mPlan.graph->bufferAccesses(pass);
+    const bool declared =
+            std::any_of(accesses.begin(), accesses.end(), [&](BufferAccess const& at) { return at.buffer == id; });
+    require(declared, "pass '{}': uses buffer '{}' without having declared it", pass.name,
+            mPlan.graph->buffer(id).name);
+    return mPlan.buffers[id.index()].handle;
+}
+
 uint32_t PassContext::historyAge(TextureId previous) const {
     requireDeclared(previous);
     require(mPlan.graph->texture(previous).history == HistoryRole::Previous,

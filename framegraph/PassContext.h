@@ -35,6 +35,14 @@ struct TextureId {
     friend bool operator==(TextureId, TextureId) = default;
 };
 
+/// Names a buffer of one graph until the graph's reset(); zero is none.
+struct BufferId {
+    uint32_t value = 0;
+    uint32_t index() const { return value - 1; }
+    explicit operator bool() const { return value != 0; }
+    friend bool operator==(BufferId, BufferId) = default;
+};
+
 /// Names a pass of one graph until the graph's reset(); zero is none.
 struct PassId {
     uint32_t value = 0;
@@ -76,6 +84,8 @@ public:
     /// The texture behind an id that this pass declared.
     backend::TextureHandle texture(TextureId id) const;
     GraphTextureDesc const& desc(TextureId id) const;
+    /// The buffer behind an id that this pass declared.
+    backend::BufferHandle buffer(BufferId id) const;
 
     /// How many graphs ago History::previous, which this pass declared, was written: 1 for the graph before this one.
     /// 0: never, or with another description; it holds the clear value.

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Subresources: a number for every level and layer of every texture of a graph, so that the steps of compile() can
-/// keep a value for each of them.
+/// Subresources: a number for every level and layer of every texture of a graph, and for every buffer, so that the
+/// steps of compile() can keep a value for each.
 ///   Memory  one number a texture, in the graph's arena.
 ///   Limits  accesses whose range leaves their texture must not get here: checkDeclarations() looks at that first.
 ///   Cost    constant for each level and layer of an access; most textures have one.
@@ -23,7 +23,9 @@ public:
         }
     }
 
-    uint32_t count() const { return mCount; }
+    uint32_t count() const { return mCount + static_cast<uint32_t>(mGraph.buffers().size()); }
+
+    uint32_t of(BufferId buffer) const { return mCount + buffer.index(); }
 
     uint32_t of(TextureId texture, uint8_t level, uint16_t layer) const {
         return mFirst[texture.index()] + uint32_t{ level } * mGraph.texture(texture).desc.layers + layer;
@@ -54,7 +56,7 @@ public:
 private:
     FrameGraph const& mGraph;
     std::span<uint32_t> mFirst;
-    uint32_t mCount = 0;
+    uint32_t mCount = 0; // of textures; buffers come behind them
 };
 
 /// What a resolve writes.

@@ -16,33 +16,54 @@ bool isSameButForTheName(backend::DeviceTextureDesc const& a, backend::DeviceTex
            a.levels == b.levels && a.layers == b.layers && a.width == b.width && a.height == b.height;
 }
 
+bool isSameButForTheName(backend::BufferDesc const& a, backend::BufferDesc const& b) {
+    return a.size == b.size && a.usage == b.usage;
+}
+
+backend::TextureHandle allocate(backend::CommandStream& stream, backend::DeviceTextureDesc const&) {
+    return stream.allocateTexture();
+}
+backend::BufferHandle allocate(backend::CommandStream& stream, backend::BufferDesc const&) {
+    return stream.allocateBuffer();
+}
+
 } // namespace
 
 TransientPool::TransientPool(backend::CommandStream& stream, uint32_t keepFrames)
         : mStream(stream), mKeepFrames(keepFrames) {}
 
 TransientPool::~TransientPool() {
-    FILAMENT_ASSERT(mTextures.empty() && mHistories.empty() && mOutdated.empty() && mBindGroups.empty(),
+    FILAMENT_ASSERT(mTextures.empty() && mBuffers.empty() && mHistories.empty() && mOutdated.empty() &&
+                            mBindGroups.empty(),
                     "TransientPool::destroyAll() comes before the destructor");
 }
 
 void TransientPool::beginGraph() { ++mGraph; }
 
-backend::TextureHandle TransientPool::acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last) {
-    const auto isFree = [&](PooledTexture const& pooled) {
-        return (pooled.lastGraph != mGraph || pooled.busyUntil < first) && isSameButForTheName(pooled.desc, desc);
+template <class Pooled, class Desc>
+auto TransientPool::acquireFrom(std::vector<Pooled>& pooled, Desc const& desc, uint32_t first, uint32_t last) {
+    const auto isFree = [&](Pooled const& one) {
+        return (one.lastGraph != mGraph || one.busyUntil < first) && isSameButForTheName(one.desc, desc);
     };
-    auto found = std::find_if(mTextures.begin(), mTextures.end(), isFree);
-    if (found == mTextures.end()) {
-        backend::NewHandle handle(mStream, mStream.allocateTexture());
-        mTextures.push_back({ .handle = handle });
+    auto found = std::find_if(pooled.begin(), pooled.end(), isFree);
+    if (found == pooled.end()) {
+        backend::NewHandle handle(mStream, allocate(mStream, desc));
+        pooled.push_back({ .handle = handle });
         handle.keep();
-        found = mTextures.end() - 1;
+        found = pooled.end() - 1;
     }
     if (!found->isCreated) found->desc = desc; // its name is of this graph
     found->lastGraph = mGraph;
     found->busyUntil = last;
     return found->handle;
+}
+
+backend::TextureHandle TransientPool::acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last) {
+    return acquireFrom(mTextures, desc, first, last);
+}
+
+backend::BufferHandle TransientPool::acquire(backend::BufferDesc const& desc, uint32_t first, uint32_t last) {
+    return acquireFrom(mBuffers, desc, first, last);
 }
 
 TransientPool::KeptHistory TransientPool::newHistory(backend::DeviceTextureDesc const& desc) {
@@ -120,6 +141,12 @@ void TransientPool::recordCreations(backend::CommandBuffer& commands) {
         pooled.isCreated = true;
         pooled.desc.debugName = {}; // lives no longer than the graph
     }
+    for (PooledBuffer& pooled : mBuffers) {
+        if (pooled.isCreated || pooled.lastGraph != mGraph) continue;
+        commands.record(backend::CmdCreateBuffer{ pooled.handle, pooled.desc });
+        pooled.isCreated = true;
+        pooled.desc.debugName = {};
+    }
     for (KeptHistory& history : mHistories) {
         if (history.isCreated || history.lastGraph != mGraph) continue;
         createHistory(commands, history);
@@ -151,11 +178,13 @@ void TransientPool::recordEvictions(backend::CommandBuffer& commands) {
     });
     for (KeptHistory const& history : mOutdated) destroy(commands, history);
     mOutdated.clear();
-    std::erase_if(mTextures, [&](PooledTexture const& pooled) {
+    const auto isEvicted = [&](auto const& pooled) {
         if (!isStale(pooled)) return false;
         pooled.isCreated ? mStream.destroy(commands, pooled.handle) : mStream.free(pooled.handle);
         return true;
-    });
+    };
+    std::erase_if(mTextures, isEvicted);
+    std::erase_if(mBuffers, isEvicted);
 }
 
 void TransientPool::destroyAll(backend::CommandBuffer& commands) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// TransientPool: the textures and bind groups behind the transients of frame graphs, reused across passes and frames.
+/// TransientPool: the textures, buffers and bind groups behind the transients of frame graphs, reused across passes and
+/// frames.
 ///   In      descriptions and lifetimes.  Out: handles. Equal descriptions with disjoint lifetimes share a texture;
 ///           the two textures of a history are never shared.
 ///   Thread  one at a time.
@@ -47,6 +48,8 @@ public:
     /// A texture of this description that is free from `first` to `last`. Request the lifetimes of one graph with
     /// ascending `first`.
     backend::TextureHandle acquire(backend::DeviceTextureDesc const& desc, uint32_t first, uint32_t last);
+    /// The same for a buffer.
+    backend::BufferHandle acquire(backend::BufferDesc const& desc, uint32_t first, uint32_t last);
     /// The textures kept under desc.debugName, new ones if the description changed. `writes`: this graph writes the
     /// current one, which becomes the previous one at keepHistory().
     PooledHistory history(backend::DeviceTextureDesc const& desc, bool writes);
@@ -62,6 +65,7 @@ public:
     void destroyAll(backend::CommandBuffer& commands);
 
     uint32_t textureCount() const { return static_cast<uint32_t>(mTextures.size()); } ///< without histories
+    uint32_t bufferCount() const { return static_cast<uint32_t>(mBuffers.size()); }
     uint32_t historyCount() const { return static_cast<uint32_t>(mHistories.size()); }
     uint32_t bindGroupCount() const { return static_cast<uint32_t>(mBindGroups.size()); }
 
@@ -69,6 +73,13 @@ private:
     struct PooledTexture {
         backend::DeviceTextureDesc desc;
         backend::TextureHandle handle;
+        uint64_t lastGraph = 0;
+        uint32_t busyUntil = 0; // in graph `lastGraph`
+        bool isCreated = false;
+    };
+    struct PooledBuffer {
+        backend::BufferDesc desc;
+        backend::BufferHandle handle;
         uint64_t lastGraph = 0;
         uint32_t busyUntil = 0; // in graph `lastGraph`
         bool isCreated = false;
@@ -89,6 +100,8 @@ private:
         uint64_t lastGraph = 0;
     };
 
+    template <class Pooled, class Desc>
+    auto acquireFrom(std::vector<Pooled>& pooled, Desc const& desc, uint32_t first, uint32_t last);
     KeptHistory newHistory(backend::DeviceTextureDesc const& desc);
     static void createHistory(backend::CommandBuffer& commands, KeptHistory& history);
     void destroy(backend::CommandBuffer& commands, KeptHistory const& history);
@@ -97,6 +110,7 @@ private:
     const uint32_t mKeepFrames;
     uint64_t mGraph = 1;
     std::vector<PooledTexture> mTextures;
+    std::vector<PooledBuffer> mBuffers;
     std::vector<KeptHistory> mHistories;
     std::vector<KeptHistory> mOutdated; // histories whose description changed: destroyed with the next evictions
     std::vector<PooledBindGroup> mBindGroups;

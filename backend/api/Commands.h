@@ -52,6 +52,8 @@ struct CmdBlit {
     Rect sourceRect{}, targetRect{};
     Filter filter = Filter::Nearest;
 };
+/// Answers `ticket` with bytes [offset, offset + size) of a buffer.
+struct CmdReadBuffer { BufferHandle buffer; uint64_t offset = 0, size = 0; Ticket ticket; };
 /// Answers `ticket` with the texels of a rectangle, tightly packed, top row first (depth formats: D32F floats).
 struct CmdReadTexture { TextureHandle texture; uint8_t level = 0; uint16_t layer = 0; Rect rect{}; Ticket ticket; };
 
@@ -62,8 +64,9 @@ struct CmdEndPass {};                                                           
 struct CmdSetViewport { Viewport viewport; };                                        // [P]
 struct CmdSetScissor { Rect rect; };                                                 // [P]
 struct CmdSetStencilReference { uint8_t front = 0, back = 0; };                      // [P]
-struct CmdBindPipeline { PipelineHandle pipeline; };                                 // [P]
-/// Bindings stay valid across pipelines whose program layouts agree in this group and all before it. [P]
+/// Inside of passes for draws, outside of them for dispatches; beginning and ending a pass unbind everything.
+struct CmdBindPipeline { PipelineHandle pipeline; };                                 // [ ]
+/// Bindings stay valid across pipelines whose program layouts agree in this group and all before it. [ ]
 struct CmdBindGroup {
     BindGroupHandle group;
     uint8_t index = 0;
@@ -83,6 +86,10 @@ struct CmdDrawIndexed {                                                         
     uint32_t firstInstance = 0; ///< offsets per-instance attributes; shaders must not read the instance id
 };
 
+// Compute.
+/// Runs groupsX * groupsY * groupsZ work groups of the bound pipeline's program.
+struct CmdDispatch { uint32_t groupsX = 1, groupsY = 1, groupsZ = 1; };              // [O]
+
 // Frames, measuring, names.
 struct CmdBeginFrame { uint64_t frame = 0; };       // [O]
 struct CmdEndFrame { uint64_t frame = 0; };         // [O] work so far starts on the GPU; finished tickets are answered
@@ -100,10 +107,10 @@ struct TypeList {
 using Commands = TypeList<CmdCreateBuffer, CmdCreateTexture, CmdCreateSampler, CmdCreateProgram, CmdCreatePipeline,
                           CmdCreateBindGroup, CmdDestroyBuffer, CmdDestroyTexture, CmdDestroySampler, CmdDestroyProgram,
                           CmdDestroyPipeline, CmdDestroyBindGroup, CmdUpdateBuffer, CmdUploadTexture, CmdGenerateMips,
-                          CmdBlit, CmdReadTexture, CmdBeginPass, CmdNextSubpass, CmdEndPass, CmdSetViewport,
-                          CmdSetScissor, CmdSetStencilReference, CmdBindPipeline, CmdBindGroup, CmdBindVertexBuffers,
-                          CmdBindIndexBuffer, CmdDraw, CmdDrawIndexed, CmdBeginFrame, CmdEndFrame, CmdBeginTimer,
-                          CmdEndTimer, CmdPushGroup, CmdPopGroup>;
+                          CmdBlit, CmdReadBuffer, CmdReadTexture, CmdBeginPass, CmdNextSubpass, CmdEndPass,
+                          CmdSetViewport, CmdSetScissor, CmdSetStencilReference, CmdBindPipeline, CmdBindGroup,
+                          CmdBindVertexBuffers, CmdBindIndexBuffer, CmdDraw, CmdDrawIndexed, CmdDispatch, CmdBeginFrame,
+                          CmdEndFrame, CmdBeginTimer, CmdEndTimer, CmdPushGroup, CmdPopGroup>;
 
 /// Position of a command in the list; its id in the stream.
 template <class C, class List = Commands>

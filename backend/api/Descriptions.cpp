@@ -11,7 +11,7 @@ bool isUniform(BindingType type) {
 } // namespace
 
 uint8_t flatBinding(ProgramLayout const& layout, uint32_t group, uint8_t binding) {
-    uint8_t uniforms = 0, textures = 0;
+    uint8_t uniforms = 0, textures = 0, storage = 0;
     for (uint32_t g = 0; g < kMaxBindGroups; ++g) {
         for (uint32_t i = 0; i < layout[g].count; ++i) {
             BindingDesc const& at = layout[g].bindings[i];
@@ -22,6 +22,9 @@ uint8_t flatBinding(ProgramLayout const& layout, uint32_t group, uint8_t binding
             } else if (at.type == BindingType::SampledTexture) {
                 if (wanted) return textures;
                 ++textures;
+            } else if (at.type == BindingType::StorageBuffer) {
+                if (wanted) return storage;
+                ++storage;
             }
         }
     }

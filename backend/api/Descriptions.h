@@ -38,7 +38,13 @@ struct Viewport {
 
 // ---------------------------------------------------------------------------------------------- buffers
 
-enum class BufferUsage : uint8_t { Vertex = 1, Index = 2, Uniform = 4 };
+enum class BufferUsage : uint8_t {
+    Vertex = 1,
+    Index = 2,
+    Uniform = 4,
+    Storage = 8,         ///< read and written by dispatches, read by fragment shaders
+    TransferSource = 16, ///< read back
+};
 constexpr BufferUsage operator|(BufferUsage a, BufferUsage b) {
     return static_cast<BufferUsage>(static_cast<uint8_t>(a) | static_cast<uint8_t>(b));
 }
@@ -91,13 +97,14 @@ using SamplerDesc = filament::Sampler;
 
 // ---------------------------------------------------------------------------------------------- programs
 
-enum class ShaderStage : uint8_t { Vertex = 1, Fragment = 2, Both = 3 };
+enum class ShaderStage : uint8_t { Vertex = 1, Fragment = 2, Both = 3, Compute = 4 };
 
 enum class BindingType : uint8_t {
     UniformBuffer,        ///< offset fixed in the bind group
     DynamicUniformBuffer, ///< plus an offset given with each CmdBindGroup
     SampledTexture,       ///< texture and sampler together
     InputAttachment,      ///< the pixel that an earlier subpass wrote; no sampler
+    StorageBuffer,        ///< offset fixed in the bind group; dispatches read and write it, fragment shaders read it
 };
 
 struct BindingDesc {
@@ -125,9 +132,11 @@ struct BindGroupLayout {
 /// groups below the first one whose layout differs from the last pipeline's.
 using ProgramLayout = std::array<BindGroupLayout, kMaxBindGroups>;
 
-/// OpenGL ES knows no groups: uniform blocks and textures are numbered on, group after group, in the order of the
-/// layout. The shader compiler and the GLES driver both number with this function, and nothing else.
-///   Returns the block index for uniform buffers, the texture unit for sampled textures; 0xFF if there is none.
+/// OpenGL ES knows no groups: uniform blocks, storage blocks and textures are numbered on, each kind by itself, group
+/// after group, in the order of the layout. The shader compiler and the GLES driver both number with this function, and
+/// nothing else.
+///   Returns the block index for uniform and storage buffers, the texture unit for sampled textures; 0xFF if there is
+///   none.
 uint8_t flatBinding(ProgramLayout const& layout, uint32_t group, uint8_t binding);
 
 /// A specialisation constant: bool, int and float travel as 32 bits.
@@ -141,6 +150,7 @@ struct ProgramDesc {
     /// SPIR-V words (Vulkan) or ESSL text (GLES): whichever DeviceInfo::shaderLanguage asks for.
     std::span<const std::byte> vertex;
     std::span<const std::byte> fragment;
+    std::span<const std::byte> compute; ///< alone: a program for CmdDispatch
     std::span<const ConstantValue> constants;
     ProgramLayout layout{};
     std::string_view debugName;
@@ -286,7 +296,8 @@ struct BlendState {
     friend bool operator==(BlendState const&, BlendState const&) = default;
 };
 
-/// A colour attachment that the program has no output for keeps its contents.
+/// A colour attachment that the program has no output for keeps its contents. Of a pipeline for CmdDispatch only the
+/// program and the name count.
 struct PipelineDesc {
     ProgramHandle program;
     PassLayout pass{};
@@ -302,9 +313,9 @@ struct PipelineDesc {
 
 struct BindGroupEntry {
     uint8_t binding = 0;
-    BufferHandle buffer;   ///< uniform buffers
-    uint64_t offset = 0;   ///< bytes, a multiple of DeviceLimits::uniformOffsetAlignment
-    uint32_t size = 0;     ///< bytes visible to the shader, <= DeviceLimits::maxUniformBlockBytes
+    BufferHandle buffer; ///< uniform and storage buffers
+    uint64_t offset = 0; ///< bytes, a multiple of DeviceLimits::uniformOffsetAlignment or storageOffsetAlignment
+    uint32_t size = 0;   ///< bytes visible to the shader, <= DeviceLimits::maxUniformBlockBytes or maxStorageBlockBytes
     TextureHandle texture; ///< sampled textures and input attachments
     SamplerHandle sampler; ///< sampled textures
     /// What the shader sees of the texture: its level 0 and layer 0 are the first ones of the range. Cubes show all

@@ -29,6 +29,12 @@ struct DeviceLimits {
     uint32_t maxUniformBlockBytes = 16384;
     uint32_t uniformOffsetAlignment = 256; ///< power of two
     uint32_t maxTextureUnits = 16;         ///< sampled textures of one program
+    uint32_t maxStorageBuffers = 4;        ///< of one program
+    uint32_t maxStorageBlockBytes = 1u << 27;
+    uint32_t storageOffsetAlignment = 256; ///< power of two
+    uint32_t maxDispatchGroups = 65535;    ///< in each direction
+    uint32_t maxGroupInvocations = 128;    ///< of one work group
+    uint32_t maxGroupBytes = 16384;        ///< shared memory of one work group
     uint32_t maxVertexAttributes = 16;
     uint32_t maxSamples = 4;
     float maxAnisotropy = 1;
@@ -59,6 +65,7 @@ struct DeviceInfo {
 struct DriverStatistics {
     uint64_t commands = 0;
     uint64_t draws = 0;
+    uint64_t dispatches = 0;
     uint64_t pipelinesCreated = 0;
     uint64_t programsCreated = 0;
     uint64_t programsFromCache = 0;  ///< of programsCreated: taken from DriverOptions::cacheDirectory, not compiled

@@ -19,22 +19,22 @@ namespace filament::backend::gles {
     X(BindTexture) X(BindVertexArray) X(BindVertexBuffer) X(BlendEquationSeparate) X(BlendFuncSeparate)         \
     X(BlitFramebuffer) X(BufferData) X(BufferSubData) X(CheckFramebufferStatus) X(ClearBufferfi)                \
     X(ClearBufferfv) X(ClearBufferuiv) X(ClientWaitSync) X(ColorMask) X(CompileShader)                          \
-    X(CompressedTexSubImage2D) X(CompressedTexSubImage3D) X(CreateProgram) X(CreateShader) X(CullFace)          \
-    X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteQueries) X(DeleteSamplers) X(DeleteShader)  \
-    X(DeleteSync) X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable) X(DrawArrays)    \
-    X(DrawArraysInstanced) X(DrawBuffers) X(DrawElementsInstanced) X(Enable) X(EnableVertexAttribArray)         \
-    X(FenceSync) X(Finish) X(Flush) X(FramebufferTexture2D) X(FramebufferTextureLayer) X(FrontFace)             \
-    X(GenBuffers) X(GenFramebuffers) X(GenQueries) X(GenSamplers) X(GenTextures) X(GenVertexArrays)             \
-    X(GetActiveAttrib) X(GetAttribLocation) X(GetError) X(GetFloatv) X(GetIntegerv) X(GetProgramBinary)         \
-    X(GetProgramInfoLog) X(GetProgramInterfaceiv) X(GetProgramResourceiv) X(GetProgramiv) X(GetQueryObjectuiv)  \
-    X(GetShaderInfoLog) X(GetShaderiv) X(GetString) X(GetStringi) X(InvalidateFramebuffer)                      \
-    X(InvalidateSubFramebuffer) X(LinkProgram) X(MapBufferRange) X(PixelStorei) X(PolygonOffset)                \
-    X(ProgramBinary) X(ProgramParameteri) X(ReadBuffer) X(ReadPixels) X(SamplerParameterf)                      \
-    X(SamplerParameteri) X(Scissor) X(ShaderSource) X(StencilFuncSeparate) X(StencilMask)                       \
-    X(StencilMaskSeparate) X(StencilOpSeparate) X(TexParameteri) X(TexStorage2D) X(TexStorage2DMultisample)     \
-    X(TexStorage3D) X(TexSubImage2D) X(TexSubImage3D) X(UnmapBuffer) X(UseProgram) X(VertexAttrib4f)            \
-    X(VertexAttribBinding) X(VertexAttribFormat) X(VertexAttribI4i) X(VertexAttribI4ui) X(VertexAttribIFormat)  \
-    X(VertexBindingDivisor) X(Viewport)
+    X(CompressedTexSubImage2D) X(CompressedTexSubImage3D) X(CopyBufferSubData) X(CreateProgram) X(CreateShader) \
+    X(CullFace) X(DeleteBuffers) X(DeleteFramebuffers) X(DeleteProgram) X(DeleteQueries) X(DeleteSamplers)      \
+    X(DeleteShader) X(DeleteSync) X(DeleteTextures) X(DeleteVertexArrays) X(DepthFunc) X(DepthMask) X(Disable)  \
+    X(DispatchCompute) X(DrawArrays) X(DrawArraysInstanced) X(DrawBuffers) X(DrawElementsInstanced) X(Enable)   \
+    X(EnableVertexAttribArray) X(FenceSync) X(Finish) X(Flush) X(FramebufferTexture2D)                          \
+    X(FramebufferTextureLayer) X(FrontFace) X(GenBuffers) X(GenFramebuffers) X(GenQueries) X(GenSamplers)       \
+    X(GenTextures) X(GenVertexArrays) X(GetActiveAttrib) X(GetAttribLocation) X(GetError) X(GetFloatv)          \
+    X(GetIntegeri_v) X(GetIntegerv) X(GetProgramBinary) X(GetProgramInfoLog) X(GetProgramInterfaceiv)           \
+    X(GetProgramResourceiv) X(GetProgramiv) X(GetQueryObjectuiv) X(GetShaderInfoLog) X(GetShaderiv)             \
+    X(GetString) X(GetStringi) X(InvalidateFramebuffer) X(InvalidateSubFramebuffer) X(LinkProgram)              \
+    X(MapBufferRange) X(MemoryBarrier) X(PixelStorei) X(PolygonOffset) X(ProgramBinary) X(ProgramParameteri)    \
+    X(ReadBuffer) X(ReadPixels) X(SamplerParameterf) X(SamplerParameteri) X(Scissor) X(ShaderSource)            \
+    X(StencilFuncSeparate) X(StencilMask) X(StencilMaskSeparate) X(StencilOpSeparate) X(TexParameteri)          \
+    X(TexStorage2D) X(TexStorage2DMultisample) X(TexStorage3D) X(TexSubImage2D) X(TexSubImage3D) X(UnmapBuffer) \
+    X(UseProgram) X(VertexAttrib4f) X(VertexAttribBinding) X(VertexAttribFormat) X(VertexAttribI4i)             \
+    X(VertexAttribI4ui) X(VertexAttribIFormat) X(VertexBindingDivisor) X(Viewport)
 
 // Optional, core since ES 3.2: looked up without a suffix, then as OES, EXT and KHR.
 #define FILAMENT_GL_OPTIONAL_FUNCTIONS(X)                                                                       \

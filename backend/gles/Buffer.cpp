@@ -12,7 +12,7 @@ Buffers::~Buffers() {
 
 void Buffers::create(BufferHandle handle, BufferDesc const& desc) {
     Api const& gl = mDevice.gl;
-    const bool changesOften = has(desc.usage, BufferUsage::Uniform);
+    const bool changesOften = has(desc.usage, BufferUsage::Uniform | BufferUsage::Storage);
     Buffer buffer{ .size = desc.size, .hint = static_cast<GLenum>(changesOften ? GL_DYNAMIC_DRAW : GL_STATIC_DRAW) };
     mDevice.beginCreation();
     gl.GenBuffers(1, &buffer.name);

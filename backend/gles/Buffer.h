@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Buffers: vertex, index and uniform memory.
+/// Buffers: vertex, index, uniform and storage memory.
 ///   Thread  the driver thread.
 ///   Fails   out of memory is reported; the buffer stays in the table with name 0, and commands that use it are
 ///           skipped.

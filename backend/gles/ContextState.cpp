@@ -45,10 +45,17 @@ void ContextState::bindFramebuffers(GLuint draw, GLuint read) {
 }
 
 void ContextState::bindUniforms(uint32_t slot, GLuint buffer, GLintptr offset, GLsizeiptr size) {
-    const UniformSlot wanted{ buffer, offset, size };
+    const BufferSlot wanted{ buffer, offset, size };
     if (mUniforms[slot] == wanted) return;
     mUniforms[slot] = wanted;
     mGl.BindBufferRange(GL_UNIFORM_BUFFER, slot, buffer, offset, size);
+}
+
+void ContextState::bindStorage(uint32_t slot, GLuint buffer, GLintptr offset, GLsizeiptr size) {
+    const BufferSlot wanted{ buffer, offset, size };
+    if (mStorage[slot] == wanted) return;
+    mStorage[slot] = wanted;
+    mGl.BindBufferRange(GL_SHADER_STORAGE_BUFFER, slot, buffer, offset, size);
 }
 
 void ContextState::bindTexture(uint32_t unit, GLenum target, GLuint texture) {
@@ -80,7 +87,10 @@ void ContextState::forgetFramebuffer(GLuint framebuffer) {
 }
 
 void ContextState::forgetBuffer(GLuint buffer) {
-    for (UniformSlot& slot : mUniforms) {
+    for (BufferSlot& slot : mUniforms) {
+        if (slot.buffer == buffer) slot = {};
+    }
+    for (BufferSlot& slot : mStorage) {
         if (slot.buffer == buffer) slot = {};
     }
 }

@@ -13,6 +13,7 @@
 namespace filament::backend::gles {
 
 inline constexpr uint32_t kMaxUniformSlots = kMaxBindGroups * kMaxBindings;
+inline constexpr uint32_t kMaxStorageSlots = kMaxBindGroups * kMaxBindings;
 inline constexpr uint32_t kMaxTextureUnits = kMaxBindGroups * kMaxBindings;
 
 class ContextState {
@@ -24,6 +25,7 @@ public:
     void bindVertexArray(GLuint array);
     void bindFramebuffers(GLuint draw, GLuint read);
     void bindUniforms(uint32_t slot, GLuint buffer, GLintptr offset, GLsizeiptr size);
+    void bindStorage(uint32_t slot, GLuint buffer, GLintptr offset, GLsizeiptr size);
     void bindTexture(uint32_t unit, GLenum target, GLuint texture);
     void bindSampler(uint32_t unit, GLuint sampler);
 
@@ -45,11 +47,11 @@ public:
     void forgetSampler(GLuint sampler);
 
 private:
-    struct UniformSlot {
+    struct BufferSlot {
         GLuint buffer = 0;
         GLintptr offset = 0;
         GLsizeiptr size = 0;
-        bool operator==(UniformSlot const&) const = default;
+        bool operator==(BufferSlot const&) const = default;
     };
     struct TextureUnit {
         GLenum target = 0;
@@ -71,7 +73,8 @@ private:
     Quirks const& mQuirks;
     GLuint mProgram = 0, mVertexArray = 0, mDrawFramebuffer = 0, mReadFramebuffer = 0;
     uint32_t mActiveUnit = 0;
-    std::array<UniformSlot, kMaxUniformSlots> mUniforms{};
+    std::array<BufferSlot, kMaxUniformSlots> mUniforms{};
+    std::array<BufferSlot, kMaxStorageSlots> mStorage{};
     std::array<TextureUnit, kMaxTextureUnits> mTextures{};
     std::array<GLenum, kMaxVertexAttributes> mConstantAttributes{};
 

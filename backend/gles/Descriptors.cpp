@@ -12,7 +12,7 @@ constexpr uint8_t kNoSlot = 0xFF;
 BindGroup::Slot resolve(BindGroupEntry const& entry, BindingType type, Buffers const& buffers, Textures& textures,
                         Samplers const& samplers, std::string_view group) {
     BindGroup::Slot slot{ .type = type };
-    if (type == BindingType::UniformBuffer || type == BindingType::DynamicUniformBuffer) {
+    if (type != BindingType::SampledTexture && type != BindingType::InputAttachment) {
         Buffer const* buffer = buffers.find(entry.buffer);
         slot.object = buffer ? buffer->name : 0;
         slot.offset = static_cast<GLintptr>(entry.offset);
@@ -94,6 +94,8 @@ void Descriptors::applyGroup(uint32_t index) {
         if (slot.type == BindingType::SampledTexture) {
             mState.bindTexture(at, slot.target, slot.object);
             mState.bindSampler(at, slot.sampler);
+        } else if (slot.type == BindingType::StorageBuffer) {
+            mState.bindStorage(at, slot.object, slot.offset, slot.size);
         } else {
             mState.bindUniforms(at, slot.object, slot.offset + static_cast<GLintptr>(offset), slot.size);
         }

@@ -39,7 +39,7 @@ void DrawState::setIndexBuffer(Buffer const* buffer, uint64_t offset, IndexForma
 }
 
 bool DrawState::prepareDraw(bool indexed, DrawBase base) {
-    if (!mPipeline || !mPipeline->isUsable()) return false;
+    if (!mPipeline || !mPipeline->isUsable() || mPipeline->program->isCompute()) return false;
     if (!mPipelineApplied) {
         applyPipeline(mContext, *mPipeline, mStencilFront, mStencilBack);
         mPipelineApplied = true;

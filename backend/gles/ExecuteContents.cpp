@@ -46,6 +46,10 @@ void Executor::copy(Image const& source, Image const& target, Filter filter) {
                                glFilter(filter));
 }
 
+void Executor::execute(CmdReadBuffer const& command) {
+    if (Buffer const* buffer = mBuffers.find(command.buffer)) mReadbacks.read(command, *buffer);
+}
+
 void Executor::execute(CmdBlit const& command) {
     Texture const* source = mTextures.find(command.source);
     Texture const* target = mTextures.find(command.target);

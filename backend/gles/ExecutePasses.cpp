@@ -7,6 +7,7 @@ namespace filament::backend::gles {
 
 void Executor::execute(CmdBeginPass const& command) {
     mDraws.beginSubpass();
+    mCompute.reset();
     mPass.begin(command.desc);
 }
 
@@ -15,12 +16,27 @@ void Executor::execute(CmdNextSubpass const&) {
     mPass.nextSubpass();
 }
 
-void Executor::execute(CmdEndPass const&) { mPass.end(); }
+void Executor::execute(CmdEndPass const&) {
+    mPass.end();
+    mCompute.reset();
+}
 
-// ---------------------------------------------------------------------------------------------- inside
+// ---------------------------------------------------------------------------------------------- bindings
+
+void Executor::execute(CmdBindPipeline const& command) {
+    if (mPass.isOpen()) {
+        mDraws.setPipeline(mPipelines.find(command.pipeline));
+    } else {
+        mCompute.setPipeline(command.pipeline);
+    }
+}
 
 void Executor::execute(CmdBindGroup const& command) {
-    mDraws.setGroup(command.index, mBindGroups.find(command.group), command.dynamicOffsets);
+    if (mPass.isOpen()) {
+        mDraws.setGroup(command.index, mBindGroups.find(command.group), command.dynamicOffsets);
+    } else {
+        mCompute.setGroup(command);
+    }
 }
 
 void Executor::execute(CmdBindVertexBuffers const& command) {
@@ -74,6 +90,18 @@ void Executor::execute(CmdDrawIndexed const& command) {
     } else {
         gl.DrawElementsInstanced(mode, count, type, indices, instances);
     }
+}
+
+// ---------------------------------------------------------------------------------------------- dispatches
+
+void Executor::execute(CmdDispatch const& command) {
+    if (mPass.isOpen() || !mCompute.prepareDispatch()) return;
+    mDevice.gl.DispatchCompute(command.groupsX, command.groupsY, command.groupsZ);
+    // Whatever may read or overwrite a buffer of the stream; dispatches are few, so not what the next command needs
+    // alone.
+    mDevice.gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
+                             GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
+    ++mDevice.statistics.dispatches;
 }
 
 } // namespace filament::backend::gles

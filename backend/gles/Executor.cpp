@@ -34,7 +34,8 @@ Executor::Executor(OpenDevice device, DriverOptions const& options, ResultSink& 
         : mContext(std::move(device.context)), mDevice(device.gl, device.quirks, sink, options.validation),
           mBuffers(mDevice), mTextures(mDevice), mSamplers(mDevice), mFramebuffers(mDevice), mVertices(mDevice),
           mPass(mDevice, mTextures, mFramebuffers), mDraws(mDevice.state, mVertices),
-          mReadbacks(mDevice, mTextures, mFramebuffers), mTimers(mDevice) {
+          mReadbacks(mDevice, mTextures, mFramebuffers), mTimers(mDevice),
+          mCompute(mDevice.state, mPipelines, mBindGroups) {
     openProgramCache(mDevice, options.cacheDirectory);
 }
 

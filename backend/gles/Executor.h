@@ -9,6 +9,7 @@
 ///   Files    Executor.cpp frames and life time, ExecuteObjects.cpp, ExecuteContents.cpp, ExecutePasses.cpp.
 #pragma once
 
+#include "backend/gles/ComputeState.h"
 #include "backend/gles/Context.h"
 #include "backend/gles/DrawState.h"
 #include "backend/gles/Fence.h"
@@ -53,6 +54,7 @@ public:
     void execute(CmdUploadTexture const& command) { mTextures.upload(command); }
     void execute(CmdGenerateMips const& command);
     void execute(CmdBlit const& command);
+    void execute(CmdReadBuffer const& command);
     void execute(CmdReadTexture const& command) { mReadbacks.read(command); }
 
     void execute(CmdBeginPass const& command);
@@ -61,12 +63,13 @@ public:
     void execute(CmdSetViewport const& command) { mDevice.state.setViewport(command.viewport); }
     void execute(CmdSetScissor const& command) { mDevice.state.setScissor(command.rect); }
     void execute(CmdSetStencilReference const& command) { mDraws.setStencilReference(command.front, command.back); }
-    void execute(CmdBindPipeline const& command) { mDraws.setPipeline(mPipelines.find(command.pipeline)); }
+    void execute(CmdBindPipeline const& command);
     void execute(CmdBindGroup const& command);
     void execute(CmdBindVertexBuffers const& command);
     void execute(CmdBindIndexBuffer const& command);
     void execute(CmdDraw const& command);
     void execute(CmdDrawIndexed const& command);
+    void execute(CmdDispatch const& command);
 
     void execute(CmdBeginFrame const&) {}
     void execute(CmdEndFrame const& command);
@@ -114,6 +117,7 @@ private:
     Slots<ProgramHandle, std::shared_ptr<Program const>> mPrograms;
     Slots<PipelineHandle, Pipeline> mPipelines;
     Slots<BindGroupHandle, BindGroup> mBindGroups;
+    ComputeState mCompute; // refers to the slots
     Fifo<Fence> mFrames;
 
     mutable std::mutex mPublishedMutex;

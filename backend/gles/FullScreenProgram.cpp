@@ -23,7 +23,9 @@ FullScreenProgram::~FullScreenProgram() {
 
 bool FullScreenProgram::prepare() {
     if (mProgram) return true;
-    mProgram = linkProgram(mDevice, { kVertexText }, { mFragment }, mName);
+    const std::array<StageText, 2> stages{ { { GL_VERTEX_SHADER, { kVertexText } },
+                                             { GL_FRAGMENT_SHADER, { mFragment } } } };
+    mProgram = linkProgram(mDevice, stages, mName);
     if (!mVertexArray) mDevice.gl.GenVertexArrays(1, &mVertexArray);
     return mProgram != 0;
 }

@@ -34,6 +34,10 @@ DepthStencilState allowedTests(PipelineDesc const& desc, SubpassDesc const& subp
 
 Pipeline makePipeline(PipelineDesc const& desc, std::shared_ptr<Program const> program, Vertices& vertices) {
     Pipeline pipeline;
+    if (program && program->isCompute()) {
+        pipeline.program = std::move(program);
+        return pipeline;
+    }
     SubpassDesc const& subpass = desc.pass.subpasses[desc.subpass];
     pipeline.vertices = &vertices.get(desc.vertices);
     if (program) pipeline.constantInputs = inputsWithoutArray(*program, desc.vertices);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Pipeline: a program with all fixed-function state, converted once.
+/// Pipeline: a program with all fixed-function state, converted once; of a compute program nothing but that.
 ///   OpenGL ES has no such object: applying one is a few compares against ContextState.
 ///   Thread  the driver thread.
 ///   Memory  keeps its program alive, like a Vulkan pipeline.

@@ -100,15 +100,26 @@ FlatBindings flatBindings(ProgramLayout const& layout) {
     return flat;
 }
 
-Program::Program(Device& device, ProgramDesc const& desc) : mDevice(device), mBindings(flatBindings(desc.layout)) {
+Program::Program(Device& device, ProgramDesc const& desc)
+        : mDevice(device), mIsCompute(!desc.compute.empty()), mBindings(flatBindings(desc.layout)) {
     const std::string constants = constantDefinitions(desc.constants);
-    const SplitText vertex = splitAfterVersion(asText(desc.vertex));
-    const SplitText fragment = splitAfterVersion(desc.fragment.empty() ? kNoFragment : asText(desc.fragment));
-    mName = linkProgram(device, { vertex.version, constants, vertex.body },
-                        { fragment.version, constants, fragment.body }, desc.debugName);
+    const auto stage = [&constants](GLenum kind, std::string_view text) {
+        const SplitText split = splitAfterVersion(text);
+        return StageText{ kind, { split.version, constants, split.body } };
+    };
+    if (mIsCompute) {
+        const std::array stages{ stage(GL_COMPUTE_SHADER, asText(desc.compute)) };
+        mName = linkProgram(device, stages, desc.debugName);
+    } else {
+        const std::array stages{ stage(GL_VERTEX_SHADER, asText(desc.vertex)),
+                                 stage(GL_FRAGMENT_SHADER,
+                                       desc.fragment.empty() ? kNoFragment : asText(desc.fragment)) };
+        mName = linkProgram(device, stages, desc.debugName);
+    }
     ++device.statistics.programsCreated;
     if (!mName) return;
     device.label(GL_PROGRAM, mName, desc.debugName);
+    if (mIsCompute) return;
     readInputs();
     readOutputs();
 }

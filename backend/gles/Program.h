@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Program: a linked vertex and fragment shader, with what draws need to know about it.
+/// Program: a linked vertex and fragment shader, with what draws need to know about it; or a compute shader.
 ///   In      ESSL 3.10 text whose blocks and textures carry `layout(binding = flatBinding(...))`; an empty fragment
 ///           shader means that only depth is written. Specialisation constants become `#define
 ///           SPIRV_CROSS_CONSTANT_ID_<id> value` after the #version line: SPIRV-Cross uses these names and defines
@@ -18,7 +18,7 @@ namespace filament::backend::gles {
 /// The lines that define the constants.
 std::string constantDefinitions(std::span<const ConstantValue> constants);
 
-/// The number of every binding among the uniform blocks or texture units of the program; 0xFF: none.
+/// The number of every binding among the uniform blocks, storage blocks or texture units of the program; 0xFF: none.
 using FlatBindings = std::array<std::array<uint8_t, kMaxBindings>, kMaxBindGroups>;
 FlatBindings flatBindings(ProgramLayout const& layout);
 
@@ -36,6 +36,7 @@ public:
     Program& operator=(Program const&) = delete;
 
     GLuint name() const { return mName; }
+    bool isCompute() const { return mIsCompute; }
     FlatBindings const& bindings() const { return mBindings; }
     std::span<const ProgramInput> inputs() const { return mInputs; }
     uint32_t outputMask() const { return mOutputMask; } ///< bit i: the fragment stage has an output at location i
@@ -45,6 +46,7 @@ private:
     void readOutputs();
 
     Device& mDevice;
+    bool mIsCompute;
     GLuint mName = 0;
     FlatBindings mBindings{};
     std::vector<ProgramInput> mInputs;

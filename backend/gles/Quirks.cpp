@@ -35,6 +35,16 @@ bool hasAny(Extensions const& names, std::initializer_list<const char*> wanted) 
     return std::any_of(wanted.begin(), wanted.end(), [&](const char* name) { return names.contains(name); });
 }
 
+uint32_t maxDispatchGroups(Api const& gl) {
+    GLint least = 65535; // what the specification asks for
+    for (GLuint direction = 0; direction < 3; ++direction) {
+        GLint most = 0;
+        gl.GetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, direction, &most);
+        least = direction == 0 ? most : std::min(least, most);
+    }
+    return static_cast<uint32_t>(least);
+}
+
 bool hasBlockCompression(Extensions const& names) {
     return names.contains("GL_EXT_texture_compression_s3tc") && names.contains("GL_EXT_texture_compression_rgtc") &&
            names.contains("GL_EXT_texture_compression_bptc") &&
@@ -91,6 +101,13 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
     limits.maxUniformBlockBytes = static_cast<uint32_t>(integer(gl, GL_MAX_UNIFORM_BLOCK_SIZE));
     limits.uniformOffsetAlignment = static_cast<uint32_t>(integer(gl, GL_UNIFORM_BUFFER_OFFSET_ALIGNMENT));
     limits.maxTextureUnits = static_cast<uint32_t>(integer(gl, GL_MAX_TEXTURE_IMAGE_UNITS));
+    limits.maxStorageBuffers = static_cast<uint32_t>(std::min(
+            { integer(gl, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS), integer(gl, GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS) }));
+    limits.maxStorageBlockBytes = static_cast<uint32_t>(integer(gl, GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
+    limits.storageOffsetAlignment = static_cast<uint32_t>(integer(gl, GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT));
+    limits.maxDispatchGroups = maxDispatchGroups(gl);
+    limits.maxGroupInvocations = static_cast<uint32_t>(integer(gl, GL_MAX_COMPUTE_WORK_GROUP_INVOCATIONS));
+    limits.maxGroupBytes = static_cast<uint32_t>(integer(gl, GL_MAX_COMPUTE_SHARED_MEMORY_SIZE));
     limits.maxVertexAttributes =
             std::min(static_cast<uint32_t>(integer(gl, GL_MAX_VERTEX_ATTRIBS)), kMaxVertexAttributes);
     limits.maxSamples = std::min(static_cast<uint32_t>(integer(gl, GL_MAX_SAMPLES)), 4u);

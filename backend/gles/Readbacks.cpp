@@ -89,6 +89,24 @@ void Readbacks::read(CmdReadTexture const& command) {
     mPending.push_back(std::move(pending));
 }
 
+void Readbacks::read(CmdReadBuffer const& command, Buffer const& buffer) {
+    Api const& gl = mDevice.gl;
+    Pending pending{ command.ticket, { .texelBytes = 1 }, command.size, 0, {} };
+    const auto size = static_cast<GLsizeiptr>(command.size);
+    mDevice.beginCreation();
+    gl.GenBuffers(1, &pending.buffer);
+    gl.BindBuffer(GL_COPY_READ_BUFFER, buffer.name);
+    gl.BindBuffer(GL_COPY_WRITE_BUFFER, pending.buffer);
+    gl.BufferData(GL_COPY_WRITE_BUFFER, size, nullptr, GL_STREAM_READ);
+    gl.CopyBufferSubData(GL_COPY_READ_BUFFER, GL_COPY_WRITE_BUFFER, static_cast<GLintptr>(command.offset), 0, size);
+    if (!mDevice.created("read-back of", "a buffer")) {
+        gl.DeleteBuffers(1, &pending.buffer);
+        return;
+    }
+    pending.fence = Fence(mDevice);
+    mPending.push_back(std::move(pending));
+}
+
 void Readbacks::answer(Pending const& pending) {
     Api const& gl = mDevice.gl;
     const size_t bytes = pending.texels * pending.plan.texelBytes;

@@ -6,6 +6,7 @@
 ///   Fails   a texture that cannot be read is reported; its ticket gets no result.
 #pragma once
 
+#include "backend/gles/Buffer.h"
 #include "backend/gles/DepthReader.h"
 #include "backend/gles/Fence.h"
 
@@ -22,6 +23,8 @@ public:
     ~Readbacks();
 
     void read(CmdReadTexture const& command);
+    /// Copies at once: the buffer may change or go afterwards.
+    void read(CmdReadBuffer const& command, Buffer const& buffer);
     /// Delivers the results that are ready; `wait`: all of them.
     void poll(bool wait);
 

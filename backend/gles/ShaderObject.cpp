@@ -27,66 +27,73 @@ std::string readLog(GLuint object, GetInteger getInteger, GetLog getLog) {
     return firstLine(std::move(log));
 }
 
-GLuint compile(Device& device, GLenum stage, ShaderText text, std::string_view name) {
-    constexpr size_t kMaxPieces = 4;
-    std::array<const GLchar*, kMaxPieces> pieces{};
-    std::array<GLint, kMaxPieces> lengths{};
-    size_t count = 0;
-    for (std::string_view piece : text) {
-        pieces[count] = piece.data() ? piece.data() : "";
-        lengths[count++] = static_cast<GLint>(piece.size());
+const char* nameOf(GLenum stage) {
+    return stage == GL_VERTEX_SHADER ? "vertex" : stage == GL_FRAGMENT_SHADER ? "fragment" : "compute";
+}
+
+GLuint compile(Device& device, StageText const& text, std::string_view name) {
+    std::array<const GLchar*, std::tuple_size_v<decltype(StageText::pieces)>> pieces{};
+    std::array<GLint, std::tuple_size_v<decltype(StageText::pieces)>> lengths{};
+    for (size_t i = 0; i < pieces.size(); ++i) {
+        pieces[i] = text.pieces[i].data() ? text.pieces[i].data() : "";
+        lengths[i] = static_cast<GLint>(text.pieces[i].size());
     }
     Api const& gl = device.gl;
-    const GLuint shader = gl.CreateShader(stage);
-    gl.ShaderSource(shader, static_cast<GLsizei>(count), pieces.data(), lengths.data());
+    const GLuint shader = gl.CreateShader(text.stage);
+    gl.ShaderSource(shader, static_cast<GLsizei>(pieces.size()), pieces.data(), lengths.data());
     gl.CompileShader(shader);
     GLint compiled = GL_FALSE;
     gl.GetShaderiv(shader, GL_COMPILE_STATUS, &compiled);
     if (compiled) return shader;
-    device.error(DriverErrorKind::ShaderCompile, "program '{}', {} shader: {}; draws with it are skipped", name,
-                 stage == GL_VERTEX_SHADER ? "vertex" : "fragment",
-                 readLog(shader, gl.GetShaderiv, gl.GetShaderInfoLog));
+    device.error(DriverErrorKind::ShaderCompile, "program '{}', {} shader: {}; what uses it is skipped", name,
+                 nameOf(text.stage), readLog(shader, gl.GetShaderiv, gl.GetShaderInfoLog));
     gl.DeleteShader(shader);
     return 0;
 }
 
-GLuint link(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name) {
+/// Compiles every stage into the program, until one fails.
+bool attachStages(Device& device, GLuint program, std::span<const StageText> stages, std::string_view name) {
+    for (StageText const& stage : stages) {
+        const GLuint shader = compile(device, stage, name);
+        if (!shader) return false;
+        device.gl.AttachShader(program, shader);
+        device.gl.DeleteShader(shader); // kept by the program
+    }
+    return true;
+}
+
+GLuint link(Device& device, std::span<const StageText> stages, std::string_view name) {
     Api const& gl = device.gl;
-    const GLuint vertexShader = compile(device, GL_VERTEX_SHADER, vertex, name);
-    const GLuint fragmentShader = vertexShader ? compile(device, GL_FRAGMENT_SHADER, fragment, name) : 0;
-    GLuint program = 0;
-    if (fragmentShader) {
-        program = gl.CreateProgram();
-        gl.AttachShader(program, vertexShader);
-        gl.AttachShader(program, fragmentShader);
+    const GLuint program = gl.CreateProgram();
+    if (attachStages(device, program, stages, name)) {
         if (device.programs) gl.ProgramParameteri(program, GL_PROGRAM_BINARY_RETRIEVABLE_HINT, GL_TRUE);
         gl.LinkProgram(program);
+        GLint linked = GL_FALSE;
+        gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
+        if (linked) return program;
+        device.error(DriverErrorKind::ShaderCompile, "program '{}' does not link: {}; what uses it is skipped", name,
+                     readLog(program, gl.GetProgramiv, gl.GetProgramInfoLog));
     }
-    gl.DeleteShader(vertexShader); // kept by the program; 0 is ignored
-    gl.DeleteShader(fragmentShader);
-    GLint linked = GL_FALSE;
-    if (program) gl.GetProgramiv(program, GL_LINK_STATUS, &linked);
-    if (!program || linked) return program;
-    device.error(DriverErrorKind::ShaderCompile, "program '{}' does not link: {}; draws with it are skipped", name,
-                 readLog(program, gl.GetProgramiv, gl.GetProgramInfoLog));
     gl.DeleteProgram(program);
     return 0;
 }
 
-uint64_t keyOf(ShaderText vertex, ShaderText fragment) {
+uint64_t keyOf(std::span<const StageText> stages) {
     uint64_t key = 0;
-    for (std::string_view piece : vertex) key = hashString(piece, key);
-    for (std::string_view piece : fragment) key = hashString(piece, hashCombine(key, 1));
+    for (StageText const& stage : stages) {
+        key = hashCombine(key, stage.stage);
+        for (std::string_view piece : stage.pieces) key = hashString(piece, key);
+    }
     return key;
 }
 
 } // namespace
 
-GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name) {
-    if (!device.programs) return link(device, vertex, fragment, name);
-    const uint64_t key = keyOf(vertex, fragment);
+GLuint linkProgram(Device& device, std::span<const StageText> stages, std::string_view name) {
+    if (!device.programs) return link(device, stages, name);
+    const uint64_t key = keyOf(stages);
     if (const GLuint program = loadProgramBinary(device, key)) return program;
-    const GLuint program = link(device, vertex, fragment, name);
+    const GLuint program = link(device, stages, name);
     if (program) keepProgramBinary(device, key, program);
     return program;
 }

@@ -6,14 +6,19 @@
 
 #include "backend/gles/Device.h"
 
-#include <initializer_list>
+#include <array>
+#include <span>
+#include <string_view>
 
 namespace filament::backend::gles {
 
-/// Text in pieces, for glShaderSource.
-using ShaderText = std::initializer_list<std::string_view>;
+/// The text of one stage in pieces, for glShaderSource.
+struct StageText {
+    GLenum stage = GL_VERTEX_SHADER;
+    std::array<std::string_view, 3> pieces{};
+};
 
 /// The linked program, or 0 (reported under `name`). Device::programs, if present, provides it or stores it.
-GLuint linkProgram(Device& device, ShaderText vertex, ShaderText fragment, std::string_view name);
+GLuint linkProgram(Device& device, std::span<const StageText> stages, std::string_view name);
 
 } // namespace filament::backend::gles

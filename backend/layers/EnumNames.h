@@ -26,7 +26,8 @@ inline constexpr bool kIsFlags = false;
 template <>
 inline constexpr bool kIsFlags<BufferUsage> = true;
 template <>
-inline constexpr std::array kEnumNames<BufferUsage>{ "Vertex"sv, "Index"sv, "Uniform"sv };
+inline constexpr std::array kEnumNames<BufferUsage>{ "Vertex"sv, "Index"sv, "Uniform"sv, "Storage"sv,
+                                                     "TransferSource"sv };
 template <>
 inline constexpr bool kIsFlags<TextureUsage> = true;
 template <>
@@ -36,7 +37,7 @@ inline constexpr std::array kEnumNames<TextureUsage>{ "Sampled"sv,         "Colo
 template <>
 inline constexpr bool kIsFlags<ShaderStage> = true;
 template <>
-inline constexpr std::array kEnumNames<ShaderStage>{ "Vertex"sv, "Fragment"sv };
+inline constexpr std::array kEnumNames<ShaderStage>{ "Vertex"sv, "Fragment"sv, "Compute"sv };
 
 template <>
 inline constexpr std::array kEnumNames<IndexFormat>{ "UInt16"sv, "UInt32"sv };
@@ -54,7 +55,7 @@ inline constexpr std::array kEnumNames<CompareOp>{ "None"sv,     "Never"sv,     
                                                    "NotEqual"sv, "GreaterEqual"sv, "Always"sv };
 template <>
 inline constexpr std::array kEnumNames<BindingType>{ "UniformBuffer"sv, "DynamicUniformBuffer"sv, "SampledTexture"sv,
-                                                     "InputAttachment"sv };
+                                                     "InputAttachment"sv, "StorageBuffer"sv };
 template <>
 inline constexpr std::array kEnumNames<ConstantValue::Type>{ "Bool"sv, "Int"sv, "Float"sv };
 template <>

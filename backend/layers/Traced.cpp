@@ -71,8 +71,8 @@ struct TicketCollector {
     std::vector<Ticket>& tickets;
     template <class C>
     void execute(C const& command) {
-        if constexpr (std::same_as<C, CmdReadTexture> || std::same_as<C, CmdEndTimer>)
-            tickets.push_back(command.ticket);
+        constexpr bool kReads = std::same_as<C, CmdReadTexture> || std::same_as<C, CmdReadBuffer>;
+        if constexpr (kReads || std::same_as<C, CmdEndTimer>) tickets.push_back(command.ticket);
     }
 };
 

@@ -43,6 +43,7 @@ public:
     void execute(CmdUploadTexture const& command);
     void execute(CmdGenerateMips const& command);
     void execute(CmdBlit const& command);
+    void execute(CmdReadBuffer const& command);
     void execute(CmdReadTexture const& command);
 
     void execute(CmdBeginPass const& command);
@@ -64,6 +65,7 @@ public:
     void execute(CmdBindIndexBuffer const& command);
     void execute(CmdDraw const& command);
     void execute(CmdDrawIndexed const& command);
+    void execute(CmdDispatch const& command);
 
 private:
     /// The effect of a broken rule in a real driver: a wrong picture, or a crash (then the stream is dropped). Bits that
@@ -87,11 +89,13 @@ private:
     struct ProgramModel {
         std::string name;
         ProgramLayout layout;
+        bool isCompute = false;
     };
     struct PipelineModel {
         std::string name;
         PipelineDesc desc;
         ProgramLayout layout;
+        bool isCompute = false;
     };
     struct BindGroupModel {
         std::string name;
@@ -99,7 +103,8 @@ private:
         std::vector<BindGroupEntry> entries;
     };
 
-    /// The bindings of a pass; every subpass resets them.
+    /// What is bound inside a pass, for draws, or outside, for dispatches; subpasses and the begin and end of a pass reset
+    /// it.
     struct Bound {
         PipelineHandle pipeline;
         std::array<BindGroupHandle, kMaxBindGroups> groups{};
@@ -140,12 +145,18 @@ private:
 
     // ---- rules that several commands share
     bool checkBindGroupLayout(BindGroupLayout const& layout, std::string_view where);
+    void checkStages(ProgramDesc const& desc);
+    void checkBindingStages(BindingDesc const& binding, bool isCompute, uint32_t group);
     void checkTextureShape(DeviceTextureDesc const& desc);
     void checkTextureUsage(DeviceTextureDesc const& desc);
     void checkVertexLayout(VertexLayout const& layout);
+    void checkDrawPipeline(PipelineDesc const& desc, ProgramLayout const& program);
     void checkPipelineState(PipelineDesc const& desc, ProgramLayout const& program);
     void checkEntry(BindingDesc const& binding, BindGroupEntry const& entry);
     void checkUniformEntry(BindGroupEntry const& entry);
+    void checkStorageEntry(BindGroupEntry const& entry);
+    void checkBufferRange(BindGroupEntry const& entry, BufferModel const& buffer, uint32_t alignment, uint32_t maxBytes,
+                          const char* limits);
     void checkTextureEntry(BindingDesc const& binding, BindGroupEntry const& entry);
     void checkEntryRange(BindingDesc const& binding, BindGroupEntry const& entry, TextureModel const& texture);
     bool checkRegion(TextureModel const& texture, std::string_view role, uint32_t level, uint32_t layer,
@@ -162,7 +173,8 @@ private:
     void checkDepthResolve(PassDesc const& desc);
     void checkAttachedOnce(PassDesc const& desc);
 
-    PipelineModel const* checkDrawState();
+    /// The bound pipeline, if all of its groups are there.
+    PipelineModel const* checkBoundState();
     void checkGroup(PipelineModel const& pipeline, uint32_t index);
     void checkGroupTextures(BindGroupModel const& group, uint32_t index);
     void checkVertexRange(PipelineModel const& pipeline, uint64_t lastVertex, uint64_t lastInstance);

@@ -125,6 +125,19 @@ void Validator::execute(CmdBlit const& command) {
             "source and target overlap; blit over a third texture");
 }
 
+void Validator::execute(CmdReadBuffer const& command) {
+    enter<CmdReadBuffer>(Place::OutsidePasses);
+    checkTicket(command.ticket);
+    BufferModel const* buffer = need(mBuffers, command.buffer, "buffer");
+    if (!buffer) return;
+    mObject = buffer->name;
+    require(has(buffer->desc.usage, BufferUsage::TransferSource), Harm::Crash,
+            "the buffer lacks BufferUsage::TransferSource");
+    const uint64_t size = buffer->desc.size;
+    require(command.size > 0 && command.offset <= size && command.size <= size - command.offset, Harm::Crash,
+            "bytes {}..{} of a buffer of {}", command.offset, command.offset + command.size, size);
+}
+
 void Validator::execute(CmdReadTexture const& command) {
     enter<CmdReadTexture>(Place::OutsidePasses);
     checkTicket(command.ticket);

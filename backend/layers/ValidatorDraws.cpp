@@ -28,14 +28,21 @@ void Validator::execute(CmdSetScissor const& command) {
 void Validator::execute(CmdSetStencilReference const&) { enter<CmdSetStencilReference>(Place::InsidePass); }
 
 void Validator::execute(CmdBindPipeline const& command) {
-    enter<CmdBindPipeline>(Place::InsidePass);
+    enter<CmdBindPipeline>(Place::Anywhere);
     PipelineModel const* pipeline = need(mPipelines, command.pipeline, "pipeline");
-    if (!pipeline || !mPass) return;
+    if (!pipeline) return;
     mObject = pipeline->name;
-    require(pipeline->desc.pass == mPass->desc.layout, Harm::Crash,
-            "the pipeline was made for another PassLayout; create it with the layout of this pass");
-    require(pipeline->desc.subpass == mPass->subpass, Harm::Crash,
-            "the pipeline was made for subpass {}, the current one is {}", pipeline->desc.subpass, mPass->subpass);
+    if (!require(pipeline->isCompute == !mPass, Harm::Crash, "{}",
+                 mPass ? "the pipeline is for dispatches; bind it outside of passes"
+                       : "the pipeline is for draws; bind it inside of a pass")) {
+        return;
+    }
+    if (mPass) {
+        require(pipeline->desc.pass == mPass->desc.layout, Harm::Crash,
+                "the pipeline was made for another PassLayout; create it with the layout of this pass");
+        require(pipeline->desc.subpass == mPass->subpass, Harm::Crash,
+                "the pipeline was made for subpass {}, the current one is {}", pipeline->desc.subpass, mPass->subpass);
+    }
     if (PipelineModel const* before = mPipelines.find(mBound.pipeline)) {
         // Bindings survive only up to the first group in which the two programs disagree.
         const auto differs = std::ranges::mismatch(before->layout, pipeline->layout).in1 - before->layout.begin();
@@ -45,7 +52,7 @@ void Validator::execute(CmdBindPipeline const& command) {
 }
 
 void Validator::execute(CmdBindGroup const& command) {
-    enter<CmdBindGroup>(Place::InsidePass);
+    enter<CmdBindGroup>(Place::Anywhere);
     BindGroupModel const* group = need(mBindGroups, command.group, "bind group");
     if (!group) return;
     mObject = group->name;
@@ -108,7 +115,7 @@ void Validator::execute(CmdBindIndexBuffer const& command) {
 
 void Validator::execute(CmdDraw const& command) {
     enter<CmdDraw>(Place::InsidePass);
-    PipelineModel const* pipeline = checkDrawState();
+    PipelineModel const* pipeline = mPass ? checkBoundState() : nullptr;
     if (!pipeline || command.vertexCount == 0 || command.instanceCount == 0) return;
     checkVertexRange(*pipeline, uint64_t{ command.firstVertex } + command.vertexCount - 1,
                      uint64_t{ command.firstInstance } + command.instanceCount - 1);
@@ -116,7 +123,7 @@ void Validator::execute(CmdDraw const& command) {
 
 void Validator::execute(CmdDrawIndexed const& command) {
     enter<CmdDrawIndexed>(Place::InsidePass);
-    PipelineModel const* pipeline = checkDrawState();
+    PipelineModel const* pipeline = mPass ? checkBoundState() : nullptr;
     if (!pipeline) return;
     if (!require(static_cast<bool>(mBound.indices.buffer), Harm::Crash, "no index buffer is bound")) return;
     BufferModel const* indices = need(mBuffers, mBound.indices.buffer, "index buffer");
@@ -129,16 +136,26 @@ void Validator::execute(CmdDrawIndexed const& command) {
     checkVertexRange(*pipeline, 0, uint64_t{ command.firstInstance } + command.instanceCount - 1);
 }
 
-Validator::PipelineModel const* Validator::checkDrawState() {
-    if (!mPass) return nullptr;
+Validator::PipelineModel const* Validator::checkBoundState() {
     if (!require(static_cast<bool>(mBound.pipeline), Harm::Crash, "no pipeline is bound; record CmdBindPipeline"))
         return nullptr;
-    PipelineModel const* pipeline = mPipelines.find(mBound.pipeline);
-    mObject = pipeline->name; // pipelines die outside of passes only
+    PipelineModel const* pipeline = need(mPipelines, mBound.pipeline, "pipeline");
+    if (!pipeline) return nullptr;
+    mObject = pipeline->name;
     for (uint32_t i = 0; i < kMaxBindGroups; ++i) {
         if (pipeline->layout[i].count > 0) checkGroup(*pipeline, i);
     }
     return pipeline;
+}
+
+void Validator::execute(CmdDispatch const& command) {
+    enter<CmdDispatch>(Place::OutsidePasses);
+    if (mPass || !checkBoundState()) return;
+    const uint32_t most = mInfo.limits.maxDispatchGroups;
+    for (const uint32_t groups : { command.groupsX, command.groupsY, command.groupsZ }) {
+        require(groups >= 1 && groups <= most, Harm::Crash, "{} work groups; 1..{} (DeviceLimits::maxDispatchGroups)",
+                groups, most);
+    }
 }
 
 void Validator::checkGroup(PipelineModel const& pipeline, uint32_t index) {
@@ -160,13 +177,13 @@ void Validator::checkGroupTextures(BindGroupModel const& group, uint32_t index) 
         BindGroupEntry const& entry = *std::ranges::find(group.entries, binding.binding, &BindGroupEntry::binding);
         if (entry.buffer) {
             need(mBuffers, entry.buffer,
-                 fmt::format("uniform buffer at binding {} of group {} '{}'", entry.binding, index, group.name));
+                 fmt::format("buffer at binding {} of group {} '{}'", entry.binding, index, group.name));
             continue;
         }
         TextureModel const* texture =
                 need(mTextures, entry.texture,
                      fmt::format("texture at binding {} of group {} '{}'", entry.binding, index, group.name));
-        if (!texture) continue;
+        if (!texture || !mPass) continue;
         const TextureRange range = withCounts(entry.range, texture->desc.levels, texture->desc.layers);
         if (binding.type == BindingType::InputAttachment) {
             Attachment const& color = mPass->desc.colors[binding.inputAttachment % kMaxColorAttachments];

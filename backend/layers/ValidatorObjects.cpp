@@ -142,21 +142,44 @@ bool Validator::checkBindGroupLayout(BindGroupLayout const& layout, std::string_
                    "{}: {} dynamic buffers; at most {} of one group", where, layout.dynamicCount(), kMaxDynamicOffsets);
 }
 
+void Validator::checkStages(ProgramDesc const& desc) {
+    const bool isCompute = !desc.compute.empty();
+    require(isCompute ? desc.vertex.empty() && desc.fragment.empty() : !desc.vertex.empty() && !desc.fragment.empty(),
+            Harm::Crash, "a program has a vertex and a fragment stage, or a compute stage alone");
+    if (mInfo.backend != BackendType::Vulkan) return;
+    const bool isSpirv =
+            isCompute ? beginsLikeSpirv(desc.compute) : beginsLikeSpirv(desc.vertex) && beginsLikeSpirv(desc.fragment);
+    require(isSpirv, Harm::Crash, "not SPIR-V; DeviceInfo::shaderLanguage says which code this device takes");
+}
+
+void Validator::checkBindingStages(BindingDesc const& binding, bool isCompute, uint32_t group) {
+    const bool seesCompute = (static_cast<uint8_t>(binding.stages) & static_cast<uint8_t>(ShaderStage::Compute)) != 0;
+    require(seesCompute == isCompute && (!isCompute || binding.stages == ShaderStage::Compute), Harm::Crash,
+            "group {}: binding {} names stages that the program lacks", group, binding.binding);
+    require(!isCompute || binding.type != BindingType::InputAttachment, Harm::Crash,
+            "group {}: binding {} is an input attachment; a dispatch has none", group, binding.binding);
+    require(isCompute || binding.type != BindingType::StorageBuffer || binding.stages == ShaderStage::Fragment,
+            Harm::Crash, "group {}: binding {} is a storage buffer; of draws only the fragment stage reads them", group,
+            binding.binding);
+}
+
 void Validator::execute(CmdCreateProgram const& command) {
     ProgramDesc const& desc = command.desc;
     if (!mayCreate(mPrograms, command, desc.debugName)) return;
-    require(!desc.vertex.empty() && !desc.fragment.empty(), Harm::Crash, "a program has a vertex and a fragment stage");
-    if (mInfo.backend == BackendType::Vulkan) {
-        require(beginsLikeSpirv(desc.vertex) && beginsLikeSpirv(desc.fragment), Harm::Crash,
-                "not SPIR-V; DeviceInfo::shaderLanguage says which code this device takes");
-    }
-    uint32_t textures = 0;
+    checkStages(desc);
+    const bool isCompute = !desc.compute.empty();
+    uint32_t textures = 0, storage = 0;
     for (uint32_t group = 0; group < kMaxBindGroups; ++group) {
         if (!checkBindGroupLayout(desc.layout[group], fmt::format("group {}", group))) return;
         for (uint32_t i = 0; i < desc.layout[group].count; ++i) {
-            textures += desc.layout[group].bindings[i].type == BindingType::SampledTexture;
+            BindingDesc const& binding = desc.layout[group].bindings[i];
+            checkBindingStages(binding, isCompute, group);
+            textures += binding.type == BindingType::SampledTexture;
+            storage += binding.type == BindingType::StorageBuffer;
         }
     }
+    require(storage <= mInfo.limits.maxStorageBuffers, Harm::Crash, "{} storage buffers; this device has {} blocks",
+            storage, mInfo.limits.maxStorageBuffers);
     require(textures <= mInfo.limits.maxTextureUnits, Harm::Crash, "{} sampled textures; this device has {} units",
             textures, mInfo.limits.maxTextureUnits);
     for (size_t i = 0; i < desc.constants.size(); ++i) {
@@ -165,23 +188,28 @@ void Validator::execute(CmdCreateProgram const& command) {
                 "constant {} is given twice", desc.constants[i].id);
     }
     if (mCommandCrashes) return;
-    mPrograms.create(command.handle, { std::string(desc.debugName), desc.layout });
+    mPrograms.create(command.handle, { std::string(desc.debugName), desc.layout, isCompute });
 }
 
 void Validator::execute(CmdCreatePipeline const& command) {
     PipelineDesc desc = command.desc;
     if (!mayCreate(mPipelines, command, desc.debugName)) return;
     ProgramModel const* program = need(mPrograms, desc.program, "program");
+    if (!program) return;
+    if (!program->isCompute) checkDrawPipeline(desc, program->layout);
+    desc.debugName = {};
+    if (mCommandCrashes) return;
+    mPipelines.create(command.handle,
+                      { std::string(command.desc.debugName), desc, program->layout, program->isCompute });
+}
+
+void Validator::checkDrawPipeline(PipelineDesc const& desc, ProgramLayout const& program) {
     checkPassLayout(desc.pass);
     checkVertexLayout(desc.vertices);
     const bool subpassExists =
             require(desc.subpass < std::min<uint32_t>(desc.pass.subpassCount, kMaxSubpasses), Harm::Crash,
                     "subpass {} of {}; count from 0", desc.subpass, desc.pass.subpassCount);
-    if (program && subpassExists) checkPipelineState(desc, program->layout);
-    desc.debugName = {};
-    if (mCommandCrashes) return;
-    mPipelines.create(command.handle,
-                      { std::string(command.desc.debugName), desc, program ? program->layout : ProgramLayout{} });
+    if (subpassExists) checkPipelineState(desc, program);
 }
 
 void Validator::checkVertexLayout(VertexLayout const& layout) {
@@ -262,8 +290,22 @@ void Validator::execute(CmdCreateBindGroup const& command) {
 void Validator::checkEntry(BindingDesc const& binding, BindGroupEntry const& entry) {
     if (isUniform(binding.type))
         checkUniformEntry(entry);
+    else if (binding.type == BindingType::StorageBuffer)
+        checkStorageEntry(entry);
     else
         checkTextureEntry(binding, entry);
+}
+
+void Validator::checkBufferRange(BindGroupEntry const& entry, BufferModel const& buffer, uint32_t alignment,
+                                 uint32_t maxBytes, const char* limits) {
+    require(entry.offset % alignment == 0, Harm::Crash,
+            "binding {}: offset {} is no multiple of {} (DeviceLimits::{}OffsetAlignment)", entry.binding, entry.offset,
+            alignment, limits);
+    require(entry.size > 0 && entry.size <= maxBytes, Harm::Crash, "binding {}: {} bytes visible; 1..{}", entry.binding,
+            entry.size, maxBytes);
+    require(entry.offset <= buffer.desc.size && entry.size <= buffer.desc.size - entry.offset, Harm::Crash,
+            "binding {}: bytes {}..{} of buffer '{}', which has {}", entry.binding, entry.offset,
+            entry.offset + entry.size, buffer.name, buffer.desc.size);
 }
 
 void Validator::checkUniformEntry(BindGroupEntry const& entry) {
@@ -271,15 +313,15 @@ void Validator::checkUniformEntry(BindGroupEntry const& entry) {
     if (!buffer) return;
     require(has(buffer->desc.usage, BufferUsage::Uniform), Harm::Crash,
             "binding {}: buffer '{}' lacks BufferUsage::Uniform", entry.binding, buffer->name);
-    require(entry.offset % mInfo.limits.uniformOffsetAlignment == 0, Harm::Crash,
-            "binding {}: offset {} is no multiple of {} (DeviceLimits::uniformOffsetAlignment)", entry.binding,
-            entry.offset, mInfo.limits.uniformOffsetAlignment);
-    require(entry.size > 0 && entry.size <= mInfo.limits.maxUniformBlockBytes, Harm::Crash,
-            "binding {}: {} bytes visible; 1..{} (DeviceLimits::maxUniformBlockBytes)", entry.binding, entry.size,
-            mInfo.limits.maxUniformBlockBytes);
-    require(entry.offset <= buffer->desc.size && entry.size <= buffer->desc.size - entry.offset, Harm::Crash,
-            "binding {}: bytes {}..{} of buffer '{}', which has {}", entry.binding, entry.offset,
-            entry.offset + entry.size, buffer->name, buffer->desc.size);
+    checkBufferRange(entry, *buffer, mInfo.limits.uniformOffsetAlignment, mInfo.limits.maxUniformBlockBytes, "uniform");
+}
+
+void Validator::checkStorageEntry(BindGroupEntry const& entry) {
+    BufferModel const* buffer = need(mBuffers, entry.buffer, "storage buffer");
+    if (!buffer) return;
+    require(has(buffer->desc.usage, BufferUsage::Storage), Harm::Crash,
+            "binding {}: buffer '{}' lacks BufferUsage::Storage", entry.binding, buffer->name);
+    checkBufferRange(entry, *buffer, mInfo.limits.storageOffsetAlignment, mInfo.limits.maxStorageBlockBytes, "storage");
 }
 
 void Validator::checkEntryRange(BindingDesc const& binding, BindGroupEntry const& entry, TextureModel const& texture) {

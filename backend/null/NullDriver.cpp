@@ -33,6 +33,12 @@ DeviceInfo describeNullDevice() {
                     .maxUniformBlockBytes = 65536,
                     .uniformOffsetAlignment = 256,
                     .maxTextureUnits = 32,
+                    .maxStorageBuffers = 16,
+                    .maxStorageBlockBytes = 1u << 27,
+                    .storageOffsetAlignment = 256,
+                    .maxDispatchGroups = 65535,
+                    .maxGroupInvocations = 1024,
+                    .maxGroupBytes = 32768,
                     .maxVertexAttributes = kMaxVertexAttributes,
                     .maxSamples = 4,
                     .maxAnisotropy = 16 };
@@ -64,6 +70,7 @@ public:
         DriverStatistics copy;
         copy.commands = mPublished.commands.load(std::memory_order_relaxed);
         copy.draws = mPublished.draws.load(std::memory_order_relaxed);
+        copy.dispatches = mPublished.dispatches.load(std::memory_order_relaxed);
         copy.pipelinesCreated = mPublished.pipelines.load(std::memory_order_relaxed);
         copy.programsCreated = mPublished.programs.load(std::memory_order_relaxed);
         copy.passes = mPublished.passes.load(std::memory_order_relaxed);
@@ -106,6 +113,12 @@ public:
     void execute(CmdDraw const&) { ++mCount.commands, ++mCount.draws; }
     void execute(CmdDrawIndexed const&) { ++mCount.commands, ++mCount.draws; }
 
+    void execute(CmdDispatch const&) { ++mCount.commands, ++mCount.dispatches; }
+
+    void execute(CmdReadBuffer const& command) {
+        ++mCount.commands;
+        if (mBuffers.contains(command.buffer)) mReadbacks.push_back({ command.ticket, command.size });
+    }
     void execute(CmdReadTexture const& command) {
         ++mCount.commands;
         const auto it = mTextures.find(command.texture);
@@ -131,7 +144,8 @@ private:
         uint64_t bytes;
     };
     struct Published {
-        std::atomic<uint64_t> commands{ 0 }, draws{ 0 }, pipelines{ 0 }, programs{ 0 }, passes{ 0 }, bytes{ 0 };
+        std::atomic<uint64_t> commands{ 0 }, draws{ 0 }, dispatches{ 0 }, pipelines{ 0 }, programs{ 0 }, passes{ 0 },
+                bytes{ 0 };
     };
 
     void answer() {
@@ -147,6 +161,7 @@ private:
     void publish() {
         mPublished.commands.store(mCount.commands, std::memory_order_relaxed);
         mPublished.draws.store(mCount.draws, std::memory_order_relaxed);
+        mPublished.dispatches.store(mCount.dispatches, std::memory_order_relaxed);
         mPublished.pipelines.store(mCount.pipelinesCreated, std::memory_order_relaxed);
         mPublished.programs.store(mCount.programsCreated, std::memory_order_relaxed);
         mPublished.passes.store(mCount.passes, std::memory_order_relaxed);

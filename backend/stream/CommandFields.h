@@ -114,8 +114,8 @@ FILAMENT_FIELDS(BindGroupLayout, "BindGroupLayout", FILAMENT_FIELD(BindGroupLayo
 FILAMENT_FIELDS(ConstantValue, "ConstantValue", FILAMENT_FIELD(ConstantValue, id), FILAMENT_FIELD(ConstantValue, bits),
                 FILAMENT_FIELD(ConstantValue, type));
 FILAMENT_FIELDS(ProgramDesc, "ProgramDesc", FILAMENT_FIELD(ProgramDesc, vertex), FILAMENT_FIELD(ProgramDesc, fragment),
-                FILAMENT_FIELD(ProgramDesc, constants), FILAMENT_FIELD(ProgramDesc, layout),
-                FILAMENT_FIELD(ProgramDesc, debugName));
+                FILAMENT_FIELD(ProgramDesc, compute), FILAMENT_FIELD(ProgramDesc, constants),
+                FILAMENT_FIELD(ProgramDesc, layout), FILAMENT_FIELD(ProgramDesc, debugName));
 FILAMENT_FIELDS(SubpassDesc, "SubpassDesc", FILAMENT_FIELD(SubpassDesc, colorMask),
                 FILAMENT_FIELD(SubpassDesc, inputMask), FILAMENT_FIELD(SubpassDesc, usesDepth));
 FILAMENT_FIELDS(PassLayout, "PassLayout", FILAMENT_FIELD(PassLayout, colorFormats),
@@ -192,6 +192,9 @@ FILAMENT_FIELDS(CmdBlit, "Blit", FILAMENT_FIELD(CmdBlit, source), FILAMENT_FIELD
                 FILAMENT_FIELD(CmdBlit, sourceLayer), FILAMENT_FIELD(CmdBlit, targetLayer),
                 FILAMENT_FIELD(CmdBlit, sourceRect), FILAMENT_FIELD(CmdBlit, targetRect),
                 FILAMENT_FIELD(CmdBlit, filter));
+FILAMENT_FIELDS(CmdReadBuffer, "ReadBuffer", FILAMENT_FIELD(CmdReadBuffer, buffer),
+                FILAMENT_FIELD(CmdReadBuffer, offset), FILAMENT_FIELD(CmdReadBuffer, size),
+                FILAMENT_FIELD(CmdReadBuffer, ticket));
 FILAMENT_FIELDS(CmdReadTexture, "ReadTexture", FILAMENT_FIELD(CmdReadTexture, texture),
                 FILAMENT_FIELD(CmdReadTexture, level), FILAMENT_FIELD(CmdReadTexture, layer),
                 FILAMENT_FIELD(CmdReadTexture, rect), FILAMENT_FIELD(CmdReadTexture, ticket));
@@ -214,6 +217,8 @@ FILAMENT_FIELDS(CmdDraw, "Draw", FILAMENT_FIELD(CmdDraw, vertexCount), FILAMENT_
 FILAMENT_FIELDS(CmdDrawIndexed, "DrawIndexed", FILAMENT_FIELD(CmdDrawIndexed, indexCount),
                 FILAMENT_FIELD(CmdDrawIndexed, instanceCount), FILAMENT_FIELD(CmdDrawIndexed, firstIndex),
                 FILAMENT_FIELD(CmdDrawIndexed, vertexOffset), FILAMENT_FIELD(CmdDrawIndexed, firstInstance));
+FILAMENT_FIELDS(CmdDispatch, "Dispatch", FILAMENT_FIELD(CmdDispatch, groupsX), FILAMENT_FIELD(CmdDispatch, groupsY),
+                FILAMENT_FIELD(CmdDispatch, groupsZ));
 FILAMENT_FIELDS(CmdBeginFrame, "BeginFrame", FILAMENT_FIELD(CmdBeginFrame, frame));
 FILAMENT_FIELDS(CmdEndFrame, "EndFrame", FILAMENT_FIELD(CmdEndFrame, frame));
 FILAMENT_FIELDS(CmdBeginTimer, "BeginTimer", FILAMENT_FIELD(CmdBeginTimer, ticket));

@@ -10,12 +10,18 @@
 namespace filament::backend::vulkan {
 namespace {
 
-constexpr VkPipelineStageFlags kShaders = VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
+constexpr VkPipelineStageFlags kCompute = VK_PIPELINE_STAGE_COMPUTE_SHADER_BIT;
+constexpr VkPipelineStageFlags kDrawShaders =
+        VK_PIPELINE_STAGE_VERTEX_SHADER_BIT | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
+constexpr VkPipelineStageFlags kShaders = kDrawShaders | kCompute;
 constexpr VkPipelineStageFlags kDepthTests =
         VK_PIPELINE_STAGE_EARLY_FRAGMENT_TESTS_BIT | VK_PIPELINE_STAGE_LATE_FRAGMENT_TESTS_BIT;
-constexpr VkPipelineStageFlags kBufferReaders = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | kShaders;
-constexpr VkAccessFlags kBufferReads =
-        VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT | VK_ACCESS_UNIFORM_READ_BIT;
+constexpr VkPipelineStageFlags kDrawReaders = VK_PIPELINE_STAGE_VERTEX_INPUT_BIT | kDrawShaders;
+constexpr VkAccessFlags kBufferAccess = VK_ACCESS_VERTEX_ATTRIBUTE_READ_BIT | VK_ACCESS_INDEX_READ_BIT |
+                                        VK_ACCESS_UNIFORM_READ_BIT | VK_ACCESS_SHADER_READ_BIT |
+                                        VK_ACCESS_SHADER_WRITE_BIT | VK_ACCESS_TRANSFER_READ_BIT |
+                                        VK_ACCESS_TRANSFER_WRITE_BIT;
 constexpr VkAccessFlags kColorAccess = VK_ACCESS_COLOR_ATTACHMENT_READ_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT;
 constexpr VkAccessFlags kDepthAccess =
         VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_READ_BIT | VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT;
@@ -99,11 +105,9 @@ void Barriers::forget(Texture& texture) {
 }
 
 void Barriers::bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end) {
-    constexpr VkPipelineStageFlags kTransfer = VK_PIPELINE_STAGE_TRANSFER_BIT;
-    if (mPassesSinceTransfer) {
-        memory(kBufferReaders, 0, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT); // draws have read what is overwritten now
-        mPassesSinceTransfer = false;
-    }
+    if (mStorageWrites) publishWrites();
+    if (mReaders != 0) memory(mReaders, 0, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT); // of what is overwritten now
+    mReaders = 0;
     if (buffer.overlapsWrites(mTransferEpoch, begin, end)) {
         memory(kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT);
         ++mTransferEpoch;
@@ -112,9 +116,24 @@ void Barriers::bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end) {
     mTransferWrites = true;
 }
 
+void Barriers::bufferRead() {
+    publishWrites();
+    mReaders |= kTransfer;
+}
+
+void Barriers::publishWrites() {
+    VkPipelineStageFlags stages = 0;
+    VkAccessFlags written = 0;
+    if (mTransferWrites) stages |= kTransfer, written |= VK_ACCESS_TRANSFER_WRITE_BIT;
+    if (mStorageWrites) stages |= kCompute, written |= VK_ACCESS_SHADER_WRITE_BIT;
+    if (stages == 0) return;
+    memory(stages, written, kDrawReaders | kCompute | kTransfer, kBufferAccess);
+    mTransferWrites = mStorageWrites = false;
+    ++mTransferEpoch;
+}
+
 void Barriers::hostRead() {
-    memory(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT,
-           VK_ACCESS_HOST_READ_BIT);
+    memory(kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, VK_PIPELINE_STAGE_HOST_BIT, VK_ACCESS_HOST_READ_BIT);
 }
 
 void Barriers::attach(Texture& texture, SubresourceRange const& range, Use use, Contents contents) {
@@ -143,16 +162,30 @@ bool Barriers::settle(Texture& texture) {
 }
 
 void Barriers::beginPass() {
-    if (mTransferWrites) {
-        memory(VK_PIPELINE_STAGE_TRANSFER_BIT, VK_ACCESS_TRANSFER_WRITE_BIT, kBufferReaders, kBufferReads);
-        mTransferWrites = false;
-        ++mTransferEpoch;
-    }
+    publishWrites();
+    settleAll();
+    mAttached.clear();
+}
+
+void Barriers::endPass() { mReaders |= kDrawReaders; }
+
+void Barriers::beginDispatch() {
+    publishWrites();
+    if (mReaders != 0) memory(mReaders, 0, kCompute, VK_ACCESS_SHADER_WRITE_BIT); // of what the dispatch overwrites
+    mReaders = 0;
+    settleAll();
+}
+
+void Barriers::endDispatch() {
+    mStorageWrites = true;
+    mReaders |= kCompute;
+}
+
+void Barriers::settleAll() {
     std::erase_if(mUnsettled, [this](Texture* texture) {
         texture->isUnsettled = !settle(*texture);
         return !texture->isUnsettled;
     });
-    mAttached.clear();
 }
 
 void Barriers::memory(VkPipelineStageFlags sourceStages, VkAccessFlags written, VkPipelineStageFlags targetStages,

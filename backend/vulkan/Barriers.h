@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Barriers: makes commands that run in parallel on the GPU look serial.
-///   What is known  the last Use of every level and layer of every texture, whether transfers wrote buffers that no
-///                  draw was told about, and whether draws read buffers since a transfer last waited for them.
+///   What is known  the last Use of every level and layer of every texture; which kinds of commands wrote buffers that
+///                  nobody was told about yet, and which stages read buffers since a writer last waited for them.
 ///   How            image(), bufferWrite(), ... collect what the next command needs; flush() emits it as one
 ///                  vkCmdPipelineBarrier, or nothing. Sampled textures go back to ShaderRead together, when the next
-///                  pass begins, so that uploads, blits and passes in a row cost one barrier, not one each.
+///                  pass or dispatch begins, so that uploads, blits and passes in a row cost one barrier, not one each.
+///                  Buffers are not told apart, but for transfers in a row: what was written becomes visible to all.
 ///   Thread  the driver thread.
 ///   Limits  a level and layer that is an attachment of a pass is not sampled in it.
 #pragma once
@@ -84,6 +85,8 @@ public:
     void leave(Texture& texture, SubresourceRange const& range, Use use);
     /// The next command is a transfer that writes bytes [begin, end) of the buffer.
     void bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end);
+    /// The next command is a transfer that reads a buffer of the stream.
+    void bufferRead();
     /// The host will read what transfers have written so far.
     void hostRead();
     /// image(), for an attachment of the pass that beginPass() begins.
@@ -91,7 +94,10 @@ public:
     /// The next command begins a pass: transfers become visible, and what shaders may sample becomes readable, except
     /// for the attachments.
     void beginPass();
-    void endPass() { mPassesSinceTransfer = true; }
+    void endPass();
+    /// The next command is a dispatch: as beginPass(), without attachments.
+    void beginDispatch();
+    void endDispatch();
     /// A new texture that shaders may sample before anything has written it.
     void add(Texture& texture);
     void forget(Texture& texture);
@@ -108,6 +114,9 @@ private:
     bool isAttached(Texture const& texture, uint32_t level, uint32_t layer) const;
     /// Makes all of the texture readable that is not attached; whether that is everything.
     bool settle(Texture& texture);
+    void settleAll();
+    /// Makes what transfers and dispatches wrote to buffers visible to every command.
+    void publishWrites();
     void memory(VkPipelineStageFlags sourceStages, VkAccessFlags written, VkPipelineStageFlags targetStages,
                 VkAccessFlags access);
 
@@ -116,11 +125,12 @@ private:
     bool mHasMemoryBarrier = false;
     std::vector<VkImageMemoryBarrier> mImages;
 
-    std::vector<Texture*> mUnsettled; // sampled textures with some part not in ShaderRead
-    std::vector<Attached> mAttached;  // of the pass that is about to begin
-    uint64_t mTransferEpoch = 1;      // transfers of one epoch are not ordered among each other
-    bool mTransferWrites = false;     // to buffers, not yet visible to draws
-    bool mPassesSinceTransfer = false;
+    std::vector<Texture*> mUnsettled;  // sampled textures with some part not in ShaderRead
+    std::vector<Attached> mAttached;   // of the pass that is about to begin
+    uint64_t mTransferEpoch = 1;       // transfers of one epoch are not ordered among each other
+    bool mTransferWrites = false;      // to buffers, not yet visible to shaders
+    bool mStorageWrites = false;       // of dispatches, not yet visible to anything
+    VkPipelineStageFlags mReaders = 0; // that have read buffers since a writer last waited for them
 };
 
 } // namespace filament::backend::vulkan

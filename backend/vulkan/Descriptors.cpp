@@ -41,6 +41,7 @@ const char* missingIn(BindingType type, ResolvedEntry const& entry) {
     switch (type) {
     case BindingType::UniformBuffer:
     case BindingType::DynamicUniformBuffer:
+    case BindingType::StorageBuffer:
         return entry.buffer ? nullptr : "buffer";
     case BindingType::SampledTexture:
         if (!entry.texture || !entry.texture->sampledView(entry.entry.range)) return "sampled texture";
@@ -72,7 +73,7 @@ struct DescriptorWrites {
             images[count] = { VK_NULL_HANDLE, inputView(entry), infoOf(Use::InputRead).layout };
         } else {
             buffers[count] = { entry.buffer->handle(), entry.entry.offset, entry.entry.size };
-            entry.buffer->isUsed = true; // from now on a draw may read it at any time
+            entry.buffer->isUsed = true; // from now on a draw or dispatch may read it at any time
         }
         ++count;
     }

@@ -84,7 +84,7 @@ void DrawState::emit() {
 }
 
 bool DrawState::isComplete() const {
-    if (!mWanted.pipeline) return false;
+    if (!mWanted.pipeline || mWanted.pipeline->isCompute()) return false;
     PipelineLayout const& layout = mWanted.pipeline->layout();
     for (uint32_t i = 0; i < kMaxBindGroups; ++i) {
         if (layout.sets[i]->isEmpty()) continue;

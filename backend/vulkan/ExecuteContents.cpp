@@ -144,6 +144,26 @@ void Executor::execute(CmdBlit const& command) {
 
 // ---------------------------------------------------------------------------------------------- read-backs
 
+void Executor::execute(CmdReadBuffer const& command) {
+    Buffer* const buffer = mBuffers.find(command.buffer);
+    if (!buffer || command.size == 0) return mSink.onReadback(command.ticket, {});
+    FILAMENT_ASSERT(command.offset <= buffer->bytes() && command.size <= buffer->bytes() - command.offset,
+                    "a read-back stays inside its buffer");
+    auto target = mReadbacks->makeTarget(command);
+    if (!target) {
+        report(target.error());
+        return mSink.onReadback(command.ticket, {});
+    }
+    buffer->isUsed = true;
+    VkCommandBuffer recording = commands();
+    mBarriers.bufferRead();
+    flushBarriers();
+    const VkBufferCopy region{ command.offset, 0, command.size };
+    mDevice->fn().vkCmdCopyBuffer(recording, buffer->handle(), (*target)->handle(), 1, &region);
+    mBarriers.hostRead();
+    mReadbacks->add(command.ticket, Format::None, std::move(*target), mSubmissions->recordingSerial());
+}
+
 void Executor::execute(CmdReadTexture const& command) {
     Texture* const texture = mTextures.find(command.texture);
     if (!texture || isEmpty(command.rect)) return mSink.onReadback(command.ticket, {});

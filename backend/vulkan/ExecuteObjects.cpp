@@ -42,15 +42,26 @@ void Executor::execute(CmdCreatePipeline const& command) {
                                  desc.debugName);
         return report(error, DriverErrorKind::ShaderCompile);
     }
+    if (program->compute() != VK_NULL_HANDLE) {
+        store(mPipelines, command.handle,
+              Pipeline::createCompute(*mDevice, mProgramCache->handle(), *program, desc.debugName),
+              DriverErrorKind::ShaderCompile);
+        return countPipeline(command.handle);
+    }
     const VkRenderPass pass = mRenderPasses->get(keyOf(desc.pass));
     if (pass == VK_NULL_HANDLE) {
         return report(fail(ErrorCode::OutOfMemory, "pipeline '{}': no render pass", desc.debugName));
     }
     store(mPipelines, command.handle, Pipeline::create(*mDevice, mProgramCache->handle(), pass, *program, desc),
           DriverErrorKind::ShaderCompile);
-    if (!mPipelines.find(command.handle)) return;
+    countPipeline(command.handle);
+}
+
+void Executor::countPipeline(PipelineHandle handle) {
+    Pipeline const* const pipeline = mPipelines.find(handle);
+    if (!pipeline) return;
     ++mStatistics.pipelinesCreated;
-    mStatistics.pipelinesFromCache += mPipelines.find(command.handle)->isFromCache();
+    mStatistics.pipelinesFromCache += pipeline->isFromCache();
     if (mPass->isOpen()) ++mStatistics.pipelinesCreatedInPasses;
 }
 

@@ -14,6 +14,7 @@ void Executor::execute(CmdBeginPass const& command) {
     label(command.desc.debugName);
     if (const Result<void> begun = mPass->begin(command.desc, commands()); !begun) report(begun.error());
     mDraws->beginSubpass(command.desc.area);
+    mCompute.reset();
 }
 
 void Executor::execute(CmdNextSubpass const&) {
@@ -25,12 +26,21 @@ void Executor::execute(CmdNextSubpass const&) {
 void Executor::execute(CmdEndPass const&) {
     if (!mPass->isOpen()) return;
     mPass->end(commands());
+    mCompute.reset();
     endLabel();
 }
 
-// ---------------------------------------------------------------------------------------------- inside
+// ---------------------------------------------------------------------------------------------- bindings
+
+void Executor::execute(CmdBindPipeline const& command) {
+    if (mPass->isOpen())
+        mDraws->setPipeline(mPipelines.find(command.pipeline));
+    else
+        mCompute.setPipeline(command.pipeline);
+}
 
 void Executor::execute(CmdBindGroup const& command) {
+    if (!mPass->isOpen()) return mCompute.setGroup(command);
     BindGroup const* const group = mBindGroups.find(command.group);
     BoundGroup bound{ .group = group };
     if (group) {
@@ -71,6 +81,19 @@ void Executor::execute(CmdDrawIndexed const& command) {
     ++mStatistics.draws;
     mDevice->fn().vkCmdDrawIndexed(mSubmissions->commands(), command.indexCount, command.instanceCount,
                                    command.firstIndex, command.vertexOffset, command.firstInstance);
+}
+
+// ---------------------------------------------------------------------------------------------- dispatches
+
+void Executor::execute(CmdDispatch const& command) {
+    if (mPass->isOpen() || !mCompute.prepareDispatch()) return;
+    VkCommandBuffer recording = commands();
+    mBarriers.beginDispatch();
+    flushBarriers();
+    mCompute.bind(mDevice->fn(), recording);
+    mDevice->fn().vkCmdDispatch(recording, command.groupsX, command.groupsY, command.groupsZ);
+    mBarriers.endDispatch();
+    ++mStatistics.dispatches;
 }
 
 } // namespace filament::backend::vulkan

@@ -14,6 +14,7 @@
 #include "backend/api/Slots.h"
 #include "backend/vulkan/Barriers.h"
 #include "backend/vulkan/Buffer.h"
+#include "backend/vulkan/ComputeState.h"
 #include "backend/vulkan/Descriptors.h"
 #include "backend/vulkan/Device.h"
 #include "backend/vulkan/DrawState.h"
@@ -67,6 +68,7 @@ public:
     void execute(CmdUploadTexture const& command);
     void execute(CmdGenerateMips const& command);
     void execute(CmdBlit const& command);
+    void execute(CmdReadBuffer const& command);
     void execute(CmdReadTexture const& command);
 
     void execute(CmdBeginPass const& command);
@@ -75,12 +77,13 @@ public:
     void execute(CmdSetViewport const& command) { mDraws->setViewport(command.viewport); }
     void execute(CmdSetScissor const& command) { mDraws->setScissor(command.rect); }
     void execute(CmdSetStencilReference const& command) { mDraws->setStencilReference(command.front, command.back); }
-    void execute(CmdBindPipeline const& command) { mDraws->setPipeline(mPipelines.find(command.pipeline)); }
+    void execute(CmdBindPipeline const& command);
     void execute(CmdBindGroup const& command);
     void execute(CmdBindVertexBuffers const& command);
     void execute(CmdBindIndexBuffer const& command);
     void execute(CmdDraw const& command);
     void execute(CmdDrawIndexed const& command);
+    void execute(CmdDispatch const& command);
 
     void execute(CmdBeginFrame const& command);
     void execute(CmdEndFrame const& command);
@@ -106,6 +109,7 @@ private:
     void report(Error const& error, DriverErrorKind kind = DriverErrorKind::Other);
     template <class H, class T>
     void store(Slots<H, T>& slots, H handle, Result<std::unique_ptr<T>> made, DriverErrorKind kind);
+    void countPipeline(PipelineHandle handle); ///< unless it could not be made
     void label(std::string_view name);
     void endLabel();
     void publishStatistics();
@@ -136,6 +140,7 @@ private:
     std::optional<Submissions> mSubmissions;
     std::optional<Upload> mUpload;
     std::optional<DrawState> mDraws;
+    ComputeState mCompute{ mPipelines, mBindGroups };
     Barriers mBarriers;
     std::optional<Pass> mPass;
 

@@ -97,10 +97,9 @@ constexpr std::array kBlendOps{
 };
 
 constexpr std::array kDescriptorTypes{
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,
-    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
-    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER,
-    VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT,
+    VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER,         VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER_DYNAMIC,
+    VK_DESCRIPTOR_TYPE_COMBINED_IMAGE_SAMPLER, VK_DESCRIPTOR_TYPE_INPUT_ATTACHMENT,
+    VK_DESCRIPTOR_TYPE_STORAGE_BUFFER,
 };
 
 template <class Table, class E>
@@ -154,6 +153,8 @@ VkShaderStageFlags native(ShaderStage stages) {
         flags |= VK_SHADER_STAGE_VERTEX_BIT;
     if ((static_cast<uint8_t>(stages) & static_cast<uint8_t>(ShaderStage::Fragment)) != 0)
         flags |= VK_SHADER_STAGE_FRAGMENT_BIT;
+    if ((static_cast<uint8_t>(stages) & static_cast<uint8_t>(ShaderStage::Compute)) != 0)
+        flags |= VK_SHADER_STAGE_COMPUTE_BIT;
     return flags;
 }
 

@@ -61,6 +61,13 @@ void readProperties(Instance const& instance, ExtensionList const& extensions, P
     info.limits.uniformOffsetAlignment = static_cast<uint32_t>(limits.minUniformBufferOffsetAlignment);
     info.limits.maxTextureUnits =
             std::min(limits.maxPerStageDescriptorSamplers, limits.maxPerStageDescriptorSampledImages);
+    info.limits.maxStorageBuffers = limits.maxPerStageDescriptorStorageBuffers;
+    info.limits.maxStorageBlockBytes = limits.maxStorageBufferRange;
+    info.limits.storageOffsetAlignment = static_cast<uint32_t>(limits.minStorageBufferOffsetAlignment);
+    info.limits.maxDispatchGroups = std::min({ limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
+                                               limits.maxComputeWorkGroupCount[2] });
+    info.limits.maxGroupInvocations = limits.maxComputeWorkGroupInvocations;
+    info.limits.maxGroupBytes = limits.maxComputeSharedMemorySize;
     info.limits.maxVertexAttributes = std::min(limits.maxVertexInputAttributes, kMaxVertexAttributes);
     const VkSampleCountFlags samples = limits.framebufferColorSampleCounts & limits.framebufferDepthSampleCounts;
     info.limits.maxSamples = (samples & VK_SAMPLE_COUNT_4_BIT) != 0 ? 4 : 1;
@@ -106,7 +113,8 @@ void readQueues(Instance const& instance, PhysicalDevice& device) {
     std::vector<VkQueueFamilyProperties> families(count);
     instance.fn().vkGetPhysicalDeviceQueueFamilyProperties(device.handle, &count, families.data());
     const auto graphics = std::ranges::find_if(families, [](auto const& family) {
-        return (family.queueFlags & VK_QUEUE_GRAPHICS_BIT) != 0 && family.queueCount > 0;
+        constexpr VkQueueFlags kNeeded = VK_QUEUE_GRAPHICS_BIT | VK_QUEUE_COMPUTE_BIT; // one family has both
+        return (family.queueFlags & kNeeded) == kNeeded && family.queueCount > 0;
     });
     if (graphics == families.end()) {
         device.unusable = "no graphics queue";

@@ -126,6 +126,33 @@ VkPipelineVertexInputStateCreateInfo vertexInfo(VertexInput const& input) {
     return info;
 }
 
+/// Asks the device, if it tells, whether a pipeline came from the cache.
+class CreationFeedback {
+public:
+    CreationFeedback(Device const& device, uint32_t stageCount) : mIsAsked(device.physical().creationFeedback) {
+        mInfo.pPipelineCreationFeedback = &mWhole;
+        mInfo.pipelineStageCreationFeedbackCount = stageCount;
+        mInfo.pPipelineStageCreationFeedbacks = mOfStages.data();
+    }
+    CreationFeedback(CreationFeedback const&) = delete;
+    CreationFeedback& operator=(CreationFeedback const&) = delete;
+
+    void const* chain() const { return mIsAsked ? &mInfo : nullptr; }
+    bool isFromCache() const {
+        constexpr VkPipelineCreationFeedbackFlagsEXT kHit =
+                VK_PIPELINE_CREATION_FEEDBACK_VALID_BIT_EXT |
+                VK_PIPELINE_CREATION_FEEDBACK_APPLICATION_PIPELINE_CACHE_HIT_BIT_EXT;
+        return (mWhole.flags & kHit) == kHit;
+    }
+
+private:
+    bool mIsAsked;
+    VkPipelineCreationFeedbackEXT mWhole{};
+    std::array<VkPipelineCreationFeedbackEXT, 2> mOfStages{};
+    VkPipelineCreationFeedbackCreateInfoEXT mInfo =
+            make<VkPipelineCreationFeedbackCreateInfoEXT>(VK_STRUCTURE_TYPE_PIPELINE_CREATION_FEEDBACK_CREATE_INFO_EXT);
+};
+
 } // namespace
 
 Result<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, VkPipelineCache cache, VkRenderPass pass,
@@ -170,14 +197,8 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, VkPipelineCac
     info.layout = program.layout().handle;
     info.renderPass = pass;
     info.subpass = desc.subpass;
-    VkPipelineCreationFeedbackEXT whole{};
-    std::array<VkPipelineCreationFeedbackEXT, 2> ofStages{};
-    auto feedback =
-            make<VkPipelineCreationFeedbackCreateInfoEXT>(VK_STRUCTURE_TYPE_PIPELINE_CREATION_FEEDBACK_CREATE_INFO_EXT);
-    feedback.pPipelineCreationFeedback = &whole;
-    feedback.pipelineStageCreationFeedbackCount = info.stageCount;
-    feedback.pPipelineStageCreationFeedbacks = ofStages.data();
-    if (device.physical().creationFeedback) info.pNext = &feedback;
+    CreationFeedback feedback(device, info.stageCount);
+    info.pNext = feedback.chain();
     std::unique_ptr<Pipeline> pipeline(new Pipeline(device, program.layout(), input));
     const VkResult result =
             device.fn().vkCreateGraphicsPipelines(device.handle(), cache, 1, &info, nullptr, &pipeline->mHandle);
@@ -185,11 +206,28 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, VkPipelineCac
         return errorFromResult(result,
                                fmt::format("pipeline '{}' of program '{}' refused", desc.debugName, program.name()));
     }
-    constexpr VkPipelineCreationFeedbackFlagsEXT kHit =
-            VK_PIPELINE_CREATION_FEEDBACK_VALID_BIT_EXT |
-            VK_PIPELINE_CREATION_FEEDBACK_APPLICATION_PIPELINE_CACHE_HIT_BIT_EXT;
-    pipeline->mIsFromCache = (whole.flags & kHit) == kHit;
+    pipeline->mIsFromCache = feedback.isFromCache();
     device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline->mHandle, desc.debugName);
+    return pipeline;
+}
+
+Result<std::unique_ptr<Pipeline>> Pipeline::createCompute(Device& device, VkPipelineCache cache, Program const& program,
+                                                          std::string_view debugName) {
+    const Specialization constants(program.constants());
+    auto info = make<VkComputePipelineCreateInfo>(VK_STRUCTURE_TYPE_COMPUTE_PIPELINE_CREATE_INFO);
+    info.stage = stageInfo(VK_SHADER_STAGE_COMPUTE_BIT, program.compute(), constants);
+    info.layout = program.layout().handle;
+    CreationFeedback feedback(device, 1);
+    info.pNext = feedback.chain();
+    std::unique_ptr<Pipeline> pipeline(new Pipeline(device, program.layout(), {}));
+    pipeline->mIsCompute = true;
+    const VkResult result =
+            device.fn().vkCreateComputePipelines(device.handle(), cache, 1, &info, nullptr, &pipeline->mHandle);
+    if (result != VK_SUCCESS) {
+        return errorFromResult(result, fmt::format("pipeline '{}' of program '{}' refused", debugName, program.name()));
+    }
+    pipeline->mIsFromCache = feedback.isFromCache();
+    device.setName(VK_OBJECT_TYPE_PIPELINE, pipeline->mHandle, debugName);
     return pipeline;
 }
 

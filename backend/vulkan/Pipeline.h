@@ -20,10 +20,14 @@ public:
     /// `pass` is compatible with desc.pass.
     static Result<std::unique_ptr<Pipeline>> create(Device& device, VkPipelineCache cache, VkRenderPass pass,
                                                     Program const& program, PipelineDesc const& desc);
+    /// Of a program with a compute stage.
+    static Result<std::unique_ptr<Pipeline>> createCompute(Device& device, VkPipelineCache cache,
+                                                           Program const& program, std::string_view debugName);
     ~Pipeline() override { mDevice.fn().vkDestroyPipeline(mDevice.handle(), mHandle, nullptr); }
 
     VkPipeline handle() const { return mHandle; }
     PipelineLayout const& layout() const { return mLayout; }
+    bool isCompute() const { return mIsCompute; }
     uint8_t vertexBufferMask() const { return mVertexBufferMask; }
     bool readsZeros() const { return mReadsZeros; }
     bool isFromCache() const { return mIsFromCache; } ///< as far as the device tells
@@ -38,6 +42,7 @@ private:
     uint8_t mVertexBufferMask;
     bool mReadsZeros;
     bool mIsFromCache = false;
+    bool mIsCompute = false;
 };
 
 } // namespace filament::backend::vulkan

@@ -19,12 +19,16 @@ struct Stage {
     VkShaderModule module = VK_NULL_HANDLE;
 };
 
+const char* nameOf(ShaderStage stage) {
+    return stage == ShaderStage::Vertex ? "vertex" : stage == ShaderStage::Fragment ? "fragment" : "compute";
+}
+
 Result<Stage> makeStage(Device& device, std::span<const std::byte> bytes, ShaderStage stage, std::string_view program) {
-    const char* const stageName = stage == ShaderStage::Vertex ? "vertex" : "fragment";
+    const char* const stageName = nameOf(stage);
     const std::vector<uint32_t> words = wordsOf(bytes);
     Result<ShaderEdges> edges = readEdges(words, stage);
     if (!edges) {
-        return fail(ErrorCode::Corrupt, "program '{}', {} shader: {}; draws with it are skipped", program, stageName,
+        return fail(ErrorCode::Corrupt, "program '{}', {} shader: {}; what uses it is skipped", program, stageName,
                     edges.error().message);
     }
     Stage made{ .edges = std::move(*edges) };
@@ -48,6 +52,12 @@ Program::Program(Device& device, PipelineLayout const& layout, ProgramDesc const
 Result<std::unique_ptr<Program>> Program::create(Device& device, PipelineLayout const& layout,
                                                  ProgramDesc const& desc) {
     std::unique_ptr<Program> program(new Program(device, layout, desc));
+    if (!desc.compute.empty()) {
+        Result<Stage> compute = makeStage(device, desc.compute, ShaderStage::Compute, desc.debugName);
+        if (!compute) return compute.error();
+        program->mCompute = compute->module;
+        return program;
+    }
     Result<Stage> vertex = makeStage(device, desc.vertex, ShaderStage::Vertex, desc.debugName);
     if (!vertex) return vertex.error();
     program->mVertex = vertex->module;
@@ -62,6 +72,7 @@ Result<std::unique_ptr<Program>> Program::create(Device& device, PipelineLayout 
 Program::~Program() {
     mDevice.fn().vkDestroyShaderModule(mDevice.handle(), mVertex, nullptr);
     mDevice.fn().vkDestroyShaderModule(mDevice.handle(), mFragment, nullptr);
+    mDevice.fn().vkDestroyShaderModule(mDevice.handle(), mCompute, nullptr);
 }
 
 } // namespace filament::backend::vulkan

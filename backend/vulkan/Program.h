@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Program: two shader modules, their constants, inputs and outputs.
+/// Program: the shader modules of a vertex and a fragment stage, or of a compute stage; their constants, inputs
+/// and outputs.
 ///   Thread  the driver thread.
 ///   Memory  may be destroyed once its pipelines have been created.
 ///   Fails   create(): Corrupt with the program's name for SPIR-V that cannot be read; otherwise Internal or
@@ -23,6 +24,7 @@ public:
 
     VkShaderModule vertex() const { return mVertex; }
     VkShaderModule fragment() const { return mFragment; }
+    VkShaderModule compute() const { return mCompute; } ///< null: a program for draws
     std::span<const ShaderInput> inputs() const { return mInputs; }
     uint32_t outputMask() const { return mOutputMask; }
     std::span<const ConstantValue> constants() const { return mConstants; }
@@ -34,7 +36,7 @@ private:
 
     Device& mDevice;
     PipelineLayout const& mLayout;
-    VkShaderModule mVertex = VK_NULL_HANDLE, mFragment = VK_NULL_HANDLE;
+    VkShaderModule mVertex = VK_NULL_HANDLE, mFragment = VK_NULL_HANDLE, mCompute = VK_NULL_HANDLE;
     std::vector<ShaderInput> mInputs;
     uint32_t mOutputMask = 0;
     std::vector<ConstantValue> mConstants;

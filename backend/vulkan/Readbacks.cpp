@@ -33,6 +33,11 @@ Result<std::unique_ptr<Buffer>> Readbacks::makeTarget(CmdReadTexture const& comm
                                      MemoryPurpose::Readback, name });
 }
 
+Result<std::unique_ptr<Buffer>> Readbacks::makeTarget(CmdReadBuffer const& command) {
+    return Buffer::create(mDevice, { command.size, VK_BUFFER_USAGE_TRANSFER_DST_BIT, MemoryPurpose::Readback,
+                                     "read-back of a buffer" });
+}
+
 void Readbacks::add(Ticket ticket, Format format, std::unique_ptr<Buffer> target, uint64_t serial) {
     mWaiting.push_back({ ticket, format, std::move(target), serial });
 }

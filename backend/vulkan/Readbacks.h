@@ -20,8 +20,10 @@ class Readbacks {
 public:
     explicit Readbacks(Device& device) : mDevice(device) {}
 
-    /// Host memory for the texels of the command; OutOfMemory with the texture's name.
+    /// Host memory for the texels or bytes of the command; OutOfMemory with the texture's name.
     Result<std::unique_ptr<Buffer>> makeTarget(CmdReadTexture const& command, Texture const& texture);
+    Result<std::unique_ptr<Buffer>> makeTarget(CmdReadBuffer const& command);
+    /// `format`: None for bytes as they are.
     void add(Ticket ticket, Format format, std::unique_ptr<Buffer> target, uint64_t serial);
     void answer(uint64_t finishedSerial, ResultSink& sink);
     bool isWaiting() const { return !mWaiting.empty(); }

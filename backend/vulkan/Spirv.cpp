@@ -38,7 +38,7 @@ struct Id {
 /// The few facts about ids that edges depend on.
 class Module {
 public:
-    explicit Module(ShaderStage stage) : mExecutionModel(stage == ShaderStage::Vertex ? 0 : 4) {}
+    explicit Module(ShaderStage stage) : mExecutionModel(executionModel(stage)) {}
 
     Result<void> read(std::span<const uint32_t> words) {
         if (words.size() < kHeaderWords || words[0] != kMagic) return fail(ErrorCode::Corrupt, "not a SPIR-V module");
@@ -76,6 +76,10 @@ public:
     }
 
 private:
+    static uint32_t executionModel(ShaderStage stage) { // section 3.3
+        return stage == ShaderStage::Vertex ? 0 : stage == ShaderStage::Fragment ? 4 : 5;
+    }
+
     void readInstruction(uint32_t op, std::span<const uint32_t> operands) {
         const auto operand = [&](size_t i) { return i < operands.size() ? operands[i] : 0; };
         switch (op) {

@@ -30,7 +30,7 @@ struct ShaderEdges {
     uint32_t outputMask = 0;         ///< bit i: something is written at location i
 };
 
-/// `stage` is Vertex or Fragment. Corrupt names what is wrong with the module.
+/// `stage` is Vertex, Fragment or Compute, which has no edges. Corrupt names what is wrong with the module.
 Result<ShaderEdges> readEdges(std::span<const uint32_t> words, ShaderStage stage);
 
 } // namespace filament::backend::vulkan

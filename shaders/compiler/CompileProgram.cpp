@@ -77,6 +77,22 @@ Result<StageShader> compileStage(std::string_view glsl, backend::ShaderStage sta
     return shader;
 }
 
+Result<ComputeShader> compileCompute(std::string_view glsl, ProgramCompileOptions const& options) {
+    constexpr auto kStage = backend::ShaderStage::Compute;
+    Result<Words> lowered = lowerStage(glsl, kStage, options.computeName, options);
+    if (!lowered) return lowered.error();
+    Result<StageResources> used = reflectStage(*lowered, kStage, options.dynamicUniformBuffers);
+    if (!used) return used.error();
+    if (options.layout) {
+        const Result<void> contained = checkContains(*options.layout, used->layout);
+        if (!contained) return fail(contained.error().code, "{}: {}", options.computeName, contained.error().message);
+    }
+    ComputeShader shader{ .layout = options.layout.value_or(used->layout) };
+    Result<void> written = writeStage(*lowered, false, options, shader.layout, shader.spirv, shader.essl);
+    if (!written) return written.error();
+    return shader;
+}
+
 Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
                                       ProgramCompileOptions const& options) {
     Result<Words> vertex = lowerStage(vertexGlsl, backend::ShaderStage::Vertex, options.vertexName, options);

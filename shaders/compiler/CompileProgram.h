@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// compileProgram: compiles two GLSL 450 stages to SPIR-V for Vulkan and ESSL 3.10 for OpenGL ES.
+/// compileProgram: compiles two GLSL 450 stages to SPIR-V for Vulkan and ESSL 3.10 for OpenGL ES. compileCompute does the
+/// same with a compute stage.
 ///   Steps   glslang (SPIR-V 1.3, Vulkan 1.1 rules) -> SPIRV-Tools performance passes -> exact lowering -> reflection
 ///           -> SPIR-V, and SPIRV-Cross -> ESSL. Both languages come from the same lowered module.
 ///   Exact   `exact` writes out the operations that Mesa expands differently for the two languages (ExactLowering.h)
@@ -51,6 +52,7 @@ struct ProgramCompileOptions {
     std::optional<backend::ProgramLayout> layout = std::nullopt;
     std::string_view vertexName = "vertex"; ///< precedes the line in errors, until a #line names another file
     std::string_view fragmentName = "fragment";
+    std::string_view computeName = "compute";
 };
 
 struct ProgramShaders {
@@ -73,5 +75,14 @@ Result<StageShader> compileStage(std::string_view glsl, backend::ShaderStage sta
 
 Result<ProgramShaders> compileProgram(std::string_view vertexGlsl, std::string_view fragmentGlsl,
                                       ProgramCompileOptions const& options = {});
+
+struct ComputeShader {
+    std::vector<uint32_t> spirv;
+    std::string essl;
+    backend::ProgramLayout layout{};
+};
+
+/// A compute stage. Its layout is reflected unless options.layout gives it.
+Result<ComputeShader> compileCompute(std::string_view glsl, ProgramCompileOptions const& options = {});
 
 } // namespace filament::shader

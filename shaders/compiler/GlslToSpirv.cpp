@@ -71,9 +71,14 @@ Result<std::vector<uint32_t>> runPasses(std::span<const uint32_t> spirv, PassSet
 
 } // namespace
 
+static EShLanguage languageOf(backend::ShaderStage stage) {
+    if (stage == backend::ShaderStage::Compute) return EShLangCompute;
+    return stage == backend::ShaderStage::Vertex ? EShLangVertex : EShLangFragment;
+}
+
 Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name) {
     static const GlslangProcess process;
-    const EShLanguage language = stage == backend::ShaderStage::Vertex ? EShLangVertex : EShLangFragment;
+    const EShLanguage language = languageOf(stage);
     const std::string nameText(name);
     const char* text = glsl.data();
     const char* textName = nameText.c_str();

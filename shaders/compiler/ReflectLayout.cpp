@@ -59,6 +59,11 @@ public:
             const BindingType type = isDynamic ? BindingType::DynamicUniformBuffer : BindingType::UniformBuffer;
             if (Result<void> added = add(buffer, type); !added) return added;
         }
+        for (auto const& buffer : all.storage_buffers) {
+            Result<void> added = checkStorage(buffer);
+            if (added) added = add(buffer, BindingType::StorageBuffer);
+            if (!added) return added;
+        }
         for (auto const& image : all.sampled_images) {
             if (Result<void> added = add(image, BindingType::SampledTexture); !added) return added;
         }
@@ -74,8 +79,16 @@ private:
         return mCompiler.get_decoration(resource.id, which);
     }
 
+    /// Draws only read storage buffers, and only where every device of OpenGL ES can.
+    Result<void> checkStorage(spirv_cross::Resource const& buffer) const {
+        const bool isReadonly = mCompiler.get_buffer_block_flags(buffer.id).get(spv::DecorationNonWritable);
+        if (mStage == ShaderStage::Compute || (mStage == ShaderStage::Fragment && isReadonly)) return {};
+        return fail(ErrorCode::InvalidArgument, "storage buffer '{}': {}", buffer.name,
+                    mStage == ShaderStage::Vertex ? "a vertex stage cannot have one; use a vertex or uniform buffer"
+                                                  : "a fragment stage only reads them; declare it readonly");
+    }
+
     static const char* unsupportedKind(spirv_cross::ShaderResources const& all) {
-        if (!all.storage_buffers.empty()) return "storage buffers";
         if (!all.storage_images.empty()) return "storage images";
         if (!all.separate_images.empty() || !all.separate_samplers.empty()) return "separate images and samplers";
         if (!all.push_constant_buffers.empty()) return "push constants";

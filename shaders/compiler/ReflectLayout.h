@@ -2,7 +2,8 @@
 /// Reads the bind group layout and the vertex inputs from the SPIR-V of one or both stages.
 ///   Thread  any. Cost: two parses.
 ///   Fails   InvalidArgument: a set or binding beyond the limits, the same binding declared in two different ways, a
-///           kind of resource without a BindingType (storage buffers, separate samplers, arrays of samplers).
+///           kind of resource without a BindingType (storage images, separate samplers, arrays of samplers), a storage
+///           buffer that a vertex stage reads or that a fragment stage could write.
 #pragma once
 
 #include "backend/api/Descriptions.h"

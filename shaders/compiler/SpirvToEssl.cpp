@@ -62,6 +62,7 @@ void renumberAll(CompilerGLSL& compiler, backend::ProgramLayout const& layout) {
     const spirv_cross::ShaderResources resources =
             compiler.get_shader_resources(compiler.get_active_interface_variables());
     for (auto const& buffer : resources.uniform_buffers) renumber(compiler, buffer, layout);
+    for (auto const& buffer : resources.storage_buffers) renumber(compiler, buffer, layout);
     for (auto const& image : resources.sampled_images) renumber(compiler, image, layout);
     for (auto const& input : resources.subpass_inputs) {
         const uint32_t index = compiler.get_decoration(input.id, spv::DecorationInputAttachmentIndex);

@@ -91,6 +91,19 @@ shader::ProgramShaders const* compiled(std::string_view vertex, std::string_view
     return nullptr;
 }
 
+shader::ComputeShader const* compiledCompute(std::string_view glsl, std::vector<shader::SetBinding> const& dynamic) {
+    static std::map<std::string, Result<shader::ComputeShader>, std::less<>> cache;
+    auto it = cache.find(glsl);
+    if (it == cache.end()) {
+        shader::ProgramCompileOptions options;
+        options.dynamicUniformBuffers = dynamic;
+        it = cache.emplace(std::string(glsl), shader::compileCompute(glsl, options)).first;
+    }
+    if (it->second) return &*it->second;
+    ADD_FAILURE() << it->second.error().message;
+    return nullptr;
+}
+
 template <class T>
 std::span<const std::byte> codeBytes(T const& code) {
     return std::as_bytes(std::span(code.data(), code.size()));
@@ -168,11 +181,32 @@ Program Gpu::program(std::string_view vertex, std::string_view fragment, std::ve
     return program;
 }
 
-ProgramHandle Gpu::rawProgram(std::string_view vertex, std::string_view fragment) {
-    const ProgramHandle handle = mStream.allocateProgram();
+Program Gpu::computeProgram(std::string_view glsl, std::vector<ConstantValue> const& constants,
+                            std::vector<shader::SetBinding> dynamic) {
+    shader::ComputeShader const* shader = compiledCompute(glsl, dynamic);
+    const Program program{ mStream.allocateProgram(), shader ? shader->layout : ProgramLayout{} };
+    mDestroy.push_back([this, handle = program.handle] { mStream.free(handle); });
+    if (!shader) return program;
     ProgramDesc desc;
-    desc.vertex = codeBytes(vertex);
-    desc.fragment = codeBytes(fragment);
+    desc.compute = info().shaderLanguage == ShaderLanguage::SpirV ? codeBytes(shader->spirv) : codeBytes(shader->essl);
+    desc.constants = constants;
+    desc.layout = shader->layout;
+    desc.debugName = "test program";
+    record(CmdCreateProgram{ program.handle, desc });
+    mDestroy.push_back([this, handle = program.handle] { record(CmdDestroyProgram{ handle }); });
+    return program;
+}
+
+PipelineHandle Gpu::computePipeline(Program const& program) { return pipeline({ .program = program.handle }); }
+
+ProgramHandle Gpu::rawProgram(std::string_view vertex, std::string_view fragment) {
+    return rawProgram({ .vertex = codeBytes(vertex), .fragment = codeBytes(fragment) });
+}
+
+ProgramHandle Gpu::rawComputeProgram(std::string_view text) { return rawProgram({ .compute = codeBytes(text) }); }
+
+ProgramHandle Gpu::rawProgram(ProgramDesc desc) {
+    const ProgramHandle handle = mStream.allocateProgram();
     desc.debugName = "broken program";
     record(CmdCreateProgram{ handle, desc });
     mDestroy.push_back([this, handle] { record(CmdDestroyProgram{ handle }), mStream.free(handle); });
@@ -234,11 +268,26 @@ TextureHandle Gpu::paint(Program const& program, Paint const& paint) {
     return texture;
 }
 
+void Gpu::dispatch(PipelineHandle pipeline, std::vector<BindGroupHandle> const& groups, CmdDispatch const& size,
+                   uint8_t firstGroup) {
+    record(CmdBindPipeline{ pipeline });
+    for (size_t i = 0; i < groups.size(); ++i) {
+        record(CmdBindGroup{ .group = groups[i], .index = static_cast<uint8_t>(firstGroup + i) });
+    }
+    record(size);
+}
+
 // ---------------------------------------------------------------------------------------------- answers
 
 Bytes Gpu::read(TextureHandle texture, Rect rect, uint8_t level, uint16_t layer) {
     const Ticket ticket = mStream.nextTicket();
     record(CmdReadTexture{ .texture = texture, .level = level, .layer = layer, .rect = rect, .ticket = ticket });
+    return wait(ticket);
+}
+
+Bytes Gpu::readBytes(BufferHandle buffer, uint64_t offset, uint64_t size) {
+    const Ticket ticket = mStream.nextTicket();
+    record(CmdReadBuffer{ .buffer = buffer, .offset = offset, .size = size, .ticket = ticket });
     return wait(ticket);
 }
 

@@ -81,8 +81,13 @@ public:
     /// Compiles GLSL 450 for this API (once per process and text). Only listed uniform buffers are dynamic.
     Program program(std::string_view vertex, std::string_view fragment,
                     std::vector<ConstantValue> const& constants = {}, std::vector<shader::SetBinding> dynamic = {});
+    /// The same for a compute stage.
+    Program computeProgram(std::string_view glsl, std::vector<ConstantValue> const& constants = {},
+                           std::vector<shader::SetBinding> dynamic = {});
+    PipelineHandle computePipeline(Program const& program);
     /// Uses the code unchanged, for programs that must fail.
     ProgramHandle rawProgram(std::string_view vertex, std::string_view fragment);
+    ProgramHandle rawComputeProgram(std::string_view text);
     PipelineHandle pipeline(PipelineDesc desc);
     BindGroupHandle group(Program const& program, uint32_t index, std::vector<BindGroupEntry> const& entries);
     BindGroupHandle imageGroup(Program const& program, TextureHandle texture, SamplerHandle sampler,
@@ -102,6 +107,9 @@ public:
                 uint16_t layers = 1);
     /// A full-screen draw into a new target of paint.format; returns the target.
     TextureHandle paint(Program const& program, Paint const& paint = {});
+    /// groups[i] at index i + firstGroup.
+    void dispatch(PipelineHandle pipeline, std::vector<BindGroupHandle> const& groups, CmdDispatch const& size,
+                  uint8_t firstGroup = 0);
     void submit();
     Ticket nextTicket() { return mStream.nextTicket(); }
     uint64_t timerOf(Ticket ticket); ///< waits for it
@@ -120,6 +128,15 @@ public:
         values.resize(size_t{ rect.width } * rect.height);
         return values;
     }
+    template <class T>
+    std::vector<T> readBuffer(BufferHandle buffer, size_t count, uint64_t offset = 0) {
+        const Bytes bytes = readBytes(buffer, offset, count * sizeof(T));
+        std::vector<T> values(count);
+        EXPECT_EQ(bytes.size(), count * sizeof(T));
+        if (bytes.size() == count * sizeof(T)) std::memcpy(values.data(), bytes.data(), bytes.size());
+        return values;
+    }
+    Bytes readBytes(BufferHandle buffer, uint64_t offset, uint64_t size);
     Bytes wait(Ticket ticket); ///< of a CmdReadTexture that the test recorded
     /// Errors so far; a test that provokes errors takes them.
     std::vector<DriverError> takeErrors();
@@ -128,6 +145,8 @@ public:
     std::vector<Bytes> finish();
 
 private:
+    ProgramHandle rawProgram(ProgramDesc desc);
+
     CommandStream& mStream;
     uint32_t mHandlesBefore = 0;
     CommandBuffer* mOpen = nullptr;

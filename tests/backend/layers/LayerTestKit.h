@@ -24,19 +24,27 @@ struct Errors final : ResultSink {
 
 inline constexpr uint32_t kAlign = 256;
 inline const BufferHandle kVertices = BufferHandle::make(0, 1), kIndices = BufferHandle::make(1, 1),
-                          kUniforms = BufferHandle::make(2, 1);
+                          kUniforms = BufferHandle::make(2, 1), kBins = BufferHandle::make(3, 1);
 inline const TextureHandle kColor = TextureHandle::make(0, 1), kDepth = TextureHandle::make(1, 1),
                            kImage = TextureHandle::make(2, 1), kSamples4 = TextureHandle::make(3, 1);
 inline const SamplerHandle kSampler = SamplerHandle::make(0, 1), kCompare = SamplerHandle::make(1, 1);
-inline const ProgramHandle kProgram = ProgramHandle::make(0, 1);
-inline const PipelineHandle kPipeline = PipelineHandle::make(0, 1);
-inline const BindGroupHandle kGroup = BindGroupHandle::make(0, 1);
+inline const ProgramHandle kProgram = ProgramHandle::make(0, 1), kCountProgram = ProgramHandle::make(1, 1);
+inline const PipelineHandle kPipeline = PipelineHandle::make(0, 1), kCount = PipelineHandle::make(1, 1);
+inline const BindGroupHandle kGroup = BindGroupHandle::make(0, 1), kCountGroup = BindGroupHandle::make(1, 1);
 
 inline BindGroupLayout groupLayout() {
     BindGroupLayout layout;
     layout.count = 2;
     layout.bindings[0] = { .binding = 0, .type = BindingType::DynamicUniformBuffer };
     layout.bindings[1] = { .binding = 3, .type = BindingType::SampledTexture, .stages = ShaderStage::Fragment };
+    return layout;
+}
+
+inline BindGroupLayout countLayout() {
+    BindGroupLayout layout;
+    layout.count = 2;
+    layout.bindings[0] = { .binding = 0, .type = BindingType::StorageBuffer, .stages = ShaderStage::Compute };
+    layout.bindings[1] = { .binding = 1, .type = BindingType::SampledTexture, .stages = ShaderStage::Compute };
     return layout;
 }
 
@@ -78,6 +86,11 @@ inline std::vector<BindGroupEntry> groupEntries() {
              { .binding = 3, .texture = kImage, .sampler = kSampler } };
 }
 
+inline std::vector<BindGroupEntry> countEntries() {
+    return { { .binding = 0, .buffer = kBins, .offset = kAlign, .size = 64 },
+             { .binding = 1, .texture = kImage, .sampler = kSampler, .range = oneLevel(1) } };
+}
+
 inline std::vector<std::byte> bytes(size_t count) { return std::vector<std::byte>(count, std::byte{ 0x5A }); }
 
 inline CmdCreateProgram createProgram() {
@@ -94,11 +107,22 @@ inline CmdCreateProgram createProgram() {
     return command;
 }
 
+inline CmdCreateProgram createCountProgram() {
+    CmdCreateProgram command{ kCountProgram, {} };
+    command.desc.compute = createProgram().desc.vertex;
+    command.desc.layout[0] = countLayout();
+    command.desc.debugName = "count";
+    return command;
+}
+
 inline void recordBuffers(CommandBuffer& to) {
     to.record(CmdCreateBuffer{ kVertices, { .size = 240, .usage = BufferUsage::Vertex, .debugName = "vertices" } });
     to.record(CmdCreateBuffer{ kIndices, { .size = 60, .usage = BufferUsage::Index, .debugName = "indices" } });
     to.record(CmdCreateBuffer{ kUniforms,
                                { .size = 2 * kAlign, .usage = BufferUsage::Uniform, .debugName = "uniforms" } });
+    to.record(CmdCreateBuffer{
+            kBins,
+            { .size = 2 * kAlign, .usage = BufferUsage::Storage | BufferUsage::TransferSource, .debugName = "bins" } });
 }
 
 inline void recordTextures(CommandBuffer& to) {
@@ -138,6 +162,11 @@ inline void recordPrograms(CommandBuffer& to) {
     to.record(CmdCreatePipeline{ kPipeline, pipelineDesc() });
     const std::vector<BindGroupEntry> entries = groupEntries();
     to.record(CmdCreateBindGroup{ kGroup, { .layout = groupLayout(), .entries = entries, .debugName = "material" } });
+    to.record(createCountProgram());
+    to.record(CmdCreatePipeline{ kCount, { .program = kCountProgram, .debugName = "counted" } });
+    const std::vector<BindGroupEntry> counted = countEntries();
+    to.record(CmdCreateBindGroup{ kCountGroup,
+                                  { .layout = countLayout(), .entries = counted, .debugName = "counters" } });
 }
 
 inline void recordObjects(CommandBuffer& to) {
@@ -151,6 +180,12 @@ inline void recordBindings(CommandBuffer& to) {
     to.record(CmdBindGroup{ .group = kGroup, .index = 1, .dynamicCount = 1, .dynamicOffsets = { kAlign } });
     to.record(CmdBindVertexBuffers{ .buffers = { kVertices, kVertices }, .offsets = { 0, 120 }, .count = 2 });
     to.record(CmdBindIndexBuffer{ .buffer = kIndices, .offset = 0, .type = IndexFormat::UInt16 });
+}
+
+inline void recordDispatch(CommandBuffer& to, CmdDispatch const& size = { 4, 2, 1 }) {
+    to.record(CmdBindPipeline{ kCount });
+    to.record(CmdBindGroup{ .group = kCountGroup });
+    to.record(size);
 }
 
 inline void recordContents(CommandBuffer& to) {
@@ -181,18 +216,20 @@ inline void recordFrame(CommandBuffer& to, uint64_t frame = 1, uint64_t firstTic
                        .targetRect = { 0, 0, 16, 16 },
                        .filter = Filter::Linear });
     to.record(CmdReadTexture{ .texture = kColor, .rect = { 0, 0, 16, 16 }, .ticket = { firstTicket + 1 } });
+    recordDispatch(to);
+    to.record(CmdReadBuffer{ .buffer = kBins, .offset = kAlign, .size = 64, .ticket = { firstTicket + 2 } });
     to.record(CmdPopGroup{});
     to.record(CmdEndFrame{ frame });
 }
 
 inline void recordDestroys(CommandBuffer& to) {
-    to.record(CmdDestroyBindGroup{ kGroup });
-    to.record(CmdDestroyPipeline{ kPipeline });
-    to.record(CmdDestroyProgram{ kProgram });
+    for (const BindGroupHandle group : { kGroup, kCountGroup }) to.record(CmdDestroyBindGroup{ group });
+    for (const PipelineHandle pipeline : { kPipeline, kCount }) to.record(CmdDestroyPipeline{ pipeline });
+    for (const ProgramHandle program : { kProgram, kCountProgram }) to.record(CmdDestroyProgram{ program });
     to.record(CmdDestroySampler{ kSampler });
     to.record(CmdDestroySampler{ kCompare });
     for (const TextureHandle texture : { kColor, kDepth, kImage, kSamples4 }) to.record(CmdDestroyTexture{ texture });
-    for (const BufferHandle buffer : { kVertices, kIndices, kUniforms }) to.record(CmdDestroyBuffer{ buffer });
+    for (const BufferHandle buffer : { kVertices, kIndices, kUniforms, kBins }) to.record(CmdDestroyBuffer{ buffer });
 }
 
 /// Two subpasses: the second reads what the first wrote.

@@ -33,11 +33,12 @@ protected:
 TEST_F(Validated, IsSilentAboutACorrectStreamThatUsesEveryCommandAndForwardsIt) {
     execute(recordObjects);
     for (uint64_t frame = 0; frame < 3; ++frame) {
-        execute([&](CommandBuffer& to) { recordFrame(to, frame, 10 + 2 * frame); });
+        execute([&](CommandBuffer& to) { recordFrame(to, frame, 10 + 3 * frame); });
     }
     execute(recordDestroys);
     EXPECT_THAT(mErrors.messages, IsEmpty());
     EXPECT_EQ(mDriver->statistics().draws, 6u);
+    EXPECT_EQ(mDriver->statistics().dispatches, 3u);
     EXPECT_EQ(mDriver->statistics().deviceBytes, 0u);
 }
 
@@ -674,6 +675,123 @@ std::vector<Case> drawCases() {
     };
 }
 
+CmdCreateProgram countProgramWith(std::function<void(ProgramDesc&)> const& change) {
+    CmdCreateProgram program = createCountProgram();
+    program.handle = ProgramHandle::make(20, 1);
+    change(program.desc);
+    return program;
+}
+
+void recordCountGroupWith(C& to, std::function<void(BindGroupEntry&)> const& changeStorage) {
+    std::vector<BindGroupEntry> entries = countEntries();
+    changeStorage(entries[0]);
+    to.record(CmdCreateBindGroup{ BindGroupHandle::make(20, 1), { .layout = countLayout(), .entries = entries } });
+}
+
+std::vector<Case> computeCases() {
+    static const std::vector<std::byte> code = bytes(20);
+    return {
+        { "ComputeBesideOtherStages", [](C& to) { to.record(countProgramWith([](auto& d) { d.vertex = code; })); },
+          "or a compute stage alone" },
+        { "ProgramWithoutStages", [](C& to) { to.record(countProgramWith([](auto& d) { d.compute = {}; })); },
+          "or a compute stage alone" },
+        { "DispatchSeesBindingsOfDraws",
+          [](C& to) {
+              to.record(countProgramWith([](auto& d) { d.layout[0].bindings[1].stages = ShaderStage::Fragment; }));
+          },
+          "group 0: binding 1 names stages that the program lacks" },
+        { "DrawSeesBindingsOfDispatches",
+          [](C& to) {
+              CmdCreateProgram program = createProgram();
+              program.handle = ProgramHandle::make(20, 1);
+              program.desc.layout[1].bindings[1].stages = ShaderStage::Compute;
+              to.record(program);
+          },
+          "group 1: binding 3 names stages that the program lacks" },
+        { "DispatchWithAnInputAttachment",
+          [](C& to) {
+              to.record(countProgramWith([](auto& d) { d.layout[0].bindings[1].type = BindingType::InputAttachment; }));
+          },
+          "a dispatch has none" },
+        { "StorageInTheVertexStage",
+          [](C& to) {
+              CmdCreateProgram program = createProgram();
+              program.handle = ProgramHandle::make(20, 1);
+              program.desc.layout[1].bindings[1] = { .binding = 3, .type = BindingType::StorageBuffer };
+              to.record(program);
+          },
+          "of draws only the fragment stage reads them" },
+        { "TooManyStorageBuffers",
+          [](C& to) {
+              to.record(countProgramWith([](auto& d) {
+                  for (auto* group : { &d.layout[0], &d.layout[1] }) {
+                      group->count = kMaxBindings;
+                      for (uint8_t i = 0; i < kMaxBindings; ++i) {
+                          group->bindings[i] = { .binding = i,
+                                                 .type = BindingType::StorageBuffer,
+                                                 .stages = ShaderStage::Compute };
+                      }
+                  }
+              }));
+          },
+          "32 storage buffers; this device has 16 blocks" },
+        { "StorageWithoutUsage", [](C& to) { recordCountGroupWith(to, [](auto& e) { e.buffer = kUniforms; }); },
+          "'uniforms' lacks BufferUsage::Storage" },
+        { "UnalignedStorage", [](C& to) { recordCountGroupWith(to, [](auto& e) { e.offset = 16; }); },
+          "offset 16 is no multiple of 256 (DeviceLimits::storageOffsetAlignment)" },
+        { "StorageBeyondTheBuffer", [](C& to) { recordCountGroupWith(to, [](auto& e) { e.size = 257; }); },
+          "bytes 256..513 of buffer 'bins'" },
+        { "DispatchInAPass", [](C& to) { inPass(to, [](C& in) { in.record(CmdDispatch{}); }); },
+          "only outside of passes" },
+        { "DispatchWithoutAPipeline", [](C& to) { to.record(CmdDispatch{}); }, "no pipeline is bound" },
+        { "DispatchWithoutItsGroup",
+          [](C& to) {
+              to.record(CmdBindPipeline{ kCount });
+              to.record(CmdDispatch{});
+          },
+          "group 0 is not bound" },
+        { "DispatchOfNothing",
+          [](C& to) {
+              recordDispatch(to, { 1, 0, 1 });
+          },
+          "0 work groups; 1..65535" },
+        { "DispatchOfTooMany",
+          [](C& to) {
+              recordDispatch(to, { 65536, 1, 1 });
+          },
+          "65536 work groups; 1..65535" },
+        { "DrawPipelineOutsideOfPasses", [](C& to) { to.record(CmdBindPipeline{ kPipeline }); },
+          "the pipeline is for draws; bind it inside of a pass" },
+        { "DispatchPipelineInAPass", [](C& to) { inPass(to, [](C& in) { in.record(CmdBindPipeline{ kCount }); }); },
+          "the pipeline is for dispatches; bind it outside of passes" },
+        { "BindingsEndWithAPass",
+          [](C& to) {
+              recordDispatch(to);
+              inPass(to, [](C&) {});
+              to.record(CmdDispatch{});
+          },
+          "no pipeline is bound" },
+        { "PipelineDestroyedBeforeTheDispatch",
+          [](C& to) {
+              to.record(CmdBindPipeline{ kCount });
+              to.record(CmdBindGroup{ .group = kCountGroup });
+              to.record(CmdDestroyPipeline{ kCount });
+              to.record(CmdDispatch{});
+          },
+          "the pipeline 0x100001 was destroyed" },
+        { "ReadBufferWithoutUsage",
+          [](C& to) { to.record(CmdReadBuffer{ .buffer = kUniforms, .size = 4, .ticket = { 90 } }); },
+          "lacks BufferUsage::TransferSource" },
+        { "ReadBufferBeyondTheEnd",
+          [](C& to) { to.record(CmdReadBuffer{ .buffer = kBins, .offset = 500, .size = 13, .ticket = { 90 } }); },
+          "bytes 500..513 of a buffer of 512" },
+        { "ReadBufferOfNothing", [](C& to) { to.record(CmdReadBuffer{ .buffer = kBins, .ticket = { 90 } }); },
+          "bytes 0..0 of a buffer of 512" },
+        { "ReadBufferWithoutTicket", [](C& to) { to.record(CmdReadBuffer{ .buffer = kBins, .size = 4 }); }, "ticket",
+          Outcome::Forwarded },
+    };
+}
+
 class ValidatedRule : public testing::TestWithParam<Case> {};
 
 TEST_P(ValidatedRule, IsReportedAndDropsTheStreamOnlyIfADriverCouldCrash) {
@@ -698,6 +816,7 @@ INSTANTIATE_TEST_SUITE_P(Objects, ValidatedRule, testing::ValuesIn(objectCases()
 INSTANTIATE_TEST_SUITE_P(BindGroups, ValidatedRule, testing::ValuesIn(groupCases()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Contents, ValidatedRule, testing::ValuesIn(contentCases()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Passes, ValidatedRule, testing::ValuesIn(passCases()), kCaseName);
+INSTANTIATE_TEST_SUITE_P(Compute, ValidatedRule, testing::ValuesIn(computeCases()), kCaseName);
 INSTANTIATE_TEST_SUITE_P(Draws, ValidatedRule, testing::ValuesIn(drawCases()), kCaseName);
 
 } // namespace

@@ -130,7 +130,7 @@ TEST(CommandBuffer, AdoptsEveryPayloadFieldOfEveryCommand) {
     const auto begin = reinterpret_cast<uintptr_t>(scratch.data());
     ScratchChecker checker{ begin, begin + scratch.size() };
     replay(commands.view(), checker);
-    EXPECT_EQ(checker.adopted, 13); // 7 names, 3 spans of the program, 1 of the bind group, 2 of bytes
+    EXPECT_EQ(checker.adopted, 14); // 7 names, 4 spans of the program, 1 of the bind group, 2 of bytes
 }
 
 TEST(CommandBuffer, CarriesPayloadsLargerThanAChunkAndTinyOnesAtAnyAlignment) {

@@ -150,11 +150,62 @@ TEST(CompileProgram, FollowsLineDirectivesThatNameAFile) {
 
 TEST(CompileProgram, RefusesResourcesThatNoBindingTypeStandsFor) {
     const Result<ProgramShaders> program = compileProgram(kFullScreen, R"(#version 450
-        layout(set = 0, binding = 0, std430) readonly buffer B { vec4 values[]; } b;
+        layout(set = 0, binding = 0, rgba8) readonly uniform image2D picture;
         layout(location = 0) out vec4 color;
-        void main() { color = b.values[0]; })");
+        void main() { color = imageLoad(picture, ivec2(0)); })");
     ASSERT_FALSE(program);
-    EXPECT_THAT(program.error().message, HasSubstr("storage buffers"));
+    EXPECT_THAT(program.error().message, HasSubstr("storage images"));
+}
+
+TEST(CompileProgram, AFragmentStageOnlyReadsStorageBuffersAndAVertexStageHasNone) {
+    const auto fragment = [](std::string_view qualifier) {
+        return fmt::format(
+                "#version 450\nlayout(set = 2, binding = 3, std430) {} buffer B {{ vec4 values[]; }} table;\n"
+                "layout(location = 0) out vec4 color;\nvoid main() {{ color = table.values[1]; }}\n",
+                qualifier);
+    };
+    const Result<ProgramShaders> reads = compileProgram(kFullScreen, fragment("readonly"));
+    ASSERT_TRUE(reads) << reads.error().message;
+    EXPECT_EQ(reads->layout[2].bindings[0], (backend::BindingDesc{ .binding = 3,
+                                                                   .type = backend::BindingType::StorageBuffer,
+                                                                   .stages = backend::ShaderStage::Fragment }));
+    const Result<ProgramShaders> mayWrite = compileProgram(kFullScreen, fragment(""));
+    ASSERT_FALSE(mayWrite);
+    EXPECT_THAT(mayWrite.error().message, HasSubstr("declare it readonly"));
+    const Result<ProgramShaders> vertex = compileProgram(
+            "#version 450\nlayout(set = 0, binding = 0, std430) readonly buffer B { vec4 at[]; } corners;\n"
+            "void main() { gl_Position = corners.at[gl_VertexIndex]; }\n",
+            kFragment);
+    ASSERT_FALSE(vertex);
+    EXPECT_THAT(vertex.error().message, HasSubstr("a vertex stage cannot have one"));
+}
+
+TEST(CompileProgram, AComputeStageIsNumberedByKindGroupAfterGroup) {
+    const Result<ComputeShader> compute = compileCompute(R"(#version 450
+        layout(local_size_x = 32, local_size_y = 2) in;
+        layout(set = 0, binding = 4, std430) buffer A { uint a[]; };
+        layout(set = 1, binding = 0, std140) uniform U { uvec4 u; };
+        layout(set = 1, binding = 2, std430) readonly buffer B { uint b[]; };
+        layout(set = 3, binding = 7) uniform highp sampler2D picture;
+        void main() { a[0] = b[u.x] + uint(texelFetch(picture, ivec2(0), 0).x); })");
+    ASSERT_TRUE(compute) << compute.error().message;
+    EXPECT_EQ(backend::flatBinding(compute->layout, 0, 4), 0);
+    EXPECT_EQ(backend::flatBinding(compute->layout, 1, 2), 1);
+    EXPECT_EQ(backend::flatBinding(compute->layout, 1, 0), 0);
+    EXPECT_EQ(backend::flatBinding(compute->layout, 3, 7), 0);
+    for (const char* text :
+         { "#version 310 es", "local_size_x = 32, local_size_y = 2", "binding = 1, std430", "readonly" }) {
+        EXPECT_THAT(compute->essl, HasSubstr(text));
+    }
+    EXPECT_THAT(test::disassembly(compute->spirv), HasSubstr("OpEntryPoint GLCompute"));
+}
+
+TEST(CompileProgram, NamesFileAndLineOfAnErrorInAComputeStage) {
+    const Result<ComputeShader> compute =
+            compileCompute("#version 450\nlayout(local_size_x = 1) in;\nvoid main() {\n  oops();\n}\n",
+                           { .computeName = "histogram.comp" });
+    ASSERT_FALSE(compute);
+    EXPECT_TRUE(compute.error().message.starts_with("histogram.comp:4: ")) << compute.error().message;
 }
 
 TEST(CompileProgram, GivesTheSameBytesFromEveryThread) {
