@@ -4,6 +4,8 @@
 #include "jobsystem/JobTrace.h"
 
 #include <algorithm>
+#include <bit>
+#include <new>
 
 namespace filament::engine {
 namespace {
@@ -21,13 +23,18 @@ double milliseconds(FrameTimingLog::TimePoint from, FrameTimingLog::TimePoint to
 } // namespace
 
 void FrameTimingLog::add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers) {
+    collectTimers(); // the stream keeps answers only for so long
+    if (!makeRoom(timers.size())) timers = {};
     Record& record = mRecords[frame % mRecords.size()];
-    record = { .frame = frame, .stamps = stamps, .taken = false };
-    record.passCount = static_cast<uint32_t>(std::min(timers.size(), record.passes.size()));
-    for (uint32_t i = 0; i < record.passCount; ++i) {
-        Pass& pass = record.passes[i];
-        pass.ticket = timers[i].ticket;
-        timers[i].name.copy(pass.name.data(), pass.name.size() - 1);
+    record.frame = frame;
+    record.stamps = stamps;
+    record.replay = {};
+    record.replayed = record.taken = false;
+    record.passes.resize(timers.size());
+    record.waiting = timers.size();
+    for (size_t i = 0; i < timers.size(); ++i) {
+        record.passes[i] = { .ticket = timers[i].ticket };
+        timers[i].name.copy(record.passes[i].name.data(), record.passes[i].name.size() - 1);
     }
     if (!mEngine.jobs.trace()) return;
     traceFrame(record);
@@ -61,17 +68,29 @@ void FrameTimingLog::collectReplays() {
     }
 }
 
-bool FrameTimingLog::isComplete(Record& record) {
-    if (!record.replayed) return false;
-    bool complete = true;
-    for (uint32_t i = 0; i < record.passCount; ++i) {
-        Pass& pass = record.passes[i];
-        if (pass.milliseconds >= 0) continue;
-        const auto answer = mEngine.stream->takeTimer(pass.ticket);
-        if (answer) pass.milliseconds = static_cast<double>(*answer) * 1e-6;
-        complete = complete && answer;
+bool FrameTimingLog::makeRoom(size_t passes) noexcept {
+    if (passes <= mPassRoom) return true;
+    const size_t room = std::bit_ceil(passes);
+    try {
+        for (Record& record : mRecords) record.passes.reserve(room);
+    } catch (std::bad_alloc const&) {
+        return false;
     }
-    return complete;
+    mPassRoom = room;
+    return true;
+}
+
+void FrameTimingLog::collectTimers() {
+    for (Record& record : mRecords) {
+        for (size_t i = 0; record.waiting > 0 && i < record.passes.size(); ++i) {
+            Pass& pass = record.passes[i];
+            if (pass.milliseconds >= 0) continue;
+            const auto answer = mEngine.stream->takeTimer(pass.ticket);
+            if (!answer) break; // passes end in order
+            pass.milliseconds = static_cast<double>(*answer) * 1e-6;
+            --record.waiting;
+        }
+    }
 }
 
 FrameTimings FrameTimingLog::publish(Record const& record) const {
@@ -87,18 +106,19 @@ FrameTimings FrameTimingLog::publish(Record const& record) const {
     timings.submitSeconds = mEngine.secondsSinceStart(nanoseconds(record.stamps.recorded));
     timings.replayBeginSeconds = mEngine.secondsSinceStart(record.replay.replayBegin);
     timings.replayEndSeconds = mEngine.secondsSinceStart(record.replay.replayEnd);
-    for (uint32_t i = 0; i < record.passCount; ++i) {
-        timings.passes.push_back({ record.passes[i].name.data(), record.passes[i].milliseconds });
-        timings.gpuMilliseconds += record.passes[i].milliseconds;
+    for (Pass const& pass : record.passes) {
+        timings.passes.push_back({ pass.name.data(), pass.milliseconds });
+        timings.gpuMilliseconds += pass.milliseconds;
     }
     return timings;
 }
 
 std::vector<FrameTimings> FrameTimingLog::take() {
     collectReplays();
+    collectTimers();
     std::vector<FrameTimings> finished;
     for (Record& record : mRecords) {
-        if (record.taken || !isComplete(record)) continue;
+        if (record.taken || !record.replayed || record.waiting > 0) continue;
         finished.push_back(publish(record));
         record.taken = true;
     }

@@ -2,7 +2,10 @@
 /// FrameTimingLog: when each frame was prepared, recorded and replayed, and the device time of its passes.
 ///   Thread  the app thread; results are polled from the stream.
 ///   Trace   with EngineOptions::traceJobs, frames and replays become spans beside the jobs.
-///   Memory  the last 64 frames, 16 passes each, in place: writing allocates nothing. Older frames are overwritten.
+///   Memory  the last 64 frames with all of their passes; older ones are overwritten. Room is made when a frame has
+///   more
+///           passes than any before it, for all 64 at once: after that, writing allocates nothing.
+///   Fails   never; without memory for that a frame has no pass times.
 #pragma once
 
 #include "backend/stream/CommandStream.h"
@@ -13,6 +16,7 @@
 
 #include <array>
 #include <chrono>
+#include <vector>
 
 namespace filament::engine {
 
@@ -34,15 +38,15 @@ public:
 
 private:
     struct Pass {
-        std::array<char, 32> name{};
+        std::array<char, 64> name{}; ///< longer ones, of many merged passes, are cut
         backend::Ticket ticket;
         double milliseconds = -1; ///< < 0: no result yet
     };
     struct Record {
         uint64_t frame = 0;
         Stamps stamps{};
-        std::array<Pass, 16> passes{};
-        uint32_t passCount = 0;
+        std::vector<Pass> passes{};
+        size_t waiting = 0; ///< passes without an answer
         backend::FrameTiming replay{};
         bool replayed = false;
         bool taken = true;
@@ -51,11 +55,13 @@ private:
     void traceFrame(Record const& record);
     void traceReplay(backend::FrameTiming const& replay);
     void collectReplays();
-    bool isComplete(Record& record);
+    bool makeRoom(size_t passes) noexcept;
+    void collectTimers();
     FrameTimings publish(Record const& record) const;
 
     Engine::Impl& mEngine;
     std::array<Record, 64> mRecords{};
+    size_t mPassRoom = 0; ///< of every record
 };
 
 } // namespace filament::engine
