@@ -93,6 +93,8 @@ public:
     BindGroupHandle imageGroup(Program const& program, TextureHandle texture, SamplerHandle sampler,
                                uint32_t index = 1);
 
+    CommandStream& stream() { return mStream; }
+
     // ---- commands
     CommandBuffer& commands(); ///< of the open submission
     template <class C>
