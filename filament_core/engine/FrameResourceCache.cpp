@@ -23,7 +23,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::EnvironmentPa
                                         passes::PipelineSource pipelines, bool isToneMapped) {
     FrameResources resources;
     resources.pipelines = pipelines;
-    resources.viewTextures = viewTextures(view, environment);
+    resources.lighting = lighting(view, environment);
     resources.nearestSampler = mEngine.samplers.get(kNearest, mEngine.pending);
     resources.instanceIds = mEngine.defaults.instanceIds;
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
@@ -32,13 +32,12 @@ FrameResources FrameResourceCache::find(View const& view, prepare::EnvironmentPa
     return resources;
 }
 
-passes::ViewTextures FrameResourceCache::viewTextures(View const& view, prepare::EnvironmentPacket const& environment) {
+passes::LightingTextures FrameResourceCache::lighting(View const& view, prepare::EnvironmentPacket const& environment) {
     const auto orBlack = [&](backend::TextureHandle cube) {
         return cube ? cube : mEngine.textureHandle(mEngine.defaults.blackCube);
     };
     return { .specular = orBlack(environment.specular),
              .dfg = mEngine.textureHandle(mEngine.dfgTable(view.quality.dfgTableSize)),
-             .sky = orBlack(environment.sky),
              .irradiance = orBlack(environment.irradiance),
              .trilinear = mEngine.samplers.get(kTrilinear, mEngine.pending),
              .bilinear = mEngine.samplers.get(kBilinear, mEngine.pending) };

@@ -24,7 +24,7 @@ public:
 private:
     static constexpr size_t kToneMappers = 4;
 
-    passes::ViewTextures viewTextures(View const& view, prepare::EnvironmentPacket const& environment);
+    passes::LightingTextures lighting(View const& view, prepare::EnvironmentPacket const& environment);
     passes::ToneMapMaterials toneMap(ColorGrading const& grading, ToneMapping mapping);
     scene::Material const* skybox(bool isRgbm);
 

@@ -37,11 +37,13 @@ FrameOutput outputOf(engine::TextureState const& target) {
 
 struct Renderer::Impl {
     Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
-            : engine(owner), options(rendererOptions), resources(owner), data(*owner.stream), graph(arena),
-              transients(*owner.stream), ranges(owner.jobs), timings(owner), pixels(owner), imageTarget(owner) {}
+            : engine(owner), options(rendererOptions), resources(owner), data(*owner.stream), blocks(*owner.stream),
+              graph(arena), transients(*owner.stream), ranges(owner.jobs), timings(owner), pixels(owner),
+              imageTarget(owner) {}
 
     ~Impl() {
         data.destroy(engine.pending);
+        blocks.destroy(engine.pending);
         transients.destroyAll(engine.pending);
     }
 
@@ -56,6 +58,8 @@ struct Renderer::Impl {
         const prepare::FramePacket packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views);
         FrameContext& context = *passes::makeFrameContext(
                 arena, packet, resources.find(view, packet.environment, pipelines, !output.isSceneLinear()), view);
+        blocks.begin();
+        context.blocks = &blocks;
         passes::describeFrame(graph, context, output);
         plan = compile(graph, transients);
         return context;
@@ -70,9 +74,9 @@ struct Renderer::Impl {
         engine.useTextureFilter(context.settings.textureFilter);
         engine.drainPending(*commands);
         engine.recordCompilations(*commands);
-        data.upload(engine.jobs, *commands, context.packet, context.resources.viewTextures);
+        data.upload(engine.jobs, *commands, context.packet);
+        blocks.upload(*commands);
         context.views = data.views();
-        context.postGroup = data.postGroup();
         context.deformations = data.deformations();
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
     }
@@ -144,6 +148,7 @@ struct Renderer::Impl {
     engine::FrameResourceCache resources;
     Arena arena;
     passes::FrameData data;
+    passes::PassBlocks blocks;
     framegraph::FrameGraph graph;
     framegraph::TransientPool transients;
     framegraph::RangeRecorder ranges;

@@ -2,6 +2,8 @@
 #include "filament_core/passes/ColorPass.h"
 
 #include "filament_core/passes/DrawRecorder.h"
+#include "filament_core/passes/PassGroup.h"
+#include "shaders/interface/ShaderInterface.h"
 
 namespace filament::passes {
 namespace {
@@ -12,36 +14,53 @@ using framegraph::PassBuilder;
 using framegraph::PassContext;
 using framegraph::TextureId;
 
-struct ChosenPipelines {
+struct Chosen {
+    std::array<BindGroupHandle, 2> passGroups; // by PassKind
     std::span<const PipelineHandle> opaque, blended;
     PipelineHandle sky;
+    BindGroupHandle skyGroup;
 };
 
-ChosenPipelines choose(PassContext& pass, FrameContext const& context) {
+BindGroupHandle skyGroup(PassContext& pass, FrameContext const& context) {
+    shader::MaterialPackage const& package = context.resources.skybox->package;
+    const BindGroupEntry entry{ .binding = package.findParameter("sky")->binding,
+                                .texture = context.packet.environment.sky,
+                                .sampler = context.resources.lighting.bilinear };
+    return pass.bindGroup(package.layout[shader::kGroupMaterial], std::span(&entry, 1), "sky");
+}
+
+Chosen choose(PassContext& pass, FrameContext const& context, PassBlock target) {
     PipelineSource const& pipelines = context.resources.pipelines;
     prepare::ViewPacket const& view = context.packet.mainView();
     PassSettings const& settings = context.settings;
     const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
-    ChosenPipelines chosen;
+    Chosen chosen;
+    chosen.passGroups = { passGroup(pass, context, shader::PassKind::Lit, target),
+                          passGroup(pass, context, shader::PassKind::Unlit, target) };
     chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant);
     chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, view.blended, view.variant);
-    if (context.resources.skybox)
+    if (context.resources.skybox) {
         chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.skybox);
+        chosen.skyGroup = skyGroup(pass, context);
+    }
     return chosen;
 }
 
-void recordSky(CommandBuffer& commands, ViewGroup const& view, PipelineHandle pipeline) {
-    commands.record(CmdBindPipeline{ pipeline });
+void recordSky(CommandBuffer& commands, ViewGroup const& view, Chosen const& chosen) {
+    commands.record(CmdBindPipeline{ chosen.sky });
     commands.record(view.bind(0));
+    commands.record(
+            CmdBindGroup{ chosen.passGroups[static_cast<size_t>(shader::PassKind::Unlit)], shader::kGroupPass });
+    commands.record(CmdBindGroup{ chosen.skyGroup, shader::kGroupMaterial });
     commands.record(CmdDraw{ 3 });
 }
 
-void recordScene(PassContext& pass, FrameContext const& context, ChosenPipelines const& chosen) {
+void recordScene(PassContext& pass, FrameContext const& context, Chosen const& chosen) {
     const FrameView view = viewOf(context, 0);
-    const DrawContext draws{ view.group, context.resources.instanceIds, context.deformations,
+    const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
                              context.settings.textureFilter };
     recordDrawRanges(pass, draws, view.packet.opaque, chosen.opaque);
-    if (chosen.sky) recordSky(pass.commands(), view.group, chosen.sky);
+    if (chosen.sky) recordSky(pass.commands(), view.group, chosen);
     recordDrawRanges(pass, draws, view.packet.blended, chosen.blended);
 }
 
@@ -51,6 +70,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     PassSettings const& settings = context.settings;
     const TextureId color = targets.color;
     const framegraph::GraphTextureDesc like = graph.texture(color).desc;
+    const PassBlock target = declareTarget(context, like);
     const TextureId depth = graph.createTexture({ .width = like.width,
                                                   .height = like.height,
                                                   .format = Format::D32F,
@@ -72,8 +92,8 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
                                   .resolve = settings.samples == 1 ? TextureId{} : color });
                 pass.writeDepth(depth, { .clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
             },
-            [of = &context](PassContext& pass) { return choose(pass, *of); },
-            [of = &context](PassContext& pass, ChosenPipelines const& chosen) { recordScene(pass, *of, chosen); });
+            [of = &context, target](PassContext& pass) { return choose(pass, *of, target); },
+            [of = &context](PassContext& pass, Chosen const& chosen) { recordScene(pass, *of, chosen); });
 }
 
 } // namespace filament::passes

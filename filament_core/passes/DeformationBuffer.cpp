@@ -3,7 +3,7 @@
 
 #include "backend/stream/RecordingGuards.h"
 #include "filament_core/prepare/DeformationData.h"
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
 #include <array>

@@ -22,7 +22,8 @@ public:
         if (pipeline != mPipeline) {
             mCommands.record(CmdBindPipeline{ pipeline });
             mPipeline = pipeline;
-            mDeformation = scene::kNotDeformed; // group 2 does not outlive a change of the groups before it
+            mDeformation = scene::kNotDeformed; // the last group does not outlive a change of the groups before it
+            bindPass(draw.material->material->package);
         }
         const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
         if (window != mWindow) {
@@ -42,6 +43,14 @@ public:
     }
 
 private:
+    void bindPass(shader::MaterialPackage const& package) {
+        const shader::PassKind kind = shader::passKind(package.domain, package.shading);
+        const BindGroupHandle group = mContext.passGroups[static_cast<size_t>(kind)];
+        if (group == mPass) return;
+        mCommands.record(CmdBindGroup{ group, shader::kGroupPass });
+        mPass = group;
+    }
+
     void bindGeometry(scene::Geometry const& geometry) {
         if (geometry.vertices != mVertices) {
             mCommands.record(CmdBindVertexBuffers{ { geometry.vertices, mContext.instanceIds }, {}, 2 });
@@ -58,7 +67,7 @@ private:
     DrawContext const& mContext;
     PipelineHandle mPipeline;
     uint32_t mWindow = ~0u;
-    BindGroupHandle mMaterial;
+    BindGroupHandle mPass, mMaterial;
     uint32_t mDeformation = scene::kNotDeformed;
     BufferHandle mVertices, mIndices;
     IndexFormat mIndexType = IndexFormat::UInt16;

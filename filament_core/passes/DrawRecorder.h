@@ -11,7 +11,9 @@
 #include "filament_core/passes/PipelineSource.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/PassContext.h"
+#include "shaders/package/GroupLayouts.h"
 
+#include <array>
 #include <span>
 
 namespace filament::passes {
@@ -29,6 +31,7 @@ std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext
 /// Shared by all draws of a pass.
 struct DrawContext {
     ViewGroup view;
+    std::array<backend::BindGroupHandle, 2> passGroups; ///< of shader::PassKind::Lit and Unlit
     backend::BufferHandle instanceIds;
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
     TextureFilter textureFilter = TextureFilter::AsAuthored;

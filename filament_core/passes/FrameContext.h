@@ -7,6 +7,7 @@
 #pragma once
 
 #include "filament_core/passes/FrameResources.h"
+#include "filament_core/passes/PassBlocks.h"
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/FrameGraph.h"
 
@@ -35,10 +36,10 @@ struct FrameContext {
     FrameResources resources{};
     PassSettings settings{}; ///< of the main view
     Arena* arena = nullptr;
+    PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 
     // Where FrameData has put the packet on the device:
-    std::span<const ViewGroup> views; ///< by view of the packet
-    backend::BindGroupHandle postGroup;
+    std::span<const ViewGroup> views;                    ///< by view of the packet
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
 };
 

@@ -2,7 +2,7 @@
 #include "filament_core/passes/FrameData.h"
 
 #include "filament_core/prepare/ObjectData.h"
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
 #include <utility>
@@ -51,7 +51,6 @@ void FrameData::reserve(CommandBuffer& commands, Set& set, Blocks& blocks, uint3
     if (count <= blocks.capacity) return;
     const uint32_t grown = std::max(count, blocks.capacity * 2);
     release(commands, set.view);
-    if (&blocks == &set.uniforms) release(commands, set.post);
     release(commands, blocks);
     NewHandle handle(mStream, mStream.allocateBuffer());
     commands.record(CmdCreateBuffer{ handle, { uint64_t{ grown } * blockBytes, BufferUsage::Uniform, name } });
@@ -74,27 +73,11 @@ FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
     return needs;
 }
 
-void FrameData::bindPost(CommandBuffer& commands, Set& set) {
-    const BindGroupEntry entry{ .binding = shader::kBindingFrame,
-                                .buffer = set.uniforms.buffer,
-                                .size = sizeof(FrameUniforms) };
-    NewHandle post(mStream, mStream.allocateBindGroup());
-    commands.record(CmdCreateBindGroup{
-            post, { shader::viewGroupLayout(shader::MaterialDomain::PostProcess), std::span(&entry, 1), "post" } });
-    set.post = post.keep();
-}
-
-void FrameData::bindViews(CommandBuffer& commands, Set& set, ViewTextures const& textures) {
-    release(commands, set.view);
-    set.textures = textures;
-    const std::array<BindGroupEntry, 7> entries{ {
+void FrameData::bindViews(CommandBuffer& commands, Set& set) {
+    const std::array<BindGroupEntry, 3> entries{ {
             { .binding = shader::kBindingFrame, .buffer = set.uniforms.buffer, .size = sizeof(FrameUniforms) },
             { .binding = shader::kBindingObjects, .buffer = set.objects.buffer, .size = kWindowBytes },
             { .binding = shader::kBindingLights, .buffer = set.lights.buffer, .size = kLightBytes },
-            { .binding = shader::kBindingSpecular, .texture = textures.specular, .sampler = textures.trilinear },
-            { .binding = shader::kBindingDfg, .texture = textures.dfg, .sampler = textures.bilinear },
-            { .binding = shader::kBindingSky, .texture = textures.sky, .sampler = textures.bilinear },
-            { .binding = shader::kBindingIrradiance, .texture = textures.irradiance, .sampler = textures.bilinear },
     } };
     NewHandle view(mStream, mStream.allocateBindGroup());
     commands.record(CmdCreateBindGroup{ view, { shader::viewGroupLayout(), entries, "view" } });
@@ -118,16 +101,14 @@ void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Se
     }
 }
 
-void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::FramePacket const& packet,
-                       ViewTextures const& textures) {
+void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::FramePacket const& packet) {
     mCurrent = (mCurrent + 1) % static_cast<uint32_t>(mSets.size());
     Set& set = mSets[mCurrent];
     const Needs needs = placeViews(packet);
     reserve(commands, set, set.objects, needs.windows, kWindowBytes, "objects");
     reserve(commands, set, set.uniforms, needs.views, kUniformBytes, "frame");
     reserve(commands, set, set.lights, needs.lights, kLightBytes, "lights");
-    if (!set.post) bindPost(commands, set);
-    if (!set.view || set.textures != textures) bindViews(commands, set, textures);
+    if (!set.view) bindViews(commands, set);
 
     for (size_t i = 0; i < mViews.size(); ++i) {
         prepare::ViewPacket const& view = packet.views[i];
@@ -148,7 +129,6 @@ CmdBindGroup ViewGroup::bind(uint32_t object) const {
 void FrameData::destroy(CommandBuffer& commands) {
     for (Set& set : mSets) {
         release(commands, set.view);
-        release(commands, set.post);
         release(commands, set.uniforms);
         release(commands, set.lights);
         release(commands, set.objects);

@@ -20,14 +20,6 @@
 
 namespace filament::passes {
 
-/// The textures of the view group; every handle is set.
-struct ViewTextures {
-    backend::TextureHandle specular, dfg, sky, irradiance;
-    backend::SamplerHandle trilinear; ///< of the specular levels
-    backend::SamplerHandle bilinear;  ///< of sky, irradiance and table: one level each
-    friend bool operator==(ViewTextures const&, ViewTextures const&) = default;
-};
-
 /// kGroupView of one view: the group of the frame, and where the view's data begin in the buffers behind it.
 struct ViewGroup {
     backend::BindGroupHandle handle;
@@ -42,14 +34,11 @@ public:
     explicit FrameData(backend::CommandStream& stream) : mStream(stream) {}
 
     /// Uploads the packet into the next set and makes its bind group current.
-    void upload(jobs::JobSystem& jobs, backend::CommandBuffer& commands, prepare::FramePacket const& packet,
-                ViewTextures const& textures);
+    void upload(jobs::JobSystem& jobs, backend::CommandBuffer& commands, prepare::FramePacket const& packet);
     void destroy(backend::CommandBuffer& commands);
 
     /// By view of the packet.
     std::span<const ViewGroup> views() const { return mViews; }
-    /// Group 0 of post-process materials: the frame block only, of the main view at offset 0.
-    backend::BindGroupHandle postGroup() const { return mSets[mCurrent].post; }
     /// By slot of scene::Deformations; those that are not visible are not set.
     std::span<const backend::CmdBindGroup> deformations() const { return mSets[mCurrent].deformation.groups(); }
 
@@ -61,8 +50,7 @@ private:
     };
     struct Set {
         Blocks uniforms, lights, objects;
-        ViewTextures textures{};
-        backend::BindGroupHandle view, post;
+        backend::BindGroupHandle view;
         DeformationBuffer deformation;
     };
     /// Blocks that a frame needs.
@@ -75,8 +63,7 @@ private:
     void reserve(backend::CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, uint32_t blockBytes,
                  const char* name);
     Needs placeViews(prepare::FramePacket const& packet);
-    void bindPost(backend::CommandBuffer& commands, Set& set);
-    void bindViews(backend::CommandBuffer& commands, Set& set, ViewTextures const& textures);
+    void bindViews(backend::CommandBuffer& commands, Set& set);
     void uploadObjects(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Set const& set,
                        prepare::FramePacket const& packet);
 

@@ -10,6 +10,13 @@
 
 namespace filament::passes {
 
+/// The textures that lit materials read of their surroundings; every handle is set.
+struct LightingTextures {
+    backend::TextureHandle specular, dfg, irradiance;
+    backend::SamplerHandle trilinear; ///< of the specular levels
+    backend::SamplerHandle bilinear;  ///< of the others, and of the sky: one level each
+};
+
 /// The two forms of the post-process material, specialised to the view's tone mapper.
 struct ToneMapMaterials {
     scene::Material const* merged = nullptr;  ///< reads a subpass input
@@ -19,7 +26,7 @@ struct ToneMapMaterials {
 
 struct FrameResources {
     PipelineSource pipelines;
-    ViewTextures viewTextures{};
+    LightingTextures lighting{};
     backend::SamplerHandle nearestSampler;
     backend::BufferHandle instanceIds;       ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
     scene::Material const* skybox = nullptr; ///< full-screen material; null: the scene has no sky

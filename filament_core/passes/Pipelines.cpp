@@ -3,7 +3,7 @@
 
 #include "base/Result.h"
 #include "shaders/interface/ShaderInterface.h"
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
 

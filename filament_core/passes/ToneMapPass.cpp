@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/ToneMapPass.h"
 
+#include "filament_core/passes/PassGroup.h"
+#include "shaders/interface/ShaderInterface.h"
+
 namespace filament::passes {
 namespace {
 
@@ -12,10 +15,10 @@ using framegraph::TextureId;
 
 struct Chosen {
     PipelineHandle pipeline;
-    BindGroupHandle input;
+    BindGroupHandle pass, input;
 };
 
-Chosen choose(PassContext& pass, FrameContext const& context, TextureId color) {
+Chosen choose(PassContext& pass, FrameContext const& context, TextureId color, PassBlock target) {
     FrameResources const& resources = context.resources;
     ToneMapMaterials const& materials = resources.toneMap;
     const bool merged = pass.isMerged(color);
@@ -32,6 +35,7 @@ Chosen choose(PassContext& pass, FrameContext const& context, TextureId color) {
                              .sampler = resources.nearestSampler };
     }
     return { resources.pipelines.fullscreenPipeline(pass.commands(), slot, material),
+             passGroup(pass, context, shader::PassKind::Picture, target),
              pass.bindGroup(material.package.layout[shader::kGroupMaterial], std::span(entries).first(count),
                             "tone map") };
 }
@@ -40,17 +44,19 @@ Chosen choose(PassContext& pass, FrameContext const& context, TextureId color) {
 
 void addToneMapPass(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
     const TextureId color = targets.color;
+    const PassBlock target = declareTarget(context, graph.texture(targets.output).desc);
     graph.addPass(
             "tone map",
             [&](PassBuilder& pass) {
                 pass.readInput(color);
                 pass.writeColor(0, targets.output, { .overwrites = true });
             },
-            [of = &context, color](PassContext& pass) { return choose(pass, *of, color); },
+            [of = &context, color, target](PassContext& pass) { return choose(pass, *of, color, target); },
             [of = &context](PassContext& pass, Chosen const& chosen) {
                 CommandBuffer& commands = pass.commands();
                 commands.record(CmdBindPipeline{ chosen.pipeline });
-                commands.record(CmdBindGroup{ of->postGroup, shader::kGroupView, 1, {} });
+                commands.record(of->views[0].bind(0));
+                commands.record(CmdBindGroup{ chosen.pass, shader::kGroupPass });
                 commands.record(CmdBindGroup{ chosen.input, shader::kGroupMaterial });
                 commands.record(CmdDraw{ 3 });
             });

@@ -40,13 +40,11 @@ ViewSpace makeViewSpace(ViewInput const& view) {
 
 void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, ViewInput const& view,
                         scene::SceneData const& scene) {
-    const float width = static_cast<float>(view.size.x), height = static_cast<float>(view.size.y);
     frame.clipFromWorld = space.clipFromWorld;
     frame.worldFromClip = float4x4(glm::inverse(double4x4(space.clipFromWorld)));
     frame.viewFromWorld = space.viewFromWorld;
     frame.clipFromView = space.clipFromView;
     frame.cameraPosition = float4(float3(space.cameraWorld), view.quality.cameraRelative ? 0.0f : 1.0f);
-    frame.viewport = float4(width, height, 1 / width, 1 / height);
     frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), static_cast<float>(view.timeSeconds),
                             view.quality.depthRange == DepthRange::Ordinary ? 1.0f : 0.0f);
 

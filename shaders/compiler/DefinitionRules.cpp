@@ -2,7 +2,7 @@
 #include "shaders/compiler/DefinitionRules.h"
 
 #include "shaders/compiler/FeatureLevels.h"
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
 
@@ -84,10 +84,10 @@ constexpr Contradiction kContradictions[] = {
       "reflections", "an unlit material reflects nothing; use shadingModel : lit" },
 };
 
-uint32_t texturesOfView(MaterialDomain domain) {
-    const backend::BindGroupLayout view = viewGroupLayout(domain);
+uint32_t texturesOfPass(MaterialPackage const& package) {
+    const backend::BindGroupLayout pass = passGroupLayout(passKind(package.domain, package.shading));
     return static_cast<uint32_t>(std::count_if(
-            view.bindings.begin(), view.bindings.begin() + view.count,
+            pass.bindings.begin(), pass.bindings.begin() + pass.count,
             [](backend::BindingDesc const& binding) { return binding.type == backend::BindingType::SampledTexture; }));
 }
 
@@ -120,7 +120,7 @@ Result<void> checkSamplers(MaterialDefinition const& definition) {
 
 uint32_t samplerBudget(MaterialDefinition const& definition) {
     constexpr uint32_t kTexturesOfAStage = 16; // what both APIs offer to every fragment stage
-    const uint32_t room = std::min(kTexturesOfAStage - texturesOfView(definition.package.domain),
+    const uint32_t room = std::min(kTexturesOfAStage - texturesOfPass(definition.package),
                                    uint32_t{ backend::kMaxBindings } - 1); // the first is the block of parameters
     return std::min(room, budgetOfLevel(definition));
 }

@@ -45,7 +45,7 @@ bool takesPrecision(ParameterType type) { return type > ParameterType::Bool4; }
 
 void declareBlock(StageText& out, MaterialDefinition const& definition) {
     if (definition.package.uniformBytes == 0) return;
-    out.line("layout(set = 1, binding = 0, std140) uniform MaterialParams {");
+    out.line(fmt::format("layout(set = {}, binding = 0, std140) uniform MaterialParams {{", kGroupMaterial));
     for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
         Parameter const& parameter = definition.package.parameters[i];
         if (isTexture(parameter.type)) continue;
@@ -66,7 +66,7 @@ void declareTextures(StageText& out, MaterialDefinition const& definition) {
                                           ? fmt::format("input_attachment_index = {}, ", attachment++)
                                           : "";
         out.originate(definition.parameterSources[i].at);
-        out.line(fmt::format("layout({}set = 1, binding = {}) uniform {}{} materialParams_{};", index,
+        out.line(fmt::format("layout({}set = {}, binding = {}) uniform {}{} materialParams_{};", index, kGroupMaterial,
                              parameter.binding, glslPrecision(parameter.precision), samplerType(parameter),
                              parameter.name));
     }

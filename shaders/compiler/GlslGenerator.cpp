@@ -7,7 +7,7 @@
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/StageText.h"
 #include "shaders/interface/ShaderInterface.h"
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
 #include <initializer_list>
@@ -375,7 +375,8 @@ backend::ProgramLayout materialLayout(MaterialDefinition const& definition) {
     using backend::BindingType;
     using backend::ShaderStage;
     backend::ProgramLayout layout{};
-    layout[kGroupView] = viewGroupLayout(definition.package.domain);
+    layout[kGroupView] = viewGroupLayout();
+    layout[kGroupPass] = passGroupLayout(passKind(definition.package.domain, definition.package.shading));
     backend::BindGroupLayout& group = layout[kGroupMaterial];
     if (definition.package.uniformBytes > 0)
         group.bindings[group.count++] = { .binding = 0, .type = BindingType::UniformBuffer };

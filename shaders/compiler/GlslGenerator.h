@@ -37,7 +37,7 @@ Result<std::string> generateFragment(MaterialDefinition const& definition, Mater
 Result<std::string> generateProbe(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                   IncludeResolver const& includes);
 
-/// The bind group layout that all variants share: the engine's group 0, the material's group 1.
+/// The bind group layout that all variants share: the engine's View and Pass groups, and the material's own.
 backend::ProgramLayout materialLayout(MaterialDefinition const& definition);
 
 } // namespace filament::shader

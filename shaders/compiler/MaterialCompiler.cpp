@@ -10,7 +10,7 @@
 #include "shaders/compiler/Reflection.h"
 #include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
 #include <optional>
@@ -92,7 +92,7 @@ Result<std::string> generate(Prepared const& prepared, Stage const& stage) {
                    : generateFragment(prepared.definition, prepared.needs, stage.key, prepared.includes);
 }
 
-/// The uniforms of groups 0 and 2 have dynamic offsets.
+/// The uniforms of the View and Deformation groups have dynamic offsets.
 std::vector<SetBinding> dynamicBuffers() {
     return { { kGroupView, kBindingFrame },
              { kGroupView, kBindingObjects },

@@ -31,18 +31,23 @@ enum AttributeLocation : uint8_t {
 };
 
 // ---- bind groups
-inline constexpr uint32_t kGroupView = 0;     ///< what all draws of a view share
-inline constexpr uint32_t kGroupMaterial = 1; ///< MaterialParams block (binding 0) and the material's samplers (1..)
-inline constexpr uint32_t kGroupDeformation = 2; ///< of variants with kVariantSkinning only; read by the vertex stage only
+// In the order of how seldom they change. What every program of the engine has: View; by what a material reads: Pass.
+inline constexpr uint32_t kGroupView = 0;     ///< buffers alone: what all draws of a view share, and windows of objects
+inline constexpr uint32_t kGroupPass = 1;     ///< the target, and the engine's textures: environment, what other passes drew
+inline constexpr uint32_t kGroupMaterial = 2; ///< MaterialParams block (binding 0) and the material's textures (1..)
+inline constexpr uint32_t kGroupDeformation = 3; ///< of variants with kVariantSkinning only; read by the vertex stage only
 
 enum ViewBinding : uint8_t {
     kBindingFrame = 0,       ///< FrameUniforms, dynamic
     kBindingObjects = 1,     ///< ObjectUniforms, dynamic: windows of kObjectsPerWindow objects
     kBindingLights = 2,      ///< LightUniforms, dynamic
-    kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
-    kBindingDfg = 4,         ///< sampler2D: split-sum terms
-    kBindingSky = 5,         ///< samplerCube: unfiltered environment
-    kBindingIrradiance = 6,  ///< samplerCube: irradiance / pi
+};
+
+enum PassBinding : uint8_t {
+    kBindingPass = 0,        ///< PassUniforms
+    kBindingSpecular = 1,    ///< samplerCube: pre-filtered environment, mip = roughness
+    kBindingDfg = 2,         ///< sampler2D: split-sum terms
+    kBindingIrradiance = 3,  ///< samplerCube: irradiance / pi
 };
 
 // ---- FrameUniforms
@@ -52,7 +57,6 @@ struct FrameUniforms {
     float4x4 viewFromWorld;
     float4x4 clipFromView;
     float4 cameraPosition;       ///< xyz: absolute world position, for procedural materials; w: 1 if objects are absolute, not relative to it
-    float4 viewport;             ///< xy: pixels, zw: 1 / pixels
     float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: time in seconds; w: depth of infinity
     float4 sunDirection;         ///< xyz: towards the sun, unit; w: 1 if there is a sun
     float4 sunIlluminance;       ///< rgb: pre-exposed linear colour x lux
@@ -60,6 +64,11 @@ struct FrameUniforms {
     float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: unused
     std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients
     float4x4 worldFromEnvironment;       ///< rotation of the environment
+};
+
+// ---- PassUniforms
+struct PassUniforms {
+    float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
 };
 
 inline constexpr uint32_t kObjectsPerWindow = 256;

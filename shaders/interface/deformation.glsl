@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bind group 2, of variants with kVariantSkinning: the GLSL twin of the part "deformation" of ShaderInterface.h. A test
+// Bind group 3, of variants with kVariantSkinning: the GLSL twin of the part "deformation" of ShaderInterface.h. A test
 // compares the two. Not in interface.glsl: other variants do not have the group.
 
 const int kAttributeJoints1 = 13;
@@ -12,13 +12,13 @@ struct BoneRecord {
     vec4 row0, row1, row2;
 };
 
-layout(set = 2, binding = 0, std140) uniform BoneUniforms {
+layout(set = 3, binding = 0, std140) uniform BoneUniforms {
     BoneRecord bones[kMaxBones];
 } boneUniforms;
 
-layout(set = 2, binding = 1, std140) uniform MorphUniforms {
+layout(set = 3, binding = 1, std140) uniform MorphUniforms {
     vec4 shape;
     vec4 targets[kMaxMorphTargets];
 } morphUniforms;
 
-layout(set = 2, binding = 2) uniform highp sampler2D morphDeltas;
+layout(set = 3, binding = 2) uniform highp sampler2D morphDeltas;

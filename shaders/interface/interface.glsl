@@ -21,7 +21,6 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     mat4 viewFromWorld;
     mat4 clipFromView;
     vec4 cameraPosition;
-    vec4 viewport;
     vec4 exposure;
     vec4 sunDirection;
     vec4 sunIlluminance;
@@ -51,7 +50,10 @@ layout(set = 0, binding = 2, std140) uniform LightUniforms {
     PunctualLight lights[kMaxPunctualLights];
 } lightUniforms;
 
-layout(set = 0, binding = 3) uniform samplerCube viewSpecular;
-layout(set = 0, binding = 4) uniform sampler2D viewDfg;
-layout(set = 0, binding = 5) uniform samplerCube viewSky;
-layout(set = 0, binding = 6) uniform samplerCube viewIrradiance;
+layout(set = 1, binding = 0, std140) uniform PassUniforms {
+    vec4 target;
+} passUniforms;
+
+layout(set = 1, binding = 1) uniform samplerCube passSpecular;
+layout(set = 1, binding = 2) uniform sampler2D passDfg;
+layout(set = 1, binding = 3) uniform samplerCube passIrradiance;

@@ -40,7 +40,7 @@ mat4 getUserWorldFromWorldMatrix() {
     return translation;
 }
 
-vec4 getResolution() { return frameUniforms.viewport; }
+vec4 getResolution() { return passUniforms.target; }
 vec3 getWorldCameraPosition() { return vec3(0.0); }
 vec3 getWorldOffset() { return frameUniforms.cameraPosition.xyz; }
 float getTime() { return fract(frameUniforms.exposure.z); }

@@ -117,7 +117,7 @@ struct MaterialPackage {
     std::vector<Parameter> parameters;
     std::vector<Constant> constants;
     std::vector<std::string> terms;  ///< members of MaterialInputs that the code sets; the others cost nothing
-    backend::ProgramLayout layout{}; ///< groups 0 and 1, the same for all variants; see programLayout()
+    backend::ProgramLayout layout{}; ///< of variant 0; programLayout() knows the others
     std::vector<Variant> variants;   ///< ascending by key
     friend bool operator==(MaterialPackage const&, MaterialPackage const&) = default;
 

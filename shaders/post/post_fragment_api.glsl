@@ -10,4 +10,4 @@ struct PostProcessInputs {
 
 // The pixel being written; the texel of the same place in a texture of the size of the picture.
 ivec2 getPixel() { return ivec2(gl_FragCoord.xy); }
-vec2 getNormalizedUV() { return gl_FragCoord.xy * frameUniforms.viewport.zw; }
+vec2 getNormalizedUV() { return gl_FragCoord.xy * passUniforms.target.zw; }

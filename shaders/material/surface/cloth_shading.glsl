@@ -20,9 +20,9 @@ struct Surface {
 // Albedo of white fibres for a cosine with view or light: channels of the table for which there is no fit.
 float clothAlbedoTerm(highp float cosine, highp float perceptualRoughness) {
 #if defined(CLOTH_ASHIKHMIN)
-    return textureLod(viewDfg, vec2(cosine, perceptualRoughness), 0.0).w;
+    return textureLod(passDfg, vec2(cosine, perceptualRoughness), 0.0).w;
 #else
-    return textureLod(viewDfg, vec2(cosine, perceptualRoughness), 0.0).z;
+    return textureLod(passDfg, vec2(cosine, perceptualRoughness), 0.0).z;
 #endif
 }
 

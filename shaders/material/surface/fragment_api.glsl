@@ -53,7 +53,7 @@ int getInstanceIndex() { return vertex_instanceIndex; }
 #if defined(BLEND_MODE_MASKED)
 float getMaskThreshold() { return materialParams._maskThreshold; }
 #endif
-vec3 getNormalizedViewportCoord() { return vec3(gl_FragCoord.xy * frameUniforms.viewport.zw, gl_FragCoord.z); }
+vec3 getNormalizedViewportCoord() { return vec3(gl_FragCoord.xy * passUniforms.target.zw, gl_FragCoord.z); }
 vec2 uvToRenderTargetUV(vec2 uv) { return uv; } // row 0 is the top row on both APIs
 
 // The geometry's values before material(): view vector and tangent frame.

@@ -21,7 +21,7 @@ highp vec3 environmentFromWorld(highp vec3 direction) {
 vec3 environmentRadiance(highp vec3 direction, highp float perceptualRoughness) {
     highp float level =
             levelFromPerceptualRoughness(perceptualRoughness, frameUniforms.ambient.y, quality_roughnessMapping);
-    return radianceOfTexel(textureLod(viewSpecular, environmentFromWorld(direction), level));
+    return radianceOfTexel(textureLod(passSpecular, environmentFromWorld(direction), level));
 }
 
 // Reflected radiance of a white Lambert surface with this normal. Before frameUniforms.ambient.x.

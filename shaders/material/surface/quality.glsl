@@ -69,7 +69,7 @@ vec2 splitSumTerm(highp float nov, highp float perceptualRoughness) {
     if (quality_splitSum == kSplitSumAnalytic) {
         dfg = dfgAnalytic(nov, perceptualRoughness);
     } else {
-        dfg = textureLod(viewDfg, vec2(nov, perceptualRoughness), 0.0).xy;
+        dfg = textureLod(passDfg, vec2(nov, perceptualRoughness), 0.0).xy;
     }
     return dfg;
 }
@@ -111,9 +111,9 @@ vec3 radianceOfTexel(vec4 texel) {
 vec3 irradianceTerm(highp vec3 normal) {
     vec3 irradiance;
     if (quality_diffuseIrradiance == kIrradianceLastSpecularLevel) {
-        irradiance = radianceOfTexel(textureLod(viewSpecular, normal, frameUniforms.ambient.y));
+        irradiance = radianceOfTexel(textureLod(passSpecular, normal, frameUniforms.ambient.y));
     } else if (quality_diffuseIrradiance == kIrradianceCube) {
-        irradiance = textureLod(viewIrradiance, normal, 0.0).rgb;
+        irradiance = textureLod(passIrradiance, normal, 0.0).rgb;
     } else {
         irradiance = irradianceSh(frameUniforms.irradianceSh, normal, int(frameUniforms.ambient.z));
     }

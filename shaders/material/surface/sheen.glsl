@@ -13,7 +13,7 @@ struct Sheen {
 
 // The split-sum table's third channel; there is no fit for it.
 highp float sheenAlbedoTerm(highp float cosine, highp float perceptualRoughness) {
-    return textureLod(viewDfg, vec2(cosine, perceptualRoughness), 0.0).z;
+    return textureLod(passDfg, vec2(cosine, perceptualRoughness), 0.0).z;
 }
 
 bool hasSheen(Sheen sheen) { return max(sheen.color.x, max(sheen.color.y, sheen.color.z)) > 0.0; }

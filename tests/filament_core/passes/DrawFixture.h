@@ -35,6 +35,7 @@ public:
         }
         for (uint32_t i = 0; i < geometryCount; ++i) geometries.push_back(makeGeometry(i));
         context = { { .handle = stream->allocateBindGroup(), .uniforms = 768, .objects = 5 * 16384, .lights = 16384 },
+                    { stream->allocateBindGroup(), stream->allocateBindGroup() },
                     stream->allocateBuffer() };
         slot = pipelines->slot({});
     }
@@ -84,6 +85,7 @@ private:
     static void makeMaterial(scene::Material& material, uint32_t id) {
         material.id = id;
         material.name = "material " + std::to_string(id);
+        if (id % 3 == 2) material.package.shading = shader::ShadingModel::Unlit;
         material.package.variants.push_back({ .key = 0, .vertexSpirv = { 1 }, .fragmentSpirv = { 2 } });
     }
 

@@ -15,20 +15,22 @@ using prepare::DrawCall;
 /// A second implementation of binding: remembers what is bound and what every draw finds.
 struct BoundState {
     PipelineHandle pipeline;
-    CmdBindGroup view{}, material{};
+    CmdBindGroup view{}, pass{}, material{};
     CmdBindVertexBuffers vertices{};
     CmdBindIndexBuffer indices{};
 };
 struct BindingDevice {
     BoundState now;
     std::vector<std::pair<CmdDrawIndexed, BoundState>> draws;
-    uint32_t pipelineBinds = 0, viewBinds = 0, materialBinds = 0, vertexBinds = 0, indexBinds = 0;
+    uint32_t pipelineBinds = 0, viewBinds = 0, passBinds = 0, materialBinds = 0, vertexBinds = 0, indexBinds = 0;
 
     void execute(CmdBindPipeline const& c) { now.pipeline = c.pipeline, ++pipelineBinds; }
     void execute(CmdBindGroup const& c) {
-        const bool isView = c.index == shader::kGroupView;
-        (isView ? now.view : now.material) = c;
-        ++(isView ? viewBinds : materialBinds);
+        CmdBindGroup* const groups[] = { &now.view, &now.pass, &now.material };
+        uint32_t* const counts[] = { &viewBinds, &passBinds, &materialBinds };
+        ASSERT_LE(c.index, shader::kGroupMaterial) << "nothing of it is deformed";
+        *groups[c.index] = c;
+        ++*counts[c.index];
     }
     void execute(CmdBindVertexBuffers const& c) { now.vertices = c, ++vertexBinds; }
     void execute(CmdBindIndexBuffer const& c) { now.indices = c, ++indexBinds; }
@@ -52,6 +54,8 @@ void expectDraw(DrawFixture const& fixture, DrawCall const& wanted, PipelineHand
     EXPECT_EQ(state.view.dynamicOffsets[0], view.uniforms);
     EXPECT_EQ(state.view.dynamicOffsets[1], view.objects + wanted.firstObject / 256 * sizeof(shader::ObjectUniforms));
     EXPECT_EQ(state.view.dynamicOffsets[2], view.lights);
+    const bool isUnlit = wanted.material->material->package.shading == shader::ShadingModel::Unlit;
+    EXPECT_EQ(state.pass.group, fixture.context.passGroups[isUnlit ? 1 : 0]);
     EXPECT_EQ(state.vertices.buffers[0], wanted.geometry->vertices);
     EXPECT_EQ(state.vertices.buffers[1], fixture.context.instanceIds);
     EXPECT_EQ(state.vertices.count, 2);
@@ -89,6 +93,7 @@ TEST(DrawRecorder, WhatDoesNotChangeIsBoundOnceARange) {
     const BindingDevice device = runOn(commands);
     EXPECT_EQ(device.draws.size(), draws.size());
     EXPECT_EQ(device.pipelineBinds, 3u);
+    EXPECT_EQ(device.passBinds, 3u);
     EXPECT_EQ(device.materialBinds, 3u);
     EXPECT_EQ(device.vertexBinds, 3u);
     EXPECT_EQ(device.indexBinds, 3u);

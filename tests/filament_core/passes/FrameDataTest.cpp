@@ -87,7 +87,7 @@ struct FrameDataTest : testing::Test {
         const uint32_t count = boxes.scene.renderables.count();
         const prepare::FramePacket packet =
                 prepareFrame(jobs, arena, boxes.scene, prepare::BoxScene::cubeView(std::max(count, 1u)));
-        data.upload(jobs, commands, packet, {});
+        data.upload(jobs, commands, packet);
         return packet;
     }
 

@@ -4,7 +4,7 @@
 
 #include "shaders/compiler/EmbeddedSources.h"
 #include "shaders/compiler/GlslToSpirv.h"
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 
 #include <gtest/gtest.h>
 #include <spirv_cross/spirv_cross.hpp>
@@ -35,20 +35,22 @@ protected:
         const Result<std::vector<uint32_t>> spirv = spirvFromGlsl(interfaceText() + R"(
             layout(location = 0) out vec4 color;
             void main() {
-                color = frameUniforms.viewport + objectUniforms.objects[0].row0 + lightUniforms.lights[0].offset
-                        + texture(viewSpecular, vec3(1.0)) + texture(viewDfg, vec2(0.5)) + texture(viewSky, vec3(1.0))
-                        + texture(viewIrradiance, vec3(1.0));
+                color = frameUniforms.exposure + objectUniforms.objects[0].row0 + lightUniforms.lights[0].offset
+                        + passUniforms.target + texture(passSpecular, vec3(1.0)) + texture(passDfg, vec2(0.5))
+                        + texture(passIrradiance, vec3(1.0));
             })",
                                                                   backend::ShaderStage::Fragment, "interface");
         EXPECT_TRUE(spirv) << (spirv ? "" : spirv.error().message);
         return spirv ? *spirv : std::vector<uint32_t>{};
     }
 
-    spirv_cross::Resource block(uint32_t binding) {
+    spirv_cross::Resource block(uint32_t group, uint32_t binding) {
         for (auto const& buffer : mCompiler.get_shader_resources().uniform_buffers) {
-            if (mCompiler.get_decoration(buffer.id, spv::DecorationBinding) == binding) return buffer;
+            if (mCompiler.get_decoration(buffer.id, spv::DecorationDescriptorSet) == group &&
+                mCompiler.get_decoration(buffer.id, spv::DecorationBinding) == binding)
+                return buffer;
         }
-        ADD_FAILURE() << "no uniform block at binding " << binding;
+        ADD_FAILURE() << "no uniform block at binding " << binding << " of group " << group;
         return {};
     }
 
@@ -72,19 +74,18 @@ protected:
     Member { #name, offsetof(type, name) }
 
 TEST_F(Interface, FrameUniformsAgree) {
-    const auto& type = mCompiler.get_type(block(kBindingFrame).base_type_id);
+    const auto& type = mCompiler.get_type(block(kGroupView, kBindingFrame).base_type_id);
     expectMembers(type, { MEMBER(FrameUniforms, clipFromWorld), MEMBER(FrameUniforms, worldFromClip),
                           MEMBER(FrameUniforms, viewFromWorld), MEMBER(FrameUniforms, clipFromView),
-                          MEMBER(FrameUniforms, cameraPosition), MEMBER(FrameUniforms, viewport),
-                          MEMBER(FrameUniforms, exposure), MEMBER(FrameUniforms, sunDirection),
-                          MEMBER(FrameUniforms, sunIlluminance), MEMBER(FrameUniforms, ambient),
-                          MEMBER(FrameUniforms, skyFactor), MEMBER(FrameUniforms, irradianceSh),
-                          MEMBER(FrameUniforms, worldFromEnvironment) });
+                          MEMBER(FrameUniforms, cameraPosition), MEMBER(FrameUniforms, exposure),
+                          MEMBER(FrameUniforms, sunDirection), MEMBER(FrameUniforms, sunIlluminance),
+                          MEMBER(FrameUniforms, ambient), MEMBER(FrameUniforms, skyFactor),
+                          MEMBER(FrameUniforms, irradianceSh), MEMBER(FrameUniforms, worldFromEnvironment) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));
 }
 
 TEST_F(Interface, ObjectUniformsAgree) {
-    const auto& type = mCompiler.get_type(block(kBindingObjects).base_type_id);
+    const auto& type = mCompiler.get_type(block(kGroupView, kBindingObjects).base_type_id);
     expectMembers(type, { MEMBER(ObjectUniforms, objects) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(ObjectUniforms));
     expectMembers(record(type), { MEMBER(ObjectData, row0), MEMBER(ObjectData, row1), MEMBER(ObjectData, row2),
@@ -93,7 +94,7 @@ TEST_F(Interface, ObjectUniformsAgree) {
 }
 
 TEST_F(Interface, LightUniformsAgree) {
-    const auto& type = mCompiler.get_type(block(kBindingLights).base_type_id);
+    const auto& type = mCompiler.get_type(block(kGroupView, kBindingLights).base_type_id);
     expectMembers(type, { MEMBER(LightUniforms, lights) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(LightUniforms));
     expectMembers(record(type), { MEMBER(PunctualLight, positionRange), MEMBER(PunctualLight, colorIntensity),
@@ -101,21 +102,39 @@ TEST_F(Interface, LightUniformsAgree) {
     EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(PunctualLight));
 }
 
-TEST_F(Interface, EveryResourceIsInTheViewLayout) {
-    const backend::BindGroupLayout layout = viewGroupLayout();
+TEST_F(Interface, PassUniformsAgree) {
+    const auto& type = mCompiler.get_type(block(kGroupPass, kBindingPass).base_type_id);
+    expectMembers(type, { MEMBER(PassUniforms, target) });
+    EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(PassUniforms));
+}
+
+TEST_F(Interface, EveryResourceIsInTheLayoutOfItsGroup) {
+    const std::array groups{ viewGroupLayout(), passGroupLayout(PassKind::Lit) };
     const spirv_cross::ShaderResources resources = mCompiler.get_shader_resources();
-    ASSERT_EQ(layout.count, resources.uniform_buffers.size() + resources.sampled_images.size());
+    ASSERT_EQ(size_t{ groups[0].count } + groups[1].count,
+              resources.uniform_buffers.size() + resources.sampled_images.size());
     for (auto const& list : { resources.uniform_buffers, resources.sampled_images }) {
         for (auto const& resource : list) {
-            EXPECT_EQ(mCompiler.get_decoration(resource.id, spv::DecorationDescriptorSet), kGroupView);
+            const uint32_t group = mCompiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
+            ASSERT_LT(group, groups.size()) << resource.name;
             const uint32_t binding = mCompiler.get_decoration(resource.id, spv::DecorationBinding);
-            const auto used = std::span(layout.bindings).first(layout.count);
+            const auto used = std::span(groups[group].bindings).first(groups[group].count);
             EXPECT_EQ(std::ranges::count(used, binding, &backend::BindingDesc::binding), 1) << resource.name;
         }
     }
 }
 
-/// The vertex stage of what is deformed reads every block and texture of group 2.
+TEST(GroupLayouts, EveryKindOfPassGroupIsPartOfThatOfLitSurfaces) {
+    const backend::BindGroupLayout lit = passGroupLayout(PassKind::Lit);
+    for (const PassKind kind : { PassKind::Unlit, PassKind::Picture }) {
+        const backend::BindGroupLayout layout = passGroupLayout(kind);
+        EXPECT_EQ(layout.bindings[0].binding, kBindingPass);
+        ASSERT_LE(layout.count, lit.count);
+        for (uint32_t i = 0; i < layout.count; ++i) EXPECT_EQ(layout.bindings[i], lit.bindings[i]);
+    }
+}
+
+/// The vertex stage of what is deformed reads every block and texture of the Deformation group.
 class DeformationInterface : public Interface {
 protected:
     DeformationInterface() : Interface(compiled()) {}
@@ -140,11 +159,11 @@ protected:
 };
 
 TEST_F(DeformationInterface, BlocksAgree) {
-    const auto& bones = mCompiler.get_type(block(kBindingBones).base_type_id);
+    const auto& bones = mCompiler.get_type(block(kGroupDeformation, kBindingBones).base_type_id);
     expectMembers(bones, { MEMBER(BoneUniforms, bones) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(bones), sizeof(BoneUniforms));
     expectMembers(record(bones), { MEMBER(BoneData, row0), MEMBER(BoneData, row1), MEMBER(BoneData, row2) });
-    const auto& morph = mCompiler.get_type(block(kBindingMorph).base_type_id);
+    const auto& morph = mCompiler.get_type(block(kGroupDeformation, kBindingMorph).base_type_id);
     expectMembers(morph, { MEMBER(MorphUniforms, shape), MEMBER(MorphUniforms, targets) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(morph), sizeof(MorphUniforms));
 }

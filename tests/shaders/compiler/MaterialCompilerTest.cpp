@@ -3,7 +3,7 @@
 
 #include "jobsystem/JobSystem.h"
 #include "shaders/interface/ShaderInterface.h"
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 #include "tests/shaders/compiler/SpirvTools.h"
 
 #include <gmock/gmock.h>
@@ -310,6 +310,8 @@ TEST(MaterialCompiler, GivesAllSurfaceMaterialsTheSameViewGroup) {
     ASSERT_TRUE(unlit && lit);
     EXPECT_EQ(unlit->layout[kGroupView], viewGroupLayout());
     EXPECT_EQ(lit->layout[kGroupView], viewGroupLayout());
+    EXPECT_EQ(unlit->layout[kGroupPass], passGroupLayout(PassKind::Unlit));
+    EXPECT_EQ(lit->layout[kGroupPass], passGroupLayout(PassKind::Lit));
 }
 
 TEST(MaterialCompiler, ReadsAttachmentsInOrderAndWritesTheOneBehindThem) {
@@ -318,7 +320,8 @@ TEST(MaterialCompiler, ReadsAttachmentsInOrderAndWritesTheOneBehindThem) {
         fragment { void postProcess(inout PostProcessInputs inputs) {
             inputs.color = subpassLoad(materialParams_a) + subpassLoad(materialParams_b); } })");
     ASSERT_TRUE(package) << package.error().message;
-    EXPECT_EQ(package->layout[kGroupView], viewGroupLayout(MaterialDomain::PostProcess));
+    EXPECT_EQ(package->layout[kGroupView], viewGroupLayout());
+    EXPECT_EQ(package->layout[kGroupPass], passGroupLayout(PassKind::Picture));
     EXPECT_EQ(package->layout[kGroupMaterial].bindings[1].inputAttachment, 1);
     std::string const& essl = package->variants[0].fragmentEssl;
     EXPECT_THAT(essl, HasSubstr("layout(location = 0) inout"));

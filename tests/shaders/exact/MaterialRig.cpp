@@ -4,8 +4,8 @@
 #include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/package/EngineMaterials.h"
+#include "shaders/package/GroupLayouts.h"
 #include "shaders/package/ParameterLayout.h"
-#include "shaders/package/ViewLayout.h"
 
 #include <cmath>
 #include <cstring>
@@ -173,7 +173,6 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
     frame.clipFromWorld = frame.clipFromView = clipFromView();
     frame.worldFromClip = glm::inverse(frame.clipFromWorld);
     frame.viewFromWorld = frame.worldFromEnvironment = float4x4(1.0f);
-    frame.viewport = { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide };
     frame.ambient.w = static_cast<float>(scene.lights.size());
     LightUniforms lights{};
     std::copy(scene.lights.begin(), scene.lights.end(), lights.lights.begin());
@@ -182,14 +181,26 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
     const std::vector<BindGroupEntry> entries{
         { .binding = kBindingFrame, .buffer = frameBuffer, .size = sizeof(FrameUniforms) },
         { .binding = kBindingObjects, .buffer = mObjects, .size = sizeof(ObjectUniforms) },
-        { .binding = kBindingLights, .buffer = lightBuffer, .size = sizeof(LightUniforms) },
-        { .binding = kBindingSpecular, .texture = mWhiteCube, .sampler = mSampler },
-        { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler },
-        { .binding = kBindingSky, .texture = mWhiteCube, .sampler = mSampler },
-        { .binding = kBindingIrradiance, .texture = mWhiteCube, .sampler = mSampler }
+        { .binding = kBindingLights, .buffer = lightBuffer, .size = sizeof(LightUniforms) }
     };
     const BindGroupHandle group = mStream->allocateBindGroup();
     commands.record(CmdCreateBindGroup{ group, { viewGroupLayout(), entries, "view" } });
+    return group;
+}
+
+BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage const& package) {
+    const PassUniforms pass{ { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide } };
+    const std::vector<BindGroupEntry> entries{
+        { .binding = kBindingPass,
+          .buffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&pass, 1))),
+          .size = sizeof(PassUniforms) },
+        { .binding = kBindingSpecular, .texture = mWhiteCube, .sampler = mSampler },
+        { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler },
+        { .binding = kBindingIrradiance, .texture = mWhiteCube, .sampler = mSampler }
+    };
+    const BindGroupLayout layout = passGroupLayout(passKind(package.domain, package.shading));
+    const BindGroupHandle group = mStream->allocateBindGroup();
+    commands.record(CmdCreateBindGroup{ group, { layout, std::span(entries).first(layout.count), "pass" } });
     return group;
 }
 
@@ -246,13 +257,15 @@ PipelineHandle MaterialRig::pipeline(CommandBuffer& commands, MaterialPackage co
 
 void MaterialRig::draw(CommandBuffer& commands, MaterialPackage const& package, MaterialScene const& scene) {
     const PipelineHandle state = pipeline(commands, package, scene, passLayout());
-    const BindGroupHandle view = viewGroup(commands, scene), material = materialGroup(commands, package, scene);
+    const BindGroupHandle view = viewGroup(commands, scene), inPass = passGroup(commands, package);
+    const BindGroupHandle material = materialGroup(commands, package, scene);
     PassDesc pass{ .layout = passLayout(), .area = { 0, 0, kPictureSide, kPictureSide }, .debugName = "material" };
     pass.colors[0] = { .texture = mColor };
     pass.depth = { .texture = mDepth, .store = StoreOp::Discard };
     commands.record(CmdBeginPass{ pass });
     commands.record(CmdBindPipeline{ state });
     commands.record(CmdBindGroup{ .group = view, .index = kGroupView, .dynamicCount = 3 });
+    commands.record(CmdBindGroup{ .group = inPass, .index = kGroupPass });
     commands.record(CmdBindGroup{ .group = material, .index = kGroupMaterial });
     commands.record(CmdBindVertexBuffers{ .buffers = { mVertices, mInstance }, .count = 2 });
     commands.record(CmdBindIndexBuffer{ .buffer = mIndices });

@@ -46,6 +46,7 @@ private:
     backend::TextureHandle texture(backend::CommandBuffer& commands, backend::TextureType type, backend::Format format,
                                    uint32_t side, std::span<const std::byte> texels);
     backend::BindGroupHandle viewGroup(backend::CommandBuffer& commands, MaterialScene const& scene);
+    backend::BindGroupHandle passGroup(backend::CommandBuffer& commands, MaterialPackage const& package);
     backend::BindGroupHandle materialGroup(backend::CommandBuffer& commands, MaterialPackage const& package,
                                            MaterialScene const& scene);
     backend::PipelineHandle pipeline(backend::CommandBuffer& commands, MaterialPackage const& package,

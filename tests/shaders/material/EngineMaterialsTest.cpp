@@ -2,8 +2,8 @@
 #include "shaders/package/EngineMaterials.h"
 
 #include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/GroupLayouts.h"
 #include "shaders/package/Package.h"
-#include "shaders/package/ViewLayout.h"
 #include "tests/shaders/compiler/SpirvTools.h"
 
 #include <gtest/gtest.h>
@@ -34,7 +34,8 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
             EXPECT_TRUE(variant.vertexEssl.starts_with("#version 310 es")) << name;
             EXPECT_TRUE(variant.fragmentEssl.starts_with("#version 310 es")) << name;
         }
-        EXPECT_EQ(package.layout[kGroupView], viewGroupLayout(package.domain)) << name;
+        EXPECT_EQ(package.layout[kGroupView], viewGroupLayout()) << name;
+        EXPECT_EQ(package.layout[kGroupPass], passGroupLayout(passKind(package.domain, package.shading))) << name;
     }
 }
 

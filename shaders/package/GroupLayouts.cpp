@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
-#include "shaders/package/ViewLayout.h"
+#include "shaders/package/GroupLayouts.h"
 
 #include "shaders/interface/ShaderInterface.h"
 
 namespace filament::shader {
 
-backend::BindGroupLayout viewGroupLayout(MaterialDomain domain) {
+PassKind passKind(MaterialDomain domain, ShadingModel shading) {
+    if (domain == MaterialDomain::PostProcess) return PassKind::Picture;
+    return shading == ShadingModel::Unlit ? PassKind::Unlit : PassKind::Lit;
+}
+
+backend::BindGroupLayout viewGroupLayout() {
     using backend::BindingType;
     using backend::ShaderStage;
     backend::BindGroupLayout layout;
@@ -13,13 +18,22 @@ backend::BindGroupLayout viewGroupLayout(MaterialDomain domain) {
         layout.bindings[layout.count++] = { .binding = binding, .type = type, .stages = stages };
     };
     add(kBindingFrame, BindingType::DynamicUniformBuffer, ShaderStage::Both);
-    if (domain == MaterialDomain::PostProcess) return layout;
     add(kBindingObjects, BindingType::DynamicUniformBuffer, ShaderStage::Both);
     add(kBindingLights, BindingType::DynamicUniformBuffer, ShaderStage::Fragment);
-    add(kBindingSpecular, BindingType::SampledTexture, ShaderStage::Fragment);
-    add(kBindingDfg, BindingType::SampledTexture, ShaderStage::Fragment);
-    add(kBindingSky, BindingType::SampledTexture, ShaderStage::Fragment);
-    add(kBindingIrradiance, BindingType::SampledTexture, ShaderStage::Fragment);
+    return layout;
+}
+
+backend::BindGroupLayout passGroupLayout(PassKind kind) {
+    using backend::BindingType;
+    using backend::ShaderStage;
+    backend::BindGroupLayout layout;
+    layout.bindings[layout.count++] = { .binding = kBindingPass, .type = BindingType::UniformBuffer };
+    if (kind != PassKind::Lit) return layout;
+    for (const PassBinding binding : { kBindingSpecular, kBindingDfg, kBindingIrradiance }) {
+        layout.bindings[layout.count++] = { .binding = binding,
+                                            .type = BindingType::SampledTexture,
+                                            .stages = ShaderStage::Fragment };
+    }
     return layout;
 }
 
