@@ -55,6 +55,13 @@ uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
     return makeKey(material.id, kNoGeometry, slot, 0, true, false);
 }
 
+// What reads the current pixel alone is merged where the pass is. The key of the pipeline need not say so: the slot
+// does.
+uint16_t fullscreenVariant(PassSlot const& slot, shader::MaterialPackage const& package) {
+    const bool isMerged = slot.layout.subpasses[slot.subpass].inputMask != 0;
+    return isMerged && package.findVariant(shader::kVariantMerged) ? shader::kVariantMerged : uint16_t{ 0 };
+}
+
 uint64_t programKey(uint16_t variant, ShadingKey shading) { return uint64_t{ shading } << 16 | variant; }
 
 CullMode cullMode(scene::InstanceRaster const& raster) {
@@ -229,7 +236,7 @@ ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material
     }
     const bool spirv = mStream.info().shaderLanguage == ShaderLanguage::SpirV;
     ProgramDesc desc{ .constants = constants,
-                      .layout = shader::programLayout(material.package.layout, code.key),
+                      .layout = shader::programLayout(material.package, code.key),
                       .debugName = material.name };
     desc.vertex = spirv ? std::as_bytes(std::span(code.vertexSpirv)) : std::as_bytes(std::span(code.vertexEssl));
     desc.fragment = spirv ? std::as_bytes(std::span(code.fragmentSpirv)) : std::as_bytes(std::span(code.fragmentEssl));
@@ -303,7 +310,7 @@ PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t 
     scene::InstanceRaster raster = scene::initialRaster(material.package);
     raster.cullingDisabled = true;
     PipelineDesc desc = describe(mSlots[slot], material, raster, kNoGeometry, false);
-    desc.program = programFor(setup, material, 0, 0);
+    desc.program = programFor(setup, material, fullscreenVariant(mSlots[slot], material.package), 0);
     FILAMENT_ASSERT(desc.program, "a full-screen material has variant 0");
     return create(setup, key, desc, material.id);
 }

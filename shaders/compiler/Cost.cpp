@@ -44,7 +44,8 @@ std::string nameOf(uint16_t key) {
     static constexpr std::pair<uint16_t, const char*> kBits[] = { { kVariantSun, "sun" },
                                                                   { kVariantPunctual, "punctual" },
                                                                   { kVariantSkinning, "skinning" },
-                                                                  { kVariantHalf, "half" } };
+                                                                  { kVariantHalf, "half" },
+                                                                  { kVariantMerged, "merged" } };
     std::string name;
     for (auto const& [bit, word] : kBits) {
         if ((key & bit) != 0) name += fmt::format("{}{}", name.empty() ? "" : "+", word);

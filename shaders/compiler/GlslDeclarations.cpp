@@ -57,14 +57,16 @@ void declareBlock(StageText& out, MaterialDefinition const& definition) {
     out.line("} materialParams;");
 }
 
-void declareTextures(StageText& out, MaterialDefinition const& definition) {
+void declareTextures(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
     uint32_t attachment = 0;
     for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
-        Parameter const& parameter = definition.package.parameters[i];
+        Parameter parameter = definition.package.parameters[i];
         if (!isTexture(parameter.type)) continue;
-        const std::string index = parameter.type == ParameterType::SubpassInput
-                                          ? fmt::format("input_attachment_index = {}, ", attachment++)
-                                          : "";
+        std::string index;
+        if (isSubpassInput(parameter, variantKey)) {
+            parameter.type = ParameterType::SubpassInput;
+            index = fmt::format("input_attachment_index = {}, ", attachment++);
+        }
         out.originate(definition.parameterSources[i].at);
         out.line(fmt::format("layout({}set = {}, binding = {}) uniform {}{} materialParams_{};", index, kGroupMaterial,
                              parameter.binding, glslPrecision(parameter.precision), samplerType(parameter),
@@ -103,10 +105,15 @@ void declareQuality(StageText& out) {
         out.line(fmt::format("layout(constant_id = {}) const int quality_{} = 0;", constant.id, constant.name));
 }
 
-void declareInterface(StageText& out, MaterialDefinition const& definition) {
+void declareInterface(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
     declareBlock(out, definition);
-    declareTextures(out, definition);
+    declareTextures(out, definition, variantKey);
     declareConstants(out, definition);
+}
+
+bool isSubpassInput(Parameter const& parameter, uint16_t variantKey) {
+    const bool isMerged = parameter.currentPixel && (variantKey & kVariantMerged) != 0;
+    return isMerged || parameter.type == ParameterType::SubpassInput;
 }
 
 void declareVariables(StageText& out, MaterialDefinition const& definition) {

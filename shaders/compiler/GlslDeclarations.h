@@ -8,11 +8,13 @@
 
 namespace filament::shader {
 
-/// Uniform block `materialParams`, textures `materialParams_name`, constants `materialConstants_name` (and, as in the
-/// guide's text, `materialConstant_name`).
 /// The specialisation constants of <filament/Quality.h>: kQualityConstants of ShaderInterface.h.
 void declareQuality(StageText& out);
-void declareInterface(StageText& out, MaterialDefinition const& definition);
+/// Uniform block `materialParams`, textures `materialParams_name`, constants `materialConstants_name` (and, as in the
+/// guide's text, `materialConstant_name`). With kVariantMerged the currentPixel textures are subpass inputs.
+void declareInterface(StageText& out, MaterialDefinition const& definition, uint16_t variantKey = 0);
+/// Whether the parameter is a subpass input of such a variant.
+bool isSubpassInput(Parameter const& parameter, uint16_t variantKey);
 
 /// `VARYING vec4 variable_name` from location 5 on; `VARYING` is defined by the stage.
 void declareVariables(StageText& out, MaterialDefinition const& definition);

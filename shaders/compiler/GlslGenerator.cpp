@@ -245,16 +245,19 @@ Result<std::string> postVertex(IncludeResolver const& includes) {
     return std::move(out).take();
 }
 
-Result<std::string> postFragment(MaterialDefinition const& definition, IncludeResolver const& includes) {
+Result<std::string> postFragment(MaterialDefinition const& definition, uint16_t variantKey,
+                                 IncludeResolver const& includes) {
     StageText out(includes);
     beginStage(out, "in");
-    const auto inputs =
-            std::ranges::count(definition.package.parameters, ParameterType::SubpassInput, &Parameter::type);
+    const auto inputs = std::ranges::count_if(definition.package.parameters, [&](Parameter const& parameter) {
+        return isSubpassInput(parameter, variantKey);
+    });
     out.define("POST_OUTPUT_LOCATION", fmt::format("{}", inputs));
+    defineIf(out, (variantKey & kVariantMerged) != 0, "VARIANT_MERGED");
     Result<void> done = includeAll(
             out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl", "shaders/material/api.glsl" });
     if (!done) return done.error();
-    declareInterface(out, definition);
+    declareInterface(out, definition, variantKey);
     done = out.include("shaders/post/post_fragment_api.glsl");
     if (done) done = out.block(definition.fragment);
     if (done) done = out.include("shaders/post/post_fragment_main.glsl");
@@ -367,7 +370,7 @@ Result<std::string> generateVertex(MaterialDefinition const& definition, Materia
 Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                      uint16_t variantKey, IncludeResolver const& includes) {
     return definition.package.domain == MaterialDomain::PostProcess
-                   ? postFragment(definition, includes)
+                   ? postFragment(definition, variantKey, includes)
                    : surfaceFragment(definition, needs, variantKey, includes);
 }
 

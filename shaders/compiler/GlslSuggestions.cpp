@@ -4,6 +4,8 @@
 #include "base/Suggest.h"
 #include "shaders/compiler/MaterialMembers.h"
 
+#include <algorithm>
+
 namespace filament::shader {
 namespace {
 
@@ -38,9 +40,18 @@ std::vector<std::string> identifiersOf(MaterialDefinition const& definition) {
     return names;
 }
 
+/// One of its variants has a subpass input, which no other function takes, the other a texture.
+std::string aboutCurrentPixel(MaterialDefinition const& definition) {
+    const auto own = std::ranges::find(definition.package.parameters, true, &Parameter::currentPixel);
+    if (own == definition.package.parameters.end()) return {};
+    return fmt::format("; a currentPixel parameter is read by getCurrentPixel(materialParams_{}) alone", own->name);
+}
+
 } // namespace
 
 Error withSuggestion(Error error, MaterialDefinition const& definition) {
+    const bool isOverload = error.message.find("no matching overloaded function") != std::string::npos;
+    if (isOverload) error.message += aboutCurrentPixel(definition);
     const bool isField = error.message.find("no such field in structure") != std::string::npos;
     const bool isIdentifier = error.message.find("undeclared identifier") != std::string::npos;
     if (!isField && !isIdentifier) return error;

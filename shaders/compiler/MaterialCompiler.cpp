@@ -23,7 +23,6 @@ namespace {
 struct Prepared {
     MaterialDefinition definition;
     MaterialNeeds needs;
-    backend::ProgramLayout layout{};
     IncludeResolver includes;
     std::vector<uint16_t> keys;
 };
@@ -53,8 +52,8 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     prepared.needs = *needs;
     Result<void> terms = findTerms(prepared.definition, prepared.includes, prepared.needs);
     if (!terms) return withSuggestion(terms.error(), prepared.definition);
-    prepared.layout = materialLayout(prepared.definition);
     MaterialPackage& package = prepared.definition.package;
+    package.layout = materialLayout(prepared.definition);
     package.filteredVariants |= options.filteredVariants;
     prepared.keys = variantKeys(selectableBits(prepared.definition), package.filteredVariants);
     return prepared;
@@ -111,7 +110,7 @@ Result<StageShader> compileOne(Prepared const& prepared, Stage const& stage, Com
                           .spirv = options.spirv,
                           .essl = options.essl,
                           .dynamicUniformBuffers = dynamicBuffers(),
-                          .layout = programLayout(prepared.layout, stage.key),
+                          .layout = programLayout(prepared.definition.package, stage.key),
                           .vertexName = prepared.definition.fileName,
                           .fragmentName = prepared.definition.fileName });
 }
@@ -137,7 +136,6 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     std::vector<Stage> stages = compileStages(*prepared, options);
 
     MaterialPackage package = prepared->definition.package;
-    package.layout = prepared->layout;
     const auto members = materialMembers();
     for (size_t i = 0; i < members.size(); ++i) {
         if ((prepared->needs.terms & termBit(i)) != 0) package.terms.emplace_back(members[i].name);

@@ -41,7 +41,7 @@ struct GivenProperty {
 };
 
 struct MaterialDefinition {
-    MaterialPackage package; ///< everything except attributes, layout and variants
+    MaterialPackage package; ///< the compiler adds attributes, layout and variants
     std::vector<ParameterSource> parameterSources;
     std::vector<Variable> variables;
     uint32_t requiredAttributes = 0; ///< bit n: location n, from `requires`

@@ -74,6 +74,15 @@ Result<void> readFormat(JsonValue const& value, Parameter& out) {
     return readEnum(value, "format", kFormats, out.format);
 }
 
+/// Subpass inputs give vec4s, so what may become one does.
+Result<void> readCurrentPixel(JsonValue const& value, Parameter& out) {
+    if (Result<void> done = readBool(value, "currentPixel", out.currentPixel); !done) return done;
+    const bool isImage = out.type == ParameterType::Sampler2D && out.format == SamplerFormat::Float;
+    if (isImage || !out.currentPixel) return {};
+    return errorAt(value.at,
+                   fmt::format("only a sampler2d of format float has a current pixel, and '{}' is none", out.name));
+}
+
 Result<void> requireMember(JsonValue const& object, std::string_view key, std::string_view what,
                            JsonValue const*& out) {
     out = findMember(object, key);
@@ -100,7 +109,7 @@ Result<NamedEntry> readEntry(JsonValue const& item, std::span<const std::string_
 }
 
 Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
-    static constexpr std::string_view kFields[] = { "name", "type", "precision", "format" };
+    static constexpr std::string_view kFields[] = { "name", "type", "precision", "format", "currentPixel" };
     Result<NamedEntry> entry = readEntry(item, kFields, "parameter");
     if (!entry) return entry.error();
     if (out.package.findParameter(entry->name)) {
@@ -111,6 +120,7 @@ Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
     if (JsonValue const* precision = findMember(item, "precision"); done && precision)
         done = readPrecision(*precision, parameter.precision);
     if (JsonValue const* format = findMember(item, "format"); done && format) done = readFormat(*format, parameter);
+    if (JsonValue const* own = findMember(item, "currentPixel"); done && own) done = readCurrentPixel(*own, parameter);
     if (!done) return done;
     out.package.parameters.push_back(std::move(parameter));
     out.parameterSources.push_back({ item.at });
@@ -237,6 +247,18 @@ Result<void> readFilter(JsonValue const& item, MaterialDefinition& out) {
     return {};
 }
 
+Result<void> checkCurrentPixel(MaterialPackage const& package, Parameter const& parameter, SourcePosition const& at) {
+    if (!parameter.currentPixel) return {};
+    if (package.domain != MaterialDomain::PostProcess)
+        return errorAt(at, "currentPixel exists only in the domain postprocess");
+    const auto input = std::ranges::find(package.parameters, ParameterType::SubpassInput, &Parameter::type);
+    if (input == package.parameters.end()) return {};
+    return errorAt(at,
+                   fmt::format("'{}' is a subpassInput, so every pass of this material is merged and '{}' cannot be "
+                               "a texture; make both sampler2d with currentPixel : true",
+                               input->name, parameter.name));
+}
+
 } // namespace
 
 Result<void> readParameters(JsonValue const& value, MaterialDefinition& out) {
@@ -281,6 +303,7 @@ Result<void> layOutParameters(MaterialDefinition& definition) {
         if (parameter.type == ParameterType::SubpassInput && definition.package.domain != MaterialDomain::PostProcess) {
             return errorAt(at, "subpass inputs exist only in the domain postprocess");
         }
+        if (Result<void> read = checkCurrentPixel(definition.package, parameter, at); !read) return read;
         parameter.binding = static_cast<uint8_t>(binding++);
     }
     uint64_t bytes = 0;

@@ -1,11 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/Variants.h"
 
+#include <algorithm>
+
 namespace filament::shader {
 
 uint16_t selectableBits(MaterialDefinition const& definition) {
     MaterialPackage const& package = definition.package;
-    if (package.domain != MaterialDomain::Surface) return 0;
+    if (package.domain != MaterialDomain::Surface) {
+        const bool mayMerge = std::ranges::count(package.parameters, true, &Parameter::currentPixel) > 0;
+        return mayMerge ? uint16_t{ kVariantMerged } : uint16_t{ 0 };
+    }
     const bool isDeformable = package.vertexDomain == VertexDomain::Object && !definition.fullScreenTriangle;
     const int geometry = isDeformable ? kVariantSkinning : 0;
     if (package.shading == ShadingModel::Unlit) return static_cast<uint16_t>(geometry);

@@ -11,8 +11,9 @@
 
 namespace filament::shader {
 
-/// The bits that can change the code of such a material: none for post-process materials, no lights for unlit ones,
-/// kVariantHalf only if the material requests it. Materials in object space can be deformed.
+/// The bits that can change the code of such a material: no lights for unlit materials, kVariantHalf only if the material
+/// requests it, kVariantMerged for post-process materials with currentPixel parameters. Materials in object space can be
+/// deformed.
 uint16_t selectableBits(MaterialDefinition const& definition);
 
 /// Ascending; always contains 0. `selectable`: see above.

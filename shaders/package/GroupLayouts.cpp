@@ -3,7 +3,25 @@
 
 #include "shaders/interface/ShaderInterface.h"
 
+#include <algorithm>
+#include <span>
+
 namespace filament::shader {
+namespace {
+
+void mergeInputs(MaterialPackage const& package, backend::BindGroupLayout& group) {
+    uint8_t attachment = 0;
+    for (Parameter const& parameter : package.parameters) {
+        if (!parameter.currentPixel) continue;
+        const auto bindings = std::span(group.bindings).first(group.count);
+        const auto at = std::ranges::find(bindings, parameter.binding, &backend::BindingDesc::binding);
+        if (at == bindings.end()) continue;
+        at->type = backend::BindingType::InputAttachment;
+        at->inputAttachment = attachment++;
+    }
+}
+
+} // namespace
 
 PassKind passKind(MaterialDomain domain, ShadingModel shading) {
     if (domain == MaterialDomain::PostProcess) return PassKind::Picture;
@@ -50,9 +68,10 @@ backend::BindGroupLayout deformationGroupLayout() {
     return layout;
 }
 
-backend::ProgramLayout programLayout(backend::ProgramLayout const& material, uint16_t variantKey) {
-    backend::ProgramLayout layout = material;
+backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t variantKey) {
+    backend::ProgramLayout layout = package.layout;
     if ((variantKey & kVariantSkinning) != 0) layout[kGroupDeformation] = deformationGroupLayout();
+    if ((variantKey & kVariantMerged) != 0) mergeInputs(package, layout[kGroupMaterial]);
     return layout;
 }
 

@@ -28,8 +28,9 @@ backend::BindGroupLayout passGroupLayout(PassKind kind);
 /// Every DeformationBinding. Of the vertex stage alone: uniforms that fragments see cost far more to bind again.
 backend::BindGroupLayout deformationGroupLayout();
 
-/// What the programs of a variant are made with: the layout of the material, and the Deformation group where the
-/// variant deforms.
-backend::ProgramLayout programLayout(backend::ProgramLayout const& material, uint16_t variantKey);
+/// What the programs of a variant are made with: the layout of the package; with the Deformation group where the
+/// variant deforms; with subpass inputs in place of the currentPixel textures where it is merged. These then are colour
+/// attachments 0, 1, ... in the order of the parameters.
+backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t variantKey);
 
 } // namespace filament::shader

@@ -47,6 +47,7 @@ struct Parameter {
     uint32_t offset = 0;                         ///< bytes in the MaterialParams block; textures: 0
     uint8_t binding = 0;                         ///< textures: binding in kGroupMaterial
     SamplerFormat format = SamplerFormat::Float; ///< textures: the type that a fetch returns
+    bool currentPixel = false; ///< a Sampler2D that is read only at the pixel being written; see kVariantMerged
     Precision precision = Precision::Default;    ///< as the author specified
     friend bool operator==(Parameter const&, Parameter const&) = default;
 };
@@ -71,8 +72,9 @@ enum VariantBit : uint16_t {
     kVariantSsr = 64,           ///< *
     kVariantStereo = 128,       ///< *
     kVariantHalf = 256,         ///< lit in 16 bits, for materials with halfPrecision; selected by Quality
+    kVariantMerged = 512,       ///< for materials with currentPixel parameters: they are subpass inputs, not textures
 };
-inline constexpr uint16_t kAllVariantBits = 511;
+inline constexpr uint16_t kAllVariantBits = 1023;
 
 /// For custom blending: the weights of the material's result and of the existing colour.
 struct BlendFunction {

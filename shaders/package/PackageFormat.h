@@ -32,6 +32,6 @@ inline constexpr uint32_t kMaxTerms = 64;
 /// Code is compressed and shared by variants, so a small file can stand for a lot of it. Limits both the unpacked
 /// section and the sum over all variants. Not a multiple of the file's size: anything that was read can be written.
 inline constexpr uint32_t kMaxCodeBytes = 64 << 20;
-inline constexpr uint32_t kMaxVariants = 512; ///< every set of VariantBits
+inline constexpr uint32_t kMaxVariants = 512; ///< every set of the VariantBits of surfaces
 
 } // namespace filament::shader::format

@@ -124,6 +124,7 @@ bool readParameters(ByteReader in, std::vector<Parameter>& out) {
         parameter.offset = in.u32();
         parameter.binding = in.u8();
         if (!readEnum(in, parameter.format, SamplerFormat::Uint)) return false;
+        if (!readBool(in, parameter.currentPixel)) return false;
         if (!readEnum(in, parameter.precision, Precision::High)) return false;
         out.push_back(std::move(parameter));
     }
@@ -238,6 +239,7 @@ bool namesAreUnique(std::vector<T> const& things) {
 }
 
 bool fits(Parameter const& parameter, uint32_t uniformBytes) {
+    if (parameter.currentPixel && parameter.type != ParameterType::Sampler2D) return false;
     if (isTexture(parameter.type)) return parameter.arraySize == 0 && parameter.binding < backend::kMaxBindings;
     const uint32_t alignment = parameter.arraySize > 0 ? 16 : valueAlignment(parameter.type);
     return parameter.offset % alignment == 0 && parameter.offset + parameterBytes(parameter) <= uniformBytes;
@@ -248,7 +250,9 @@ Result<void> checkConsistency(MaterialPackage const& package) {
         return corruptPackage("two parameters have the same name, or one has none");
     if (!namesAreUnique(package.constants)) return corruptPackage("two constants have the same name, or one has none");
     for (Parameter const& parameter : package.parameters) {
-        if (!fits(parameter, package.uniformBytes)) return corruptPackage("a parameter lies outside of its block");
+        if (!fits(parameter, package.uniformBytes))
+            return corruptPackage(
+                    "a parameter lies outside of its block, or is read in a way that its type does not have");
     }
     return {};
 }

@@ -94,6 +94,7 @@ ByteWriter parameterSection(std::span<const Parameter> parameters) {
         out.u32(parameter.offset);
         out.u8(parameter.binding);
         out.enumerator(parameter.format);
+        out.u8(parameter.currentPixel);
         out.enumerator(parameter.precision);
     }
     return out;

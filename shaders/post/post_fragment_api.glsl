@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of post-process materials, what goes before the material's own code. Subpass inputs read colour
-// attachments 0, 1, ... in the order of the parameters; the output is the attachment behind the last of them.
+// Fragment stage of post-process materials, what goes before the material's own code. Subpass inputs (and, in the variant
+// that is merged into the pass before it, currentPixel parameters) read colour attachments 0, 1, ... in the order of the
+// parameters; the output is the attachment behind the last of them.
 
 layout(location = POST_OUTPUT_LOCATION) out vec4 fragment_color;
 
@@ -8,6 +9,15 @@ struct PostProcessInputs {
     vec4 color;
 };
 
-// The pixel being written; the texel of the same place in a texture of the size of the picture.
+// The pixel being written; the texel of the same place in a texture of the size of the target.
 ivec2 getPixel() { return ivec2(gl_FragCoord.xy); }
+
+// Of a currentPixel parameter: getCurrentPixel(materialParams_color).
+#if defined(VARIANT_MERGED)
+#define getCurrentPixel(image) subpassLoad(image)
+#else
+#define getCurrentPixel(image) texelFetch(image, getPixel(), 0)
+#endif
+
+// In [0, 1]^2 over the target, which may be smaller than the view.
 vec2 getNormalizedUV() { return gl_FragCoord.xy * passUniforms.target.zw; }

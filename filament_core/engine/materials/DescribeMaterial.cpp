@@ -46,7 +46,8 @@ MaterialDescription describeMaterial(scene::Material const& material) {
     }
     for (shader::Constant const& constant : package.constants) out.constants.push_back(describe(constant, material));
     for (shader::Variant const& variant : package.variants) {
-        if ((variant.key & shader::kVariantHalf) == 0) out.variants.push_back(variantSet(variant.key));
+        const bool isOfScene = (variant.key & (shader::kVariantHalf | shader::kVariantMerged)) == 0;
+        if (isOfScene) out.variants.push_back(variantSet(variant.key));
     }
     return out;
 }

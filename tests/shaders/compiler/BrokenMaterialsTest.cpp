@@ -108,6 +108,16 @@ constexpr Broken kContradictions[] = {
       "a.mat:2: an unlit material reflects nothing; use shadingModel : lit" },
     { "material {\n domain : postprocess,\n shadingModel : lit }" GOOD_FRAGMENT,
       "a.mat:3: a material of the domain postprocess cannot be lit" },
+    { "material {\n parameters : [ { name : x, type : samplerCubemap, currentPixel : true } ] }" GOOD_FRAGMENT,
+      "a.mat:2: only a sampler2d of format float has a current pixel, and 'x' is none" },
+    { "material {\n parameters : [ { name : x, type : sampler2d, format : int, currentPixel : true } ] }" GOOD_FRAGMENT,
+      "a.mat:2: only a sampler2d of format float has a current pixel, and 'x' is none" },
+    { "material {\n parameters : [ { name : x, type : sampler2d, currentPixel : true } ] }" GOOD_FRAGMENT,
+      "a.mat:2: currentPixel exists only in the domain postprocess" },
+    { "material { domain : postprocess,\n parameters : [ { name : x, type : sampler2d, currentPixel : true },\n"
+      "{ name : y, type : subpassInput } ] }\nfragment { void postProcess(inout PostProcessInputs inputs) {} }",
+      "a.mat:2: 'y' is a subpassInput, so every pass of this material is merged and 'x' cannot be a texture; make both "
+      "sampler2d with currentPixel : true" },
 };
 
 // The sentences of the GLSL compiler, and what may have been meant.
@@ -123,6 +133,11 @@ constexpr Broken kMisspelt[] = {
     { "material { constants : [ { name : wet, type : bool } ] }\n" FRAGMENT(
               "prepareMaterial(material);\nif (materialConstants_wett) material.roughness = 0.0;"),
       "a.mat:5: 'materialConstants_wett' : undeclared identifier; did you mean 'materialConstants_wet'?" },
+    { "material { domain : postprocess, parameters : [ { name : x, type : sampler2d, currentPixel : true } ] }\n"
+      "fragment {\n void postProcess(inout PostProcessInputs inputs) {\n"
+      "inputs.color = texture(materialParams_x, vec2(0.5)); } }",
+      "a.mat:4: 'texture' : no matching overloaded function found (and 1 more); a currentPixel parameter is read by "
+      "getCurrentPixel(materialParams_x) alone" },
 };
 
 constexpr Broken kCode[] = {

@@ -314,6 +314,44 @@ TEST(MaterialCompiler, GivesAllSurfaceMaterialsTheSameViewGroup) {
     EXPECT_EQ(lit->layout[kGroupPass], passGroupLayout(PassKind::Lit));
 }
 
+constexpr const char* kBlend = R"(material { domain : postprocess,
+    parameters : [ { name : a, type : sampler2d, currentPixel : true }, { name : map, type : sampler2d },
+                   { name : b, type : sampler2d, currentPixel : true } ] }
+    fragment { void postProcess(inout PostProcessInputs inputs) {
+        inputs.color = getCurrentPixel(materialParams_a) * texture(materialParams_map, getNormalizedUV())
+                + getCurrentPixel(materialParams_b); } })";
+
+TEST(MaterialCompiler, MakesTexturesAndSubpassInputsOfWhatReadsItsOwnPixel) {
+    using enum backend::BindingType;
+    const Result<MaterialPackage> package = compile(kBlend);
+    ASSERT_TRUE(package) << package.error().message;
+    ASSERT_EQ(package->variants.size(), 2u);
+    const auto sampled = programLayout(*package, 0)[kGroupMaterial].bindings;
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(sampled[i].type, SampledTexture);
+    std::string const& alone = package->findVariant(0)->fragmentEssl;
+    EXPECT_THAT(alone, HasSubstr("layout(location = 0) out"));
+    EXPECT_THAT(alone, HasSubstr("texelFetch(materialParams_a"));
+
+    const auto merged = programLayout(*package, kVariantMerged)[kGroupMaterial].bindings;
+    const backend::BindingType types[] = { InputAttachment, SampledTexture, InputAttachment };
+    for (int i = 0; i < 3; ++i) EXPECT_EQ(merged[i].type, types[i]);
+    EXPECT_EQ(merged[2].inputAttachment, 1);
+    std::string const& behind = package->findVariant(kVariantMerged)->fragmentEssl;
+    EXPECT_THAT(behind, HasSubstr("layout(location = 0) inout"));
+    EXPECT_THAT(behind, HasSubstr("layout(location = 1) inout"));
+    EXPECT_THAT(behind, HasSubstr("layout(location = 2) out"));
+    EXPECT_THAT(behind, Not(HasSubstr("texelFetch")));
+}
+
+TEST(MaterialCompiler, MergesNothingThatReadsOtherPixels) {
+    const Result<MaterialPackage> package = compile(R"(material { domain : postprocess,
+        parameters : [ { name : a, type : sampler2d }, { name : b, type : sampler2d, currentPixel : false } ] }
+        fragment { void postProcess(inout PostProcessInputs inputs) {
+            inputs.color = texture(materialParams_a, getNormalizedUV()) + texture(materialParams_b, vec2(0.0)); } })");
+    ASSERT_TRUE(package) << package.error().message;
+    EXPECT_EQ(package->variants.size(), 1u);
+}
+
 TEST(MaterialCompiler, ReadsAttachmentsInOrderAndWritesTheOneBehindThem) {
     const Result<MaterialPackage> package = compile(R"(material { domain : postprocess,
         parameters : [ { name : a, type : subpassInput }, { name : b, type : subpassInput } ] }
