@@ -360,6 +360,18 @@ Result<std::string> generateProbe(MaterialDefinition const& definition, Material
     return std::move(out).take();
 }
 
+Result<std::string> generateObserver(MaterialDefinition const& definition, MaterialNeeds const& needs,
+                                     IncludeResolver const& includes) {
+    if (definition.package.domain == MaterialDomain::PostProcess) return postFragment(definition, 0, includes);
+    if (definition.customSurfaceShading)
+        return surfaceFragment(definition, needs, kVariantSun | kVariantPunctual, includes);
+    StageText out(includes);
+    if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
+    if (Result<void> done = out.block(definition.fragment); !done) return done.error();
+    defineObserverMain(out, definition);
+    return std::move(out).take();
+}
+
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                    uint16_t variantKey, IncludeResolver const& includes) {
     return definition.package.domain == MaterialDomain::PostProcess

@@ -1,14 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/GlslToSpirv.h"
 
+#include "shaders/compiler/SpirvWords.h"
+
 #include <glslang/Public/ResourceLimits.h>
 #include <glslang/Public/ShaderLang.h>
 #include <glslang/SPIRV/GlslangToSpv.h>
 #include <spirv-tools/libspirv.hpp>
 #include <spirv-tools/optimizer.hpp>
 
+#include <algorithm>
 #include <memory>
 #include <optional>
+#include <set>
 #include <string>
 
 namespace filament::shader {
@@ -154,6 +158,27 @@ Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Opt
     // What is inlined may also shrink: constants meet.
     Result<std::vector<uint32_t>> small = runPasses(spirv, registerSizePasses);
     return small && small->size() < fast->size() ? small : fast;
+}
+
+// A constant without SpecId is one that nobody can choose any more.
+Result<std::vector<uint32_t>> optimizeWithFalse(std::span<const uint32_t> spirv, std::span<const uint32_t> constants) {
+    std::vector<uint32_t> fixed(spirv.begin(), spirv.begin() + kModuleHeaderWords);
+    std::set<uint32_t> chosen; // ids of the results
+    forEachInstruction(spirv, [&](spv::Op op, std::span<const uint32_t> words) {
+        const bool isSpecId = op == spv::OpDecorate && words[2] == spv::DecorationSpecId;
+        if (isSpecId && std::ranges::count(constants, words[3]) > 0) {
+            chosen.insert(words[1]);
+            return;
+        }
+        fixed.insert(fixed.end(), words.begin(), words.end());
+        const bool isBool = op == spv::OpSpecConstantTrue || op == spv::OpSpecConstantFalse;
+        if (isBool && chosen.contains(words[2]))
+            fixed[fixed.size() - words.size()] = static_cast<uint32_t>(words.size()) << 16 | spv::OpConstantFalse;
+    });
+    return runPasses(fixed, [](spvtools::Optimizer& optimizer) {
+        optimizer.RegisterPass(spvtools::CreateFoldSpecConstantOpAndCompositePass());
+        optimizer.RegisterPerformancePasses();
+    });
 }
 
 // The conversion cannot take parts out of whole arrays: elements are loaded one by one first.

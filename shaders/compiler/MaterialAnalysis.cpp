@@ -4,6 +4,7 @@
 #include "shaders/compiler/GlslToSpirv.h"
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/SpirvEditor.h"
+#include "shaders/compiler/SpirvWords.h"
 
 #include <fmt/core.h>
 
@@ -81,16 +82,6 @@ struct Interface {
 };
 
 using Words = std::span<const uint32_t>;
-
-/// `visit(op, words)` for every instruction; words[0] is the instruction's own first word.
-void forEachInstruction(Words module, auto&& visit) {
-    constexpr size_t kHeaderWords = 5;
-    for (size_t at = kHeaderWords; at < module.size();) {
-        const size_t count = module[at] >> 16;
-        visit(static_cast<spv::Op>(module[at] & 0xFFFF), module.subspan(at, count));
-        at += count;
-    }
-}
 
 /// Decorations come before the variables.
 Interface interfaceOf(Words module) {

@@ -8,6 +8,7 @@
 #include "shaders/compiler/MaterialAnalysis.h"
 #include "shaders/compiler/MaterialMembers.h"
 #include "shaders/compiler/Reflection.h"
+#include "shaders/compiler/TextureConditions.h"
 #include "shaders/compiler/Variants.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/GroupLayouts.h"
@@ -52,6 +53,8 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     prepared.needs = *needs;
     Result<void> terms = findTerms(prepared.definition, prepared.includes, prepared.needs);
     if (!terms) return withSuggestion(terms.error(), prepared.definition);
+    Result<void> conditions = checkTextureConditions(prepared.definition, prepared.needs, prepared.includes);
+    if (!conditions) return withSuggestion(conditions.error(), prepared.definition);
     MaterialPackage& package = prepared.definition.package;
     package.layout = materialLayout(prepared.definition);
     package.filteredVariants |= options.filteredVariants;

@@ -14,9 +14,15 @@
 
 namespace filament::shader {
 
+struct NamedAt {
+    std::string name;
+    SourcePosition at;
+};
+
 /// Data about a parameter that only the generated code needs; same order as MaterialPackage::parameters.
 struct ParameterSource {
     SourcePosition at;
+    std::vector<NamedAt> usedIf{}; ///< names of constants: Parameter::usedIf has their ids
 };
 
 struct Variable {

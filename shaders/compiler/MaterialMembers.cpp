@@ -107,4 +107,15 @@ void declareMaterialInputs(StageText& out, MaterialDefinition const& definition)
     out.line("}");
 }
 
+void defineObserverMain(StageText& out, MaterialDefinition const& definition) {
+    static constexpr std::string_view kSwizzles[] = { "x", "xy", "xyz", "xyzw" };
+    out.line("void main() { MaterialInputs observed; initMaterial(observed); computeShadingGeometry();");
+    out.line("material(observed); fragment_color = vec4(0.0);");
+    for (MaterialMember const& member : kMembers) {
+        if (!member.isMemberOf(definition)) continue;
+        out.line(fmt::format("fragment_color.{} += observed.{};", kSwizzles[member.components - 1], member.name));
+    }
+    out.line("}");
+}
+
 } // namespace filament::shader

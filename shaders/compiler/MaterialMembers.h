@@ -40,6 +40,8 @@ constexpr uint64_t termBit(size_t member) { return uint64_t{ 1 } << member; }
 
 /// struct MaterialInputs and initMaterial().
 void declareMaterialInputs(StageText& out, MaterialDefinition const& definition);
+/// A main() that hands the sum of all members, as material() leaves them, to the output.
+void defineObserverMain(StageText& out, MaterialDefinition const& definition);
 /// "float", "vec2", ...
 std::string_view floatType(uint32_t components);
 /// "vec2(0.5, 1.0)"

@@ -83,6 +83,21 @@ Result<void> readCurrentPixel(JsonValue const& value, Parameter& out) {
                    fmt::format("only a sampler2d of format float has a current pixel, and '{}' is none", out.name));
 }
 
+/// Names of constants, which may be declared further down: resolveUsedIf() looks them up.
+Result<void> readUsedIf(JsonValue const& value, Parameter const& parameter, ParameterSource& out) {
+    if (!isTexture(parameter.type) || parameter.type == ParameterType::SubpassInput || parameter.currentPixel)
+        return errorAt(value.at,
+                       fmt::format("usedIf is for samplers that read anywhere, and '{}' is none", parameter.name));
+    const std::span<JsonValue const> items =
+            value.kind == JsonValue::Kind::Array ? std::span<JsonValue const>(value.items) : std::span(&value, 1);
+    for (JsonValue const& item : items) {
+        if (Result<void> isName = expectKind(item, JsonValue::Kind::String, "usedIf"); !isName) return isName;
+        out.usedIf.push_back({ item.text, item.at });
+    }
+    if (out.usedIf.empty()) return errorAt(value.at, "usedIf names at least one constant");
+    return {};
+}
+
 Result<void> requireMember(JsonValue const& object, std::string_view key, std::string_view what,
                            JsonValue const*& out) {
     out = findMember(object, key);
@@ -109,7 +124,7 @@ Result<NamedEntry> readEntry(JsonValue const& item, std::span<const std::string_
 }
 
 Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
-    static constexpr std::string_view kFields[] = { "name", "type", "precision", "format", "currentPixel" };
+    static constexpr std::string_view kFields[] = { "name", "type", "precision", "format", "currentPixel", "usedIf" };
     Result<NamedEntry> entry = readEntry(item, kFields, "parameter");
     if (!entry) return entry.error();
     if (out.package.findParameter(entry->name)) {
@@ -121,9 +136,12 @@ Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
         done = readPrecision(*precision, parameter.precision);
     if (JsonValue const* format = findMember(item, "format"); done && format) done = readFormat(*format, parameter);
     if (JsonValue const* own = findMember(item, "currentPixel"); done && own) done = readCurrentPixel(*own, parameter);
+    ParameterSource source{ .at = item.at };
+    if (JsonValue const* conditions = findMember(item, "usedIf"); done && conditions)
+        done = readUsedIf(*conditions, parameter, source);
     if (!done) return done;
     out.package.parameters.push_back(std::move(parameter));
-    out.parameterSources.push_back({ item.at });
+    out.parameterSources.push_back(std::move(source));
     return {};
 }
 
@@ -259,6 +277,25 @@ Result<void> checkCurrentPixel(MaterialPackage const& package, Parameter const& 
                                input->name, parameter.name));
 }
 
+/// ParameterSource::usedIf -> Parameter::usedIf. Vertex stages keep all of their textures.
+Result<void> resolveUsedIf(MaterialDefinition& definition, size_t index) {
+    Parameter& parameter = definition.package.parameters[index];
+    for (NamedAt const& name : definition.parameterSources[index].usedIf) {
+        Constant const* constant = definition.package.findConstant(name.name);
+        if (!constant)
+            return errorAt(name.at, fmt::format("there is no constant '{}'{}", name.name,
+                                                suggestion(name.name, namesOf(definition.package.constants))));
+        if (constant->type != ConstantType::Bool)
+            return errorAt(name.at, fmt::format("usedIf names constants of type bool, and '{}' is none", name.name));
+        parameter.usedIf.push_back(constant->id);
+    }
+    const std::string inCode = "materialParams_" + parameter.name;
+    const bool inVertex = definition.vertex && definition.vertex->text.find(inCode) != std::string::npos;
+    if (parameter.usedIf.empty() || !inVertex) return {};
+    return errorAt(definition.parameterSources[index].at,
+                   fmt::format("'{}' has usedIf, so only the fragment block can read it", parameter.name));
+}
+
 } // namespace
 
 Result<void> readParameters(JsonValue const& value, MaterialDefinition& out) {
@@ -304,6 +341,7 @@ Result<void> layOutParameters(MaterialDefinition& definition) {
             return errorAt(at, "subpass inputs exist only in the domain postprocess");
         }
         if (Result<void> read = checkCurrentPixel(definition.package, parameter, at); !read) return read;
+        if (Result<void> known = resolveUsedIf(definition, i); !known) return known;
         parameter.binding = static_cast<uint8_t>(binding++);
     }
     uint64_t bytes = 0;

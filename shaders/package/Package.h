@@ -47,8 +47,11 @@ struct Parameter {
     uint32_t offset = 0;                         ///< bytes in the MaterialParams block; textures: 0
     uint8_t binding = 0;                         ///< textures: binding in kGroupMaterial
     SamplerFormat format = SamplerFormat::Float; ///< textures: the type that a fetch returns
+    /// Textures: ids of bool constants; the texture is read only where one of them is true. Empty: always.
+    std::vector<uint32_t> usedIf{};
+    bool isBound = true;       ///< not in the file: false after removeUnusedTextures() (RemoveUnusedTextures.h)
     bool currentPixel = false; ///< a Sampler2D that is read only at the pixel being written; see kVariantMerged
-    Precision precision = Precision::Default;    ///< as the author specified
+    Precision precision = Precision::Default; ///< as the author specified
     friend bool operator==(Parameter const&, Parameter const&) = default;
 };
 

@@ -125,6 +125,9 @@ bool readParameters(ByteReader in, std::vector<Parameter>& out) {
         parameter.binding = in.u8();
         if (!readEnum(in, parameter.format, SamplerFormat::Uint)) return false;
         if (!readBool(in, parameter.currentPixel)) return false;
+        const uint32_t conditions = in.u32();
+        if (conditions > kMaxConstants) return false;
+        for (uint32_t c = 0; c < conditions && !in.failed(); ++c) parameter.usedIf.push_back(in.u32());
         if (!readEnum(in, parameter.precision, Precision::High)) return false;
         out.push_back(std::move(parameter));
     }
@@ -245,11 +248,18 @@ bool fits(Parameter const& parameter, uint32_t uniformBytes) {
     return parameter.offset % alignment == 0 && parameter.offset + parameterBytes(parameter) <= uniformBytes;
 }
 
+bool isBoolConstant(MaterialPackage const& package, uint32_t id) {
+    const auto found = std::ranges::find(package.constants, id, &Constant::id);
+    return found != package.constants.end() && found->type == backend::ConstantValue::Type::Bool;
+}
+
 Result<void> checkConsistency(MaterialPackage const& package) {
     if (!namesAreUnique(package.parameters))
         return corruptPackage("two parameters have the same name, or one has none");
     if (!namesAreUnique(package.constants)) return corruptPackage("two constants have the same name, or one has none");
     for (Parameter const& parameter : package.parameters) {
+        if (!std::ranges::all_of(parameter.usedIf, [&](uint32_t id) { return isBoolConstant(package, id); }))
+            return corruptPackage("a texture depends on something that is no bool constant");
         if (!fits(parameter, package.uniformBytes))
             return corruptPackage(
                     "a parameter lies outside of its block, or is read in a way that its type does not have");

@@ -95,6 +95,8 @@ ByteWriter parameterSection(std::span<const Parameter> parameters) {
         out.u8(parameter.binding);
         out.enumerator(parameter.format);
         out.u8(parameter.currentPixel);
+        out.u32(static_cast<uint32_t>(parameter.usedIf.size()));
+        for (const uint32_t constant : parameter.usedIf) out.u32(constant);
         out.enumerator(parameter.precision);
     }
     return out;

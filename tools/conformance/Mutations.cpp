@@ -13,6 +13,7 @@
 #include <deque>
 #include <map>
 #include <set>
+#include <span>
 #include <string>
 
 namespace filament::conformance {
@@ -57,6 +58,19 @@ std::vector<shader::MaterialPackage> const& litPackages() {
     return packages;
 }
 
+/// Whether the group has the package's block of parameters and, beside it, none but the package's bindings: textures
+/// that a material does not use are taken out of its layout.
+bool isGroupOf(shader::MaterialPackage const& package, BindGroupDesc const& desc) {
+    BindGroupLayout const& whole = package.layout[shader::kGroupMaterial];
+    const auto bindings = std::span(whole.bindings).first(whole.count);
+    const auto isKnown = [&](BindingDesc const& binding) { return std::ranges::count(bindings, binding) > 0; };
+    const auto isBlock = [&](BindGroupEntry const& entry) {
+        return entry.buffer && entry.size == package.uniformBytes;
+    };
+    return std::ranges::all_of(std::span(desc.layout.bindings).first(desc.layout.count), isKnown) &&
+           std::ranges::any_of(desc.entries, isBlock);
+}
+
 /// Calls `found(package, entries)` for each bind group of a lit material.
 template <class Found>
 struct GroupFinder {
@@ -65,8 +79,7 @@ struct GroupFinder {
     void execute(C const&) {}
     void execute(CmdCreateBindGroup const& command) {
         for (shader::MaterialPackage const& package : litPackages()) {
-            if (!(command.desc.layout == package.layout[shader::kGroupMaterial])) continue;
-            found(package, command.desc.entries);
+            if (isGroupOf(package, command.desc)) found(package, command.desc.entries);
         }
     }
 };

@@ -4,6 +4,7 @@
 #include "base/Suggest.h"
 #include "filament_core/engine/materials/ConstantBits.h"
 #include "filament_core/engine/materials/DescribeMaterial.h"
+#include "shaders/package/RemoveUnusedTextures.h"
 
 #include <utility>
 
@@ -55,6 +56,7 @@ Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     material.name = desc.name.empty() ? package->name : desc.name;
     material.package = std::move(*package);
     material.constants = std::move(*constants);
+    shader::removeUnusedTextures(material.package, material.constants);
     material.description = describeMaterial(material);
     return material;
 }

@@ -149,6 +149,7 @@ BindGroupHandle Engine::Impl::makeGroup(scene::MaterialInstance const& instance,
     for (Parameter const& parameter : package.parameters) {
         if (!shader::isTexture(parameter.type)) continue;
         const scene::TextureBinding bound = instance.textures[slot++];
+        if (!parameter.isBound) continue; // its constants are false
         const Sampler sampler = engine::samplerFor(parameter, bound.sampler, filter);
         entries[count++] = { .binding = parameter.binding,
                              .texture = bound.texture,

@@ -108,6 +108,28 @@ constexpr Broken kContradictions[] = {
       "a.mat:2: an unlit material reflects nothing; use shadingModel : lit" },
     { "material {\n domain : postprocess,\n shadingModel : lit }" GOOD_FRAGMENT,
       "a.mat:3: a material of the domain postprocess cannot be lit" },
+    { "material { constants : [ { name : hasX, type : bool } ],\n parameters : [ { name : x, type : sampler2d, usedIf "
+      ": "
+      "hasY } ] }" GOOD_FRAGMENT,
+      "a.mat:2: there is no constant 'hasY'; did you mean 'hasX'?" },
+    { "material { constants : [ { name : hasX, type : int } ],\n parameters : [ { name : x, type : sampler2d, usedIf : "
+      "[ hasX ] } ] }" GOOD_FRAGMENT,
+      "a.mat:2: usedIf names constants of type bool, and 'hasX' is none" },
+    { "material {\n parameters : [ { name : x, type : float, usedIf : hasX } ] }" GOOD_FRAGMENT,
+      "a.mat:2: usedIf is for samplers that read anywhere, and 'x' is none" },
+    { "material {\n parameters : [ { name : x, type : sampler2d, usedIf : [] } ] }" GOOD_FRAGMENT,
+      "a.mat:2: usedIf names at least one constant" },
+    { "material { requires : [ uv0 ], constants : [ { name : hasX, type : bool }, { name : hasY, type : bool } ],\n"
+      " parameters : [ { name : x, type : sampler2d, usedIf : hasX } ] }\n" FRAGMENT(
+              "prepareMaterial(material); if (materialConstants_hasY) material.baseColor = texture(materialParams_x, "
+              "getUV0());"),
+      "a.mat:2: 'x' is also read where hasX is false; read it only inside of if (materialConstants_...) of a constant "
+      "that its usedIf names" },
+    { "material { constants : [ { name : hasX, type : bool } ],\n parameters : [ { name : x, type : sampler2d, usedIf "
+      ": "
+      "hasX } ] }\nvertex { void materialVertex(inout MaterialVertexInputs material) { "
+      "material.worldPosition += textureLod(materialParams_x, vec2(0.0), 0.0); } }\n" GOOD_FRAGMENT,
+      "a.mat:2: 'x' has usedIf, so only the fragment block can read it" },
     { "material {\n parameters : [ { name : x, type : samplerCubemap, currentPixel : true } ] }" GOOD_FRAGMENT,
       "a.mat:2: only a sampler2d of format float has a current pixel, and 'x' is none" },
     { "material {\n parameters : [ { name : x, type : sampler2d, format : int, currentPixel : true } ] }" GOOD_FRAGMENT,

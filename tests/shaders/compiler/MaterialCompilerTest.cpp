@@ -352,6 +352,31 @@ TEST(MaterialCompiler, MergesNothingThatReadsOtherPixels) {
     EXPECT_EQ(package->variants.size(), 1u);
 }
 
+TEST(MaterialCompiler, SeesThatATextureIsReadOnlyWhereOneOfItsConstantsIsTrue) {
+    const auto reads = [](const char* code) {
+        return compile(std::string(R"(material { requires : [ uv0 ],
+            constants : [ { name : hasA, type : bool }, { name : hasB, type : bool }, { name : n, type : int } ],
+            parameters : [ { name : map, type : sampler2d, usedIf : [ hasA, hasB ] } ] }
+            fragment {
+            vec4 texel() { return texture(materialParams_map, getUV0()); }
+            void material(inout MaterialInputs m) { prepareMaterial(m); )") +
+                       code + " } }");
+    };
+    for (const char* good : { "if (materialConstants_hasA || materialConstants_hasB) m.baseColor = texel();",
+                              "if (materialConstants_hasA) m.baseColor = texel();",
+                              "if (materialConstants_hasB) { for (int i = 0; i < materialConstants_n; ++i) "
+                              "m.baseColor += texel(); }",
+                              "m.baseColor = materialConstants_hasA ? texel() : vec4(1.0);", "m.metallic = 1.0;" }) {
+        const Result<MaterialPackage> package = reads(good);
+        ASSERT_TRUE(package) << good << ": " << package.error().message;
+        EXPECT_EQ(package->findParameter("map")->usedIf, (std::vector<uint32_t>{ 0, 1 }));
+    }
+    for (const char* bad :
+         { "m.baseColor = texel();", "if (materialConstants_n > 0) m.baseColor = texel();",
+           "if (!materialConstants_hasA) m.baseColor = texel();", "if (m.baseColor.x > 0.5) m.baseColor = texel();" })
+        EXPECT_FALSE(reads(bad)) << bad;
+}
+
 TEST(MaterialCompiler, ReadsAttachmentsInOrderAndWritesTheOneBehindThem) {
     const Result<MaterialPackage> package = compile(R"(material { domain : postprocess,
         parameters : [ { name : a, type : subpassInput }, { name : b, type : subpassInput } ] }

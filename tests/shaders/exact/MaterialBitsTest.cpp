@@ -85,6 +85,31 @@ TEST_F(MaterialBits, EveryVariantWithEveryFeatureHasTheSameBits) {
     }
 }
 
+TEST_F(MaterialBits, WithoutTheTexturesThatTheirConstantsSwitchOffTheyLookTheSame) {
+    const std::vector<std::vector<const char*>> uses = { { "ClearCoat", "Anisotropy" },
+                                                         { "Sheen", "Iridescence" },
+                                                         {} };
+    for (std::vector<const char*> const& used : uses) {
+        MaterialScene scene = everything(kVariantSun);
+        scene.material = "gltf_layered_opaque";
+        scene.constants["hasNormalMap"] = scene.constants["hasOcclusionMap"] = used.size() % 2;
+        scene.parameters["clearCoat"] = scene.parameters["anisotropyStrength"] =
+                scene.parameters["iridescence"] = { 1 };
+        scene.parameters["sheenColor"] = { 0.5f, 0.4f, 0.3f };
+        scene.parameters["iridescenceThickness"] = { 200, 500 };
+        for (const char* layer : used)
+            scene.constants[std::string("has") + layer] = scene.constants["has" + (layer + std::string("Map"))] = 1;
+        if (!used.empty() && used[0] == std::string("Sheen")) {
+            scene.constants.erase("hasSheenMap");
+            scene.constants["hasSheenColorMap"] = 1;
+        }
+        const std::vector<float> whole = draw(scene);
+        scene.removesUnusedTextures = true;
+        ASSERT_FALSE(whole.empty());
+        EXPECT_EQ(draw(scene), whole) << (used.empty() ? "no layer" : used[0]);
+    }
+}
+
 TEST_F(MaterialBits, UnlitMaterialsShowTheirColorAndHaveTheSameBits) {
     MaterialScene scene;
     scene.material = "gltf_unlit_opaque";

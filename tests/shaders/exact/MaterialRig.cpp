@@ -6,6 +6,7 @@
 #include "shaders/package/EngineMaterials.h"
 #include "shaders/package/GroupLayouts.h"
 #include "shaders/package/ParameterLayout.h"
+#include "shaders/package/RemoveUnusedTextures.h"
 
 #include <cmath>
 #include <cstring>
@@ -89,6 +90,15 @@ float4x4 clipFromView() {
     return projection;
 }
 
+std::vector<ConstantValue> constantsOf(MaterialPackage const& package, MaterialScene const& scene) {
+    std::vector<ConstantValue> constants;
+    for (auto const& [name, bits] : scene.constants) {
+        Constant const* constant = package.findConstant(name);
+        constants.push_back({ constant->id, bits, constant->type });
+    }
+    return constants;
+}
+
 PassLayout passLayout() {
     PassLayout layout{ .depthFormat = Format::D32F, .colorCount = 1 };
     layout.colorFormats[0] = Format::RGBA32F;
@@ -129,6 +139,16 @@ TextureHandle MaterialRig::texture(CommandBuffer& commands, TextureType type, Fo
     return handle;
 }
 
+TextureHandle MaterialRig::pattern(CommandBuffer& commands, uint8_t binding) {
+    TextureHandle& made = mPatterns[binding];
+    if (made) return made;
+    std::vector<uint8_t> texels(kPatternSide * kPatternSide * 4);
+    std::mt19937 random(11u + binding);
+    for (uint8_t& byte : texels) byte = static_cast<uint8_t>(128 + random() % 128); // normals of a map look outwards
+    made = texture(commands, TextureType::Texture2D, Format::RGBA8, kPatternSide, bytesOf(texels));
+    return made;
+}
+
 void MaterialRig::createShared() {
     CommandBuffer& commands = mStream->acquire();
     const std::vector<Vertex> vertices = bumpyGrid();
@@ -145,10 +165,6 @@ void MaterialRig::createShared() {
     jobs::JobSystem jobs({ .workers = 1 });
     mDfg = texture(commands, TextureType::Texture2D, Format::RGBA16F, kDfgSide,
                    assets::bakeDfgTable(jobs, kDfgSide).data);
-    std::vector<uint8_t> pattern(kPatternSide * kPatternSide * 4);
-    std::mt19937 random(12);
-    for (uint8_t& byte : pattern) byte = static_cast<uint8_t>(128 + random() % 128); // normals of a map look outwards
-    mPattern = texture(commands, TextureType::Texture2D, Format::RGBA8, kPatternSide, bytesOf(pattern));
     mSampler = mStream->allocateSampler();
     commands.record(CmdCreateSampler{ mSampler, { .magFilter = Filter::Linear, .minFilter = Filter::Linear } });
 
@@ -217,8 +233,9 @@ BindGroupHandle MaterialRig::materialGroup(CommandBuffer& commands, MaterialPack
                 { .buffer = buffer(commands, BufferUsage::Uniform, bytesOf(block)), .size = package.uniformBytes });
     }
     for (Parameter const& parameter : package.parameters) {
-        if (isTexture(parameter.type))
-            entries.push_back({ .binding = parameter.binding, .texture = mPattern, .sampler = mSampler });
+        if (!isTexture(parameter.type) || !parameter.isBound) continue;
+        entries.push_back(
+                { .binding = parameter.binding, .texture = pattern(commands, parameter.binding), .sampler = mSampler });
     }
     const BindGroupHandle group = mStream->allocateBindGroup();
     commands.record(CmdCreateBindGroup{ group, { package.layout[kGroupMaterial], entries, "material" } });
@@ -229,11 +246,7 @@ PipelineHandle MaterialRig::pipeline(CommandBuffer& commands, MaterialPackage co
                                      MaterialScene const& scene, PassLayout const& pass) {
     Variant const* variant = package.findVariant(scene.variant);
     const bool spirv = mStream->info().shaderLanguage == ShaderLanguage::SpirV;
-    std::vector<ConstantValue> constants;
-    for (auto const& [name, bits] : scene.constants) {
-        Constant const* constant = package.findConstant(name);
-        constants.push_back({ constant->id, bits, constant->type });
-    }
+    const std::vector<ConstantValue> constants = constantsOf(package, scene);
     const ProgramHandle program = mStream->allocateProgram();
     commands.record(CmdCreateProgram{ program,
                                       { .vertex = spirv ? std::as_bytes(std::span(variant->vertexSpirv))
@@ -274,7 +287,11 @@ void MaterialRig::draw(CommandBuffer& commands, MaterialPackage const& package, 
 }
 
 Result<MaterialPackage> MaterialRig::package(MaterialScene const& scene) {
-    if (scene.source.empty()) return readPackage(engineMaterial(scene.material));
+    if (scene.source.empty()) {
+        Result<MaterialPackage> read = readPackage(engineMaterial(scene.material));
+        if (read && scene.removesUnusedTextures) removeUnusedTextures(*read, constantsOf(*read, scene));
+        return read;
+    }
     const auto known = mCompiled.find(scene.source);
     if (known != mCompiled.end()) return known->second;
     Result<MaterialPackage> compiled = compileMaterial(scene.source, "test.mat");

@@ -24,8 +24,9 @@ struct MaterialScene {
     uint16_t variant = 0;
     std::map<std::string, uint32_t> constants;            ///< bits by name
     std::map<std::string, std::vector<float>> parameters; ///< components by name; missing ones are 0
-    FrameUniforms frame{};                                ///< matrices and viewport are filled in by the rig
+    FrameUniforms frame{};                                ///< matrices are filled in by the rig
     std::vector<PunctualLight> lights;
+    bool removesUnusedTextures = false; ///< as the engine does when it loads the material
 };
 
 class MaterialRig {
@@ -43,6 +44,7 @@ private:
     void createShared();
     backend::BufferHandle buffer(backend::CommandBuffer& commands, backend::BufferUsage usage,
                                  std::span<const std::byte> bytes);
+    backend::TextureHandle pattern(backend::CommandBuffer& commands, uint8_t binding);
     backend::TextureHandle texture(backend::CommandBuffer& commands, backend::TextureType type, backend::Format format,
                                    uint32_t side, std::span<const std::byte> texels);
     backend::BindGroupHandle viewGroup(backend::CommandBuffer& commands, MaterialScene const& scene);
@@ -54,7 +56,8 @@ private:
     void draw(backend::CommandBuffer& commands, MaterialPackage const& package, MaterialScene const& scene);
 
     std::unique_ptr<backend::CommandStream> mStream;
-    backend::TextureHandle mColor, mDepth, mWhiteCube, mDfg, mPattern;
+    backend::TextureHandle mColor, mDepth, mWhiteCube, mDfg;
+    std::map<uint8_t, backend::TextureHandle> mPatterns; ///< by binding: each of other colours
     backend::SamplerHandle mSampler;
     backend::BufferHandle mVertices, mIndices, mInstance, mObjects;
     uint32_t mIndexCount = 0;

@@ -5,6 +5,7 @@
 #include "base/Assert.h"
 #include "base/Hash.h"
 #include "shaders/package/Package.h"
+#include "shaders/package/RemoveUnusedTextures.h"
 
 #include <cstring>
 #include <span>
@@ -34,6 +35,9 @@ inline bool readAndRewrite(std::span<const std::byte> bytes) {
     const Result<MaterialPackage> again = readPackage(writePackage(*package));
     FILAMENT_ASSERT(again.ok(), "what was read can be written and read again");
     FILAMENT_ASSERT(writePackage(*again) == writePackage(*package), "rewriting changes nothing");
+    MaterialPackage loaded = *package;
+    removeUnusedTextures(loaded, {});
+    FILAMENT_ASSERT(readPackage(writePackage(loaded)).ok(), "a package without its unused textures is one, too");
     return true;
 }
 

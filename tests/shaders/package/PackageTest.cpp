@@ -52,6 +52,7 @@ MaterialPackage fullPackage() {
                              .type = ParameterType::Sampler2D,
                              .binding = 1,
                              .format = SamplerFormat::Int,
+                             .usedIf = { 0 },
                              .currentPixel = true,
                              .precision = Precision::Medium } };
     package.uniformBytes = assignOffsets(package.parameters);
