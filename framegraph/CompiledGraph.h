@@ -35,9 +35,10 @@ enum class Merge : uint8_t {
     NotBefore,    ///< the pass before it, among those that run, did not write all of the inputs
     DifferentSize,
     Multisampled,
-    ReadsElsewhere, ///< samples or copies a texture of the merged pass as well
-    ClearsAgain,    ///< clears an attachment that the merged pass already has
-    DifferentDepth, ///< needs another depth attachment
+    OtherAttachments, ///< its program numbers its attachments otherwise
+    ReadsElsewhere,   ///< samples or copies a texture of the merged pass as well
+    ClearsAgain,      ///< clears an attachment that the merged pass already has
+    DifferentDepth,   ///< needs another depth attachment
     TooManyAttachments,
     TooManySubpasses,
 };

@@ -73,6 +73,8 @@ const char* mergeOf(Merge merge) {
         return "; not merged: the sizes differ";
     case Merge::Multisampled:
         return "; not merged: multisampled";
+    case Merge::OtherAttachments:
+        return "; not merged: its program numbers its attachments otherwise";
     case Merge::ReadsElsewhere:
         return "; not merged: an attachment is also sampled";
     case Merge::ClearsAgain:

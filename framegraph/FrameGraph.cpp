@@ -159,8 +159,11 @@ void PassBuilder::readSampled(TextureId texture, backend::TextureRange range) {
     mGraph.declare(mPass, Access{ .texture = texture, .kind = AccessKind::Sampled, .range = range });
 }
 
-void PassBuilder::readInput(TextureId texture, uint8_t level, uint16_t layer) {
-    mGraph.declare(mPass, Access{ .texture = texture, .kind = AccessKind::Input, .range = { level, 1, layer, 1 } });
+void PassBuilder::readInput(TextureId texture, uint8_t attachment, uint8_t level, uint16_t layer) {
+    mGraph.declare(mPass, Access{ .texture = texture,
+                                  .kind = AccessKind::Input,
+                                  .slot = attachment,
+                                  .range = { level, 1, layer, 1 } });
 }
 
 void PassBuilder::readTransfer(TextureId texture, backend::TextureRange range) {

@@ -75,12 +75,15 @@ constexpr bool isPureRead(AccessKind kind) {
     return kind != AccessKind::Color && kind != AccessKind::Depth && kind != AccessKind::TransferWrite;
 }
 
+/// For inputs of a pass that asks for the number of its attachment (PassContext::colorIndex()).
+inline constexpr uint8_t kAnyAttachment = 0xFF;
+
 /// One pass's use of one texture.
 struct Access {
     TextureId texture;
     AccessKind kind = AccessKind::Sampled;
     Previous previous = Previous::Keep; ///< attachments
-    uint8_t slot = 0;                   ///< Color: index when the pass runs by itself
+    uint8_t slot = 0;                   ///< Color: index when the pass runs by itself. Input: see readInput()
     backend::TextureRange range{};      ///< with counts: one level and layer for attachments and inputs
     std::array<float, 4> clear{};
     TextureId resolve{};
@@ -151,7 +154,9 @@ public:
     void readSampled(TextureId texture, backend::TextureRange range = {});
     /// At the current pixel only. If the pass could be merged with the one that wrote the texture, it is a subpass
     /// input (PassContext::isMerged() is true), otherwise the pass must sample it at the pixel's centre.
-    void readInput(TextureId texture, uint8_t level = 0, uint16_t layer = 0);
+    /// `attachment`: for programs with fixed attachment numbers: inputs 0, 1, ..., then the slots of writeColor(). If the
+    /// merged pass would have other numbers, the pass is not merged.
+    void readInput(TextureId texture, uint8_t attachment = kAnyAttachment, uint8_t level = 0, uint16_t layer = 0);
     /// Blits from it, reads it back, generates mips.
     void readTransfer(TextureId texture, backend::TextureRange range = {});
     /// Uploads or blits to it, generates mips; the rest keeps its contents.

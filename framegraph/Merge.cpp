@@ -94,6 +94,20 @@ Merge addAccess(PassGroup& group, Access const& access, uint32_t maxColors) {
     return Merge::Merged;
 }
 
+/// Whether a program with fixed attachment numbers (inputs from 0, then its own colours) would get others in this group.
+bool isNumberedOtherwise(FrameGraph const& graph, PassGroup const& group, uint32_t pass) {
+    const auto accesses = graph.accesses(graph.passes()[pass]);
+    uint32_t inputs = 0;
+    for (Access const& access : accesses) {
+        if (access.kind != AccessKind::Input || access.slot == kAnyAttachment) continue;
+        if (findColor(group, access) != access.slot) return true;
+        ++inputs;
+    }
+    return inputs > 0 && std::any_of(accesses.begin(), accesses.end(), [&](Access const& access) {
+               return access.kind == AccessKind::Color && findColor(group, access) != inputs + access.slot;
+           });
+}
+
 bool readsInput(FrameGraph const& graph, uint32_t pass) {
     const auto accesses = graph.accesses(graph.passes()[pass]);
     return std::any_of(accesses.begin(), accesses.end(), [](Access const& a) { return a.kind == AccessKind::Input; });
@@ -131,6 +145,7 @@ Merge tryJoin(FrameGraph const& graph, PassOrder const& order, MergeLimits const
         if (!isAttachment(access.kind)) continue;
         if (const Merge result = addAccess(joined, access, maxColors); result != Merge::Merged) return result;
     }
+    if (isNumberedOtherwise(graph, joined, pass)) return Merge::OtherAttachments;
     if (readsAttachmentsElsewhere(graph, joined, order.order.subspan(group.first, group.count + 1)))
         return Merge::ReadsElsewhere;
     ++joined.count;

@@ -27,6 +27,10 @@
 #include <type_traits>
 #include <vector>
 
+namespace filament::passes {
+struct FullScreenInterface;
+}
+
 namespace filament {
 namespace engine {
 
@@ -136,6 +140,9 @@ struct Engine::Impl {
     std::span<const std::byte> enginePackage(std::string_view name) const;
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
     Material engineMaterial(std::string_view package, std::vector<MaterialConstant> constants);
+    /// The same for a pass that draws pictures; asserts that they fit.
+    scene::Material const& fullScreenMaterial(std::string_view package, std::vector<MaterialConstant> constants,
+                                              passes::FullScreenInterface const& given);
     /// From the next drainPending() on every instance has a bind group for views of this filter, too. Views of several
     /// filters take turns at no cost; a filter that was used once keeps its groups.
     void useTextureFilter(TextureFilter filter);

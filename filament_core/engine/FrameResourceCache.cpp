@@ -2,12 +2,12 @@
 #include "filament_core/engine/FrameResourceCache.h"
 
 #include "base/Assert.h"
+#include "filament_core/passes/ToneMapPass.h"
 
 namespace filament::engine {
 namespace {
 
 using passes::FrameResources;
-using passes::ToneMapMaterials;
 
 constexpr Sampler kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
 constexpr Sampler kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
@@ -49,23 +49,19 @@ scene::Material const* FrameResourceCache::skybox(bool isRgbm) {
     return known;
 }
 
-ToneMapMaterials FrameResourceCache::toneMap(ColorGrading const& grading, ToneMapping mapping) {
+passes::ToneMap FrameResourceCache::toneMap(ColorGrading const& grading, ToneMapping mapping) {
     const bool hasTable = mapping != ToneMapping::Analytic;
     const auto mapper = static_cast<size_t>(grading.toneMapper);
     FILAMENT_ASSERT(mapper < kToneMappers, "a tone mapper is one of its enumerators");
-    ToneMapMaterials& known = mToneMaps[mapper][grading.dither][hasTable];
-    if (!known.merged || !known.sampled) {
-        std::vector<MaterialConstant> constants{ { "dither", grading.dither } };
+    scene::Material const*& known = mToneMaps[mapper][grading.dither][hasTable];
+    if (!known) {
+        std::vector<MaterialConstant> constants{ { "dither", grading.dither }, { "fromTable", hasTable } };
         if (!hasTable) constants.push_back({ "toneMapper", static_cast<int32_t>(grading.toneMapper) });
-        const auto material = [&](const char* package) {
-            return &mEngine.materials.get(mEngine.engineMaterial(package, constants));
-        };
-        known.merged = material(hasTable ? "tonemap_table" : "tonemap");
-        known.sampled = material(hasTable ? "tonemap_table_sampled" : "tonemap_sampled");
+        known = &mEngine.fullScreenMaterial("tonemap", std::move(constants), passes::kToneMapInterface);
     }
-    ToneMapMaterials found = known;
-    if (hasTable) found.table = mEngine.textureHandle(mEngine.toneTable(grading.toneMapper, toneTableSize(mapping)));
-    return found;
+    const Texture table = hasTable ? mEngine.toneTable(grading.toneMapper, toneTableSize(mapping))
+                                   : mEngine.unsetTexture(*known->package.findParameter("table"));
+    return { known, mEngine.textureHandle(table) };
 }
 
 } // namespace filament::engine

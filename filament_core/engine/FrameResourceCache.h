@@ -25,13 +25,13 @@ private:
     static constexpr size_t kToneMappers = 4;
 
     passes::LightingTextures lighting(View const& view, prepare::EnvironmentPacket const& environment);
-    passes::ToneMapMaterials toneMap(ColorGrading const& grading, ToneMapping mapping);
+    passes::ToneMap toneMap(ColorGrading const& grading, ToneMapping mapping);
     scene::Material const* skybox(bool isRgbm);
 
     Engine::Impl& mEngine;
     std::array<scene::Material const*, 2> mSkyboxes{}; // by isRgbm
-    /// By mapper, dither, and whether colours are looked up; the table is not kept.
-    std::array<std::array<std::array<passes::ToneMapMaterials, 2>, 2>, kToneMappers> mToneMaps{};
+    /// By mapper, dither, and whether colours are looked up.
+    std::array<std::array<std::array<scene::Material const*, 2>, 2>, kToneMappers> mToneMaps{};
 };
 
 } // namespace filament::engine

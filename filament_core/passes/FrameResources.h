@@ -17,11 +17,9 @@ struct LightingTextures {
     backend::SamplerHandle bilinear;  ///< of the others, and of the sky: one level each
 };
 
-/// The two forms of the post-process material, specialised to the view's tone mapper.
-struct ToneMapMaterials {
-    scene::Material const* merged = nullptr;  ///< reads a subpass input
-    scene::Material const* sampled = nullptr; ///< reads a texture of the same size
-    backend::TextureHandle table{}; ///< of materials that look colours up (ToneTable.h); none: they compute them
+struct ToneMap {
+    scene::Material const* material = nullptr; ///< tonemap, specialised to the mapper of the view
+    backend::TextureHandle table{};            ///< where it looks colours up (ToneTable.h), if it does; always set
 };
 
 struct FrameResources {
@@ -30,7 +28,7 @@ struct FrameResources {
     backend::SamplerHandle nearestSampler;
     backend::BufferHandle instanceIds;       ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
     scene::Material const* skybox = nullptr; ///< full-screen material; null: the scene has no sky
-    ToneMapMaterials toneMap;                ///< null where the picture stays scene-linear
+    ToneMap toneMap;                         ///< null where the picture stays scene-linear
     bool hasHalfFloats = false;              ///< shaders may compute in 16 bits
 };
 

@@ -104,6 +104,46 @@ TEST_F(MergePasses, NotOnADeviceWithoutMergedPasses) {
               (backend::SubpassDesc{ .colorMask = 1, .inputMask = 0, .usesDepth = false }));
 }
 
+TEST_F(MergePasses, NotWhereTheProgramExpectsItsInputAtAnotherAttachment) {
+    const TextureId first = color("first"), second = color("second"), out = backbuffer();
+    pass("color", [&](PassBuilder& p) {
+        p.writeColor(0, first);
+        p.writeColor(1, second);
+    });
+    toneMap = pass("tone map", [&](PassBuilder& p) {
+        p.readInput(second, 0);
+        p.writeColor(0, out);
+    });
+    EXPECT_EQ(outcome(), Merge::OtherAttachments);
+}
+
+TEST_F(MergePasses, NotWhereTheProgramExpectsItsOutputAtAnotherAttachment) {
+    const TextureId first = color("first"), second = color("second"), out = backbuffer();
+    pass("color", [&](PassBuilder& p) {
+        p.writeColor(0, first);
+        p.writeColor(1, second);
+    });
+    toneMap = pass("tone map", [&](PassBuilder& p) {
+        p.readInput(first, 0);
+        p.writeColor(0, out); // attachment 2 of the merged pass, and the program writes location 1
+    });
+    EXPECT_EQ(outcome(), Merge::OtherAttachments);
+}
+
+TEST_F(MergePasses, WhereTheProgramNumbersItsAttachmentsAsTheMergedPassDoes) {
+    const TextureId first = color("first"), second = color("second"), out = backbuffer();
+    pass("color", [&](PassBuilder& p) {
+        p.writeColor(0, first);
+        p.writeColor(1, second);
+    });
+    toneMap = pass("tone map", [&](PassBuilder& p) {
+        p.readInput(first, 0);
+        p.readInput(second, 1);
+        p.writeColor(0, out);
+    });
+    EXPECT_EQ(outcome(), Merge::Merged);
+}
+
 TEST_F(MergePasses, NotWithAnotherPassInBetween) {
     const TextureId hdr = color("hdr"), other = color("other"), out = backbuffer();
     pass("color", [&](PassBuilder& p) { p.writeColor(0, hdr); });
@@ -171,7 +211,7 @@ TEST_F(MergePasses, AnInputIsOneLevelOfItsTexture) {
             graph.createTexture({ .width = 32, .height = 16, .format = Format::RGBA16F, .name = "half" });
     graph.markOutput(half);
     const uint32_t reader = pass("read", [&](PassBuilder& p) {
-        p.readInput(a, 1);
+        p.readInput(a, kAnyAttachment, 1);
         p.writeColor(0, half);
     });
     const Steps result = steps();

@@ -3,7 +3,7 @@
 /// instead of computing. The look-up costs the same for any grading.
 ///   Out     RGBA16F, size * size wide and size high: the entry (r, g, b) is at (r + b * size, g). Entries are evenly
 ///           spaced in toneTableCoordinate() of shaders/lib/color.glsl; entry 0 is black, the last one 256.
-///   Read    by shaders/post/tonemap_table.glsl.
+///   Read    by shaders/post/tone_table.glsl.
 ///   Thread  runs on the job system; the same bits for any number of workers.
 ///   Memory  8 * size^3 bytes: 32 KiB, 256 KiB, 2 MiB for 16, 32, 64.   Fails: never.   Cost: 40 ms for 64.
 #pragma once

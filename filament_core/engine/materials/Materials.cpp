@@ -6,6 +6,7 @@
 #include "filament_core/engine/EngineImpl.h"
 #include "filament_core/engine/materials/ConstantBits.h"
 #include "filament_core/engine/materials/LoadMaterial.h"
+#include "filament_core/passes/FullScreenPass.h"
 #include "shaders/package/EngineMaterials.h"
 
 #include <utility>
@@ -57,6 +58,15 @@ Material Engine::Impl::engineMaterial(std::string_view package, std::vector<Mate
         throw;
     }
     return *material;
+}
+
+scene::Material const& Engine::Impl::fullScreenMaterial(std::string_view package, std::vector<MaterialConstant> constants,
+                                                  passes::FullScreenInterface const& given) {
+    scene::Material const& material = materials.get(engineMaterial(package, std::move(constants)));
+    const Result<void> fits = passes::checkFullScreenMaterial(material, given);
+    if (!fits) log(Severity::Error, "{}", fits.error().message);
+    FILAMENT_ASSERT(fits.ok(), "a full-screen pass gives the engine's material what it reads");
+    return material;
 }
 
 Result<Material> Engine::create(MaterialDesc const& desc) {

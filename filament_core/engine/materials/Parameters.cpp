@@ -3,8 +3,6 @@
 
 #include "shaders/package/ParameterLayout.h"
 
-#include <cstring>
-
 namespace filament::engine {
 namespace {
 
@@ -24,25 +22,6 @@ std::string declared(Parameter const& parameter) {
     return parameter.arraySize > 0 ? fmt::format("{}[{}]", type, parameter.arraySize) : type;
 }
 
-/// A boolean is a word of 32 bits in std140, 1 or 0.
-void store(std::byte* to, bool value) {
-    const uint32_t word = value;
-    std::memcpy(to, &word, sizeof(word));
-}
-template <class T>
-void store(std::byte* to, T value) {
-    std::memcpy(to, &value, sizeof(value));
-}
-template <int N>
-void store(std::byte* to, glm::vec<N, bool> const& value) {
-    for (int i = 0; i < N; ++i) store(to + 4 * i, value[i]);
-}
-/// The columns of a matrix start at multiples of 16 bytes.
-template <int N>
-void store(std::byte* to, glm::mat<N, N, float> const& value) {
-    for (int column = 0; column < N; ++column) std::memcpy(to + 16 * column, &value[column], sizeof(value[column]));
-}
-
 Result<void> checkKind(scene::Material const& material, Parameter const& parameter, ParameterType given, bool isArray) {
     if (parameter.type == given && (parameter.arraySize > 0) == isArray) return {};
     if (shader::isTexture(parameter.type)) {
@@ -58,7 +37,7 @@ Result<void> checkKind(scene::Material const& material, Parameter const& paramet
 Result<void> writeParameter(scene::Material const& material, Parameter const& parameter, ParameterValue const& value,
                             std::span<std::byte> block) {
     if (Result<void> fits = checkKind(material, parameter, typeOf(value), false); !fits) return fits;
-    std::visit([&](auto const& v) { store(block.data() + parameter.offset, v); }, value);
+    std::visit([&](auto const& v) { shader::storeValue(block.data() + parameter.offset, v); }, value);
     return {};
 }
 
@@ -76,7 +55,7 @@ Result<void> writeParameters(scene::Material const& material, Parameter const& p
     std::visit(
             [&](auto const& v) {
                 for (auto const& element : v) {
-                    store(to, element);
+                    shader::storeValue(to, element);
                     to += stride;
                 }
             },

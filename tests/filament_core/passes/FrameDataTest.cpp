@@ -95,7 +95,7 @@ struct FrameDataTest : testing::Test {
         arena.reset();
         commands.reset();
         const prepare::FramePacket packet = prepareFrame(jobs, arena, boxes.scene, views);
-        data.upload(jobs, commands, packet, {});
+        data.upload(jobs, commands, packet);
         replay(commands.view(), memory);
         return packet;
     }

@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same as tonemap.glsl from a table of colours (ToneTable.h); shared by tonemap_table.mat and
-// tonemap_table_sampled.mat. Texels are fetched and weighted here, not by the sampler, whose weights have 8 bits.
-
-#include "shaders/lib/color.glsl"
-#include "shaders/post/dither.glsl"
+// Tone mapping by a table of colours (ToneTable.h), behind shaders/lib/color.glsl. Texels are fetched and weighted here, not
+// by the sampler, whose weights have 8 bits.
 
 vec3 tableEntry(ivec3 at, int size) { return texelFetch(materialParams_table, ivec2(at.x + at.z * size, at.y), 0).rgb; }
 
@@ -24,11 +21,11 @@ vec3 interpolatedEntry(ivec3 corner, vec3 fraction, int size) {
     return color + tableEntry(corner + ivec3(1), size) * low;
 }
 
-vec4 displayColor(vec4 hdr) {
+vec3 colorOfTable(vec3 unclamped) {
     int size = textureSize(materialParams_table, 0).y;
-    vec3 light = clamp(hdr.rgb, 0.0, 1e4);
+    vec3 light = clamp(unclamped, 0.0, 1e4);
     vec3 at = vec3(toneTableCoordinate(light.x), toneTableCoordinate(light.y), toneTableCoordinate(light.z)) *
             float(size - 1);
     vec3 corner = min(floor(at), vec3(float(size - 2)));
-    return vec4(dithered(interpolatedEntry(ivec3(corner), at - corner, size)), hdr.a);
+    return interpolatedEntry(ivec3(corner), at - corner, size);
 }

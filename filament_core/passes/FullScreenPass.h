@@ -1,0 +1,67 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FullScreenPass: draws a material of the domain postprocess over every pixel of a target. An effect is one .mat file and
+/// one call:
+///
+///   FullScreenInput inputs[] = { { .name = "color", .texture = hdr }, { .name = "dirt", .image = dirt } };
+///   FullScreenValue values[] = { { "strength", 0.04f } };
+///   addFullScreenPass(graph, context, { "bloom", bloom, inputs, values, half });
+///
+///   Inputs  A currentPixel input is a subpass input if the graph can merge the pass with the one that wrote it;
+///           otherwise it is sampled. The material contains both forms, and both give the same bits.
+///   Target  getResolution() and getNormalizedUV() use the size of the level that is drawn to.
+///   Checks  checkFullScreenMaterial(), once, when the material is loaded: names, types and domain. Later, a name that
+///           was not checked is a bug and asserts.
+///   Thread  the app thread.   Memory: the arena of the graph. A steady frame allocates nothing.
+#pragma once
+
+#include "filament_core/passes/FrameContext.h"
+
+#include <filament/Objects.h>
+
+#include <span>
+#include <string_view>
+
+namespace filament::passes {
+
+struct FullScreenParameter {
+    std::string_view name;
+    ParameterType type = ParameterType::Float;
+};
+
+/// What a pass gives its material: names of textures, names and types of values.
+struct FullScreenInterface {
+    std::string_view pass; ///< for errors
+    std::span<const std::string_view> inputs{};
+    std::span<const FullScreenParameter> values{};
+};
+
+/// Checks that the material has everything that the pass gives, and that the pass gives everything that the material has.
+/// Textures that the material's constants switch off (usedIf) may be missing.
+///   Fails   NotFound or InvalidArgument; one line that names the material, the pass and the parameter.
+Result<void> checkFullScreenMaterial(scene::Material const& material, FullScreenInterface const& given);
+
+struct FullScreenInput {
+    std::string_view name{};          ///< of the parameter
+    framegraph::TextureId texture{};  ///< a texture of the graph, or
+    backend::TextureHandle image{};   ///< a texture that the graph does not know: a table, noise
+    backend::SamplerHandle sampler{}; ///< none: the nearest texel
+};
+
+struct FullScreenValue {
+    std::string_view name;
+    ParameterValue value;
+};
+
+struct FullScreenPass {
+    std::string_view name;
+    scene::Material const& material;
+    std::span<const FullScreenInput> inputs{};
+    std::span<const FullScreenValue> values{};
+    framegraph::TextureId target{};
+    uint8_t level = 0; ///< of the target
+};
+
+framegraph::PassId addFullScreenPass(framegraph::FrameGraph& graph, FrameContext const& context,
+                                     FullScreenPass const& pass);
+
+} // namespace filament::passes
