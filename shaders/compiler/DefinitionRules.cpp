@@ -84,46 +84,55 @@ constexpr Contradiction kContradictions[] = {
       "reflections", "an unlit material reflects nothing; use shadingModel : lit" },
 };
 
-uint32_t texturesOfPass(MaterialPackage const& package) {
-    const backend::BindGroupLayout pass = passGroupLayout(passKind(package.domain, package.shading));
-    return static_cast<uint32_t>(std::count_if(
-            pass.bindings.begin(), pass.bindings.begin() + pass.count,
-            [](backend::BindingDesc const& binding) { return binding.type == backend::BindingType::SampledTexture; }));
+bool readsScreen(MaterialPackage const& package) {
+    return package.refractionMode == RefractionMode::ScreenSpace || package.reflections == Reflections::ScreenSpace;
+}
+bool hasFog(MaterialPackage const& package) { return (package.filteredVariants & kVariantFog) == 0; }
+
+/// Chapter 7 of the guide. The first binding of a group is the block of parameters.
+uint32_t budgetOfLevel(MaterialPackage const& package) {
+    if (package.featureLevel == 3) return std::min(16u, uint32_t{ backend::kMaxBindings } - 1);
+    const uint32_t guaranteed = package.shading == ShadingModel::Unlit ? 12u : readsScreen(package) ? 8u : 9u;
+    return guaranteed + (hasFog(package) ? 0 : 1);
 }
 
-/// Chapter 7 of the guide, without this engine's own limits.
-uint32_t budgetOfLevel(MaterialDefinition const& definition) {
-    MaterialPackage const& package = definition.package;
-    if (package.featureLevel == 3) return 16;
-    const bool readsScreen =
-            package.refractionMode == RefractionMode::ScreenSpace || package.reflections == Reflections::ScreenSpace;
-    const uint32_t fogTexture = (package.filteredVariants & kVariantFog) != 0 ? 1 : 0;
-    return (isUnlit(definition) ? 12u : readsScreen ? 8u : 9u) + fogTexture;
+/// "7 are the engine's: environment, lighting tables, ..."
+std::string engineShare(MaterialPackage const& package) {
+    const PassKind kind = passKind(package.domain, package.shading);
+    const uint32_t count = samplersOfEngine(kind, readsScreen(package), hasFog(package));
+    std::string names;
+    for (EngineTexture const& texture : kEngineTextures) {
+        const bool isRead = isReadBy(texture, kind) || (readsScreen(package) && texture.readers == kReadByScreenSpace);
+        if (!isRead || (!hasFog(package) && (texture.readers & kReadForFog) != 0)) continue;
+        names += fmt::format("{}{}", names.empty() ? ": " : ", ", texture.name);
+    }
+    return fmt::format("{} are the engine's{}", count, names);
 }
 
 Result<void> checkSamplers(MaterialDefinition const& definition) {
+    MaterialPackage const& package = definition.package;
     const uint32_t budget = samplerBudget(definition);
     uint32_t count = 0;
-    for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
-        Parameter const& parameter = definition.package.parameters[i];
+    for (size_t i = 0; i < package.parameters.size(); ++i) {
+        Parameter const& parameter = package.parameters[i];
         if (!isTexture(parameter.type) || ++count <= budget) continue;
-        const char* const cure = definition.package.featureLevel < 3 ? "; a higher featureLevel allows more" : "";
+        const std::string why =
+                package.featureLevel < 3
+                        ? fmt::format("every device has {} a stage, of which {}; featureLevel : 3 allows more, where a "
+                                      "device has more",
+                                      kSamplersOfEveryDevice, engineShare(package))
+                        : "a bind group holds no more";
         return errorAt(definition.parameterSources[i].at,
                        fmt::format("sampler '{}' is one too many: a material of this kind and featureLevel {} has at "
-                                   "most {}{}",
-                                   parameter.name, definition.package.featureLevel, budget, cure));
+                                   "most {}; {}",
+                                   parameter.name, package.featureLevel, budget, why));
     }
     return {};
 }
 
 } // namespace
 
-uint32_t samplerBudget(MaterialDefinition const& definition) {
-    constexpr uint32_t kTexturesOfAStage = 16; // what both APIs offer to every fragment stage
-    const uint32_t room = std::min(kTexturesOfAStage - texturesOfPass(definition.package),
-                                   uint32_t{ backend::kMaxBindings } - 1); // the first is the block of parameters
-    return std::min(room, budgetOfLevel(definition));
-}
+uint32_t samplerBudget(MaterialDefinition const& definition) { return budgetOfLevel(definition.package); }
 
 Result<void> checkRules(MaterialDefinition const& definition) {
     for (Contradiction const& contradiction : kContradictions) {

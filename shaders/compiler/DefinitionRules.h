@@ -9,8 +9,8 @@ namespace filament::shader {
 
 Result<void> checkRules(MaterialDefinition const& definition);
 
-/// Materials guide, 13 and 7: by feature level, shading model and filter; never more than a fragment stage of 16
-/// textures has room for beside those of the view.
+/// Materials guide, table 13 and chapter 7: by feature level, shading model and filter. Below level 3 it is what
+/// shaders/interface/SamplerBudget.h leaves to a material that every device can draw, or less.
 uint32_t samplerBudget(MaterialDefinition const& definition);
 
 } // namespace filament::shader

@@ -46,13 +46,21 @@ backend::BindGroupLayout passGroupLayout(PassKind kind) {
     using backend::ShaderStage;
     backend::BindGroupLayout layout;
     layout.bindings[layout.count++] = { .binding = kBindingPass, .type = BindingType::UniformBuffer };
-    if (kind != PassKind::Lit) return layout;
-    for (const PassBinding binding : { kBindingSpecular, kBindingDfg, kBindingIrradiance }) {
-        layout.bindings[layout.count++] = { .binding = binding,
+    for (EngineTexture const& texture : kEngineTextures) {
+        if (texture.binding == kNotMadeYet || !isReadBy(texture, kind)) continue;
+        layout.bindings[layout.count++] = { .binding = texture.binding,
                                             .type = BindingType::SampledTexture,
                                             .stages = ShaderStage::Fragment };
     }
     return layout;
+}
+
+uint32_t samplerCount(backend::BindGroupLayout const& group) {
+    const auto isSampler = [](backend::BindingDesc const& binding) {
+        return binding.type == backend::BindingType::SampledTexture && binding.stages != backend::ShaderStage::Vertex;
+    };
+    const auto bindings = std::span(group.bindings).first(group.count);
+    return static_cast<uint32_t>(std::ranges::count_if(bindings, isSampler));
 }
 
 backend::BindGroupLayout deformationGroupLayout() {

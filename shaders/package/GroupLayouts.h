@@ -1,36 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-/// The shapes of the bind groups that the engine binds. They do not depend on what a shader happens to read, so that
-/// groups stay bound across materials: the View group is the same for every program, and the Pass group for all of a
-/// kind.
+/// The layouts of the bind groups that the engine binds. They are fixed, whatever a shader reads, so that groups stay
+/// bound across materials: every program has the same View group, and all programs of a kind the same Pass group.
 ///   Thread  any. Fails: never.
 #pragma once
 
+#include "shaders/interface/SamplerBudget.h"
 #include "shaders/package/Package.h"
 
 namespace filament::shader {
-
-/// What the Pass group of a material holds besides PassUniforms.
-enum class PassKind : uint8_t {
-    Lit,     ///< surfaces under lights: the textures of the environment
-    Unlit,   ///< surfaces that light does not reach, the sky among them
-    Picture, ///< the domain postprocess
-};
-inline constexpr size_t kPassKinds = 3;
 
 PassKind passKind(MaterialDomain domain, ShadingModel shading);
 
 /// Every ViewBinding.
 backend::BindGroupLayout viewGroupLayout();
 
-/// The PassBindings of such materials.
+/// PassUniforms, and those of kEngineTextures that such materials read.
 backend::BindGroupLayout passGroupLayout(PassKind kind);
+
+/// Samplers that a group takes in the fragment stage.
+uint32_t samplerCount(backend::BindGroupLayout const& group);
 
 /// Every DeformationBinding. Of the vertex stage alone: uniforms that fragments see cost far more to bind again.
 backend::BindGroupLayout deformationGroupLayout();
 
-/// What the programs of a variant are made with: the layout of the package; with the Deformation group where the
-/// variant deforms; with subpass inputs in place of the currentPixel textures where it is merged. These then are colour
-/// attachments 0, 1, ... in the order of the parameters.
+/// The layout for the programs of a variant: that of the package, with the Deformation group if the variant deforms, and
+/// with subpass inputs instead of currentPixel textures if it is merged. These read colour attachments 0, 1, ... in the
+/// order of the parameters.
 backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t variantKey);
 
 } // namespace filament::shader

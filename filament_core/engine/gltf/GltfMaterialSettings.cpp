@@ -51,7 +51,7 @@ bool sharesTexel(TextureRef const& a, TextureRef const& b) {
 /// Collects the settings of one material; what is absent leaves no trace.
 class Settings {
 public:
-    explicit Settings(std::string package) { mSettings.package = std::move(package); }
+    Settings(std::string package, size_t maxMaps) : mMaxMaps(maxMaps) { mSettings.package = std::move(package); }
 
     void constant(const char* name, std::variant<bool, int32_t, float> value) {
         mSettings.constants.push_back({ name, value });
@@ -60,13 +60,13 @@ public:
     void parameter(const char* name, ParameterValue const& value) { mSettings.parameters.push_back({ name, value }); }
 
     void map(const char* stem, const char* has, TextureRef const& texture) {
-        if (texture.image == kNone) return;
+        if (texture.image == kNone || !hasRoomFor(stem)) return;
         feature(has);
         addMap(stem, texture);
     }
 
     void maps(const char* stem, const char* hasFirst, const char* hasSecond, TexturePair const& pair) {
-        if (pair.texture.image == kNone) return;
+        if (pair.texture.image == kNone || !hasRoomFor(stem)) return;
         if (pair.hasFirst) feature(hasFirst);
         if (pair.hasSecond) feature(hasSecond);
         addMap(stem, pair.texture);
@@ -75,12 +75,18 @@ public:
     GltfMaterialSettings take() { return std::move(mSettings); }
 
 private:
+    bool hasRoomFor(const char* stem) {
+        if (mSettings.maps.size() < mMaxMaps) return true;
+        mSettings.leftOut.emplace_back(stem);
+        return false;
+    }
     void addMap(std::string const& stem, TextureRef const& texture) {
         if (texture.uvSet != 0) mSettings.constants.push_back({ stem + "Uv", static_cast<int32_t>(texture.uvSet) });
         if (texture.hasTransform) mSettings.constants.push_back({ stem + "Transform", true });
         mSettings.maps.push_back({ stem, texture });
     }
 
+    size_t mMaxMaps;
     GltfMaterialSettings mSettings;
 };
 
@@ -108,10 +114,11 @@ void setCommonMaps(Settings& settings, MaterialData const& material) {
     settings.parameter("occlusionStrength", material.occlusionStrength);
     settings.parameter("emissiveFactor", material.emissiveFactor * material.emissiveStrength);
     settings.map("normal", "hasNormalMap", material.normal);
-    settings.map("occlusion", "hasOcclusionMap", material.occlusion);
-    settings.map("emissive", "hasEmissiveMap", material.emissive);
     if (!material.specularGlossiness && sharesTexel(material.occlusion, material.metallicRoughness))
         settings.feature("occlusionInMetallicRoughness");
+    else
+        settings.map("occlusion", "hasOcclusionMap", material.occlusion);
+    settings.map("emissive", "hasEmissiveMap", material.emissive);
 }
 
 void setClearCoat(Settings& settings, assets::ClearCoatData const& coat) {
@@ -188,8 +195,8 @@ void setTransmission(Settings& settings, assets::TransmissionData const& data, f
 
 } // namespace
 
-GltfMaterialSettings settingsOf(MaterialData const& material, bool hasVertexColor, float scale) {
-    Settings settings(withSuffix(familyOf(material), material.alphaMode));
+GltfMaterialSettings settingsOf(MaterialData const& material, bool hasVertexColor, float scale, size_t maxMaps) {
+    Settings settings(withSuffix(familyOf(material), material.alphaMode), maxMaps);
     setCore(settings, material, hasVertexColor);
     if (material.unlit) return settings.take();
     material.specularGlossiness ? setSpecularGlossiness(settings, *material.specularGlossiness)

@@ -28,9 +28,12 @@ struct GltfMaterialSettings {
     std::vector<MaterialConstant> constants; ///< only those that differ from the defaults
     std::vector<std::pair<const char*, ParameterValue>> parameters;
     std::vector<GltfMap> maps;
+    std::vector<std::string> leftOut; ///< stems of maps that did not fit; only their factors count
 };
 
 /// `scale`: metres in the file's scene per metre of the mesh, > 0; the absorption of a volume grows with it.
-GltfMaterialSettings settingsOf(assets::MaterialData const& material, bool hasVertexColor, float scale = 1);
+/// `maxMaps`: maps that the device can sample beside the engine's textures; the maps of the last layers go first.
+GltfMaterialSettings settingsOf(assets::MaterialData const& material, bool hasVertexColor, float scale = 1,
+                                size_t maxMaps = SIZE_MAX);
 
 } // namespace filament

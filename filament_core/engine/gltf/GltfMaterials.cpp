@@ -2,6 +2,7 @@
 #include "filament_core/engine/gltf/GltfMaterials.h"
 
 #include "base/Log.h"
+#include "shaders/package/GroupLayouts.h"
 
 namespace filament {
 namespace {
@@ -23,6 +24,11 @@ void require(Result<void> const& result) {
 
 } // namespace
 
+size_t GltfMaterials::maxMaps() const {
+    const uint32_t ofEngine = shader::samplerCount(shader::passGroupLayout(shader::PassKind::Lit));
+    return mEngine.stream->info().limits.maxTextureUnits - ofEngine; // never below 16 in all
+}
+
 Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
     Material& shared = mMaterials[keyOf(settings)];
     if (!shared) {
@@ -37,7 +43,12 @@ Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
 }
 
 MaterialInstance GltfMaterials::instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale) {
-    const GltfMaterialSettings settings = settingsOf(material, hasVertexColor, scale);
+    const GltfMaterialSettings settings = settingsOf(material, hasVertexColor, scale, maxMaps());
+    for (std::string const& map : settings.leftOut) {
+        log(Severity::Warning,
+            "material '{}': its {} map is left out, because {} samples no more than {} textures a stage", material.name,
+            map, mEngine.device.device, mEngine.stream->info().limits.maxTextureUnits);
+    }
     const Material parent = materialFor(settings);
     mModel.instances.push_back({});
     const MaterialInstance instance = mModel.instances.back() = mEngine.createInstance(parent, material.name);

@@ -21,6 +21,7 @@ public:
     MaterialInstance instanceFor(assets::MaterialData const& material, bool hasVertexColor, float scale);
 
 private:
+    size_t maxMaps() const;
     Material materialFor(GltfMaterialSettings const& settings);
 
     Engine::Impl& mEngine;

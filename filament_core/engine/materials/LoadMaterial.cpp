@@ -4,6 +4,8 @@
 #include "base/Suggest.h"
 #include "filament_core/engine/materials/ConstantBits.h"
 #include "filament_core/engine/materials/DescribeMaterial.h"
+#include "shaders/interface/ShaderInterface.h"
+#include "shaders/package/GroupLayouts.h"
 #include "shaders/package/RemoveUnusedTextures.h"
 
 #include <utility>
@@ -59,6 +61,16 @@ Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     shader::removeUnusedTextures(material.package, material.constants);
     material.description = describeMaterial(material);
     return material;
+}
+
+Result<void> checkSamplers(scene::Material const& material, uint32_t units, std::string_view device) {
+    const uint32_t own = shader::samplerCount(material.package.layout[shader::kGroupMaterial]);
+    const uint32_t engines = shader::samplerCount(material.package.layout[shader::kGroupPass]);
+    if (own + engines <= units) return {};
+    return fail(ErrorCode::Unsupported,
+                "material '{}' samples {} textures, {} of them the engine's, and {} has {} a stage; leave some out, or "
+                "load it with constants that switch them off (usedIf)",
+                material.name, own + engines, engines, device, units);
 }
 
 } // namespace filament::engine

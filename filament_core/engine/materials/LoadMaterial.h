@@ -14,4 +14,8 @@ namespace filament::engine {
 
 Result<scene::Material> loadMaterial(MaterialDesc const& desc);
 
+/// Whether a device that samples `units` textures a stage can draw it (shaders/interface/SamplerBudget.h).
+///   Fails   Unsupported, naming the material, what it needs and what `device` has.
+Result<void> checkSamplers(scene::Material const& material, uint32_t units, std::string_view device);
+
 } // namespace filament::engine

@@ -36,6 +36,8 @@ Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
                     "first (it lacks VK_EXT_provoking_vertex); use interpolation : smooth",
                     loaded->name, device.device);
     }
+    const Result<void> fits = engine::checkSamplers(*loaded, stream->info().limits.maxTextureUnits, device.device);
+    if (!fits) return fits.error();
     explainScreenSpace(*loaded);
     loaded->id = nextMaterialId++;
     return materials.add(std::move(*loaded));
@@ -60,8 +62,9 @@ Material Engine::Impl::engineMaterial(std::string_view package, std::vector<Mate
     return *material;
 }
 
-scene::Material const& Engine::Impl::fullScreenMaterial(std::string_view package, std::vector<MaterialConstant> constants,
-                                                  passes::FullScreenInterface const& given) {
+scene::Material const& Engine::Impl::fullScreenMaterial(std::string_view package,
+                                                        std::vector<MaterialConstant> constants,
+                                                        passes::FullScreenInterface const& given) {
     scene::Material const& material = materials.get(engineMaterial(package, std::move(constants)));
     const Result<void> fits = passes::checkFullScreenMaterial(material, given);
     if (!fits) log(Severity::Error, "{}", fits.error().message);

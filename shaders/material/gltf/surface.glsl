@@ -16,9 +16,9 @@ void gltfSurface(inout MaterialInputs material) {
         material.roughness *= surface.g;
         material.metallic *= surface.b;
     }
-    if (materialConstants_hasOcclusionMap) {
+    if (materialConstants_hasOcclusionMap || materialConstants_occlusionInMetallicRoughness) {
         float occlusion = surface.r;
-        if (!materialConstants_occlusionInMetallicRoughness) occlusion = gltfOcclusion();
+        if (materialConstants_hasOcclusionMap) occlusion = gltfOcclusion();
         material.ambientOcclusion = occlusionOf(occlusion);
     }
     material.emissive = gltfEmissive();

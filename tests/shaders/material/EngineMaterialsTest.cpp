@@ -4,9 +4,13 @@
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/GroupLayouts.h"
 #include "shaders/package/Package.h"
+#include "shaders/package/RemoveUnusedTextures.h"
 #include "tests/shaders/compiler/SpirvTools.h"
 
 #include <gtest/gtest.h>
+
+#include <algorithm>
+#include <bit>
 
 namespace filament::shader {
 namespace {
@@ -38,6 +42,66 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
         EXPECT_EQ(package.layout[kGroupView], viewGroupLayout()) << name;
         EXPECT_EQ(package.layout[kGroupPass], passGroupLayout(passKind(package.domain, package.shading))) << name;
     }
+}
+
+/// What the engine gives a material of this kind when every effect is on.
+uint32_t engineShare(MaterialPackage const& package) {
+    const bool screen =
+            package.refractionMode == RefractionMode::ScreenSpace || package.reflections == Reflections::ScreenSpace;
+    return samplersOfEngine(passKind(package.domain, package.shading), screen);
+}
+
+uint32_t ownSamplers(MaterialPackage const& package, uint16_t key) {
+    return samplerCount(programLayout(package, key)[kGroupMaterial]);
+}
+
+// Of every material what no constant can switch off, and of those below level 3 all, fits into any device.
+TEST(EngineMaterials, FitEveryDeviceInEveryVariantWithEveryEffectOn) {
+    for (const std::string_view name : engineMaterialNames()) {
+        const MaterialPackage package = read(name);
+        const auto alwaysRead = std::ranges::count_if(package.parameters, [](Parameter const& parameter) {
+            return isTexture(parameter.type) && parameter.usedIf.empty();
+        });
+        for (Variant const& variant : package.variants) {
+            EXPECT_LE(alwaysRead + engineShare(package), kSamplersOfEveryDevice) << name << " " << variant.key;
+            if (package.featureLevel == 3) continue; // the next test's
+            EXPECT_LE(ownSamplers(package, variant.key) + engineShare(package), kSamplersOfEveryDevice)
+                    << name << " " << variant.key;
+            EXPECT_EQ(samplerCount(programLayout(package, variant.key)[kGroupDeformation]), 0u)
+                    << "of the vertex stage";
+        }
+    }
+}
+
+/// Each texture that can be switched off, on or off by the bits of `used`.
+std::vector<backend::ConstantValue> constantsFor(MaterialPackage const& package, uint32_t used) {
+    std::vector<backend::ConstantValue> constants;
+    uint32_t bit = 0;
+    for (Parameter const& parameter : package.parameters) {
+        if (parameter.usedIf.empty()) continue;
+        constants.push_back({ .id = parameter.usedIf.back(), .bits = used >> bit++ & 1 });
+    }
+    return constants;
+}
+
+TEST(EngineMaterials, OfLevelThreeFitEveryDeviceWithAnyNineOfTheirTextures) {
+    uint32_t materials = 0;
+    for (const std::string_view name : engineMaterialNames()) {
+        MaterialPackage whole = read(name);
+        if (whole.featureLevel < 3) continue;
+        whole.variants.clear(); // their layouts follow from the package's
+        const uint32_t all = samplerCount(whole.layout[kGroupMaterial]);
+        EXPECT_EQ(all, 12u) << name << ": all of them need a device with " << all + engineShare(whole);
+        for (uint32_t used = 0; used < 1u << all; ++used) {
+            MaterialPackage package = whole;
+            removeUnusedTextures(package, constantsFor(whole, used));
+            const uint32_t left = samplerCount(package.layout[kGroupMaterial]);
+            ASSERT_EQ(left, std::max(1, std::popcount(used))) << name << " " << used;
+            ASSERT_EQ(left + engineShare(whole) <= kSamplersOfEveryDevice, left <= 9u) << name << " " << used;
+        }
+        ++materials;
+    }
+    EXPECT_EQ(materials, 7u);
 }
 
 TEST(EngineMaterials, AreAnEmptySpanForAnUnknownName) { EXPECT_TRUE(engineMaterial("gltf_lit").empty()); }

@@ -165,6 +165,32 @@ MaterialData everything() {
     return material;
 }
 
+TEST(GltfMaterialSettings, AnOcclusionMapInTheTexelsOfAnotherIsNoMapOfItsOwn) {
+    MaterialData material;
+    material.metallicRoughness = material.occlusion = texture(3);
+    EXPECT_THAT(mapsOf(settingsOf(material, false)), UnorderedElementsAre("metallicRoughness"));
+    EXPECT_THAT(constantsOf(settingsOf(material, false)),
+                UnorderedElementsAre("hasMetallicRoughnessMap", "occlusionInMetallicRoughness"));
+    material.occlusion.uvSet = 1;
+    EXPECT_THAT(mapsOf(settingsOf(material, false)), UnorderedElementsAre("metallicRoughness", "occlusion"));
+}
+
+TEST(GltfMaterialSettings, WhereADeviceSamplesFewTexturesTheLastLayersGoWithoutMaps) {
+    MaterialData material = everything();
+    material.occlusion = texture(1); // a map of its own
+    const std::vector<std::string> all = mapsOf(settingsOf(material, false));
+    for (size_t room = 5; room <= all.size(); ++room) {
+        const GltfMaterialSettings settings = settingsOf(material, false, 1, room);
+        EXPECT_EQ(mapsOf(settings), std::vector(all.begin(), all.begin() + static_cast<ptrdiff_t>(room)));
+        EXPECT_EQ(settings.leftOut, std::vector(all.begin() + static_cast<ptrdiff_t>(room), all.end()));
+    }
+    const GltfMaterialSettings five = settingsOf(material, false, 1, 5);
+    EXPECT_THAT(mapsOf(five),
+                UnorderedElementsAre("baseColor", "metallicRoughness", "normal", "occlusion", "emissive"));
+    EXPECT_THAT(constantsOf(five), testing::Contains("hasClearCoat"));
+    EXPECT_THAT(constantsOf(five), testing::Not(testing::Contains("hasClearCoatMap")));
+}
+
 // The engine takes it for its own defect if it is otherwise, and stops.
 TEST(GltfMaterialSettings, EverySettingIsNamedByItsPackage) {
     std::vector<MaterialData> materials(6, everything());
