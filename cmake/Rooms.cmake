@@ -21,9 +21,10 @@ if(FILAMENT_SANITIZE)
     target_link_options(filament_options INTERFACE -fsanitize=${FILAMENT_SANITIZE})
 endif()
 
-# ---- precompiled headers: one for the rooms and tools, one for the tests, each compiled once and used by many targets.
-# A compiler takes them only where every option agrees: programs' mains (-fPIE) and files that are optimised otherwise
-# go without.
+# ---- precompiled headers: what most files include of other projects, parsed once for all rooms and tools and once for
+# all tests. Nothing of ours: an edit rebuilds no more than without. Every file still includes what it uses. The compiler
+# takes a precompiled header only where every option agrees: programs' mains (-fPIE) and files that are optimised in
+# another way go without.
 option(FILAMENT_PCH "Precompile what most files include; OFF shows whether each file includes what it uses" ON)
 
 # ccache keeps objects that came from a precompiled header only if it is told that no macro of the date matters.
@@ -34,23 +35,31 @@ foreach(language C CXX)
     endif()
 endforeach()
 
-function(filament_precompiled_header name)
-    cmake_parse_arguments(ARG "" "HEADER" "LINK;OPTIONS" ${ARGN})
+function(filament_precompile name)
+    cmake_parse_arguments(ARG "" "" "HEADERS;LINK;OPTIONS" ${ARGN})
     if(FILAMENT_PCH)
         set(source ${CMAKE_BINARY_DIR}/precompiled/${name}.cpp)
-        file(CONFIGURE OUTPUT ${source} CONTENT "// carries ${ARG_HEADER}\n")
+        file(CONFIGURE OUTPUT ${source} CONTENT "// a target needs a source\n")
         add_library(${name} OBJECT ${source})
         target_link_libraries(${name} PRIVATE filament_options ${ARG_LINK})
         target_compile_options(${name} PRIVATE ${ARG_OPTIONS})
-        target_precompile_headers(${name} PRIVATE <cmake/precompiled/${ARG_HEADER}>)
+        target_precompile_headers(${name} PRIVATE ${ARG_HEADERS})
     endif()
 endfunction()
 
-function(filament_use_precompiled target header)
-    if(TARGET ${header})
-        target_precompile_headers(${target} REUSE_FROM ${header})
+function(filament_use_precompiled target name)
+    if(TARGET ${name})
+        target_precompile_headers(${target} REUSE_FROM ${name})
     endif()
 endfunction()
+
+set(FILAMENT_PRECOMPILED
+    <algorithm> <array> <atomic> <cmath> <cstdint> <cstring> <filesystem> <functional> <memory> <mutex> <optional> <span>
+    <string> <string_view> <unordered_map> <utility> <variant> <vector> <fmt/format.h> <glm/common.hpp>
+    <glm/geometric.hpp> <glm/mat3x3.hpp> <glm/mat4x4.hpp>)
+set(FILAMENT_PRECOMPILED_TESTS ${FILAMENT_PRECOMPILED}
+    <gmock/gmock.h> <gtest/gtest.h> <chrono> <cstdio> <cstdlib> <fstream> <limits> <map> <numeric> <random> <set> <sstream>
+    <thread>)
 
 # filament_core/scene -> scene, backend/vulkan -> backend_vulkan
 function(filament_room_name folder result)

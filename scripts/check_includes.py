@@ -88,7 +88,7 @@ GENERATED = re.compile(r"generated/")  # written by the build, not in the tree
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SOURCES = {".h", ".cpp", ".inl"}
-SKIPPED = {"build", "out", ".git", "cmake"}
+SKIPPED = {"build", "out", ".git"}
 
 
 def room_of(path):
