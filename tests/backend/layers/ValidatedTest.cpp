@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Size: objectCases() and drawCases() are tables: one rule of the driver contract a line.
 // One case a rule: a correct world, one broken command, the words of the message, and whether a driver still sees it.
 #include "backend/layers/Validated.h"
 

@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Size: AllReachTheirFields is a list: every option once on a command line, every field once.
 #include "tools/filament-render/Options.h"
 
 #include <gmock/gmock.h>

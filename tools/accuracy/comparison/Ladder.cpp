@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Size: allRungs() is a table: one rung of the ladder after the other.
 #include "tools/accuracy/comparison/Ladder.h"
 
 #include <algorithm>

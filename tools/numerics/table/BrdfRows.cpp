@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Size: parameterRows() is a table: one row for each function.
 #include "tools/numerics/table/Call.h"
 
 namespace filament::shader::numerics {

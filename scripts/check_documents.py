@@ -1,0 +1,76 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+"""Checks the documents: every file that a .md or .html file links to or shows is there, and no picture lies about unused.
+
+  scripts/check_documents.py [--root DIR]     prints file:line: what is wrong; exit status 1 if anything is
+
+Pictures are the .png and .svg files below docs/. Links to other hosts and to places within a page are not followed.
+"""
+import argparse
+import html
+import pathlib
+import re
+import subprocess
+import sys
+import urllib.parse
+
+# [text](target) and ![text](target "title"); src="target" and href="target"
+LINKS = {
+    ".md": re.compile(r"\]\(\s*<?([^)\s>]+)>?(?:\s+\"[^\"]*\")?\s*\)|\b(?:src|href)=\"([^\"]*)\""),
+    ".html": re.compile(r"\b(?:src|href)=\"([^\"]*)\"()"),
+}
+PICTURES = {".png", ".svg"}
+
+
+def without_code(text):
+    """Markdown with its code blocks and code spans blanked; lines stay where they are."""
+    blank = lambda found: re.sub(r"[^\n]", " ", found[0])
+    return re.sub(r"^```.*?^```|`[^`\n]*`", blank, text, flags=re.DOTALL | re.MULTILINE)
+
+
+def tracked(root):
+    listed = subprocess.run(["git", "-C", root, "ls-files", "-co", "--exclude-standard", "-z"], capture_output=True, text=True,
+                            check=False)
+    names = listed.stdout.split("\0") if listed.returncode == 0 else [str(p.relative_to(root)) for p in root.rglob("*")]
+    return [root / name for name in sorted(filter(None, names)) if (root / name).is_file()]
+
+
+def targets(document):
+    """(line, path) of every file that the document names."""
+    text = document.read_text(encoding="utf-8")
+    text = without_code(text) if document.suffix == ".md" else text
+    for found in LINKS[document.suffix].finditer(text):
+        target = urllib.parse.unquote(html.unescape(found[1] or found[2]).split("#")[0])
+        if target and not re.match(r"[a-z]+:", target):
+            yield text.count("\n", 0, found.start()) + 1, document.parent / target
+
+
+def check(root):
+    """What is wrong, one line each, and how many documents there are."""
+    files = tracked(root)
+    documents = [file for file in files if file.suffix in LINKS]
+    wrong, shown = [], set()
+    for document in documents:
+        for line, target in targets(document):
+            shown.add(target.resolve())
+            if not target.exists():
+                wrong.append(f"{document.relative_to(root)}:{line}: there is no {target.relative_to(document.parent)}")
+    for file in files:
+        if file.suffix in PICTURES and file.relative_to(root).parts[0] == "docs" and file.resolve() not in shown:
+            wrong.append(f"{file.relative_to(root)}:1: no document shows this picture")
+    return wrong, len(documents)
+
+
+def main():
+    parser = argparse.ArgumentParser(description="Checks the links and pictures of the documents.")
+    parser.add_argument("--root", type=pathlib.Path, default=pathlib.Path(__file__).resolve().parents[1])
+    root = parser.parse_args().root.resolve()
+    wrong, count = check(root)
+    for line in wrong:
+        print(line)
+    print(f"documents: {count} files, {len(wrong)} wrong")
+    sys.exit(1 if wrong or not count else 0)
+
+
+if __name__ == "__main__":
+    main()

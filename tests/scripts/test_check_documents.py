@@ -1,0 +1,54 @@
+# SPDX-License-Identifier: Apache-2.0
+"""The document checker finds links and pictures that lead nowhere, and pictures that no document shows."""
+import pathlib
+import subprocess
+import sys
+import tempfile
+import unittest
+
+SCRIPT = pathlib.Path(__file__).resolve().parents[2] / "scripts" / "check_documents.py"
+
+
+def check(files):
+    """Exit status and output of the checker over a tree of {path: text}."""
+    with tempfile.TemporaryDirectory() as folder:
+        for name, text in files.items():
+            path = pathlib.Path(folder, name)
+            path.parent.mkdir(parents=True, exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+        done = subprocess.run([sys.executable, SCRIPT, "--root", folder], capture_output=True, text=True, check=False)
+        return done.returncode, done.stdout
+
+
+class Documents(unittest.TestCase):
+    def assert_broken(self, files, words):
+        status, output = check(files)
+        self.assertEqual(status, 1, output)
+        self.assertIn(words, output)
+        self.assertIn(" 1 wrong", output)
+
+    def test_links_and_pictures_that_are_there_are_fine(self):
+        status, output = check({
+            "README.md": "[a](docs/a.md#part) ![b](docs/b.png \"title\") [c](https://example.org/x.md) [d](#here) `[e](no.md)`\n"
+                         "```\n[f](no.md)\n```\n<img src=\"docs/my%20c.svg\">",
+            "docs/a.md": "[up](../README.md) [folder](.)", "docs/b.png": "", "docs/my c.svg": "",
+            "docs/page.html": '<a href="a.md#x"></a><img alt="&amp;" src="page/1&amp;2.png"><img src="data:image/png;base64,AA">',
+            "docs/page/1&2.png": "",
+        })
+        self.assertEqual(status, 0, output)
+        self.assertIn("documents: 3 files, 0 wrong", output)
+
+    def test_what_is_missing_is_reported_with_file_and_line(self):
+        self.assert_broken({"a.md": "\n\n[x](b/c.md)"}, "a.md:3: there is no b/c.md")
+        self.assert_broken({"docs/p.html": '<img src="p/x.png">'}, "docs/p.html:1: there is no p/x.png")
+        self.assert_broken({"a.md": "![x](<x.svg>)"}, "a.md:1: there is no x.svg")
+
+    def test_a_picture_that_no_document_shows_is_reported(self):
+        self.assert_broken({"a.md": "text", "docs/p/x.png": ""}, "docs/p/x.png:1: no document shows this picture")
+
+    def test_a_tree_without_documents_is_an_error(self):
+        self.assertEqual(check({"a.txt": ""})[0], 1)
+
+
+if __name__ == "__main__":
+    unittest.main()
