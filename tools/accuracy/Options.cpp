@@ -33,7 +33,9 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--scenes", words.scenes, "folder of scene files")->type_name("DIR");
     app.add_option("--assets", words.assets, "where \"asset:\" paths of scenes begin")->type_name("DIR");
     app.add_option("-o,--out", words.out, "folder of results.json, results.csv and the plots")->type_name("DIR");
-    app.add_option("--page", words.page, "the report; default: accuracy.html in --out")->type_name("FILE");
+    app.add_option("--page", words.page,
+                   "the report, its pictures in a folder of its name; default: accuracy.html in --out")
+            ->type_name("FILE");
     app.add_option("--include", words.include, "HTML fragments with further sections of the report")
             ->type_name("FILE...");
     app.add_option("--frame", words.frame, "scene of whole frames; default: the showcase")->type_name("SCENE");

@@ -2,11 +2,13 @@
 #include "tools/accuracy/Page.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "tools/accuracy/PagePictures.h"
 #include "tools/common/Console.h"
 #include "tools/common/Html.h"
 #include "tools/paths/Paths.h"
 
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cstdlib>
@@ -67,20 +69,21 @@ std::string tableOf(EffectResult const& result) {
     return html + "</table>";
 }
 
-std::string imageTag(fs::path const& file, std::string const& title) {
-    const auto bytes = assets::readFileBytes(file);
-    if (!bytes) return {};
-    return fmt::format("<img alt=\"{}\" src=\"data:image/svg+xml;base64,{}\">", tools::escapedHtml(title),
-                       tools::base64(*bytes));
+using Plots = std::map<std::string, std::string>;
+
+std::string imageTag(Plots const& plots, std::string const& name, std::string const& title) {
+    const auto plot = plots.find(name);
+    if (plot == plots.end()) return {};
+    return fmt::format("<img alt=\"{}\" src=\"{}\">", tools::escapedHtml(title), tools::escapedHtml(plot->second));
 }
 
-std::string sectionOf(EffectResult const& result, fs::path const& plots) {
+std::string sectionOf(EffectResult const& result, Plots const& plots) {
     Effect const& effect = result.effect;
     std::string reference = describe(effect.reference);
     if (result.referenceError > 0) reference += fmt::format(" (standard error {})", percent(result.referenceError));
     std::string html = fmt::format("<section id=\"{0}\"><h2>{1}</h2><p>{2}</p>", tools::escapedHtml(effect.name),
                                    tools::escapedHtml(effect.title), tools::escapedHtml(effect.question));
-    html += imageTag(plots / (effect.name + ".svg"), effect.title);
+    html += imageTag(plots, effect.name, effect.title);
     html += tableOf(result);
     html += fmt::format("<p class=\"small\">Reference: {}. ", tools::escapedHtml(reference));
     if (!effect.scene.empty()) html += fmt::format("Scene: <code>{}</code>. ", tools::escapedHtml(effect.scene));
@@ -180,7 +183,7 @@ void drawPlots(fs::path const& out) {
     if (std::system(command.c_str()) != 0) tools::printWarning("no plots: tools/plot/plot.py failed");
 }
 
-std::vector<std::string> sectionsOf(ReportPlaces const& places) {
+Result<std::vector<std::string>> sectionsOf(ReportPlaces const& places, PagePictures& pictures) {
     std::vector<fs::path> files = places.include;
     std::error_code error;
     for (auto const& entry : fs::directory_iterator(places.out, error))
@@ -189,19 +192,38 @@ std::vector<std::string> sectionsOf(ReportPlaces const& places) {
     std::vector<std::string> sections;
     for (fs::path const& file : files) {
         const auto bytes = assets::readFileBytes(file);
-        if (bytes)
-            sections.emplace_back(reinterpret_cast<const char*>(bytes->data()), bytes->size());
-        else
+        if (!bytes) {
             tools::printWarning(bytes.error().message);
+            continue;
+        }
+        const std::string fragment(reinterpret_cast<const char*>(bytes->data()), bytes->size());
+        Result<std::string> section = pictures.adopt(fragment, file.parent_path());
+        if (!section) return section.error();
+        sections.push_back(std::move(*section));
     }
     return sections;
 }
 
+/// Of those that could be drawn.
+Result<Plots> plotsOf(Results const& results, fs::path const& folder, PagePictures& pictures) {
+    std::vector<std::string> names{ "frames" };
+    for (EffectResult const& effect : results.effects) names.push_back(effect.effect.name);
+    Plots plots;
+    for (std::string const& name : names) {
+        const fs::path file = folder / (name + ".svg");
+        if (!fs::exists(file)) continue;
+        Result<std::string> address = pictures.add(file);
+        if (!address) return address.error();
+        plots[name] = std::move(*address);
+    }
+    return plots;
+}
+
 } // namespace
 
-std::string htmlOf(Results const& results, fs::path const& plots, std::vector<std::string> const& sections) {
+std::string htmlOf(Results const& results, Plots const& plots, std::vector<std::string> const& sections) {
     std::string html = kHead + introduction(results) + glance(results);
-    if (const std::string frames = imageTag(plots / "frames.svg", "Whole frames"); !frames.empty())
+    if (const std::string frames = imageTag(plots, "frames", "Whole frames"); !frames.empty())
         html += R"(<section><h2>Whole frames</h2><p>Presets, budgets, and every value of every effect alone: time and error of
 the same frame, against a frame with the best value of everything.</p>)" +
                 frames + "</section>";
@@ -217,7 +239,13 @@ Result<void> writeReport(Results const& results, ReportPlaces const& places) {
     if (auto done = writeText(places.out / "results.json", jsonOf(complete).dump(1) + "\n"); !done) return done;
     if (auto done = writeText(places.out / "results.csv", csvOf(complete)); !done) return done;
     if (places.plots) drawPlots(places.out);
-    return writeText(places.page, htmlOf(complete, places.out / "plots", sectionsOf(places)));
+    PagePictures pictures(places.page);
+    const Result<Plots> plots = plotsOf(complete, places.out / "plots", pictures);
+    if (!plots) return plots.error();
+    const Result<std::vector<std::string>> sections = sectionsOf(places, pictures);
+    if (!sections) return sections.error();
+    pictures.removeOthers();
+    return writeText(places.page, htmlOf(complete, *plots, *sections));
 }
 
 } // namespace filament::accuracy

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Page: the report as one HTML file with everything in it: plots, tables, the command beside every number.
-///   Out     OUT/results.json, OUT/results.csv, OUT/plots/NAME.svg, and the page.
+/// Page: the report as an HTML file: plots, tables, the command beside every number.
+///   Out     OUT/results.json, OUT/results.csv, OUT/plots/NAME.svg, the page, and its pictures in a folder of its name
+///           (PagePictures.h).
 ///   Plots   by tools/plot/plot.py; where it cannot run, a warning says why and the page has its tables only.
 ///   Fails   Unreadable with the path.
 ///   Thread  one.
@@ -9,6 +10,9 @@
 #include "tools/accuracy/Results.h"
 
 #include <filesystem>
+#include <map>
+#include <string>
+#include <vector>
 
 namespace filament::accuracy {
 
@@ -18,7 +22,8 @@ struct ReportPlaces {
     bool plots = true;
 };
 
-std::string htmlOf(Results const& results, std::filesystem::path const& plots,
+/// `plots`: where the page finds the plot of each effect, and of "frames".
+std::string htmlOf(Results const& results, std::map<std::string, std::string> const& plots,
                    std::vector<std::string> const& sections);
 
 Result<void> writeReport(Results const& results, ReportPlaces const& places);

@@ -8,6 +8,7 @@
 #include "tools/paths/Paths.h"
 
 #include <gmock/gmock.h>
+#include <nlohmann/json.hpp>
 
 #include <fstream>
 
@@ -176,9 +177,10 @@ TEST(EffectReport, TheTableOfNumbersHasALineForEachValueAndBackend) {
 }
 
 TEST(EffectReport, ThePageNamesMachineCommitAndTheCommandOfEveryRow) {
-    const std::string html = htmlOf(exampleResults(), "nowhere", { "<section>from elsewhere</section>" });
-    for (const char* wanted :
-         { "a machine", "abc1234", "run it", "driver 1", "asset:x.hdr", "from elsewhere", "12.3 %" })
+    const std::string html =
+            htmlOf(exampleResults(), { { "n", "plots/n.svg" } }, { "<section>from elsewhere</section>" });
+    for (const char* wanted : { "a machine", "abc1234", "run it", "driver 1", "asset:x.hdr", "from elsewhere", "12.3 %",
+                                "src=\"plots/n.svg\"" })
         EXPECT_THAT(html, HasSubstr(wanted));
     EXPECT_THAT(html, AllOf(HasSubstr("a &lt; b &amp; c"), Not(HasSubstr("a < b & c"))));
 }

@@ -74,7 +74,7 @@ Json jsonOf(RowResult const& result) {
              { "alternatives", std::move(others) } };
 }
 
-/// Writes a picture and gives it back as an element of the page.
+/// Writes a picture into a folder beside the fragment and returns an element that shows it.
 class Pictures {
 public:
     explicit Pictures(fs::path folder) : mFolder(std::move(folder)) {}
@@ -83,12 +83,11 @@ public:
         const fs::path path = mFolder / (name + ".png");
         if (const Result<void> written = assets::writePng(path, image.width, image.height, image.pixels); !written)
             return written.error();
-        const Result<std::vector<std::byte>> bytes = assets::readFileBytes(path);
-        if (!bytes) return bytes.error();
         return fmt::format(
                 "<figure style=\"display:inline-block;margin:.3rem\"><img width=\"{}\" height=\"{}\" alt=\"{}\" "
-                "src=\"data:image/png;base64,{}\"><figcaption class=\"small\">{}</figcaption></figure>",
-                image.width, image.height, escapedHtml(caption), tools::base64(*bytes), escapedHtml(caption));
+                "src=\"{}/{}\"><figcaption class=\"small\">{}</figcaption></figure>",
+                image.width, image.height, escapedHtml(caption), escapedHtml(mFolder.filename().string()),
+                escapedHtml(path.filename().string()), escapedHtml(caption));
     }
 
 private:

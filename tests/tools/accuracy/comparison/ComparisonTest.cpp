@@ -183,9 +183,16 @@ TEST(Comparison, TheReportHoldsEveryRowItsStepsAndItsCommand) {
     ASSERT_TRUE(written) << written.error().message;
     std::ifstream file(scratch() / "report" / "comparison.fragment.html");
     const std::string html{ std::istreambuf_iterator<char>(file), {} };
-    for (const char* text : { "A &lt;title&gt;", "Missing inter-reflection", "filament-accuracy --compare a-row",
-                              "data:image/png;base64,iVBORw0KGgo", "<section", "</section>" }) {
+    for (const char* text :
+         { "A &lt;title&gt;", "Missing inter-reflection", "filament-accuracy --compare a-row",
+           "src=\"comparison/a-row-engine.png\"", "src=\"comparison/a-row-traced.png\"", "<section", "</section>" }) {
         EXPECT_NE(html.find(text), std::string::npos) << text;
+    }
+    for (const char* name : { "a-row-engine.png", "a-row-traced.png" }) {
+        std::ifstream picture(scratch() / "report/comparison" / name, std::ios::binary);
+        char signature[9] = {};
+        picture.read(signature, 8);
+        EXPECT_STREQ(signature, "\x89PNG\r\n\x1A\n") << name;
     }
     const auto json = jsonOf(*results);
     EXPECT_EQ(json["rows"][0]["steps"].size(), results->rows[0].steps.size());
