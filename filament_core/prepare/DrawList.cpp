@@ -6,9 +6,6 @@
 namespace filament::prepare {
 namespace {
 
-// Whole windows, so that every range begins a draw call.
-constexpr size_t kMergeRange = 16 * shader::kObjectsPerWindow;
-
 struct RangeDraws {
     uint32_t first = 0; // its count, then how many come before it
     uint64_t triangles = 0;

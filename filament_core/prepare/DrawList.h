@@ -7,10 +7,14 @@
 
 #include "filament_core/prepare/CullRenderables.h"
 #include "filament_core/prepare/FramePacket.h"
+#include "shaders/interface/ShaderInterface.h"
 
 #include <span>
 
 namespace filament::prepare {
+
+/// Items that one job merges at a time: whole windows, so that every range begins a draw call.
+inline constexpr size_t kMergeRange = 16 * shader::kObjectsPerWindow;
 
 /// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene.
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,

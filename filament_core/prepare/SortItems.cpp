@@ -7,7 +7,6 @@
 namespace filament::prepare {
 namespace {
 
-constexpr size_t kRange = 16 * 1024;
 constexpr size_t kMaxRanges = 32;
 constexpr uint32_t kDigitBits = 11;
 constexpr uint32_t kDigits = 1u << kDigitBits;
@@ -88,7 +87,7 @@ std::span<const SortItem> sortItems(jobs::JobSystem& jobs, Arena& arena, std::sp
         sortByComparing(items);
         return items;
     }
-    const size_t ranges = std::clamp<size_t>(items.size() / kRange, 1, kMaxRanges);
+    const size_t ranges = std::clamp<size_t>(items.size() / kSortRange, 1, kMaxRanges);
     const auto histograms = arena.arrayForOverwrite<Histogram>(ranges);
     std::span<SortItem> from = items, to = arena.arrayForOverwrite<SortItem>(items.size());
     for (uint32_t i = 0; i < plan.count; ++i) {

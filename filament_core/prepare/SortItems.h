@@ -18,6 +18,9 @@
 
 namespace filament::prepare {
 
+/// Items that one job counts and moves at a time, at least.
+inline constexpr size_t kSortRange = 16 * 1024;
+
 /// The items' `renderable` grow, as culling leaves them: that is what stable refers to.
 std::span<const SortItem> sortItems(jobs::JobSystem& jobs, Arena& arena, std::span<SortItem> items);
 

@@ -8,10 +8,23 @@
 
 #include <gtest/gtest.h>
 
+#include <atomic>
+#include <dlfcn.h>
+#include <hwloc.h>
+#include <latch>
 #include <limits>
 #include <set>
 #include <thread>
 #include <vector>
+
+static std::atomic<int> sLoads = 0;
+
+// Takes the place of hwloc's own function in this program, and counts.
+extern "C" int hwloc_topology_load(hwloc_topology_t topology) {
+    static const auto load = reinterpret_cast<int (*)(hwloc_topology_t)>(dlsym(RTLD_NEXT, "hwloc_topology_load"));
+    ++sLoads;
+    return load(topology);
+}
 
 namespace filament::jobs {
 namespace {
@@ -74,13 +87,28 @@ TEST(Topology, OfAThreadWithOneCoreIsOneCore) {
     EXPECT_EQ(coresOfThisThread(), cores) << "a thread is restricted, not the process";
 }
 
-TEST(Topology, LoadsOnceForThreadsThatAskTogether) {
-    std::vector<std::thread> threads;
+/// How often this process has loaded the machine's description when eight threads have asked for it together; -1 if
+/// they were told different things.
+int loadsForThreadsThatAskTogether() {
     std::vector<Topology> seen(8);
-    for (Topology& topology : seen) threads.emplace_back([&topology] { topology = readTopology(); });
+    std::latch start(std::ssize(seen));
+    std::vector<std::thread> threads;
+    for (Topology& topology : seen) {
+        threads.emplace_back([&] {
+            start.arrive_and_wait();
+            topology = readTopology();
+        });
+    }
     for (std::thread& thread : threads) thread.join();
     for (Topology const& topology : seen)
-        EXPECT_EQ(column(topology, &Cpu::physicalCore), column(seen[0], &Cpu::physicalCore));
+        if (column(topology, &Cpu::physicalCore) != column(seen[0], &Cpu::physicalCore)) return -1;
+    return sLoads;
+}
+
+// In a process of its own, in which nobody has asked before.
+TEST(TopologyDeathTest, LoadsOnceForThreadsThatAskTogether) {
+    GTEST_FLAG_SET(death_test_style, "threadsafe");
+    EXPECT_EXIT(std::_Exit(loadsForThreadsThatAskTogether()), testing::ExitedWithCode(1), "");
 }
 
 // Two caches, each with two cores of two hardware threads.
