@@ -6,6 +6,7 @@
 #include "tools/conformance/JsonReader.h"
 
 #include <fmt/ranges.h>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <array>

@@ -14,7 +14,7 @@
 #include "tools/accuracy/Picture.h"
 #include "tools/accuracy/Statistics.h"
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <filament/Math.h>
 

@@ -9,6 +9,7 @@
 #include <filament/Color.h>
 
 #include <glm/common.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 #include <cmath>

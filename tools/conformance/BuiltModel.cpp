@@ -6,6 +6,7 @@
 #include "tools/showcase/Textures.h"
 
 #include <glm/ext/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <map>

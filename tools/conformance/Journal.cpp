@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Journal.h"
 
+#include <nlohmann/json.hpp>
+
 namespace filament::conformance {
 namespace {
 

@@ -3,6 +3,8 @@
 
 #include "base/Suggest.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
@@ -66,6 +68,18 @@ void JsonReader::read(const char* key, std::vector<std::string>& values) {
             found->is_array() && std::all_of(found->begin(), found->end(), [](Json const& j) { return j.is_string(); });
     if (!texts) return complain(key, "expected a list of texts");
     values = found->get<std::vector<std::string>>();
+}
+
+std::vector<Json const*> JsonReader::list(const char* key) {
+    std::vector<Json const*> elements;
+    Json const* found = find(key);
+    if (!found) return elements;
+    if (!found->is_array()) {
+        complain(key, "expected a list");
+        return elements;
+    }
+    for (Json const& element : *found) elements.push_back(&element);
+    return elements;
 }
 
 void JsonReader::numbers(const char* key, double* values, size_t count) {

@@ -10,7 +10,7 @@
 
 #include <filament/Math.h>
 
-#include <nlohmann/json.hpp>
+#include <nlohmann/json_fwd.hpp>
 
 #include <optional>
 #include <string>
@@ -62,11 +62,9 @@ public:
     /// A list of objects.
     template <class Fill>
     void objects(const char* key, Fill const& fill) {
-        Json const* found = find(key);
-        if (!found) return;
-        if (!found->is_array()) return complain(key, "expected a list");
-        for (size_t i = 0; i < found->size(); ++i)
-            nested((*found)[i], mWhere + path(key) + "[" + std::to_string(i) + "]", fill);
+        const std::vector<Json const*> elements = list(key);
+        for (size_t i = 0; i < elements.size(); ++i)
+            nested(*elements[i], mWhere + path(key) + "[" + std::to_string(i) + "]", fill);
     }
     Json const* raw(const char* key) { return find(key); }
 
@@ -75,6 +73,7 @@ public:
 
 private:
     Json const* find(const char* key);
+    std::vector<Json const*> list(const char* key);
     static std::string path(const char* key) { return std::string(" ") + key; }
 
     template <class Fill>

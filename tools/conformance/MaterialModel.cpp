@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/MaterialModel.h"
 
+#include <nlohmann/json.hpp>
+
 namespace filament::conformance {
 namespace {
 
@@ -18,13 +20,13 @@ void readWords(JsonReader& reader, const char* key, Words& words) {
 
 } // namespace
 
-bool isMaterialModel(SceneSpec const& spec) { return spec.model.is_object() && spec.model.contains("material"); }
+bool isMaterialModel(SceneSpec const& spec) { return spec.modelObject && spec.modelObject->contains("material"); }
 
 Result<MaterialModelFile> readMaterialModel(SceneSpec const& spec) {
     std::string path;
     MaterialModelFile model;
     Words edits;
-    JsonReader reader(spec.model, spec.name + ": model");
+    JsonReader reader(*spec.modelObject, spec.name + ": model");
     reader.read("material", path);
     reader.read("mesh", model.mesh);
     readWords(reader, "edits", edits);

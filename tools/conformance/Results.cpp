@@ -4,6 +4,8 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/conformance/Machines.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 
 namespace filament::conformance {

@@ -44,7 +44,7 @@ Result<fs::path> writeOnce(fs::path const& path, std::function<Result<void>(fs::
 /// One file name for each content.
 Result<fs::path> writeBuiltModel(SceneSpec const& spec, fs::path const& work) {
     const std::string name = spec.name.substr(0, spec.name.find('/'));
-    Result<std::vector<std::byte>> bytes = buildModel(spec.model, name);
+    Result<std::vector<std::byte>> bytes = buildModel(*spec.modelObject, name);
     if (!bytes) return bytes.error();
     const fs::path path = work / "models" / fmt::format("{}-{:016x}.glb", name, hashBytes(*bytes));
     if (fs::exists(path)) return path;
@@ -113,15 +113,15 @@ std::string missingFile(SceneSpec const& spec, fs::path const& assets) {
     const auto missing = [&](std::string const& name) {
         return !fs::exists(resolve(name, spec, assets)) ? name : std::string();
     };
-    if (spec.model.is_string() && spec.model != kShowcase) {
-        if (std::string name = missing(spec.model.get<std::string>()); !name.empty()) return name;
+    if (!spec.modelObject && spec.modelPath != kShowcase) {
+        if (std::string name = missing(spec.modelPath); !name.empty()) return name;
     }
     return isBuiltIn(spec.environment) ? std::string() : missing(spec.environment);
 }
 
 Result<fs::path> modelFile(SceneSpec const& spec, SceneFolders const& folders) {
-    if (!spec.model.is_string()) return writeBuiltModel(spec, folders.work);
-    if (spec.model != kShowcase) return resolve(spec.model.get<std::string>(), spec, folders.assets);
+    if (spec.modelObject) return writeBuiltModel(spec, folders.work);
+    if (spec.modelPath != kShowcase) return resolve(spec.modelPath, spec, folders.assets);
     Result<showcase::Files> files = showcaseFiles(folders.work);
     return files ? Result<fs::path>(files->model) : files.error();
 }

@@ -4,6 +4,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 
 #include <glm/ext/matrix_transform.hpp>
+#include <nlohmann/json.hpp>
 
 #include <algorithm>
 
@@ -139,16 +140,23 @@ void readComparator(JsonReader& reader, Comparator& comparator) {
     reader.read("p99", comparator.flipP99, 0, 1);
 }
 
+void readModel(JsonReader& reader, SceneSpec& spec) {
+    Json const* model = reader.raw("model");
+    if (!model)
+        reader.complain("model", "a scene needs one: a path, \"asset:PATH\" or { \"objects\": [...] }");
+    else if (model->is_string())
+        spec.modelPath = model->get<std::string>();
+    else
+        spec.modelObject = std::make_shared<const Json>(*model);
+}
+
 Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, std::string name) {
     SceneSpec spec{ .name = std::move(name), .folder = file.parent_path() };
     spec.view.size = { 256, 256 };
     JsonReader reader(json, fmt::format("{} ({})", file.filename().string(), spec.name));
     reader.raw("description"); // for people
     reader.raw("features");
-    if (Json const* model = reader.raw("model"))
-        spec.model = *model;
-    else
-        reader.complain("model", "a scene needs one: a path, \"asset:PATH\" or { \"objects\": [...] }");
+    readModel(reader, spec);
     reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
     reader.object("geometry", [&](JsonReader& r) { readGeometry(r, spec.modelOptions); });
     reader.object("animation", [&](JsonReader& r) { readAnimation(r, spec); });

@@ -17,6 +17,7 @@
 #include <filament/View.h>
 
 #include <filesystem>
+#include <memory>
 #include <optional>
 #include <string>
 #include <variant>
@@ -36,10 +37,11 @@ struct Comparator {
 using LightSpec = std::variant<SunLight, PointLight, SpotLight>;
 
 struct SceneSpec {
-    std::string name;             ///< "spheres" or "spheres/msaa"
-    Json model;                   ///< a path, "asset:PATH" below the asset folder, or objects to build
-    std::filesystem::path folder; ///< folder of the scene file: paths are relative to it
-    std::string environment;      ///< "sky", "asset:...", a path; empty: none
+    std::string name;                        ///< "spheres" or "spheres/msaa"
+    std::string modelPath;                   ///< a path, or "asset:PATH" below the asset folder
+    std::shared_ptr<const Json> modelObject; ///< instead of a path: objects to build, or a material
+    std::filesystem::path folder;            ///< folder of the scene file: paths are relative to it
+    std::string environment;                 ///< "sky", "asset:...", a path; empty: none
     EnvironmentSettings environmentSettings{};
     EnvironmentLoadOptions environmentOptions{ .faceSize = 64, .samples = 128 };
     GltfLoadOptions modelOptions{};

@@ -7,6 +7,7 @@
 #include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <cmath>
 #include <cstring>
@@ -36,8 +37,9 @@ Stage* stageOf(Backend backend) {
 
 SceneSpec sceneOf(Sample const& sample, std::vector<tools::TextEdit> const& edits) {
     SceneSpec spec{ .name = sample.name, .folder = kSampleFolder };
-    spec.model = { { "material", sample.name + ".mat" } };
-    for (auto const& [from, to] : edits) spec.model["edits"][from] = to;
+    Json model = { { "material", sample.name + ".mat" } };
+    for (auto const& [from, to] : edits) model["edits"][from] = to;
+    spec.modelObject = std::make_shared<const Json>(std::move(model));
     spec.environment = "studio";
     spec.environmentSettings.illuminance = Lux{ 10'000 };
     spec.lights.emplace_back(SunLight{ .directionWorld = { -0.4f, -1, -0.6f }, .illuminance = Lux{ 40'000 } });

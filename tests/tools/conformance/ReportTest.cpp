@@ -5,6 +5,7 @@
 #include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include <fstream>
 

@@ -8,6 +8,8 @@
 #include "tools/conformance/Flip.h"
 #include "tools/conformance/JsonReader.h"
 
+#include <nlohmann/json.hpp>
+
 #include <algorithm>
 #include <cmath>
 
