@@ -1,9 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/FrameResourceCache.h"
 
-#include "base/Assert.h"
-#include "filament_core/passes/ToneMapPass.h"
-
 namespace filament::engine {
 namespace {
 
@@ -24,12 +21,20 @@ FrameResources FrameResourceCache::find(View const& view, prepare::EnvironmentPa
     FrameResources resources;
     resources.pipelines = pipelines;
     resources.lighting = lighting(view, environment);
-    resources.nearestSampler = mEngine.samplers.get(kNearest, mEngine.pending);
+    resources.samplers = samplers();
+    resources.effects = &mEffects;
+    resources.white = mEngine.textureHandle(mEngine.unsetTexture({ .type = ParameterType::Sampler2D }));
     resources.instanceIds = mEngine.defaults.instanceIds;
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
-    if (isToneMapped) resources.toneMap = toneMap(view.colorGrading, view.quality.toneMapping);
+    if (isToneMapped) resources.toneTable = toneTable(view);
     resources.hasHalfFloats = mEngine.stream->info().features.halfFloatShaders;
     return resources;
+}
+
+passes::FrameSamplers FrameResourceCache::samplers() {
+    return { .nearest = mEngine.samplers.get(kNearest, mEngine.pending),
+             .bilinear = mEngine.samplers.get(kBilinear, mEngine.pending),
+             .trilinear = mEngine.samplers.get(kTrilinear, mEngine.pending) };
 }
 
 passes::LightingTextures FrameResourceCache::lighting(View const& view, prepare::EnvironmentPacket const& environment) {
@@ -38,9 +43,7 @@ passes::LightingTextures FrameResourceCache::lighting(View const& view, prepare:
     };
     return { .specular = orBlack(environment.specular),
              .dfg = mEngine.textureHandle(mEngine.dfgTable(view.quality.dfgTableSize)),
-             .irradiance = orBlack(environment.irradiance),
-             .trilinear = mEngine.samplers.get(kTrilinear, mEngine.pending),
-             .bilinear = mEngine.samplers.get(kBilinear, mEngine.pending) };
+             .irradiance = orBlack(environment.irradiance) };
 }
 
 scene::Material const* FrameResourceCache::skybox(bool isRgbm) {
@@ -49,19 +52,11 @@ scene::Material const* FrameResourceCache::skybox(bool isRgbm) {
     return known;
 }
 
-passes::ToneMap FrameResourceCache::toneMap(ColorGrading const& grading, ToneMapping mapping) {
-    const bool hasTable = mapping != ToneMapping::Analytic;
-    const auto mapper = static_cast<size_t>(grading.toneMapper);
-    FILAMENT_ASSERT(mapper < kToneMappers, "a tone mapper is one of its enumerators");
-    scene::Material const*& known = mToneMaps[mapper][grading.dither][hasTable];
-    if (!known) {
-        std::vector<MaterialConstant> constants{ { "dither", grading.dither }, { "fromTable", hasTable } };
-        if (!hasTable) constants.push_back({ "toneMapper", static_cast<int32_t>(grading.toneMapper) });
-        known = &mEngine.fullScreenMaterial("tonemap", std::move(constants), passes::kToneMapInterface);
-    }
-    const Texture table = hasTable ? mEngine.toneTable(grading.toneMapper, toneTableSize(mapping))
-                                   : mEngine.unsetTexture(*known->package.findParameter("table"));
-    return { known, mEngine.textureHandle(table) };
+/// None: the view computes its tones.
+backend::TextureHandle FrameResourceCache::toneTable(View const& view) {
+    const ToneMapping mapping = view.quality.toneMapping;
+    if (mapping == ToneMapping::Analytic) return {};
+    return mEngine.textureHandle(mEngine.toneTable(view.colorGrading.toneMapper, toneTableSize(mapping)));
 }
 
 } // namespace filament::engine

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameResourceCache: the engine's own materials, tables and samplers that a renderer's frames are drawn with.
 ///   In      what a view and its scene ask for.   Out: passes::FrameResources.
-///   Memory  a pointer for each material. What is missing is made and recorded into `pending` of the engine; finding
+///   Memory  an entry for each material. What is missing is made and recorded into `pending` of the engine; finding
 ///           what is there allocates nothing.
 ///   Thread  the app thread.   Fails: std::bad_alloc; what was made by then serves the next frame.
 #pragma once
 
-#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/EffectMaterialCache.h"
 #include "filament_core/passes/FrameResources.h"
 
 #include <array>
@@ -15,23 +15,21 @@ namespace filament::engine {
 
 class FrameResourceCache {
 public:
-    explicit FrameResourceCache(Engine::Impl& engine) : mEngine(engine) {}
+    explicit FrameResourceCache(Engine::Impl& engine) : mEngine(engine), mEffects(engine) {}
 
     /// `isToneMapped`: the picture goes through the view's tone mapper.
     passes::FrameResources find(View const& view, prepare::EnvironmentPacket const& environment,
                                 passes::PipelineSource pipelines, bool isToneMapped);
 
 private:
-    static constexpr size_t kToneMappers = 4;
-
+    passes::FrameSamplers samplers();
     passes::LightingTextures lighting(View const& view, prepare::EnvironmentPacket const& environment);
-    passes::ToneMap toneMap(ColorGrading const& grading, ToneMapping mapping);
+    backend::TextureHandle toneTable(View const& view);
     scene::Material const* skybox(bool isRgbm);
 
     Engine::Impl& mEngine;
     std::array<scene::Material const*, 2> mSkyboxes{}; // by isRgbm
-    /// By mapper, dither, and whether colours are looked up.
-    std::array<std::array<std::array<scene::Material const*, 2>, 2>, kToneMappers> mToneMaps{};
+    EffectMaterialCache mEffects;
 };
 
 } // namespace filament::engine

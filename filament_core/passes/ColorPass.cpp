@@ -25,7 +25,7 @@ BindGroupHandle skyGroup(PassContext& pass, FrameContext const& context) {
     shader::MaterialPackage const& package = context.resources.skybox->package;
     const BindGroupEntry entry{ .binding = package.findParameter("sky")->binding,
                                 .texture = context.packet.environment.sky,
-                                .sampler = context.resources.lighting.bilinear };
+                                .sampler = context.resources.samplers.bilinear };
     return pass.bindGroup(package.layout[shader::kGroupMaterial], std::span(&entry, 1), "sky");
 }
 

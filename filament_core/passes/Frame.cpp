@@ -44,6 +44,7 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
     context->packet = packet;
     context->resources = resources;
     context->settings = settingsOf(view, resources, packet.environment);
+    context->view = &view;
     context->arena = &arena;
     return context;
 }

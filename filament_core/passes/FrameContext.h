@@ -11,6 +11,8 @@
 #include "filament_core/prepare/FramePacket.h"
 #include "framegraph/FrameGraph.h"
 
+#include <filament/View.h>
+
 namespace filament::passes {
 
 struct PassSettings {
@@ -34,7 +36,8 @@ inline PassSlot fullScreenSlot(backend::PassLayout const& layout, uint8_t subpas
 struct FrameContext {
     prepare::FramePacket packet{};
     FrameResources resources{};
-    PassSettings settings{}; ///< of the main view
+    PassSettings settings{};    ///< of the main view
+    View const* view = nullptr; ///< the app's; until the graph is recorded
     Arena* arena = nullptr;
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 

@@ -5,6 +5,7 @@
 ///   Thread  a plain value, read-only once filled.
 #pragma once
 
+#include "filament_core/passes/EffectMaterials.h"
 #include "filament_core/passes/FrameData.h"
 #include "filament_core/passes/PipelineSource.h"
 
@@ -13,22 +14,23 @@ namespace filament::passes {
 /// The textures that lit materials read of their surroundings; every handle is set.
 struct LightingTextures {
     backend::TextureHandle specular, dfg, irradiance;
-    backend::SamplerHandle trilinear; ///< of the specular levels
-    backend::SamplerHandle bilinear;  ///< of the others, and of the sky: one level each
 };
 
-struct ToneMap {
-    scene::Material const* material = nullptr; ///< tonemap, specialised to the mapper of the view
-    backend::TextureHandle table{};            ///< where it looks colours up (ToneTable.h), if it does; always set
+/// They clamp to the edge.
+struct FrameSamplers {
+    backend::SamplerHandle nearest, bilinear; ///< of the first level
+    backend::SamplerHandle trilinear;
 };
 
 struct FrameResources {
     PipelineSource pipelines;
     LightingTextures lighting{};
-    backend::SamplerHandle nearestSampler;
+    FrameSamplers samplers{};
+    EffectMaterials* effects = nullptr;
+    backend::TextureHandle white{};          ///< 2D, of one opaque white texel
     backend::BufferHandle instanceIds;       ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
     scene::Material const* skybox = nullptr; ///< full-screen material; null: the scene has no sky
-    ToneMap toneMap;                         ///< null where the picture stays scene-linear
+    backend::TextureHandle toneTable{};      ///< of the view's mapper (ToneTable.h); none: it is computed
     bool hasHalfFloats = false;              ///< shaders may compute in 16 bits
 };
 

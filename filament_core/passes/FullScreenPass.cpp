@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/FullScreenPass.h"
 
-#include "base/Result.h"
-#include "base/Suggest.h"
 #include "filament_core/passes/PassGroup.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/ParameterLayout.h"
@@ -21,40 +19,6 @@ using shader::MaterialPackage;
 using shader::Parameter;
 using shader::PassKind;
 
-// ---------------------------------------------------------------------------------------------- when it is loaded
-
-Result<void> checkGiven(scene::Material const& material, std::string_view pass, FullScreenParameter const& given,
-                        bool isInput) {
-    Parameter const* parameter = material.package.findParameter(given.name);
-    const char* const what = isInput ? "input" : "value";
-    if (!parameter || shader::isTexture(parameter->type) != isInput) {
-        return fail(ErrorCode::NotFound, "material '{}' has no {} '{}', which pass '{}' gives it{}", material.name,
-                    what, given.name, pass, suggestion(given.name, namesOf(material.package.parameters)));
-    }
-    if (isInput || (parameter->type == given.type && parameter->arraySize == 0)) return {};
-    return fail(ErrorCode::InvalidArgument, "material '{}': value '{}' is {}{}, but pass '{}' gives {}", material.name,
-                given.name, toString(parameter->type), parameter->arraySize > 0 ? "[]" : "", pass,
-                toString(given.type));
-}
-
-Result<void> checkNeeded(scene::Material const& material, FullScreenInterface const& given,
-                         Parameter const& parameter) {
-    const bool isInput = shader::isTexture(parameter.type);
-    if (isInput && !parameter.isBound) return {};
-    if (parameter.type == ParameterType::SubpassInput) {
-        return fail(
-                ErrorCode::InvalidArgument,
-                "material '{}': input '{}' is a subpassInput, so pass '{}' could not draw it where it is not merged; "
-                "make it type : sampler2d, currentPixel : true",
-                material.name, parameter.name, given.pass);
-    }
-    const bool isGiven = isInput ? std::ranges::count(given.inputs, parameter.name) > 0
-                                 : std::ranges::count(given.values, parameter.name, &FullScreenParameter::name) > 0;
-    if (isGiven) return {};
-    return fail(ErrorCode::InvalidArgument, "material '{}' has the {} '{}', which pass '{}' does not give it",
-                material.name, isInput ? "input" : "value", parameter.name, given.pass);
-}
-
 // ---------------------------------------------------------------------------------------------- when it is declared
 
 /// An input that the program reads, with what it is bound to.
@@ -72,8 +36,8 @@ std::span<Input> boundInputs(Arena& arena, FullScreenPass const& pass) {
         if (!shader::isTexture(parameter.type) || !parameter.isBound) continue;
         const auto given = std::ranges::find(pass.inputs, parameter.name, &FullScreenInput::name);
         FILAMENT_ASSERT(given != pass.inputs.end(), "a full-screen pass gives every input that its check named");
-        FILAMENT_ASSERT(static_cast<bool>(given->texture) != static_cast<bool>(given->image),
-                        "an input of a full-screen pass is a texture of the graph or an image");
+        FILAMENT_ASSERT(!given->texture || !given->image, "an input is a texture of the graph or an image, not both");
+        FILAMENT_ASSERT(given->texture || !parameter.currentPixel, "a currentPixel input is a texture of the graph");
         inputs[count++] = { &parameter, *given };
     }
     return inputs.first(count);
@@ -125,6 +89,11 @@ bool isMerged(PassContext& pass, std::span<const Input> inputs) {
     });
 }
 
+TextureHandle imageOf(PassContext& pass, FrameContext const& context, FullScreenInput const& input) {
+    if (input.texture) return pass.texture(input.texture);
+    return input.image ? input.image : context.resources.white;
+}
+
 BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, Declared const& declared) {
     MaterialPackage const& package = declared.material->package;
     const bool merged = isMerged(pass, declared.inputs);
@@ -132,9 +101,9 @@ BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, De
     size_t count = 0;
     if (declared.values.bytes > 0) entries[count++] = context.blocks->entry(0, declared.values);
     for (Input const& input : declared.inputs) {
-        const SamplerHandle sampler = input.from.sampler ? input.from.sampler : context.resources.nearestSampler;
+        const SamplerHandle sampler = input.from.sampler ? input.from.sampler : context.resources.samplers.nearest;
         entries[count++] = { .binding = input.parameter->binding,
-                             .texture = input.from.texture ? pass.texture(input.from.texture) : input.from.image,
+                             .texture = imageOf(pass, context, input.from),
                              .sampler = merged && input.parameter->currentPixel ? SamplerHandle{} : sampler };
     }
     const uint16_t variant = merged ? shader::kVariantMerged : 0;
@@ -158,24 +127,6 @@ void draw(CommandBuffer& commands, FrameContext const& context, Chosen const& ch
 }
 
 } // namespace
-
-Result<void> checkFullScreenMaterial(scene::Material const& material, FullScreenInterface const& given) {
-    if (material.package.domain != shader::MaterialDomain::PostProcess) {
-        return fail(ErrorCode::InvalidArgument,
-                    "material '{}' is of domain surface, and pass '{}' draws a picture; say domain : postprocess in it",
-                    material.name, given.pass);
-    }
-    for (const std::string_view name : given.inputs) {
-        if (Result<void> exists = checkGiven(material, given.pass, { name }, true); !exists) return exists;
-    }
-    for (FullScreenParameter const& value : given.values) {
-        if (Result<void> exists = checkGiven(material, given.pass, value, false); !exists) return exists;
-    }
-    for (Parameter const& parameter : material.package.parameters) {
-        if (Result<void> isGiven = checkNeeded(material, given, parameter); !isGiven) return isGiven;
-    }
-    return {};
-}
 
 framegraph::PassId addFullScreenPass(FrameGraph& graph, FrameContext const& context, FullScreenPass const& pass) {
     const Declared declared{ &pass.material, boundInputs(graph.arena(), pass),

@@ -15,6 +15,7 @@
 #pragma once
 
 #include "filament_core/passes/FrameContext.h"
+#include "filament_core/passes/FullScreenInterface.h"
 
 #include <filament/Objects.h>
 
@@ -23,27 +24,11 @@
 
 namespace filament::passes {
 
-struct FullScreenParameter {
-    std::string_view name;
-    ParameterType type = ParameterType::Float;
-};
-
-/// What a pass gives its material: names of textures, names and types of values.
-struct FullScreenInterface {
-    std::string_view pass; ///< for errors
-    std::span<const std::string_view> inputs{};
-    std::span<const FullScreenParameter> values{};
-};
-
-/// Checks that the material has everything that the pass gives, and that the pass gives everything that the material has.
-/// Textures that the material's constants switch off (usedIf) may be missing.
-///   Fails   NotFound or InvalidArgument; one line that names the material, the pass and the parameter.
-Result<void> checkFullScreenMaterial(scene::Material const& material, FullScreenInterface const& given);
-
 struct FullScreenInput {
     std::string_view name{};          ///< of the parameter
     framegraph::TextureId texture{};  ///< a texture of the graph, or
-    backend::TextureHandle image{};   ///< a texture that the graph does not know: a table, noise
+    backend::TextureHandle image{};   ///< a texture that the graph does not know: a table, noise, or
+                                      ///< neither: a 2D texture that this material's constants leave unread
     backend::SamplerHandle sampler{}; ///< none: the nearest texel
 };
 

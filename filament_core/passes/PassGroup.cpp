@@ -20,11 +20,12 @@ PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDes
 
 BindGroupHandle passGroup(framegraph::PassContext& pass, FrameContext const& context, PassKind kind, PassBlock target) {
     LightingTextures const& light = context.resources.lighting;
+    FrameSamplers const& samplers = context.resources.samplers;
     const std::array<BindGroupEntry, 4> entries{ {
             context.blocks->entry(shader::kBindingPass, target),
-            { .binding = shader::kBindingSpecular, .texture = light.specular, .sampler = light.trilinear },
-            { .binding = shader::kBindingDfg, .texture = light.dfg, .sampler = light.bilinear },
-            { .binding = shader::kBindingIrradiance, .texture = light.irradiance, .sampler = light.bilinear },
+            { .binding = shader::kBindingSpecular, .texture = light.specular, .sampler = samplers.trilinear },
+            { .binding = shader::kBindingDfg, .texture = light.dfg, .sampler = samplers.bilinear },
+            { .binding = shader::kBindingIrradiance, .texture = light.irradiance, .sampler = samplers.bilinear },
     } };
     const BindGroupLayout layout = shader::passGroupLayout(kind);
     return pass.bindGroup(layout, std::span(entries).first(layout.count), "pass");

@@ -10,9 +10,6 @@
 
 namespace filament::passes {
 
-/// Of the material tonemap, whatever its constants are.
-extern const FullScreenInterface kToneMapInterface;
-
 void addToneMapPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets const& targets);
 
 } // namespace filament::passes

@@ -136,7 +136,7 @@ private:
         mData.upload(mJobs, commands, context->packet);
         context->arena = &mArena;
         context->resources.pipelines = PipelineSource(mPipelines);
-        context->resources.nearestSampler = mNearest;
+        context->resources.samplers.nearest = mNearest;
         context->blocks = &mBlocks;
         context->views = mData.views();
         return context;
