@@ -63,9 +63,9 @@ void declareReads(PassBuilder& builder, std::span<const Input> inputs) {
     uint8_t attachment = 0;
     for (Input const& input : inputs) {
         if (input.parameter->currentPixel)
-            builder.readInput(input.from.texture, attachment++);
+            builder.readInput(input.from.texture, attachment++, input.from.range.level, input.from.range.layer);
         else if (input.from.texture)
-            builder.readSampled(input.from.texture);
+            builder.readSampled(input.from.texture, input.from.range);
     }
 }
 
@@ -104,7 +104,8 @@ BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, De
         const SamplerHandle sampler = input.from.sampler ? input.from.sampler : context.resources.samplers.nearest;
         entries[count++] = { .binding = input.parameter->binding,
                              .texture = imageOf(pass, context, input.from),
-                             .sampler = merged && input.parameter->currentPixel ? SamplerHandle{} : sampler };
+                             .sampler = merged && input.parameter->currentPixel ? SamplerHandle{} : sampler,
+                             .range = input.from.range };
     }
     const uint16_t variant = merged ? shader::kVariantMerged : 0;
     return pass.bindGroup(shader::programLayout(package, variant)[shader::kGroupMaterial],

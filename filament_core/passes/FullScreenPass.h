@@ -30,6 +30,7 @@ struct FullScreenInput {
     backend::TextureHandle image{};   ///< a texture that the graph does not know: a table, noise, or
                                       ///< neither: a 2D texture that this material's constants leave unread
     backend::SamplerHandle sampler{}; ///< none: the nearest texel
+    backend::TextureRange range{};    ///< of `texture`; for a level that is read while another one is drawn to
 };
 
 struct FullScreenValue {
