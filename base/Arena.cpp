@@ -33,7 +33,8 @@ void Arena::addBlock(size_t bytes) {
     mCurrent = mBlocks.size() - 1;
 }
 
-// One block: what did not fit into the rest of a block would otherwise leave that rest unused in every frame to come.
+// Replaces several blocks by one of their total size: with several, the unused end of each block would be wasted in
+// every later frame.
 void Arena::reset() {
     if (mBlocks.size() > 1) {
         const size_t bytes = bytesReserved();

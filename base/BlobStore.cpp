@@ -25,7 +25,7 @@ static_assert(std::endian::native == std::endian::little, "a blob store is littl
 constexpr uint64_t kMagic = 0x31424F4C424C4946; // "FILBLOB1"
 
 struct FileHeader {
-    uint64_t magic, identity, checksum; // the checksum covers everything behind the header
+    uint64_t magic, identity, checksum; // the checksum covers everything after the header
 };
 struct EntryHeader {
     uint64_t key, bytes;

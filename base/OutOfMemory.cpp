@@ -10,7 +10,7 @@ Error outOfMemory(std::string_view doing, std::string_view object) noexcept {
         if (object.empty()) return fail(ErrorCode::OutOfMemory, "{}: out of memory; free some and try again", doing);
         return fail(ErrorCode::OutOfMemory, "{} '{}': out of memory; free some and try again", doing, object);
     } catch (std::bad_alloc const&) {
-        return { ErrorCode::OutOfMemory, "out of memory" }; // short enough to lie in the string itself
+        return { ErrorCode::OutOfMemory, "out of memory" }; // fits the string's internal buffer: no allocation
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The rules of a graph. Every message names the pass, the texture and what to do.
+// The rules that a graph must follow. Every message names the pass, the texture and the remedy.
 #include "framegraph/CompileSteps.h"
 #include "framegraph/Require.h"
 #include "framegraph/Subresources.h"
@@ -18,7 +18,7 @@ Size sizeOfLevel(GraphTextureDesc const& desc, uint8_t level) {
     return { std::max(1u, desc.width >> level), std::max(1u, desc.height >> level) };
 }
 
-/// "texture 'bloom'", with level and layer where it has several.
+/// "texture 'bloom'", with level and layer if it has several.
 std::string nameOf(GraphTextureDesc const& desc, uint8_t level, uint16_t layer) {
     std::string name = fmt::format("texture '{}'", desc.name);
     if (desc.levels > 1) name += fmt::format(" level {}", level);
@@ -32,7 +32,7 @@ bool writes(Access const& access, TextureId texture, backend::TextureRange const
     return access.texture == texture && overlap(access.range, part);
 }
 
-/// A later pass that writes this part of the texture, to tell a wrong order from a forgotten pass.
+/// A later pass that writes this part of the texture: tells a wrong order from a missing pass.
 std::string_view laterWriter(FrameGraph const& graph, uint32_t after, TextureId texture,
                              backend::TextureRange const& part) {
     for (uint32_t pass = after + 1; pass < graph.passes().size(); ++pass) {
@@ -66,7 +66,7 @@ void checkRange(FrameGraph const& graph, Pass const& pass, Access const& access)
     }
 }
 
-/// Which levels and layers hold something, from pass to pass.
+/// Tracks, from pass to pass, which levels and layers have contents.
 class Written {
 public:
     explicit Written(FrameGraph const& graph)
@@ -179,7 +179,7 @@ void checkAttachmentsAgree(FrameGraph const& graph, Pass const& pass) {
     require((slots & (slots + 1)) == 0, "pass '{}': colour slots have gaps; number them 0, 1, ...", pass.name);
 }
 
-// A level and layer has one role in a pass; other parts of the same texture may have other ones.
+// A level and layer has one role per pass; other parts of the same texture may have different roles.
 void checkPairs(FrameGraph const& graph, Pass const& pass, Access const& a, std::span<const Access> accesses) {
     GraphTextureDesc const& desc = graph.texture(a.texture).desc;
     for (Access const& b : accesses) {

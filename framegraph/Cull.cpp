@@ -5,10 +5,10 @@
 namespace filament::framegraph {
 namespace {
 
-/// Whether the contents of a level and layer are still wanted, seen from a point of the frame towards its end.
+/// Whether the contents of a level and layer are still needed by the rest of the frame.
 struct Demand {
     bool isWanted = false;
-    uint32_t reader = kNone; // kNone: wanted after the frame
+    uint32_t reader = kNone; // kNone: needed after the frame
 };
 
 class Demands {
@@ -39,7 +39,8 @@ public:
         return {};
     }
 
-    /// Before a pass that runs: what it replaces completely is not wanted, what it reads or draws over is.
+    /// Steps back over a pass that runs: what it replaces completely is no longer needed, what it reads or draws over
+    /// is.
     void stepBack(uint32_t pass) {
         const std::span<const Access> accesses = mGraph.accesses(mGraph.passes()[pass]);
         for (Access const& access : accesses) {

@@ -17,7 +17,7 @@ std::string_view nameOf(CompiledGraph const& plan, TextureId texture) { return p
 
 std::string_view nameOf(CompiledGraph const& plan, BufferId buffer) { return plan.graph->buffer(buffer).name; }
 
-/// "'bloom'", with level and layer where it has several.
+/// "'bloom'", with level and layer if it has several.
 std::string nameOf(CompiledGraph const& plan, TextureId texture, uint8_t level, uint16_t layer) {
     GraphTextureDesc const& desc = plan.graph->texture(texture).desc;
     std::string name = fmt::format("'{}'", desc.name);
@@ -26,7 +26,7 @@ std::string nameOf(CompiledGraph const& plan, TextureId texture, uint8_t level, 
     return name;
 }
 
-/// Which part of its texture an access touches: "level 2", "levels 0 to 4, layer 1"; nothing for all of it.
+/// Which part of its texture an access touches: "level 2", "levels 0 to 4, layer 1"; empty for the whole texture.
 std::string partOf(CompiledGraph const& plan, Access const& access) {
     GraphTextureDesc const& desc = plan.graph->texture(access.texture).desc;
     const auto span = [](const char* what, uint32_t first, uint32_t count) {
@@ -110,7 +110,7 @@ void putPasses(Text text, CompiledGraph const& plan) {
     }
 }
 
-// Reads of parts of textures; those of whole ones are left to the drawing.
+// Reads of parts of textures. Reads of whole textures appear only in the drawing.
 void putPartReads(Text text, CompiledGraph const& plan, PassGroup const& group) {
     for (const uint32_t pass : plan.order.subspan(group.first, group.count)) {
         for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
@@ -146,7 +146,7 @@ const char* originOf(Texture const& texture) {
     return texture.isImported ? ", imported" : texture.isOutput ? ", output" : "";
 }
 
-// Other transients behind the same handle.
+// Other transients that share the same handle.
 void putSharing(Text text, CompiledGraph const& plan, size_t texture) {
     const char* before = ", shares memory with ";
     for (size_t i = 0; i < plan.textures.size(); ++i) {

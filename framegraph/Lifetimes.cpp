@@ -44,7 +44,7 @@ BufferUsage usageOf(BufferAccess const& access) {
     return access.writes ? BufferUsage{} : BufferUsage::TransferSource; // any buffer can be updated
 }
 
-/// The numbers of `lifetimes`, by first use: the order in which the pool is asked.
+/// Indices into `lifetimes`, ordered by first use: the order of requests to the pool.
 std::span<uint32_t> byFirstUse(Arena& arena, std::span<const Lifetime> lifetimes) {
     const std::span<uint32_t> numbers = arena.array<uint32_t>(lifetimes.size());
     for (uint32_t i = 0; i < numbers.size(); ++i) numbers[i] = i;
@@ -54,7 +54,7 @@ std::span<uint32_t> byFirstUse(Arena& arena, std::span<const Lifetime> lifetimes
     return numbers;
 }
 
-// May live in tile memory: nothing but attachment of one group, and nobody wants it afterwards.
+// Whether it may live in tile memory: used only as an attachment of one group, and not needed afterwards.
 bool isTransient(Texture const& texture, Lifetime const& lifetime, TextureUsage usage) {
     constexpr auto kElsewhere = TextureUsage::Sampled | TextureUsage::TransferSource | TextureUsage::TransferTarget;
     return !texture.isOutput && lifetime.isUsed() && lifetime.first == lifetime.last && !has(usage, kElsewhere) &&
@@ -73,7 +73,7 @@ backend::DeviceTextureDesc descOf(GraphTextureDesc const& desc, TextureUsage usa
              .debugName = desc.name };
 }
 
-// Both textures take each role in turn, and which passes of a frame run may change: so every usage that they may have.
+// The two textures swap roles every frame, and the passes that run may change: include every usage that they may have.
 TextureUsage historyUsage(backend::Format format) {
     using enum TextureUsage;
     return backend::hasDepth(format) ? Sampled | DepthAttachment | TransferSource
@@ -171,7 +171,7 @@ std::span<BufferPlan> assignBuffers(FrameGraph const& graph, PassOrder const& or
         plans[i].lifetime = lifetimes[i];
         plans[i].handle = buffer.imported;
         if (buffer.isImported || !lifetimes[i].isUsed()) continue;
-        if (plans[i].usage == BufferUsage{}) plans[i].usage = BufferUsage::TransferSource; // only ever uploaded
+        if (plans[i].usage == BufferUsage{}) plans[i].usage = BufferUsage::TransferSource; // only uploaded to
         const uint32_t last = buffer.isOutput ? kNone : lifetimes[i].last;
         plans[i].handle = pool.acquire({ buffer.size, plans[i].usage, buffer.name }, lifetimes[i].first, last);
     }

@@ -39,7 +39,7 @@ bool isWantedAfter(FrameGraph const& graph, PassOrder const& order, std::span<co
     for (PassGroup const& group : later) {
         for (const uint32_t pass : passesOf(order, group)) {
             for (Access const& access : graph.accesses(graph.passes()[pass])) {
-                if (isResolvedTo(access, attachment)) return false; // replaced before anybody looked
+                if (isResolvedTo(access, attachment)) return false; // replaced before anything reads it
                 if (overlaps(access, attachment)) return isPureRead(access.kind) || access.previous == Previous::Keep;
             }
         }

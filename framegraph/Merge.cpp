@@ -44,7 +44,7 @@ void takeSize(PassGroup& group, GraphTextureDesc const& desc, uint8_t level) {
     group.samples = desc.samples;
 }
 
-/// A group of one pass; its colours stand at the slots that it declared.
+/// A group of one pass; its colours keep their declared slots.
 PassGroup groupOf(FrameGraph const& graph, uint32_t pass, uint32_t at) {
     PassGroup group;
     group.first = at;
@@ -94,7 +94,8 @@ Merge addAccess(PassGroup& group, Access const& access, uint32_t maxColors) {
     return Merge::Merged;
 }
 
-/// Whether a program with fixed attachment numbers (inputs from 0, then its own colours) would get others in this group.
+/// Whether merging would change the attachment numbers of a program that has fixed ones (inputs from 0, then its own
+/// colours).
 bool isNumberedOtherwise(FrameGraph const& graph, PassGroup const& group, uint32_t pass) {
     const auto accesses = graph.accesses(graph.passes()[pass]);
     uint32_t inputs = 0;
@@ -113,7 +114,7 @@ bool readsInput(FrameGraph const& graph, uint32_t pass) {
     return std::any_of(accesses.begin(), accesses.end(), [](Access const& a) { return a.kind == AccessKind::Input; });
 }
 
-// No pass of the merged group may sample or copy what any of them attaches.
+// No pass of the merged group may sample or copy an attachment of any of them.
 bool readsAttachmentsElsewhere(FrameGraph const& graph, PassGroup const& group, std::span<const uint32_t> passes) {
     for (const uint32_t pass : passes) {
         for (Access const& access : graph.accesses(graph.passes()[pass])) {
@@ -123,7 +124,7 @@ bool readsAttachmentsElsewhere(FrameGraph const& graph, PassGroup const& group, 
     return false;
 }
 
-/// Makes the next pass in order a subpass of `group`, or says why not and leaves the group alone.
+/// Makes the next pass in order a subpass of `group`, or returns why not and leaves the group unchanged.
 Merge tryJoin(FrameGraph const& graph, PassOrder const& order, MergeLimits const& limits, PassGroup& group) {
     const uint32_t at = group.first + group.count, pass = order.order[at];
     if (!readsInput(graph, pass)) return Merge::NotAsked;

@@ -86,7 +86,7 @@ uint8_t PassContext::colorIndex(TextureId id) const {
 
 void PassContext::requireDeclaredRange(backend::BindGroupEntry const& entry, std::string_view group) const {
     Pass const& pass = mPlan.graph->passes()[mPass];
-    Access const* read = nullptr; // of another part of the same texture
+    Access const* read = nullptr; // an access to another part of the same texture
     for (Access const& access : mPlan.graph->accesses(pass)) {
         if (mPlan.texture(access.texture) != entry.texture) continue;
         if (access.kind != AccessKind::Sampled && access.kind != AccessKind::Input) continue;
@@ -94,7 +94,7 @@ void PassContext::requireDeclaredRange(backend::BindGroupEntry const& entry, std
         if (contains(access.range, withCounts(entry.range, desc.levels, desc.layers))) return;
         read = &access;
     }
-    if (!read) return; // a texture that the graph does not know, or one that texture() has asserted about
+    if (!read) return; // unknown to the graph, or texture() has already reported it
     require(false, "pass '{}': bind group '{}' shows another part of texture '{}' than the pass declared", pass.name,
             group, mPlan.graph->texture(read->texture).desc.name);
 }

@@ -63,7 +63,7 @@ void recordGroup(CommandBuffer& commands, CompiledGraph const& plan, PassGroup c
     wholePass.complete();
 }
 
-// Histories without a frame before this one: their previous textures get the clear value, level by level.
+// Histories without a previous frame: their previous textures are cleared, level by level.
 void clearHistory(CommandBuffer& commands, Texture const& texture, TextureHandle handle) {
     GraphTextureDesc const& desc = texture.desc;
     PassDesc pass;

@@ -52,7 +52,7 @@ auto TransientPool::acquireFrom(std::vector<Pooled>& pooled, Desc const& desc, u
         handle.keep();
         found = pooled.end() - 1;
     }
-    if (!found->isCreated) found->desc = desc; // its name is of this graph
+    if (!found->isCreated) found->desc = desc; // keep the name from this graph
     found->lastGraph = mGraph;
     found->busyUntil = last;
     return found->handle;
@@ -69,7 +69,7 @@ backend::BufferHandle TransientPool::acquire(backend::BufferDesc const& desc, ui
 TransientPool::KeptHistory TransientPool::newHistory(backend::DeviceTextureDesc const& desc) {
     backend::NewHandle first(mStream, mStream.allocateTexture()), second(mStream, mStream.allocateTexture());
     KeptHistory made{ .name = std::string(desc.debugName), .desc = desc, .handles = { first, second } };
-    made.desc.debugName = {}; // lives no longer than the graph
+    made.desc.debugName = {}; // the name dies with the graph
     first.keep();
     second.keep();
     return made;
@@ -78,7 +78,7 @@ TransientPool::KeptHistory TransientPool::newHistory(backend::DeviceTextureDesc 
 PooledHistory TransientPool::history(backend::DeviceTextureDesc const& desc, bool writes) {
     auto found = std::ranges::find(mHistories, desc.debugName, &KeptHistory::name);
     if (found == mHistories.end()) {
-        mHistories.reserve(mHistories.size() + 1); // newHistory() is the last that may fail
+        mHistories.reserve(mHistories.size() + 1); // so that newHistory() is the last call that can fail
         mHistories.push_back(newHistory(desc));
         found = mHistories.end() - 1;
     } else if (!isSameButForTheName(found->desc, desc)) {
@@ -128,7 +128,7 @@ backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& comman
     try {
         commands.record(backend::CmdCreateBindGroup{ made.handle, desc });
     } catch (...) {
-        mBindGroups.pop_back(); // in the pool is what the driver has
+        mBindGroups.pop_back(); // the pool must match the driver
         throw;
     }
     return handle.keep();
@@ -136,10 +136,10 @@ backend::BindGroupHandle TransientPool::bindGroup(backend::CommandBuffer& comman
 
 void TransientPool::recordCreations(backend::CommandBuffer& commands) {
     for (PooledTexture& pooled : mTextures) {
-        if (pooled.isCreated || pooled.lastGraph != mGraph) continue; // of a graph that was never recorded
+        if (pooled.isCreated || pooled.lastGraph != mGraph) continue; // its graph was never recorded
         commands.record(backend::CmdCreateTexture{ pooled.handle, pooled.desc });
         pooled.isCreated = true;
-        pooled.desc.debugName = {}; // lives no longer than the graph
+        pooled.desc.debugName = {}; // the name dies with the graph
     }
     for (PooledBuffer& pooled : mBuffers) {
         if (pooled.isCreated || pooled.lastGraph != mGraph) continue;

@@ -15,7 +15,7 @@
 namespace filament::jobs {
 namespace {
 
-constexpr int kMaxCores = 8192; // the largest configuration of Linux
+constexpr int kMaxCores = 8192; // the largest configuration that Linux supports
 
 struct FreeMask {
     void operator()(cpu_set_t* mask) const { CPU_FREE(mask); }
@@ -129,7 +129,7 @@ void CorePins::swap(CorePins& other) noexcept {
 }
 
 CoreRegistry& CoreRegistry::ofProcess() {
-    static auto& registry = *new CoreRegistry; // outlives whatever gives cores back at the end of the process
+    static auto& registry = *new CoreRegistry; // never destroyed: cores may be returned as the process ends
     return registry;
 }
 
@@ -171,8 +171,8 @@ CoreRegistry::Use& CoreRegistry::use(int core) {
     return mUses[index];
 }
 
-// An untouched hardware thread, best on an untouched physical core, best where no caller is expected; then the faster
-// class, the cache that is filled already, and the order of the numbers.
+// Prefers, in this order: the hardware thread with the fewest pins, the physical core with the fewest users, a core
+// that no caller is expected to use, the faster class, the cache that is already in use, and the lowest number.
 Cpu const& CoreRegistry::leastUsed(Topology const& topology, std::span<const Cpu> candidates) {
     std::vector<int> ofPhysicalCore(topology.cpus.size());
     for (Cpu const& cpu : topology.cpus)

@@ -12,7 +12,7 @@ namespace {
 static_assert(sizeof(std::atomic<uint32_t>) == 4 && std::atomic<uint32_t>::is_always_lock_free, "a futex word");
 
 void futex(std::atomic<uint32_t>& word, int operation, uint32_t value) {
-    // EAGAIN (the word changed) and EINTR (a signal) are returns for no reason; nothing else can go wrong.
+    // EAGAIN (the word changed) and EINTR (a signal) count as spurious wake-ups; no other error is possible.
     syscall(SYS_futex, &word, operation | FUTEX_PRIVATE_FLAG, value, nullptr, nullptr, 0);
 }
 

@@ -25,7 +25,7 @@ void BackgroundThreads::stop() {
         mStopping = true;
     }
     mPushed.notify_all();
-    for (uint32_t i = 0; i < startedThreads(); ++i) mThreads[i].join(); // their jobs may still start more
+    for (uint32_t i = 0; i < startedThreads(); ++i) mThreads[i].join(); // running jobs may still start more
 }
 
 uint32_t BackgroundThreads::startedThreads() {
@@ -69,7 +69,7 @@ std::string BackgroundThreads::nameOf(uint32_t index) const {
     try {
         return mName + ' ' + std::to_string(index);
     } catch (std::bad_alloc const&) {
-        return {}; // what debuggers show is not worth a process
+        return {}; // a name for debuggers is not worth ending the process
     }
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The JSON of JobTrace.h: one event a line, so that a text tool can compare and search it.
+// Writes the JSON of JobTrace.h: one event per line, so that text tools can compare and search it.
 #include "jobsystem/JobTrace.h"
 
 #include <fmt/format.h>
@@ -16,9 +16,9 @@
 namespace filament::jobs {
 namespace {
 
-constexpr int kProcess = 1; // the file has one; its number means nothing
+constexpr int kProcess = 1; // the file has only one; its number is arbitrary
 
-// Length of the UTF-8 sequence that `text` begins with; 0 if it is none. Table 3-7 of the Unicode standard.
+// Length of the UTF-8 sequence at the start of `text`; 0 if it is invalid. Unicode Standard, table 3-7.
 size_t utf8Length(std::string_view text) {
     const auto byte = [&](size_t i) { return i < text.size() ? static_cast<unsigned char>(text[i]) : 0u; };
     const auto within = [&](size_t i, unsigned least, unsigned most) { return byte(i) >= least && byte(i) <= most; };
@@ -37,7 +37,7 @@ size_t utf8Length(std::string_view text) {
     return 0;
 }
 
-// A JSON string; bytes that are not UTF-8 become the replacement character.
+// Writes a JSON string; bytes that are not UTF-8 become the replacement character.
 std::string jsonString(std::string_view text) {
     std::string json = "\"";
     while (!text.empty()) {
@@ -57,7 +57,7 @@ std::string jsonString(std::string_view text) {
     return json + '"';
 }
 
-// Exact: a double would round what a machine up for months writes.
+// Exact: a double would round timestamps on a machine that has been up for months.
 std::string microseconds(int64_t nanoseconds) {
     return fmt::format("{}.{:03}", nanoseconds / 1000, nanoseconds % 1000);
 }

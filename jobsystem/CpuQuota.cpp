@@ -16,13 +16,13 @@ namespace fs = std::filesystem;
 
 constexpr double kUnlimited = std::numeric_limits<double>::infinity();
 
-// The group that the process is in, of version 1's cpu controller or of version 2's only hierarchy.
+// The process's group in version 1's cpu controller or in version 2's single hierarchy.
 struct Membership {
     bool unified = false; // version 2
     std::string group;    // "/user.slice/render.service"
 };
 
-// Where a hierarchy is mounted: `point` shows the group `group` and what is below it.
+// Where a hierarchy is mounted: `point` shows the group `group` and its descendants.
 struct Mount {
     bool unified = false;
     std::string group;
@@ -53,7 +53,7 @@ std::vector<Membership> readMemberships(fs::path const& file) {
     return memberships;
 }
 
-// mountinfo writes blanks, tabs, newlines and backslashes of a path as backslash and three octal digits.
+// In mountinfo, blanks, tabs, newlines and backslashes of a path are written as a backslash and three octal digits.
 std::string unescaped(std::string_view text) {
     const auto isOctal = [](char c) { return c >= '0' && c <= '7'; };
     std::string plain;
@@ -86,8 +86,8 @@ std::vector<Mount> readMounts(fs::path const& file) {
     return mounts;
 }
 
-// From the mount point down to the group. The mount of a container may show only a part of the hierarchy, or the
-// group may be written from outside of it ("/../x"); then what is mounted is as near as this process can see.
+// The path from the mount point down to the group. A container may mount only part of the hierarchy, or the group may
+// lie outside it ("/../x"); then the mount point itself is the closest that this process can see.
 fs::path pathBelow(Mount const& mount, std::string_view group) {
     if (group.find("/..") != std::string_view::npos) return {};
     if (mount.group == "/") return fs::path(group).relative_path();
@@ -99,7 +99,7 @@ fs::path pathBelow(Mount const& mount, std::string_view group) {
 double processors(double quota, double period) { return quota > 0 && period > 0 ? quota / period : kUnlimited; }
 
 double quotaOfGroup(fs::path const& directory, bool unified) {
-    double quota = 0, period = 0; // what cannot be read stays 0; "max" and -1 are no limit either
+    double quota = 0, period = 0; // unreadable values stay 0; "max" and -1 mean no limit
     if (unified) {
         std::ifstream(directory / "cpu.max") >> quota >> period;
     } else {
@@ -109,7 +109,7 @@ double quotaOfGroup(fs::path const& directory, bool unified) {
     return processors(quota, period);
 }
 
-// The least of a group and those above it.
+// The smallest quota of a group and its ancestors.
 double quotaOfChain(fs::path const& mountPoint, fs::path group, bool unified) {
     double quota = quotaOfGroup(mountPoint, unified);
     for (; !group.empty(); group = group.parent_path())

@@ -12,9 +12,9 @@ namespace {
 
 constexpr size_t kStackBytes = size_t(8) << 20;
 
-// What a job may use between two looks at the stack, and what nested waits may use of a stack at most. Frames of
-// sanitized code are several times as large, and the thread sanitizer notes at most 65536 frames a thread.
-#if !defined(__has_feature) // gcc has macros instead
+// The stack that a job may use between two checks, and the most that nested waits may use. Frames of sanitized code are
+// several times as large, and the thread sanitizer records at most 65536 frames per thread.
+#if !defined(__has_feature) // gcc has macros instead of __has_feature
 #define __has_feature(name) 0
 #endif
 #if defined(__SANITIZE_THREAD__) || __has_feature(thread_sanitizer)
@@ -47,7 +47,7 @@ void measureStack() {
     pthread_attr_t attributes;
     void* lowest = nullptr;
     size_t bytes = 0;
-    tThread.stackFloor = 1; // of a thread that cannot be asked: never low
+    tThread.stackFloor = 1; // default if the limits are unknown: the stack is never low
     if (pthread_getattr_np(pthread_self(), &attributes) != 0) return;
     if (pthread_attr_getstack(&attributes, &lowest, &bytes) == 0) {
         const size_t reserve = std::min(kReserveBytes, bytes / 4);

@@ -21,7 +21,7 @@ void JobStorage::refill(Cache& cache) {
 }
 
 void JobStorage::flush(Cache& cache) {
-    // The jobs released longest ago go, so that the next allocation is still warm in this core's cache.
+    // Evict the jobs released longest ago, so that the next allocation is still warm in this core's cache.
     for (uint32_t i = 0; i + 1 < kBatch; ++i) {
         mNextInBatch[cache.free[i]].store(cache.free[i + 1], std::memory_order_relaxed);
     }

@@ -4,19 +4,19 @@
 
 namespace filament::jobs {
 
-// The functions of the scheduler that the templates need; everything else about it is private.
+// The scheduler functions that the templates need; the rest of the scheduler is private.
 namespace detail {
 
-Job* allocate(Scheduler& scheduler, Priority priority); // null: run the job yourself
+Job* allocate(Scheduler& scheduler, Priority priority); // null: run the job in place
 void submit(Scheduler& scheduler, Job& job);
-Job* allocateBackground(Scheduler& scheduler); // null: run the job yourself
+Job* allocateBackground(Scheduler& scheduler); // null: run the job in place
 void submitBackground(Scheduler& scheduler, Job& job);
-Completion& backgroundCompletion(Scheduler& scheduler); // of background jobs without a group
+Completion& backgroundCompletion(Scheduler& scheduler); // for background jobs without a group
 void continueWith(Scheduler& scheduler, Completion& before, Job& job);
 Seat* seatHere(Scheduler& scheduler);
 Priority inheritedPriority();
-bool isHungry(Scheduler& scheduler, Seat* seat, Priority priority); // a thief would find nothing at the calling thread
-// False: it ran out of memory.
+bool isHungry(Scheduler& scheduler, Seat* seat, Priority priority); // thieves would find no work at the calling thread
+// Returns false if memory ran out.
 bool runInline(Scheduler& scheduler, const char* name, void (*call)(void*), void* function);
 [[noreturn]] void endUnattended(const char* name); // out of memory, and nobody waits for the job
 
@@ -27,7 +27,7 @@ template <JobName kName, class F>
             const_cast<void*>(static_cast<const void*>(std::addressof(function))));
 }
 
-/// Runs a job here if there is no room or no worker for it, successors included.
+/// Runs a job in place if there is no memory or no worker for it, together with its successors.
 template <JobName kName, class F>
 void runAtOnce(Scheduler& scheduler, Completion& completion, F&& function) {
     bool isComplete = true;
@@ -130,7 +130,7 @@ struct ParallelLoop {
     }
 
     // Lazy binary splitting (Tzannes, Caragea, Barua, Vishkin 2010): the upper half becomes a job only if this thread
-    // has nothing left to steal, so a loop creates a few jobs per worker, not one per chunk.
+    // has nothing left to steal, so that a loop creates a few jobs per worker, not one per chunk.
     void runChunks(size_t first, size_t last) {
         Seat* seat = seatHere(scheduler);
         while (last - first > 1) {

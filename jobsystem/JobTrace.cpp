@@ -19,10 +19,10 @@ uint64_t nextId() {
 
 } // namespace
 
-/// The newest events of one track. One thread writes at a time, any thread reads.
-/// The writer announces event n after its fields are written, and overwrites a slot only after it announced the events
-/// before. Hence a reader that copies events and then looks at the announced count again knows which of its copies may
-/// be of a slot that was being overwritten: those a whole ring behind the count.
+/// The newest events of one track. Only one thread writes at a time; any thread may read.
+/// The writer publishes event n after writing its fields, and overwrites a slot only after publishing all earlier
+/// events. A reader copies the events and then reads the published count again: only copies that are a whole ring
+/// behind that count may have been overwritten meanwhile.
 class JobTrace::Ring {
 public:
     std::string name;
@@ -33,7 +33,7 @@ public:
     TraceTrack read() const;
 
 private:
-    // Plain memory from calloc, so that a page is touched only when events reach it; accessed as atomics.
+    // Memory from calloc, so that pages are touched only when events reach them; accessed as atomics.
     struct Slot {
         const char* name;
         int64_t begin;
@@ -56,7 +56,7 @@ private:
 
     uint32_t mCapacity = 0;               // a power of two
     std::unique_ptr<Slot[], Free> mSlots; // written before the first count, read after it
-    std::atomic<uint64_t> mCount{ 0 };    // events announced since the start
+    std::atomic<uint64_t> mCount{ 0 };    // events published since the start
 };
 
 void JobTrace::Ring::push(TraceEvent const& event) {
@@ -91,7 +91,7 @@ TraceTrack JobTrace::Ring::read() const {
     }
     track.dropped = std::min(firstIntact(mCount.load(std::memory_order_acquire)), count);
     track.events.erase(track.events.begin(), track.events.begin() + static_cast<ptrdiff_t>(track.dropped - first));
-    // Of events that begin and end together, the one recorded last contains the others.
+    // If events begin and end together, the one recorded last encloses the others.
     std::reverse(track.events.begin(), track.events.end());
     std::stable_sort(track.events.begin(), track.events.end(), [](TraceEvent const& a, TraceEvent const& b) {
         return std::tuple(a.begin, b.end) < std::tuple(b.begin, a.end);
@@ -126,7 +126,7 @@ void JobTrace::recordJobHere(const char* name, int64_t begin, int64_t end, bool 
     static thread_local struct {
         uint64_t trace = 0;
         Track track = 0;
-    } tLast; // asking the system for the name costs more than the rest
+    } tLast; // cached: asking the system for the name costs more than everything else here
     const std::lock_guard lock(mMutex);
     if (tLast.trace != mId) tLast = { mId, trackLocked(nameOfThisThread()) };
     mSpans[tLast.track]->push({ name, begin, end, stolen ? TraceEvent::Kind::StolenJob : TraceEvent::Kind::Job });

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What happens to a job once somebody has it: it is called, its memory goes back, its group is told.
+// Running a job once a thread has taken it: call it, release its memory, report to its group.
 #include "jobsystem/FreshStack.h"
 #include "jobsystem/JobFault.h"
 #include "jobsystem/Scheduler.h"
@@ -9,7 +9,7 @@
 namespace filament::jobs {
 namespace {
 
-/// What the calling thread is doing while this lives.
+/// Sets what the calling thread is doing, for the lifetime of this object.
 class RunningJob {
 public:
     RunningJob(const char* name, Priority priority) : mOuterName(tAssertContext), mOuterPriority(tThread.priority) {
@@ -43,7 +43,7 @@ namespace detail {
 
 bool runInline(Scheduler& scheduler, const char* name, void (*function)(void*), void* argument) {
     bool isComplete = true;
-    onEnoughStack([&] { // perhaps on another thread: nothing is thrown past it
+    onEnoughStack([&] { // possibly on another thread, so no exception may leave this
         const RunningJob running(name, tThread.priority);
         const int64_t begin = scheduler.trace() ? nanosecondsNow() : 0;
         try {
@@ -67,8 +67,9 @@ void endUnattended(const char* name) {
 
 } // namespace detail
 
-/// Jobs of one group that this thread has run and not yet reported. As long as it goes on with another one of the same
-/// group, which cannot be done before that, nobody needs to know: so a row of thefts moves the group's line only once.
+/// The jobs of one group that this thread has run but not yet reported. While the thread continues with jobs of the
+/// same group, the group cannot be done, so nobody needs the count: a run of thefts touches the group's cache line only
+/// once.
 class Scheduler::Report {
 public:
     Report(Scheduler& scheduler, Seat const& seat) : mScheduler(scheduler), mSeat(seat) {}
@@ -108,7 +109,8 @@ void Scheduler::work(Seat& seat, Found found, Hunt& hunt) {
     seat.busyNanoseconds.store(seat.busyNanoseconds.load(std::memory_order_relaxed) + busy, std::memory_order_relaxed);
 }
 
-// One clock read for a stretch of jobs, not for each: it begins at the look that found the first.
+// Reads the clock once per stretch of jobs, not once per job; the stretch begins at the search that found its first
+// job.
 Scheduler::Found Scheduler::stealAgain(Seat& seat, Hunt& hunt) {
     const int64_t begin = hunt.now;
     hunt.now = nanosecondsNow();
@@ -139,7 +141,7 @@ void Scheduler::executeBackground(Job& job) {
     finish(nullptr, completion, true);
 }
 
-/// Whether the successor of the job is to be called, too.
+/// Whether the job's successor must be called, too.
 bool Scheduler::callUntraced(Job& job, Priority priority) {
     JobType const& type = *job.type;
     const RunningJob running(type.name, priority);
@@ -160,7 +162,7 @@ bool Scheduler::call(Seat const* seat, Found const& found) {
     const char* name = found.job->type->name;
     const int64_t begin = nanosecondsNow();
     const bool again = callUntraced(*found.job, found.priority);
-    record(seat, name, begin, found.stolen); // before the group is done: whoever waited finds it in the trace
+    record(seat, name, begin, found.stolen); // before the group is done, so that whoever waited finds it in the trace
     return again;
 }
 
@@ -173,8 +175,8 @@ void Scheduler::record(Seat const* seat, const char* name, int64_t begin, bool s
     }
 }
 
-// A thief leaves the owner's part of the count alone even if it is the owner: so it need not read the line before it
-// changes it, which would move it between the cores twice.
+// For a stolen job, the shared count is changed even if this thread owns the group: it then need not read the cache
+// line before writing it, which would move the line between cores twice.
 void Scheduler::finish(Seat const* seat, Completion& completion, bool stolen) {
     if (!stolen && seat && completion.finishLocal(seat->occupant)) return;
     if (completion.finishShared()) close(completion);
@@ -182,7 +184,7 @@ void Scheduler::finish(Seat const* seat, Completion& completion, bool stolen) {
 
 void Scheduler::close(Completion& completion) {
     const bool isOutOfMemory = completion.isOutOfMemory();
-    const auto [continuation, sleeper] = completion.close(); // the memory may be gone
+    const auto [continuation, sleeper] = completion.close(); // the group's memory may be gone from here on
     if (continuation && isOutOfMemory) continuation->completion->markOutOfMemory();
     if (continuation) enqueue(tThread.seatOf(*this), *continuation, continuation->completion->priority());
     if (sleeper) sleeper->wakeAll();

@@ -9,7 +9,8 @@
 namespace filament::jobs {
 namespace {
 
-// About what it costs to fall asleep; longer would heat idle cores, shorter would sleep between two loops of a frame.
+// About the cost of falling asleep. Longer spinning would heat idle cores; with less, workers would sleep between two
+// loops of a frame.
 constexpr int64_t kWorkerSpinNanoseconds = 20'000;
 
 uint32_t workersFromOption(JobSystemOptions const& options) {
@@ -51,7 +52,7 @@ void Scheduler::startWorkers(std::string const& threadName) {
 }
 
 void Scheduler::endThreads() {
-    if (mBackground) mBackground->stop(); // its jobs may still need workers, and the system as it is
+    if (mBackground) mBackground->stop(); // background jobs may still need the workers and the whole system
     mStopping.store(true, std::memory_order_seq_cst);
     mIdle.wakeAll();
     for (std::thread& thread : mThreads) thread.join();
@@ -126,7 +127,7 @@ void Scheduler::submit(Job& job) {
     enqueue(seat, job, priority);
 }
 
-// The group of the job counts it already.
+// The job's group already counts it.
 void Scheduler::enqueue(Seat* seat, Job& job, Priority priority) {
     if (seat && priority == Priority::Normal) [[likely]] {
         if (!seat->normal.push(&job)) [[unlikely]]
@@ -168,7 +169,7 @@ void Scheduler::submitBackground(Job& job) {
     pushBackground(job);
 }
 
-// Without a thread or memory for it the job runs here.
+// Runs the job in place if there is no thread or no memory for it.
 void Scheduler::pushBackground(Job& job) {
     if (!mBackground->push(job)) executeBackground(job);
 }
@@ -194,7 +195,7 @@ void Scheduler::continueWith(Completion& before, Job& job) {
     enqueue(seat, job, job.completion->priority());
 }
 
-// ---------------------------------------------------------------------------------------------- the templates' doors
+// ---------------------------------------------------------------------------------------------- used by the templates
 
 namespace detail {
 

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the scheduler looks for work, in which order and how often.
+// Where the scheduler looks for work, in which order, and how often.
 #include "jobsystem/Scheduler.h"
 
 namespace filament::jobs {
 namespace {
 
-// Marsaglia 2003, "Xorshift RNGs": period 2^32 - 1. Which victim is tried first only affects speed.
+// Marsaglia 2003, "Xorshift RNGs": period 2^32 - 1. The first victim affects only the speed.
 uint32_t nextRandom(uint32_t& state) {
     state ^= state << 13;
     state ^= state >> 17;
@@ -35,12 +35,12 @@ Scheduler::Found Scheduler::searchOthers(Seat* thief, Priority least, Patience& 
     return stealNormal(thief, patience);
 }
 
-// The hint goes before the search: a push that the search misses sets it again.
+// Clears the hint before searching: a push that the search misses sets it again.
 Scheduler::Found Scheduler::searchCritical(Seat* thief) {
     if (mCriticalHint.load(std::memory_order_relaxed)) mCriticalHint.exchange(false, std::memory_order_seq_cst);
     Found found = popInjected(Priority::FrameCritical);
     if (!found) found = stealCritical(thief);
-    if (found) mCriticalHint.store(true, std::memory_order_seq_cst); // where one was, more may be
+    if (found) mCriticalHint.store(true, std::memory_order_seq_cst); // there may be more
     return found;
 }
 
@@ -48,7 +48,7 @@ Scheduler::Found Scheduler::popInjected(Priority priority) {
     return { mInjected[static_cast<int>(priority)].pop(), priority, true };
 }
 
-/// Calls visit(seat) for all seats in use but the thief's, from a random one on, until it returns a job.
+/// Calls visit(seat) for all other seats in use, starting at a random one, until it returns a job.
 template <class Visit>
 Job* Scheduler::visitOthers(Seat* thief, Visit&& visit) {
     const uint32_t seats = mSeats.inUse();
@@ -85,8 +85,8 @@ std::optional<Priority> Scheduler::visibleWork(Priority least) {
     return least == Priority::FrameCritical ? std::nullopt : seen;
 }
 
-// Without a thread that watches, a push after this wakes one; a push before this is seen by whoever looks afterwards,
-// as both the flag and the look are in the total order of seq_cst operations.
+// Once no thread watches, a push wakes one. Earlier pushes are seen by whoever searches afterwards, because both the
+// flag and the search are in the total order of seq_cst operations.
 void Scheduler::stopWatching(Hunt& hunt) {
     if (hunt.watches) mWatched.store(false, std::memory_order_seq_cst);
     hunt.watches = false;
@@ -98,7 +98,7 @@ void Scheduler::watch(Hunt& hunt) {
         hunt.watches = !mWatched.exchange(true, std::memory_order_seq_cst);
 }
 
-// A wake-up stands for any number of pushes: whoever answered it and leaves work behind wakes the next one.
+// One wake-up may stand for several pushes: a woken thread that leaves work behind wakes the next one.
 void Scheduler::endHunt(Hunt& hunt) {
     stopWatching(hunt);
     if (!hunt.passesOn) return;
@@ -106,10 +106,10 @@ void Scheduler::endHunt(Hunt& hunt) {
     if (const std::optional<Priority> left = visibleWork(Priority::Normal)) notifyWork(*left);
 }
 
-// One thread stays awake as long as there is something to see, even if it is gone at the second look: going to sleep
-// would make the next push pay for a wake-up.
+// One thread stays awake as long as it sees work, even if the work is gone when it looks again: if it slept, the next
+// push would have to pay for a wake-up.
 Scheduler::Found Scheduler::spin(Seat* seat, Priority least, Completion const* until, int64_t nanoseconds, Hunt& hunt) {
-    constexpr int64_t kOftenFor = 2'000, kRarely = 250; // asking for the line of a completion delays who finishes there
+    constexpr int64_t kOftenFor = 2'000, kRarely = 250; // reading a completion's line delays its threads
     Patience own;
     Patience& patience = seat ? seat->patience : own;
     const int64_t begin = hunt.now;

@@ -28,8 +28,8 @@ Seat* SeatTable::sitDown() {
     return nullptr;
 }
 
-// Before the first push of a new occupant: a thread that is about to sleep and looks at the seats in use either sees
-// this one, or announced its sleep early enough to be seen by the push.
+// Must precede the first push of a new occupant: a thread that is about to sleep and looks at the seats in use then
+// either sees this one, or announced its sleep early enough for the push to see it.
 void SeatTable::raiseInUse(uint32_t count) {
     uint32_t inUse = mInUse.load(std::memory_order_relaxed);
     while (inUse < count && !mInUse.compare_exchange_weak(inUse, count, std::memory_order_seq_cst)) {

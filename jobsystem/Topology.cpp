@@ -17,7 +17,7 @@
 namespace filament::jobs {
 namespace {
 
-constexpr int kMaxCores = 8192; // the largest configuration of Linux; the kernel refuses a mask shorter than its own
+constexpr int kMaxCores = 8192; // the largest configuration of Linux; the kernel refuses a shorter mask than its own
 
 struct FreeMask {
     void operator()(cpu_set_t* mask) const { CPU_FREE(mask); }
@@ -27,14 +27,14 @@ struct FreeTopology {
 };
 using HwlocTopology = std::unique_ptr<hwloc_topology, FreeTopology>;
 
-// Speed of the processors of one make.
+// The speed of processors of one kind.
 struct CpuKind {
     int efficiencyClass = 0;
     int maxMegahertz = 0;
 };
 
-// Only cores and caches: with everything in it a first load takes 2 ms. The x86 discovery would ask the CPUs
-// themselves, for which it moves the calling thread from one to the next; the operating system knows as well.
+// Load only cores and caches: loading everything takes 2 ms the first time. hwloc's x86 discovery would query each CPU,
+// moving the calling thread from one to the next; the operating system has the same information.
 HwlocTopology loadHwloc(std::string const& xml) {
     hwloc_topology_t raw = nullptr;
     if (hwloc_topology_init(&raw) != 0) return nullptr;
@@ -60,8 +60,8 @@ int megahertz(unsigned infoCount, hwloc_info_s const* infos) {
     return 0;
 }
 
-// hwloc ranks kinds by what the system says of their capacity, type and frequency. Where that is not enough for it, it
-// ranks none of them (-1); then the frequency alone decides.
+// hwloc ranks kinds by the capacity, type and frequency that the system reports. If those do not suffice, it ranks none
+// (-1); then the frequency alone decides.
 std::vector<CpuKind> cpuKinds(hwloc_topology_t topology) {
     std::vector<CpuKind> kinds(static_cast<size_t>(std::max(0, hwloc_cpukinds_get_nr(topology, 0))));
     std::vector<int> frequencies;
@@ -96,7 +96,7 @@ Cpu cpuOf(hwloc_topology_t topology, hwloc_obj_t unit, std::span<const CpuKind> 
              .maxMegahertz = speed.maxMegahertz };
 }
 
-// Every CPU of the machine, allowed or not; numbers are hwloc's own. Empty if hwloc finds nothing.
+// All CPUs of the machine, allowed or not, with hwloc's numbers. Empty if hwloc finds nothing.
 std::vector<Cpu> describeMachine(std::string const& xml) {
     std::vector<Cpu> cpus;
     const HwlocTopology topology = loadHwloc(xml);
@@ -113,7 +113,7 @@ std::vector<Cpu> const& thisMachine() {
     return cpus;
 }
 
-// Names in the order of their first use: 0, 1, 2, ...
+// Numbers names 0, 1, 2, ... in the order of first use.
 class Renumbering {
 public:
     int operator()(int name) { return mNumbers.try_emplace(name, static_cast<int>(mNumbers.size())).first->second; }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// wait(): a thread that has nothing else to do until a group is done.
+// wait(): for a thread that has nothing else to do until a group is done.
 #include "jobsystem/FreshStack.h"
 #include "jobsystem/Scheduler.h"
 
@@ -8,8 +8,8 @@
 namespace filament::jobs {
 namespace {
 
-// The end of the last job is near more often than not, and being woken takes about as long as this: a waiter that spins
-// as long as a wake-up would cost never takes more than twice the time of one that knows the future.
+// The last job usually ends soon, and a wake-up takes about this long. A waiter that spins for as long as a wake-up
+// would cost never takes more than twice the optimal time.
 constexpr int64_t kWaiterSpinNanoseconds = 50'000;
 
 } // namespace

@@ -20,7 +20,7 @@ uint32_t roundToSmallFloat(float value, uint32_t mantissaBits, float maximum) {
     const auto significand = static_cast<uint32_t>(std::nearbyint(static_cast<double>(clamped) * scale));
     const uint32_t hidden = 1u << mantissaBits;
     if (significand < hidden) return significand; // denormal
-    // A carry out of the mantissa moves into the exponent by itself.
+    // A carry out of the mantissa increments the exponent automatically.
     return (static_cast<uint32_t>(unbiased + 15) << mantissaBits) + (significand - hidden);
 }
 

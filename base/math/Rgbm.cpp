@@ -19,7 +19,7 @@ uint32_t packRgbm(float3 radiance) {
     if (!(brightest > 0)) return 0;
     if (brightest > kMaxRgbm) light *= kMaxRgbm / brightest;
     const float root = std::sqrt(std::min(brightest, kMaxRgbm)) / kRgbmRange;
-    // The next factor upwards, so that no component exceeds 1.
+    // Round the factor up, so that no component exceeds 1.
     const uint32_t factor = std::min(255u, static_cast<uint32_t>(std::ceil(root * 255.0f)));
     const float scale = 255.0f / (kRgbmRange * static_cast<float>(factor));
     return byteOf(std::sqrt(light.x) * scale) | byteOf(std::sqrt(light.y) * scale) << 8 |
