@@ -19,7 +19,7 @@ constexpr std::string_view kOwnFolder = "/mesa_vectors_128";
 
 using Lookup = std::function<const char*(const char*)>;
 
-/// Where Mesa looks for its cache, in its order; none: nowhere that we know.
+/// Where Mesa looks for its cache, in its order of preference. No value: the location is unknown.
 std::optional<std::string> cacheOf(Lookup const& lookup) {
     for (const char* name : { kCacheDirectory, "XDG_CACHE_HOME" }) {
         if (const char* value = lookup(name); value && *value) return value;
@@ -31,11 +31,11 @@ std::optional<std::string> cacheOf(Lookup const& lookup) {
 EnvironmentChange ownCache(Lookup const& lookup) {
     const auto cache = cacheOf(lookup);
     if (!cache) return { "MESA_SHADER_CACHE_DISABLE", "true" };
-    const bool isOwn = cache->ends_with(kOwnFolder); // a parent process was here
+    const bool isOwn = cache->ends_with(kOwnFolder); // set by a parent process
     return { kCacheDirectory, isOwn ? *cache : *cache + std::string(kOwnFolder) };
 }
 
-/// Out of the folder that a parent process of 128 bits left in the environment.
+/// Leaves the folder that a parent process of 128 bits left in the environment.
 void leaveOwnCache(Lookup const& lookup, std::vector<EnvironmentChange>& changes) {
     const char* const value = lookup(kCacheDirectory);
     std::string_view cache = value ? value : "";

@@ -3,7 +3,7 @@
 
 namespace filament::backend::gles {
 
-// Outside of vertex arrays and uniform slots, so that binding it disturbs nothing that ContextState knows.
+// Not part of vertex arrays or uniform slots, so binding it disturbs nothing that ContextState tracks.
 static constexpr GLenum kEditTarget = GL_COPY_WRITE_BUFFER;
 
 Buffers::~Buffers() {
@@ -42,7 +42,7 @@ void Buffers::update(BufferHandle handle, uint64_t offset, std::span<const std::
     Api const& gl = mDevice.gl;
     gl.BindBuffer(kEditTarget, buffer->name);
     if (bytes.size() == buffer->size) {
-        // New storage instead of a wait for draws that still read the old one.
+        // Allocate new storage instead of waiting for draws that still read the old one.
         gl.BufferData(kEditTarget, static_cast<GLsizeiptr>(bytes.size()), bytes.data(), buffer->hint);
     } else {
         gl.BufferSubData(kEditTarget, static_cast<GLintptr>(offset), static_cast<GLsizeiptr>(bytes.size()),

@@ -6,7 +6,7 @@ namespace {
 
 struct ContextWish {
     EGLint minor;     // of ES 3.x
-    bool resetNotice; // tells a lost device from a broken one; not every driver has it
+    bool resetNotice; // tells a lost device from a defective one; not every driver has it
 };
 
 EGLContext createContext(Egl const& egl, EGLDisplay display, ContextWish wish, bool debug) {

@@ -5,12 +5,12 @@
 
 namespace filament::backend::gles {
 
-// The members start with the initial values of the specification; only what differs from them is set here.
+// The members start with the initial values of the specification, so only differing values are set here.
 ContextState::ContextState(Api const& gl, Quirks const& quirks) : mGl(gl), mQuirks(quirks) {
     gl.ClipControl(GL_LOWER_LEFT_EXT, GL_ZERO_TO_ONE_EXT); // row 0 is y = -1 and depth is in [0, 1], as on Vulkan
     gl.PixelStorei(GL_UNPACK_ALIGNMENT, 1);
     gl.PixelStorei(GL_PACK_ALIGNMENT, 1);
-    gl.Disable(GL_DITHER); // on by default, and free to change bits
+    gl.Disable(GL_DITHER); // on by default, and may change bits
     gl.FrontFace(glFrontFace(mRaster.frontFace));
     mConstantAttributes.fill(GL_FLOAT); // (0, 0, 0, 1) is the initial value
 }
@@ -138,7 +138,7 @@ void ContextState::setRaster(RasterState const& raster) {
 
 void ContextState::setDepth(CompareOp compare, bool write) {
     enable(GL_DEPTH_TEST, compare != CompareOp::None, mDepthTest);
-    if (compare == CompareOp::None) return; // without the test nothing is written either
+    if (compare == CompareOp::None) return; // without the test, nothing is written either
     if (compare != mDepthCompare) mGl.DepthFunc(glCompare(mDepthCompare = compare));
     if (write != mDepthWrite) mGl.DepthMask((mDepthWrite = write) ? GL_TRUE : GL_FALSE);
 }

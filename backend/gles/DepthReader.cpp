@@ -34,7 +34,7 @@ Texture DepthReader::makeTexture(Format format, Rect const& rect) {
     mDevice.state.bindTexture(FullScreenProgram::kUnit, GL_TEXTURE_2D, texture.name);
     gl.TexStorage2D(GL_TEXTURE_2D, 1, glFormat(format).internalFormat, static_cast<GLsizei>(rect.width),
                     static_cast<GLsizei>(rect.height));
-    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); // depth textures filter no other way
+    gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MIN_FILTER, GL_NEAREST); // the only filter for depth textures
     gl.TexParameteri(GL_TEXTURE_2D, GL_TEXTURE_MAG_FILTER, GL_NEAREST);
     return texture;
 }

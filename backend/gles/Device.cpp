@@ -9,8 +9,8 @@
 namespace filament::backend::gles {
 namespace {
 
-// Errors, undefined behaviour and anything grave. Performance hints are not the caller's bug, and what the shader
-// compiler says is in the program's own report.
+// Errors, undefined behaviour and anything severe. Performance hints are not the caller's bug, and the messages of the
+// shader compiler appear in the program's own report.
 bool isWorthTelling(GLenum source, GLenum type, GLenum severity) {
     if (source == GL_DEBUG_SOURCE_SHADER_COMPILER || type == GL_DEBUG_TYPE_PERFORMANCE) return false;
     return type == GL_DEBUG_TYPE_ERROR || type == GL_DEBUG_TYPE_UNDEFINED_BEHAVIOR ||
@@ -76,7 +76,7 @@ Device::Device(Api const& api, Quirks const& found, ResultSink& results, bool wa
     if (!messages) return;
     gl.DebugMessageCallback(&onMessage, this);
     gl.Enable(GL_DEBUG_OUTPUT);
-    gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // on this thread, inside the call that is wrong
+    gl.Enable(GL_DEBUG_OUTPUT_SYNCHRONOUS); // reported on this thread, inside the faulty call
 }
 
 Device::~Device() {
@@ -85,7 +85,7 @@ Device::~Device() {
 
 GLenum Device::takeError() {
     const GLenum first = gl.GetError();
-    // A lost context answers GL_CONTEXT_LOST for ever on some drivers: bounded, not "until none".
+    // Some drivers return GL_CONTEXT_LOST for ever once the context is lost, so the loop is bounded.
     for (int i = 0; i < 8 && first != GL_NO_ERROR && gl.GetError() != GL_NO_ERROR; ++i) {
     }
     return first;

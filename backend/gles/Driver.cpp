@@ -22,7 +22,7 @@ std::vector<DeviceInfo> listGlesDevices() {
         Result<gles::OpenDevice> device = gles::openDevice(**egl, source, false);
         if (!device) continue;
         DeviceInfo info = describeDevice(device->gl, device->quirks);
-        // The surfaceless platform and the device enumeration lead to the same devices.
+        // The surfaceless platform and the device enumeration list the same devices.
         const bool known = std::any_of(devices.begin(), devices.end(), [&](DeviceInfo const& other) {
             return other.deviceName == info.deviceName && other.driverName == info.driverName;
         });

@@ -43,7 +43,7 @@ bool Egl::open() {
 
 Result<Egl const*> Egl::load() {
     static Egl library;
-    static const bool opened = library.open(); // once per process, whichever thread comes first
+    static const bool opened = library.open(); // once per process, by the first thread
     if (opened) return &library;
     return fail(ErrorCode::DeviceUnavailable, "OpenGL ES: libEGL.so.1 cannot be opened or is older than 1.5; {}",
                 kInstall);
@@ -65,7 +65,7 @@ Result<EGLDisplay> Egl::openDisplay(DisplaySource source) const {
     if (display == EGL_NO_DISPLAY) {
         return fail(ErrorCode::DeviceUnavailable, "EGL offers no such display; {}", kInstall);
     }
-    if (!Initialize(display, nullptr, nullptr)) { // no effect on one that is initialised
+    if (!Initialize(display, nullptr, nullptr)) { // no effect if it is already initialised
         return fail(ErrorCode::DeviceUnavailable, "EGL found no driver for its display (EGL error {:#x}); {}",
                     GetError(), kInstall);
     }

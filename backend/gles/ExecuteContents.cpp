@@ -6,8 +6,8 @@
 namespace filament::backend::gles {
 namespace {
 
-// Blits and mip chains are framebuffer blits, the same fixed-function filter that vkCmdBlitImage runs, so that the bits
-// agree; glGenerateMipmap is free to filter as it likes.
+// Blits and mip chains are framebuffer blits, whose fixed-function filter is also that of vkCmdBlitImage, so the bits
+// agree; glGenerateMipmap may filter in any way.
 
 Rect wholeLevel(DeviceTextureDesc const& desc, uint32_t level) {
     return { 0, 0, std::max(desc.width >> level, 1u), std::max(desc.height >> level, 1u) };

@@ -97,8 +97,8 @@ void Executor::execute(CmdDrawIndexed const& command) {
 void Executor::execute(CmdDispatch const& command) {
     if (mPass.isOpen() || !mCompute.prepareDispatch()) return;
     mDevice.gl.DispatchCompute(command.groupsX, command.groupsY, command.groupsZ);
-    // Whatever may read or overwrite a buffer of the stream; dispatches are few, so not what the next command needs
-    // alone.
+    // Covers everything that may read or overwrite a storage buffer. Dispatches are few, so the barrier is not narrowed
+    // to what the next command needs.
     mDevice.gl.MemoryBarrier(GL_VERTEX_ATTRIB_ARRAY_BARRIER_BIT | GL_ELEMENT_ARRAY_BARRIER_BIT |
                              GL_UNIFORM_BARRIER_BIT | GL_BUFFER_UPDATE_BARRIER_BIT | GL_SHADER_STORAGE_BARRIER_BIT);
     ++mDevice.statistics.dispatches;

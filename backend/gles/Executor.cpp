@@ -41,9 +41,9 @@ Executor::Executor(OpenDevice device, DriverOptions const& options, ResultSink& 
 
 Executor::~Executor() {
     try {
-        waitIdle(); // every ticket that can be answered is
+        waitIdle(); // delivers every answer that is still possible
         if (mDevice.programs) mDevice.programs->save();
-    } catch (std::bad_alloc const&) { // then not
+    } catch (std::bad_alloc const&) { // then nothing is saved
     }
     mContext.makeCurrent();
 }

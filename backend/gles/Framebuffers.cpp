@@ -49,7 +49,7 @@ GLuint Framebuffers::single(Side side, Texture const& texture, uint32_t level, u
     if (single.object == 0) mDevice.gl.GenFramebuffers(1, &single.object);
     if (single.image == image) return single.object;
     mDevice.state.bindFramebuffers(single.object, single.object);
-    attach(depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, image); // other points never have anything
+    attach(depth ? GL_DEPTH_ATTACHMENT : GL_COLOR_ATTACHMENT0, image); // other attachment points are always empty
     single.image = image;
     return single.object;
 }

@@ -6,7 +6,8 @@
 namespace filament::backend::gles {
 namespace {
 
-// A blit may take any value between those of the samples (OpenGL ES 3.1, 16.2.1); Vulkan knows sample 0 everywhere.
+// A blit may return any value between those of the samples (OpenGL ES 3.1, 16.2.1). Vulkan offers sample 0 on every
+// device.
 constexpr std::string_view kDepthResolveText = R"(#version 310 es
 precision highp float;
 layout(binding = 0) uniform highp sampler2DMS samples;

@@ -9,7 +9,7 @@
 namespace filament::backend::gles {
 namespace {
 
-// ES links no program without a fragment shader, not even for depth alone.
+// ES links no program without a fragment shader, not even one that only writes depth.
 constexpr std::string_view kNoFragment = "#version 310 es\nvoid main() {}\n";
 
 std::string_view asText(std::span<const std::byte> bytes) {
@@ -22,7 +22,7 @@ std::string literal(ConstantValue const& constant) {
         return constant.bits ? "true" : "false";
     case ConstantValue::Type::Int: {
         const auto value = static_cast<int32_t>(constant.bits);
-        // The lowest integer has no literal: its sign is an operator.
+        // The lowest integer has no literal: the minus sign is an operator.
         if (value == std::numeric_limits<int32_t>::min()) return "(-2147483647 - 1)";
         return fmt::format("({})", value);
     }
@@ -33,7 +33,7 @@ std::string literal(ConstantValue const& constant) {
     return fmt::format("uintBitsToFloat({:#010x}u) /* {} */", constant.bits, std::bit_cast<float>(constant.bits));
 }
 
-/// #version must stay the first line; `#line` keeps the numbers in compile errors right.
+/// #version must stay the first line; `#line` keeps the line numbers in compile errors correct.
 struct SplitText {
     std::string_view version, body;
 };
@@ -150,7 +150,7 @@ void Program::readInputs() {
     }
 }
 
-// The values of outputs that a program lacks are undefined in ES: the pipeline masks them.
+// In ES, outputs that a program does not write have undefined values, so the pipeline masks them.
 void Program::readOutputs() {
     Api const& gl = mDevice.gl;
     GLint count = 0;

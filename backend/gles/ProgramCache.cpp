@@ -32,7 +32,7 @@ GLuint loadProgramBinary(Device& device, uint64_t key) {
         return program;
     }
     gl.DeleteProgram(program);
-    gl.GetError(); // a format that the driver does not know any more
+    gl.GetError(); // clear the error: the driver no longer knows the format
     device.programs->erase(key);
     return 0;
 }

@@ -36,7 +36,7 @@ bool hasAny(Extensions const& names, std::initializer_list<const char*> wanted) 
 }
 
 uint32_t maxDispatchGroups(Api const& gl) {
-    GLint least = 65535; // what the specification asks for
+    GLint least = 65535; // the minimum that the specification requires
     for (GLuint direction = 0; direction < 3; ++direction) {
         GLint most = 0;
         gl.GetIntegeri_v(GL_MAX_COMPUTE_WORK_GROUP_COUNT, direction, &most);
@@ -117,7 +117,7 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
         .timers = quirks.timers,
         .blockCompression = quirks.blockCompression,
         .depthClamp = quirks.depthClamp,
-        .lastVertexProvokes = true, // OpenGL ES knows no other
+        .lastVertexProvokes = true, // the only convention of OpenGL ES
         .depthResolve = true,       // ES 3.1 samples multisampled depth
         .textureViews = quirks.textureViews,
         .halfFloatShaders = true,

@@ -58,7 +58,7 @@ Readbacks::Plan Readbacks::planFor(Format format) const {
     mDevice.gl.GetIntegerv(GL_IMPLEMENTATION_COLOR_READ_TYPE, &readType);
     const bool direct = static_cast<GLenum>(readFormat) == exact.format && static_cast<GLenum>(readType) == exact.type;
     if (direct || !canRepack(format)) return { exact.format, exact.type, formatInfo(format).bytesPerBlock };
-    // What every device must offer (OpenGL ES 3.1, 16.1.2).
+    // Formats that every device must offer (OpenGL ES 3.1, 16.1.2).
     FormatInfo const& info = formatInfo(format);
     const uint32_t bytes = genericBytes(format);
     if (info.kind == FormatKind::UnsignedInteger) return { GL_RGBA_INTEGER, GL_UNSIGNED_INT, bytes, format };

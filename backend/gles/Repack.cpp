@@ -21,7 +21,7 @@ void store(std::byte* to, T value) {
     std::memcpy(to, &value, sizeof(T));
 }
 
-// The 11- and 10-bit floats are halves without a sign and with a mantissa of 6 and 5 bits (OpenGL ES 3.1, 2.3.4.3).
+// The 11- and 10-bit floats are halves without a sign and with 6 and 5 bits of mantissa (OpenGL ES 3.1, 2.3.4.3).
 uint32_t packedSmallFloats(const std::byte* texel) {
     const uint32_t red = exactHalfBits(load<float>(texel)) >> 4;
     const uint32_t green = exactHalfBits(load<float>(texel + 4)) >> 4;
@@ -48,7 +48,7 @@ uint16_t exactHalfBits(float value) {
     const int exponent = static_cast<int>((bits >> 23) & 0xFF) - 127;
     const uint32_t mantissa = bits & 0x7FFFFFu;
     if (exponent == 128) return static_cast<uint16_t>(sign | 0x7C00u | mantissa >> 13 | (mantissa ? 0x200u : 0u));
-    if (exponent < -24) return static_cast<uint16_t>(sign); // zero: nothing smaller is exact
+    if (exponent < -24) return static_cast<uint16_t>(sign); // zero: no smaller value is exact
     if (exponent < -14) return static_cast<uint16_t>(sign | (mantissa | 0x800000u) >> (-exponent - 1));
     return static_cast<uint16_t>(sign | static_cast<uint32_t>(exponent + 15) << 10 | mantissa >> 13);
 }

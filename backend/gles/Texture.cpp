@@ -6,7 +6,7 @@
 namespace filament::backend::gles {
 namespace {
 
-// Creation and uploads bind here; ContextState knows, and draws rebind what they need.
+// Creation and uploads bind to this unit. ContextState knows, and draws rebind what they need.
 constexpr uint32_t kEditUnit = 0;
 
 struct Area {
@@ -82,7 +82,7 @@ void Textures::create(TextureHandle handle, DeviceTextureDesc const& desc) {
                       "texture '{}': this device has no {}; see DeviceFeatures::blockCompression", desc.debugName,
                       formatInfo(desc.format).name);
     } else if (const uint32_t most = mDevice.info.limits.maxTextureSize; std::max(desc.width, desc.height) > most) {
-        // Said here, because GL_INVALID_VALUE would name neither the size nor the limit.
+        // Reported here, because GL_INVALID_VALUE would name neither the size nor the limit.
         mDevice.error(DriverErrorKind::Other, "texture '{}': {} x {} texels; this device has at most {} each way",
                       desc.debugName, desc.width, desc.height, most);
     } else {
@@ -163,7 +163,7 @@ GLuint Textures::createView(Texture const& texture, TextureRange const& range, s
     Api const& gl = mDevice.gl;
     GLuint name = 0;
     mDevice.beginCreation();
-    gl.GenTextures(1, &name); // without a target until it becomes a view
+    gl.GenTextures(1, &name); // has no target until it becomes a view
     gl.TextureView(name, texture.target, texture.name, glFormat(texture.desc.format).internalFormat, range.level,
                    range.levelCount, range.layer, range.layerCount);
     if (mDevice.created("view for bind group", what)) return name;

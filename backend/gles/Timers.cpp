@@ -21,8 +21,8 @@ GLuint Timers::stamp() {
         query = mSpare.back();
         mSpare.pop_back();
     }
-    // llvmpipe collects commands into a scene and stamps in every tile of it; the last tile counts. Flushed apart, the
-    // stamp is a scene of its own, which runs when all scenes before it are done.
+    // llvmpipe collects commands into a scene and takes the timestamp in each of its tiles; the last tile counts.
+    // Flushing before and after makes the timestamp a scene of its own, which runs when all earlier scenes are done.
     mDevice.gl.Flush();
     mDevice.gl.QueryCounter(query, GL_TIMESTAMP_EXT);
     mDevice.gl.Flush();
@@ -54,7 +54,7 @@ uint64_t Timers::read(GLuint query) const {
 
 void Timers::poll(bool wait) {
     if (mEnded.empty() || mDevice.lost) return;
-    GLint disjoint = 0; // reading it clears it
+    GLint disjoint = 0; // reading it resets it
     mDevice.gl.GetIntegerv(GL_GPU_DISJOINT_EXT, &disjoint);
     while (!mEnded.empty()) {
         const Timer timer = mEnded.front();

@@ -62,7 +62,8 @@ bool Vertices::bind(VertexArray& array, VertexSources const& sources, bool index
 }
 
 void Vertices::forget(GLuint buffer) {
-    // Deleting unbinds from the current object only; the others would keep the memory and, later, a reused name.
+    // Deleting a buffer unbinds it only from the current vertex array; the others would keep its memory and, later,
+    // refer to a reused name.
     for (auto const& array : mArrays) {
         for (uint32_t i = 0; i < kMaxVertexBuffers; ++i) {
             if (array->slots[i].buffer != buffer) continue;

@@ -10,7 +10,7 @@
 namespace filament::backend {
 namespace {
 
-// Tickets of the layer's own read-backs; those of an application count up from one.
+// Marks tickets of the layer's own read-backs; an application's tickets count up from one.
 constexpr uint64_t kOwnTicket = uint64_t{ 1 } << 63;
 
 bool isAttachment(TextureUsage usage) {
@@ -54,12 +54,12 @@ void FrameCapture::begin(CapturedFrame frame, std::vector<Pending> pending, uint
 
 void FrameCapture::answer(uint64_t ticket, std::span<const std::byte> bytes) {
     const std::lock_guard lock(mMutex);
-    if (!mFrame || ticket < mFirstTicket || ticket - mFirstTicket >= mPending.size()) return; // of an older frame
+    if (!mFrame || ticket < mFirstTicket || ticket - mFirstTicket >= mPending.size()) return; // of an earlier frame
     const Pending at = mPending[ticket - mFirstTicket];
     mFrame->passes[at.pass].attachments[at.attachment].bytes.assign(bytes.begin(), bytes.end());
 }
 
-/// Between the driver and the stream's sink: keeps the layer's own answers.
+/// Sits between the driver and the stream's sink, and keeps the answers to the layer's own requests.
 class CaptureSink final : public ResultSink {
 public:
     CaptureSink(std::shared_ptr<FrameCapture> capture, ResultSink& outer)
@@ -79,7 +79,7 @@ private:
     ResultSink& mOuter;
 };
 
-/// Writes every stream again, with what the request and the edit change, and hands that to the driver inside.
+/// Rewrites every stream with the changes of the request and the edit, and passes the result to the inner driver.
 class CapturedDriver final : public Driver {
 public:
     CapturedDriver(std::shared_ptr<FrameCapture> capture, std::unique_ptr<CaptureSink> sink)
@@ -97,7 +97,7 @@ public:
         mWritten.reset();
         if (mCapture->mEdit) mCapture->mEdit->inspect(commands);
         replay(commands, *this);
-        // Known before the driver can answer.
+        // Must be known before the driver can answer.
         if (mRequest) mCapture->begin(std::move(mFrame), std::move(mPending), mFirstTicket);
         mRequest.reset();
         mInner->execute(mWritten.view());
@@ -110,7 +110,7 @@ public:
         C copy = command;
         if (mCapture->mEdit) change(copy);
         note(copy);
-        if (runs(copy)) mWritten.recordAdopted(copy); // payloads stay where they are: the stream outlives this call
+        if (runs(copy)) mWritten.recordAdopted(copy); // payloads need no copy: the stream outlives this call
         if constexpr (std::same_as<C, CmdEndPass>) readAttachments();
         ++mPosition;
     }
@@ -129,7 +129,7 @@ private:
             return true;
     }
 
-    // What the layer must know of a command; most need nothing.
+    // Records what the layer must know about a command; most commands need nothing.
     template <class C>
     void note(C&) {}
     void note(CmdCreateTexture& command) {
@@ -172,7 +172,7 @@ private:
         ++mFrame.passes.back().drawCount;
     }
 
-    // After CmdEndPass: asks for all that the pass has written.
+    // After CmdEndPass: requests read-backs of everything that the pass has written.
     void readAttachments() {
         if (!mRequest || mFrame.passes.empty()) return;
         mFrame.passes.back().last = mPosition;
@@ -210,12 +210,12 @@ private:
     }
 
     const std::shared_ptr<FrameCapture> mCapture;
-    const std::unique_ptr<CaptureSink> mSink; // outlives mInner
+    const std::unique_ptr<CaptureSink> mSink; // must outlive mInner
     std::unique_ptr<Driver> mInner;
     CommandBuffer mWritten;
     std::unordered_map<TextureHandle, NamedTexture> mTextures;
     std::unordered_map<PipelineHandle, std::string> mPipelines;
-    std::optional<CaptureRequest> mRequest; // of the frame that is being written
+    std::optional<CaptureRequest> mRequest; // for the frame being written
     CapturedFrame mFrame;
     std::vector<FrameCapture::Pending> mPending;
     PassDesc mPass;

@@ -65,11 +65,11 @@ public:
         closePiece();
         mInner->execute(mPieces);
         writeCounts();
-        if (mStrikes) mSink.onError(DriverErrorKind::DeviceLost, mLoss); // behind what the device still answered
+        if (mStrikes) mSink.onError(DriverErrorKind::DeviceLost, mLoss); // after all answers that the device still gave
         mStrikes = false;
     }
 
-    /// Called by walk() for each command: whether the driver inside gets it.
+    /// Called by walk() for each command: whether the inner driver gets it.
     template <class C>
     bool admit(C const& command) {
         if (mIsLost) return false;
@@ -97,7 +97,7 @@ private:
         }... };
     }
 
-    // Commands in a row that are forwarded are one piece of their chunk.
+    // Consecutive forwarded commands form one piece of their chunk.
     void walk(CommandChunk const& chunk) {
         static constexpr auto kAdmit = admitTable(Commands{});
         const std::byte* const end = chunk.data + chunk.size;
@@ -119,7 +119,7 @@ private:
         mOpen = {};
     }
 
-    // The replay is inside of this command meanwhile, for those who watch it.
+    // To the watchdog, the replay is inside this command during the delay.
     template <class C>
     void delay(C const& command) {
         if (ReplayProgress* progress = ReplayProgress::ofThisThread())
@@ -150,7 +150,7 @@ private:
     }
     void writeCounts() {
         const std::lock_guard lock(mInjector->mMutex);
-        if (mInjector->mArmed != mArmed) return; // armed anew while this stream ran
+        if (mInjector->mArmed != mArmed) return; // rearmed while this stream ran
         mInjector->mCommands = mCommands;
         mInjector->mCreations = mCreations;
         mInjector->mHasStruck = mHasStruck;

@@ -19,10 +19,10 @@ int hexDigit(char c) {
     return -1;
 }
 
-// What ends a word: a name, a number, a handle.
+// What terminates a word: a name, a number or a handle.
 bool endsWord(char c) { return c == ' ' || c == '=' || c == '{' || c == '}' || c == '[' || c == ']' || c == '"'; }
 
-/// Reads one line. Every read...() returns false after the first error, which stays in error().
+/// Reads one line. After the first error, which error() keeps, every read...() returns false.
 class LineReader {
 public:
     LineReader(std::string_view line, std::span<const std::byte> blob, size_t& blobUsed, CommandBuffer& memory)
@@ -40,7 +40,7 @@ public:
 
     bool atEnd() const { return mLeft.empty(); }
 
-    /// " name=value" pairs until the line or the struct ends.
+    /// Reads " name=value" pairs until the line or the struct ends.
     template <class S>
     bool fields(S& value) {
         uint32_t seen = 0;
@@ -136,7 +136,7 @@ private:
         return true;
     }
 
-    bool escape(char& c) { // the backslash was read
+    bool escape(char& c) { // called after the backslash was read
         if (mLeft.size() < 3 || mLeft[0] != 'x' || hexDigit(mLeft[1]) < 0 || hexDigit(mLeft[2]) < 0) {
             return wrong("an escape is \\xNN");
         }
@@ -147,7 +147,8 @@ private:
 
     bool read(std::span<const std::byte>& value) { return accept('@') ? readBlob(value) : readHex(value); }
 
-    // Payloads stand in the blob in the order of the text: so nothing is read twice, and memory is bounded by the blob.
+    // Payloads are in the blob in the order of the text: no byte is read twice, and the size of the blob bounds the
+    // memory.
     bool readBlob(std::span<const std::byte>& value) {
         const std::string_view text = word();
         const size_t plus = text.find('+');
@@ -248,7 +249,7 @@ private:
     std::string mError;
 };
 
-// Reads the fields of the command with this name; false if there is no such command.
+// Reads the fields of the command of this name; false if there is no such command.
 template <class... C>
 bool readCommand(std::string_view name, LineReader& line, CommandBuffer& to, TypeList<C...>) {
     const auto one = [&]<class Command>(std::type_identity<Command>) {

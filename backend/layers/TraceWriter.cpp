@@ -15,13 +15,13 @@ namespace {
 
 constexpr size_t kMaxInlineBytes = 64;
 
-// Whether a field may be left out: equal to what a default-made struct has there. Floats compare by bits: -0 is not 0.
+// Whether a field may be omitted because it equals its default. Floats compare by bits: -0 is not 0.
 template <class T>
 bool isSame(T const& value, T const& standard) {
     if constexpr (std::same_as<T, float>) {
         return std::bit_cast<uint32_t>(value) == std::bit_cast<uint32_t>(standard);
     } else if constexpr (kIsSpan<T> || std::same_as<T, std::string_view>) {
-        return value.empty(); // no default has a payload
+        return value.empty(); // no payload by default
     } else if constexpr (kIsArray<T>) {
         for (size_t i = 0; i < value.size(); ++i) {
             if (!isSame(value[i], standard[i])) return false;
@@ -54,7 +54,7 @@ private:
         fmt::vformat_to(std::back_inserter(mOut.text), format, fmt::make_format_args(args...));
     }
 
-    // " name=value" for every field that differs from its default.
+    // Writes " name=value" for every field that differs from its default.
     template <class S>
     void fields(S const& value) {
         const S standard{};

@@ -51,7 +51,7 @@ private:
     std::unique_ptr<Driver> mInner;
     const std::filesystem::path mPath;
     std::ofstream mText, mBlob;
-    TraceText mPending; // keeps its memory from stream to stream
+    TraceText mPending; // reused, so that its memory is kept between streams
     size_t mBlobBytes = 0;
 };
 
@@ -59,14 +59,14 @@ Result<std::string> readFile(std::filesystem::path const& path) {
     std::ifstream file(path, std::ios::binary);
     std::ostringstream content;
     if (!file || !(content << file.rdbuf()).good()) {
-        // An empty file gives no characters to insert, which sets failbit: that is no error.
+        // An empty file inserts no characters, which sets failbit although it is no error.
         if (file && file.peek() == std::ifstream::traits_type::eof()) return std::string{};
         return fail(ErrorCode::Unreadable, "cannot read '{}'", path.string());
     }
     return std::move(content).str();
 }
 
-/// Which answers a stream asks for.
+/// Collects the tickets of the answers that a stream requests.
 struct TicketCollector {
     std::vector<Ticket>& tickets;
     template <class C>

@@ -18,7 +18,7 @@ bool overlap(Rect const& a, Rect const& b) {
            a.y < b.y + static_cast<int64_t>(b.height) && b.y < a.y + static_cast<int64_t>(a.height);
 }
 
-// Compressed images are addressed in whole blocks; a block at the edge may be cut.
+// Compressed images are addressed in whole blocks; a block at the edge may be partial.
 bool onBlocks(Rect const& rect, uint32_t width, uint32_t height, uint32_t block) {
     const auto x = static_cast<uint32_t>(rect.x), y = static_cast<uint32_t>(rect.y);
     return x % block == 0 && y % block == 0 && (rect.width % block == 0 || x + rect.width == width) &&

@@ -44,7 +44,7 @@ void Validator::execute(CmdBindPipeline const& command) {
                 "the pipeline was made for subpass {}, the current one is {}", pipeline->desc.subpass, mPass->subpass);
     }
     if (PipelineModel const* before = mPipelines.find(mBound.pipeline)) {
-        // Bindings survive only up to the first group in which the two programs disagree.
+        // Bindings stay valid only up to the first group in which the two programs differ.
         const auto differs = std::ranges::mismatch(before->layout, pipeline->layout).in1 - before->layout.begin();
         std::fill(mBound.groups.begin() + differs, mBound.groups.end(), BindGroupHandle{});
     }
@@ -132,7 +132,7 @@ void Validator::execute(CmdDrawIndexed const& command) {
     const uint64_t end = mBound.indices.offset + (uint64_t{ command.firstIndex } + command.indexCount) * unit;
     require(end <= indices->desc.size, Harm::Crash, "indices {}..{} leave index buffer '{}' of {} bytes",
             command.firstIndex, uint64_t{ command.firstIndex } + command.indexCount, indices->name, indices->desc.size);
-    // Which vertices the indices name is not known here; the instances are.
+    // The vertices that the indices refer to are unknown here; the instances are known.
     checkVertexRange(*pipeline, 0, uint64_t{ command.firstInstance } + command.instanceCount - 1);
 }
 

@@ -17,7 +17,7 @@ uint64_t textureBytes(DeviceTextureDesc const& desc) {
     return sum * desc.layers * desc.samples;
 }
 
-// Depth formats read back as D32F floats, whatever they store.
+// Depth formats read back as D32F floats, whatever their format.
 uint64_t readbackBytes(Format format, Rect const& rect) {
     return imageBytes(hasDepth(format) ? Format::D32F : format, rect.width, rect.height);
 }
@@ -78,7 +78,7 @@ public:
         return copy;
     }
 
-    /// Everything that leaves no trace here: state, contents, names.
+    /// Everything that the null driver ignores: state, contents, names.
     template <class C>
     void execute(C const&) {
         ++mCount.commands;

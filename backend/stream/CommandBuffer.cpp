@@ -11,7 +11,7 @@
 namespace filament::backend {
 namespace {
 
-/// Room for `extra` more elements, so that adding them cannot fail; grows like push_back().
+/// Reserves room for `extra` more elements, so that adding them cannot fail; grows like push_back().
 template <class T>
 void reserveMore(std::vector<T>& vector, size_t extra) {
     const size_t needed = vector.size() + extra;
@@ -38,8 +38,8 @@ CommandBuffer& CommandBuffer::operator=(CommandBuffer&& other) noexcept {
     return *this;
 }
 
-// The smallest spare block that is large enough, or a new one: large blocks stay for large payloads. Whatever may fail
-// comes first; mSpare can always take every block back.
+// Takes the smallest spare block that is large enough, or allocates one, so that large blocks remain for large
+// payloads. Everything that may fail comes first; mSpare always has room to take every block back.
 CommandBuffer::Block& CommandBuffer::takeBlock(size_t bytes) {
     reserveMore(mUsed, 1);
     reserveMore(mSpare, mUsed.size() + 1);
@@ -47,7 +47,7 @@ CommandBuffer::Block& CommandBuffer::takeBlock(size_t bytes) {
     size_t best = mSpare.size();
     for (size_t i = mSpare.size(); i-- > 0;) {
         if (mSpare[i].size >= size && (best == mSpare.size() || mSpare[i].size < mSpare[best].size)) best = i;
-        if (best < mSpare.size() && mSpare[best].size == size) break; // no other fits better
+        if (best < mSpare.size() && mSpare[best].size == size) break; // a perfect fit
     }
     if (best < mSpare.size()) return mUsed.emplace_back(takeSpare(best));
     auto* data = static_cast<std::byte*>(::operator new[](size, std::align_val_t{ kBlockAlignment }));
@@ -91,8 +91,8 @@ std::span<std::byte> CommandBuffer::allocate(size_t bytes, size_t alignment) {
     return { block.data.get(), bytes };
 }
 
-// A block for a block: the tail gets a spare one of the same size back, so that joining the same buffers every frame
-// allocates nothing, and no large block strays to where nobody asks for it.
+// Gives the tail a spare block of the same size in return for each of its blocks: joining the same buffers every frame
+// then allocates nothing, and large blocks stay where they are needed.
 void CommandBuffer::returnEqualBlock(size_t size, CommandBuffer& tail) {
     for (size_t i = mSpare.size(); i-- > 0;) {
         if (mSpare[i].size != size) continue;

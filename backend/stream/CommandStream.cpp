@@ -18,7 +18,7 @@ std::atomic<uint64_t> gLastTicket{ 0 }; // tickets are never reused within a pro
 struct CommandStream::State {
     explicit State(CommandStreamOptions const& options) : driver(options, mailbox) {}
 
-    ResultMailbox mailbox; // outlives the driver, which answers into it
+    ResultMailbox mailbox; // must outlive the driver, which delivers answers to it
     DriverThread driver;
     HandleAllocator<BufferTag> buffers;
     HandleAllocator<TextureTag> textures;
@@ -27,7 +27,7 @@ struct CommandStream::State {
     HandleAllocator<PipelineTag> pipelines;
     HandleAllocator<BindGroupTag> bindGroups;
 
-    /// ResultMailbox::waitFor(), with a look at the driver thread from time to time.
+    /// ResultMailbox::waitFor(), which also checks the driver thread from time to time.
     ResultMailbox::Wait waitFor(Ticket ticket, uint64_t submission, std::chrono::steady_clock::time_point deadline) {
         ReplayWatch& watch = driver.watch();
         while (true) {
@@ -86,17 +86,17 @@ std::vector<FrameTiming> CommandStream::takeTimings() { return mState->mailbox.t
 
 std::optional<std::vector<std::byte>> CommandStream::takeReadback(Ticket ticket) {
     std::optional<std::vector<std::byte>> bytes = mState->mailbox.takeReadback(ticket);
-    if (!bytes) mState->driver.watch().check(); // an app that polls waits nowhere else
+    if (!bytes) mState->driver.watch().check(); // an app that only polls reaches no other check
     return bytes;
 }
 
 Result<std::vector<std::byte>> CommandStream::waitReadback(Ticket ticket, std::chrono::milliseconds timeout) {
     const auto deadline = std::chrono::steady_clock::now() + timeout;
     if (std::optional<std::vector<std::byte>> bytes = takeReadback(ticket)) return std::move(*bytes);
-    const uint64_t submission = mState->driver.requestIdle(); // or the answer would wait for the next frame
+    const uint64_t submission = mState->driver.requestIdle(); // otherwise the answer would wait for the next frame
     const ResultMailbox::Wait outcome = mState->waitFor(ticket, submission, deadline);
     if (outcome == ResultMailbox::Wait::Answered) {
-        // Two threads may wait for one ticket; the other one may have been faster.
+        // Two threads may wait for the same ticket; the other one may have taken it.
         if (std::optional<std::vector<std::byte>> bytes = takeReadback(ticket)) return std::move(*bytes);
         return fail(ErrorCode::NotFound, "read-back {} was taken by somebody else: each is given out once",
                     ticket.value);

@@ -38,7 +38,7 @@ void nameAndPlaceThisThread(int core) {
 #endif
 }
 
-// The number that the app gave to the frame; it opens the stream, so only the first chunk is searched.
+// The frame number that the app assigned. It is at the start of the stream, so only the first chunk is searched.
 uint64_t frameNumber(CommandBuffer const& commands, uint64_t otherwise) {
     if (!commands.contains<CmdBeginFrame>()) return otherwise;
     CommandChunk const& chunk = commands.view().front();
@@ -105,7 +105,7 @@ void DriverThread::guarded(const char* doing, F&& step) noexcept {
         step();
     } catch (std::bad_alloc const&) {
         mMailbox.onOutOfMemory(doing);
-    } catch (std::length_error const&) { // a size that no memory can have
+    } catch (std::length_error const&) { // larger than any possible allocation
         mMailbox.onOutOfMemory(doing);
     }
     mWatch.end();
@@ -118,12 +118,12 @@ void DriverThread::endDriver() {
     mWatch.end();
 }
 
-// The driver thread from the first to the last instruction.
+// Runs the driver thread from beginning to end.
 void DriverThread::run(DriverFactory factory, Result<void>& outcome) {
     nameAndPlaceThisThread(mOptions.driverCore);
     outcome = makeDriver(factory);
     const bool usable = outcome.ok();
-    factory = nullptr; // what it captured dies on this thread, before start() returns
+    factory = nullptr; // destroy its captures on this thread, before start() returns
     {
         const std::lock_guard lock(mMutex);
         mStarted = true; // `outcome` belongs to start() from here on
@@ -142,7 +142,7 @@ void DriverThread::serve() {
     std::unique_lock lock(mMutex);
     while (true) {
         mWork.wait(lock, [&] { return mStopping || mReplayed < mSubmitted || mIdleReached < mIdleWanted; });
-        // Whoever waits for an idle device goes before new frames, or a busy app could starve them.
+        // Requests for an idle device go before new frames; otherwise a busy app could starve them.
         if (mIdleReached < mIdleWanted && mIdleWanted <= mReplayed) {
             const uint64_t reached = mReplayed;
             lock.unlock();
@@ -155,7 +155,7 @@ void DriverThread::serve() {
             replaySlot(next);
             lock.lock();
         } else {
-            return; // stopping, and nothing is left to do
+            return; // stopping, and no work is left
         }
         mProgress.notify_all();
     }
@@ -195,12 +195,12 @@ void DriverThread::settle(uint64_t submission) {
     mMailbox.onIdle(submission);
 }
 
-// Those who wait for the driver thread keep an eye on it.
+// Threads that wait for the driver thread also check that it makes progress.
 template <class Predicate>
 void DriverThread::waitForProgress(std::unique_lock<std::mutex>& lock, Predicate isReached) {
     if (!mWatch.warns()) return mProgress.wait(lock, isReached);
     while (!mProgress.wait_for(lock, mWatch.period(), isReached)) {
-        lock.unlock(); // a log sink may ask this thread
+        lock.unlock(); // a log sink may call back into this class
         mWatch.check();
         lock.lock();
     }
@@ -280,7 +280,7 @@ LatencyStatistics DriverThread::latency() const {
     LatencyLog copy;
     {
         const std::lock_guard lock(mMutex);
-        copy = mLatency; // 8 KiB; the driver thread does not wait for the sorting
+        copy = mLatency; // 8 KiB; sorting must not hold up the driver thread
     }
     return copy.summary();
 }

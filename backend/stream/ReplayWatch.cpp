@@ -14,20 +14,20 @@
 namespace filament::backend {
 namespace {
 
-/// Keeps `names` as the pipelines of a stream come and go.
+/// Updates `names` as the pipelines of a stream are created and destroyed.
 struct PipelineNameKeeper {
     ReplayWatch::PipelineNames& names;
     void execute(CmdCreatePipeline const& command) {
         try {
             names[command.handle] = command.desc.debugName;
-        } catch (std::bad_alloc const&) { // a message will call it unknown
+        } catch (std::bad_alloc const&) { // messages will call it unknown
         }
     }
     void execute(CmdDestroyPipeline const& command) { names.erase(command.handle); }
     void execute(auto const&) {}
 };
 
-/// The first name in a command: of the object that it makes, of the pass or group that it opens.
+/// The first name in a command: of the object that it creates, or of the pass or group that it opens.
 template <class T>
 std::string_view firstName(T const& value) {
     std::string_view first;
@@ -41,7 +41,7 @@ std::string_view firstName(T const& value) {
     return first;
 }
 
-/// Where a command is in its stream: what is open and bound around it. Views into the stream.
+/// The position of a command in its stream: what is open and bound around it. Views into the stream.
 class PlaceFinder {
 public:
     PlaceFinder(const std::byte* command, ReplayWatch::PipelineNames& names) : mCommand(command), mKeeper{ names } {}
@@ -133,7 +133,7 @@ std::chrono::milliseconds ReplayWatch::period() const {
     return std::clamp(mLimit / 8, milliseconds(1), milliseconds(1000));
 }
 
-// Restarts the clock when something has changed since the last look.
+// Restarts the clock if there has been progress since the last check.
 void ReplayWatch::look(Clock::time_point now) {
     const std::byte* const command = mProgress.command();
     if (command == mSeenCommand) return;
@@ -187,7 +187,7 @@ std::string ReplayWatch::describe(Clock::time_point now) {
     return what + fmt::format(" for {:.1f} s", std::chrono::duration<double>(now - mSince).count());
 }
 
-// The stream stays where it is: end() waits for the lock that is held here.
+// The stream stays valid: end() waits for the lock that is held here.
 std::string ReplayWatch::describeReplay() {
     PlaceFinder finder(mSeenCommand, mPipelineNames);
     replay(mCommands, finder);

@@ -9,7 +9,7 @@
 namespace filament::backend {
 namespace {
 
-// In fewer words where there is no memory for all of them: so few lie in the string itself.
+// Falls back to a message that fits the string's internal buffer if there is no memory for the full one.
 std::string copyOf(std::string_view message) {
     try {
         return std::string(message);
@@ -29,7 +29,7 @@ ResultMailbox::ResultMailbox() {
 void ResultMailbox::onReadback(Ticket ticket, std::span<const std::byte> bytes) {
     std::vector<std::byte> copy;
     try {
-        copy.assign(bytes.begin(), bytes.end()); // outside of the lock: it may be large
+        copy.assign(bytes.begin(), bytes.end()); // outside the lock: it may be large
     } catch (std::bad_alloc const&) {
         onError(DriverErrorKind::OutOfMemory, "a read-back: out of host memory, it has no pixels; free some");
     }
@@ -95,7 +95,7 @@ ResultMailbox::Wait ResultMailbox::waitFor(Ticket ticket, uint64_t submission,
     std::unique_lock lock(mMutex);
     const auto settled = [&] { return mReadbacks.contains(ticket) || mDeviceLost || mIdleSubmission >= submission; };
     if (!mAnswered.wait_until(lock, deadline, settled)) return Wait::TimedOut;
-    if (mReadbacks.contains(ticket)) return Wait::Answered; // an answer from before the loss still counts
+    if (mReadbacks.contains(ticket)) return Wait::Answered; // an answer that arrived before the loss still counts
     return mDeviceLost ? Wait::DeviceLost : Wait::NeverAsked;
 }
 
@@ -111,7 +111,7 @@ std::optional<uint64_t> ResultMailbox::takeTimer(Ticket ticket) {
 std::vector<DriverError> ResultMailbox::takeErrors() {
     const std::lock_guard lock(mMutex);
     if (mErrors.empty() && mDroppedErrors == 0 && !mOutOfMemory) return {};
-    std::vector<DriverError> next; // whatever fails fails before anything is taken
+    std::vector<DriverError> next; // everything that can fail does so before anything is taken
     next.reserve(kMaxErrors);
     mErrors.reserve(mErrors.size() + 2);
     DriverError dropped{ DriverErrorKind::Other, {} }, lost{ DriverErrorKind::DeviceLost, {} };
@@ -130,7 +130,7 @@ std::vector<DriverError> ResultMailbox::takeErrors() {
 
 std::vector<FrameTiming> ResultMailbox::takeTimings() {
     const std::lock_guard lock(mMutex);
-    std::vector<FrameTiming> timings(mTimings.begin(), mTimings.end()); // mTimings keeps its memory
+    std::vector<FrameTiming> timings(mTimings.begin(), mTimings.end()); // a copy, so that mTimings keeps its memory
     mTimings.clear();
     return timings;
 }

@@ -31,7 +31,7 @@ std::optional<Allocation> Allocator::allocate(MemoryRequest const& request) {
         if (auto allocation = allocateIn(*block, request)) return allocation;
     }
     if (MemoryBlock* block = addBlock(pool, request)) return allocateIn(*block, request);
-    return allocateDedicated(request); // the last resort: exactly what is needed
+    return allocateDedicated(request); // the last resort: exactly the required size
 }
 
 std::optional<Allocation> Allocator::allocateDedicated(MemoryRequest const& request) {

@@ -36,7 +36,7 @@ constexpr std::array<UseInfo, static_cast<size_t>(Use::Count)> kUses{ {
           VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT },
         { VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthTests, kDepthAccess,
           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT },
-        // Resolving counts as colour output, also of depth (Vulkan 1.2, 7.1.2 and 8.4).
+        // A resolve is a colour output, even for depth (Vulkan 1.2, 7.1.2 and 8.4).
         { VK_IMAGE_LAYOUT_DEPTH_STENCIL_ATTACHMENT_OPTIMAL, kDepthTests | VK_PIPELINE_STAGE_COLOR_ATTACHMENT_OUTPUT_BIT,
           kDepthAccess | kColorAccess,
           VK_ACCESS_DEPTH_STENCIL_ATTACHMENT_WRITE_BIT | VK_ACCESS_COLOR_ATTACHMENT_WRITE_BIT },
@@ -71,7 +71,7 @@ bool SubresourceUses::isUniform(SubresourceRange const& range) const {
 void Barriers::image(Texture& texture, SubresourceRange const& range, Use use, Contents contents) {
     UseInfo const& next = infoOf(use);
     texture.uses.forEachPart(range, [&](SubresourceRange const& part, Use before) {
-        if (before == use && next.written == 0) return; // reading again
+        if (before == use && next.written == 0) return; // a read after a read
         UseInfo const& last = infoOf(before);
         auto barrier = make<VkImageMemoryBarrier>(VK_STRUCTURE_TYPE_IMAGE_MEMORY_BARRIER);
         barrier.srcAccessMask = last.written;
@@ -106,7 +106,7 @@ void Barriers::forget(Texture& texture) {
 
 void Barriers::bufferWrite(Buffer& buffer, uint64_t begin, uint64_t end) {
     if (mStorageWrites) publishWrites();
-    if (mReaders != 0) memory(mReaders, 0, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT); // of what is overwritten now
+    if (mReaders != 0) memory(mReaders, 0, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT); // of what is overwritten next
     mReaders = 0;
     if (buffer.overlapsWrites(mTransferEpoch, begin, end)) {
         memory(kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT, kTransfer, VK_ACCESS_TRANSFER_WRITE_BIT);
@@ -144,7 +144,7 @@ void Barriers::attach(Texture& texture, SubresourceRange const& range, Use use, 
 bool Barriers::isAttached(Texture const& texture, uint32_t level, uint32_t layer) const {
     return std::ranges::any_of(mAttached, [&](Attached const& at) {
         return at.texture == &texture && level - at.range.level < at.range.levelCount &&
-               layer - at.range.layer < at.range.layerCount; // unsigned: below the first is far beyond the last
+               layer - at.range.layer < at.range.layerCount; // unsigned: values below the range wrap to huge ones
     });
 }
 

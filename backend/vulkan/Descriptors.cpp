@@ -10,7 +10,7 @@
 namespace filament::backend::vulkan {
 namespace {
 
-/// How many descriptors of each type one set of the layout holds, and of those that spareBindings() adds.
+/// The number of descriptors per type for `sets` sets of the layout, including those added by spareBindings().
 std::vector<VkDescriptorPoolSize> poolSizes(BindGroupLayout const& layout, uint32_t spares, uint32_t sets) {
     std::vector<VkDescriptorPoolSize> sizes;
     if (spares > 0) sizes.push_back({ VK_DESCRIPTOR_TYPE_UNIFORM_BUFFER, spares * sets });
@@ -36,7 +36,7 @@ VkImageView inputView(ResolvedEntry const& entry) {
     return entry.texture->attachmentView(entry.entry.range.level, entry.entry.range.layer);
 }
 
-/// The object that a binding of this type needs and the entry lacks; null if it is complete.
+/// The object that a binding of this type needs but the entry lacks; null if the entry is complete.
 const char* missingIn(BindingType type, ResolvedEntry const& entry) {
     switch (type) {
     case BindingType::UniformBuffer:
@@ -179,7 +179,7 @@ PipelineLayout const* Layouts::get(ProgramLayout const& layout) {
     PipelineLayout made;
     std::array<VkDescriptorSetLayout, kMaxBindGroups> handles{};
     for (uint32_t i = 0; i < kMaxBindGroups; ++i) {
-        made.sets[i] = get(layout[i]); // empty groups too: that keeps the layouts of different programs compatible
+        made.sets[i] = get(layout[i]); // including empty groups: keeps the layouts of different programs compatible
         if (!made.sets[i]) return nullptr;
         handles[i] = made.sets[i]->handle();
     }

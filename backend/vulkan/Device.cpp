@@ -75,7 +75,7 @@ Device::~Device() {
 }
 
 void Device::setNameBits(VkObjectType type, uint64_t handle, std::string_view name) const {
-    const std::string text(name); // a string_view need not end in zero
+    const std::string text(name); // a string_view may lack a terminating zero
     auto info = make<VkDebugUtilsObjectNameInfoEXT>(VK_STRUCTURE_TYPE_DEBUG_UTILS_OBJECT_NAME_INFO_EXT);
     info.objectType = type;
     info.objectHandle = handle;

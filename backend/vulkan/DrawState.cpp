@@ -6,7 +6,7 @@
 namespace filament::backend::vulkan {
 namespace {
 
-/// Vulkan has no negative scissor offsets: the part left of and above the picture is cut off.
+/// Vulkan has no negative scissor offsets: the part beyond the left and top edges of the picture is cut off.
 VkRect2D scissorOf(Rect const& rect) {
     const auto cut = [](int32_t start, uint32_t length) {
         return static_cast<uint32_t>(std::max<int64_t>(int64_t{ length } + std::min(start, 0), 0));
@@ -74,7 +74,7 @@ void DrawState::setIndexBuffer(BoundIndexBuffer const& buffer) {
 
 void DrawState::emit() {
     mIsDrawable = isComplete();
-    if (!mIsDrawable) return; // the changes stay: the next bind may complete it
+    if (!mIsDrawable) return; // keep the changes: the next bind may complete the state
     emitPipeline();
     emitGroups();
     if ((mChanged & (kVertices | kPipeline)) != 0) emitVertices();
@@ -135,7 +135,7 @@ void DrawState::emitVertices() {
     if (mWanted.pipeline->vertexBufferMask() == 0 || mEmitted.vertices == mWanted.vertices) return;
     BoundVertexBuffers bound = mWanted.vertices;
     for (VkBuffer& buffer : bound.buffers) {
-        if (buffer == VK_NULL_HANDLE) buffer = mZeros; // no pipeline bound now reads it
+        if (buffer == VK_NULL_HANDLE) buffer = mZeros; // the bound pipeline does not read it
     }
     mFn.vkCmdBindVertexBuffers(mCommands, 0, kMaxVertexBuffers, bound.buffers.data(), bound.offsets.data());
     mEmitted.vertices = mWanted.vertices;

@@ -48,7 +48,7 @@ void Executor::execute(CmdUpdateBuffer const& command) {
     FILAMENT_ASSERT(end >= command.offset && end <= buffer->bytes(), "an update stays inside its buffer");
     if (!buffer->isUsed && buffer->mapped()) {
         std::memcpy(buffer->mapped() + command.offset, command.bytes.data(), command.bytes.size());
-        return; // visible to the submission that follows
+        return; // visible to the next submission
     }
     const auto staged = stage(command.bytes, "a buffer");
     if (!staged) return;

@@ -8,7 +8,7 @@
 namespace filament::backend::vulkan {
 namespace {
 
-/// Counts commands, and swallows the rest of the stream once the device is lost.
+/// Counts commands, and drops the rest of the stream once the device is lost.
 struct Dispatch {
     Executor& executor;
     uint64_t& count;
@@ -80,7 +80,7 @@ Executor::~Executor() {
 void Executor::submitAtEnd() {
     try {
         submit();
-    } catch (std::bad_alloc const&) { // then not
+    } catch (std::bad_alloc const&) { // then nothing is submitted
     }
 }
 
@@ -90,7 +90,7 @@ DriverStatistics Executor::statistics() const {
 }
 
 void Executor::publishStatistics() {
-    // The staging ring belongs to the driver, not to any object of the stream.
+    // The staging ring belongs to the driver, not to an object of the stream.
     mStatistics.deviceBytes = mDevice->memory().statistics().usedBytes - mUpload->ringBytes();
     const std::lock_guard lock(mPublishedMutex);
     mPublished = mStatistics;
@@ -106,7 +106,7 @@ void Executor::execute(CommandView commands) {
         replay(commands, dispatch);
         if (!mIsLost && !mPass->isOpen()) submit();
     } catch (std::bad_alloc const&) {
-        mIsLost = true; // in the middle of something: what is recorded is never submitted
+        mIsLost = true; // inside a frame or pass: the recorded commands are never submitted
         throw;
     }
     publishStatistics();

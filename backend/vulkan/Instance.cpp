@@ -9,9 +9,9 @@ namespace filament::backend::vulkan {
 namespace {
 
 constexpr const char* kValidationLayer = "VK_LAYER_KHRONOS_validation";
-constexpr uint32_t kNewestApi = VK_API_VERSION_1_3; // the newest one whose rules this driver was checked against
+constexpr uint32_t kNewestApi = VK_API_VERSION_1_3; // the newest version that this driver was checked against
 
-/// Finds the loader once per process; its functions are constants from then on.
+/// Finds the loader once per process; its functions do not change afterwards.
 VkResult initializeLoader() {
     static std::once_flag once;
     static VkResult result = VK_ERROR_INITIALIZATION_FAILED;
@@ -19,7 +19,7 @@ VkResult initializeLoader() {
     return result;
 }
 
-/// The loader's device look-up is the same function for every instance; volkLoadDeviceTable() reads the global.
+/// The loader's vkGetDeviceProcAddr is the same for every instance; volkLoadDeviceTable() reads the global.
 void publishDeviceProcAddr(VkInstance instance) {
     static std::once_flag once;
     std::call_once(once, [instance] {
@@ -40,7 +40,7 @@ bool hasValidationLayer() {
 VKAPI_ATTR VkBool32 VKAPI_CALL onMessage(VkDebugUtilsMessageSeverityFlagBitsEXT, VkDebugUtilsMessageTypeFlagsEXT,
                                          VkDebugUtilsMessengerCallbackDataEXT const* data, void* user) {
     static_cast<ResultSink*>(user)->onError(DriverErrorKind::Validation, data->pMessage ? data->pMessage : "");
-    return VK_FALSE; // never abort the call: we want to see what follows
+    return VK_FALSE; // never abort the call, so that later messages appear too
 }
 
 VkDebugUtilsMessengerCreateInfoEXT messengerInfo(ResultSink* sink) {
@@ -65,7 +65,7 @@ VkResult createHandle(ResultSink* sink, uint32_t apiVersion, VkInstance& handle)
     auto features = make<VkValidationFeaturesEXT>(VK_STRUCTURE_TYPE_VALIDATION_FEATURES_EXT);
     features.enabledValidationFeatureCount = 1;
     features.pEnabledValidationFeatures = &synchronization;
-    features.pNext = &messenger; // hears about instance creation and destruction
+    features.pNext = &messenger; // receives messages about creating and destroying the instance
     const std::array extensions{ VK_EXT_DEBUG_UTILS_EXTENSION_NAME, VK_EXT_VALIDATION_FEATURES_EXTENSION_NAME };
     if (sink) {
         info.pNext = &features;
@@ -77,10 +77,10 @@ VkResult createHandle(ResultSink* sink, uint32_t apiVersion, VkInstance& handle)
     return vkCreateInstance(&info, nullptr, &handle);
 }
 
-/// Keeps the drivers in memory until the process ends. The loader unloads them with the last instance, and what a
-/// driver holds in statics is then lost each time: lavapipe maps 10 MiB for its code and leaves 12 KiB of it resident
-/// (measured, tests/numerics/scenes/EndlessTest.cpp); loading all of them again also costs every further engine some
-/// milliseconds. A failure is no matter: the instance that is really wanted then fails, too, and says so.
+/// Keeps the drivers loaded until the process ends. The loader unloads them with the last instance, and memory that a
+/// driver keeps in statics then leaks each time: lavapipe maps 10 MiB for its code and leaves 12 KiB of it resident
+/// (measured, tests/numerics/scenes/EndlessTest.cpp). Loading all drivers again also costs every further engine some
+/// milliseconds. A failure can be ignored: creating the real instance then fails too, and reports it.
 void keepDriversLoaded(uint32_t apiVersion) {
     static std::once_flag once;
     static VkInstance kept = VK_NULL_HANDLE;

@@ -43,7 +43,7 @@ MemoryTypeOrder memoryTypeOrder(VkPhysicalDeviceMemoryProperties const& memory, 
                              (flags & VK_MEMORY_PROPERTY_PROTECTED_BIT) == 0;
         if (allowed) order.types[order.count++] = type;
     }
-    // Stable: the specification orders equal types by speed.
+    // Stable, because the specification orders equal types by speed.
     std::stable_sort(order.types, order.types + order.count,
                      [&](uint32_t a, uint32_t b) { return penalty(a) < penalty(b); });
     return order;
@@ -66,7 +66,7 @@ VkDeviceMemory Memory::handleOf(Allocation const& allocation) { return (VkDevice
 
 std::optional<MemoryChunk> Memory::allocate(uint32_t memoryType, uint64_t bytes) {
     VkMemoryType const& type = mProperties.memoryTypes[memoryType];
-    if (bytes > mProperties.memoryHeaps[type.heapIndex].size) return std::nullopt; // asking would be invalid usage
+    if (bytes > mProperties.memoryHeaps[type.heapIndex].size) return std::nullopt; // more would be invalid usage
     auto info = make<VkMemoryAllocateInfo>(VK_STRUCTURE_TYPE_MEMORY_ALLOCATE_INFO);
     info.allocationSize = bytes;
     info.memoryTypeIndex = memoryType;

@@ -98,7 +98,7 @@ struct BlendInfo {
             make<VkPipelineColorBlendStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_COLOR_BLEND_STATE_CREATE_INFO);
 };
 
-/// What neither the subpass nor the program writes keeps its value.
+/// Outputs that the subpass or the program does not write keep their values.
 void fillBlend(BlendInfo& blend, Device const& device, PipelineDesc const& desc, uint32_t outputMask) {
     const uint32_t written = writtenColors(desc.pass, desc.subpass) & outputMask;
     for (uint32_t i = 0; i < desc.pass.colorCount; ++i) {
@@ -126,7 +126,7 @@ VkPipelineVertexInputStateCreateInfo vertexInfo(VertexInput const& input) {
     return info;
 }
 
-/// Asks the device, if it tells, whether a pipeline came from the cache.
+/// Whether the device reports that a pipeline came from the cache.
 class CreationFeedback {
 public:
     CreationFeedback(Device const& device, uint32_t stageCount) : mIsAsked(device.physical().creationFeedback) {
@@ -168,7 +168,7 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, VkPipelineCac
     auto viewports = make<VkPipelineViewportStateCreateInfo>(VK_STRUCTURE_TYPE_PIPELINE_VIEWPORT_STATE_CREATE_INFO);
     viewports.viewportCount = viewports.scissorCount = 1;
     VkPipelineRasterizationStateCreateInfo raster = rasterInfo(device, desc.raster);
-    // OpenGL's convention. It also decides from which vertex triangle set-up starts, and with that the last bit.
+    // OpenGL's convention. It also decides the vertex from which triangle set-up starts, and so the last bit.
     auto provoking = make<VkPipelineRasterizationProvokingVertexStateCreateInfoEXT>(
             VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT);
     provoking.provokingVertexMode = VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT;

@@ -35,7 +35,7 @@ void ProgramCache::save() {
         if (fn.vkGetPipelineCacheData(mDevice.handle(), mHandle, &size, data.data()) != VK_SUCCESS) return;
         mKept->put(0, std::span(data).first(size));
         mKept->save();
-    } catch (std::bad_alloc const&) { // then not
+    } catch (std::bad_alloc const&) { // then nothing is saved
     }
 }
 

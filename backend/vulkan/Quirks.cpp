@@ -30,7 +30,7 @@ uint32_t spareBindings(BindGroupLayout const& layout,
     };
     const uint32_t vertex = spare(ShaderStage::Vertex);
     const uint32_t fragment = spare(ShaderStage::Fragment);
-    uint32_t next = 0; // drivers number buffers in the order of bindings: behind all others
+    uint32_t next = 0; // drivers number buffers in binding order: after all others
     for (uint32_t i = 0; i < layout.count; ++i) next = std::max(next, layout.bindings[i].binding + 1u);
     uint32_t count = 0;
     const auto add = [&](uint32_t descriptors, ShaderStage stages) {

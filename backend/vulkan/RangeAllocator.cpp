@@ -26,7 +26,7 @@ RangeAllocator::Bin RangeAllocator::binOf(uint64_t bytes) {
 }
 
 RangeAllocator::Bin RangeAllocator::binThatFits(uint64_t bytes) {
-    // Rounding the size up to the next step leads to a bin without ranges smaller than the request.
+    // Rounding the size up to the next step selects a bin in which every range is large enough.
     const uint64_t granules = bytes / kGranule;
     if (granules < kSteps) return binOf(bytes);
     const auto top = static_cast<uint32_t>(std::bit_width(granules)) - 1;

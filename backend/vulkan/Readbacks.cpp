@@ -7,7 +7,7 @@
 namespace filament::backend::vulkan {
 namespace {
 
-/// Bytes of one texel in a copy: the depth aspect without stencil, D16 before it is widened.
+/// Bytes per texel in a copy: the depth aspect without stencil, D16 before it is widened.
 uint64_t copiedBytes(Format format, Rect const& rect) {
     const uint64_t texels = uint64_t{ rect.width } * rect.height;
     if (format == Format::D16) return texels * 2;
@@ -47,7 +47,7 @@ void Readbacks::answer(uint64_t finishedSerial, ResultSink& sink) {
         Waiting const& front = mWaiting.front();
         Buffer const& target = *front.target;
         if (!target.mapped()) {
-            sink.onReadback(front.ticket, {}); // the driver refused to map it
+            sink.onReadback(front.ticket, {}); // the driver failed to map it
         } else if (front.format == Format::D16) {
             const std::vector<float> depths = floatsFromUnorm16(target.mapped(), target.bytes() / 2);
             sink.onReadback(front.ticket, std::as_bytes(std::span(depths)));

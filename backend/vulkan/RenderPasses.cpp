@@ -20,7 +20,7 @@ constexpr VkAttachmentReference kUnused{ VK_ATTACHMENT_UNUSED, VK_IMAGE_LAYOUT_U
 
 bool isIn(uint8_t mask, uint32_t bit) { return (mask >> bit & 1) != 0; }
 
-/// The use of a colour attachment in one subpass; Undefined if that leaves it alone.
+/// The use of a colour attachment in one subpass; Undefined if the subpass does not use it.
 Use colorUseIn(PassLayout const& layout, uint32_t subpass, uint32_t index) {
     if (isIn(readColors(layout, subpass), index)) return Use::InputRead;
     return isIn(writtenColors(layout, subpass), index) ? Use::ColorAttachment : Use::Undefined;
@@ -100,7 +100,7 @@ void describeDependencies(PassLayout const& layout, RenderPassParts& parts) {
             VkSubpassDependency dependency{};
             dependency.srcSubpass = from;
             dependency.dstSubpass = to;
-            // Reads in the fragment shader count as well: a later subpass may write what an earlier one has read.
+            // Includes reads in the fragment shader: a later subpass may write what an earlier one has read.
             dependency.srcStageMask = kAttachmentStages | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
             dependency.dstStageMask = kAttachmentStages | VK_PIPELINE_STAGE_FRAGMENT_SHADER_BIT;
             dependency.srcAccessMask = kAttachmentWrites;
@@ -111,7 +111,7 @@ void describeDependencies(PassLayout const& layout, RenderPassParts& parts) {
     }
 }
 
-/// The same parts for the second version of the call, the only one that can resolve depth.
+/// The same structures for vkCreateRenderPass2, the only version that can resolve depth.
 class RenderPassParts2 {
 public:
     RenderPassParts2(PassLayout const& layout, RenderPassParts const& parts) : mAspects(aspectsOf(layout.depthFormat)) {
@@ -185,7 +185,7 @@ private:
         part.depthResolve = reference(of.depthResolve, mAspects);
         part.resolve = make<VkSubpassDescriptionDepthStencilResolve>(
                 VK_STRUCTURE_TYPE_SUBPASS_DESCRIPTION_DEPTH_STENCIL_RESOLVE);
-        part.resolve.depthResolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT; // the one that every device has
+        part.resolve.depthResolveMode = VK_RESOLVE_MODE_SAMPLE_ZERO_BIT; // supported by every device
         part.resolve.stencilResolveMode = VK_RESOLVE_MODE_NONE;
         part.resolve.pDepthStencilResolveAttachment = &part.depthResolve;
         auto& to = mSubpasses[mSubpassCount++];
@@ -242,7 +242,7 @@ VkRenderPass createRenderPass(Device& device, RenderPassKey const& key) {
     return result == VK_SUCCESS ? pass : VK_NULL_HANDLE;
 }
 
-/// Unused entries must not tell equal passes apart.
+/// Clears unused entries, so that they do not make equal passes differ.
 PassLayout normalized(PassLayout layout) {
     const auto used = static_cast<uint8_t>((1u << layout.colorCount) - 1);
     for (uint32_t i = layout.colorCount; i < kMaxColorAttachments; ++i) layout.colorFormats[i] = Format::None;
@@ -287,7 +287,7 @@ Use firstColorUse(PassLayout const& layout, uint32_t index) {
     for (uint32_t subpass = 0; subpass < layout.subpassCount; ++subpass) {
         if (const Use use = colorUseIn(layout, subpass, index); use != Use::Undefined) return use;
     }
-    return Use::ColorAttachment; // only loaded, cleared and stored
+    return Use::ColorAttachment; // only loaded, cleared or stored
 }
 
 Use lastColorUse(PassLayout const& layout, uint32_t index) {

@@ -22,7 +22,7 @@ void RingCursor::release(uint64_t finishedSerial) {
         mTail = mMarks.front().end;
         mMarks.pop_front();
     }
-    if (mMarks.empty()) mHead = mTail = 0; // an empty ring starts over: the whole size fits again
+    if (mMarks.empty()) mHead = mTail = 0; // an empty ring starts again at 0, so that the whole size is available
 }
 
 } // namespace filament::backend::vulkan

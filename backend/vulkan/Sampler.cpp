@@ -21,8 +21,8 @@ Result<std::unique_ptr<Sampler>> Sampler::create(Device& device, SamplerDesc con
     info.maxAnisotropy = std::max(anisotropy, 1.0f);
     info.compareEnable = desc.compare != CompareOp::None;
     info.compareOp = native(desc.compare);
-    // Vulkan always has a mip filter. The specification's table for OpenGL's filters without one: a nearest mip filter
-    // and levels of detail up to 0.25 keep minification apart from magnification and never leave level 0.
+    // Vulkan always has a mip filter. As the specification's table for OpenGL's filters without one says: a nearest mip
+    // filter and levels of detail up to 0.25 tell minification from magnification and never leave level 0.
     info.maxLod = desc.mipFilter == MipFilter::None ? 0.25f : VK_LOD_CLAMP_NONE;
 
     std::unique_ptr<Sampler> sampler(new Sampler(device));

@@ -35,7 +35,7 @@ struct Id {
     int32_t location = -1;
 };
 
-/// The few facts about ids that edges depend on.
+/// The facts about ids that the edges depend on.
 class Module {
 public:
     explicit Module(ShaderStage stage) : mExecutionModel(executionModel(stage)) {}
@@ -60,7 +60,7 @@ public:
         ShaderEdges edges;
         for (Id const& variable : mIds) {
             if (variable.op != OpVariable || variable.location < 0) continue;
-            const uint32_t type = typeOf(variable.type).type; // behind the pointer
+            const uint32_t type = typeOf(variable.type).type; // the pointee
             const auto first = static_cast<uint32_t>(variable.location);
             const uint32_t end = std::min(first + locationCount(type, 0), kMaxLocations);
             for (uint32_t location = first; location < end; ++location) {
@@ -70,7 +70,7 @@ public:
         }
         std::ranges::sort(edges.inputs, {}, &ShaderInput::location);
         const auto repeated =
-                std::ranges::unique(edges.inputs, {}, &ShaderInput::location); // components of one location
+                std::ranges::unique(edges.inputs, {}, &ShaderInput::location); // merge components of one location
         edges.inputs.erase(repeated.begin(), repeated.end());
         return edges;
     }
@@ -121,7 +121,7 @@ private:
         return std::memcmp(&operands[2], "main", 5) == 0;
     }
 
-    /// Decorations come before definitions: keep the location.
+    /// Decorations precede definitions: remember the location.
     void define(uint32_t id, Id const& facts) {
         if (id >= mIds.size()) return;
         const int32_t location = mIds[id].location;
@@ -134,7 +134,7 @@ private:
         return id < mIds.size() ? mIds[id] : kNothing;
     }
 
-    // Depth is bounded: a broken module may define a type by itself.
+    // The depth is limited, because a broken module may define a type in terms of itself.
     static constexpr int kMaxDepth = 8;
 
     uint32_t locationCount(uint32_t id, int depth) const {

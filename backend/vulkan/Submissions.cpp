@@ -82,7 +82,7 @@ VkResult Submissions::poll() {
     for (Slot const& slot : mSlots) {
         if (slot.serial <= finished) continue;
         const VkResult status = mDevice.fn().vkGetFenceStatus(mDevice.handle(), slot.fence);
-        // One queue: a submission finishes after all before it.
+        // There is one queue: a submission finishes after all earlier ones.
         if (status == VK_SUCCESS) finished = slot.serial;
         if (status < VK_SUCCESS) result = status;
     }
@@ -110,7 +110,7 @@ void Submissions::keep(std::unique_ptr<DeviceObject> object) {
     try {
         mKept.emplace_back();
     } catch (std::bad_alloc const&) {
-        mDevice.fn().vkDeviceWaitIdle(mDevice.handle()); // the object ends here, while nothing uses it
+        mDevice.fn().vkDeviceWaitIdle(mDevice.handle()); // this object ends while nothing uses it
         throw;
     }
     mKept.back() = { serial, std::move(object) };

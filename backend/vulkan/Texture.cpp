@@ -65,7 +65,7 @@ std::string describe(DeviceTextureDesc const& desc) {
                        bytesOf(desc));
 }
 
-/// Asks first: an image beyond these limits is invalid usage, not an error that vkCreateImage would report.
+/// Queried first: an image beyond these limits is invalid usage, not an error that vkCreateImage would report.
 Result<void> checkSupport(Device const& device, DeviceTextureDesc const& desc, VkImageCreateInfo const& info) {
     VkImageFormatProperties limits{};
     const VkResult result = device.instance().fn().vkGetPhysicalDeviceImageFormatProperties(

@@ -40,7 +40,7 @@ uint32_t Timers::writeTimestamp(VkCommandBuffer commands) {
     VolkDeviceTable const& fn = mDevice.fn();
     VkQueryPool pool = mPools[query / kPoolSize];
     fn.vkCmdResetQueryPool(commands, pool, query % kPoolSize, 1);
-    // Both ends at the bottom of the pipe: the time from the end of all work before to the end of the work in between.
+    // Both timestamps at the bottom of the pipe: from the end of all earlier work to the end of the timed work.
     fn.vkCmdWriteTimestamp(commands, VK_PIPELINE_STAGE_BOTTOM_OF_PIPE_BIT, pool, query % kPoolSize);
     return query;
 }
