@@ -53,7 +53,7 @@ bool isAnnotation(spv::Op op) {
     return op == spv::OpName || op == spv::OpMemberName || op == spv::OpDecorate || op == spv::OpMemberDecorate;
 }
 
-/// Types, constants, global variables: what has a result before the first function, but not imports.
+/// Types, constants and global variables: everything with a result before the first function, except imports.
 bool isGlobal(Instruction const& at) { return at.result != 0 && at.op() != spv::OpExtInstImport; }
 
 class Order {
@@ -73,8 +73,8 @@ public:
         for (Instruction const* at : mPreamble) number(at->result);
         for (size_t i = functions; i < mModule.instructions.size(); ++i) need(mModule.instructions[i]);
         for (size_t i = functions; i < mModule.instructions.size(); ++i) number(mModule.instructions[i].result);
-        for (Instruction const* at : mPreamble) need(*at); // variables of the interface that no function reads
-        for (size_t i = 0; i < functions; ++i) place(mModule.instructions[i].result); // what nothing reads
+        for (Instruction const* at : mPreamble) need(*at); // interface variables that no function reads
+        for (size_t i = 0; i < functions; ++i) place(mModule.instructions[i].result); // everything that nothing reads
         return write(functions);
     }
 
@@ -88,7 +88,7 @@ private:
         if (id != 0 && mNumbers[id] == 0) mNumbers[id] = mNext++;
     }
 
-    /// Puts the globals that `at` uses into their order, each behind what it uses itself. Types do not nest deeply.
+    /// Places the globals that `at` uses, each after the globals that it uses itself. Types are not nested deeply.
     void need(Instruction const& at) {
         for (const uint16_t word : at.ids) place(at.words[word]);
     }
@@ -103,7 +103,7 @@ private:
 
     void renumber(Instruction& at) {
         for (const uint16_t word : at.ids) {
-            number(at.words[word]); // only ids that nothing defines are new here
+            number(at.words[word]); // only undefined ids are new here
             at.words[word] = mNumbers[at.words[word]];
         }
         if (at.result == 0) return;

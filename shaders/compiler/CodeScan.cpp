@@ -19,7 +19,7 @@ size_t skipComment(std::string_view text, size_t at) {
     return at;
 }
 
-/// Words, and every other visible character by itself; comments and blanks are gone.
+/// Splits into words; every other visible character is a token of its own. Comments and blanks are dropped.
 std::vector<std::string_view> tokensOf(std::string_view text) {
     std::vector<std::string_view> tokens;
     for (size_t at = 0; at < text.size();) {
@@ -45,7 +45,7 @@ CodeScan::CodeScan(std::string_view glsl) {
         if (!isWordCharacter(tokens[i][0])) continue;
         mWords.emplace(tokens[i]);
         if (i + 1 == tokens.size() || tokens[i + 1] != "(") continue;
-        // Behind a type stands the name of what is declared.
+        // A type is followed by the declared name.
         const bool isCall =
                 i == 0 || !isWordCharacter(tokens[i - 1][0]) || tokens[i - 1] == "return" || tokens[i - 1] == "else";
         if (!isCall) mDeclared.emplace(tokens[i]);

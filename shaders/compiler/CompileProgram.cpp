@@ -21,7 +21,7 @@ bool isHalf(backend::ShaderStage stage, ProgramCompileOptions const& options) {
     return stage == backend::ShaderStage::Fragment && options.halfFragment;
 }
 
-/// Half precision is made of code without calls and local variables, whatever was asked for.
+/// Conversion to half precision needs code without calls and local variables, so it always optimises.
 Optimization goalOf(backend::ShaderStage stage, ProgramCompileOptions const& options) {
     return isHalf(stage, options) && options.optimization == Optimization::None ? Optimization::Performance
                                                                                 : options.optimization;
@@ -36,7 +36,7 @@ Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std:
     if (spirv && goal != Optimization::None) spirv = optimizeSpirv(*spirv, goal);
     if (spirv) spirv = canonicalOrder(*spirv);
     if (spirv && options.exact)
-        spirv = forbidReordering(lowerExactly(*spirv)); // last: no pass re-forms what is spelled out
+        spirv = forbidReordering(lowerExactly(*spirv)); // last, so that no pass rearranges the result
     return spirv;
 }
 

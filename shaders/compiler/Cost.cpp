@@ -23,7 +23,7 @@ bool isFetch(spv::Op op) { return op >= spv::OpImageSampleImplicitLod && op <= s
 
 bool isControl(spv::Op op) { return (op >= spv::OpBranch && op <= spv::OpUnreachable) || op == spv::OpFunctionCall; }
 
-/// Conversions, arithmetic, comparisons, bits and derivatives follow each other in the numbering of SPIR-V.
+/// Conversions, arithmetic, comparisons, bit operations and derivatives are consecutive in SPIR-V's numbering.
 bool isArithmetic(spv::Op op) { return op >= spv::OpConvertFToU && op <= spv::OpFwidthCoarse; }
 
 void count(spv::Op op, std::span<const uint32_t> words, InstructionCounts& counts) {
@@ -70,7 +70,7 @@ std::string row(Variant const& variant, MaterialPackage const& cheapest) {
 InstructionCounts countInstructions(std::span<const uint32_t> module) {
     constexpr size_t kHeaderWords = 5;
     InstructionCounts counts;
-    bool inFunction = false; // before that, operations of specialisation constants are data
+    bool inFunction = false; // before that, operations on specialisation constants are data
     for (size_t at = kHeaderWords; at < module.size(); at += module[at] >> 16) {
         const auto op = static_cast<spv::Op>(module[at] & 0xFFFF);
         inFunction = inFunction || op == spv::OpFunction;
@@ -82,7 +82,7 @@ InstructionCounts countInstructions(std::span<const uint32_t> module) {
 Result<std::string> costReport(std::string_view text, std::string_view fileName, CompileOptions options) {
     options.spirv = true;
     options.essl = false;
-    options.exact = false; // what the author wrote, not how it is spelled out
+    options.exact = false; // count what the author wrote, not its exact expansion
     const Result<MaterialPackage> package = compileMaterial(text, fileName, options);
     if (!package) return package.error();
     const Result<std::string> terms = describeTerms(text, fileName, options);

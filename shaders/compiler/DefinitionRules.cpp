@@ -24,7 +24,7 @@ bool hasTwoPasses(MaterialDefinition const& definition) {
     return definition.package.transparency != TransparencyMode::Default;
 }
 
-/// What must not be so, the property that is to blame, and what to do about it.
+/// A condition that must not hold, the property at fault, and the remedy.
 struct Contradiction {
     bool (*isSo)(MaterialDefinition const&);
     std::string_view property;

@@ -42,7 +42,7 @@ Value exactMix(Value a, Value b, Value t) { return a + (b - a) * t; }
 Value exactSmoothStep(Value edge0, Value edge1, Value x) {
     const auto low = edge0.editor->constantOf(edge0.id), high = edge0.editor->constantOf(edge1.id);
     Value width = edge1;
-    if (!low.empty() && low.size() == high.size()) { // a constant width is divided by like any other constant
+    if (!low.empty() && low.size() == high.size()) { // treat a constant width like any other constant divisor
         std::vector<float> difference(low.size());
         std::ranges::transform(high, low, difference.begin(), [](float b, float a) { return b - a; });
         width.id = edge1.editor->constant(difference, edge1.type());
@@ -59,7 +59,7 @@ Value exactMod(Value x, Value y) { return x - y * call(GLSLstd450Floor, { exactD
 Value exactDivide(Value x, Value y) {
     const std::span<const float> divisor = y.editor->constantOf(y.id);
     if (divisor.empty()) {
-        // What follows from a specialisation constant is a constant to the driver: it gets the reciprocal, too.
+        // To the driver, an expression of specialisation constants is a constant: multiply by the reciprocal here, too.
         return y.editor->isConstantExpression(y.id) ? x * (1.0f / y) : x / y;
     }
     std::vector<float> reciprocal(divisor.size());
@@ -163,12 +163,12 @@ Grid elementsOf(Value m) {
     return grid;
 }
 
-/// Of rows r, s in columns c, d.
+/// For rows r, s and columns c, d.
 Value minor2(Grid const& m, uint32_t c, uint32_t d, uint32_t r, uint32_t s) {
     return m[c][r] * m[d][s] - m[d][r] * m[c][s];
 }
 
-/// Determinant of what remains of an n x n matrix without one column and one row, with the sign of the cofactor.
+/// Determinant of an n x n matrix without one column and one row, with the sign of the cofactor.
 Value cofactor(Grid const& m, uint32_t n, uint32_t column, uint32_t row) {
     std::array<uint32_t, 3> c{}, r{};
     for (uint32_t i = 0, ci = 0, ri = 0; i < n; ++i) {

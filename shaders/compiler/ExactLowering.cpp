@@ -28,7 +28,7 @@ public:
 
 private:
     Value operand(uint32_t index) const { return { &mEditor, mAt.operands[index] }; }
-    Value argument(uint32_t index) const { return operand(2 + index); } // behind the import and the function
+    Value argument(uint32_t index) const { return operand(2 + index); } // after the import and the function
 
     Value lowerCore() const {
         switch (mAt.op) {
@@ -51,7 +51,7 @@ private:
         }
     }
 
-    /// GLSL leaves % of negative numbers open; here the quotient is cut towards zero, as in C++.
+    /// GLSL leaves % of negative numbers undefined; here the quotient is truncated towards zero, as in C++.
     Id lowerSignedModulo() const {
         const Id x = mAt.operands[0], y = mAt.operands[1];
         const Id quotient = mEditor.emit(spv::OpSDiv, mAt.type, { x, y });

@@ -6,7 +6,7 @@
 namespace filament::shader {
 namespace {
 
-// ESSL 3.10 specification, chapter 8: what its predecessor lacks.
+// ESSL 3.10 specification, chapter 8: functions that earlier versions lack.
 constexpr std::string_view kOfEssl310[] = {
     "bitCount",       "bitfieldExtract", "bitfieldInsert",      "bitfieldReverse", "findLSB",
     "findMSB",        "frexp",           "imulExtended",        "ldexp",           "packSnorm4x8",

@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kHeaderWords = 5, kBoundWord = 3;
 
-/// Where things stand in the module, as word indices, and what it declares.
+/// Positions in the module, as word indices, and what it declares.
 struct Survey {
     size_t entryPoint = 0, annotationsEnd = 0, functions = 0;
     uint32_t vec4 = 0, outputVec4 = 0; ///< type ids
@@ -59,7 +59,7 @@ std::vector<uint32_t> withFetchOutputs(std::span<const uint32_t> spirv) {
     std::vector<uint32_t> interface, annotations, globals;
     for (const uint32_t location : at.inputIndices) {
         if (at.outputLocations.contains(location)) continue;
-        if (at.outputVec4 == 0) { // a subpass load makes vec4s, so that type is there
+        if (at.outputVec4 == 0) { // a subpass load returns vec4, so the type exists
             at.outputVec4 = bound++;
             globals.insert(globals.end(),
                            { head(4, spv::OpTypePointer), at.outputVec4, spv::StorageClassOutput, at.vec4 });

@@ -10,8 +10,8 @@ namespace {
 
 constexpr size_t kHeaderWords = 5;
 
-/// What a driver could compute in another way. Functions, too: a driver may turn pow(x, 2) into x * x, and `precise` in
-/// ESSL reaches into the arguments of an expression, so both languages must forbid it.
+/// Operations that a driver could compute in another way. They include functions: a driver may turn pow(x, 2) into x *
+/// x, and in ESSL `precise` also affects the arguments of an expression, so both languages must forbid it.
 bool canBeReordered(spv::Op op) {
     switch (op) {
     case spv::OpFAdd:

@@ -11,7 +11,7 @@
 namespace filament::shader {
 namespace {
 
-constexpr uint32_t kFirstVariableLocation = 5; // behind those of shaders/material/varyings.glsl
+constexpr uint32_t kFirstVariableLocation = 5; // after those of shaders/material/varyings.glsl
 
 const char* glslType(ParameterType type) {
     static constexpr const char* kNames[] = { "bool",        "bvec2",       "bvec3", "bvec4",     "float",
@@ -22,7 +22,7 @@ const char* glslType(ParameterType type) {
     return kNames[static_cast<size_t>(type)];
 }
 
-/// Everything is highp unless the author asks for less: mediump really is fp16 on some devices.
+/// Everything is highp unless the author asks for less: on some devices mediump really is fp16.
 const char* glslPrecision(Precision precision) {
     switch (precision) {
     case Precision::Low:

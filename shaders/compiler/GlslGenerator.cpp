@@ -34,7 +34,7 @@ const char* shadingDefine(ShadingModel model) {
     return kNames[static_cast<size_t>(model)];
 }
 
-/// The text that fulfils the contract of shading models (shaders/material/README.md).
+/// The text that implements the interface of shading models (shaders/material/README.md).
 std::string_view shadingText(ShadingModel model) {
     switch (model) {
     case ShadingModel::Cloth:
@@ -77,7 +77,7 @@ void beginStage(StageText& out, std::string_view varying) {
     out.define("VARYING", varying);
 }
 
-/// Both stages must agree on these: they decide which varyings exist.
+/// Both stages must agree on these, because they decide which varyings exist.
 void defineSurface(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs) {
     MaterialPackage const& package = definition.package;
     out.define(shadingDefine(package.shading));
@@ -135,7 +135,7 @@ void declareCustomAttributes(StageText& out, MaterialDefinition const& definitio
     }
 }
 
-/// Joints 5 to 8 have the places of two custom attributes; materials that use those have four joints a vertex.
+/// Joints 5 to 8 take the places of two custom attributes; materials that use those have four joints per vertex.
 void defineDeformation(StageText& out, MaterialDefinition const& definition) {
     out.define("VARIANT_SKINNING");
     const bool placesAreFree =
@@ -168,7 +168,7 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     return std::move(out).take();
 }
 
-/// What a shading model finds when its material sets such a term.
+/// What a shading model includes if its material sets this term.
 struct Layer {
     std::string_view term, text;
 };
@@ -177,8 +177,8 @@ constexpr Layer kLayers[] = { { "HAS_ANISOTROPY", "shaders/material/surface/anis
                               { "HAS_SHEEN", "shaders/material/surface/sheen.glsl" },
                               { "HAS_CLEAR_COAT", "shaders/material/surface/coat.glsl" } };
 
-/// Behind the author's code. What is not safe in 16 bits comes before the line from which kVariantHalf computes in
-/// them: distances, f0 near 1, derivatives, nits.
+/// Follows the author's code. Everything that is unsafe in 16 bits (distances, f0 near 1, derivatives, nits) precedes
+/// the line after which kVariantHalf computes in 16 bits.
 Result<void> litFragment(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs,
                          uint16_t variantKey) {
     declareQuality(out);
@@ -265,7 +265,7 @@ Result<std::string> postFragment(MaterialDefinition const& definition, uint16_t 
     return std::move(out).take();
 }
 
-/// The author's code with its includes, to be read by CodeScan.
+/// The author's code with its includes, as input of CodeScan.
 Result<std::string> expanded(std::optional<GlslBlock> const& block, IncludeResolver const& includes) {
     StageText text(includes);
     if (block) {
@@ -284,7 +284,7 @@ bool mentionsAny(CodeScan const& code, std::initializer_list<std::string_view> w
     return std::ranges::any_of(words, [&](std::string_view word) { return code.mentions(word); });
 }
 
-/// Neither error of the GLSL compiler would say what to do.
+/// Checked here, because the GLSL compiler's errors would not name the remedy.
 Result<void> checkInstanceIndex(MaterialDefinition const& definition, CodeScan const& fragment,
                                 CodeScan const& vertex) {
     if (definition.package.instanced) return {};

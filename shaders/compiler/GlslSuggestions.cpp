@@ -9,14 +9,14 @@
 namespace filament::shader {
 namespace {
 
-/// The first 'quoted' word of a message; empty: none.
+/// The first 'quoted' word of a message; empty if there is none.
 std::string_view quotedWord(std::string_view message) {
     const size_t open = message.find('\'');
     const size_t close = message.find('\'', open + 1);
     return close == std::string_view::npos ? std::string_view{} : message.substr(open + 1, close - open - 1);
 }
 
-/// What may stand behind a dot: members of MaterialInputs, parameters of the block.
+/// What may follow a dot: members of MaterialInputs, parameters of the block.
 std::vector<std::string> fieldsOf(MaterialDefinition const& definition) {
     std::vector<std::string> names;
     for (MaterialMember const& member : materialMembers()) {
@@ -40,7 +40,8 @@ std::vector<std::string> identifiersOf(MaterialDefinition const& definition) {
     return names;
 }
 
-/// One of its variants has a subpass input, which no other function takes, the other a texture.
+/// Such a parameter is a subpass input in one variant and a texture in the other; no other function takes a subpass
+/// input.
 std::string aboutCurrentPixel(MaterialDefinition const& definition) {
     const auto own = std::ranges::find(definition.package.parameters, true, &Parameter::currentPixel);
     if (own == definition.package.parameters.end()) return {};

@@ -18,7 +18,7 @@
 namespace filament::shader {
 namespace {
 
-/// glslang keeps process-wide tables; they are made once and kept until the process ends.
+/// glslang keeps process-wide tables; they are created once and kept until the process ends.
 struct GlslangProcess {
     GlslangProcess() { glslang::InitializeProcess(); }
     ~GlslangProcess() { glslang::FinalizeProcess(); }
@@ -29,7 +29,7 @@ struct LogSummary {
     size_t errors = 0;
 };
 
-/// glslang's log holds lines like "ERROR: file:12: 'x' : undeclared identifier", and a count at the end.
+/// glslang's log consists of lines like "ERROR: file:12: 'x' : undeclared identifier", and a count at the end.
 LogSummary summarize(std::string_view logText) {
     constexpr std::string_view kPrefix = "ERROR: ";
     LogSummary summary;
@@ -42,7 +42,7 @@ LogSummary summarize(std::string_view logText) {
         const bool isCount = line.find("compilation errors.") != std::string_view::npos;
         const bool isEcho = line.find("compilation terminated") != std::string_view::npos;
         if (isCount || isEcho) continue;
-        line.remove_suffix(line.size() - 1 - line.find_last_not_of(' ')); // glslang leaves room for more
+        line.remove_suffix(line.size() - 1 - line.find_last_not_of(' ')); // glslang pads the line
         if (summary.errors++ == 0) summary.firstError = line;
     }
     return summary;
@@ -65,7 +65,7 @@ Result<std::vector<uint32_t>> runPasses(std::span<const uint32_t> spirv, PassSet
     });
     setup(optimizer);
     spvtools::OptimizerOptions options;
-    options.set_run_validator(false); // the tests validate; the input comes from glslang
+    options.set_run_validator(false); // validation is left to the tests: the input comes from glslang
     std::vector<uint32_t> result;
     if (!optimizer.Run(spirv.data(), spirv.size(), &result, options)) {
         return fail(ErrorCode::Internal, "the SPIR-V optimiser refused a module: {}", complaint);
@@ -102,15 +102,15 @@ Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::Shad
 
     std::vector<uint32_t> spirv;
     glslang::SpvOptions options;
-    options.disableOptimizer = true; // optimizeSpirv() is a step of its own
+    options.disableOptimizer = true; // optimizeSpirv() is a separate step
     glslang::GlslangToSpv(*program.getIntermediate(language), spirv, &options);
     return spirv;
 }
 
 namespace {
 
-// The passes for speed without what makes code longer: functions stay functions. Not the optimiser's own list for size:
-// it takes unread members out of uniform blocks, and ESSL 3.10 has no words for the gaps.
+// The performance passes without those that make code longer: functions are not inlined. The optimiser's own list for
+// size is unusable: it removes unread members of uniform blocks, and ESSL 3.10 cannot express the gaps.
 void registerSizePasses(spvtools::Optimizer& optimizer) {
     optimizer.RegisterPass(spvtools::CreateWrapOpKillPass())
             .RegisterPass(spvtools::CreateDeadBranchElimPass())
@@ -155,15 +155,15 @@ Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Opt
     Result<std::vector<uint32_t>> fast =
             runPasses(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterPerformancePasses(); });
     if (!fast || goal != Optimization::Size) return fast;
-    // What is inlined may also shrink: constants meet.
+    // Inlined code may still become shorter: constants meet and fold.
     Result<std::vector<uint32_t>> small = runPasses(spirv, registerSizePasses);
     return small && small->size() < fast->size() ? small : fast;
 }
 
-// A constant without SpecId is one that nobody can choose any more.
+// A constant without SpecId can no longer be chosen.
 Result<std::vector<uint32_t>> optimizeWithFalse(std::span<const uint32_t> spirv, std::span<const uint32_t> constants) {
     std::vector<uint32_t> fixed(spirv.begin(), spirv.begin() + kModuleHeaderWords);
-    std::set<uint32_t> chosen; // ids of the results
+    std::set<uint32_t> chosen; // ids of the chosen constants
     forEachInstruction(spirv, [&](spv::Op op, std::span<const uint32_t> words) {
         const bool isSpecId = op == spv::OpDecorate && words[2] == spv::DecorationSpecId;
         if (isSpecId && std::ranges::count(constants, words[3]) > 0) {
@@ -181,10 +181,10 @@ Result<std::vector<uint32_t>> optimizeWithFalse(std::span<const uint32_t> spirv,
     });
 }
 
-// The conversion cannot take parts out of whole arrays: elements are loaded one by one first.
+// The conversion cannot extract parts of whole arrays, so elements are loaded one by one first.
 Result<std::vector<uint32_t>> halfFromRelaxed(std::span<const uint32_t> spirv) {
     Result<std::vector<uint32_t>> half = runPasses(spirv, [](spvtools::Optimizer& optimizer) {
-        constexpr double kAlways = 2; // whatever share of the elements is read
+        constexpr double kAlways = 2; // regardless of the share of the elements read
         optimizer.RegisterPass(spvtools::CreateReduceLoadSizePass(kAlways));
         optimizer.RegisterPass(spvtools::CreateConvertRelaxedToHalfPass());
     });

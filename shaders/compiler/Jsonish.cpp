@@ -28,7 +28,7 @@ std::string describe(Token const& token) {
     }
 }
 
-/// A word without quotes is a boolean or a number if it looks like one.
+/// An unquoted word that looks like a boolean or a number is one.
 JsonValue scalar(Token const& token) {
     JsonValue value{ .kind = JsonValue::Kind::String, .at = token.at, .text = token.text };
     if (token.kind == TokenKind::Quoted) return value;
@@ -101,7 +101,7 @@ private:
         }
     }
 
-    /// Behind the opening brace.
+    /// Called after the opening brace.
     Result<JsonValue> objectBody(SourcePosition const& at, int depth) {
         JsonValue object{ .kind = JsonValue::Kind::Object, .at = at };
         for (Token key = mLexer.next(); key.kind != TokenKind::CloseBrace; key = mLexer.next()) {
@@ -119,7 +119,7 @@ private:
         return object;
     }
 
-    /// Behind the opening bracket.
+    /// Called after the opening bracket.
     Result<JsonValue> arrayBody(SourcePosition const& at, int depth) {
         JsonValue array{ .kind = JsonValue::Kind::Array, .at = at };
         for (Token token = mLexer.next(); token.kind != TokenKind::CloseBracket; token = mLexer.next()) {

@@ -31,7 +31,7 @@ void JsonishLexer::advance() {
     ++input().at;
 }
 
-/// True if there was a comment; an unclosed one ends with the file.
+/// Returns true if there was a comment; an unclosed one ends with the file.
 bool JsonishLexer::skipComment() {
     if (startsWith("//")) {
         while (!atEnd() && peek() != '\n') advance();
@@ -45,7 +45,7 @@ bool JsonishLexer::skipComment() {
     return true;
 }
 
-/// True if something was skipped.
+/// Returns true if something was skipped.
 bool JsonishLexer::skipBlank() {
     if (!atEnd() && isSpace(peek())) {
         advance();
@@ -61,7 +61,7 @@ bool JsonishLexer::skipBlank() {
 
 Token JsonishLexer::token(TokenKind kind, std::string text) { return { kind, std::move(text), position() }; }
 
-/// Empty, or why the include cannot be followed.
+/// Returns an empty string, or why the include cannot be followed.
 std::string JsonishLexer::include() {
     while (peek() != '"' && peek() != '\n' && !atEnd()) advance();
     const Token path = peek() == '"' ? quoted() : error("");
@@ -89,7 +89,7 @@ Token JsonishLexer::quoted() {
     return result;
 }
 
-/// A run of characters without quotes; an array size belongs to it, as in float[9].
+/// A run of unquoted characters, including an array size, as in float[9].
 Token JsonishLexer::word() {
     Token result = token(TokenKind::Word);
     while (!endsWord(peek())) {

@@ -19,14 +19,14 @@ namespace {
 
 using Id = SpirvEditor::Id;
 
-/// Where the probe writes the nth of the members that it looks at, and reads what that is at first.
+/// The location of the first probed member among the probe's outputs, and that of its initial value among the inputs.
 constexpr uint32_t kProbeOutputLocation = 1, kProbeInputLocation = 16;
 
 bool isProbed(MaterialMember const& member, MaterialDefinition const& definition) {
     return member.absent != Absent::Never && member.isMemberOf(definition);
 }
 
-/// Indices into materialMembers(), ascending: there are fewer locations than members of all models together.
+/// Indices into materialMembers(), ascending. A shader has fewer locations than there are members in all models.
 std::vector<uint32_t> probedMembers(MaterialDefinition const& definition) {
     const auto members = materialMembers();
     std::vector<uint32_t> probed;
@@ -36,7 +36,7 @@ std::vector<uint32_t> probedMembers(MaterialDefinition const& definition) {
     return probed;
 }
 
-/// Colours above the picture are neutral if blending them changes nothing.
+/// A post-lighting colour is neutral if blending it changes nothing.
 std::array<float, 4> neutralOf(MaterialMember const& member, MaterialDefinition const& definition) {
     if (member.name != "postLightingColor") return member.neutral;
     constexpr float kNone = std::numeric_limits<float>::infinity(); // equal to no constant
@@ -60,14 +60,14 @@ bool isNeutral(std::span<const float> value, std::array<float, 4> const& neutral
     return true;
 }
 
-/// If what the member is at first needs the term, only whether it was touched decides. Such members come from outside,
-/// so that nothing folds with them.
+/// If the initial value of a member is not neutral, the only question is whether the author's code sets it. Such
+/// members come from an input, so that nothing folds with them.
 bool comesFromOutside(MaterialMember const& member, MaterialDefinition const& definition) {
     const auto initial = std::span(member.initial).first(member.components);
     return member.absent == Absent::Untouched || !isNeutral(initial, neutralOf(member, definition));
 }
 
-// ---------------------------------------------------------------------------------------------- what arrives
+// ---------------------------------------------------------------------------------------------- what the code stores
 
 struct Arrival {
     enum class Kind : uint8_t { Nothing, Untouched, Constant, Computed };
@@ -76,14 +76,14 @@ struct Arrival {
     friend bool operator==(Arrival const&, Arrival const&) = default;
 };
 
-/// The variables of the module that have a location, by that location.
+/// The variables of the module that have a location, keyed by location.
 struct Interface {
     std::unordered_map<Id, uint32_t> inputs, outputs;
 };
 
 using Words = std::span<const uint32_t>;
 
-/// Decorations come before the variables.
+/// Decorations precede the variables.
 Interface interfaceOf(Words module) {
     std::unordered_map<Id, uint32_t> locations;
     Interface found;
@@ -98,12 +98,12 @@ Interface interfaceOf(Words module) {
     return found;
 }
 
-/// In the order of probedMembers(), `count` of them. A member that several stores reach with different values is
-/// computed.
+/// The first `count` probed members, in the order of probedMembers(). A member that receives different values from
+/// several stores counts as computed.
 std::vector<Arrival> arrivalsIn(Words module, size_t count) {
     const Interface interface = interfaceOf(module);
     std::vector<Arrival> arrivals(count);
-    std::unordered_map<Id, uint32_t> loaded; // value -> the location of the input that it was loaded from
+    std::unordered_map<Id, uint32_t> loaded; // value -> location of the input it was loaded from
     const SpirvEditor editor(module);
     const auto arrive = [&](size_t member, Id value) {
         Arrival arrival{ Arrival::Kind::Computed, {} };
@@ -139,7 +139,7 @@ bool isTermIn(MaterialMember const& member, MaterialDefinition const& definition
 
 } // namespace
 
-// prepareMaterial() is the engine's, behind a door that notes what it takes.
+// prepareMaterial() is the engine's; the probe wraps it to record what it is given.
 void declareProbe(StageText& out, MaterialDefinition const& definition) {
     const auto members = materialMembers();
     std::string taken;

@@ -20,7 +20,7 @@
 namespace filament::shader {
 namespace {
 
-/// Everything that the variants share.
+/// Shared by all variants.
 struct Prepared {
     MaterialDefinition definition;
     MaterialNeeds needs;
@@ -62,7 +62,7 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     return prepared;
 }
 
-/// Variants whose stages have the same text share them: a stage is compiled once.
+/// Variants whose stages have the same text share them: each stage is compiled once.
 struct Stage {
     backend::ShaderStage stage = backend::ShaderStage::Vertex;
     uint16_t key = 0; ///< the bits that its text depends on
@@ -143,7 +143,7 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     for (size_t i = 0; i < members.size(); ++i) {
         if ((prepared->needs.terms & termBit(i)) != 0) package.terms.emplace_back(members[i].name);
     }
-    for (const uint16_t key : prepared->keys) { // the error of the lowest key, whoever was first
+    for (const uint16_t key : prepared->keys) { // reports the error of the lowest key, whichever job failed first
         Result<StageShader> const& vertex = *stageOf(stages, backend::ShaderStage::Vertex, key).compiled;
         if (!vertex) return withSuggestion(vertex.error(), prepared->definition);
         Result<StageShader> const& fragment = *stageOf(stages, backend::ShaderStage::Fragment, key).compiled;
@@ -151,7 +151,7 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
         if ((key & kVariantSkinning) == 0) package.requiredAttributes |= vertex->vertexInputs;
         package.variants.push_back({ key, vertex->spirv, fragment->spirv, vertex->essl, fragment->essl });
     }
-    package.requiredAttributes &= ~(1u << kAttributeInstance); // comes from the engine, not from the geometry
+    package.requiredAttributes &= ~(1u << kAttributeInstance); // provided by the engine, not by the geometry
     return package;
 }
 

@@ -55,8 +55,8 @@ void addHiddenParameter(MaterialDefinition& out, std::string_view name, Paramete
     out.parameterSources.push_back({});
 }
 
-/// A material that says `doubleSided` can be switched at run time. Where it culls back faces whenever it is not
-/// double-sided, nobody sees whether those were turned around, and no parameter has to say so.
+/// A material that sets `doubleSided` can be switched at run time. If it culls back faces while it is single-sided,
+/// flipping their normals has no visible effect, so it needs no parameter.
 bool needsDoubleSidedParameter(MaterialDefinition const& definition) {
     const bool isSurface = definition.package.domain == MaterialDomain::Surface;
     const bool cullsBack = definition.find("culling") == nullptr || definition.package.culling == Culling::Back;

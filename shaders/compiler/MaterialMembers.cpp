@@ -29,7 +29,7 @@ constexpr std::array<float, 4> kZero{}, kOne{ 1, 1, 1, 1 }, kUp{ 0, 0, 1, 0 }, k
 constexpr auto kNeutral = Absent::Neutral, kUntouched = Absent::Untouched, kNever = Absent::Never;
 
 // clang-format off
-// The guide says 0 for ambientOcclusion, a misprint: everything would be black.
+// The guide says 0 for ambientOcclusion; that is a misprint: everything would be black.
 constexpr MaterialMember kMembers[] = {
     { "baseColor", 4, kOne, always },
     { "emissive", 4, { 0, 0, 0, 1 }, always, kNeutral, "HAS_EMISSIVE", kDark },
@@ -59,7 +59,7 @@ constexpr MaterialMember kMembers[] = {
     { "ior", 1, { 1.5f }, hasIor, kNeutral, "HAS_IOR", { 1.5f } },
     { "microThickness", 1, kZero, isThin, kNeutral, "HAS_MICRO_THICKNESS", kZero },
     { "dispersion", 1, kZero, refracts, kNeutral, "HAS_DISPERSION", kZero },
-    // Beyond the guide, for what glTF's extensions ask for.
+    // Not in the guide: added for glTF's extensions.
     { "specularFactor", 1, kOne, isLit, kNeutral, "HAS_SPECULAR_FACTOR", kOne },
     { "specularColorFactor", 3, kOne, isLit, kNeutral, "HAS_SPECULAR_COLOR_FACTOR", kOne },
     { "iridescence", 1, kZero, isLit, kNeutral, "HAS_IRIDESCENCE", kZero },

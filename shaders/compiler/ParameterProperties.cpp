@@ -12,7 +12,7 @@
 namespace filament::shader {
 namespace {
 
-constexpr uint32_t kMaxBlockBytes = 16384; // what every device offers
+constexpr uint32_t kMaxBlockBytes = 16384; // every device offers this much
 constexpr size_t kMaxParameterCount = 256;
 
 using TypeName = std::pair<std::string_view, ParameterType>;
@@ -28,11 +28,11 @@ constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", Para
     { "samplerCubemap", ParameterType::SamplerCube }, { "subpassInput", ParameterType::SubpassInput } };
 // clang-format on
 
-/// "float[9]" -> float, 9. The size stays 0 for what is no array.
+/// "float[9]" -> float, 9. The size stays 0 if it is no array.
 Result<void> readType(JsonValue const& value, Parameter& out) {
     if (Result<void> isString = expectKind(value, JsonValue::Kind::String, "type"); !isString) return isString;
     JsonValue base = value;
-    constexpr std::string_view kTimes = "\xC3\x97"; // the multiplication sign, with which the guide prints float3x3
+    constexpr std::string_view kTimes = "\xC3\x97"; // the multiplication sign, which the guide prints in float3x3
     if (const size_t times = base.text.find(kTimes); times != std::string::npos)
         base.text.replace(times, kTimes.size(), 1, 'x');
     if (const size_t bracket = base.text.find('['); bracket != std::string::npos) {
@@ -74,7 +74,7 @@ Result<void> readFormat(JsonValue const& value, Parameter& out) {
     return readEnum(value, "format", kFormats, out.format);
 }
 
-/// Subpass inputs give vec4s, so what may become one does.
+/// Subpass inputs return vec4, so a parameter that may become one must do so, too.
 Result<void> readCurrentPixel(JsonValue const& value, Parameter& out) {
     if (Result<void> done = readBool(value, "currentPixel", out.currentPixel); !done) return done;
     const bool isImage = out.type == ParameterType::Sampler2D && out.format == SamplerFormat::Float;
@@ -83,7 +83,7 @@ Result<void> readCurrentPixel(JsonValue const& value, Parameter& out) {
                    fmt::format("only a sampler2d of format float has a current pixel, and '{}' is none", out.name));
 }
 
-/// Names of constants, which may be declared further down: resolveUsedIf() looks them up.
+/// Names of constants, which may be declared later: resolveUsedIf() looks them up.
 Result<void> readUsedIf(JsonValue const& value, Parameter const& parameter, ParameterSource& out) {
     if (!isTexture(parameter.type) || parameter.type == ParameterType::SubpassInput || parameter.currentPixel)
         return errorAt(value.at,
@@ -105,7 +105,7 @@ Result<void> requireMember(JsonValue const& object, std::string_view key, std::s
     return errorAt(object.at, fmt::format("a {} needs the field '{}'", what, key));
 }
 
-/// `name` and `type`, which parameters and constants share.
+/// `name` and `type`, common to parameters and constants.
 struct NamedEntry {
     std::string name;
     JsonValue const* type = nullptr;

@@ -37,7 +37,7 @@ Result<void> readNumber(JsonValue const& value, std::string_view what, float low
 }
 
 Result<void> readIdentifier(JsonValue const& value, std::string_view what, std::string& out) {
-    // Kinds other than strings are names, too, if somebody calls a parameter "true"; GLSL would refuse those.
+    // A parameter called "true" would have another kind than string; it is refused here as it would be by GLSL.
     if (Result<void> isString = expectKind(value, JsonValue::Kind::String, what); !isString) return isString;
     std::string const& name = value.text;
     const bool isIdentifier = !name.empty() && !std::isdigit(static_cast<unsigned char>(name[0])) &&

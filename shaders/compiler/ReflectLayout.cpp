@@ -15,7 +15,7 @@ using backend::BindingType;
 using backend::ProgramLayout;
 using backend::ShaderStage;
 
-/// Keeps the bindings of a group ascending and joins the stages of a binding that both declare.
+/// Keeps the bindings of a group in ascending order and merges the stages of a binding that both declare.
 Result<void> insertBinding(BindGroupLayout& group, uint32_t set, BindingDesc const& added, std::string const& name) {
     auto* const begin = group.bindings.data();
     auto* const end = begin + group.count;
@@ -43,7 +43,7 @@ public:
             : mCompiler(spirv.data(), spirv.size()), mStage(stage), mOut(out) {}
 
     Result<void> read(std::optional<std::vector<SetBinding>> const& dynamicBuffers) {
-        // Declared but never read: not there, as for the drivers.
+        // Declared but never read: omitted, as the drivers do.
         const spirv_cross::ShaderResources all =
                 mCompiler.get_shader_resources(mCompiler.get_active_interface_variables());
         if (const char* unsupported = unsupportedKind(all)) {
@@ -79,7 +79,7 @@ private:
         return mCompiler.get_decoration(resource.id, which);
     }
 
-    /// Draws only read storage buffers, and only where every device of OpenGL ES can.
+    /// Draws only read storage buffers, and only in stages in which every OpenGL ES device supports them.
     Result<void> checkStorage(spirv_cross::Resource const& buffer) const {
         const bool isReadonly = mCompiler.get_buffer_block_flags(buffer.id).get(spv::DecorationNonWritable);
         if (mStage == ShaderStage::Compute || (mStage == ShaderStage::Fragment && isReadonly)) return {};
@@ -142,7 +142,7 @@ Result<StageResources> reflectStage(std::span<const uint32_t> spirv, ShaderStage
         Result<void> read = StageReader(spirv, stage, resources).read(dynamicBuffers);
         if (!read) return read.error();
         return resources;
-    } catch (std::exception const& error) { // SPIRV-Cross throws on what it does not know
+    } catch (std::exception const& error) { // SPIRV-Cross throws on unsupported input
         return fail(ErrorCode::Unsupported, "the shader cannot be reflected: {}", error.what());
     }
 }
@@ -156,7 +156,7 @@ Result<StageResources> reflectResources(std::span<const uint32_t> vertexSpirv, s
         Result<void> fragment = StageReader(fragmentSpirv, ShaderStage::Fragment, resources).read(dynamicBuffers);
         if (!fragment) return fragment.error();
         return resources;
-    } catch (std::exception const& error) { // SPIRV-Cross throws on what it does not know
+    } catch (std::exception const& error) { // SPIRV-Cross throws on unsupported input
         return fail(ErrorCode::Unsupported, "the shader cannot be reflected: {}", error.what());
     }
 }

@@ -17,7 +17,7 @@ const char* formatName(SamplerFormat format) {
     return kNames[static_cast<size_t>(format)];
 }
 
-/// Names are GLSL identifiers: nothing in them needs escaping.
+/// Names are GLSL identifiers, so nothing needs escaping.
 std::string entry(Parameter const& parameter) {
     std::string text = fmt::format("    {{\n      \"name\": \"{}\",\n      \"type\": \"{}\",\n", parameter.name,
                                    toString(parameter.type));

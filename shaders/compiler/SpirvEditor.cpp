@@ -217,7 +217,7 @@ SpirvEditor::Id SpirvEditor::boolTypeLike(Id floatType) {
     return isVector(floatType) ? findOrMakeType(spv::OpTypeVector, scalar, elementCount(floatType)) : scalar;
 }
 
-/// The value has to appear under the id that the rest of the module knows.
+/// The value must keep the id by which the rest of the module refers to it.
 void SpirvEditor::renameLast(Id last, Id result, Id type) {
     if (mEmitted.empty() || mEmitted.back() != last) {
         append(mBody, spv::OpCopyObject, { type, result, last });

@@ -52,7 +52,7 @@ Value repeat(Value scalar, SpirvEditor::Id type) {
 Value selectLess(Value a, Value b, Value ifLess, Value otherwise) {
     SpirvEditor& editor = *a.editor;
     uint32_t condition = editor.emit(spv::OpFOrdLessThan, editor.boolTypeLike(a.type()), { a.id, b.id });
-    if (ifLess.isVector() && !a.isVector()) { // SPIR-V 1.3 wants one condition per component
+    if (ifLess.isVector() && !a.isVector()) { // SPIR-V 1.3 needs one condition per component
         const std::vector<uint32_t> conditions(ifLess.size(), condition);
         condition = editor.emit(spv::OpCompositeConstruct, editor.boolTypeLike(ifLess.type()), conditions);
     }

@@ -13,8 +13,8 @@ namespace {
 
 using spirv_cross::CompilerGLSL;
 
-/// SPIRV-Cross knows `precise` only from ESSL 3.20 on; here an extension brings it to 3.10, and a device without it,
-/// which cannot promise equal bits anyway, reads nothing in its place.
+/// SPIRV-Cross supports `precise` only from ESSL 3.20 on. An extension adds it to 3.10; for a device without the
+/// extension, which cannot promise equal bits anyway, a macro removes the word.
 class EsslCompiler final : public CompilerGLSL {
 public:
     explicit EsslCompiler(std::vector<uint32_t> spirv) : CompilerGLSL(std::move(spirv)) {
@@ -41,7 +41,7 @@ void setOptions(CompilerGLSL& compiler) {
     compiler.set_common_options(options);
 }
 
-/// Without the optimiser a module declares more than it reads; outputs stay, also the unwritten ones of
+/// Without the optimiser a module declares more than it reads. Outputs stay, including the unwritten ones of
 /// withFetchOutputs().
 void dropUnread(CompilerGLSL& compiler) {
     auto active = compiler.get_active_interface_variables();
@@ -49,7 +49,7 @@ void dropUnread(CompilerGLSL& compiler) {
     compiler.set_enabled_interface_variables(std::move(active));
 }
 
-/// OpenGL ES has one row of block indices and one of texture units.
+/// OpenGL ES numbers all blocks in one sequence and all texture units in another.
 void renumber(CompilerGLSL& compiler, spirv_cross::Resource const& resource, backend::ProgramLayout const& layout) {
     const uint32_t set = compiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
     const uint32_t binding = compiler.get_decoration(resource.id, spv::DecorationBinding);

@@ -11,7 +11,7 @@ namespace {
 
 constexpr size_t kMaxBytes = 4 << 20;
 
-/// The path of `#include "path"`; nothing for other lines; empty for an include without quotes.
+/// The path of `#include "path"`; no value for other lines; empty for an include without quotes.
 std::optional<std::string_view> includedPath(std::string_view line) {
     const size_t begin = line.find_first_not_of(" \t");
     if (begin == std::string_view::npos || !line.substr(begin).starts_with("#include")) return std::nullopt;

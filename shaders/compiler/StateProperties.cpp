@@ -137,7 +137,7 @@ Result<void> readValue(JsonValue const& value, std::string_view name, T& out) {
     if constexpr (std::is_same_v<T, bool>) {
         return readBool(value, name, out);
     } else if constexpr (std::is_same_v<T, float>) {
-        return readNumber(value, name, 0, 1, out); // all numbers of the guide with a fraction are shares
+        return readNumber(value, name, 0, 1, out); // all fractional numbers of the guide are in [0, 1]
     } else {
         return readEnum(value, name, Words<T>::kList, out);
     }
@@ -194,7 +194,7 @@ Result<void> readBlendFunction(JsonValue const& value, std::string_view name, Ma
     return {};
 }
 
-/// Besides the words, true and false: simple and none.
+/// Accepts true and false besides the words: they mean simple and none.
 Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
     static constexpr Word<SpecularAmbientOcclusion> kWords[] = {
         { "none", SpecularAmbientOcclusion::None },
@@ -206,7 +206,8 @@ Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name
     return {};
 }
 
-// In the order of the guide; domain, fullScreenTriangle, halfPrecision and clothDistribution are this engine's own.
+// In the order of the guide; domain, fullScreenTriangle, halfPrecision and clothDistribution are additions of this
+// engine.
 constexpr std::array kProperties{
     StateProperty{ "name", readName },
     StateProperty{ "domain", readState<&MaterialPackage::domain> },

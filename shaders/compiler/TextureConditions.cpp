@@ -30,7 +30,7 @@ Result<Words> authorsCode(MaterialDefinition const& definition, MaterialNeeds co
     return spirvFromGlsl(*text, backend::ShaderStage::Fragment, definition.fileName);
 }
 
-/// The variable at that binding of the material group; 0: the module has none.
+/// The variable at that binding of the material group; 0 if the module has none.
 uint32_t variableAt(std::span<const uint32_t> module, uint32_t binding) {
     std::set<uint32_t> inGroup, atBinding;
     uint32_t found = 0;

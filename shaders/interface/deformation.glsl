@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bind group 3, of variants with kVariantSkinning: the GLSL twin of the part "deformation" of ShaderInterface.h. A test
-// compares the two. Not in interface.glsl: other variants do not have the group.
+// Bind group 3, present in variants with kVariantSkinning: the GLSL twin of the part "deformation" of
+// ShaderInterface.h. A test compares the two. Not in interface.glsl, because other variants lack the group.
 
 const int kAttributeJoints1 = 13;
 const int kAttributeWeights1 = 14;

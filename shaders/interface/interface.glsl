@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// The GLSL twin of ShaderInterface.h, put before every shader. Equal names, offsets and sizes: a test reflects this
-// file and compares. Two records are named differently from C++, where materials use the C++ names for something else.
+// The GLSL twin of ShaderInterface.h, placed before every shader. Names, offsets and sizes are equal: a test reflects
+// this file and compares. Two records have other names than in C++, because materials use the C++ names for something
+// else.
 
 const int kAttributePosition = 0;
 const int kAttributeTangents = 1;

@@ -86,8 +86,8 @@ vec3 fresnelSchlick(vec3 f0, float f90, float voh) { return f0 + (vec3(f90) - f0
 float diffuseLambert() { return kInversePi; }
 
 // Lambert's lobe times nol, extended to cosines of -wrap as if light passed through: McAuley 2013, "Extension to
-// Energy-Conserving Wrapped Diffuse". (1 + wrap)^2 keeps its integral at 1. nol in [-1, 1], wrap in [0, 1]. Returns
-// 1/sr.
+// Energy-Conserving Wrapped Diffuse". (1 + wrap)^2 keeps its integral at 1. nol in [-1, 1], wrap in [0, 1].
+// Returns 1/sr.
 float diffuseWrapped(float nol, float wrap) {
     return max((nol + wrap) / ((1.0f + wrap) * (1.0f + wrap)), 0.0f) * kInversePi;
 }

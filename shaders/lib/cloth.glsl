@@ -20,8 +20,8 @@ vec3 clothScatterAlbedo(vec3 subsurfaceColor) {
 }
 
 // Replaces a diffuse lobe times nol if light is scattered below the surface: wrapped, and tinted where the light grazes
-// or comes from behind. Multiply by illuminance and diffuse colour. nol in [-1, 1], not clamped; subsurfaceColor in [0,
-// 1]. Returns 1/sr; its integral is at most 1.
+// or comes from behind. Multiply by illuminance and diffuse colour. nol in [-1, 1], not clamped.
+// subsurfaceColor in [0, 1]. Returns 1/sr; its integral is at most 1.
 vec3 diffuseCloth(float nol, vec3 subsurfaceColor) {
     return saturate(subsurfaceColor + vec3(max(nol, 0.0f))) * diffuseWrapped(nol, kClothWrap);
 }

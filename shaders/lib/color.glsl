@@ -78,9 +78,8 @@ vec3 linearFromSrgb(vec3 x) { return vec3(linearFromSrgb(x.x), linearFromSrgb(x.
 // inverseTonemap() of a display value: the transfer function is undone first. [0, 1]. fp32 only.
 vec3 inverseTonemapSRGB(vec3 x) { return inverseTonemap(linearFromSrgb(saturate(x))); }
 
-// Video to colour, both encoded with the transfer function: JFIF 1.02, the full range of ITU-R BT.601. y, cbcr in [0,
-// 1].
-// The result may leave [0, 1]: not every triple is a colour.
+// Video to colour, both encoded with the transfer function: JFIF 1.02, the full range of ITU-R BT.601.
+// y, cbcr in [0, 1]. The result may leave [0, 1]: not every triple is a colour.
 vec3 ycbcrToRgb(float y, vec2 cbcr) {
     float cb = cbcr.x - 0.5f;
     float cr = cbcr.y - 0.5f;

@@ -79,8 +79,8 @@ vec3 dispersedIor(float ior, float dispersion) {
     return vec3(max(ior - halfSpread, 1.0f), ior, ior + halfSpread);
 }
 
-// Beer 1852, Lambert 1760: the fraction that remains after a distance in metres. absorption in 1/m, >= 0. Returns [0,
-// 1].
+// Beer 1852, Lambert 1760: the fraction that remains after a distance in metres. absorption in 1/m, >= 0.
+// Returns [0, 1].
 vec3 transmittance(vec3 absorption, float distance) { return exp(-absorption * distance); }
 
 // Without a distance, absorption is a fraction. Returns [0, 1].

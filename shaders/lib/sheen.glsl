@@ -75,8 +75,7 @@ float sheenLimit(float albedo) { return 1.0f / max(albedo, 1.0f); }
 // The fraction left to the layer below a sheen. Estevez and Kulla 2017, section 5, as in KHR_materials_sheen: the
 // brightest component decides, otherwise the base would be tinted with the complement of the sheen's colour. albedo:
 // the table's third channel for one direction; using the smaller result of view and light preserves reciprocity.
-// sheenColor in [0, 1].
-// Returns [0, 1].
+// sheenColor in [0, 1]. Returns [0, 1].
 float sheenAlbedoScaling(vec3 sheenColor, float albedo) {
     return 1.0f - max(sheenColor.x, max(sheenColor.y, sheenColor.z)) * min(albedo, 1.0f);
 }

@@ -21,8 +21,7 @@ float subsurfaceForward(float lov, float power) {
 
 // The scattered part of one light, in place of a lobe times nol: half of it forward, half of it wrapped around the
 // surface, further for smaller thickness. nol, lov in [-1, 1], thickness in [0, 1]. Multiply by subsurfaceColor and
-// illuminance.
-// Returns 1/sr; its integral over light directions is 1 - thickness.
+// illuminance. Returns 1/sr; its integral over light directions is 1 - thickness.
 float subsurfaceScatter(float nol, float lov, float thickness, float power) {
     float around = diffuseWrapped(nol, 1.0f - thickness);
     return (1.0f - thickness) * 0.5f * (around + subsurfaceForward(lov, power));

@@ -15,7 +15,7 @@ namespace {
 
 constexpr int kRawDeflate = -MAX_WBITS; ///< zlib's sign for: neither header nor checksum
 constexpr size_t kSizeBytes = 4;
-/// RFC 1951: nothing packs better than matches of 258 bytes whose two codes have one bit each.
+/// RFC 1951: the best possible compression is matches of 258 bytes with two codes of one bit each.
 constexpr uint64_t kMaxRatio = 258 * 8 / 2;
 
 Bytef* zlibBytes(std::byte* bytes) { return reinterpret_cast<Bytef*>(bytes); }
@@ -23,7 +23,7 @@ Bytef* zlibInput(std::byte const* bytes) {
     return zlibBytes(const_cast<std::byte*>(bytes)); // zlib only reads it, but does not say so
 }
 
-/// zlib's state for one direction; ended with `end`.
+/// zlib's state for one direction; `end` destroys it.
 struct Stream {
     z_stream state{};
     int (*end)(z_stream*);
@@ -38,7 +38,7 @@ void checkMemory(int code) {
     if (code == Z_MEM_ERROR) throw std::bad_alloc();
 }
 
-/// Everything from `in` to `out` in one call of `step`; zlib's answer.
+/// Processes all of `in` in one call of `step`; returns zlib's result.
 int runOnce(z_stream& state, int (*step)(z_stream*, int), std::span<const std::byte> in, std::span<std::byte> out) {
     state.next_in = zlibInput(in.data());
     state.avail_in = static_cast<uInt>(in.size());

@@ -68,7 +68,8 @@ Result<Sections> splitSections(std::span<const std::byte> content) {
     return sections;
 }
 
-// ---------------------------------------------------------------------------------------------- one function a section
+// ---------------------------------------------------------------------------------------------- one function per
+// section
 
 bool readBlending(ByteReader& in, MaterialPackage& out) {
     constexpr auto kLast = backend::BlendFactor::SrcAlphaSaturate;
@@ -188,7 +189,7 @@ bool readCode(ByteReader in, Code& out) {
     return in.atEnd() && !in.failed();
 }
 
-/// Hands out pieces of code, as long as they are there and together not more than `bytesLeft`.
+/// Returns pieces of code, provided that they exist and together have no more than `bytesLeft`.
 struct CodeReader {
     Code const& code;
     size_t bytesLeft;
@@ -232,7 +233,8 @@ bool readVariants(ByteReader in, CodeReader code, std::vector<Variant>& out) {
     return good && in.atEnd() && !in.failed();
 }
 
-// ---------------------------------------------------------------------------------------------- do the parts agree?
+// ---------------------------------------------------------------------------------------------- consistency of the
+// parts
 
 template <class T>
 bool namesAreUnique(std::vector<T> const& things) {

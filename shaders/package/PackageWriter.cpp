@@ -136,7 +136,7 @@ ByteWriter layoutSection(backend::ProgramLayout const& layout) {
     return out;
 }
 
-/// Code of stages, each text once, in the order in which the variants first need it.
+/// The code of the stages; each distinct text once, in the order in which variants first use it.
 class CodePool {
 public:
     uint32_t add(std::span<const uint32_t> spirv) {

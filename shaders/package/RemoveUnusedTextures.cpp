@@ -30,10 +30,10 @@ bool isUsed(MaterialPackage const& package, Parameter const& texture, std::span<
            std::ranges::any_of(texture.usedIf, [&](uint32_t id) { return isTrue(package, id, given); });
 }
 
-/// By binding in the material group: the binding where its variable ends up.
+/// Binding in the material group -> the binding that its variable gets.
 using Moves = std::map<uint8_t, uint8_t>;
 
-/// The one whose place another of its kind can take; null: there is none.
+/// A remaining texture of the same kind that can stand in for this one; null if there is none.
 Parameter const* standInFor(Parameter const& texture, std::vector<Parameter const*> const& staying) {
     const auto found = std::ranges::find_if(staying, [&](Parameter const* other) {
         return other->type == texture.type && other->format == texture.format && !other->currentPixel;
@@ -41,7 +41,7 @@ Parameter const* standInFor(Parameter const& texture, std::vector<Parameter cons
     return found == staying.end() ? nullptr : *found;
 }
 
-/// Decides, and marks the parameters.
+/// Decides what is removed, and marks the parameters.
 Moves takeOut(MaterialPackage& package, std::span<const ConstantValue> given) {
     std::vector<Parameter const*> staying;
     for (Parameter const& parameter : package.parameters) {
@@ -70,7 +70,7 @@ BindGroupLayout without(BindGroupLayout const& group, Moves const& moves) {
 
 // ---------------------------------------------------------------------------------------------- SPIR-V
 
-/// `visit(words)` for the instructions before the first function; stops where the words make no sense.
+/// Calls `visit(words)` for each instruction before the first function; stops at malformed words.
 void forEachDeclaration(std::span<uint32_t> module, auto&& visit) {
     constexpr size_t kHeaderWords = 5;
     constexpr uint32_t kOpFunction = 54; // SPIR-V specification 1.3, 3.32.9
@@ -102,7 +102,7 @@ void moveInSpirv(std::span<uint32_t> module, Moves const& moves) {
 
 constexpr uint8_t kNoUnit = 0xFF;
 
-/// By texture unit of the layout before: the unit after.
+/// Texture unit in the layout before -> the unit after.
 std::array<uint8_t, 256> unitMoves(ProgramLayout const& before, ProgramLayout const& after, Moves const& moves) {
     std::array<uint8_t, 256> units;
     units.fill(kNoUnit);
@@ -118,7 +118,7 @@ std::array<uint8_t, 256> unitMoves(ProgramLayout const& before, ProgramLayout co
     return units;
 }
 
-/// Only samplers are declared with a number alone between the brackets; blocks also say their layout.
+/// Only samplers are declared with a number alone between the parentheses; blocks also state their layout.
 std::string moveInEssl(std::string const& text, std::array<uint8_t, 256> const& units) {
     constexpr std::string_view kBefore = "layout(binding = ", kBehind = ") uniform ";
     std::string moved;
@@ -143,7 +143,7 @@ std::string moveInEssl(std::string const& text, std::array<uint8_t, 256> const& 
 void removeUnusedTextures(MaterialPackage& package, std::span<const ConstantValue> constants) {
     const Moves moves = takeOut(package, constants);
     if (moves.empty()) return;
-    MaterialPackage after{ .parameters = package.parameters, .layout = package.layout }; // what programLayout() reads
+    MaterialPackage after{ .parameters = package.parameters, .layout = package.layout }; // the input of programLayout()
     after.layout[kGroupMaterial] = without(package.layout[kGroupMaterial], moves);
     for (Variant& variant : package.variants) {
         moveInSpirv(variant.fragmentSpirv, moves);

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fragment stage of post-process materials, what goes before the material's own code. Subpass inputs (and, in the variant
-// that is merged into the pass before it, currentPixel parameters) read colour attachments 0, 1, ... in the order of the
-// parameters; the output is the attachment behind the last of them.
+// Fragment stage of post-process materials, before the material's own code. Subpass inputs (and, in the variant that is
+// merged into the previous pass, currentPixel parameters) read colour attachments 0, 1, ... in the order of the
+// parameters; the output is the attachment after the last of them.
 
 layout(location = POST_OUTPUT_LOCATION) out vec4 fragment_color;
 
@@ -9,10 +9,10 @@ struct PostProcessInputs {
     vec4 color;
 };
 
-// The pixel being written; the texel of the same place in a texture of the size of the target.
+// The pixel being written, or the texel at the same place in a texture of the target's size.
 ivec2 getPixel() { return ivec2(gl_FragCoord.xy); }
 
-// Of a currentPixel parameter: getCurrentPixel(materialParams_color).
+// The value of a currentPixel parameter: getCurrentPixel(materialParams_color).
 #if defined(VARIANT_MERGED)
 #define getCurrentPixel(image) subpassLoad(image)
 #else

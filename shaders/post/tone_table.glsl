@@ -1,17 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
-// Tone mapping by a table of colours (ToneTable.h), behind shaders/lib/color.glsl. Texels are fetched and weighted here, not
-// by the sampler, whose weights have 8 bits.
+// Tone mapping by a table of colours (ToneTable.h); included after shaders/lib/color.glsl. Texels are fetched and
+// weighted here, because the weights of a sampler have only 8 bits.
 
 vec3 tableEntry(ivec3 at, int size) { return texelFetch(materialParams_table, ivec2(at.x + at.z * size, at.y), 0).rgb; }
 
-// Tetrahedral interpolation: the cell is cut into the six tetrahedra around its diagonal from black to white; four
+// Tetrahedral interpolation: the diagonal from black to white divides the cell into six tetrahedra. It needs four
 // entries instead of the eight of trilinear interpolation, and greys are mixed from greys alone. Sakamoto and Itooka,
 // US patent 4 275 413 (1978). fraction in [0, 1]^3.
 vec3 interpolatedEntry(ivec3 corner, vec3 fraction, int size) {
     const ivec3 kX = ivec3(1, 0, 0), kY = ivec3(0, 1, 0), kZ = ivec3(0, 0, 1);
     bool xy = fraction.x >= fraction.y, xz = fraction.x >= fraction.z, yz = fraction.y >= fraction.z;
     ivec3 largest = xy ? (xz ? kX : kZ) : (yz ? kY : kZ);
-    ivec3 smallest = xy ? (yz ? kZ : kY) : (xz ? kZ : kX); // never the same axis, also where all are equal
+    ivec3 smallest = xy ? (yz ? kZ : kY) : (xz ? kZ : kX); // never the same axis, even if all are equal
     float high = max3(fraction);
     float low = min(fraction.x, min(fraction.y, fraction.z));
     float middle = max(min(fraction.x, fraction.y), min(max(fraction.x, fraction.y), fraction.z));
