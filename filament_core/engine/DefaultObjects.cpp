@@ -29,9 +29,9 @@ BufferHandle createInstanceIds(Engine::Impl& engine) {
     return handle.keep();
 }
 
-// The same for every engine of the process.
+// Shared by all engines of the process.
 assets::Image const& bakedDfg(Engine::Impl& engine, uint32_t size) {
-    static std::mutex mutex; // engines live on several threads
+    static std::mutex mutex; // engines may live on several threads
     static std::map<uint32_t, assets::Image> tables;
     const std::lock_guard lock(mutex);
     const auto found = tables.find(size);
@@ -106,7 +106,7 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     }
     engine.destroy(engine.defaults.blackCube);
     for (auto const& [size, table] : engine.defaults.dfg) {
-        if (table) engine.destroy(table); // none: there was no memory for it
+        if (table) engine.destroy(table); // null: there was no memory for it
     }
     for (auto const& [which, table] : engine.defaults.toneTables) {
         if (table) engine.destroy(table);

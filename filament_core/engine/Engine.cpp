@@ -59,7 +59,7 @@ std::filesystem::path programCache(EngineOptions const& options) {
     return assets::environmentCacheDirectory({ .cacheDirectory = options.cacheDirectory });
 }
 
-// The driver with the layers that the options ask for around it.
+// Makes the driver, wrapped in the layers that the options request.
 DriverFactory driverFactory(EngineOptions const& options) {
     return [options](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
         const auto innermost = [&options](ResultSink& results) {
@@ -155,7 +155,7 @@ Engine::Impl::~Impl() {
     samplers.destroyAll(pending);
     try {
         flush();
-    } catch (std::bad_alloc const&) { // the driver frees what is left when it ends
+    } catch (std::bad_alloc const&) { // the driver frees the rest when it ends
     }
     collectErrors();
     for (std::string const& error : errors) log(Severity::Error, "{}", error);
@@ -169,7 +169,7 @@ void Engine::Impl::flush() {
 void Engine::Impl::advanceCompilation() {
     compilations.collect(stream->replayedSubmissions());
     const bool driverIsIdle = stream->replayedSubmissions() == stream->submissions();
-    if (!compilations.isWaiting() || !driverIsIdle) return; // a busy driver thread takes it with the next frame
+    if (!compilations.isWaiting() || !driverIsIdle) return; // else the next frame takes it
     FrameCommands commands(*stream);
     drainPending(*commands);
     recordCompilations(*commands);
@@ -195,7 +195,7 @@ void Engine::Impl::collectErrors() {
         untoldErrors = 0;
         for (DriverError& error : taken) errors.push_back(std::move(error.message));
         for (std::string& line : refusals) errors.push_back(std::move(line));
-    } catch (std::bad_alloc const&) { // next time
+    } catch (std::bad_alloc const&) { // reported next time
         untoldErrors += static_cast<uint32_t>(taken.size() + refusals.size());
     }
 }

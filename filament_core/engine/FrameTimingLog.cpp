@@ -23,7 +23,7 @@ double milliseconds(FrameTimingLog::TimePoint from, FrameTimingLog::TimePoint to
 } // namespace
 
 void FrameTimingLog::add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers) {
-    collectTimers(); // the stream keeps answers only for so long
+    collectTimers(); // the stream keeps answers only for a limited time
     if (!makeRoom(timers.size())) timers = {};
     Record& record = mRecords[frame % mRecords.size()];
     record.frame = frame;
@@ -38,7 +38,7 @@ void FrameTimingLog::add(uint64_t frame, Stamps const& stamps, std::span<const f
     }
     if (!mEngine.jobs.trace()) return;
     traceFrame(record);
-    collectReplays(); // at once: a trace has every replay, not only those that somebody asks for
+    collectReplays(); // at once, so that a trace has every replay, requested or not
 }
 
 void FrameTimingLog::traceFrame(Record const& record) {

@@ -17,7 +17,7 @@ struct Environment::Impl {
 
     ~Impl() {
         Engine& owner = Engine::of(engine);
-        if (skybox) owner.destroy(skybox); // none: memory ran out while the environment was loaded
+        if (skybox) owner.destroy(skybox); // null: memory ran out while the environment was loaded
         if (indirectLight) owner.destroy(indirectLight);
         if (irradiance) engine.destroy(irradiance);
         if (sky) engine.destroy(sky);
@@ -79,7 +79,7 @@ Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const&
                                                                            .irradianceSh = data->irradianceSh,
                                                                            .name = name }));
         parts->skybox = orBadAlloc(engine.create(SkyboxDesc{ .cube = parts->sky, .name = name }));
-        impl.flush(); // the driver thread uploads while the caller goes on
+        impl.flush(); // the driver thread uploads while the caller continues
         return parts;
     });
     if (!made) return made.error();

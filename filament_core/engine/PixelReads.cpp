@@ -28,7 +28,7 @@ PixelTicket PixelReads::ask(TextureState const& texture) {
     });
 }
 
-/// Either the request is on its way, or nothing of it is left.
+/// If this throws, no trace of the request is left.
 void PixelReads::record(Ticket ticket, TextureHandle texture, Rect const& all) {
     try {
         FrameCommands commands(*mEngine.stream);
@@ -40,7 +40,7 @@ void PixelReads::record(Ticket ticket, TextureHandle texture, Rect const& all) {
     }
 }
 
-/// Of an image that the engine did not make: there is nothing to wait for.
+/// Whether the engine could not create the image, so that there is nothing to wait for.
 bool PixelReads::isRefused(Image const& image) const {
     return std::max(image.width, image.height) > mEngine.device.maxTextureSize;
 }
@@ -52,7 +52,7 @@ PixelReads::Pending::iterator PixelReads::find(PixelTicket ticket) {
 }
 
 std::optional<Image> PixelReads::take(PixelTicket ticket) {
-    if (!ticket) return Image{}; // there was no memory to ask
+    if (!ticket) return Image{}; // memory ran out when it was requested
     const auto entry = find(ticket);
     auto bytes = mEngine.stream->takeReadback({ ticket.value });
     const bool neverComes = isRefused(entry->second) || mEngine.stream->isDeviceLost();
@@ -74,7 +74,7 @@ Result<Image> PixelReads::wait(PixelTicket ticket) {
             if (!bytes) return bytes.error();
             image.pixels = std::move(*bytes);
         }
-        // A read of an image that the device refused is answered without bytes, so that nobody waits for ever.
+        // A read of an image that the device refused returns no bytes, so that nobody waits for ever.
         if (image.pixels.empty()) return noImage(image.width, image.height);
         return std::move(image);
     });

@@ -49,7 +49,7 @@ struct Renderer::Impl {
 
     // ------------------------------------------------------------------------------------------ a frame
 
-    /// Everything of a frame but its commands; of frames that are drawn and of those that are only expected.
+    /// Everything in a frame except its commands, for frames that are drawn and for those that are only expected.
     FrameContext& planFrame(Scene const& scene, View const& view, FrameOutput const& output, PipelineSource pipelines) {
         arena.reset();
         graph.reset();
@@ -65,7 +65,7 @@ struct Renderer::Impl {
         return context;
     }
 
-    /// Submits when it returns.
+    /// Submits the commands when it returns.
     void recordFrame(FrameContext& context) {
         FrameCommands commands(*engine.stream); // waits when two frames ahead
         stamps.acquired = clock();
@@ -81,9 +81,9 @@ struct Renderer::Impl {
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
     }
 
-    /// The six lines of docs/architecture.md, with their measurements: planned, then recorded.
+    /// The six lines of docs/architecture.md, with their measurements: plan, then record.
     void drawFrame(Scene const& scene, View const& view, FrameOutput const& output) {
-        const jobs::AdoptedThread seat(engine.jobs); // the app thread works along
+        const jobs::AdoptedThread seat(engine.jobs); // the app thread takes part in the work
         timers.clear();
         stamps = { .begin = clock() };
         const uint64_t busyBefore = engine.jobs.busyNanoseconds();
@@ -97,8 +97,8 @@ struct Renderer::Impl {
         summary = engine::summarize(frame, context.packet, plan);
     }
 
-    /// An error: the frame was left out, for lack of memory or of a target. What it made on the way serves the next
-    /// one.
+    /// On an error the frame was left out, because memory or a target was missing. Whatever was created on the way
+    /// serves the next frame.
     Result<void> render(Scene const& scene, View const& view, engine::TextureState const& target) {
         if (!target.handle) return engine::noImage(target.desc.width, target.desc.height);
         try {
@@ -113,7 +113,7 @@ struct Renderer::Impl {
         }
     }
 
-    /// The next image becomes the current one when it is drawn.
+    /// The next image becomes the current one once it has been drawn.
     Result<void> renderInto(engine::SwapChainState& chain, Scene const& scene, View const& view) {
         const uint32_t next = (chain.current + 1) % static_cast<uint32_t>(chain.images.size());
         Result<void> drawn = render(scene, view, engine.textures.get(chain.images[next]));
@@ -121,9 +121,9 @@ struct Renderer::Impl {
         return drawn;
     }
 
-    // ------------------------------------------------------------------------------------------ without drawing it
+    // ------------------------------------------------------------------------------------------ expected frames
 
-    /// The passes of such a frame become slots of the pipeline cache, their own pipelines wishes.
+    /// The passes of such a frame become slots of the pipeline cache; their own pipelines become wishes.
     void expect(Scene const& scene, View const& view, engine::TextureState const& target) {
         try {
             const jobs::AdoptedThread seat(engine.jobs);
@@ -169,7 +169,7 @@ Renderer::~Renderer() = default;
 void Renderer::render(Scene const& scene, View const& view, SwapChain swapChain) {
     engine::SwapChainState& state = mImpl->engine.swapChains.get(swapChain);
     FILAMENT_ASSERT(state.size == view.size, "a view has the size of its swap chain");
-    (void)mImpl->renderInto(state, scene, view); // takeErrors() says why it may not be there
+    (void)mImpl->renderInto(state, scene, view); // takeErrors() says why a frame may be missing
 }
 
 void Renderer::render(Scene const& scene, View const& view, RenderTarget target) {

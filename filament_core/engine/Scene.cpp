@@ -87,7 +87,7 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                         desc.culled,
                                         desc.name,
                                         desc.instanceIndex };
-    // Vertices that are not in object space have no bones there.
+    // Vertices outside object space cannot have bones in it.
     const bool isDeformed = (desc.skin || desc.morphTargets) &&
                             input.material->material->package.vertexDomain == shader::VertexDomain::Object;
     const Renderable renderable = isDeformed ? scene::addDeformed(mImpl->data, input, deformationOf(*mImpl, desc))

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The nodes of a Scene, and copies of models, which are made of them.
+// The nodes of a Scene, and copies of models, which consist of nodes.
 #include "filament_core/scene/SceneNodes.h"
 
 #include "filament_core/engine/SceneImpl.h"

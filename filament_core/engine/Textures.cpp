@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures, buffers, targets: public descriptions -> commands.
+// Textures, buffers and targets: public descriptions -> commands.
 #include "backend/stream/RecordingGuards.h"
 #include "base/Log.h"
 #include "filament_core/assets/image/MipMaps.h"
@@ -45,7 +45,7 @@ backend::DeviceTextureDesc backendDesc(filament::TextureDesc const& desc) {
              .height = desc.height };
 }
 
-// One upload a level; all layers of a level are contiguous.
+// One upload per level; all layers of a level are contiguous.
 void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::TextureDesc const& desc) {
     const uint32_t levels = desc.generateMips ? 1 : desc.levels;
     size_t offset = 0;
@@ -63,8 +63,8 @@ void uploadLevels(CommandBuffer& commands, TextureHandle handle, filament::Textu
     }
 }
 
-/// Encoding sRGB is no driver's task: Mesa's CPU drivers do it with the processor's estimate of the reciprocal square
-/// root, whose bits are not the same on every processor (docs/conformance.md).
+/// sRGB is not encoded by the driver: Mesa's CPU drivers use the processor's estimate of the reciprocal square root,
+/// whose bits differ between processors (docs/conformance.md).
 bool makesMipsHere(filament::TextureDesc const& desc) { return desc.generateMips && desc.format == Format::RGBA8Srgb; }
 
 assets::Image mipsOf(filament::TextureDesc const& desc) {
@@ -97,7 +97,7 @@ BufferHandle createBuffer(Engine::Impl& engine, BufferUsage usage, std::span<con
     return handle.keep();
 }
 
-// The driver would refuse it, too, but only after everything that uses it is recorded.
+// The driver would refuse it, too, but only after everything that uses it has been recorded.
 bool fitsDevice(Engine::Impl& engine, filament::TextureDesc const& desc) {
     const uint32_t most = engine.device.maxTextureSize;
     if (std::max(desc.width, desc.height) <= most) return true;

@@ -15,7 +15,7 @@ namespace {
 using namespace backend;
 
 constexpr uint32_t kBoneWindow = sizeof(shader::BoneUniforms), kMorphWindow = sizeof(shader::MorphUniforms);
-constexpr uint32_t kTail = std::max(kBoneWindow, kMorphWindow); // a window may begin at the last block
+constexpr uint32_t kTail = std::max(kBoneWindow, kMorphWindow); // a window may start at the last block
 constexpr size_t kCacheLineBytes = 64;
 
 } // namespace

@@ -13,7 +13,7 @@ using namespace backend;
 using framegraph::PassContext;
 using prepare::DrawCall;
 
-/// What the commands so far have bound; records only what differs.
+/// Tracks what has been bound; records only what differs.
 class StateFilter {
 public:
     StateFilter(CommandBuffer& commands, DrawContext const& context) : mCommands(commands), mContext(context) {}
@@ -22,7 +22,7 @@ public:
         if (pipeline != mPipeline) {
             mCommands.record(CmdBindPipeline{ pipeline });
             mPipeline = pipeline;
-            mDeformation = scene::kNotDeformed; // the last group does not outlive a change of the groups before it
+            mDeformation = scene::kNotDeformed; // its group does not survive a change of earlier groups
             bindPass(draw.material->material->package);
         }
         const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
@@ -73,7 +73,7 @@ private:
     IndexFormat mIndexType = IndexFormat::UInt16;
 };
 
-/// No handle has these bits: the pipeline has never been asked for.
+/// No handle has these bits: marks a pipeline that was never requested.
 constexpr PipelineHandle kMissing{ ~0u };
 
 bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
@@ -81,13 +81,13 @@ bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
            a.pass == b.pass && (a.deformation == scene::kNotDeformed) == (b.deformation == scene::kNotDeformed);
 }
 
-/// `variant`: what the scene selects; the geometry's own part comes on top.
+/// `variant`: selected by the scene; the geometry adds its own part.
 PipelineUse useOf(DrawCall const& draw, uint8_t variant) {
     const uint8_t own = draw.deformation == scene::kNotDeformed ? 0 : shader::kVariantSkinning;
     return { *draw.material, draw.geometry->layout, static_cast<uint8_t>(variant | own), draw.mirrored, draw.pass };
 }
 
-/// What the cache has; only reads it. False if it lacks some.
+/// Looks pipelines up without changing the cache. Returns false if some are missing.
 bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, uint32_t slot,
             std::span<const DrawCall> draws, uint8_t variant) {
     bool hasAll = true;
@@ -101,7 +101,7 @@ bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, u
     return hasAll;
 }
 
-/// What lookUp() missed, in the order of drawing.
+/// Creates what lookUp() did not find, in drawing order.
 void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineSource const& pipelines, uint32_t slot,
           std::span<const DrawCall> draws, uint8_t variant) {
     for (size_t i = 0; i < draws.size(); ++i) {

@@ -14,7 +14,7 @@ using namespace backend;
 using shader::FrameUniforms;
 using shader::kObjectsPerWindow;
 
-// What every device accepts as an offset of uniforms.
+// A uniform offset that every device accepts.
 constexpr uint32_t kAlignment = 256;
 constexpr uint32_t kUniformBytes = (sizeof(FrameUniforms) + kAlignment - 1) / kAlignment * kAlignment;
 constexpr uint32_t kWindowBytes = sizeof(shader::ObjectUniforms);
@@ -22,7 +22,7 @@ constexpr uint32_t kLightBytes = sizeof(shader::LightUniforms);
 static_assert(kWindowBytes % kAlignment == 0 && kLightBytes % kAlignment == 0);
 constexpr size_t kCacheLineBytes = 64;
 
-// One at least: there is something to bind.
+// At least one, so that there is something to bind.
 uint32_t windowsOf(prepare::ViewPacket const& view) {
     const auto objects = static_cast<uint32_t>(view.objects.size());
     return std::max(1u, (objects + kObjectsPerWindow - 1) / kObjectsPerWindow);
@@ -44,8 +44,8 @@ void FrameData::release(CommandBuffer& commands, Blocks& blocks) {
     blocks.capacity = 0;
 }
 
-// Each step is remembered when it is recorded: a frame that runs out of memory here is left out, and the next one makes
-// what is missing.
+// Each step is remembered as soon as it is recorded: if a frame runs out of memory here, it is left out, and the next
+// one creates the rest.
 void FrameData::reserve(CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, uint32_t blockBytes,
                         const char* name) {
     if (count <= blocks.capacity) return;
@@ -61,7 +61,7 @@ FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
     Needs needs;
     mViews.clear();
     for (prepare::ViewPacket const& view : packet.views) {
-        // Without lights of its own a view reads none: any block will do.
+        // A view without lights reads none, so it can bind any block.
         mViews.push_back({ .uniforms = needs.views * kUniformBytes,
                            .objects = needs.windows * kWindowBytes,
                            .lights = view.lights.empty() ? 0 : needs.lights * kLightBytes });
@@ -84,8 +84,8 @@ void FrameData::bindViews(CommandBuffer& commands, Set& set) {
     set.view = view.keep();
 }
 
-// A whole set's worth of memory whatever the number of objects, so that the buffer finds the block of an earlier frame
-// again; the objects are written into it and nowhere else.
+// Always allocates for a whole set, whatever the number of objects, so that the command buffer can reuse the block of
+// an earlier frame. The objects are written directly into it.
 void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Set const& set,
                               prepare::FramePacket const& packet) {
     if (std::ranges::all_of(packet.views, [](auto const& view) { return view.objects.empty(); })) return;

@@ -19,9 +19,9 @@ using shader::MaterialPackage;
 using shader::Parameter;
 using shader::PassKind;
 
-// ---------------------------------------------------------------------------------------------- when it is declared
+// ---------------------------------------------------------------------------------------------- declaration
 
-/// An input that the program reads, with what it is bound to.
+/// An input that the program reads, and what is bound to it.
 struct Input {
     Parameter const* parameter = nullptr;
     FullScreenInput from;
@@ -69,14 +69,14 @@ void declareReads(PassBuilder& builder, std::span<const Input> inputs) {
     }
 }
 
-// ---------------------------------------------------------------------------------------------- before it is drawn
+// ---------------------------------------------------------------------------------------------- before drawing
 
 struct Chosen {
     PipelineHandle pipeline;
     BindGroupHandle pass, material;
 };
 
-/// What the pass keeps until then.
+/// What the pass keeps until it is drawn.
 struct Declared {
     scene::Material const* material = nullptr;
     std::span<const Input> inputs;

@@ -12,7 +12,7 @@ using namespace backend;
 
 namespace {
 
-constexpr size_t kFirstBytes = 4096; // 16 blocks where offsets are multiples of 256
+constexpr size_t kFirstBytes = 4096; // 16 blocks if offsets are multiples of 256
 
 } // namespace
 

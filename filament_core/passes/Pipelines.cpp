@@ -25,20 +25,20 @@ uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint
            static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
 }
 
-// Lights and shading select nothing in an unlit material.
+// Lights and shading do not affect unlit materials.
 bool isLit(scene::Material const& material) { return material.package.shading != shader::ShadingModel::Unlit; }
 
 uint8_t neededVariant(scene::Material const& material, uint8_t variant) {
     return isLit(material) ? variant : static_cast<uint8_t>(variant & shader::kVariantSkinning);
 }
 
-// Materials without such variants are lit in full.
+// Materials without half-precision variants are lit in full precision.
 uint16_t withPrecision(scene::Material const& material, uint8_t variant, ShadingPrecision precision) {
     const auto half = static_cast<uint16_t>(variant | shader::kVariantHalf);
     return precision == ShadingPrecision::Half && material.package.findVariant(half) ? half : variant;
 }
 
-// All but cullingDisabled.
+// Everything except cullingDisabled.
 uint64_t rasterBits(scene::InstanceRaster const& raster) {
     return static_cast<uint64_t>(raster.culling) | static_cast<uint64_t>(raster.colorWrite) << 2 |
            static_cast<uint64_t>(raster.depthWrite) << 3 | static_cast<uint64_t>(raster.depthCulling) << 4;
@@ -55,8 +55,8 @@ uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
     return makeKey(material.id, kNoGeometry, slot, 0, true, false);
 }
 
-// What reads the current pixel alone is merged where the pass is. The key of the pipeline need not say so: the slot
-// does.
+// A material that reads only the current pixel is merged if its pass is. The pipeline's key need not contain this,
+// because the slot determines it.
 uint16_t fullscreenVariant(PassSlot const& slot, shader::MaterialPackage const& package) {
     const bool isMerged = slot.layout.subpasses[slot.subpass].inputMask != 0;
     return isMerged && package.findVariant(shader::kVariantMerged) ? shader::kVariantMerged : uint16_t{ 0 };
@@ -74,7 +74,7 @@ CullMode cullMode(scene::InstanceRaster const& raster) {
     case shader::Culling::Back:
         return CullMode::Back;
     case shader::Culling::FrontAndBack:
-        return CullMode::Back; // what is left leaves no trace: see drawsNothing()
+        return CullMode::Back; // the remaining faces have no effect: see drawsNothing()
     }
     return CullMode::Back;
 }
@@ -184,7 +184,7 @@ ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material co
     try {
         programs.back().handle = createProgram(setup, material, *code, shading);
     } catch (...) {
-        programs.pop_back(); // known is what is recorded
+        programs.pop_back(); // only recorded programs are known
         throw;
     }
     return programs.back().handle;
@@ -218,11 +218,11 @@ ProgramHandle PipelineCache::surfaceProgram(CommandBuffer& setup, uint32_t slot,
                               material.name));
 }
 
-/// Told once for each variant, however many pipelines would have needed it.
+/// Reported once per variant, however many pipelines would have needed it.
 ProgramHandle PipelineCache::refuse(scene::Material const& material, uint16_t variant, std::string why) {
     std::vector<uint16_t>& refused = mMaterials[material.id].refusedVariants;
     if (std::ranges::count(refused, variant) > 0) return {};
-    mRefusals.reserve(mRefusals.size() + 1); // both or none
+    mRefusals.reserve(mRefusals.size() + 1); // so that either both happen or neither
     refused.push_back(variant);
     mRefusals.push_back(std::move(why));
     return {};
@@ -231,7 +231,7 @@ ProgramHandle PipelineCache::refuse(scene::Material const& material, uint16_t va
 ProgramHandle PipelineCache::createProgram(CommandBuffer& setup, scene::Material const& material,
                                            shader::Variant const& code, ShadingKey shading) {
     std::vector<ConstantValue> constants = material.constants;
-    if (shading != 0) { // else: the program's own defaults
+    if (shading != 0) { // 0: the program's own defaults
         for (ConstantValue const& constant : shadingConstants(shading)) constants.push_back(constant);
     }
     const bool spirv = mStream.info().shaderLanguage == ShaderLanguage::SpirV;
@@ -259,7 +259,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     }
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth && raster.depthCulling) {
-        // Equal passes too: the sky sits exactly at the far plane, decals exactly on their surface.
+        // Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface.
         desc.depthStencil.depthCompare =
                 slot.depthRange == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
         desc.depthStencil.depthWrite = raster.depthWrite && !drawsNothing(raster);
@@ -271,7 +271,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
 }
 
 PipelineHandle PipelineCache::create(CommandBuffer& setup, uint64_t key, PipelineDesc const& desc, uint32_t material) {
-    mPipelines.reserveOne(); // known is what is recorded
+    mPipelines.reserveOne(); // only recorded pipelines are known
     NewHandle handle(mStream, mStream.allocatePipeline());
     setup.record(CmdCreatePipeline{ handle, desc });
     mPipelines.insert({ key, handle, material });
@@ -290,7 +290,7 @@ PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, P
     scene::Material const& material = *use.instance.material;
     const ProgramHandle program = surfaceProgram(setup, slot, material, use.variant);
     if (!program) {
-        mPipelines.insert({ key, {}, material.id }); // not asked again
+        mPipelines.insert({ key, {}, material.id }); // do not ask again
         return {};
     }
     PipelineDesc desc = describe(mSlots[slot], material, use.instance.raster, use.geometryLayout, use.mirrored);

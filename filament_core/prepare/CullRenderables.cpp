@@ -24,9 +24,10 @@ struct Seen8 {
     std::array<float, kLanes> depth;
 };
 
-// Both ends in one word that only falls: the nearest step, and above it how far the farthest is from the last.
-// Relaxed: the result does not depend on the order, and the end of the loop publishes it. Steps instead of exact depths
-// make changes rare: a draw has a few dozen of them, not one for each of its renderables.
+// Both ends of the span in one word that only decreases: the nearest step, and above it the distance of the farthest
+// step from the last. Relaxed order suffices, because the result does not depend on the order, and the end of the loop
+// publishes it. Using steps instead of exact depths makes changes rare: a draw changes a few dozen times, not once per
+// renderable.
 void extend(uint16_t& shared, uint32_t step) {
     std::atomic_ref<uint16_t> span(shared);
     uint16_t seen = span.load(std::memory_order_relaxed);
@@ -43,7 +44,7 @@ public:
     RangeCuller(Renderables const& renderables, ViewSpace const& space, std::span<uint16_t> spans)
             : mRenderables(renderables), mSpace(space), mFrustum(space.frustum), mSpans(spans) {}
 
-    /// Writes the visible ones of [begin, end) to `slots`.
+    /// Writes the visible renderables of [begin, end) to `slots`.
     Tally cull(size_t begin, size_t end, SortItem* slots) const {
         Tally tally;
         SortItem* next = slots;

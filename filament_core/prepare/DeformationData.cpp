@@ -9,7 +9,7 @@ namespace {
 
 using scene::Deformation;
 
-// What every device accepts as an offset of uniforms.
+// A uniform offset that every device accepts.
 constexpr uint32_t kAlignment = 256;
 constexpr size_t kBlocksPerJob = 32;
 
@@ -64,7 +64,7 @@ DeformationList placeDeformations(Arena& arena, scene::SceneData const& scene, s
     for (size_t i = 0; i < all.size(); ++i) {
         places[i] = {};
         if (!isVisible(scene.renderables, all[i], views)) continue;
-        places[i].bones = 0; // without a skin any window does: it is not read
+        places[i].bones = 0; // without a skin any window will do: it is not read
         if (all[i].skin) {
             uint32_t& block = bones[all[i].skin.index()];
             if (block == kNowhere) {

@@ -7,7 +7,7 @@ namespace filament::prepare {
 namespace {
 
 struct RangeDraws {
-    uint32_t first = 0; // its count, then how many come before it
+    uint32_t first = 0; // first the range's count, then the sum of the counts before it
     uint64_t triangles = 0;
 };
 
@@ -38,7 +38,7 @@ DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first
              drawable.deformation };
 }
 
-// Returns the triangles of the range.
+// Returns the number of triangles in the range.
 uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem> items, size_t begin, size_t end,
                     DrawCall* draws) {
     uint64_t triangles = 0;
@@ -64,7 +64,8 @@ uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem>
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
                               VisibleItems const& visible) {
     const auto items = arena.arrayForOverwrite<SortItem>(visible.count());
-    // What part of the scene is visible, in halvings: the members of a draw are taken to be visible in like measure.
+    // The visible share of the scene as a power of two: the members of a draw are assumed to be visible in the same
+    // proportion.
     const int hidden = static_cast<int>(std::bit_width(visible.slots.size()) - std::bit_width(items.size()));
     jobs::parallelFor<"sort keys">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
         const size_t range = begin / kCullRange;
@@ -100,7 +101,7 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     });
     for (RangeDraws const& range : ranges) counts.triangles += range.triangles;
 
-    // The first blended item begins a draw: what blends and what does not have no draw in common.
+    // The first blended item starts a draw, because no draw contains both opaque and blended items.
     const size_t opaqueItems = withoutBlended(items).size();
     const auto isOpaque = [&](DrawCall const& draw) { return draw.firstObject < opaqueItems; };
     const auto opaque = static_cast<size_t>(std::ranges::partition_point(draws, isOpaque) - draws.begin());

@@ -11,7 +11,7 @@ constexpr size_t kRange = 1024;
 constexpr size_t kAhead =
         12; // placements lie in the order of the scene: fetch early what the order of drawing jumps to
 
-// Straight to where it goes, a row at a time: a temporary object would be stored twice.
+// Writes directly to the destination, a row at a time: a temporary object would be stored twice.
 inline void write(shader::ObjectData& object, scene::Placement const& placement, double3 const& cameraWorld) {
     const float3 origin(placement.translation - cameraWorld);
     object.row0 = float4(placement.rows[0], origin.x);

@@ -9,7 +9,7 @@
 namespace filament::prepare {
 namespace {
 
-// Fewer take less time than waking a worker for them.
+// With fewer, waking a worker takes longer than the work.
 constexpr size_t kLightsWorthAJob = 256;
 
 scene::Lights const& lightsFor(ViewKind kind, scene::SceneData const& scene) {
@@ -22,7 +22,7 @@ uint8_t variantFor(ViewCounts const& counts) {
                                 (counts.lights ? shader::kVariantPunctual : 0));
 }
 
-/// What is drawn, in order; a view without light leaves out what blends.
+/// The items to draw, in order; a view without light omits blended ones.
 std::span<const SortItem> drawnItems(std::span<const SortItem> sorted, ViewKind kind, ViewCounts& counts) {
     if (isShaded(kind)) return sorted;
     const std::span<const SortItem> solid = withoutBlended(sorted);

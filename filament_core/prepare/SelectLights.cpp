@@ -64,8 +64,7 @@ uint32_t LightSelector::findCandidates(ViewSpace const& space, ViewCounts& count
         const double3 toLight = light.positionWorld - space.cameraWorld;
         const auto squaredDistance = static_cast<float>(std::max(glm::dot(toLight, toLight), 1e-4));
         const float importance = weight(light) / squaredDistance;
-        mCandidates[count++] = { i,
-                                 importance > 0 ? importance : 0.0f }; // a colour may be no number: sorting needs one
+        mCandidates[count++] = { i, importance > 0 ? importance : 0.0f }; // colours may be NaN; sorting needs numbers
     }
     return count;
 }

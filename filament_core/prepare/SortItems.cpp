@@ -13,7 +13,7 @@ constexpr uint32_t kDigits = 1u << kDigitBits;
 
 using Histogram = std::array<uint32_t, kDigits>;
 
-/// Where the digits begin that cover every bit in which the keys differ.
+/// The first bits of the digits that cover every bit in which keys differ.
 struct DigitPlan {
     std::array<uint32_t, 64 / kDigitBits + 1> shifts{};
     uint32_t count = 0;
@@ -31,8 +31,8 @@ DigitPlan planDigits(std::span<const SortItem> items) {
     return plan;
 }
 
-// In quarters of a nanosecond (measured): a digit costs 10 for each item and 3 for each counter; comparing costs 6 for
-// each item and doubling.
+// Costs in quarters of a nanosecond (measured): a digit costs 10 per item and 3 per counter; comparing costs 6 per item
+// and doubling.
 bool isCheaperToCompare(size_t count, uint32_t digits) {
     return 6 * count * static_cast<size_t>(std::bit_width(count)) < digits * (10 * count + 3 * kDigits);
 }
@@ -50,7 +50,7 @@ void count(std::span<const SortItem> items, uint32_t shift, Histogram& histogram
     for (SortItem const& item : items) ++histogram[digit(item, shift)];
 }
 
-// Turns counts a range into the places where each range puts its first item of each digit.
+// Turns the counts per range into the index at which each range puts its first item of each digit.
 void placesFromCounts(std::span<Histogram> ranges) {
     Histogram next{};
     for (Histogram const& range : ranges) {

@@ -12,7 +12,7 @@ namespace {
 // A skin of 50 bones takes about 3 us.
 constexpr size_t kSkinGrain = 4;
 
-// A level without enough work for two threads stays on this one; deep trees have thousands of them.
+// A level with too little work for two threads stays on this thread; deep trees have thousands of such levels.
 template <class Body>
 void forRanges(jobs::JobSystem& jobs, size_t count, Body&& body) {
     if (count <= kTransformGrain) return body(0, count);
@@ -37,8 +37,8 @@ void updateNodes(jobs::JobSystem& jobs, scene::SceneData& scene) {
               [&](size_t begin, size_t end) { placeAll(scene, unplaced.subspan(begin, end - begin)); });
 }
 
-// After the nodes: bones are where joints are. A skin that nothing moved costs a look at its joints, and only when
-// anything moved at all.
+// Runs after the nodes, because bones follow joints. An unmoved skin costs a check of its joints, and only if anything
+// moved at all.
 void updateSkins(jobs::JobSystem& jobs, scene::SceneData& scene) {
     scene::Deformations& deformations = scene.deformations;
     if (!deformations.isMoving() && !deformations.hasStale()) return;

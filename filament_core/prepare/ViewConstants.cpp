@@ -11,7 +11,7 @@ float4x4 rotationY(float radians) {
     return float4x4(float4(c, 0, -s, 0), float4(0, 1, 0, 0), float4(s, 0, c, 0), float4(0, 0, 0, 1));
 }
 
-// z' = w - z: the near plane at 0, infinity at 1.
+// z' = w - z: the near plane is at 0, infinity at 1.
 float4x4 withOrdinaryDepth(float4x4 clip) {
     for (int column = 0; column < 4; ++column) clip[column][2] = clip[column][3] - clip[column][2];
     return clip;
@@ -29,7 +29,7 @@ ViewSpace makeViewSpace(ViewInput const& view) {
     const float aspect = static_cast<float>(view.size.x) / static_cast<float>(view.size.y);
     space.clipFromView = view.clipFromView ? *view.clipFromView : view.camera.clipFromView(aspect);
     space.clipFromWorld = space.clipFromView * space.viewFromWorld;
-    space.frustum = frustumFromClip(space.clipFromWorld); // the same planes whatever depth is stored
+    space.frustum = frustumFromClip(space.clipFromWorld); // the planes do not depend on the stored depth
     if (view.quality.depthRange == DepthRange::Ordinary) {
         space.clipFromView = withOrdinaryDepth(space.clipFromView);
         space.clipFromWorld = space.clipFromView * space.viewFromWorld;

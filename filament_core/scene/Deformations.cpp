@@ -8,7 +8,7 @@
 namespace filament::scene {
 namespace {
 
-constexpr float kEverywhere = 1e30f; // metres; leaves room for the transform of a node
+constexpr float kEverywhere = 1e30f; // metres; leaves room for a node's transform
 
 // Arvo 1990, "Transforming axis-aligned bounding boxes", Graphics Gems; by rows.
 void addMoved(MinMax& bounds, MinMax const& box, shader::BoneData const& bone) {
@@ -24,7 +24,7 @@ void addMoved(MinMax& bounds, MinMax const& box, shader::BoneData const& bone) {
     bounds.add(moved + reach);
 }
 
-/// How far the weighted targets take any vertex.
+/// The largest displacement of any vertex by the weighted targets.
 MinMax morphReach(Deformation const& deformation) {
     MinMax reach{ float3(0.0f), float3(0.0f) };
     for (size_t i = 0; i < deformation.weights.size(); ++i) {
@@ -99,7 +99,7 @@ shader::BoneData boneFrom(Affine const& objectFromBind) {
                       static_cast<float>(objectFromBind.translation()[static_cast<int>(i)]));
     };
     shader::BoneData bone{ row(0), row(1), row(2) };
-    // What does not fit into a float is not finite any more.
+    // A value that does not fit into a float is no longer finite.
     const float4 zero = (bone.row0 - bone.row0) + (bone.row1 - bone.row1) + (bone.row2 - bone.row2);
     return zero == float4(0.0f) ? bone : shader::BoneData{};
 }
@@ -124,7 +124,7 @@ CenteredBox deformedBounds(Deformation const& deformation, SkinRecord const* ski
         }
         if (!moved.empty()) bounds = moved;
     }
-    // What overflows is everywhere. Half extents must not become smaller by rounding.
+    // Bounds that overflow become infinite in effect. Rounding must not shrink half extents.
     if (!isFinite(bounds)) return { float3(0.0f), float3(kEverywhere) };
     CenteredBox box = boxFromMinMax(bounds.min, bounds.max);
     box.halfExtent *= 1.000001f;

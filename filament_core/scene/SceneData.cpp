@@ -14,7 +14,7 @@ Renderable addDeformed(SceneData& scene, RenderableInput input, Deformation defo
     input.deformation = scene.deformations.add(std::move(deformation));
     const Renderable renderable = addRenderable(scene, input);
     scene.deformations.bind(input.deformation, renderable);
-    if (skin) scene.deformations.markStale(skin); // its bounds come with the next update
+    if (skin) scene.deformations.markStale(skin); // the next update computes its bounds
     placeDeformed(scene, input.deformation);
     return renderable;
 }

@@ -8,7 +8,7 @@
 namespace filament::scene {
 namespace {
 
-// A direction survives any scale but zero: along an axis that the node flattens it stays as it was.
+// A direction survives any scale except zero: along an axis that the node flattens, it is not changed.
 float3 turned(Affine const& world, float3 direction) {
     const double3 longer = transformVector(world, double3(direction));
     const double length2 = glm::dot(longer, longer);

@@ -29,7 +29,7 @@ Node Transforms::add(Node parent, double4x4 const& parentFromNode, std::string n
     link(slot, above);
     ++mCount;
     if (mFlags[above] & kStale) {
-        mFlags[slot] = kStale; // its parent's update takes it along
+        mFlags[slot] = kStale; // updated with its parent
     } else {
         markChanged(slot);
     }
@@ -44,7 +44,7 @@ std::vector<uint32_t> Transforms::remove(Node node) {
     for (const uint32_t slot : subtree) {
         mHandles.free(mLinks[slot].node);
         mLinks[slot] = {};
-        mFlags[slot] = 0; // entries of mChanged and mUnplaced are skipped from now on
+        mFlags[slot] = 0; // lists that still contain it skip it from now on
         mName[slot].clear();
     }
     mCount -= static_cast<uint32_t>(subtree.size());
@@ -90,7 +90,7 @@ Node Transforms::find(std::string_view name, Node root) const {
     return {};
 }
 
-/// The next of a walk through the subtree of `root`, parents first; kScene at the end.
+/// The next node in a walk through the subtree of `root`, parents first; kScene at the end.
 uint32_t Transforms::nextInSubtree(uint32_t slot, uint32_t root) const {
     if (mLinks[slot].firstChild != kScene) return mLinks[slot].firstChild;
     while (slot != root) {
@@ -118,7 +118,7 @@ void Transforms::unlink(uint32_t slot) {
     --above.childCount;
 }
 
-/// After `root` got another parent.
+/// Called after `root` got another parent.
 void Transforms::setDepths(uint32_t root) {
     const uint32_t depth = mLinks[mLinks[root].parent].depth + 1;
     if (mLinks[root].depth == depth) return;
@@ -160,11 +160,11 @@ std::vector<uint32_t> const& Transforms::takeUnplaced() {
     return mTakenUnplaced;
 }
 
-/// From the highest changed ancestor down, like an update, so that the bits are those of an update.
+/// Computes from the highest changed ancestor downwards, like an update, so that the bits are the same.
 Affine Transforms::currentWorld(uint32_t slot) const {
     if (mChanged.empty()) return mWorld[slot];
     std::vector<uint32_t> chain;
-    size_t changed = 0; // how many of the chain, from its end, are to be computed
+    size_t changed = 0; // how many nodes at the end of the chain must be computed
     for (uint32_t at = slot; at != kScene; at = mLinks[at].parent) {
         chain.push_back(at);
         if (mFlags[at] & kListed) changed = chain.size();
@@ -183,8 +183,8 @@ void Transforms::beginUpdate() {
     mLevelBegin = mLevelEnd = mNextListed = 0;
 }
 
-/// Counting sort of the changed nodes, without those that a changed parent takes along. Memory first: an update for
-/// which there is none has not begun.
+/// Counting sort of the changed nodes, except those that are updated with a changed parent. Allocates first, so that
+/// running out of memory leaves the update unstarted.
 void Transforms::listByDepth() {
     uint32_t deepest = 0;
     for (const uint32_t slot : mChanged) deepest = std::max(deepest, mLinks[slot].depth);
@@ -215,7 +215,7 @@ bool Transforms::nextLevel() {
     return true;
 }
 
-/// The two matrices of a node, three cache lines at least, are on their way while others are computed: 20 to 30 % of an
+/// Prefetches the two matrices of a node, at least three cache lines, while others are computed: saves 20 to 30 % of an
 /// update of 100 000 nodes.
 void Transforms::prefetch(uint32_t slot) const {
     constexpr size_t kLine = 64;

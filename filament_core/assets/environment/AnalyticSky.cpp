@@ -61,7 +61,7 @@ Sky makeSky(AnalyticSkyOptions const& options) {
     return sky;
 }
 
-// CIE xyY -> linear Rec. 709 (IEC 61966-2-1, D65). What lies outside of the gamut is cut.
+// CIE xyY -> linear Rec. 709 (IEC 61966-2-1, D65). Colours outside the gamut are clipped.
 double3 rec709FromXyY(double x, double y, double luminance) {
     const double X = luminance * x / y, Z = luminance * (1 - x - y) / y;
     const double3 rgb(3.2406 * X - 1.5372 * luminance - 0.4986 * Z, -0.9689 * X + 1.8758 * luminance + 0.0415 * Z,
@@ -69,7 +69,7 @@ double3 rec709FromXyY(double x, double y, double luminance) {
     return glm::max(rgb, double3(0.0));
 }
 
-// The model ends at the horizon, where 1 / cos(theta) does; a degree above it the sky has settled.
+// The model ends at the horizon, where 1 / cos(theta) diverges; a degree above it, the sky is stable.
 double3 skyRadiance(Sky const& sky, double3 direction) {
     const double cosTheta = std::max(direction.y, 0.01);
     const double cosGamma = std::clamp(glm::dot(direction, sky.sun), -1.0, 1.0), gamma = std::acos(cosGamma);
@@ -78,8 +78,8 @@ double3 skyRadiance(Sky const& sky, double3 direction) {
     return rec709FromXyY(value[1], value[2], std::max(value[0], 0.0));
 }
 
-// What the air leaves of the sun at 650, 550 and 450 nm. Preetham et al. 1999, appendix A.1; relative optical mass of
-// Kasten and Young 1989.
+// The fraction of sunlight that the air transmits at 650, 550 and 450 nm. Preetham et al. 1999, appendix A.1; relative
+// optical mass of Kasten and Young 1989.
 double3 sunTransmittance(double turbidity, double sunElevationSine) {
     const double degrees = std::asin(std::clamp(sunElevationSine, 0.0, 1.0)) * 180 / std::numbers::pi;
     const double mass = 1 / (std::max(sunElevationSine, 0.0) + 0.50572 * std::pow(degrees + 6.07995, -1.6364));
@@ -104,7 +104,7 @@ double pixelSolidAngle(uint32_t row, uint32_t height) {
     return std::numbers::pi / height * (std::cos(polarOfRow(row, height)) - std::cos(polarOfRow(row + 1, height)));
 }
 
-// Share of the pixel (column, row) that the disc covers, by 16 x 16 points.
+// Fraction of the pixel (column, row) that the disc covers, from 16 x 16 points.
 double discCoverage(uint32_t column, uint32_t row, uint32_t height, double3 sun) {
     constexpr int kPoints = 16;
     int inside = 0;
@@ -113,7 +113,7 @@ double discCoverage(uint32_t column, uint32_t row, uint32_t height, double3 sun)
             const double u = (column + (i + 0.5) / kPoints) / (2 * height), v = (row + (j + 0.5) / kPoints) / height;
             const double azimuth = (0.5 - u) * 2 * std::numbers::pi, polar = v * std::numbers::pi;
             const double3 d(std::sin(azimuth) * std::sin(polar), std::cos(polar), std::cos(azimuth) * std::sin(polar));
-            const double3 difference = d - sun; // chord: acos has no digits left at such angles
+            const double3 difference = d - sun; // chord: at such angles acos has no digits left
             inside += glm::dot(difference, difference) <= kSunAngularRadius * kSunAngularRadius;
         }
     }
@@ -142,12 +142,12 @@ std::vector<CoveredPixel> pixelsUnderDisc(uint32_t width, uint32_t height, doubl
     return covered;
 }
 
-// Adds the disc to the pixels it touches and scales it so that its irradiance is exact.
+// Adds the disc to the pixels that it touches, scaled so that its irradiance is exact.
 void addSunDisc(HdrImage& image, AnalyticSkyOptions const& options, Sky const& sky) {
     std::vector<CoveredPixel> covered = pixelsUnderDisc(image.width, image.height, sky.sun);
     double solidAngle = 0;
     for (CoveredPixel const& pixel : covered) solidAngle += pixel.share * pixelSolidAngle(pixel.y, image.height);
-    if (covered.empty()) { // smaller than the distance of the points: all of it into one pixel
+    if (covered.empty()) { // smaller than the point spacing: put it all into one pixel
         const float2 uv = equirectFromDirection(float3(sky.sun));
         const auto x = std::min(static_cast<uint32_t>(uv.x * static_cast<float>(image.width)), image.width - 1);
         const auto y = std::min(static_cast<uint32_t>(uv.y * static_cast<float>(image.height)), image.height - 1);
@@ -158,7 +158,7 @@ void addSunDisc(HdrImage& image, AnalyticSkyOptions const& options, Sky const& s
     for (CoveredPixel const& pixel : covered) image.at(pixel.x, pixel.y) += float3(radiance * pixel.share);
 }
 
-// Irradiance of the upper half on the ground; rows are summed in order.
+// Irradiance of the upper hemisphere on the ground; rows are summed in order.
 double3 groundIrradiance(HdrImage const& image, AnalyticSkyOptions const& options, Sky const& sky) {
     double3 irradiance(0.0);
     for (uint32_t y = 0; y < image.height / 2; ++y) {

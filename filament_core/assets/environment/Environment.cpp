@@ -83,7 +83,7 @@ Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs
 }
 
 Image irradianceOf(IblCube const& cube, jobs::JobSystem& jobs) {
-    constexpr uint32_t kSource = 64; // texels a face: as fine as irradianceCube() wants it
+    constexpr uint32_t kSource = 64; // texels per face edge: the resolution for irradianceCube()
     const size_t level = std::bit_width(std::max(cube.front().size() / kSource, 1u)) - 1u;
     const IblCubeLevel irradiance = irradianceCube(cube[level], kIrradianceFaceSize, jobs);
     return encodeCube(std::span(&irradiance, 1), backend::Format::RGBA16F, jobs).image;
@@ -95,7 +95,7 @@ uint32_t skyFaceSize(uint32_t sourceWidth) { return std::clamp(std::bit_ceil((so
 
 std::filesystem::path environmentCacheDirectory(EnvironmentOptions const& options) {
     if (!options.cacheDirectory.empty()) return options.cacheDirectory;
-    // XDG Base Directory Specification: a relative or empty value counts as unset.
+    // XDG Base Directory Specification: relative and empty values count as unset.
     if (const char* cache = std::getenv("XDG_CACHE_HOME"); cache && *cache == '/') {
         return std::filesystem::path(cache) / "filament_core";
     }

@@ -14,7 +14,7 @@ namespace {
 static_assert(std::endian::native == std::endian::little, "cached environments are little-endian");
 
 constexpr uint64_t kMagic = 0x31564E454C494600; // "\0FILENV1"
-/// Raised with every change of the baker's results or of this layout.
+/// Incremented whenever the baker's results or this layout change.
 constexpr uint32_t kBakerVersion = 3;
 constexpr uint32_t kMaxFaceSize = 2048, kMaxLevels = 16;
 
@@ -24,7 +24,7 @@ struct CubeHeader {
     double lostEnergy;
 };
 
-// No padding: it would be written uninitialised and the file would differ from run to run.
+// No padding: it would be written uninitialised, and the file would differ from run to run.
 struct FileHeader {
     uint64_t magic, key, checksum; // the checksum covers all bytes after itself
     uint32_t sourceWidth, sourceHeight;

@@ -53,8 +53,8 @@ void projectRow(IblCubeLevel const& level, std::span<const float> solidAngles, u
     }
 }
 
-// Squared normalisation of each basis polynomial times the cosine lobe's band factor over pi (1, 2/3, 1/4): once to
-// project, once to evaluate. Ramamoorthi and Hanrahan 2001, eqs. 3 and 8.
+// The squared normalisation of each basis polynomial times the cosine lobe's band factor over pi (1, 2/3, 1/4). It is
+// squared because projection and evaluation each need it once. Ramamoorthi and Hanrahan 2001, eqs. 3 and 8.
 std::array<double, 9> shFactors() {
     constexpr double pi = std::numbers::pi;
     constexpr double band0 = 1.0 / (4 * pi), band1 = 2.0 / 3 * 3 / (4 * pi), band2 = 0.25 * 15 / (4 * pi);

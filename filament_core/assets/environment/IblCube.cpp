@@ -9,11 +9,11 @@ namespace filament::assets {
 namespace {
 
 constexpr uint32_t kRowsPerJob = 4;
-constexpr uint32_t kLeastSubSamples = 4; // a side: the bilinear kernel of the source, sampled 4 times a texel
+constexpr uint32_t kLeastSubSamples = 4; // per axis: the source's bilinear kernel gets 4 samples per texel
 constexpr uint32_t kMostSubSamples = 32;
 
 // Towards the poles the rows of the picture are stretched: a pixel covers 1 / sin(polar) times less azimuth than at the
-// equator. Averaging that many pixels of a row makes every row as sharp as the equator, and keeps its sum.
+// equator. Averaging that many pixels of a row makes every row as sharp as the equator, and preserves its sum.
 HdrImage widenedTowardsPoles(HdrImage const& image, jobs::JobSystem& jobs) {
     HdrImage wide{ .width = image.width, .height = image.height, .pixels = {}, .repairs = {} };
     wide.pixels.resize(image.pixels.size());
@@ -57,7 +57,7 @@ float3 sampleEquirect(HdrImage const& image, float2 uv) {
     return (upper[left] * (1 - fx) + upper[right] * fx) * (1 - fy) + (lower[left] * (1 - fx) + lower[right] * fx) * fy;
 }
 
-// Enough samples that their distance is a quarter of a pixel of the source or of a texel, whichever is smaller.
+// Enough samples that their spacing is a quarter of a source pixel or of a texel, whichever is smaller.
 uint32_t subSamplesFor(HdrImage const& image, uint32_t size) {
     const uint32_t pixelsPerTexel = (image.width / 4 + size - 1) / size;
     return std::clamp(kLeastSubSamples * pixelsPerTexel, kLeastSubSamples, kMostSubSamples);
@@ -85,7 +85,7 @@ Texel meanRadiance(HdrImage const& image, uint32_t face, int x, int y, uint32_t 
 } // namespace
 
 Texel IblCubeLevel::beyondEdge(uint32_t face, int x, int y) const {
-    // Just outside of the edge, so that the neighbour's first row is hit at the same place along the edge.
+    // Slightly outside the edge, to hit the neighbour's first row at the same place along the edge.
     constexpr float kBeyond = 1.0f + 1e-4f;
     const auto coordinate = [&](int i) {
         if (i < 0) return -kBeyond;

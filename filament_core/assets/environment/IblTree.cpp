@@ -16,8 +16,8 @@ bool any(Mask m) { return ((m[0] | m[1]) | (m[2] | m[3])) != 0; }
 
 float sumOf(Texel t) { return (t[0] + t[1]) + (t[2] + t[3]); }
 
-// The lobe's weight over the cosine c to its axis, up to a factor: D(noh) n.l with noh^2 = (1 + c) / 2, as h is half
-// way.
+// The lobe's weight as a function of the cosine c with its axis, up to a factor: D(noh) n.l with noh^2 = (1 + c) / 2,
+// since h is half way.
 struct LobeWeight {
     float sum, difference; // 1 + alpha^2, 1 - alpha^2
     explicit LobeWeight(float alpha) : sum(1 + alpha * alpha), difference(1 - alpha * alpha) {}
@@ -35,8 +35,8 @@ struct IblTree::Sums {
     Texel red{}, green{}, blue{}, weight{};
 };
 
-// For small lobes the pieces form rings: 2 pi / opening^2 nodes for each factor e in distance from the lobe's core, of
-// width 2 alpha, to the horizon.
+// For small lobes the pieces form rings: 2 pi / opening^2 nodes each time the distance from the lobe's core, of width 2
+// alpha, grows by a factor of e, up to the horizon.
 Lobe Lobe::ofPieces(float alpha, uint32_t pieces) {
     const float horizon = 0.5f * kPi;
     const float rings = 0.5f + std::log(horizon / std::min(2 * alpha, horizon));
@@ -86,7 +86,7 @@ IblTree::Level IblTree::parentsOf(Level const& children, jobs::JobSystem& jobs) 
                 for (int c = 0; c < 4; ++c) {
                     const double angle = from.solidAngle[c];
                     middle += double3(from.x[c], from.y[c], from.z[c]) * angle;
-                    // black nodes have a centre as well: the trace of solid angle puts it in the middle
+                    // the small term proportional to the solid angle puts the centre of a black node in its middle
                     const double light = luminanceOf(from.red[c], from.green[c], from.blue[c]) + 1e-12 * angle;
                     centre += double3(from.energyX[c], from.energyY[c], from.energyZ[c]) * light;
                 }
@@ -121,11 +121,11 @@ void IblTree::addQuad(size_t levelIndex, size_t quadIndex, float3 axis, Lobe con
     Level const& level = mLevels[levelIndex];
     Quad const& quad = level.quads[quadIndex];
     const Texel cosine = quad.x * splat(axis.x) + quad.y * splat(axis.y) + quad.z * splat(axis.z);
-    const float size = 2.0f / static_cast<float>(level.size); // radians, where a face's texels are largest
+    const float size = 2.0f / static_cast<float>(level.size); // radians, at the largest texels of a face
     const Mask above = cosine > splat(-size);
     Mask whole = above;
     if (levelIndex + 1 < mLevels.size()) {
-        // squares of distance (as a chord) and size; the core of the lobe is flat over 2 alpha
+        // squared distance (as a chord) and squared size; the lobe's core, of width 2 alpha, is flat
         const float opening2 = lobe.openingAngle * lobe.openingAngle, core2 = 4 * lobe.alpha * lobe.alpha;
         const Texel distance2 = splat(2.0f) - splat(2.0f) * cosine;
         const Texel reach2 = distance2 > splat(core2) ? distance2 : splat(core2);

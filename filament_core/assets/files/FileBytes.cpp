@@ -69,7 +69,7 @@ Result<void> replaceFile(std::filesystem::path const& path, std::span<const std:
         std::filesystem::create_directories(path.parent_path(), error);
         if (error) return unwritable(path, error.message().c_str());
     }
-    static std::atomic<uint32_t> serial{ 0 }; // unique among the writers of this process; the id, among processes
+    static std::atomic<uint32_t> serial{ 0 }; // unique within the process; the id makes it unique among processes
     const std::string temporary = fmt::format("{}.{}-{}", path.string(), ::getpid(), serial.fetch_add(1));
     const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
     if (descriptor < 0) return unwritable(path, std::strerror(errno));

@@ -68,7 +68,7 @@ float JsonNode::numberInRange(float fallback, float low, float high) const {
 uint64_t JsonNode::integer(uint64_t fallback) const {
     if (!mValue) return fallback;
     constexpr double kLargest = 9007199254740992.0; // 2^53
-    // Some exporters write counts as "24.0": integral doubles are accepted.
+    // Some exporters write counts as "24.0", so integral doubles are accepted.
     const double value = mValue->is_number() ? mValue->get<double>() : -1.0;
     if (value >= 0 && value <= kLargest && std::floor(value) == value) return static_cast<uint64_t>(value);
     refuse("a non-negative integer");
@@ -135,10 +135,10 @@ void JsonNode::refuse(std::string_view expected) const {
 
 namespace {
 
-/// Builds a tree from what the parser finds, down to kMaxDepth.
+/// Builds a tree from the parser's events, down to kMaxDepth.
 class ShallowBuilder {
 public:
-    static constexpr size_t kMaxDepth = 64; // glTF's own fields end at 10
+    static constexpr size_t kMaxDepth = 64; // glTF's own fields reach a depth of 10
 
     explicit ShallowBuilder(json& root) : mTree(root) {}
 
@@ -169,7 +169,7 @@ private:
     size_t mDepth = 0;
 };
 
-// The library's destructor allocates as long as there are elements, and ends the process where it cannot.
+// The library's destructor allocates if there are elements left, and terminates the process if that fails.
 void takeApart(json& value) {
     if (value.is_structured()) {
         for (json& child : value) takeApart(child);
@@ -191,7 +191,7 @@ JsonTree::JsonTree(std::span<const std::byte> text, Diagnostics& diagnostics) : 
         json::sax_parse(first, first + text.size(), &builder);
     } catch (json::parse_error const& error) {
         diagnostics.refuse(ErrorCode::Corrupt, "the JSON is broken at byte {}", error.byte);
-    } catch (json::exception const&) { // a number beyond double
+    } catch (json::exception const&) { // a number beyond the range of double
         diagnostics.refuse(ErrorCode::Corrupt, "the JSON holds a number that no double can");
     }
     if (!mValue->is_object()) diagnostics.refuse(ErrorCode::Corrupt, "the JSON is not an object");

@@ -57,7 +57,7 @@ uint64_t strideOf(GltfDocument const& document, GltfAccessor const& accessor) {
     return stride != 0 ? stride : elementBytes(accessor);
 }
 
-/// Whether `count` elements fit into the view. Counts are below 2^28, strides below 2^13, offsets below 2^54.
+/// Whether `count` elements fit into the view. Counts are below 2^28, strides below 2^13 and offsets below 2^54.
 bool fits(GltfDocument const& document, uint32_t view, uint64_t offset, uint64_t stride, uint64_t bytes, uint64_t count,
           std::string const& path, Diagnostics& diagnostics) {
     if (count == 0) return true;
@@ -99,8 +99,8 @@ bool checkSparse(GltfDocument const& document, GltfAccessor const& accessor, std
     return isInside;
 }
 
-/// Calls store(first number of the element in the output, bytes of the element) for the base, then for the sparse
-/// elements.
+/// Calls store(index of the element's first number in the output, bytes of the element) for the base, then for the
+/// sparse elements.
 template <class Store>
 void forEachElement(GltfDocument const& document, GltfAccessor const& accessor, Store&& store) {
     if (accessor.view != kNone && accessor.count > 0) {
@@ -161,7 +161,7 @@ void readIntegers(GltfDocument const& document, uint32_t accessor, std::span<uin
     withComponentType(source.component, [&]<class Component>(Component) {
         forEachElement(document, source, [&](uint64_t first, std::byte const* bytes) {
             for (uint32_t c = 0; c < source.components; ++c) {
-                // a float is no integer, and a negative number no index: both end up out of everybody's range
+                // floats and negative numbers are no indices: both end up out of range for every caller
                 const auto value = loadComponent<Component>(bytes + c * sizeof(Component));
                 out[first + c] = std::is_same_v<Component, float> ? kNone : static_cast<uint32_t>(value);
             }

@@ -9,7 +9,7 @@
 namespace filament::assets {
 namespace {
 
-/// The keys around a moment, and how far it is on the way from one to the other, in [0, 1).
+/// The keys before and after a moment, and the position between them, in [0, 1).
 struct Moment {
     size_t key = 0, next = 0;
     double fraction = 0, seconds = 0; ///< between the two keys

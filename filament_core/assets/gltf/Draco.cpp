@@ -16,7 +16,7 @@
 namespace filament::assets {
 
 struct DracoMesh::State {
-    std::unique_ptr<draco::Mesh> mesh; // null: nothing was decoded
+    std::unique_ptr<draco::Mesh> mesh; // null: decoding failed
 };
 
 DracoMesh::DracoMesh(std::span<const std::byte> stream, std::string_view path, Diagnostics& diagnostics)
@@ -29,7 +29,7 @@ DracoMesh::DracoMesh(std::span<const std::byte> stream, std::string_view path, D
         auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
         if (decoded.ok()) mState->mesh = std::move(decoded).value();
         if (!decoded.ok()) reason = decoded.status().error_msg_string();
-    } catch (std::exception const& exception) { // bad_alloc and length_error of sizes that the stream made up
+    } catch (std::exception const& exception) { // e.g. bad_alloc, length_error: sizes made up by the stream
         reason = exception.what();
     }
     if (!mState->mesh) diagnostics.refuse(ErrorCode::Corrupt, "{}: the Draco stream is broken: {}", path, reason);

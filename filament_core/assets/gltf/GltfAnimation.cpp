@@ -19,7 +19,7 @@ uint32_t morphTargetCount(GltfMesh const& mesh) {
     return static_cast<uint32_t>(most);
 }
 
-/// Reads one animation; its samplers are read when a channel first needs them.
+/// Reads one animation; a sampler is read when a channel first needs it.
 class Reader {
 public:
     Reader(GltfDocument const& document, GltfScene const& scene, uint32_t index, uint64_t& numbersLeft,
@@ -39,7 +39,7 @@ public:
 private:
     void readChannel(size_t index) {
         GltfAnimationChannel const& channel = mSource.channels[index];
-        if (channel.node == kNone) return; // an extension's target
+        if (channel.node == kNone) return; // the target of an extension
         const std::string path = fmt::format("{}.channels[{}]", mPath, index);
         const bool isWeights = channel.path == AnimationPath::Weights;
         const uint32_t mesh = mDocument.nodes[channel.node].mesh;

@@ -9,7 +9,7 @@ namespace {
 
 using Bytes = std::span<const std::byte>;
 
-/// Where the bytes of one buffer are; empty for a fallback.
+/// Where the bytes of a buffer are; empty for a fallback.
 Bytes bufferBytes(GltfDocument& document, size_t index, GltfContainer const& container,
                   std::filesystem::path const& baseDirectory, Diagnostics& diagnostics) {
     GltfBuffer const& buffer = document.buffers[index];
@@ -25,7 +25,7 @@ Bytes bufferBytes(GltfDocument& document, size_t index, GltfContainer const& con
     } else if (index == 0 && container.hasBinary && !buffer.isFallback) {
         bytes = container.binary;
     } else {
-        return {}; // views will complain, except those that read another buffer through meshopt
+        return {}; // views report it, unless they read another buffer through meshopt
     }
     if (bytes.size() < buffer.byteLength) {
         diagnostics.refuse(ErrorCode::Corrupt, "buffers[{}]: {} bytes are there of {}", index, bytes.size(),
@@ -35,7 +35,7 @@ Bytes bufferBytes(GltfDocument& document, size_t index, GltfContainer const& con
     return bytes.first(buffer.byteLength);
 }
 
-/// [offset, offset + length) of a buffer; all numbers are below 2^53, so sums do not wrap.
+/// [offset, offset + length) of a buffer; all numbers are below 2^53, so sums do not overflow.
 Bytes rangeOf(std::vector<Bytes> const& buffers, uint32_t buffer, uint64_t offset, uint64_t length,
               std::string const& path, Diagnostics& diagnostics) {
     const uint64_t size = buffers[buffer].size();

@@ -13,7 +13,7 @@ constexpr uint32_t kBinChunk = 0x004E4942;  // "BIN\0"
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
 
 uint32_t wordAt(std::span<const std::byte> bytes, size_t offset) {
-    uint32_t word; // GLB is little-endian, as is every platform of ours
+    uint32_t word; // GLB is little-endian, like all our platforms
     std::memcpy(&word, bytes.data() + offset, sizeof word);
     return word;
 }

@@ -26,13 +26,13 @@ void addDeltas(GltfDocument const& document, uint32_t accessor, float weight, co
 template <>
 void addDeltas(GltfDocument const& document, uint32_t accessor, float weight, const char* name,
                std::vector<float4>& tangents, Diagnostics& diagnostics) {
-    std::vector<float3> directions; // the handedness does not morph
+    std::vector<float3> directions; // morph targets do not change the handedness
     for (float4 const& tangent : tangents) directions.emplace_back(tangent);
     addDeltas(document, accessor, weight, name, directions, diagnostics);
     for (size_t i = 0; i < tangents.size(); ++i) tangents[i] = float4(directions[i], tangents[i].w);
 }
 
-/// The transform of one vertex: the joints' mean, weighted; weights that do not sum to 1 are scaled (3.7.3.3).
+/// The transform of one vertex: the weighted mean of the joints. Weights that do not sum to 1 are scaled (3.7.3.3).
 float4x4 blendJoints(std::span<const float4x4> worldFromBind, GltfGeometry const& geometry, size_t vertex,
                      bool& isInRange) {
     float4x4 blended(0.0f);
@@ -42,7 +42,7 @@ float4x4 blendJoints(std::span<const float4x4> worldFromBind, GltfGeometry const
         for (int k = 0; k < 4; ++k) {
             const float weight = geometry.weights[set][vertex][k];
             const uint32_t joint = geometry.joints[set][vertex][k];
-            if (weight == 0) continue; // unused slots may hold anything
+            if (weight == 0) continue; // unused slots may contain anything
             if (joint >= worldFromBind.size()) {
                 isInRange = false;
                 continue;
@@ -51,11 +51,11 @@ float4x4 blendJoints(std::span<const float4x4> worldFromBind, GltfGeometry const
             sum += weight;
         }
     }
-    if (!(sum > 0)) return worldFromBind[0]; // no weights: the vertex belongs to the first joint
+    if (!(sum > 0)) return worldFromBind[0]; // without weights, a vertex follows the first joint
     return blended * (1.0f / sum);
 }
 
-/// Transforms normals: the cofactors of the upper 3x3, which are its inverse transpose without the division.
+/// Transforms normals by the cofactors of the upper 3x3: its inverse transpose without the division.
 float3x3 normalMatrix(float3 x, float3 y, float3 z) { return { glm::cross(y, z), glm::cross(z, x), glm::cross(x, y) }; }
 
 void reverseTriangles(GltfGeometry& geometry) {

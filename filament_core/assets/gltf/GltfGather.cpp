@@ -11,7 +11,8 @@ namespace {
 
 using backend::VertexFormat;
 
-/// The formats that carry an accessor's normalized integers to the shader as floats; three components travel as four.
+/// The formats that pass an accessor's normalized integers to the shader as floats; three components are stored as
+/// four.
 struct IntegerFormats {
     VertexFormat byte, ubyte, shorts, ushorts;
 };
@@ -19,7 +20,7 @@ constexpr IntegerFormats kOfPositions{ VertexFormat::Byte4N, VertexFormat::UByte
                                        VertexFormat::UShort4N };
 constexpr IntegerFormats kOfUvs{ VertexFormat::Byte4N, VertexFormat::UByte4N, VertexFormat::Short2N,
                                  VertexFormat::UShort2N };
-/// Colours and weights are not negative: what is signed is read as floats.
+/// Colours and weights are not negative: signed values are read as floats.
 constexpr IntegerFormats kOfShares{ VertexFormat::Float4, VertexFormat::UByte4N, VertexFormat::Float4,
                                     VertexFormat::UShort4N };
 
@@ -45,7 +46,7 @@ VertexFormat positionFormat(GltfAccessor const& accessor) {
 VertexFormat uvFormat(GltfAccessor const& accessor) { return formatOf(accessor, kOfUvs, VertexFormat::Float2); }
 VertexFormat shareFormat(GltfAccessor const& accessor) { return formatOf(accessor, kOfShares, VertexFormat::Float4); }
 
-/// Where the attributes of a primitive come from: accessors, or a Draco stream with accessors that describe it.
+/// Reads the attributes of a primitive: from accessors, or from a Draco stream described by accessors.
 class AttributeSource {
 public:
     AttributeSource(GltfDocument const& document, GltfPrimitive const& primitive, std::string const& path,
@@ -57,7 +58,7 @@ public:
 
     DracoMesh const* draco() const { return mDraco ? &*mDraco : nullptr; }
 
-    /// Vectors of `T`, one per vertex; empty if the primitive lacks the attribute. The first call fixes the vertex
+    /// Vectors of `T`, one per vertex; empty if the primitive lacks the attribute. The first call determines the vertex
     /// count.
     template <class T>
     std::vector<T> read(uint32_t accessor, uint32_t dracoId, const char* name) {
@@ -84,14 +85,15 @@ public:
         return values;
     }
 
-    /// Colours have three components or four, each in [0, 1] (glTF 2.0, 3.7.2.1); floats may say anything.
+    /// Colours have three or four components, each in [0, 1] (glTF 2.0, 3.7.2.1); float accessors may exceed that
+    /// range.
     std::vector<float4> readColors(uint32_t accessor, uint32_t dracoId) {
         std::vector<float4> colors = readAnyColors(accessor, dracoId);
         for (float4& color : colors) color = glm::clamp(color, 0.0f, 1.0f);
         return colors;
     }
 
-    /// Joint numbers are integers below 65536, which floats hold exactly.
+    /// Joint indices are integers below 65536, which floats represent exactly.
     std::vector<GltfGeometry::JointIndices> readJoints(uint32_t accessor, uint32_t dracoId, const char* name) {
         std::vector<GltfGeometry::JointIndices> joints;
         for (float4 const& indices : read<float4>(accessor, dracoId, name)) {
@@ -143,7 +145,7 @@ void chooseFormats(GltfDocument const& document, GltfAttributes const& attribute
         if (attributes.uv[set] == kNone) continue;
         geometry.uvFormats[set] = uvFormat(document.accessors[attributes.uv[set]]);
     }
-    // One format for both sets: what both have, or floats.
+    // Both sets have the same format: their common one, or floats.
     const uint32_t first = attributes.weights[0], second = attributes.weights[1];
     if (first == kNone) return;
     const VertexFormat format = shareFormat(document.accessors[first]);

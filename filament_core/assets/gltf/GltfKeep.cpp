@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skins and morph targets that the device applies: gathered and checked here, left as they are otherwise.
+// Skins and morph targets that the device applies: collected and checked here, otherwise unchanged.
 #include "filament_core/assets/gltf/Accessor.h"
 #include "filament_core/assets/gltf/GltfGeometry.h"
 #include "shaders/interface/ShaderInterface.h"
@@ -24,7 +24,7 @@ std::vector<float3> readDeltas(GltfDocument const& document, uint32_t accessor, 
     return deltas;
 }
 
-/// Whether the weights of all vertices sum to 1 as they are stored.
+/// Whether the stored weights of every vertex sum to 1.
 bool sumToOne(GltfGeometry const& geometry) {
     for (size_t i = 0; i < geometry.positions.size(); ++i) {
         float sum = 0;
@@ -36,7 +36,8 @@ bool sumToOne(GltfGeometry const& geometry) {
     return true;
 }
 
-/// Section 3.7.3.3: unused joints become 0, weights are scaled to a sum of 1; without any the first joint counts.
+/// Section 3.7.3.3: unused joints become 0, weights are scaled to a sum of 1; a vertex without weights follows the
+/// first joint.
 bool repairVertex(GltfGeometry& geometry, size_t vertex, size_t jointCount) {
     double sum = 0;
     for (size_t set = 0; set < GltfAttributes::kJointSets; ++set) {
@@ -70,7 +71,7 @@ bool repairVertex(GltfGeometry& geometry, size_t vertex, size_t jointCount) {
 
 bool canKeepTargets(GltfPrimitive const& primitive, GltfGeometry const& geometry, std::string const& path,
                     Diagnostics& diagnostics) {
-    // Flat normals make a vertex of every corner.
+    // Flat normals need a vertex for every corner.
     const size_t vertices = std::max(geometry.positions.size(), geometry.normals.empty() ? geometry.indices.size() : 0);
     const uint64_t texels = uint64_t{ 3 } * vertices * primitive.targets.size();
     if (primitive.targets.size() <= shader::kMaxMorphTargets && texels <= kMaxMorphTexels) return true;

@@ -16,7 +16,7 @@
 namespace filament::assets {
 namespace {
 
-/// Counts steps and tells whoever listens.
+/// Counts steps and reports them to the listener.
 class Progress {
 public:
     Progress(GltfOptions const& options, GltfStage stage, size_t total)
@@ -52,7 +52,7 @@ std::vector<bool> usedMaterials(GltfDocument const& document, GltfScene const& s
     return used;
 }
 
-/// Images and primitives are independent: all of them are jobs of one group.
+/// Images and primitives are independent: they are all jobs of one group.
 void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextures& textures,
                  std::vector<GltfPrimitiveJob>& primitives, std::filesystem::path const& baseDirectory,
                  jobs::JobSystem& jobs, GltfOptions const& options) {

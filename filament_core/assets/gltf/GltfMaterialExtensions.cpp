@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The KHR_materials extensions, one function each. Ranges are those of their specifications; where one has no end, it
-// is what 16 bits can hold, because shaders may compute in them.
+// The KHR_materials extensions, one function each. Ranges are those of the specifications; an unlimited range ends
+// where 16 bits do, because shaders may compute in them.
 #include "filament_core/assets/gltf/GltfParseMaterial.h"
 
 namespace filament::assets {
@@ -11,7 +11,7 @@ constexpr float kMaxDispersion = 100; // an Abbe number of 0.2; diamond has 55
 constexpr float kMaxFilmIor = 100;
 constexpr float kMinAttenuationMeters = 1e-6f;
 
-/// The extensions object of one material, and how many textures its references may name.
+/// The extensions object of one material, and the number of textures that it may refer to.
 struct Extensions {
     JsonNode const& material;
     size_t textureCount;
@@ -75,7 +75,7 @@ void parseIridescence(Extensions const& extensions, GltfMaterial& material) {
                              extensions.texture(node, "iridescenceThicknessTexture") };
 }
 
-/// KHR_materials_ior: 0 stands for an infinite one.
+/// KHR_materials_ior: 0 stands for an infinite index.
 void parseIor(Extensions const& extensions, MaterialData& values) {
     const JsonNode ior = extensions.at("KHR_materials_ior")["ior"];
     values.ior = ior.exists() && ior.number(1.5) == 0 ? kOpaqueIor : ior.numberInRange(1.5f, 1, kOpaqueIor);
@@ -123,7 +123,7 @@ void parseTransmission(Extensions const& extensions, GltfMaterial& material) {
     material.values.transmission.dispersion = dispersion["dispersion"].numberInRange(0, 0, kMaxDispersion);
 }
 
-/// The diffuse colour and its map become the base colour: alpha modes then work alike.
+/// The diffuse colour and its map become the base colour, so that alpha modes work in the same way.
 void parseSpecularGlossiness(Extensions const& extensions, JsonNode const& node, GltfMaterial& material) {
     const auto diffuse = parseFactors<4>(node["diffuseFactor"], 1, 0, 1);
     material.values.baseColorFactor = { diffuse[0], diffuse[1], diffuse[2], diffuse[3] };
@@ -141,7 +141,7 @@ constexpr std::array kLayers{ "KHR_materials_clearcoat",    "KHR_materials_sheen
                               "KHR_materials_transmission", "KHR_materials_diffuse_transmission",
                               "KHR_materials_volume",       "KHR_materials_dispersion" };
 
-/// The specifications of the layers forbid them together with a model that has none of their properties.
+/// The layers' specifications forbid combining them with a model that lacks their properties.
 void warnAboutLayers(Extensions const& extensions, const char* model) {
     for (const char* name : kLayers) {
         if (const JsonNode node = extensions.at(name); node.exists())

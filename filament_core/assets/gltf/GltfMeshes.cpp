@@ -9,8 +9,8 @@
 namespace filament::assets {
 namespace {
 
-/// The texture coordinates along which tangents run, if a material of the primitive needs any, else kNone. Of several
-/// maps the normal map decides, as KHR_materials_anisotropy has it.
+/// The texture coordinates that tangents follow if a material of the primitive needs tangents, else kNone. With several
+/// maps the normal map decides, as KHR_materials_anisotropy specifies.
 uint32_t tangentUvSet(GltfDocument const& document, GltfPrimitive const& primitive) {
     std::vector<uint32_t> materials;
     if (primitive.material != kNone) materials.push_back(primitive.material);

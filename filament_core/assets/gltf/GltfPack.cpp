@@ -126,7 +126,7 @@ VertexFormat formatOf(TangentStorage storage) {
     return VertexFormat::Float4;
 }
 
-/// w keeps its sign when it is rounded: at least one step of the integers.
+/// w keeps its sign when it is rounded, because it is at least one integer step.
 std::vector<float4> framesOf(GltfGeometry const& geometry, TangentStorage storage) {
     const float leastW = storage == TangentStorage::Snorm8 ? 1.0f / 127 : 1.0f / 32767;
     std::vector<float4> frames(geometry.normals.size());
@@ -137,7 +137,7 @@ std::vector<float4> framesOf(GltfGeometry const& geometry, TangentStorage storag
     return frames;
 }
 
-/// Positions into [0, 1]^3, all axes by the same factor: normals and tangents stay what they are.
+/// Maps positions to [0, 1]^3 by the same factor on all axes, so that normals and tangents stay valid.
 void fitUnitCube(GltfGeometry& geometry, PrimitiveData& primitive) {
     findBounds(geometry.positions, primitive);
     const float3 size = primitive.boundsMax - primitive.boundsMin;
@@ -148,7 +148,7 @@ void fitUnitCube(GltfGeometry& geometry, PrimitiveData& primitive) {
         position = (position - primitive.positionOffset) / primitive.positionScale;
 }
 
-/// What cannot be stored as wanted keeps its floats: beyond the largest half float.
+/// Positions beyond the largest half float stay floats.
 void storePositions(PositionStorage storage, GltfGeometry& geometry, PrimitiveData& primitive) {
     if (storage == PositionStorage::AsAuthored) return;
     if (storage == PositionStorage::Unorm16) {
@@ -162,7 +162,7 @@ void storePositions(PositionStorage storage, GltfGeometry& geometry, PrimitiveDa
     if (fits) geometry.positionFormat = VertexFormat::Half4;
 }
 
-/// 16 bits while 0xFFFF, which restarts strips on some APIs, stays free.
+/// 16-bit indices if 0xFFFF, which restarts strips on some APIs, stays unused.
 void packIndices(std::span<const uint32_t> indices, PrimitiveData& primitive) {
     const bool isShort = primitive.vertexCount < 65536;
     primitive.indexFormat = isShort ? backend::IndexFormat::UInt16 : backend::IndexFormat::UInt32;
@@ -175,7 +175,7 @@ void packIndices(std::span<const uint32_t> indices, PrimitiveData& primitive) {
     }
 }
 
-/// Unindexed vertices repeat: equal ones become one.
+/// Merges equal vertices of unindexed geometry, where they are common.
 void weldEqualVertices(std::vector<uint32_t>& indices, PrimitiveData& primitive) {
     const size_t stride = primitive.layout.buffers[0].stride;
     std::vector<uint32_t> remap(primitive.vertexCount);
@@ -219,7 +219,7 @@ void writeJoints(GltfGeometry const& geometry, SkinOffsets const& at, Interleave
 PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage) {
     PrimitiveData primitive;
     const bool isDeformed = geometry.isSkinned || !geometry.targets.empty();
-    // Bones and differences are in the space of the file: positions stay in it.
+    // Bones and morph targets are in the space of the file, so positions stay in it, too.
     storePositions(isDeformed && storage.positions == PositionStorage::Unorm16 ? PositionStorage::AsAuthored
                                                                                : storage.positions,
                    geometry, primitive);
@@ -253,7 +253,7 @@ PrimitiveData packGeometry(GltfGeometry geometry, GeometryStorage const& storage
 
     findBounds(geometry.positions, primitive);
     primitive.morphTargets = std::move(geometry.targets);
-    // Vertices that are equal now may part later.
+    // With morph targets, vertices that are equal now may move apart.
     if (!geometry.wasIndexed && primitive.morphTargets.empty()) weldEqualVertices(geometry.indices, primitive);
     packIndices(geometry.indices, primitive);
     return primitive;

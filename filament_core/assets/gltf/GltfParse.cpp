@@ -11,7 +11,7 @@ namespace {
 constexpr uint64_t kMaxElements = uint64_t{ 1 } << 28;
 constexpr uint64_t kMaxStride = 4096;
 
-/// The arrays of the file by name, so that an index can be checked before its array was read.
+/// The arrays of the file by name, so that an index can be checked before the array is read.
 struct Counts {
     explicit Counts(JsonNode const& root)
             : buffers(root["buffers"].elementCount()), views(root["bufferViews"].elementCount()),
@@ -77,7 +77,7 @@ GltfBuffer parseBuffer(JsonNode const& node) {
 
 std::optional<MeshoptSource> parseMeshopt(JsonNode const& view, Counts const& counts) {
     JsonNode node = view.extension("EXT_meshopt_compression");
-    if (!node.exists()) node = view.extension("KHR_meshopt_compression"); // same stream format
+    if (!node.exists()) node = view.extension("KHR_meshopt_compression"); // the same stream format
     if (!node.exists()) return std::nullopt;
     return MeshoptSource{
         .buffer = node["buffer"].requiredIndex(counts.buffers, "buffers"),
@@ -157,7 +157,7 @@ GltfPrimitive parsePrimitive(JsonNode const& node, Counts const& counts) {
         primitive.targets.push_back({ deltas.position, deltas.normal, deltas.tangent });
     }
     if (const JsonNode draco = node.extension("KHR_draco_mesh_compression"); draco.exists()) {
-        // ids are any unsigned number; whether the stream has them is known once it is decoded
+        // any unsigned number may be an id; decoding shows whether the stream contains it
         primitive.draco = GltfDraco{ draco["bufferView"].requiredIndex(counts.views, "bufferViews"),
                                      parseAttributes(draco["attributes"], kNone, "ids") };
     }
@@ -261,12 +261,12 @@ GltfImage parseImage(JsonNode const& node, Counts const& counts) {
     return image;
 }
 
-/// A node has one parent at most; links that close a circle leave no way in from a root (section 3.5.2).
+/// A node has at most one parent, and nodes in a cycle cannot be reached from a root (section 3.5.2).
 void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
     std::vector<uint32_t> parents(nodes.size(), kNone);
     for (uint32_t i = 0; i < nodes.size(); ++i) {
         for (const uint32_t child : nodes[i].children) {
-            if (child == kNone) continue; // refused already
+            if (child == kNone) continue; // already reported
             if (parents[child] != kNone || child == i) {
                 return diagnostics.refuse(ErrorCode::Corrupt,
                                           "nodes[{}].children: nodes[{}] has another parent already", i, child);
@@ -274,7 +274,7 @@ void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
             parents[child] = i;
         }
     }
-    // Every node must be reached from a parentless one; what is not belongs to a circle.
+    // Nodes that cannot be reached from a parentless node are part of a cycle.
     std::vector<uint32_t> open;
     size_t reached = 0;
     for (uint32_t i = 0; i < nodes.size(); ++i) {
@@ -289,7 +289,7 @@ void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
     if (reached != nodes.size()) diagnostics.refuse(ErrorCode::Corrupt, "nodes: the children links close a circle");
 }
 
-/// The roots of the default scene; a file without scenes shows every parentless node.
+/// The roots of the default scene; a file without scenes shows all parentless nodes.
 std::vector<uint32_t> parseRoots(JsonNode const& root, std::vector<GltfNode> const& nodes) {
     const std::vector<JsonNode> scenes = root["scenes"].elements();
     std::vector<uint32_t> roots;
@@ -309,7 +309,7 @@ std::vector<uint32_t> parseRoots(JsonNode const& root, std::vector<GltfNode> con
         }
     }
     for (const uint32_t i : roots) {
-        if (i == kNone) continue; // refused already
+        if (i == kNone) continue; // already reported
         if (hasParent[i] || isListed[i]) {
             root.diagnostics().refuse(ErrorCode::Corrupt, "scenes: nodes[{}] is not a root, or is listed twice", i);
         }

@@ -7,7 +7,7 @@
 namespace filament::assets {
 namespace {
 
-// What the loader understands completely. KHR_xmp: notes about the file, which change nothing.
+// The extensions that the loader supports completely. KHR_xmp: metadata, without effect.
 constexpr std::array<std::string_view, 23> kSupportedExtensions{
     "KHR_draco_mesh_compression",
     "EXT_meshopt_compression",
@@ -116,7 +116,7 @@ GltfMaterial parseGltfMaterial(JsonNode const& node, size_t textureCount) {
     return material;
 }
 
-/// Section 3.8.4: OpenGL's numbers. Without filters the choice is ours: trilinear.
+/// Section 3.8.4: OpenGL's numbers. If filters are missing, the choice is ours: trilinear.
 backend::SamplerDesc parseGltfSampler(JsonNode const& node) {
     using backend::Filter, backend::MipFilter;
     struct MinFilter {

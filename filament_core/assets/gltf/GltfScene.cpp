@@ -15,12 +15,12 @@ namespace filament::assets {
 namespace {
 
 bool isFinite(double4x4 const& matrix) {
-    double sum = 0; // inf and NaN survive sums of products with 0
+    double sum = 0; // inf and NaN survive multiplication by 0
     for (int column = 0; column < 4; ++column) sum += glm::dot(matrix[column], double4(0.0));
     return std::isfinite(sum);
 }
 
-/// World transforms of all nodes, also of joints outside the scene. The parser proved that the links are a forest.
+/// World transforms of all nodes, including joints outside the scene. The parser ensured that the links form a forest.
 std::vector<double4x4> worldTransforms(GltfDocument const& document, Diagnostics& diagnostics) {
     std::vector<double4x4> worldFromNode(document.nodes.size(), double4x4(1.0));
     std::vector<bool> isChild(document.nodes.size(), false);
@@ -46,7 +46,7 @@ std::vector<double4x4> worldTransforms(GltfDocument const& document, Diagnostics
     return worldFromNode;
 }
 
-/// Section 3.7.3.3: the node of the mesh does not matter, only its joints do.
+/// Section 3.7.3.3: the transform of the mesh's node is ignored; only the joints count.
 std::vector<float4x4> jointTransforms(GltfDocument const& document, uint32_t skinIndex,
                                       std::vector<double4x4> const& worldFromNode, Diagnostics& diagnostics) {
     GltfSkin const& skin = document.skins[skinIndex];
@@ -141,7 +141,7 @@ std::vector<double4x4> instanceTransforms(GltfInstancing const& source, GltfDocu
     return transforms;
 }
 
-/// At scene node `at`, which is node `index` of the file, or at nodes of its own.
+/// Places the mesh at scene node `at`, which is node `index` of the file, or at new nodes.
 void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, RequestList& requests, GltfScene& scene,
                Diagnostics& diagnostics) {
     GltfNode const& source = document.nodes[index];
@@ -149,7 +149,7 @@ void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, Reques
     NodeData own{ .name = source.name, .mesh = mesh, .morphWeights = scene.meshes[mesh].weights };
     std::vector<uint32_t>& meshNodes = scene.meshNodes[index];
     if (source.skin != kNone) {
-        if (scene.meshes[mesh].keepsSkin) own.skin = source.skin; // of the file: see collectSkins()
+        if (scene.meshes[mesh].keepsSkin) own.skin = source.skin; // an index of the file; see collectSkins()
         meshNodes.push_back(static_cast<uint32_t>(scene.nodes.size()));
         scene.nodes.push_back(std::move(own));
         return;
@@ -170,14 +170,14 @@ void placeMesh(GltfDocument const& document, uint32_t index, uint32_t at, Reques
     }
 }
 
-/// Adds nodes of the file with all that hangs below them.
+/// Adds nodes of the file together with their descendants.
 class NodeList {
 public:
     NodeList(GltfDocument const& document, std::vector<double4x4> const& worldFromNode, GltfScene& scene,
              Diagnostics& diagnostics)
             : mDocument(document), mWorldFromNode(worldFromNode), mScene(scene), mDiagnostics(diagnostics) {}
 
-    /// `requests`: null for what is not shown, only followed by joints.
+    /// `requests` is null for nodes that are not shown and only serve as joints.
     void add(std::vector<uint32_t> const& roots, RequestList* requests) {
         push(roots, kNone);
         while (!mOpen.empty() && mDiagnostics.ok()) {
@@ -200,7 +200,7 @@ public:
 
 private:
     struct Open {
-        uint32_t node, parent; // of the document; of the scene
+        uint32_t node, parent; // in the document; in the scene
     };
     void push(std::vector<uint32_t> const& nodes, uint32_t parent) {
         for (size_t i = nodes.size(); i-- > 0;) mOpen.push_back({ nodes[i], parent });
@@ -221,9 +221,9 @@ std::vector<uint32_t> parentsOf(GltfDocument const& document) {
     return parents;
 }
 
-/// The skins that nodes keep; those nodes get their numbers.
+/// Collects the skins that nodes keep, and gives those nodes the new indices.
 void collectSkins(GltfDocument const& document, NodeList& nodes, GltfScene& scene, Diagnostics& diagnostics) {
-    std::map<uint32_t, uint32_t> known; // of the file -> of the scene
+    std::map<uint32_t, uint32_t> known; // index in the file -> index in the scene
     const std::vector<uint32_t> parents = parentsOf(document);
     const size_t shown = scene.nodes.size();
     for (size_t i = 0; i < shown && diagnostics.ok(); ++i) {

@@ -12,7 +12,7 @@
 namespace filament::assets {
 namespace {
 
-/// Section 3.8.4: without a sampler, repeat; the filters are ours to choose.
+/// Section 3.8.4: without a sampler, repeat; the filters are implementation-defined.
 constexpr backend::SamplerDesc kDefaultSampler{ .magFilter = backend::Filter::Linear,
                                                 .minFilter = backend::Filter::Linear,
                                                 .mipFilter = backend::MipFilter::Linear,
@@ -30,7 +30,7 @@ public:
         GltfMaterial const& material = mDocument.materials[index];
         MaterialData data = material.values;
         data.baseColor = textureFor(material.baseColor, true);
-        if (data.unlit) return data; // shows the base colour alone
+        if (data.unlit) return data; // shows only the base colour
         data.normal = textureFor(material.normal, false);
         data.occlusion = textureFor(material.occlusion, false);
         data.emissive = textureFor(material.emissive, true);
@@ -44,7 +44,7 @@ public:
     }
 
 private:
-    // Maps of what a material does not use are neither decoded nor uploaded.
+    // Maps that a material does not use are neither decoded nor uploaded.
     void resolveExtensions(GltfMaterial const& material, MaterialData& data) {
         if (data.clearCoat.isUsed()) {
             data.clearCoat.maps = pairFor(material.clearCoat, PackLayout::RedGreen, "clearcoatRoughnessTexture");
@@ -80,7 +80,7 @@ private:
         return reference;
     }
 
-    /// `lesser`: what the second map is called in the file.
+    /// `lesser`: the name of the second map in the file.
     TexturePair pairFor(GltfTexturePair const& infos, PackLayout layout, const char* lesser) {
         const bool isColor = layout == PackLayout::ColorAlpha;
         const TextureRef first = referenceTo(infos.first), second = referenceTo(infos.second);
@@ -104,7 +104,7 @@ private:
         return a.sampler == b.sampler && a.uvSet == b.uvSet && a.uvTransform == b.uvTransform;
     }
 
-    /// With `image` still that of the document; kNone: there is none that this loader reads.
+    /// `image` is still an index of the document; kNone: there is no image that this loader can read.
     TextureRef referenceTo(GltfTextureInfo const& info) {
         TextureRef reference;
         if (info.texture == kNone) return reference;
@@ -146,7 +146,7 @@ private:
     GltfTextures& mTextures;
     Diagnostics& mDiagnostics;
     std::vector<uint32_t> mJobOfImage;
-    std::map<Packed, uint32_t> mPacked; // to its slot
+    std::map<Packed, uint32_t> mPacked; // -> its slot
     uint32_t mMaterial = 0;
 };
 

@@ -12,7 +12,7 @@ namespace {
 using backend::PrimitiveType;
 using Indices = std::vector<uint32_t>;
 
-/// Section 3.7.2.1: every other triangle of a strip is turned, so that all face the same way.
+/// Section 3.7.2.1: every other triangle of a strip is reversed, so that all face the same way.
 Indices listFromStrip(Indices const& strip) {
     Indices list;
     for (size_t i = 0; i + 2 < strip.size(); ++i) {
@@ -40,13 +40,13 @@ PrimitiveType topologyOf(GltfMode mode) {
 }
 
 float3 flatNormal(float3 p0, float3 p1, float3 p2) {
-    // in double: the cross product of float positions neither overflows nor vanishes
+    // in double, so that the cross product neither overflows nor vanishes
     const double3 normal = glm::cross(double3(p1) - double3(p0), double3(p2) - double3(p0));
     const double length = std::sqrt(glm::dot(normal, normal));
     return length > 0 ? float3(normal / length) : float3(0, 0, 1);
 }
 
-/// Of triangles whose corners follow each other.
+/// For triangles with consecutive corners.
 std::vector<float3> flatNormals(std::vector<float3> const& corners) {
     std::vector<float3> normals(corners.size());
     for (size_t i = 0; i + 2 < corners.size(); i += 3) {
@@ -55,7 +55,7 @@ std::vector<float3> flatNormals(std::vector<float3> const& corners) {
     return normals;
 }
 
-/// The normals of a target are those of its own triangles (section 3.7.2.2).
+/// The normals of a morph target come from its own triangles (section 3.7.2.2).
 void addFlatNormals(GltfGeometry const& geometry, MorphTargetData& target) {
     target.tangents.clear();
     target.normals.clear();
@@ -105,7 +105,7 @@ void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, Di
 }
 
 void dropUnusedVertices(GltfGeometry& geometry) {
-    constexpr size_t kWorthIt = 2; // copying costs less than keeping when half of them or more are unused
+    constexpr size_t kWorthIt = 2; // a copy pays off if half of the vertices or more are unused
     if (geometry.indices.size() * kWorthIt > geometry.positions.size()) return;
     Indices remap(geometry.positions.size(), kNone), used;
     for (uint32_t& index : geometry.indices) {

@@ -18,7 +18,7 @@ int hexDigit(char c) {
     return -1;
 }
 
-/// RFC 3986, section 2.1. A '%' that starts no escape stays as it is: exporters forget to encode it.
+/// RFC 3986, section 2.1. A '%' that starts no escape is kept: exporters forget to encode it.
 std::string percentDecoded(std::string_view text) {
     std::string decoded;
     decoded.reserve(text.size());
@@ -31,7 +31,7 @@ std::string percentDecoded(std::string_view text) {
     return decoded;
 }
 
-/// RFC 4648, section 4; the URL alphabet of section 5 is understood too.
+/// RFC 4648, section 4; the URL alphabet of section 5 is accepted too.
 constexpr std::array<int8_t, 256> base64Values() {
     std::array<int8_t, 256> values{};
     values.fill(-1);

@@ -12,10 +12,10 @@
 namespace filament::assets {
 namespace {
 
-/// The buffer and the arrays of the file that describe it.
+/// The buffer, and the JSON arrays that describe it.
 class BufferWriter {
 public:
-    /// A buffer view over a copy of the bytes.
+    /// Adds a buffer view with a copy of the bytes.
     size_t addView(std::span<const std::byte> bytes, int target) {
         mBytes.resize((mBytes.size() + 3) & ~size_t{ 3 });
         Json view{ { "buffer", 0 }, { "byteOffset", mBytes.size() }, { "byteLength", bytes.size() } };
@@ -34,7 +34,7 @@ public:
         return mAccessors.size() - 1;
     }
 
-    /// Positions name their bounds (section 3.7.2.1).
+    /// Accessors of positions state their bounds (section 3.7.2.1).
     size_t addPositions(std::vector<float3> const& positions) {
         float3 low = positions[0], high = positions[0];
         for (float3 const& position : positions) low = glm::min(low, position), high = glm::max(high, position);
@@ -206,7 +206,7 @@ Result<std::vector<std::byte>> writeGlb(GlbScene const& scene) {
     if (!scene.images.empty()) root["images"] = imagesJson(scene, buffer);
     addLights(scene, root);
     buffer.finish(root);
-    // replace, not throw: names may hold bytes that are not UTF-8
+    // replace instead of throwing: names may contain bytes that are not UTF-8
     return assembleGlb(root.dump(-1, ' ', false, Json::error_handler_t::replace), buffer.bytes());
 }
 
@@ -219,7 +219,7 @@ Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t h
     bool isOpaque = true;
     for (size_t i = 3; i < rgba8.size(); i += 4) isOpaque = isOpaque && rgba8[i] == std::byte{ 255 };
     std::vector<std::byte> pixels(rgba8.begin(), rgba8.end());
-    if (isOpaque) { // three bytes a pixel, in place
+    if (isOpaque) { // three bytes per pixel, in place
         for (size_t i = 0; i < size_t{ width } * height; ++i) std::copy_n(&rgba8[i * 4], 3, &pixels[i * 3]);
     }
     png_image png{};

@@ -52,7 +52,7 @@ Json transformJson(float3x3 const& m) {
     return { { "offset", { m[2].x, m[2].y } }, { "rotation", rotation }, { "scale", { scaleX, scaleY } } };
 }
 
-/// Textures and samplers, each combination once.
+/// Textures and samplers; each combination once.
 class TextureWriter {
 public:
     explicit TextureWriter(Json& root) : mRoot(root) {}

@@ -25,7 +25,7 @@ NodePose poseFrom(double4x4 const& matrix) {
     NodePose pose{ .translation = double3(matrix[3]) };
     for (int axis = 0; axis < 3; ++axis) pose.scale[axis] = glm::length(axes[axis]);
     if (glm::determinant(axes) < 0) pose.scale.x = -pose.scale.x;
-    if (pose.scale.x == 0 || pose.scale.y == 0 || pose.scale.z == 0) return pose; // flat: no rotation is better
+    if (pose.scale.x == 0 || pose.scale.y == 0 || pose.scale.z == 0) return pose; // flat: any rotation is as good
     for (int axis = 0; axis < 3; ++axis) axes[axis] /= pose.scale[axis];
     const glm::dquat q = glm::normalize(glm::quat_cast(axes));
     pose.rotation = { q.x, q.y, q.z, q.w };
@@ -40,7 +40,7 @@ double4 slerp(double4 const& a, double4 const& b, double weight) {
     if (weight == 1) return target;
     const double angle = std::acos(std::min(std::abs(cosine), 1.0));
     const double sine = std::sin(angle);
-    if (sine < 1e-6) return a + (target - a) * weight; // so near that the arc is straight
+    if (sine < 1e-6) return a + (target - a) * weight; // so close that the arc is straight
     return a * (std::sin((1 - weight) * angle) / sine) + target * (std::sin(weight * angle) / sine);
 }
 

@@ -9,8 +9,8 @@ namespace {
 
 constexpr float kScale = 32767.0f;
 
-/// Shepperd 1978, "Quaternion from rotation matrix": divides by the largest of the four components, so that none of
-/// the others loses digits. Columns x, y, z are orthonormal and right-handed. Returns (x, y, z, w).
+/// Shepperd 1978, "Quaternion from rotation matrix": divides by the largest of the four components, so that the others
+/// lose no digits. Columns x, y, z are orthonormal and right-handed. Returns (x, y, z, w).
 float4 quaternionFromBasis(float3 x, float3 y, float3 z) {
     const float trace = x.x + y.y + z.z;
     if (trace >= std::max({ x.x, y.y, z.z })) {
@@ -48,11 +48,11 @@ float4 tangentFrameQuaternion(float3 normal, float3 tangent, float handedness, f
     const float3 z = normalizedOr(normal, float3(0, 0, 1));
     const float3 unit = normalizedOr(tangent, z);
     const float3 inPlane = unit - z * glm::dot(z, unit);
-    const bool isParallel = glm::dot(inPlane, inPlane) < 1e-8f; // what is left is rounding error
+    const bool isParallel = glm::dot(inPlane, inPlane) < 1e-8f; // only rounding error remains
     const float3 x = isParallel ? anyTangent(z) : normalizedOr(inPlane, anyTangent(z));
     float4 q = quaternionFromBasis(x, glm::cross(z, x), z);
     if (q.w < 0) q = -q;
-    if (q.w < leastW) { // stay a unit quaternion
+    if (q.w < leastW) { // keep it a unit quaternion
         q *= std::sqrt(1.0f - leastW * leastW);
         q.w = leastW;
     }

@@ -27,8 +27,8 @@ struct Triangle {
     bool isDegenerate = false;    ///< two corners in one place: no surface, takes its tangents from others
 };
 
-/// Mikkelsen 2008: vertices with equal bits in everything that enters the computation are one. Returns a representative
-/// for every input vertex.
+/// Mikkelsen 2008: vertices are merged if all inputs of the computation have equal bits. Returns a representative for
+/// every input vertex.
 std::vector<uint32_t> weldVertices(TangentInput const& input) {
     struct Key {
         float3 position, normal;
@@ -36,7 +36,7 @@ std::vector<uint32_t> weldVertices(TangentInput const& input) {
     };
     static_assert(sizeof(Key) == 32);
     const auto keyOf = [&](size_t i) {
-        // + 0 turns -0 into +0: they are the same place
+        // adding 0 turns -0 into +0: they are the same position
         return Key{ input.positions[i] + 0.0f, input.normals[i] + 0.0f, input.uvs[i] + 0.0f };
     };
     const size_t count = input.positions.size();
@@ -78,8 +78,9 @@ Triangle describeTriangle(TangentInput const& input, uint32_t const* corners) {
     return triangle;
 }
 
-/// For every corner c the corner of the neighbouring triangle that starts the shared edge (c, next of c) there, or
-/// kNone. An edge shared in opposite directions pairs two triangles, first come, first served; a third one stays alone.
+/// For each corner c: the corner of the neighbouring triangle at which the shared edge (c, next of c) starts there, or
+/// kNone. An edge used in opposite directions pairs two triangles in the order of the corners; a third triangle gets no
+/// partner.
 std::vector<uint32_t> findNeighbors(std::vector<uint32_t> const& vertices, std::vector<Triangle> const& triangles) {
     struct Edge {
         uint32_t low, high, corner;
@@ -95,13 +96,13 @@ std::vector<uint32_t> findNeighbors(std::vector<uint32_t> const& vertices, std::
         if (a.low != b.low) return a.low < b.low;
         return a.high != b.high ? a.high < b.high : a.corner < b.corner;
     });
-    std::vector<uint32_t> neighbors(vertices.size(), kNone), waiting; // edges of one run that look for a partner
+    std::vector<uint32_t> neighbors(vertices.size(), kNone), waiting; // edges of one run without a partner
     size_t oldest = 0;
     for (size_t i = 0; i < edges.size(); ++i) {
         const bool isNewRun = i == 0 || edges[i].low != edges[i - 1].low || edges[i].high != edges[i - 1].high;
         if (isNewRun) waiting.clear(), oldest = 0;
         const uint32_t corner = edges[i].corner;
-        // all that wait run in one direction: two that do not would have found each other
+        // all waiting edges have the same direction: opposite ones would have been paired
         if (oldest == waiting.size() || vertices[waiting[oldest]] == vertices[corner]) {
             waiting.push_back(corner);
             continue;
@@ -118,7 +119,7 @@ struct Groups {
     std::vector<bool> keepsOrientation;
 };
 
-/// Adds all corners that can be walked to from `seed`, around its vertex, without leaving its orientation.
+/// Adds all corners that can be reached from `seed` around its vertex within the same orientation.
 void growGroup(uint32_t seed, uint32_t group, std::vector<uint32_t> const& neighbors, std::vector<Triangle>& triangles,
                std::vector<bool>& isAdopted, Groups& groups, std::vector<uint32_t>& open) {
     const bool orientation = triangles[seed / kCorners].keepsOrientation;
@@ -134,13 +135,13 @@ void growGroup(uint32_t seed, uint32_t group, std::vector<uint32_t> const& neigh
         isAdopted[face] = true;
         groups.ofCorner[corner] = group;
         groups.corners.push_back(corner);
-        // the edge that leaves the vertex arrives at it in the neighbour, and the other way round
+        // the edge that leaves the vertex here arrives at it in the neighbour, and vice versa
         if (const uint32_t n = neighbors[corner]; n != kNone) open.push_back(nextCorner(n));
         if (const uint32_t n = neighbors[previousCorner(corner)]; n != kNone) open.push_back(n);
     }
 }
 
-/// Groups are seeded by triangles with a gradient; what those do not reach gets groups of its own afterwards.
+/// Groups start at triangles with a gradient; corners that those do not reach get groups of their own afterwards.
 Groups buildGroups(std::vector<uint32_t> const& neighbors, std::vector<Triangle>& triangles) {
     Groups groups;
     groups.ofCorner.assign(neighbors.size(), kNone);
@@ -166,7 +167,7 @@ float3 inPlane(float3 vector, float3 normal) {
     return normalizedOr(vector - normal * glm::dot(normal, vector), float3(0.0f));
 }
 
-/// The mean of the triangles' gradients in the plane of the normal, weighted by the angle of the corner in that plane.
+/// The mean of the triangles' gradients in the plane of the normal, weighted by the corner angles in that plane.
 float4 groupTangent(uint32_t group, TangentInput const& input, Groups const& groups,
                     std::vector<uint32_t> const& vertices, std::vector<Triangle> const& triangles) {
     const std::span<const uint32_t> corners(groups.corners.data() + groups.firstCorner[group],
@@ -185,7 +186,7 @@ float4 groupTangent(uint32_t group, TangentInput const& input, Groups const& gro
     return float4(normalizedOr(sum, anyTangent(normal)), groups.keepsOrientation[group] ? 1.0f : -1.0f);
 }
 
-/// A corner of a degenerate triangle joins a group of the same welded vertex, if there is one.
+/// A corner of a degenerate triangle joins a group of the same merged vertex, if there is one.
 void adoptDegenerateCorners(std::vector<uint32_t> const& vertices, Groups& groups) {
     std::vector<uint32_t> groupOfVertex(vertices.empty() ? 0 : *std::max_element(vertices.begin(), vertices.end()) + 1,
                                         kNone);
@@ -197,11 +198,11 @@ void adoptDegenerateCorners(std::vector<uint32_t> const& vertices, Groups& group
     }
 }
 
-/// All corners, those of one group behind each other; corners without a group come last.
+/// All corners, grouped; corners without a group come last.
 std::vector<uint32_t> cornersByGroup(Groups const& groups) {
     const size_t groupCount = groups.keepsOrientation.size();
     const auto bucketOf = [&](uint32_t group) { return group == kNone ? groupCount : group; };
-    std::vector<uint32_t> next(groupCount + 2, 0); // where the next corner of a bucket goes
+    std::vector<uint32_t> next(groupCount + 2, 0); // the next free place of each bucket
     for (const uint32_t group : groups.ofCorner) ++next[bucketOf(group) + 1];
     for (size_t i = 1; i < next.size(); ++i) next[i] += next[i - 1];
     std::vector<uint32_t> ordered(groups.ofCorner.size());
@@ -209,19 +210,19 @@ std::vector<uint32_t> cornersByGroup(Groups const& groups) {
     return ordered;
 }
 
-/// Step 5: the first group of an input vertex keeps its number, others get copies at the end.
+/// Step 5: the first group of an input vertex keeps its index, other groups get copies at the end.
 TangentOutput splitVertices(TangentInput const& input, Groups const& groups, std::vector<float4> const& groupTangents) {
     TangentOutput output;
     const size_t count = input.positions.size();
     for (uint32_t i = 0; i < count; ++i) {
         output.sources.push_back(i);
-        output.tangents.emplace_back(anyTangent(input.normals[i]), 1.0f); // of vertices that no triangle uses
+        output.tangents.emplace_back(anyTangent(input.normals[i]), 1.0f); // for vertices that no triangle uses
     }
     output.indices.assign(input.indices.begin(), input.indices.end());
-    std::vector<uint32_t> lastGroup(count, kNone), outputVertex(count); // of each input vertex, in the current group
+    std::vector<uint32_t> lastGroup(count, kNone), outputVertex(count); // per input vertex, in this group
     for (const uint32_t corner : cornersByGroup(groups)) {
         const uint32_t group = groups.ofCorner[corner], vertex = input.indices[corner];
-        if (group == kNone) break; // the rest keeps its vertices as they are
+        if (group == kNone) break; // the rest keeps its vertices
         if (lastGroup[vertex] != group) {
             const bool isFirst = lastGroup[vertex] == kNone;
             outputVertex[vertex] = isFirst ? vertex : static_cast<uint32_t>(output.sources.size());

@@ -18,7 +18,7 @@ std::unique_ptr<ChannelTransfer> makeTransfer(double (*linearFromUnit)(double)) 
     }
     size_t code = 0;
     for (size_t linear = 0; linear < 65536; ++linear) {
-        // twice the middle between two codes, so that it is an integer
+        // twice the midpoint between two codes, so that it is an integer
         while (code < 255 && 2 * linear > size_t{ transfer->linearFromCode[code] } + transfer->linearFromCode[code + 1])
             ++code;
         transfer->codeFromLinear[linear] = static_cast<uint8_t>(code);

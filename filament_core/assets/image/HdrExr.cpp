@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenEXR, single-part scan lines. "Technical Introduction to OpenEXR" and "OpenEXR File Layout" (openexr.com).
-// The container and the usual compressions are read here, because libtinyexr leaks, and asserts, on damaged files;
-// PIZ, whose wavelet is worth a library, goes to it after the container has been checked.
+// The container and the usual compressions are read here, because libtinyexr leaks memory and asserts on damaged files.
+// PIZ, whose wavelet is worth a library, is left to libtinyexr once the container has been checked.
 #include "base/math/Half.h"
 #include "filament_core/assets/image/HdrDecoders.h"
 
@@ -25,11 +25,11 @@ struct Channel {
 };
 
 struct ExrHeader {
-    std::vector<Channel> channels; // in the order of the file: alphabetical
+    std::vector<Channel> channels; // in file order: alphabetical
     Compression compression = Compression::Count;
     int32_t minX = 0, minY = 0;
     uint32_t width = 0, height = 0;
-    std::array<size_t, 3> source{}; // channels of red, green, blue
+    std::array<size_t, 3> source{}; // channels that provide red, green and blue
 
     uint32_t rowsPerChunk() const {
         return compression == Compression::Zip ? 16 : compression == Compression::Piz ? 32 : 1;
@@ -89,7 +89,7 @@ Result<void> parseAttribute(std::string_view name, std::span<const std::byte> va
     return {};
 }
 
-// R, G, B wherever they stand; a lone luminance channel Y serves all three.
+// R, G and B, in any position; a lone luminance channel Y serves all three.
 Result<void> chooseChannels(ExrHeader& header) {
     constexpr std::array<std::string_view, 3> kNames{ "R", "G", "B" };
     for (size_t i = 0; i < 3; ++i) {
@@ -167,7 +167,7 @@ void undoPredictor(std::span<std::byte> bytes, std::vector<std::byte>& scratch) 
     for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = scratch[(i & 1) ? half + i / 2 : i / 2];
 }
 
-// A chunk that compression would not make smaller is stored as it is.
+// A chunk that compression would not make smaller is stored uncompressed.
 bool unpackChunk(Compression compression, std::span<const std::byte> packed, std::span<std::byte> out,
                  std::vector<std::byte>& scratch) {
     if (packed.size() == out.size()) {
@@ -191,7 +191,7 @@ float readSample(const std::byte* at, PixelType type) {
     return value;
 }
 
-// One row holds all samples of the first channel, then all of the second, ...
+// One row contains all samples of the first channel, then all of the second, ...
 void readRow(ExrHeader const& header, const std::byte* row, std::span<float3> pixels) {
     for (size_t component = 0; component < 3; ++component) {
         size_t offset = 0;
@@ -208,7 +208,7 @@ struct Chunk {
     std::span<const std::byte> packed;
 };
 
-// The offset table gives each chunk's place; each chunk says its first row and its size.
+// The offset table gives the position of each chunk; each chunk states its first row and its size.
 Result<std::vector<Chunk>> findChunks(std::span<const std::byte> file, ByteCursor cursor, ExrHeader const& header) {
     const uint32_t rows = header.rowsPerChunk();
     const uint32_t count = (header.height + rows - 1) / rows;
@@ -254,7 +254,7 @@ struct TinyExrHeader {
     ~TinyExrHeader() { FreeEXRHeader(&value); }
 };
 
-// The library frees, or loses, the planes itself when it fails: freeing them then would be the second time.
+// If the library fails, it frees (or leaks) the planes itself; freeing them here would be a double free.
 Result<HdrImage> decodeWithTinyExr(ExrHeader const& header, std::span<const std::byte> bytes) {
     const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
     EXRVersion version{};

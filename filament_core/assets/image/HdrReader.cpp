@@ -80,7 +80,7 @@ Result<HdrImage> decodeHdrImage(std::span<const std::byte> bytes, std::string_vi
 } catch (std::bad_alloc const&) {
     return fail(ErrorCode::OutOfMemory, "cannot decode '{}': not enough memory; {}", name,
                 cureOf(ErrorCode::OutOfMemory));
-} catch (std::exception const& exception) { // out of a library's parser: std::out_of_range and the like
+} catch (std::exception const& exception) { // thrown by a library's parser: std::out_of_range etc.
     return fail(ErrorCode::Corrupt, "cannot decode '{}': {}; {}", name, exception.what(), cureOf(ErrorCode::Corrupt));
 }
 

@@ -36,7 +36,8 @@ std::string_view nextWord(std::string_view& line) {
     return word;
 }
 
-// "-Y 512 +X 1024": rows from the top, pixels from the left. Column-major orders exist in the format, not in the wild.
+// "-Y 512 +X 1024": rows from the top, pixels from the left. The format allows column-major orders, but nobody uses
+// them.
 Result<RgbeHeader> parseResolution(std::string_view line, RgbeHeader header) {
     const std::string_view rows = nextWord(line), height = nextWord(line);
     const std::string_view columns = nextWord(line), width = nextWord(line);
@@ -75,7 +76,7 @@ Result<RgbeHeader> parseHeader(ByteCursor& cursor) {
     return fail(ErrorCode::Corrupt, "its header has no end");
 }
 
-// One component of a scan line in the run-length form of 1991: a count above 128 repeats, one below copies.
+// One component of a scan line in the run-length encoding of 1991: a count above 128 repeats, a smaller one copies.
 bool readComponent(ByteCursor& cursor, std::vector<Rgbe>& row, size_t component) {
     for (size_t x = 0; x < row.size();) {
         const auto code = cursor.read<uint8_t>();
@@ -95,7 +96,7 @@ bool readComponent(ByteCursor& cursor, std::vector<Rgbe>& row, size_t component)
     return true;
 }
 
-// Flat pixels; (1, 1, 1, n) repeats the pixel before, and repeats that follow each other shift n by 8 bits each.
+// Flat pixels; (1, 1, 1, n) repeats the previous pixel, and consecutive repeats shift n by 8 bits each.
 bool readFlatRow(ByteCursor& cursor, std::vector<Rgbe>& row) {
     uint32_t shift = 0;
     for (size_t x = 0; x < row.size();) {
@@ -155,7 +156,7 @@ Result<HdrImage> decodeRgbe(std::span<const std::byte> bytes) {
     if (!header) return header.error();
     HdrImage image{ .width = header->width, .height = header->height, .pixels = {}, .repairs = {} };
     std::vector<Rgbe> row(image.width);
-    for (uint32_t y = 0; y < image.height; ++y) { // memory grows with the rows that are really there
+    for (uint32_t y = 0; y < image.height; ++y) { // memory grows only with the rows that exist
         if (!readRow(cursor, row)) {
             if (cursor.remaining() == 0) return truncated();
             return fail(ErrorCode::Corrupt, "the run lengths of row {} do not fit its width", y);

@@ -21,7 +21,7 @@ namespace {
 
 constexpr uint64_t kMaxPngPixels = uint64_t(1) << 28; // 1 GiB of RGBA8
 
-// libpng's simplified interface keeps setjmp inside of the library; png_image_free() is harmless when called twice.
+// libpng's simplified interface handles setjmp internally; calling png_image_free() twice is harmless.
 struct PngImage {
     png_image value{};
     PngImage() { value.version = PNG_IMAGE_VERSION; }
@@ -33,13 +33,13 @@ Error pngFailure(std::filesystem::path const& path, const char* verb, PngImage c
                 static_cast<const char*>(png.value.message));
 }
 
-// One plane of tightly packed samples, by name.
+// A named plane of tightly packed samples.
 struct Plane {
     char name;
     std::vector<std::byte> samples;
 };
 
-// OpenEXR wants planes in alphabetical order; `planes` is.
+// OpenEXR requires planes in alphabetical order; `planes` is sorted.
 Result<void> writePlanes(std::filesystem::path const& path, uint32_t width, uint32_t height, std::span<Plane> planes,
                          int pixelType) {
     EXRHeader header;
@@ -84,7 +84,8 @@ void append(std::vector<std::byte>& bytes, T value) {
 
 using Rgbe = std::array<uint8_t, 4>;
 
-// The largest component picks the exponent. Mantissas are rounded, because readers do not add Radiance's half step.
+// The largest component determines the exponent. Mantissas are rounded, because readers do not add Radiance's half
+// step.
 Rgbe rgbeOf(float3 color) {
     const float3 light = glm::max(color, float3(0.0f));
     const float largest = std::max({ light.x, light.y, light.z });
@@ -96,7 +97,7 @@ Rgbe rgbeOf(float3 color) {
     return { mantissa(light.x), mantissa(light.y), mantissa(light.z), static_cast<uint8_t>(exponent + 128) };
 }
 
-// Runs of at least 4 are repeated, everything between is copied, 127 and 128 bytes at a time.
+// Runs of at least 4 are repeated; everything else is copied. At most 127 and 128 bytes at a time.
 void appendRuns(std::vector<std::byte>& out, std::span<const uint8_t> values) {
     const auto runAt = [&](size_t i) {
         size_t end = i + 1;
@@ -121,7 +122,7 @@ void appendRuns(std::vector<std::byte>& out, std::span<const uint8_t> values) {
 void appendHdrRow(std::vector<std::byte>& out, std::span<const float3> row) {
     std::vector<Rgbe> pixels(row.size());
     std::ranges::transform(row, pixels.begin(), rgbeOf);
-    if (row.size() < 8 || row.size() >= 32768) { // the run-length form cannot say such widths
+    if (row.size() < 8 || row.size() >= 32768) { // run-length encoding cannot express such widths
         for (Rgbe const& pixel : pixels) append(out, pixel);
         return;
     }
@@ -144,7 +145,7 @@ Result<void> writePng(std::filesystem::path const& path, uint32_t width, uint32_
     png.value.height = height;
     png.value.format = PNG_FORMAT_RGBA;
     png.value.flags = PNG_IMAGE_FLAG_FAST;
-    // Filters and headers can make noise larger than it was: the bound comes from libpng.
+    // Filters and headers can make noise larger than the input, so the bound comes from libpng.
     png_alloc_size_t size = PNG_IMAGE_PNG_SIZE_MAX(png.value);
     std::vector<std::byte> bytes(size);
     if (!png_image_write_to_memory(&png.value, bytes.data(), &size, 0, rgba8.data(), 0, nullptr)) {

@@ -42,7 +42,7 @@ void encodeLevel(Level const& level, Encoding const& encoding, std::byte* codes)
     }
 }
 
-/// Two rows to one, both sizes even: the plain mean of four. The compiler makes vector code of it.
+/// Two rows to one, both sizes even: the plain mean of four. The compiler vectorises it.
 void halveRows(uint16_t const* row0, uint16_t const* row1, uint32_t width, uint16_t* out) {
     for (uint32_t x = 0; x < width; ++x) {
         for (uint32_t c = 0; c < kChannels; ++c) {
@@ -53,13 +53,13 @@ void halveRows(uint16_t const* row0, uint16_t const* row1, uint32_t width, uint1
     }
 }
 
-/// The source texels that output texel `i` covers, and how much of each; weights sum to 1.
+/// The source texels that output texel `i` covers, and their weights, which sum to 1.
 struct Taps {
     uint32_t first = 0, count = 1;
     std::array<float, 3> weights{ 1, 0, 0 };
 };
 
-/// n texels become m = max(1, n / 2): texel i covers [i n / m, (i + 1) n / m). Of an odd n = 2m + 1 it touches three.
+/// n texels become m = max(1, n / 2): texel i covers [i n / m, (i + 1) n / m). For an odd n = 2m + 1 it touches three.
 Taps tapsOf(uint32_t i, uint32_t sourceSize) {
     if (sourceSize == 1) return {};
     if (sourceSize % 2 == 0) return { 2 * i, 2, { 0.5f, 0.5f, 0 } };
@@ -71,7 +71,7 @@ Taps tapsOf(uint32_t i, uint32_t sourceSize) {
                static_cast<float>(i + 1) / total } };
 }
 
-/// Any sizes: weighted means over up to 3 x 3 texels. `row(y)` gives row y of the source.
+/// For any sizes: weighted means over up to 3 x 3 texels. `row(y)` returns row y of the source.
 template <class Row>
 void resampleRow(Row const& row, uint32_t y, uint32_t sourceWidth, uint32_t sourceHeight, uint32_t width,
                  uint16_t* out) {
@@ -93,7 +93,7 @@ void resampleRow(Row const& row, uint32_t y, uint32_t sourceWidth, uint32_t sour
     }
 }
 
-/// `row(y)` gives row y of the source; the last three that it gave stay valid.
+/// `row(y)` returns row y of the source; the last three rows returned stay valid.
 template <class Row>
 Level halve(uint32_t sourceWidth, uint32_t sourceHeight, Row const& row) {
     Level level{ std::max(1u, sourceWidth / 2), std::max(1u, sourceHeight / 2), {} };
@@ -110,7 +110,7 @@ Level halve(uint32_t sourceWidth, uint32_t sourceHeight, Row const& row) {
     return level;
 }
 
-/// Level 1 from `codes`, an 8-bit level 0, decoding three rows at a time.
+/// Computes level 1 from `codes`, an 8-bit level 0, decoding three rows at a time.
 Level halveCodes(std::byte const* codes, uint32_t width, uint32_t height, Encoding const& encoding) {
     std::array<std::vector<uint16_t>, 3> decoded;
     for (auto& row : decoded) row.resize(size_t{ width } * kChannels);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The only translation unit with stb_image in it, compiled as static functions: other libraries carry their own copy.
+// The only translation unit that contains stb_image, as static functions: other libraries have their own copies.
 #include "filament_core/assets/image/StbImage.h"
 
 #include <cstring>

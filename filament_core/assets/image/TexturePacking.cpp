@@ -12,7 +12,7 @@ namespace {
 
 constexpr size_t kChannels = 4, kAlpha = 3;
 
-/// Between texels `first` and `second`: weight / total of the second.
+/// Between texels `first` and `second`, with weight / total of the second.
 struct Tap {
     uint32_t first = 0, second = 0;
     uint64_t weight = 0, total = 1;
@@ -20,7 +20,7 @@ struct Tap {
     uint64_t blend(uint64_t a, uint64_t b) const { return (a * (total - weight) + b * weight + total / 2) / total; }
 };
 
-/// Where the centre of texel i of `size` lies among `sourceSize` texels.
+/// The position of the centre of texel i of `size` among `sourceSize` texels.
 Tap tapOf(uint32_t i, uint32_t size, uint32_t sourceSize) {
     const uint64_t total = 2 * uint64_t{ size };
     const uint64_t scaled = (2 * uint64_t{ i } + 1) * sourceSize; // in units of 1 / total, from the edge

@@ -20,7 +20,8 @@ struct Node {
     float x = 0, weight = 0;
 };
 
-// Ways along [0, 1]: slow where an integrand ends like a root, or all but has a pole. Nodes are weighted by the speed.
+// Substitutions on [0, 1] that are slow where an integrand behaves like a root or nearly has a pole. Nodes are weighted
+// by the speed.
 struct Step {
     double x = 0, speed = 1;
 };
@@ -45,13 +46,13 @@ std::vector<Node> azimuths(int count) {
     return nodes;
 }
 
-/// The half vectors that v sees and that reflect light from above the surface, weighted as v sees them.
-///
-/// Heitz 2018, "Sampling the GGX Distribution of Visible Normals": facets squeezed by alpha along the surface are those
-/// of a hemisphere, of which v' = normalize(alpha v.x, alpha v.y, v.z) sees each by its cosine; the whole is
-/// pi (1 + v'.z) / 2. Of these h' = (cos b sin a, sin b, cos b cos a): a turns about the axis across the plane of
-/// incidence, b leaves this plane, and the cosine times the solid angle is cos(b)^2 cos(a - angle of v') da db.
-/// So written, the horizon n.l = 2 (v.h) (n.h) - n.v = 0 has a closed form in both angles, and nothing is searched for.
+/// The half vectors that are visible from v and reflect light from above the surface, weighted by their visibility.
+/// Heitz 2018, "Sampling the GGX Distribution of Visible Normals": if facets are squeezed by alpha along the surface,
+/// they form a hemisphere, and v' = normalize(alpha v.x, alpha v.y, v.z) sees each of them by its cosine; together that
+/// is pi (1 + v'.z) / 2. Write its directions as h' = (cos b sin a, sin b, cos b cos a): a is the rotation about the
+/// axis perpendicular to the plane of incidence, b the angle with this plane, and the cosine times the solid angle is
+/// cos(b)^2 cos(a - angle of v') da db. In this form the horizon n.l = 2 (v.h) (n.h) - n.v = 0 has a closed form in
+/// both angles, so nothing is searched for.
 class VisibleHalfVectors {
 public:
     VisibleHalfVectors(float nov, float alpha)
@@ -61,7 +62,7 @@ public:
         mStretched = float2(alpha * mSine, nov) / length;
     }
 
-    /// Calls visit(voh, nol, weight) for each; the weights are those of a mean.
+    /// Calls visit(voh, nol, weight) for each; the weights sum to those of a mean.
     template <class Visit>
     void forEach(Visit const& visit) const {
         static const std::vector<Node> sTurns = nodesAlong(16, slowAtBothEnds);
@@ -80,7 +81,7 @@ private:
         const float voh = mSine * inPlane.x + mNov * inPlane.y;
         const float excess = 2 * voh * inPlane.y - mNov; // n.l of the half vector in the plane
         if (excess <= 0) return;
-        // tan(b) at the horizon, and tan(b / 2), in which sine and cosine are quotients
+        // tan(b) at the horizon, and tan(b / 2), of which sine and cosine are quotients
         const float horizon = std::sqrt(excess / mNov) * length / mAlpha;
         const float last = horizon / (1 + std::sqrt(1 + horizon * horizon));
         const float measure = weight * mSpan * (cosine * mStretched.y + sine * mStretched.x) * last *
@@ -96,12 +97,12 @@ private:
     }
 
     float mNov, mSine, mAlpha;
-    float mFirst, mSpan; // of a: h is within 45 degrees of half the angle between v and the normal
+    float mFirst, mSpan; // range of a: h is within 45 degrees of half the angle between v and the normal
     float2 mStretched{}; // sine and cosine of v'
 };
 
-/// A lobe of fibres, ndf(noh) Neubelt's V n.l, over all light directions: as wide as the hemisphere. Half the circle is
-/// the mirror image of the other.
+/// A lobe of fibres, ndf(noh) times Neubelt's V n.l, integrated over all light directions, because it is as wide as the
+/// hemisphere. By symmetry, half of the circle suffices.
 template <class Ndf>
 float fibreAlbedo(float nov, Ndf const& ndf) {
     static const std::vector<Node> sHeights = nodesAlong(16, slowAtZero), sAzimuths = azimuths(12);
@@ -121,7 +122,7 @@ float fibreAlbedo(float nov, Ndf const& ndf) {
 
 } // namespace
 
-// Heitz' estimator: of what v sees of the facets, V 4 nol nov / G1 is lit.
+// Heitz' estimator: the fraction V 4 nol nov / G1 of the facets visible from v is lit.
 float2 integrateDfg(float nov, float alpha) {
     const float a2 = alpha * alpha;
     const float masking = 2 * nov / (nov + std::sqrt(a2 + (1 - a2) * nov * nov));

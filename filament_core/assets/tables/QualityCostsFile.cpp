@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cost tables as JSON: read with a reason for everything that is refused, written with one value a line.
+// Cost tables as JSON: reading names a reason for everything that is refused, writing puts one value on a line.
 #include "base/Suggest.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/files/JsonTree.h"
@@ -18,7 +18,7 @@ namespace {
 using assets::Diagnostics;
 using assets::JsonNode;
 
-// Beyond what qualityChoices() lists; they bound the work of reading and choosing.
+// Limits beyond those of qualityChoices(): they bound the work of reading and choosing.
 constexpr size_t kMaxEffects = 64, kMaxValues = 16;
 constexpr double kMaxError = 100, kMinMilliseconds = 1e-6, kMaxMilliseconds = 1e6, kMaxSide = 65536;
 constexpr double kMaxRatio = kMaxMilliseconds / kMinMilliseconds;
@@ -44,7 +44,7 @@ QualityCost::Time readTime(JsonNode const& value, const char* key) {
     const JsonNode interval = value["interval"][key];
     std::array<double, 2> ratios{ 1, 1 };
     if (!interval.numbers(ratios)) {
-        time.lowRatio = time.highRatio = 0; // none was measured: readEffect() puts the ratio itself
+        time.lowRatio = time.highRatio = 0; // not measured: readEffect() fills in the ratio itself
         return time;
     }
     if (!(ratios[0] > 0 && ratios[0] <= ratios[1] && ratios[1] <= kMaxRatio)) {
@@ -71,7 +71,7 @@ QualityCost readValue(JsonNode const& node, std::string const& choice) {
     return cost;
 }
 
-/// Where no interval was measured, the ratio is taken at its word.
+/// Without a measured interval, the ratio counts as exact.
 void fillIntervals(QualityEffect& effect, QualityCost const& standard) {
     for (QualityCost& cost : effect.values) {
         for (auto const& [backend, key] : kBackends) {
@@ -132,7 +132,7 @@ void readEffects(JsonNode const& node, QualityCosts& costs) {
     }
 }
 
-/// A backend was measured for every value or for none.
+/// A backend must be measured for every value or for none.
 void checkBackends(QualityCosts const& costs, Diagnostics& diagnostics) {
     size_t complete = 0;
     for (auto const& [backend, key] : kBackends) {

@@ -15,7 +15,7 @@ using assets::AnimationChannel;
 using assets::AnimationPath;
 using assets::NodePose;
 
-/// What animations move of the nodes of a model.
+/// The parts of a model's nodes that animations move.
 struct Pose {
     std::vector<NodePose> nodes;              ///< by node of the model
     std::vector<std::vector<double>> weights; ///< of morph targets; empty where there are none
@@ -53,7 +53,7 @@ void apply(AnimationChannel const& channel, assets::AnimationSampler const& samp
     if (channel.path == AnimationPath::Scale) node.scale = { v[0], v[1], v[2] };
 }
 
-/// The node handles of a copy, in the order of the model's nodes: Scene::add() made children in that order.
+/// The node handles of a copy, in the order of the model's nodes, because Scene::add() created children in that order.
 std::vector<Node> nodesOfCopy(Model::Impl const& model, scene::Transforms const& transforms, Node root) {
     std::vector<Node> nodes, nextChild;
     Node nextOfRoot = transforms.firstChild(root);
@@ -85,7 +85,7 @@ struct Animator::Impl {
         }
     }
 
-    /// `pose` becomes what lies between it and `other`.
+    /// Blends `pose` with `other`.
     void mix(double weight) {
         for (size_t i = 0; i < nodes.size(); ++i) {
             if (pose.movesNode[i] || other.movesNode[i]) {

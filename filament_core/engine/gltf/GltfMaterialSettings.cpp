@@ -42,13 +42,13 @@ const char* familyOf(MaterialData const& material) {
     return hasLayers(material) ? "gltf_layered" : "gltf_lit";
 }
 
-// Occlusion in red, roughness and metallic of the same texture: the usual packing. One fetch serves both.
+// Occlusion in red, roughness and metallic in the same texture: the usual packing. One fetch serves both.
 bool sharesTexel(TextureRef const& a, TextureRef const& b) {
     return a.image != kNone && a.image == b.image && a.sampler == b.sampler && a.uvSet == b.uvSet &&
            a.uvTransform == b.uvTransform;
 }
 
-/// Collects the settings of one material; what is absent leaves no trace.
+/// Collects the settings of one material; missing properties leave no trace.
 class Settings {
 public:
     Settings(std::string package, size_t maxMaps) : mMaxMaps(maxMaps) { mSettings.package = std::move(package); }

@@ -16,7 +16,7 @@ std::string keyOf(GltfMaterialSettings const& settings) {
     return key;
 }
 
-// The engine's own packages know their parameters: a failure is a defect of GltfMaterialSettings.
+// The engine's own packages have these parameters: a failure is a defect of GltfMaterialSettings.
 void require(Result<void> const& result) {
     if (!result) log(Severity::Error, "{}", result.error().message);
     FILAMENT_ASSERT(result.ok(), "the glTF materials have the parameters that GltfMaterialSettings names");
@@ -26,13 +26,13 @@ void require(Result<void> const& result) {
 
 size_t GltfMaterials::maxMaps() const {
     const uint32_t ofEngine = shader::samplerCount(shader::passGroupLayout(shader::PassKind::Lit));
-    return mEngine.stream->info().limits.maxTextureUnits - ofEngine; // never below 16 in all
+    return mEngine.stream->info().limits.maxTextureUnits - ofEngine; // a device has at least 16 in all
 }
 
 Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
     Material& shared = mMaterials[keyOf(settings)];
     if (!shared) {
-        mModel.materials.push_back({}); // whoever makes something here has already a place for it
+        mModel.materials.push_back({}); // reserve the entry before the object exists
         auto created = mEngine.createMaterial(
                 { mEngine.enginePackage(settings.package), settings.constants, settings.package });
         if (!created) log(Severity::Error, "{}", created.error().message);

@@ -20,7 +20,7 @@ using assets::kNone;
 using assets::ModelData;
 using assets::PrimitiveData;
 
-/// Uploads one ModelData and places its meshes: each step fills a part of the Model.
+/// Uploads one ModelData and places its meshes; each step fills a part of the Model.
 class ModelBuilder {
 public:
     ModelBuilder(Engine& engine, ModelData const& data)
@@ -50,7 +50,7 @@ private:
 
     void uploadImages() {
         for (assets::Image const& image : mData.images) {
-            mModel->textures.push_back({}); // whoever makes something here has already a place for it
+            mModel->textures.push_back({}); // reserve the entry before the object exists
             mModel->textures.back() = mEngine.createTexture({ .format = image.format,
                                                               .width = image.width,
                                                               .height = image.height,
@@ -64,7 +64,7 @@ private:
         for (assets::MeshData const& mesh : mData.meshes) {
             std::vector<Part>& parts = mMeshes.emplace_back();
             for (PrimitiveData const& primitive : mesh.primitives) {
-                // In the order of the meshes, which the order of draws follows.
+                // In the order of the meshes, which determines the order of draws.
                 if (!materialOf(primitive.material).transmission.isSolid())
                     instanceFor(primitive.material, primitive.hasColor, double4x4(1.0));
                 parts.push_back({ upload(primitive, mesh.name),
@@ -128,7 +128,7 @@ private:
             if (node.mesh != kNone) placeMesh(node, i);
             if (node.light != kNone) mModel->lights.push_back({ lightOf(mData.lights[node.light]), i });
         }
-        // Behind the nodes of the file, whose parents are numbers.
+        // After the nodes of the file, whose parents are indices.
         for (Model::Impl::PartNode& node : mScalingNodes) mModel->nodes.push_back(std::move(node));
     }
 
@@ -147,7 +147,7 @@ private:
         }
     }
 
-    /// Positions that fill a unit cube hang at a node of their own, which makes them as large as they are.
+    /// Positions scaled to a unit cube get a node of their own that restores their size.
     void placePart(Part const& part, uint32_t node, double4x4 const& worldFromNode) {
         growBounds(part.restBounds, worldFromNode);
         uint32_t at = node;
@@ -171,7 +171,7 @@ private:
         return index == kNone ? defaultMaterial : mData.materials[index];
     }
 
-    /// One a material, with and without vertex colours, and where it has a volume one a size of it.
+    /// One per material, with and without vertex colours; if the material has a volume, also one per scale.
     MaterialInstance instanceFor(uint32_t index, bool hasColor, double4x4 const& worldFromNode) {
         assets::MaterialData const& material = materialOf(index);
         const float scale = material.transmission.isSolid() ? scaleOf(worldFromNode) : 1.0f;
@@ -180,8 +180,8 @@ private:
         return instance;
     }
 
-    /// KHR_materials_volume: a thickness is in the space of the mesh, and grows with its nodes. Of different scales
-    /// along the axes the geometric mean: that of a volume.
+    /// KHR_materials_volume: a thickness is in the space of the mesh and scales with its nodes. For a non-uniform
+    /// scale, the geometric mean preserves the volume.
     static float scaleOf(double4x4 const& worldFromNode) {
         return static_cast<float>(std::cbrt(std::abs(glm::determinant(double3x3(worldFromNode)))));
     }
@@ -200,7 +200,7 @@ private:
         mModel->bounds.max = glm::max(mModel->bounds.max, center + half);
     }
 
-    // KHR_lights_punctual: at the origin of its node, along -Z.
+    // KHR_lights_punctual: at the origin of its node, shining along -Z.
     static std::variant<SunLight, PointLight, SpotLight> lightOf(assets::LightData const& light) {
         const double3 position(0.0);
         const float3 direction(0, 0, -1);
@@ -226,7 +226,7 @@ private:
     std::unique_ptr<Model::Impl> mModel;
     GltfMaterials mMaterials;
     std::map<std::tuple<uint32_t, bool, float>, MaterialInstance> mInstances;
-    std::vector<std::vector<Part>> mMeshes; // by mesh of the file, one an own primitive
+    std::vector<std::vector<Part>> mMeshes; // by mesh of the file, one per primitive
     std::vector<Model::Impl::PartNode> mScalingNodes;
 };
 
@@ -236,7 +236,7 @@ Model::Impl::~Impl() {
     Engine& owner = Engine::of(engine);
     const auto destroyAll = [&](auto const& objects) {
         for (auto object : objects) {
-            if (object) owner.destroy(object); // none: memory ran out while the model was loaded
+            if (object) owner.destroy(object); // null: memory ran out while the model was loaded
         }
     };
     destroyAll(instances);
@@ -297,7 +297,7 @@ Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path 
     auto data = assets::loadGltf(path, engine.impl().jobs, loaderOptions);
     if (!data) return data.error();
     std::unique_ptr<Model::Impl> model = ModelBuilder(engine, *data).build();
-    engine.impl().flush(); // the driver thread uploads while the caller goes on
+    engine.impl().flush(); // the driver thread uploads while the caller continues
     return model;
 }
 

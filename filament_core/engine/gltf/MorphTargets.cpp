@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Morph targets: differences of vertices -> a texture that the vertex stage fetches from.
+// Morph targets: vertex deltas -> a texture that the vertex stage fetches from.
 #include "backend/stream/RecordingGuards.h"
 #include "filament_core/engine/EngineImpl.h"
 
@@ -11,7 +11,7 @@ namespace {
 
 bool isFinite(float3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
-/// How many of position, normal and tangent the targets have, one after the other.
+/// How many of position, normal and tangent the targets have, in this order.
 uint32_t texelsOf(MorphTargetsDesc const& desc) {
     uint32_t texels = 1;
     for (MorphTargetDesc const& target : desc.targets) {
@@ -27,7 +27,7 @@ void checkTarget(MorphTargetDesc const& target, uint32_t vertexCount) {
                     "a morph target has one difference for each vertex, or none");
 }
 
-/// The texels in the order of shader::kMorphTextureWidth, the last row filled up.
+/// The texels in the order of shader::kMorphTextureWidth; the last row is padded.
 std::vector<float4> texelsFrom(MorphTargetsDesc const& desc, uint32_t texels, uint32_t width) {
     const size_t used = desc.targets.size() * desc.vertexCount * texels;
     std::vector<float4> out((used + width - 1) / width * width, float4(0.0f));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What renderables look like: their materials, one by one or by the variants of their model.
+// The materials of renderables: set one by one, or by the variants of their model.
 #include "filament_core/assets/gltf/ModelVariants.h"
 #include "filament_core/engine/SceneImpl.h"
 #include "filament_core/engine/gltf/ModelImpl.h"

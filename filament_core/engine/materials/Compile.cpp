@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engine::compile(): which programs and pipelines a material may need, as wishes for the compile queue.
+// Engine::compile(): turns the programs and pipelines that a material may need into wishes for the compile queue.
 #include "base/OutOfMemory.h"
 #include "filament_core/engine/EngineImpl.h"
 
@@ -16,7 +16,7 @@ constexpr uint32_t kJointsAttribute = static_cast<uint32_t>(Attribute::Joints);
 
 constexpr uint16_t bitsOf(VariantSet variants) { return static_cast<uint16_t>(variants); }
 
-/// Keys of the package within the set; how exactly they are computed follows from the pass.
+/// Keys of the package that are in the set. The precision is not part of the set; it follows from the pass.
 Result<std::vector<uint8_t>> variantKeys(scene::Material const& material, VariantSet wanted) {
     shader::MaterialPackage const& package = material.package;
     if (wanted != VariantSet::All && (bitsOf(wanted) & package.filteredVariants) != 0)
@@ -35,7 +35,7 @@ bool hasJoints(scene::GeometryLayout const& layout) {
     return std::ranges::count(attributes, kJointsAttribute, &backend::VertexAttribute::location) > 0;
 }
 
-/// One state for each way in which the instances draw, that of a new instance at least.
+/// One state for each distinct raster state of the instances, and at least that of a new instance.
 std::vector<scene::MaterialInstance> instanceStates(Engine::Impl& engine, scene::Material& material) {
     std::vector<scene::MaterialInstance> states;
     const auto add = [&](scene::InstanceRaster const& raster) {
@@ -68,7 +68,7 @@ std::span<const DrawPass> passesOf(scene::Material const& material) {
     return material.hasTwoPasses() ? std::span<const DrawPass>(kTwo) : std::span<const DrawPass>(kOne);
 }
 
-/// What a wish is made of, besides pass and variant.
+/// The parts of a wish besides pass and variant.
 struct Shapes {
     std::vector<uint16_t> layouts;
     uint16_t stateCount = 0;
@@ -90,10 +90,10 @@ void addPipelines(CompileJob& job, Engine::Impl const& engine, Shapes const& sha
     }
 }
 
-/// Programs first: the first pipelines then wait for nothing else.
+/// Programs come first, so that the first pipelines wait for nothing else.
 void addWishes(CompileJob& job, Engine::Impl& engine, std::span<const uint8_t> variants, Shapes const& shapes) {
     if (std::ranges::all_of(engine.pipelines.slots(), &passes::PassSlot::isFullScreen))
-        engine.pipelines.slot({}); // no pass is known: programs for the default quality
+        engine.pipelines.slot({}); // no pass is known: use the default quality
     const auto slots = engine.pipelines.slots();
     for (const uint8_t variant : variants) {
         for (uint32_t slot = 0; slot < slots.size(); ++slot) {

@@ -6,7 +6,7 @@
 namespace filament::engine {
 namespace {
 
-/// How many creations go with one frame, by priority.
+/// The number of creations per frame, by priority.
 constexpr std::array<uint32_t, 4> kSliceSizes{ 1, 2, 4, 16 };
 
 passes::PipelineUse useOf(CompileJob const& job, CompileWish const& wish) {
@@ -71,7 +71,7 @@ void CompileQueue::recordSlice(backend::CommandBuffer& commands, uint64_t submis
 void CompileQueue::takeFrom(Queue& queue, backend::CommandBuffer& commands, uint32_t count) {
     while (count > 0 && !queue.empty()) {
         Waiting& first = queue.front();
-        mSlice.push_back({ first.id, 0, first.job.onProgress }); // what is recorded is remembered
+        mSlice.push_back({ first.id, 0, first.job.onProgress }); // remember what is recorded
         for (; count > 0 && first.next < first.job.wishes.size(); --count) {
             make(commands, first.job, first.job.wishes[first.next]);
             ++first.next;
@@ -85,7 +85,7 @@ void CompileQueue::collect(uint64_t replayedSubmissions) {
     if (mSlice.empty() || replayedSubmissions < mSliceSubmission) return;
     const std::vector<Recorded> finished = std::exchange(mSlice, {});
     for (Recorded const& recorded : finished) mProgress[recorded.id - 1].done += recorded.count;
-    for (Recorded const& recorded : finished) { // may compile and destroy materials
+    for (Recorded const& recorded : finished) { // the callback may compile and destroy materials
         if (recorded.onProgress) recorded.onProgress(mProgress[recorded.id - 1]);
     }
 }

@@ -14,7 +14,7 @@ ConstantDescription describe(shader::Constant const& constant, scene::Material c
     return { constant.name, dataOf(constant.type, constant.defaultBits), dataOf(constant.type, bits) };
 }
 
-/// The variants of the scene: how exactly they are computed is a matter of Quality.
+/// The variants that depend on the scene; the precision is a matter of Quality.
 VariantSet variantSet(uint32_t key) { return static_cast<VariantSet>(key) & VariantSet::All; }
 
 } // namespace
@@ -40,7 +40,7 @@ MaterialDescription describeMaterial(scene::Material const& material) {
     for (shader::Parameter const& parameter : package.parameters) {
         const bool isOwn =
                 parameter.name == shader::kMaskThresholdParameter || parameter.name == shader::kDoubleSidedParameter;
-        if (isOwn) continue; // the compiler's
+        if (isOwn) continue; // a parameter of the compiler
         out.parameters.push_back(
                 { parameter.name, parameter.type, parameter.arraySize, parameter.precision, parameter.format });
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Instances of materials: named parameters -> uniform blocks and bind groups, and what they change of the raster state.
+// Instances of materials: named parameters -> uniform blocks and bind groups, and overrides of the raster state.
 #include "base/OutOfMemory.h"
 #include "base/Result.h"
 #include "base/Suggest.h"
@@ -55,7 +55,7 @@ MaterialInstance Engine::Impl::createInstance(Material material, std::string nam
         if (shader::isTexture(parameter.type))
             instance.textures.push_back({ textureHandle(unsetTexture(parameter)), {} });
     }
-    dirtyInstances.push_back(draft.handle()); // the last that may fail
+    dirtyInstances.push_back(draft.handle()); // the last call that can fail
     instance.id = nextInstanceId++;
     ++parent.instanceCount;
     return draft.keep();
@@ -77,7 +77,7 @@ Result<void> Engine::Impl::change(MaterialInstance handle, std::string_view name
     if (written)
         instance.parametersDirty = true;
     else
-        dirtyInstances.resize(listed); // never grows: markDirty() added one at most
+        dirtyInstances.resize(listed); // only shrinks: markDirty() added one at most
     return written;
 }
 
@@ -126,7 +126,7 @@ void Engine::Impl::updateInstance(scene::MaterialInstance& instance, CommandBuff
     instance.parametersDirty = instance.texturesDirty = instance.lacksGroups = false;
 }
 
-// Those that are there stay.
+// Existing groups are kept.
 void Engine::Impl::makeGroups(scene::MaterialInstance& instance, CommandBuffer& commands) {
     if (instance.textures.empty()) {
         if (!instance.groups[0]) instance.groups.fill(makeGroup(instance, TextureFilter::AsAuthored, commands));
@@ -149,7 +149,7 @@ BindGroupHandle Engine::Impl::makeGroup(scene::MaterialInstance const& instance,
     for (Parameter const& parameter : package.parameters) {
         if (!shader::isTexture(parameter.type)) continue;
         const scene::TextureBinding bound = instance.textures[slot++];
-        if (!parameter.isBound) continue; // its constants are false
+        if (!parameter.isBound) continue; // the constants that use it are false
         const Sampler sampler = engine::samplerFor(parameter, bound.sampler, filter);
         entries[count++] = { .binding = parameter.binding,
                              .texture = bound.texture,

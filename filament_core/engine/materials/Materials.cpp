@@ -14,7 +14,7 @@
 namespace filament {
 namespace {
 
-/// The screen's own colour cannot be sampled yet.
+/// The colour on the screen cannot be sampled yet.
 void explainScreenSpace(scene::Material const& material) {
     const auto say = [&](const char* property) {
         log(Severity::Info, "material '{}': {} : screenspace shows the environment only in this version", material.name,

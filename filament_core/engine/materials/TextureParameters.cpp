@@ -38,7 +38,7 @@ shader::SamplerFormat samplerFormatOf(Format format) {
     }
 }
 
-/// Whole numbers have nothing between them.
+/// Integers cannot be interpolated.
 Sampler unfiltered(Sampler sampler) {
     sampler.magFilter = sampler.minFilter = Filter::Nearest;
     if (sampler.mipFilter == MipFilter::Linear) sampler.mipFilter = MipFilter::Nearest;

@@ -57,7 +57,7 @@ Quality qualityOf(Groups const& groups, BudgetPoint const& point, Quality qualit
     return quality;
 }
 
-/// "table dfgTableSize=64": the value, then what depends on it.
+/// "table dfgTableSize=64": the value, then the values that depend on it.
 std::string valueText(BudgetOption const& option) {
     std::string text = option.picks.front().cost->value;
     for (size_t i = 1; i < option.picks.size(); ++i)
@@ -65,11 +65,11 @@ std::string valueText(BudgetOption const& option) {
     return text;
 }
 
-/// What leads from one point to another, most error saved for its time first.
+/// The steps from one point to another, ordered by the error that they save per time.
 std::vector<QualityStep> stepsBetween(Groups const& groups, BudgetPoint const& from, BudgetPoint const& to) {
     struct Change {
         BudgetOption const *from, *to;
-        double rank = 0; // squared error that goes away for a nanosecond
+        double rank = 0; // decrease of squared error per nanosecond
     };
     std::vector<Change> changes;
     for (size_t i = 0; i < groups.size(); ++i) {

@@ -12,9 +12,9 @@ namespace filament::engine {
 namespace {
 
 constexpr double kNanosecondsPerMillisecond = 1e6, kErrorUnits = 1e12;
-constexpr double kMostNanoseconds = 9e15; // a hundred days: sums of all groups still fit
+constexpr double kMostNanoseconds = 9e15; // a hundred days: sums over all groups still fit
 
-/// `child` only counts while `parent` has `value`.
+/// `child` only counts if `parent` has `value`.
 struct Dependence {
     std::string_view parent, value, child;
 };
@@ -44,8 +44,8 @@ public:
         std::vector<BudgetGroup> all;
         for (QualityEffect const& effect : mCosts.effects) {
             Dependence const* dependence = dependenceOfChild(effect.name);
-            if (dependence && findEffect(mCosts, dependence->parent)) continue; // in its parent's group
-            if (dependence && qualityValue(mStart, dependence->parent) != dependence->value) continue; // does not count
+            if (dependence && findEffect(mCosts, dependence->parent)) continue; // belongs to its parent's group
+            if (dependence && qualityValue(mStart, dependence->parent) != dependence->value) continue; // no effect
             all.push_back(groupOf(effect));
         }
         return all;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// measureQualityCosts(): every value of every choice drawn in turns, timed by the device and compared as a picture.
+// measureQualityCosts(): draws every value of every choice in turns, timed by the device and compared as a picture.
 #include "base/Result.h"
 #include "base/Suggest.h"
 #include "base/math/Half.h"
@@ -17,9 +17,9 @@
 namespace filament {
 namespace {
 
-constexpr uint32_t kFewestRounds = 15; // half of it is enough for the median to be between the least and the largest
-constexpr double kDarkest = 0.01;      // of the mean: what is darker counts as that
-constexpr double kMostLinear = 65504;  // of half floats
+constexpr uint32_t kFewestRounds = 15; // half of them suffice for a median between least and largest
+constexpr double kDarkest = 0.01;      // of the mean: darker values count as this
+constexpr double kMostLinear = 65504;  // the largest half float
 
 double linearFromHalf(uint16_t half) {
     const auto value = static_cast<double>(floatFromHalf(half));
@@ -62,11 +62,11 @@ double median(std::vector<double> values) {
     return (values[(values.size() - 1) / 2] + values[values.size() / 2]) / 2;
 }
 
-/// The median of all is between this rank from below and from above with 99 %: a table holds some 60 intervals, and
-/// none should be off. Conover 1999, "Practical Nonparametric Statistics", section 3.2.
+/// The true median lies between this rank from below and the same rank from above with a probability of 99 %: a table
+/// has about 60 intervals, and none should be wrong. Conover 1999, "Practical Nonparametric Statistics", section 3.2.
 size_t lowRank(size_t count) {
     const auto n = static_cast<double>(count);
-    double probability = std::pow(0.5, n), below = 0; // of rank successes, of fewer
+    double probability = std::pow(0.5, n), below = 0; // for exactly `rank` successes; for fewer
     size_t rank = 0;
     while (below + probability <= 0.005) {
         below += probability;
@@ -76,8 +76,8 @@ size_t lowRank(size_t count) {
     return rank > 0 ? rank - 1 : 0;
 }
 
-/// Frames of two settings, drawn in turns: the ratios of those rounds in which both together were fast. Other work on
-/// the machine only ever slows a round, and says nothing about which of the two it hits.
+/// Frames of two settings, drawn in turns: the ratios of the rounds whose two times had the smallest sums. Other work
+/// on the machine only ever slows a round down, and hits either of the two by chance.
 std::vector<double> undisturbedRatios(std::vector<double> const& times, std::vector<double> const& bases) {
     std::vector<size_t> rounds(times.size());
     std::iota(rounds.begin(), rounds.end(), size_t{ 0 });
@@ -89,7 +89,7 @@ std::vector<double> undisturbedRatios(std::vector<double> const& times, std::vec
     return ratios;
 }
 
-/// Of all threads of this process, which on a CPU driver are the device.
+/// Of all threads of this process, which include the device of a CPU driver.
 double processorMilliseconds() {
     timespec now{};
     clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
@@ -98,7 +98,7 @@ double processorMilliseconds() {
 
 struct FrameCost {
     double device = 0;   // milliseconds by the device's clock
-    double compared = 0; // what ratios are taken of
+    double compared = 0; // what ratios are computed from
 };
 
 struct Setting {
@@ -165,7 +165,7 @@ private:
         return settings;
     }
 
-    /// What changes no light changes the tone mapper, or nothing.
+    /// A setting that does not change light changes the tone mapper, or nothing.
     Result<double> errorOf(Quality const& quality) {
         const Result<Image> linear = draw(quality, mLinear);
         if (!linear) return linear.error();
