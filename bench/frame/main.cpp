@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // frame_bench [--frames N] [--size WxH] [--json FILE]: whole frames of real models on both APIs, side by side with the
-// figures of another engine of this kind on the same software stack (a quiet machine, minimum of 24 frames, 1280x720,
+// figures of a comparable engine on the same software stack (a quiet machine, minimum of 24 frames, 1280x720,
 // environment + skybox + ACES, no anti-aliasing). Absolute times drift with the machine: read the ratio between the
 // APIs first, then the distance to the published figure.
 #include <filament/filament.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job costs and what forking gains. The argument "workers" counts the threads besides the caller.
+// The cost of a job, and the gain from forking. The argument "workers" counts the threads besides the caller.
 // Counters named vs_* are ratios of times measured side by side in the same run; below 1 the job system is faster.
 #include "jobsystem/JobSystem.h"
 
@@ -57,7 +57,7 @@ void emptyJobs(benchmark::State& state) {
 }
 BENCHMARK(emptyJobs)->ArgName("workers")->Arg(0)->Arg(1)->Arg(3)->UseRealTime();
 
-/// One job and its wait, with workers that sleep: the latency a frame pays for its first fork.
+/// One job and its wait while the workers sleep: the latency of a frame's first fork.
 void oneJob(benchmark::State& state) {
     JobSystem jobs({ .workers = static_cast<int>(state.range(0)) });
     for (auto _ : state) {
@@ -68,7 +68,7 @@ void oneJob(benchmark::State& state) {
 }
 BENCHMARK(oneJob)->ArgName("workers")->Arg(0)->Arg(1)->Arg(3)->UseRealTime();
 
-/// Nothing but forks and joins: 8 361 jobs of one addition each. The ratio is the cost of a job over that of a call.
+/// Only forks and joins: 8 361 jobs of one addition each. The ratio compares a job with a call.
 void forkJoinTree(benchmark::State& state) {
     JobSystem jobs({ .workers = static_cast<int>(state.range(0)) });
     constexpr int kN = 19;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a timeline costs a job, and what asking for the machine's topology costs a start.
+// What a timeline costs per job, and what querying the machine's topology costs at start-up.
 #include "jobsystem/CpuQuota.h"
 #include "jobsystem/JobSystem.h"
 #include "jobsystem/JobTrace.h"
@@ -10,7 +10,7 @@
 namespace filament::jobs {
 namespace {
 
-/// The part of a traced job that is not its clock reads.
+/// The part of a traced job other than its clock reads.
 void recordJob(benchmark::State& state) {
     JobTrace trace(1);
     int64_t time = 0;
@@ -21,7 +21,7 @@ void recordJob(benchmark::State& state) {
 }
 BENCHMARK(recordJob);
 
-/// All of it: two clock reads and the record.
+/// The whole of it: two clock reads and the record.
 void traceJob(benchmark::State& state) {
     JobTrace trace(1);
     for (auto _ : state) {
@@ -32,7 +32,7 @@ void traceJob(benchmark::State& state) {
 }
 BENCHMARK(traceJob);
 
-/// A batch of empty jobs with and without a timeline: the difference is what a traced job pays.
+/// A batch of empty jobs with and without a timeline: the difference is the cost of tracing a job.
 void batchOf1000(benchmark::State& state) {
     JobSystem jobs({ .workers = static_cast<int>(state.range(0)), .trace = state.range(1) != 0 });
     const AdoptedThread seat(jobs);

@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// material_bench: what each term of a material costs over a full screen, as a ratio to the standard model, on both
+// material_bench: the cost of each term of a material over a full screen, as a ratio to the standard model, on both
 // APIs.
-//   Method  one engine an API; in every round every material once on each, so that all see the same machine. Processor
-//           time of the process, which on CPU drivers is the device, less that of a frame without the object; medians
-//           of the ratios within rounds. --wall takes elapsed time instead, for devices that are no CPU.
+//   Method  one engine per API. Every round draws every material once on each, so that all see the same machine.
+//           Processor time of the process, which includes the device of a CPU driver, minus that of a frame without the
+//           object; medians of the ratios within rounds. --wall uses elapsed time instead, for other devices.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
 #include "tools/common/Machine.h"
 #include "tools/conformance/SceneAssets.h"
@@ -37,7 +37,7 @@ struct Options {
     bool wall = false;
 };
 
-/// What the reference text says that a term costs, as a ratio to the standard model; empty: nothing.
+/// The cost of a term according to the reference text, as a ratio to the standard model; empty if it names none.
 const char* referenceOf(std::string const& term) {
     static constexpr std::pair<std::string_view, const char*> kSaid[] = {
         { "standard", "1" },
@@ -89,7 +89,7 @@ public:
         return {};
     }
 
-    /// Seconds of a frame; scene 0 has no object.
+    /// Seconds per frame; scene 0 has no object.
     double measure(size_t scene) {
         const clockid_t clock = mOptions.wall ? CLOCK_MONOTONIC : CLOCK_PROCESS_CPUTIME_ID;
         mEngine.waitIdle();
@@ -127,7 +127,7 @@ private:
     Engine mEngine;
     std::optional<Environment> mEnvironment;
     std::vector<std::unique_ptr<tools::MaterialStand>> mStands;
-    std::vector<std::unique_ptr<Scene>> mScenes; // end before what they show
+    std::vector<std::unique_ptr<Scene>> mScenes; // destroyed before the objects that they show
     Owned<SwapChain> mTarget;
     Renderer mRenderer;
     View mView;
@@ -151,7 +151,7 @@ Result<Devices> openAll(Options const& options, fs::path const& work) {
     return devices;
 }
 
-/// The first case always: the others are compared with it.
+/// Always includes the first case, with which the others are compared.
 bool isWanted(tools::MaterialTerm const& what, size_t index, Options const& options) {
     return index == 0 || options.only.empty() || std::ranges::any_of(options.only, [&](std::string const& part) {
                return what.name.find(part) != std::string::npos;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a draw command costs to record, and to replay on the driver without a device; beside copying as many bytes.
+// The cost of recording a draw command, and of replaying it on the driver without a device, beside copying as many
+// bytes.
 #include "backend/null/NullDriver.h"
 #include "backend/stream/CommandBuffer.h"
 #include "bench/threading/Clock.h"
@@ -26,7 +27,7 @@ void recordDraws(CommandBuffer& commands) {
     for (uint32_t i = 0; i < kDraws; ++i) commands.record(CmdDrawIndexed{ .indexCount = 36, .firstInstance = i });
 }
 
-/// As the passes do it: a group of its own for every draw.
+/// Like the passes: a separate group for every draw.
 void recordBindsAndDraws(CommandBuffer& commands) {
     commands.reset();
     for (uint32_t i = 0; i < kDraws; ++i) {
@@ -35,10 +36,10 @@ void recordBindsAndDraws(CommandBuffer& commands) {
     }
 }
 
-/// Nanoseconds a draw of repeating `work`, which handles kDraws of them.
+/// Nanoseconds per draw of repeating `work`, which processes kDraws of them.
 Sampler perDraw(Settings const& settings, std::function<void()> work) {
     return [=, sampleNs = settings.sampleNs](std::vector<double>& figures) {
-        work(); // warm: the chunks are there and in the cache
+        work(); // warm up: allocates the chunks and brings them into the cache
         uint64_t repeats = 0;
         const int64_t start = wallNow();
         int64_t elapsed = 0;
@@ -72,7 +73,7 @@ Workload recording(Settings const& settings, const char* name, const char* title
     return workload;
 }
 
-/// A driver and what it replays.
+/// A driver and the stream that it replays.
 struct Replay {
     Silent sink;
     std::unique_ptr<Driver> driver = createNullDriver(sink);

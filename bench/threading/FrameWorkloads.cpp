@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame of many renderables costs the CPU, through the public API, on the backend without a device.
-//   cpu Nw    CPU time of the app thread and of N workers while render() ran, waiting for work included
-//   wall Nw   render() from call to return: the frame is submitted
-// Between frames the engine goes idle, outside of what is measured, so that back-pressure and the driver thread's own
-// work are not part of either.
+// The CPU cost of a frame with many renderables, through the public API, on the backend without a device.
+//   cpu Nw    CPU time of the app thread and of N workers during render(), including waiting for work
+//   wall Nw   render() from call to return, when the frame has been submitted
+// Between frames the engine goes idle outside the measured time, so neither figure contains back-pressure or the driver
+// thread's own work.
 #include "bench/threading/Clock.h"
 #include "bench/threading/WorkerClocks.h"
 #include "bench/threading/Workloads.h"
@@ -36,7 +36,7 @@ public:
         if (!engine) return engine.error();
         auto grid = std::shared_ptr<Grid>(new Grid(std::move(*engine)));
         if (Result<void> filled = grid->fill(size); !filled) return filled.error();
-        const int warmUpFrames = 4; // every ring has gone round, nothing is allocated any more
+        const int warmUpFrames = 4; // every ring has wrapped around, nothing is allocated any more
         for (int i = 0; i < warmUpFrames; ++i) grid->frame();
         const FrameStatistics seen = grid->mRenderer.statistics();
         if (seen.visible != size.renderables)
@@ -91,14 +91,14 @@ private:
                          .boundsMax = float3(0.4f),
                          .worldFromObject = place });
         }
-        // High above the middle and back: the whole square is in view.
+        // High above the middle and further back: the whole square is in view.
         const double span = columns;
         mView.camera =
                 Camera::lookAt({ 0, span * 1.2, span * 0.8 }, { 0, 0, -span * 0.5 }, { .verticalFovDegrees = 60 });
         return {};
     }
 
-    /// A box; each mesh a little flatter than the one before.
+    /// A box; each mesh is slightly flatter than the previous one.
     void addMesh(uint32_t number) {
         const float height = 0.4f - 0.01f * static_cast<float>(number);
         std::array<float, 8 * 7> vertices{}; // position, quaternion of the tangent frame

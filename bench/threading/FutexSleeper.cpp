@@ -39,7 +39,7 @@ void FutexSleeper::sleepAndAnswer(bool pinned) {
     while (!mStopping.load()) {
         sleepWhile(mWord, seen);
         const uint32_t value = mWord.load();
-        if (value == seen) continue; // woken for nothing
+        if (value == seen) continue; // spurious wake-up
         seen = value;
         mAwake.store(wallNow());
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a job costs: alone, in batches, as a tree of forks, as a chain. Jobs do nothing.
+// The cost of a job: alone, in batches, as a tree of forks, as a chain. The jobs do nothing.
 #include "bench/threading/Workloads.h"
 
 #include "base/Assert.h"

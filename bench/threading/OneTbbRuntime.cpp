@@ -29,7 +29,7 @@ uint32_t forkTree(uint32_t depth) {
     return left + right;
 }
 
-/// A continuation: the task that ends hands the next one over, which then runs without going through a queue.
+/// A continuation: the task that ends passes on the next one, which then runs without going through a queue.
 struct Link {
     tbb::task_group& group;
     uint32_t left;
@@ -67,7 +67,7 @@ public:
 
     ~OneTbbRuntime() override { mPinning.observe(false); }
 
-    // The caller is in the arena all the time between enter() and leave(), as an app's main thread is.
+    // The caller stays in the arena between enter() and leave(), like an app's main thread.
     void enter() override {
         mControl.emplace(tbb::global_control::max_allowed_parallelism, mThreads);
         if (mPinned) mPinning.observe(true);

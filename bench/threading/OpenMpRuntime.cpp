@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// OpenMP: tasks made by one thread of a team, and loops divided statically, its default.
+// OpenMP: tasks created by one thread of a team, and loops divided statically, its default.
 #include "bench/threading/Clock.h"
 #include "bench/threading/Placement.h"
 #include "bench/threading/Runtime.h"
@@ -32,7 +32,7 @@ class OpenMpRuntime final : public Runtime {
 public:
     explicit OpenMpRuntime(RuntimeOptions const& options)
             : mThreads(static_cast<int>(options.threads)), mPinned(options.pinned) {
-        omp_set_dynamic(0); // exactly as many threads as asked for
+        omp_set_dynamic(0); // exactly the requested number of threads
     }
 
     void enter() override {
@@ -45,7 +45,7 @@ public:
 
     void leave() override {
         if (!mPinned) return;
-#pragma omp parallel num_threads(mThreads) // every thread gives back its own mask
+#pragma omp parallel num_threads(mThreads) // every thread restores its own mask
         mPins[static_cast<size_t>(omp_get_thread_num())].reset();
     }
 
@@ -72,7 +72,7 @@ public:
     void loop(SpinWork const& work, uint64_t count, uint64_t repeats) override {
         for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
 #pragma omp parallel num_threads(mThreads)
-            { // schedule(static) spelled out: a part a thread
+            { // schedule(static) written out: one part per thread
                 const auto thread = static_cast<uint64_t>(omp_get_thread_num());
                 const auto threads = static_cast<uint64_t>(omp_get_num_threads());
                 keep(work.run(count * thread / threads, count * (thread + 1) / threads, repeat));

@@ -67,7 +67,7 @@ public:
     uint32_t tree(uint32_t depth) override { return forkTree(mJobs, depth); }
 
     void loop(SpinWork const& work, uint64_t count, uint64_t repeats) override {
-        // a range of some 5 microseconds, as the header asks for
+        // a range takes about 5 microseconds, as the header recommends
         const auto grain = static_cast<size_t>(5'000 / work.itemNs);
         for (uint64_t repeat = 0; repeat < repeats; ++repeat)
             parallelFor<"loop">(mJobs, count, grain,
@@ -83,7 +83,7 @@ public:
     }
 
     void graph(uint32_t links, uint64_t repeats) override {
-        std::deque<JobGroup> groups; // one a link
+        std::deque<JobGroup> groups; // one per link
         for (uint32_t i = 0; i < links; ++i) groups.emplace_back(mJobs);
         for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
             groups[0].run<"link">([] {});

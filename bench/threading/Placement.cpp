@@ -35,7 +35,7 @@ std::vector<int> coresOfMask() {
     return cores;
 }
 
-/// The child after fork(): only calls that are safe between fork and exec in a program with threads.
+/// Runs in the child after fork(): only calls that are safe between fork and exec in a program with threads.
 [[noreturn]] void hogForever(int core, pid_t parent) {
     prctl(PR_SET_PDEATHSIG, SIGKILL);
     if (getppid() != parent) _exit(0); // the parent died before the line above
@@ -77,7 +77,7 @@ void HogProcess::hog() {
     kill(mChild, SIGCONT);
     waitpid(mChild, nullptr, WCONTINUED);
     std::this_thread::sleep_for(
-            std::chrono::milliseconds(5)); // the child is scheduled by then, unless the core is full
+            std::chrono::milliseconds(5)); // by then the child is scheduled, unless the core is full
 }
 
 void HogProcess::relent() {

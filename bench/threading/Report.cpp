@@ -19,7 +19,7 @@ namespace {
 
 constexpr int kTitleWidth = 36, kFigureWidth = 9, kOursWidth = 25;
 
-/// Three or four digits, whatever the size.
+/// Three or four digits, whatever the magnitude.
 std::string shortNumber(double value) {
     const double size = std::abs(value);
     if (size >= 1e6) return fmt::format("{:.3g}M", value * 1e-6);
@@ -39,7 +39,7 @@ std::string medianOf(Series const* series) {
 
 bool isVersus(Measured const& measured) { return measured.find("ours") != nullptr; }
 
-/// The contenders that "ours" is compared with: always the same columns, so that rows line up.
+/// The contenders that "ours" is compared with, always in the same columns, so that rows line up.
 std::vector<std::string> versusColumns(Measured const& measured) {
     if (measured.kind == "commands") return { "copy" };
     std::vector<std::string> columns{ "tbb", "openmp", "async", "serial" };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The same work with 0, 1, 2 ... workers besides the caller; past the number of cores it must not get slower.
+// The same work with 0, 1, 2 ... workers besides the caller; beyond the number of cores it must not get slower.
 #include "bench/threading/Workloads.h"
 
 #include "base/Assert.h"

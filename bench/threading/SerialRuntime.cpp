@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The serial loop: what the work costs without any runtime. An empty job is a call that is not inlined.
+// The serial loop: the cost of the work without any runtime. An empty job is a call that is not inlined.
 #include "bench/threading/Runtime.h"
 
 namespace filament::bench {
@@ -38,7 +38,7 @@ public:
         for (const uint32_t count : steps) keep(spinSteps(count, count));
     }
 
-    std::optional<int64_t> wakeUp(int64_t) override { return std::nullopt; } // there is nobody to wake
+    std::optional<int64_t> wakeUp(int64_t) override { return std::nullopt; } // there is no thread to wake
 };
 
 } // namespace

@@ -9,7 +9,7 @@
 namespace filament::bench {
 namespace {
 
-/// The fastest of many short loops, because whatever disturbs makes them longer.
+/// The fastest of many short loops, because disturbances only make them longer.
 double measureStepNs() {
     constexpr uint64_t kSteps = 400'000;
     constexpr int kLoops = 50;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// std::async with std::launch::async: a thread a job in the libraries of gcc and clang. Only small numbers are
+// std::async with std::launch::async: one thread per job in the libraries of gcc and clang. Only small numbers are
 // sensible.
 #include "bench/threading/Clock.h"
 #include "bench/threading/Placement.h"
@@ -70,7 +70,7 @@ public:
         };
         for (uint64_t repeat = 0; repeat < repeats; ++repeat) {
             futures[0] = std::async(std::launch::async, link, 0u);
-            for (auto& future : futures) future.get(); // a link ends after it has set the next future
+            for (auto& future : futures) future.get(); // a link ends after setting the next future
         }
     }
 
@@ -99,7 +99,7 @@ public:
     uint32_t affordableJobs() const override { return 64; }
 
 private:
-    /// A new thread inherits the caller's core: the first thing it does is to go to its own.
+    /// A new thread inherits the caller's core, so it moves to its own first.
     void pinTo(unsigned thread) const {
         if (mPinned && thread != 0) pinToCore(coreOfThread(thread));
     }

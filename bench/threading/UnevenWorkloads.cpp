@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Work that does not divide evenly: jobs of power-law sizes, and a core of which another process takes its share.
-// "ideal" and "fair" are no runtimes: they are computed from the serial time of the same round.
+// Work that does not divide evenly: jobs of power-law sizes, and a core that is shared with another process.
+// "ideal" and "fair" are not runtimes: they are computed from the serial time of the same round.
 #include "bench/threading/Placement.h"
 #include "bench/threading/Workloads.h"
 
@@ -16,7 +16,7 @@ namespace {
 
 // ---------------------------------------------------------------------------------------------------- power law
 
-/// The jobs of the round; new ones each round, the same for everybody.
+/// The jobs of the round: new ones each round, the same for all contenders.
 struct PowerLaw {
     double stepsPerNs = stepsFor(1);
     uint32_t count = 0;
@@ -25,7 +25,7 @@ struct PowerLaw {
     double serialNs = 0;
 
     /// Pareto with exponent 1.3 from 1 us on (inverse transform of the uniform), cut off at 500 us: the largest 1 % of
-    /// the jobs hold a fifth of the work.
+    /// the jobs contain a fifth of the work.
     void draw() {
         constexpr double kSmallestNs = 1e3, kLargestNs = 500e3, kExponent = 1.3;
         std::mt19937 random(++seed);
@@ -60,7 +60,7 @@ Workload powerLaw(Settings const& settings) {
         std::shared_ptr<Runtime> runtime = makeRuntime(kind, { .threads = settings.threads });
         const size_t affordable = std::min<size_t>(jobs->count, runtime->affordableJobs());
         const auto sample = [=](std::vector<double>& figures) {
-            if (kind == RuntimeKind::Serial) jobs->draw(); // the first of the round
+            if (kind == RuntimeKind::Serial) jobs->draw(); // the first contender of the round
             const double ns = timeOnce(*runtime, [&](Runtime& r) { r.spinJobs({ jobs->steps.data(), affordable }); });
             if (kind == RuntimeKind::Serial) jobs->serialNs = ns;
             figures.push_back(ns * 1e-6 * jobs->total(jobs->count) / jobs->total(affordable));
@@ -80,7 +80,7 @@ Workload powerLaw(Settings const& settings) {
 
 // -------------------------------------------------------------------------------------------------- hogged core
 
-/// Cores' worth of time that are left when another process takes half of one of them.
+/// The equivalent number of cores if another process takes half of one of them.
 double coresLeft(Settings const& settings) {
     return std::min<double>(settings.threads, static_cast<double>(allowedCores().size())) - 0.5;
 }

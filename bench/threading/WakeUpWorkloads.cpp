@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How long a sleeping worker takes to start a job, after the app thread has computed for a while by itself.
+// The time until a sleeping worker starts a job, after the app thread has computed alone for a while.
 #include "bench/threading/Clock.h"
 #include "bench/threading/FutexSleeper.h"
 #include "bench/threading/Placement.h"
@@ -19,14 +19,14 @@ struct WakeUp {
     bool pinned;
 };
 
-/// What the operating system takes: a thread that sleeps on a futex, without any runtime.
+/// The cost of the operating system alone: a thread that sleeps on a futex, without any runtime.
 Contender futexContender(WakeUp const& what, int wakeUps) {
     return { "futex",
              [=](std::vector<double>& figures) {
                  const std::optional<PinnedScope> pin =
                          what.pinned ? std::optional<PinnedScope>(std::in_place, coreOfThread(0)) : std::nullopt;
                  FutexSleeper sleeper(what.pinned);
-                 sleeper.wakeUp(1'000'000); // the thread exists
+                 sleeper.wakeUp(1'000'000); // now the thread exists
                  for (int i = 0; i < wakeUps; ++i)
                      figures.push_back(static_cast<double>(sleeper.wakeUp(what.idleNs)) * 1e-3);
              },
@@ -41,13 +41,13 @@ Result<Workload> wakeUp(Settings const& settings, WakeUp const& what) {
     };
     if (what.pinned) workload.targets = { { .limit = 50 }, { .figure = Figure::P99, .limit = 200 } };
     workload.targets.push_back({ .figure = Figure::Ratio, .other = "futex", .limit = 1.5 });
-    const int wakeUps = settings.quick ? 2 : 20; // a round
+    const int wakeUps = settings.quick ? 2 : 20; // per round
     for (const RuntimeKind kind :
          { RuntimeKind::Ours, RuntimeKind::OneTbb, RuntimeKind::OpenMp, RuntimeKind::StdAsync }) {
         std::shared_ptr<Runtime> runtime = makeRuntime(kind, { .threads = settings.threads, .pinned = what.pinned });
         workload.contenders.push_back({ toString(kind), [=](std::vector<double>& figures) {
                                            runtime->enter();
-                                           runtime->emptyJobs(8, 1); // the threads exist
+                                           runtime->emptyJobs(8, 1); // now the threads exist
                                            for (int i = 0; i < wakeUps; ++i)
                                                if (const auto latency = runtime->wakeUp(what.idleNs))
                                                    figures.push_back(static_cast<double>(*latency) * 1e-3);

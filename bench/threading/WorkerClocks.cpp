@@ -11,8 +11,8 @@
 namespace filament::bench {
 namespace {
 
-/// The clock that pthread_getcpuclockid() gives for a thread, by the number that /proc knows it by. Linux,
-/// include/linux/posix-timers_types.h: the inverted number over three bits, per thread (4) and scheduler time (2).
+/// The clock that pthread_getcpuclockid() returns for a thread, from its number in /proc. Linux,
+/// include/linux/posix-timers_types.h: the inverted number above three bits, per thread (4) and scheduler time (2).
 clockid_t cpuClockOf(pid_t thread) { return static_cast<clockid_t>((~static_cast<unsigned>(thread) << 3) | 4 | 2); }
 
 } // namespace

@@ -12,7 +12,7 @@
 namespace filament::bench {
 namespace {
 
-/// Wakes the threads and brings the core back to speed after settle() slept.
+/// Wakes the threads, and brings the core back to full speed after settle() slept.
 void warmUp(Runtime& runtime) {
     runtime.emptyJobs(std::min(runtime.affordableJobs(), 64u), 1);
     spinFor(100'000);

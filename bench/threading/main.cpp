@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // threading_bench [--filter REGEX] [--rounds N] [--workers N] [--json FILE] [--plot FILE] [--quick] [--list]
-// Threads measured against oneTBB, OpenMP, std::async and a serial loop, in turns. README.md says how to read it.
-//
-// Google Benchmark registers, filters and runs; a workload is one benchmark and one of its iterations is a round: every
-// contender once, in order, timed by itself. (Its own random interleaving shuffles whole repetitions, so figures of
-// different contenders would not belong together, and ratios of the same round could not be formed.)
+// Compares the job system with oneTBB, OpenMP, std::async and a serial loop, measured in turns. README.md says how to
+// read the results.
+// Google Benchmark registers, filters and runs. A workload is one benchmark, and each of its iterations is a round:
+// every contender once, in order, timed separately. (Google Benchmark's random interleaving shuffles whole repetitions;
+// figures of different contenders would not belong together, and ratios within a round could not be formed.)
 #include "bench/threading/Machine.h"
 #include "bench/threading/Placement.h"
 #include "bench/threading/Report.h"
@@ -32,7 +32,7 @@ struct Options {
     bool list = false;
 };
 
-/// A line on the terminal that is overwritten; nothing when the output goes elsewhere.
+/// A terminal line that is overwritten; prints nothing if the output is not a terminal.
 void showProgress(std::string const& name, int round, int rounds) {
     if (!isatty(STDERR_FILENO)) return;
     if (round < rounds)
@@ -82,7 +82,7 @@ void runWorkload(benchmark::State& state, WorkloadEntry const& entry, Settings c
     reporter.add(std::move(rounds).finish());
 }
 
-/// tools/plot draws FILE.json. Its messages go where ours go.
+/// tools/plot draws FILE.json. Its messages go to the same streams as ours.
 bool plot(std::string const& json, std::string const& picture) {
     const std::string python = tools::plotPython(), script = tools::sourceDir() / "tools/plot/plot.py";
     const pid_t child = fork();

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What recording, joining, hashing and replaying commands costs: `ns` is the median of an item, a draw unless a name
-// says otherwise. Counters named vs_* are ratios of medians measured in turns within the same run; below 1 is faster
-// than.
+// The costs of recording, joining, hashing and replaying commands. `ns` is the median per item; an item is a draw
+// unless stated otherwise. Counters named vs_* are ratios of medians measured in turns within the same run; below 1
+// means faster.
 #include "backend/null/NullDriver.h"
 #include "backend/stream/CommandBuffer.h"
 #include "backend/stream/StreamHash.h"
@@ -20,8 +20,8 @@ using bench::measureInTurns;
 
 constexpr uint32_t kDraws = 10'000;
 
-/// A sorted list as the passes leave it after dropping what does not change: every 2nd draw another geometry, every 4th
-/// another material, every 32nd another pipeline, every 256th another window of objects. 2.3 commands a draw.
+/// A sorted list as the passes leave it once redundant state is dropped: every 2nd draw has another geometry, every 4th
+/// another material, every 32nd another pipeline, every 256th another window of objects. 2.3 commands per draw.
 void recordSortedDraws(CommandBuffer& commands, uint32_t draws) {
     for (uint32_t i = 0; i < draws; ++i) {
         if (i % 32 == 0) commands.record(CmdBindPipeline{ PipelineHandle{ i } });
@@ -35,7 +35,7 @@ void recordSortedDraws(CommandBuffer& commands, uint32_t draws) {
     }
 }
 
-/// The floor of recording: copying as many bytes as commands of a kind take.
+/// The lower bound for recording: copying as many bytes as the commands take.
 template <class C>
 class BytesToCopy {
 public:
@@ -73,7 +73,7 @@ void recordSortedDraws(benchmark::State& state) {
 }
 BENCHMARK(recordSortedDraws)->UseManualTime();
 
-/// Items are updates.
+/// An item is an update.
 void recordUpdateOf256Bytes(benchmark::State& state) {
     CommandBuffer commands;
     const std::vector<std::byte> bytes(256);
@@ -93,7 +93,7 @@ BENCHMARK(recordUpdateOf256Bytes)->UseManualTime();
 
 constexpr uint32_t kDrawsPerBuffer = 1000;
 
-/// A frame recorded into `buffers` buffers and joined, against the same frame in one buffer.
+/// A frame recorded into `buffers` buffers and joined, compared with the same frame in one buffer.
 void recordAndJoin(benchmark::State& state) {
     const auto count = static_cast<size_t>(state.range(0));
     CommandBuffer joined, single;
@@ -111,7 +111,7 @@ void recordAndJoin(benchmark::State& state) {
 }
 BENCHMARK(recordAndJoin)->ArgName("buffers")->Arg(1)->Arg(10)->Arg(100)->UseManualTime();
 
-/// Only the joining, against recording what is joined. Items are buffers.
+/// Only the joining, compared with recording what is joined. An item is a buffer.
 void joinBuffers(benchmark::State& state) {
     const auto count = static_cast<size_t>(state.range(0));
     CommandBuffer frame;
@@ -139,7 +139,7 @@ struct Silent final : ResultSink {
 class Replay {
 public:
     explicit Replay(CommandBuffer const& commands) : mCommands(commands) {}
-    /// As the driver thread does: somebody may look which command it is in.
+    /// Like the driver thread: publishes the command that it is in.
     void watched() {
         const WatchedReplay watched(mProgress);
         mDriver->execute(mCommands.view());
@@ -153,7 +153,7 @@ private:
     std::unique_ptr<Driver> mDriver = createNullDriver(mSink);
 };
 
-/// Items are commands.
+/// An item is a command.
 void replaySortedDraws(benchmark::State& state) {
     CommandBuffer commands;
     recordSortedDraws(commands, kDraws);
@@ -173,7 +173,7 @@ void replayDraws(benchmark::State& state) {
 }
 BENCHMARK(replayDraws)->UseManualTime();
 
-/// What CommandStreamOptions::hashStreams adds to the driver thread. Items are commands.
+/// The cost that CommandStreamOptions::hashStreams adds on the driver thread. An item is a command.
 void hashSortedDraws(benchmark::State& state) {
     CommandBuffer commands;
     recordSortedDraws(commands, kDraws);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What loading a model costs, part by part: mip chains, tangents, and a whole generated file with and without workers.
+// The cost of loading a model, part by part: mip chains, tangents, and a whole generated file with and without workers.
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/gltf/Tangents.h"
@@ -13,7 +13,7 @@
 namespace filament::assets {
 namespace {
 
-/// Smooth with some noise: compresses about as well as a painted texture does.
+/// Smooth with some noise: compresses about as well as a painted texture.
 std::vector<std::byte> pixels(uint32_t width, uint32_t height) {
     std::mt19937 random(1);
     std::vector<std::byte> rgba(size_t{ width } * height * 4, std::byte{ 255 });
@@ -65,7 +65,7 @@ void tangents(benchmark::State& state) {
 }
 BENCHMARK(tangents)->Arg(32)->Arg(256)->Unit(benchmark::kMillisecond);
 
-/// Eight meshes with a normal map and a base colour each: what a prop of 130 000 triangles looks like.
+/// Eight meshes with a normal map and a base colour each, like a prop of 130 000 triangles.
 std::vector<std::byte> prop() {
     GlbScene scene;
     for (uint32_t i = 0; i < 8; ++i) {

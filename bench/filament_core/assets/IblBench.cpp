@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What it costs to bake an environment of 1024 x 512, step by step, and to load it again. Without assets: an analytic
-// sky.
+// The cost of baking an environment of 1024 x 512, step by step, and of loading it again. Needs no assets: the sky is
+// analytic.
 #include "filament_core/assets/environment/AnalyticSky.h"
 #include "filament_core/assets/environment/Environment.h"
 #include "filament_core/assets/image/ImageWriter.h"

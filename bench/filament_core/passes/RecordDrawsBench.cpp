@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// From a sorted draw list to commands: choosing pipelines, recording in ranges, replaying what came of it. `ns` is the
-// median of a draw. Counters named vs_* are ratios of medians measured in turns; below 1 is faster than.
+// From a sorted draw list to commands: choosing pipelines, recording in ranges, replaying the result. `ns` is the
+// median per draw. Counters named vs_* are ratios of medians measured in turns; below 1 means faster.
 #include "bench/backend/stream/InTurns.h"
 #include "tests/filament_core/passes/DrawFixture.h"
 
@@ -18,8 +18,8 @@ using framegraph::PassContext;
 using framegraph::RangeRecorder;
 using prepare::DrawCall;
 
-/// As prepare sorts them: material, instance, geometry within a bucket of depth. 16 materials, 128 instances, 1000
-/// geometries; no two neighbours merge. About every 16th draw has another material than the one before.
+/// Sorted as by prepare: material, instance, geometry within a depth bucket. 16 materials, 128 instances, 1000
+/// geometries; no two neighbours merge. About every 16th draw changes the material.
 struct SortedList : DrawFixture {
     explicit SortedList(size_t count) : DrawFixture(16, 128, 1000) {
         std::mt19937 random(1);
@@ -84,7 +84,8 @@ void recordDrawsInRanges(benchmark::State& state) {
 }
 BENCHMARK(recordDrawsInRanges)->Apply(arguments);
 
-/// The stream of the parallel recording, as the driver thread replays it on the null driver; against the serial one.
+/// Replays the stream of the parallel recording on the null driver, as the driver thread does; compared with the serial
+/// one.
 void replayRecordedDraws(benchmark::State& state) {
     SortedList list(static_cast<size_t>(state.range(0)));
     jobs::JobSystem jobs({ .workers = static_cast<int>(state.range(1)) });

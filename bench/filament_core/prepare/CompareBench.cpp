@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Each choice of prepare beside the plain alternative, measured in turns in one run. Counters named vs_* are ratios of
-// medians of thread time; below 1 the engine's way is faster. A disagreement of the results is an error.
+// Each choice of prepare compared with the plain alternative, measured in turns in one run. Counters named vs_* are
+// ratios of medians of thread time; below 1 the engine is faster. If the results disagree, the benchmark fails.
 #include "bench/filament_core/prepare/PrepareSetup.h"
 
 #include <cstring>
@@ -17,7 +17,7 @@ Box8 loadBoxes(scene::BoundsColumns const& bounds, size_t i, double3 const& came
     return boxes;
 }
 
-/// Eight boxes at a time against one at a time, over the same columns.
+/// Eight boxes at a time, compared with one at a time, over the same columns.
 void boxesAgainstScalar(benchmark::State& state) {
     Setup setup(state);
     scene::BoundsColumns const& bounds = setup.renderables().bounds;
@@ -75,7 +75,7 @@ BENCHMARK(sortAgainstStd)
         ->ArgsProduct({ { 32, 64, 128, 256, 512, 1000, 2000, 10'000, 100'000 }, { 1, 1024 }, { 0, 1 } })
         ->UseManualTime();
 
-/// Objects written where they are uploaded from, against objects written first and copied there.
+/// Objects written to upload memory directly, compared with objects written first and copied there.
 void objectsAgainstCopy(benchmark::State& state) {
     Setup setup(state);
     UploadMemory first(setup.count), upload(setup.count);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an order of drawing is worth: how many draws it merges into, and how often a pixel is shaded (the boxes as solid
-// squares in a depth buffer of 256 x 256; 1 is the least). "order" is the engine's (SortKey.h), or for comparison: by
-// depth in quarters of an octave and then by state; by draw and then by depth; exactly front to back; as the scene has
-// it.
+// The value of a drawing order: how many draws it merges into, and how often a pixel is shaded (the boxes as solid
+// squares in a depth buffer of 256 x 256; 1 is the minimum). "order" is the engine's (SortKey.h), or for comparison: by
+// depth in quarters of an octave and then by state; by draw and then by depth; exactly front to back; the order of the
+// scene.
 #include "bench/filament_core/prepare/PrepareSetup.h"
 
 #include <array>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What preparing a frame costs, step by step and whole. Counters: nanoseconds a renderable, wall clock and all threads
-// together (medians); everything is visible.
+// The cost of preparing a frame, step by step and as a whole. Counters: nanoseconds per renderable, wall clock and all
+// threads together (medians); everything is visible.
 #include "bench/filament_core/prepare/PrepareSetup.h"
 #include "filament_core/prepare/SelectLights.h"
 
@@ -65,7 +65,7 @@ void objects(benchmark::State& state) {
     samples.report(state, setup.count);
 }
 
-/// Point lights all over the scene, counters a light: from how many on they are worth a job of their own.
+/// Point lights all over the scene, counters per light: shows how many of them are worth a job of their own.
 void lights(benchmark::State& state) {
     scene::Lights points;
     Random random(7);
@@ -89,7 +89,7 @@ void lights(benchmark::State& state) {
 }
 BENCHMARK(lights)->ArgName("lights")->Arg(16)->Arg(256)->Arg(4096)->UseManualTime();
 
-/// All of it: what a frame pays before and apart from recording.
+/// The whole preparation: what a frame costs apart from recording.
 void frame(benchmark::State& state) {
     Setup setup(state);
     UploadMemory memory(setup.count);
@@ -104,8 +104,8 @@ void frame(benchmark::State& state) {
     samples.report(state, setup.count);
 }
 
-/// Frames of `renderables` with shadow views besides the main one, each of which sees all of them; counters a renderable
-/// and view.
+/// Frames of `renderables` with shadow views besides the main one, each of which sees all of them; counters per
+/// renderable and view.
 void views(benchmark::State& state) {
     Setup setup(state);
     std::vector<ViewInput> inputs(static_cast<size_t>(state.range(3)), setup.view);

@@ -1,9 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// World transforms of 100 000 nodes, in turns with the obvious way to do it: nodes that own their children, one
+// World transforms of 100 000 nodes, in turns with the obvious implementation: nodes that own their children, one
 // recursion over full matrices with a dirty flag. Times are medians of single updates; "workers" counts the threads
 // besides the caller. The counters:
-//   us            one update                     ns_per_node   of it, for each node that had to be computed
-//   computed      how many those are             vs_naive      time over that of the recursion; below 1 is faster
+//   us            one update
+//   ns_per_node   the same, per node that had to be computed
+//   computed      the number of those nodes
+//   vs_naive      time divided by that of the recursion; below 1 is faster
 #include "filament_core/prepare/UpdateTransforms.h"
 
 #include "filament_core/scene/SceneNodes.h"
@@ -58,7 +60,7 @@ void updateNaively(scene::SceneData& scene, NaiveNode& node, double4x4 const& wo
     for (auto const& child : node.children) updateNaively(scene, *child, node.worldFromNode, isDirty);
 }
 
-/// The same forest twice. Children of a node are made one after the other, parents in order: what a loader does.
+/// The same forest twice. Children of a node are created consecutively, parents in order, as a loader does.
 struct Forest {
     Forest(Shape shape, bool withRenderables) {
         for (uint32_t i = 0; i < kNodes; ++i) {
@@ -75,7 +77,7 @@ struct Forest {
         }
     }
 
-    ~Forest() { // children last made first: a chain would overflow the stack otherwise
+    ~Forest() { // last children first: a chain would overflow the stack otherwise
         for (size_t i = naiveNodes.size(); i-- > 0;) naiveNodes[i]->children.clear();
     }
 
@@ -114,7 +116,7 @@ struct NaiveRun {
     double seconds;
 };
 
-/// On a thread with a stack for 100 000 levels.
+/// On a thread with a stack large enough for 100 000 levels.
 double runNaively(Forest& forest) {
     NaiveRun run{ &forest, 0 };
     pthread_attr_t attributes;
@@ -134,7 +136,7 @@ double runNaively(Forest& forest) {
     return run.seconds;
 }
 
-/// How many nodes an update computes: those that changed and all below them.
+/// The number of nodes that an update computes: the changed ones and all their descendants.
 uint32_t countComputed(Forest const& forest, Shape shape) {
     std::vector<bool> changed(kNodes);
     uint32_t count = 0;
@@ -187,7 +189,7 @@ BENCHMARK(nodesWithRenderables)
         ->UseManualTime()
         ->Unit(benchmark::kMicrosecond);
 
-/// What the app pays to say that a node moved.
+/// The app's cost of moving a node.
 void setTransforms(benchmark::State& state) {
     jobs::JobSystem jobs({ .workers = 0 });
     Forest forest(kTenAry, false);
@@ -202,7 +204,7 @@ void setTransforms(benchmark::State& state) {
 }
 BENCHMARK(setTransforms)->Unit(benchmark::kMicrosecond);
 
-/// A model of 100 nodes appears and disappears beside 100 000 others: structure changes cost what they touch.
+/// A model of 100 nodes appears and disappears beside 100 000 others: a structural change costs only what it touches.
 void addAndRemoveAModel(benchmark::State& state) {
     jobs::JobSystem jobs({ .workers = 0 });
     Forest forest(kTenAry, false);
