@@ -48,7 +48,7 @@ std::vector<std::string> wordsOf(std::string const& text) {
     return words;
 }
 
-/// Every value must be one that the engine has.
+/// Every value must exist in the engine.
 void checkWords(JsonReader& reader, const char* key, std::vector<std::string> const& words) {
     Settings scratch;
     if (const Result<void> done = change(scratch, words); !done) reader.complain(key, done.error().message);

@@ -15,7 +15,7 @@
 namespace filament::accuracy {
 namespace {
 
-/// A DFG table as a sampler with linear filtering and clamped edges sees it.
+/// A DFG table as seen by a sampler with linear filtering and clamped edges.
 class DfgSampler {
 public:
     explicit DfgSampler(assets::Image const& table) : mSize(table.width), mTexels(size_t(mSize) * mSize) {

@@ -52,13 +52,13 @@ private:
         return {};
     }
 
-    /// Why an effect cannot be measured here; empty: it can.
+    /// Why an effect cannot be measured here; empty if it can.
     std::string obstacleOf(Effect const& effect) const {
         if (effect.reference.kind == ReferenceKind::OtherBackend && mStudios.size() < 2) return "two backends";
         for (std::string const& name : { effect.scene, effect.frame, effect.reference.scene }) {
             if (name.empty()) continue;
             const Result<SceneSpec const*> scene = mScenes.find(name);
-            if (!scene) continue; // said by whoever draws it
+            if (!scene) continue; // reported when the scene is drawn
             if (std::string missing = missingFile(**scene, mOptions.folders.assets); !missing.empty()) return missing;
         }
         return {};
@@ -144,7 +144,7 @@ private:
         return words;
     }
 
-    /// An effect of the tone mapper shows in display-referred pictures only: those are what its own scene has.
+    /// An effect of the tone mapper is visible only in display-referred pictures, like those of its own scene.
     Result<void> frameErrors(EffectResult& result) {
         Effect const& effect = result.effect;
         const Result<SceneSpec const*> frame = mScenes.find(effect.frame);

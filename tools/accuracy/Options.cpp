@@ -71,7 +71,7 @@ Result<void> convertSize(std::string const& word, uint2& size) {
     return {};
 }
 
-/// `isAsked`: with or without names.
+/// `isAsked`: the option was given, with or without names.
 void convertComparison(Words const& words, bool isAsked, Options& options) {
     if (!isAsked) return;
     const std::filesystem::path folder = tools::sourceDir() / "tools/accuracy/comparison";

@@ -119,7 +119,7 @@ each value is from the truth of its effect, and what it costs. {} effects. Commi
                               results.size.y);
 }
 
-/// "1.21 vulkan, 1.30 gles", without what the interval cannot tell from 1.
+/// "1.21 vulkan, 1.30 gles", without ratios whose interval includes 1.
 std::string ratiosOf(ValueResult const& value) {
     std::string text;
     for (auto const& [backend, timing] : value.timings) {
@@ -130,7 +130,7 @@ std::string ratiosOf(ValueResult const& value) {
     return text.empty() ? "no measurable difference" : text;
 }
 
-/// The value with the least error beside the standard one's, and what it would cost to take it.
+/// The value with the least error next to the standard one's, and the cost of choosing it.
 std::string glanceOf(EffectResult const& result) {
     ValueResult const& standard = result.values[result.effect.standard];
     ValueResult const& best =
@@ -175,7 +175,7 @@ Result<void> writeText(fs::path const& path, std::string const& text) {
     return assets::replaceFile(path, std::as_bytes(std::span(text)));
 }
 
-/// One process for all plots: starting matplotlib costs more than drawing.
+/// One process for all plots, because starting matplotlib takes longer than drawing.
 void drawPlots(fs::path const& out) {
     const std::string command =
             fmt::format("'{}' '{}/tools/plot/plot.py' accuracy '{}' -o '{}'", tools::plotPython().string(),
@@ -204,7 +204,7 @@ Result<std::vector<std::string>> sectionsOf(ReportPlaces const& places, PagePict
     return sections;
 }
 
-/// Of those that could be drawn.
+/// Of the effects whose plots exist.
 Result<Plots> plotsOf(Results const& results, fs::path const& folder, PagePictures& pictures) {
     std::vector<std::string> names{ "frames" };
     for (EffectResult const& effect : results.effects) names.push_back(effect.effect.name);

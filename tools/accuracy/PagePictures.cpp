@@ -12,7 +12,7 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kSource = "src=\"";
 
-/// Where src="..." begin and end, without the quotes.
+/// The positions of the texts in src="...", without the quotes.
 struct Range {
     size_t begin, end;
 };

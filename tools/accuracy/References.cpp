@@ -27,7 +27,7 @@ Result<Truth> traceTruth(ReferenceStage const& stage, SceneSpec const& scene, Se
     return Truth{ std::move(picture->picture), Edges::Skip, picture->relativeError };
 }
 
-/// Every pixel that shows something shows the environment's radiance.
+/// Every pixel that shows an object shows the environment's radiance.
 Result<Truth> furnaceTruth(ReferenceStage const& stage, SceneSpec const& scene, Settings const& settings) {
     Result<Truth> truth = shootTruth(stage, scene, settings, 1);
     if (!truth) return truth;

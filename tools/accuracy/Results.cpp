@@ -12,7 +12,7 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-/// Four significant digits: what is behind them is noise, and changes every run.
+/// Four significant digits: the rest is noise that changes with every run.
 double rounded(double value) {
     if (value == 0 || !std::isfinite(value)) return 0;
     const double scale = std::pow(10, 3 - std::floor(std::log10(std::abs(value))));

@@ -16,7 +16,7 @@ namespace {
 
 using Words = std::span<const std::string_view>;
 
-/// One setting beside those of Quality.
+/// A setting that is not part of Quality.
 struct Choice {
     std::string_view name;
     Words values; ///< those worth measuring
@@ -61,9 +61,9 @@ bool setPreset(Settings& settings, std::string const& value) {
     return preset.has_value();
 }
 
-/// What the library's own table of costs buys for a multiple of the default's time.
+/// The settings that the library's own cost table affords for a multiple of the default's time.
 bool setBudget(Settings& settings, std::string const& value) {
-    constexpr double kDefaultMilliseconds = 100; // any number: only ratios count
+    constexpr double kDefaultMilliseconds = 100; // arbitrary: only ratios count
     const std::optional<double> times = tools::finiteNumber(value);
     if (!times || !(*times > 0)) return false;
     const Result<QualityDecision> decision = chooseQuality(
@@ -85,7 +85,7 @@ bool setFaceSize(Settings& settings, std::string const& value) {
     return true;
 }
 
-/// An enumerator by its name, into one field of the options of loading.
+/// Sets a field of the loading options to an enumerator, by name.
 template <auto FromName, auto Options, auto Field>
 bool setByName(Settings& settings, std::string const& value) {
     const auto found = FromName(value);
@@ -103,7 +103,7 @@ constexpr auto setTangents = setByName<tangentStorageFromName, &Settings::model,
 bool setExact(Settings& settings, std::string const& value) {
     if (value != "on" && value != "off") return false;
     settings.engine.exactShaders = value == "on";
-    settings.engineKey = value == "on" ? "" : "exact=off"; // the default needs no engine of its own
+    settings.engineKey = value == "on" ? "" : "exact=off"; // the default needs no separate engine
     return true;
 }
 

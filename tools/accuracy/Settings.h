@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Settings: everything that a row of the accuracy table can change, by name: "specularVisibility=fast", "samples=4",
 /// "environment.faceSize=64".
-///   Names   those of <filament/Quality.h>; those of this file for the rest of View and for what is chosen when files
-///           are loaded, with the prefix of the loader.
-///   Fails   NotFound, InvalidArgument: the word, and what would be right.
+///   Names   those of <filament/Quality.h>; those of this file for the rest of View and for the options of loading
+///           files, with the prefix of the loader.
+///   Fails   NotFound, InvalidArgument: the word, and what is valid.
 ///   Thread  any.
 #pragma once
 
@@ -27,14 +27,15 @@ struct Settings {
     EnvironmentLoadOptions environment{};
     GltfLoadOptions model{};
     EngineOptions engine{}; ///< but backend and cache
-    /// The words that chose the options of loading, in order: equal texts load equal files, make equal engines.
+    /// The words that set options of loading, in order. With equal texts, equal files are loaded and equal engines
+    /// made.
     std::string environmentKey{}, modelKey{}, engineKey{};
 };
 
 Result<void> change(Settings& settings, std::string_view word);
 Result<void> change(Settings& settings, std::span<const std::string> words);
 
-/// All values of a choice worth measuring, or nothing for one that is not known.
+/// All values of a choice that are worth measuring; nothing for an unknown choice.
 std::vector<std::string> valuesOf(std::string_view choice);
 
 } // namespace filament::accuracy

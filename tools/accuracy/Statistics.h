@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Statistics: medians of samples taken in turns, and how sure they are.
+/// Statistics: medians of samples taken in turns, and their confidence intervals.
 ///   Source  percentile bootstrap: Efron and Tibshirani 1993, "An Introduction to the Bootstrap", chapter 13.
 ///   Thread  any; pure: the same samples give the same bits.
-///   Fails   never: of no samples every figure is 0.
+///   Fails   never: without samples every figure is 0.
 #pragma once
 
 #include <span>
@@ -10,7 +10,7 @@
 
 namespace filament::accuracy {
 
-/// A median and the interval that holds it with 95 % confidence.
+/// A median and its 95 % confidence interval.
 struct Estimate {
     double median = 0, low = 0, high = 0;
 };
@@ -18,7 +18,7 @@ struct Estimate {
 double median(std::span<const double> values);
 Estimate estimate(std::span<const double> values);
 
-/// Of a[i] / b[i], both taken in round i: a machine that slows down for a while slows down both.
+/// The median of a[i] / b[i], both taken in round i: a machine that slows down for a while slows down both.
 Estimate estimateRatio(std::span<const double> a, std::span<const double> b);
 
 } // namespace filament::accuracy

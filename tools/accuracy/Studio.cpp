@@ -9,7 +9,7 @@ namespace {
 namespace fs = std::filesystem;
 using conformance::SceneSpec;
 
-// Baked environments of loads that are timed go here, and are removed before each.
+// Timed loads put their baked environments here; the folder is removed before each load.
 fs::path cacheOf(conformance::SceneFolders const& folders) { return folders.work / "environments"; }
 
 double millisecondsSince(std::chrono::steady_clock::time_point begin) {
@@ -135,7 +135,7 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     return std::make_unique<Take>(engine, (*used)->renderer, std::move(*parts));
 }
 
-/// What is drawn, without lights.
+/// The objects that are drawn, without lights.
 Result<TakeParts> Studio::partsOf(Equipment& used, SceneSpec const& spec, Settings const& settings) {
     TakeParts parts{ .scene = Scene(used.engine) };
     Result<std::shared_ptr<Environment>> sky = environment(used, spec, settings);

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Studio: one backend, an engine for each set of engine options; Take: one scene under one set of settings, ready to
-/// be drawn again and again.
+/// Studio: one backend, with an engine for each set of engine options. Take: one scene with one set of settings, which
+/// can be drawn repeatedly.
 ///   In      scene files and Settings.   Out: pictures, milliseconds.
-///   Memory  what a Take needs is loaded once a studio and shared; see forgetUnusual(). Takes end before their studio.
-///   Thread  one a studio.
-///   Fails   what loaders and device say, in one line.
+///   Memory  what a Take needs is loaded once per studio and shared; see forgetUnusual(). Takes must end before their
+///           studio.
+///   Thread  one per studio.
+///   Fails   errors of the loaders and the device, in one line.
 ///   Cost    the first picture of a new combination compiles a pipeline: up to a second.
 #pragma once
 
@@ -21,17 +22,17 @@
 
 namespace filament::accuracy {
 
-/// The scene's own view, as the settings to start from.
+/// The scene's own view: the settings to start from.
 Settings settingsOf(conformance::SceneSpec const& spec);
 
-/// A file that was loaded, shared by takes.
+/// A loaded file, shared by takes.
 template <class T>
 struct Loaded {
     std::shared_ptr<T> file;
     bool isUsual = true; ///< with the default options
 };
 
-/// What a take draws, and what that needs to stay.
+/// What a take draws, together with everything that must stay alive for it.
 struct TakeParts {
     std::shared_ptr<Model> model;                   ///< or
     std::shared_ptr<tools::MaterialStand> material; ///< where the scene's model is a material
@@ -46,7 +47,7 @@ public:
     Take(Engine& engine, Renderer& renderer, TakeParts parts);
     /// Draws and reads back.
     Result<Picture> shoot();
-    /// Draws; milliseconds of the device, all passes.
+    /// Draws; returns the device's milliseconds for all passes.
     Result<double> time();
     View const& view() const { return mParts.view; }
 
@@ -67,14 +68,14 @@ public:
     /// `linear`: scene-linear half floats, without the tone mapper.
     Result<std::unique_ptr<Take>> take(conformance::SceneSpec const& spec, Settings const& settings, uint2 size,
                                        bool linear);
-    /// Milliseconds of loading one file again, its cache empty.
+    /// Milliseconds for loading one file again, with an empty cache.
     Result<double> timeEnvironment(conformance::SceneSpec const& spec, Settings const& settings);
     Result<double> timeModel(conformance::SceneSpec const& spec, Settings const& settings);
-    /// Drops files that no Take uses and that were loaded with options of their own: a cube of 2048 is half a gigabyte.
+    /// Drops files that no Take uses and that were loaded with special options: a cube of 2048 takes half a gigabyte.
     void forgetUnusual();
 
 private:
-    struct Equipment; // one engine and what it has loaded
+    struct Equipment; // one engine, and the files loaded for it
     Studio(Backend backend, conformance::SceneFolders const& folders);
     Result<Equipment*> equipment(Settings const& settings);
     Result<TakeParts> partsOf(Equipment& used, conformance::SceneSpec const& spec, Settings const& settings);

@@ -12,7 +12,7 @@ constexpr uint32_t kWarmUp = 2;
 using Turn = std::function<Result<double>()>;
 
 struct Turns {
-    std::vector<std::unique_ptr<Take>> takes; // what the turns draw
+    std::vector<std::unique_ptr<Take>> takes; // drawn in turns
     std::vector<Settings> settings;
     std::vector<Turn> turns;
 };

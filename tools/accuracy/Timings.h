@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-/// timeInTurns: what the values of one effect cost on one backend.
-///   Method  round r draws every value once, beginning with another one each round; the ratio to the standard value is
-///           taken within a round. The first two rounds warm up and do not count.
+/// timeInTurns: the cost of the values of one effect on one backend.
+///   Method  each round draws every value once, starting with a different one; ratios to the standard value are formed
+///           within a round. The first two rounds are a warm-up and do not count.
 ///   Thread  one at a time.
-///   Fails   what loaders and the device say.
+///   Fails   errors of the loaders and the device.
 #pragma once
 
 #include "tools/accuracy/Results.h"
@@ -21,7 +21,7 @@ struct TimingJob {
     uint32_t rounds = 15;
 };
 
-/// As effect.values. `progress`: in [0, 1], after every round.
+/// In the order of effect.values. `progress`: in [0, 1], called after every round.
 Result<std::vector<Timing>> timeInTurns(TimingJob const& job, std::function<void(double done)> const& progress);
 
 } // namespace filament::accuracy

@@ -22,10 +22,10 @@ using conformance::SceneSpec;
 using reference::SurfaceSample;
 using tools::MaterialVertex;
 
-/// The members of MaterialInputs that a path tracer must know, with their defaults.
+/// The members of MaterialInputs that the path tracer must know, with their defaults.
 struct Inputs {
     double3 baseColor{ 1.0 };
-    double metallic = 0, roughness = 1, reflectance = 0.5, ior = 0; // ior 0: from the reflectance
+    double metallic = 0, roughness = 1, reflectance = 0.5, ior = 0; // ior 0: derived from the reflectance
     double clearCoat = 0, clearCoatRoughness = 0;
     double3 sheenColor{ 0.0 };
     double sheenRoughness = 0;
@@ -33,7 +33,7 @@ struct Inputs {
     double transmission = 1;
     double3 absorption{ 0.0 };
     double thickness = 0.5, microThickness = 0, dispersion = 0;
-    double wallHeight = 0; // 0: nothing stands at the mesh's edge
+    double wallHeight = 0; // 0: no wall at the mesh's edge
 };
 
 constexpr std::pair<std::string_view, double Inputs::*> kNumbers[] = {
@@ -92,7 +92,7 @@ Result<void> setInput(Inputs& inputs, std::string const& scene, std::string cons
     return {};
 }
 
-// As edgeOf() and wallLight() of scenes/materials/corner.mat.
+// Like edgeOf() and wallLight() of scenes/materials/corner.mat.
 double3 edgeOf(double3 a, double3 b) {
     const double3 normal = glm::cross(a, b);
     const double size = std::max(glm::length(normal), 1e-9);
@@ -113,7 +113,7 @@ void occlude(SurfaceSample& surface, double wallHeight, bool hasBentNormal) {
     surface.bentNormal = glm::normalize(surface.tangent * open.x + bitangent * open.y + surface.normal * open.z);
 }
 
-/// As shaders/material/surface/lit_shading.glsl.
+/// Like shaders/material/surface/lit_shading.glsl.
 void applyTo(SurfaceSample& surface, Inputs const& in, shader::MaterialPackage const& package) {
     const bool isCloth = package.shading == shader::ShadingModel::Cloth;
     surface.metallic = in.metallic;

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// TracedPicture: a scene file through tools/reference: the point in the middle of each pixel, which is what a
-/// rasteriser without anti-aliasing shades.
+/// TracedPicture: draws a scene file with tools/reference, at the centre of each pixel, which is what a rasteriser
+/// without anti-aliasing shades.
 ///   Thread  any; works on the job system.
-///   Fails   what the loaders and tools/reference say.
+///   Fails   errors of the loaders and of tools/reference.
 #pragma once
 
 #include "tools/accuracy/Picture.h"
@@ -12,12 +12,12 @@
 
 namespace filament::accuracy {
 
-/// Model, lights and environment of a scene file, as the path tracer takes them. `features`: what its material has.
+/// The model, lights and environment of a scene file, for the path tracer. `features`: those of its material.
 Result<reference::ReferenceScene> referenceSceneOf(conformance::SceneSpec const& spec,
                                                    conformance::SceneFolders const& folders, jobs::JobSystem& jobs,
                                                    MaterialFeatures* features = nullptr);
 
-/// The terms that a set of choices stands for.
+/// The terms that correspond to a set of choices.
 reference::BsdfModel bsdfOf(Quality const& quality);
 
 struct TracedPicture {
@@ -25,7 +25,7 @@ struct TracedPicture {
     double relativeError = 0; ///< standard error of the picture, relative to its mean
 };
 
-/// One reflection of light that nothing blocks. `view`: of the engine's picture.
+/// A single reflection of unoccluded light. `view`: that of the engine's picture.
 Result<TracedPicture> trace(reference::ReferenceScene const& scene, View const& view, uint32_t samplesPerPixel,
                             jobs::JobSystem& jobs);
 

@@ -34,7 +34,7 @@ struct Arguments {
     float exposure = 1;
 };
 
-// One level of a cube as a horizontal cross: the sides in a row, top and bottom over and under +z.
+// One level of a cube as a horizontal cross: the sides in a row, top and bottom above and below +z.
 struct Cross {
     uint32_t size = 0; // of a face
     std::vector<float3> pixels;
@@ -147,7 +147,7 @@ Result<void> run(Arguments const& arguments) {
     const std::chrono::duration<double, std::milli> elapsed = std::chrono::steady_clock::now() - start;
 
     std::error_code error;
-    std::filesystem::create_directories(arguments.out, error); // a failure shows at the first file, with its path
+    std::filesystem::create_directories(arguments.out, error); // a failure shows when the first file is written
     auto done = writeCube(arguments, data->specular, "specular");
     if (done) done = writeCube(arguments, data->sky, "sky");
     if (done) done = writeCube(arguments, data->irradiance, "irradiance");

@@ -27,7 +27,7 @@ std::vector<std::string> environmentWith(std::vector<std::pair<std::string, std:
     return variables;
 }
 
-/// Pointers into `words`, with a null behind them.
+/// Pointers into `words`, terminated by a null pointer.
 std::vector<char*> pointersTo(std::vector<std::string>& words) {
     std::vector<char*> pointers;
     for (std::string& word : words) pointers.push_back(word.data());
@@ -35,7 +35,7 @@ std::vector<char*> pointersTo(std::vector<std::string>& words) {
     return pointers;
 }
 
-/// Standard output and error into one file, nothing to read.
+/// Standard output and error go to one file; there is no input.
 class Redirection {
 public:
     explicit Redirection(std::filesystem::path const& log) {

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ChildProcess: a program that runs beside this one, in an environment of its own.
-///   In      words (the first is looked for in PATH), variables that go over those of this process, a file for its
-///           standard output and error.
-///   Out     how it ended. A crash of the child is an answer, never an end of this process.
-///   Life    the destructor kills and waits for what still runs.
+/// ChildProcess: runs a program as a child process with its own environment.
+///   In      words (the first is looked up in PATH), variables that override those of this process, a file for standard
+///           output and error.
+///   Out     how it ended. A crash of the child is a result and never ends this process.
+///   Life    the destructor kills the child if it still runs, and waits for it.
 ///   Thread  one.
-///   Fails   NotFound or Unreadable if it cannot be started; one line that names program or file.
+///   Fails   NotFound or Unreadable if it cannot be started; one line that names the program or the file.
 #pragma once
 
 #include "base/Result.h"
@@ -40,9 +40,9 @@ public:
     ChildProcess& operator=(ChildProcess&&) = delete;
     ~ChildProcess();
 
-    /// Does not wait; nothing while it runs. Not after it gave an answer.
+    /// Does not wait; returns nothing while the child runs. Must not be called again after it has returned a result.
     std::optional<ChildEnd> poll();
-    /// SIGKILL; the end is that of the signal, unless the child was faster.
+    /// Sends SIGKILL; the result is that of the signal, unless the child ended before.
     ChildEnd kill();
 
 private:

@@ -11,7 +11,7 @@
 namespace filament::tools {
 namespace {
 
-/// "-.5" as "-0.5": CLI11 would take it for a short option.
+/// Rewrites "-.5" as "-0.5": CLI11 would take it for a short option.
 std::vector<std::string> wordsBackwards(int argc, const char* const* argv) {
     std::vector<std::string> words;
     for (int i = argc - 1; i > 0; --i) {

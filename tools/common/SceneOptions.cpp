@@ -89,7 +89,7 @@ Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
     return {};
 }
 
-/// What is chosen beside Quality, when an engine is made or a file is loaded. Nothing: it is another name.
+/// The options outside Quality that matter when an engine is made or a file is loaded. Returns nothing for other names.
 std::optional<Result<void>> convertLoadChoice(std::string const& name, std::string const& value,
                                               SceneOptions& options) {
     const auto choose = [&](auto& member, auto const& known, const char* cure) -> Result<void> {

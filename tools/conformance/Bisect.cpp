@@ -8,7 +8,7 @@ using backend::CapturedAttachment;
 using backend::CapturedFrame;
 using backend::CapturedPass;
 
-/// Where an attachment stands in a frame.
+/// The position of an attachment in a frame.
 struct At {
     size_t pass = 0, attachment = 0;
 };
@@ -71,7 +71,7 @@ Disagreement describe(CapturedFrame const& a, CapturedFrame const& b, At at) {
              .pixel = *difference(a, b, at) };
 }
 
-/// How the attachment differs when both frames end after `draws` draws.
+/// How the attachment differs if both frames end after `draws` draws.
 Result<std::optional<PixelDifference>> after(Stage& a, Stage& b, At at, uint32_t draws) {
     Result<CapturedFrame> x = inside(a, draws);
     if (!x) return x.error();
@@ -88,7 +88,7 @@ Result<void> findDraw(Stage& a, Stage& b, At at, CapturedFrame const& frame, Dis
     found.afterDraw = found.pixel;
     auto before = after(a, b, at, good);
     if (!before) return before.error();
-    if (*before || good == bad) return {}; // the clear, or what was loaded
+    if (*before || good == bad) return {}; // the difference is in the clear or in loaded contents
     while (bad - good > 1) {
         const uint32_t middle = good + (bad - good) / 2;
         auto differs = after(a, b, at, middle);

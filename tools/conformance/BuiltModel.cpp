@@ -22,7 +22,7 @@ using assets::TextureRef;
 using showcase::Shape;
 using showcase::TextureSet;
 
-/// In the xy plane, facing +z, `steps` by `steps` cells, one metre a side.
+/// In the xy plane, facing +z, `steps` by `steps` cells, one metre per side.
 Shape quad(uint32_t steps, float2 uvRepeats) {
     Shape shape;
     const auto at = [&](uint32_t i) { return static_cast<float>(i) / static_cast<float>(steps); };
@@ -116,7 +116,7 @@ std::optional<AlphaMode> alphaFromName(std::string_view name) {
     return std::nullopt;
 }
 
-/// Puts the objects of one model together.
+/// Combines the objects into one model.
 class ModelBuilder {
 public:
     explicit ModelBuilder(std::string const& name) { mScene.name = name; }
@@ -252,7 +252,8 @@ private:
                          : range.x + (range.y - range.x) * static_cast<float>(i) / static_cast<float>(count - 1);
     }
 
-    // One material a column and row if they differ, else one for all: then the engine may draw the copies together.
+    // One material per column and row if they differ, otherwise one for all, so that the engine can merge the draws of
+    // the copies.
     void placeAll(Shape const& shape, MaterialData const& material, double4x4 const& place, Grid const& grid) {
         uint32_t mesh = kNone;
         for (uint32_t row = 0; row < grid.count.y; ++row) {

@@ -22,14 +22,14 @@ constexpr float kQc = 0.7f, kPc = 0.4f, kPt = 0.95f; // exponent and redistribut
 constexpr float kQf = 0.5f;                          // exponent of feature errors, eq. 5
 constexpr double kFeatureWidth = 0.082;              // degrees
 
-/// One channel or three, row after row.
+/// One or three channels, row by row.
 template <class T>
 struct Plane {
     int width = 0, height = 0;
     std::vector<T> at;
     Plane(int w, int h) : width(w), height(h), at(static_cast<size_t>(w) * static_cast<size_t>(h)) {}
     T& operator()(int x, int y) { return at[static_cast<size_t>(y) * width + x]; }
-    // Borders repeat.
+    // Clamps to the border.
     T const& clamped(int x, int y) const {
         x = std::clamp(x, 0, width - 1), y = std::clamp(y, 0, height - 1);
         return at[static_cast<size_t>(y) * width + x];
@@ -61,7 +61,7 @@ float3 labFromXyz(float3 xyz) {
     return { 116 * f(n.y) - 16, 500 * (f(n.x) - f(n.y)), 200 * (f(n.y) - f(n.z)) };
 }
 
-// Hunt effect: dark colours look less colourful.
+// Hunt effect: dark colours appear less colourful.
 float3 hunt(float3 lab) { return { lab.x, 0.01f * lab.x * lab.y, 0.01f * lab.x * lab.z }; }
 
 // Distance for large colour differences, eq. 3.
@@ -152,7 +152,7 @@ Plane<float> filterChannel(Plane<float> const& in, Sensitivity const& s) {
     return result;
 }
 
-/// What the eye resolves, as Hunt-adjusted L*a*b*.
+/// What the eye can resolve, as Hunt-adjusted L*a*b*.
 Plane<float3> perceived(Plane<float3> const& ycc) {
     const float3x3 rgbFromXyz = glm::inverse(kXyzFromRgb);
     Plane<float3> result(ycc.width, ycc.height);
@@ -165,7 +165,7 @@ Plane<float3> perceived(Plane<float3> const& ycc) {
     return result;
 }
 
-/// Small errors get most of [0, 1]; the largest is green against blue. Eq. 4.
+/// Small errors take most of [0, 1]; the largest error is green against blue. Eq. 4.
 float colorError(float3 a, float3 b) {
     static const float sMax = std::pow(hyab(huntLabFromRgb({ 0, 1, 0 }), huntLabFromRgb({ 0, 0, 1 })), kQc);
     const float error = std::pow(hyab(a, b), kQc), knee = kPc * sMax;

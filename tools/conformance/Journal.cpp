@@ -24,7 +24,7 @@ Journal::Journal(std::filesystem::path const& file) {
 }
 
 void Journal::line(Json const& json) {
-    if (mFile.is_open()) mFile << json.dump() << std::endl; // out at once: the next moment may be the last
+    if (mFile.is_open()) mFile << json.dump() << std::endl; // flush now: the process may crash in the next step
 }
 
 void Journal::devices(std::map<std::string, std::string> const& devices) { line({ { "devices", devices } }); }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Journal: what a run has done so far, one line of JSON at a time, for whoever started it and must know in which case
-/// it died. --journal FILE writes one.
-///   Lines   {"devices": {...}} first; {"begins": NAME} and then the case's result for each case.
+/// Journal: the progress of a run, one line of JSON at a time, so that the parent process can tell in which case the
+/// run crashed. --journal FILE writes one.
+///   Lines   first {"devices": {...}}; then for each case {"begins": NAME} and its result.
 ///   Thread  one.
-///   Fails   a file that cannot be written stays short; the reader takes that for a run that did not get far. A last
-///           line that was cut off is not there.
+///   Fails   a file that cannot be written stays incomplete, and the reader takes the run for one that ended early. An
+///           incomplete last line is ignored.
 #pragma once
 
 #include "tools/conformance/Results.h"
@@ -34,7 +34,7 @@ struct JournalContents {
     std::string open;              ///< the case that began and did not end; empty: none
 };
 
-/// No file: nothing has happened.
+/// A missing file is an empty journal.
 JournalContents readJournal(std::filesystem::path const& file);
 
 } // namespace filament::conformance

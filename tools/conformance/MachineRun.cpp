@@ -21,7 +21,7 @@ namespace {
 
 using Path = std::filesystem::path;
 
-/// What the children of one machine found; by case.
+/// The results of the children of one machine, by case.
 struct MachineOutcome {
     std::string device;
     std::map<std::string, CaseResult> cases;
@@ -37,7 +37,7 @@ std::string lastLineOf(Path const& file) {
     return last;
 }
 
-/// The children of one machine, one after the other until every case has its answer.
+/// Runs the children of one machine, one after the other until every case has a result.
 class MachineChildren {
 public:
     MachineChildren(Options const& options, SimulatedMachine const& machine, MachineLimits const& limits)
@@ -60,7 +60,7 @@ private:
     Path journal() const { return mFolder / "journal.txt"; }
     Path log() const { return mFolder / "log.txt"; }
 
-    /// How it ended.
+    /// Runs a child; returns how it ended.
     Result<std::string> runChild(std::vector<std::string> const& cases) {
         std::error_code ignored;
         std::filesystem::remove(journal(), ignored);
@@ -90,7 +90,7 @@ private:
         }
     }
 
-    /// Sorts what happened into the outcome and leaves the cases that are still to be drawn: fewer than before.
+    /// Adds the journal's results to the outcome and removes from `cases` those that are done, at least one.
     void take(JournalContents contents, std::string const& end, std::vector<std::string>& cases) {
         for (auto const& [backend, device] : contents.devices) mOutcome.device = device;
         for (CaseResult& result : contents.cases) {
@@ -105,7 +105,7 @@ private:
         if (open != cases.end()) {
             blame(*open);
             cases.erase(open);
-        } else if (contents.cases.empty()) { // it did not get to a case, and the next one would not either
+        } else if (contents.cases.empty()) { // it crashed before the first case, as would the next one
             for (std::string const& name : cases) blame(name);
             cases.clear();
         }
@@ -141,14 +141,14 @@ Result<Image> readPicture(Path const& path) {
     return Image{ .width = image->width, .height = image->height, .pixels = std::move(image->data) };
 }
 
-/// Pictures of one case that are not the same bits: how many pixels, and the files for the report.
+/// Compares pictures of one case whose bits differ: how many pixels, and the files for the report.
 Result<void> compareFiles(Path const& out, std::string const& reference, Path const& drawn, Comparison& comparison) {
     const Result<Image> a = readPicture(out / reference), b = readPicture(drawn);
     if (!a) return a.error();
     if (!b) return b.error();
     const Result<tools::ImageComparison> compared = tools::compareImages(*a, *b);
     if (!compared) return compared.error();
-    // half floats may differ by less than their picture shows
+    // half floats may differ even where their display-referred pictures agree
     comparison.differing = std::max<uint64_t>(1, compared->pixels - compared->identical);
     comparison.maxDifference = compared->maxDifference;
     const std::string stem = Path(reference).stem().string() + "." + comparison.configuration;
@@ -201,7 +201,7 @@ std::vector<std::string> drawnCases(Results const& results) {
 
 Result<void> drawOnMachines(Options const& options, Results& results, MachineLimits const& limits) {
     const std::vector<std::string> names = drawnCases(results);
-    const bool isOneOfThem = thisMachine({}, {}).cpuFeatures == kPromisedFeatures; // this process draws their bits
+    const bool isOneOfThem = thisMachine({}, {}).cpuFeatures == kPromisedFeatures; // this process draws those bits
     for (std::string const& name : options.machines) {
         SimulatedMachine const* machine = findMachine(name);
         FILAMENT_ASSERT(machine, "parseOptions() checks the names of --machines");

@@ -2,13 +2,13 @@
 /// drawOnMachines: draws the cases of a run again in child processes, once for each machine of --machines, and compares
 /// their pictures with those of this process.
 ///   In      a finished run: its results, with the reference pictures in OUT/images.
-///   Out     a Comparison "machine NAME" in each case; a case fails if its bits are promised there and differ, or if its
-///           child died. OUT/machines/NAME has the child's pictures and what it said.
-///   Crash   of a child: a fault of the case that it was drawing; another child goes on with the next case.
-///   Hang    a child that has not finished a case for MachineLimits::silence is killed: a fault as well.
+///   Out     a Comparison "machine NAME" in each case. A case fails if the machine promises the same bits and they
+///           differ, or if its child crashed. OUT/machines/NAME has the child's pictures and output.
+///   Crash   if a child crashes, the case that it was drawing fails; another child continues with the next case.
+///   Hang    a child that does not finish a case within MachineLimits::silence is killed; the case fails, too.
 ///   Fails   a machine whose emulator is not installed, a folder that cannot be written. Nothing else ends the run.
 ///   Thread  the caller's; one child at a time.
-///   Cost    as much again as the run without threads and mutants, for each machine; more while Mesa's cache is cold.
+///   Cost    for each machine the time of the run again, without threads and mutants; more while Mesa's cache is cold.
 #pragma once
 
 #include "tools/conformance/Options.h"

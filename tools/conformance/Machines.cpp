@@ -10,7 +10,7 @@ namespace {
 constexpr const char* kWidth = "LP_NATIVE_VECTOR_WIDTH";
 constexpr const char* kCaps = "GALLIUM_OVERRIDE_CPU_CAPS";
 
-// What Mesa 22.3 makes of kCaps: src/util/u_cpu_detect.c.
+// How Mesa 22.3 interprets kCaps: src/util/u_cpu_detect.c.
 constexpr SimulatedMachine kMachines[] = {
     { "width-128", { kWidth, "128" }, "", true, "Mesa's vectors have 4 lanes instead of 8" },
     { "width-256", { kWidth, "256" }, "", true, "nothing: the default, as a control" },

@@ -1,8 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Machines: other processors, as far as this one can play them. An environment makes Mesa's JIT compiler or the C
-/// library believe in another processor, or an emulator is one; child processes draw the cases there again
-/// (MachineRun.h).
-///   Table   the one place that says where the same bits are promised, and why; docs/conformance.md repeats it.
+/// Machines: other processors that this one can simulate: an environment that makes Mesa's JIT compiler or the C
+/// library assume another processor, or an emulator. Child processes draw the cases there again (MachineRun.h).
+///   Table   the only place that lists where the same bits are promised, and why; docs/conformance.md repeats it.
 ///   Thread  any; constants.
 #pragma once
 
@@ -22,14 +21,14 @@ struct SimulatedMachine {
     std::string_view what;                                  ///< what is different there
 
     bool isEmulated() const { return !emulated.empty(); }
-    /// What runs the program there; empty: nothing.
+    /// The command that runs the program there; empty: none is needed.
     std::vector<std::string> launcher() const;
 };
 
 std::span<const SimulatedMachine> simulatedMachines();
 SimulatedMachine const* findMachine(std::string_view name);
 
-/// "all" for --machines: all but the emulated ones, which take a minute for what takes a second.
+/// "all" for --machines: all except the emulated ones, which take a minute for a second's work.
 std::vector<std::string> quickMachines();
 
 } // namespace filament::conformance

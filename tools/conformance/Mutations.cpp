@@ -30,7 +30,7 @@ float readFloat(Bytes const& bytes, size_t at) {
 }
 void writeFloat(Bytes& bytes, size_t at, float value) { std::memcpy(bytes.data() + at, &value, sizeof(value)); }
 
-/// Memory for changed payloads, until the next stream.
+/// Memory for changed payloads, valid until the next stream.
 class PayloadEdit : public StreamEdit {
 public:
     void inspect(CommandView) override { mPayloads.clear(); }
@@ -43,10 +43,10 @@ protected:
     }
 
 private:
-    std::deque<Bytes> mPayloads; // grows without moving what is there
+    std::deque<Bytes> mPayloads; // grows without moving its elements
 };
 
-/// The lit glTF materials: their parameter blocks and the layouts by which bind groups of them are known.
+/// The lit glTF materials: their parameter blocks, and the layouts that identify their bind groups.
 std::vector<shader::MaterialPackage> const& litPackages() {
     static const std::vector<shader::MaterialPackage> packages = [] {
         std::vector<shader::MaterialPackage> read;
@@ -58,8 +58,8 @@ std::vector<shader::MaterialPackage> const& litPackages() {
     return packages;
 }
 
-/// Whether the group has the package's block of parameters and, beside it, none but the package's bindings: textures
-/// that a material does not use are taken out of its layout.
+/// Whether the group has the package's parameter block and otherwise only bindings of the package. It may have fewer:
+/// textures that a material does not use are removed from its layout.
 bool isGroupOf(shader::MaterialPackage const& package, BindGroupDesc const& desc) {
     BindGroupLayout const& whole = package.layout[shader::kGroupMaterial];
     const auto bindings = std::span(whole.bindings).first(whole.count);
@@ -121,10 +121,10 @@ private:
     const std::string_view mParameter;
     const uint32_t mComponents;
     const float mFactor;
-    std::map<BufferHandle, uint32_t> mOffsets; // of the parameter, in the blocks that this stream makes
+    std::map<BufferHandle, uint32_t> mOffsets; // of the parameter, per block created in this stream
 };
 
-/// Normal maps with green upside down: what a loader that takes DirectX's convention would show.
+/// Inverts green in normal maps: the picture of a loader that assumes DirectX's convention.
 class NormalYEdit final : public PayloadEdit {
 public:
     void inspect(CommandView commands) override {
@@ -141,7 +141,7 @@ public:
     using PayloadEdit::edit;
     void edit(CmdUploadTexture& command) override {
         if (!mNormalMaps.contains(command.texture)) return;
-        Bytes& texels = copy(command.bytes); // RGBA8: what the loader makes of every normal map
+        Bytes& texels = copy(command.bytes); // the loader converts every normal map to RGBA8
         for (size_t i = 1; i < texels.size(); i += 4) texels[i] = ~texels[i];
     }
 
@@ -182,7 +182,7 @@ private:
     bool mHasLights = false;
 };
 
-/// The first punctual light, or the sun where there is none.
+/// The first punctual light, or the sun if there is none.
 class LightOffEdit final : public FrameEdit {
     void changeLights(CmdUpdateBuffer& command) override {
         zeroColor(command, offsetof(shader::PunctualLight, colorIntensity));
@@ -213,7 +213,7 @@ public:
     }
 };
 
-/// One code of one texel of one mip level is one off. Of textures with one layer and four bytes a texel.
+/// Changes one code of one texel of a mip level by one, in textures with one layer and four bytes per texel.
 class MipTexelEdit final : public PayloadEdit {
 public:
     MipTexelEdit(uint32_t level, uint32_t texel) : mLevel(level), mTexel(texel) {}
@@ -330,7 +330,7 @@ std::vector<uint32_t> withMipBias(std::span<const uint32_t> module, float bias) 
     constexpr uint32_t kHeader = 5, kOpTypeFloat = 22, kOpConstant = 43, kOpImageSampleImplicitLod = 87, kBias = 1;
     std::vector<uint32_t> result(module.begin(), module.begin() + std::min<size_t>(kHeader, module.size()));
     if (module.size() < kHeader) return result;
-    const uint32_t constant = result[3]++; // a new id below the bound
+    const uint32_t constant = result[3]++; // a new id within the bound
     for (size_t at = kHeader; at < module.size();) {
         const uint32_t words = module[at] >> 16, op = module[at] & 0xFFFF;
         if (words == 0 || at + words > module.size()) break;

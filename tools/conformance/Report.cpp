@@ -85,7 +85,7 @@ std::string machineTable(Results const& results) {
 }
 
 std::string mutationTable(Results const& results) {
-    std::map<std::string, std::pair<uint32_t, uint32_t>> rows; // caught, tried
+    std::map<std::string, std::pair<uint32_t, uint32_t>> rows; // caught, tested
     for (CaseResult const& result : results.cases) {
         for (Kill const& kill : result.kills) {
             rows[kill.mutation].first += kill.caught;

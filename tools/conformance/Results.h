@@ -32,7 +32,8 @@ struct Comparison {
     bool isIdentical() const { return differing == 0 && fault.empty(); }
 };
 
-/// Of a comparison with a picture that a child process drew (Machines.h): its configuration and back.
+/// For a comparison with a picture that a child process drew (Machines.h): converts its name to the configuration and
+/// back.
 std::string machineConfiguration(std::string_view machine);
 std::string_view machineOf(Comparison const& comparison); ///< empty: this process drew it
 
@@ -69,7 +70,7 @@ struct Summary {
 };
 Summary summaryOf(Results const& results);
 
-/// What the cases say of one simulated machine.
+/// A summary of the cases for one simulated machine.
 struct MachineSummary {
     uint32_t cases = 0, identical = 0, differing = 0, faults = 0; ///< faults are not among the differing
     uint64_t differingPixels = 0;
@@ -81,7 +82,7 @@ CaseResult caseFromJson(Json const& json); ///< throws Json::exception
 Json toJson(Results const& results);
 Result<void> writeResults(std::filesystem::path const& folder, Results const& results);
 Result<Results> readResults(std::filesystem::path const& folder);
-/// All cases of all parts; a case may be in one part only.
+/// All cases of all parts; a case may be in only one part.
 Result<Results> merge(std::vector<Results> parts);
 
 } // namespace filament::conformance

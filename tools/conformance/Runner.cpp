@@ -21,13 +21,13 @@ std::string fileName(std::string name) {
     return name;
 }
 
-/// One configuration and its engine.
+/// A configuration and its engine.
 struct Actor {
     Configuration configuration;
     std::unique_ptr<Stage> stage;
 };
 
-/// Draws one case everywhere and fills its result.
+/// Draws one case in all configurations and fills in its result.
 class CaseRun {
 public:
     CaseRun(Options const& options, std::vector<Actor>& actors, SceneSpec const& spec)
@@ -108,7 +108,7 @@ private:
         mResult.comparisons.push_back(std::move(*compared));
     }
 
-    // Also what no picture shows: an intermediate attachment may differ where the next pass rounds it away.
+    // Also detects what no picture shows: the next pass may round away a difference of an intermediate attachment.
     void compareInside(Actor& actor, Shot const& shot, Comparison& comparison) {
         if (!mReference.inside || !shot.inside) return blame(actor.configuration.name, "the frame was not captured");
         auto differs = compareFrames(*mReference.inside, *shot.inside);
@@ -191,7 +191,7 @@ Result<SceneSpec> findCase(std::vector<SceneSpec> const& cases, std::string cons
     return fail(ErrorCode::NotFound, "there is no case '{}'; --list prints all", name);
 }
 
-/// The cases in this process. Its engines are gone when it returns.
+/// Draws the cases in this process. Its engines are gone when it returns.
 Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& cases) {
     Result<Baselines> baselines = Baselines::read(options.baselines);
     if (!baselines) return baselines.error();

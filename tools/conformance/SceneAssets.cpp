@@ -21,15 +21,15 @@ namespace fs = std::filesystem;
 
 constexpr std::string_view kAsset = "asset:", kShowcase = "showcase", kSky = "sky", kWhite = "white",
                            kStudio = "studio";
-constexpr uint32_t kSkyHeight = 64; // smooth but for the horizon: enough for pictures of 256 pixels
-constexpr float kSkyUnit = 22;      // klx: radiance 1 of the sky's file, as the showcase has it
+constexpr uint32_t kSkyHeight = 64; // smooth except at the horizon: enough for pictures of 256 pixels
+constexpr float kSkyUnit = 22;      // klx: radiance 1 in the sky's file, as in the showcase
 
 fs::path resolve(std::string const& name, SceneSpec const& spec, fs::path const& assets) {
     if (name.starts_with(kAsset)) return assets / name.substr(kAsset.size());
     return spec.folder / name;
 }
 
-/// Made in a folder of this process and thread alone, then moved to its place in one step.
+/// Writes to a folder of this process and thread, then moves the file into place in one step.
 Result<fs::path> writeOnce(fs::path const& path, std::function<Result<void>(fs::path const& own)> const& write) {
     if (fs::exists(path)) return path;
     const fs::path own =
@@ -41,7 +41,7 @@ Result<fs::path> writeOnce(fs::path const& path, std::function<Result<void>(fs::
     return path;
 }
 
-/// One file name for each content.
+/// A file name derived from the content.
 Result<fs::path> writeBuiltModel(SceneSpec const& spec, fs::path const& work) {
     const std::string name = spec.name.substr(0, spec.name.find('/'));
     Result<std::vector<std::byte>> bytes = buildModel(*spec.modelObject, name);
@@ -68,8 +68,8 @@ Result<void> writeWhite(fs::path const& path) {
     return assets::writeHdr(path, white);
 }
 
-/// Soft boxes on walls that are nearly dark, as photographers have them: hard edges, high contrast, all light from
-/// little of the sphere.
+/// Soft boxes on nearly dark walls, as in a photographer's studio: hard edges, high contrast, all light from a small
+/// part of the sphere.
 Result<void> writeStudio(fs::path const& path) {
     constexpr uint32_t kWidth = 1024, kHeight = 512;
     struct Lamp {
@@ -155,7 +155,7 @@ std::vector<double4x4> placedCopies(SceneSpec const& spec) {
     return copies;
 }
 
-// Where the scene does not say: from the front, a little from the right and above, all of the model in view.
+// The default: from the front, slightly from the right and above, with the whole model in view.
 Camera cameraOf(SceneSpec const& spec, Box const& bounds) {
     double3 eye, at;
     if (spec.eye) {

@@ -154,7 +154,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     SceneSpec spec{ .name = std::move(name), .folder = file.parent_path() };
     spec.view.size = { 256, 256 };
     JsonReader reader(json, fmt::format("{} ({})", file.filename().string(), spec.name));
-    reader.raw("description"); // for people
+    reader.raw("description"); // ignored: for readers
     reader.raw("features");
     readModel(reader, spec);
     reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
@@ -202,7 +202,7 @@ Result<std::vector<SceneSpec>> readSceneFile(std::filesystem::path const& file) 
     if (!features->is_object()) return fail(ErrorCode::InvalidArgument, "{}: features: expected an object", name);
     for (auto const& [feature, patch] : features->items()) {
         Json changed = *json;
-        changed.erase("kills"); // a feature kills what it says itself
+        changed.erase("kills"); // not inherited: a feature lists its own
         changed.merge_patch(patch);
         Result<SceneSpec> one = readCase(changed, file, name + "/" + feature);
         if (!one) return one.error();

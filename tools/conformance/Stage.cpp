@@ -9,7 +9,7 @@
 namespace filament::conformance {
 namespace {
 
-// Equal texts: loaded already.
+// Equal texts mean that it is loaded already.
 std::string keyOf(std::filesystem::path const& path, GltfLoadOptions const& options) {
     return fmt::format("{} {} {}", path.string(), toString(options.positions), toString(options.tangents));
 }
@@ -111,7 +111,7 @@ Result<void> Stage::set(SceneSpec const& spec) {
 Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request) {
     for (uint32_t i = 1; i < mFrames; ++i) mRenderer.render(*mScene, mView, mTarget);
     if (request && mCapture) {
-        mEngine.waitIdle(); // frames under way must not meet the request
+        mEngine.waitIdle(); // earlier frames must not be affected by the request
         mCapture->arm(*request);
     }
     mRenderer.render(*mScene, mView, mTarget);

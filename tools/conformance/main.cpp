@@ -22,7 +22,7 @@ int finish(Options const& options, Results const& results) {
     return summaryOf(results).failed ? 1 : 0;
 }
 
-/// Reads the results of shards and takes their pictures along.
+/// Reads the results of shards and copies their pictures.
 int mergeShards(Options const& options) {
     std::vector<Results> parts;
     for (std::filesystem::path const& folder : options.merge) {
@@ -66,7 +66,7 @@ int run(Options const& options) {
     const std::vector<SceneSpec> cases = casesOf(std::move(*scenes), options);
     if (options.list) return list(cases);
     std::error_code error;
-    std::filesystem::remove_all(options.out / "images", error); // of an earlier run
+    std::filesystem::remove_all(options.out / "images", error); // those of an earlier run
     const Result<Results> results = runCases(options, cases);
     tools::clearProgress();
     return results ? finish(options, *results) : failed(results.error());

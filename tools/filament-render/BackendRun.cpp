@@ -20,14 +20,14 @@ namespace filament::tools {
 namespace {
 
 constexpr uint32_t kCostRounds = 31;
-constexpr uint32_t kBudgetFrames = 7; // the median of so many says what a frame takes
+constexpr uint32_t kBudgetFrames = 7; // their median is the time of a frame
 
 class StopWatch {
 public:
     double milliseconds() const {
         return std::chrono::duration<double, std::milli>(std::chrono::steady_clock::now() - mStart).count();
     }
-    /// Milliseconds since the start, which is now.
+    /// Milliseconds since construction.
     double lap() {
         const double elapsed = milliseconds();
         mStart = std::chrono::steady_clock::now();
@@ -69,7 +69,7 @@ Result<Engine> createEngine(Options const& options, Backend backend) {
     return engine;
 }
 
-/// Places of the copies: a square grid in the plane of x and z, as large as one copy would be.
+/// Positions of the copies: a square grid in the xz plane, scaled to the size of a single copy.
 std::vector<double4x4> placesOf(uint32_t copies, double4x4 const& worldFromModel) {
     const auto side = static_cast<uint32_t>(std::ceil(std::sqrt(copies)));
     const double cell = 1.0 / side;
@@ -83,7 +83,7 @@ std::vector<double4x4> placesOf(uint32_t copies, double4x4 const& worldFromModel
     return places;
 }
 
-/// The animation that the command line means; none: the model stays at rest.
+/// The animation that the command line selects; without one, the model stays at rest.
 Result<std::optional<uint32_t>> animationOf(Options const& options, Model const& model) {
     const uint32_t count = model.animationCount();
     if (options.animation.empty()) {
@@ -98,14 +98,14 @@ Result<std::optional<uint32_t>> animationOf(Options const& options, Model const&
     return std::optional(*named);
 }
 
-/// Everything between a living engine and its first picture, in the order in which it must end.
+/// Everything between a running engine and its first picture, in the order in which it must be destroyed.
 class Stage {
 public:
     Stage(Engine& engine, Options const& options)
             : mEngine(engine), mOptions(options), mScene(engine), mRenderer(engine, { .passTimers = true }) {}
 
     Result<void> load(BackendRun& run, std::filesystem::path const& model, std::filesystem::path const& environment);
-    /// With --budget: measures frames of what was asked for, and goes on with what fits.
+    /// With --budget: measures frames with the requested settings, and continues with the settings that fit.
     Result<void> fitBudget(BackendRun& run);
     Result<void> measureCosts(BackendRun& run);
     void drawFirst(BackendRun& run);
@@ -197,14 +197,14 @@ Result<void> Stage::fitBudget(BackendRun& run) {
     if (!costs) return costs.error();
     showProgress(fmt::format("{}: frames to fit the budget", fileStem(run.backend)));
     View view = mView;
-    view.quality = {}; // what the ratios of the table are to
+    view.quality = {}; // the base of the table's ratios
     for (uint32_t frame = 0; frame <= kBudgetFrames; ++frame) {
         mRenderer.render(mScene, view, mTarget.get());
         mEngine.waitIdle();
     }
     std::vector<double> milliseconds;
     for (FrameTimings const& frame : mRenderer.takeTimings()) milliseconds.push_back(frame.gpuMilliseconds);
-    if (!milliseconds.empty()) milliseconds.erase(milliseconds.begin()); // compiled and uploaded
+    if (!milliseconds.empty()) milliseconds.erase(milliseconds.begin()); // the first frame compiles and uploads
     std::sort(milliseconds.begin(), milliseconds.end());
     Result<QualityDecision> decision =
             chooseQuality({ .gpuMilliseconds = *mOptions.budgetMilliseconds,
@@ -257,7 +257,7 @@ void Stage::drawOthers(BackendRun& run) {
     run.atEnd = mEngine.statistics();
 }
 
-// With several backends the file's name carries the backend: jobs.json -> jobs.vulkan.json, jobs.gles.json.
+// With several backends the file name includes the backend: jobs.json -> jobs.vulkan.json, jobs.gles.json.
 std::filesystem::path traceFileOf(Options const& options, Backend backend) {
     if (options.backends.size() == 1) return options.traceJobs;
     std::filesystem::path path = options.traceJobs;

@@ -24,7 +24,7 @@ std::atomic<uint64_t> gAllocations{ 0 };
 
 uint64_t filament::tools::heapAllocations() { return gAllocations.load(std::memory_order_relaxed); }
 
-// A sanitizer brings an allocator of its own, whose checks matter more than this count: there it stays at zero.
+// A sanitizer has its own allocator, whose checks matter more than this count, so the count stays zero there.
 #if defined(__SANITIZE_ADDRESS__) || defined(__SANITIZE_THREAD__)
 #define FILAMENT_SANITIZED 1
 #elif defined(__has_feature)
@@ -35,7 +35,7 @@ uint64_t filament::tools::heapAllocations() { return gAllocations.load(std::memo
 
 #ifndef FILAMENT_SANITIZED
 
-// The array and nothrow forms of the standard library come back to these.
+// The standard library's array and nothrow forms call these.
 void* operator new(std::size_t bytes) { return counted(bytes, 0); }
 void* operator new(std::size_t bytes, std::align_val_t alignment) {
     return counted(bytes, static_cast<std::size_t>(alignment));

@@ -12,7 +12,7 @@ namespace {
 
 constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 256;
 
-/// The words of the options that only this program has.
+/// The options that only this program has.
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
                 affinity = "none", requireDevice, budget, costs, measureCosts, time, animation;

@@ -105,7 +105,7 @@ Json countsJson(BackendRun const& run) {
              { "deviceBytes", run.atEnd.deviceBytes } };
 }
 
-/// How much of the driver thread's replay of frame n ran while the app thread was already making frame n + 1.
+/// How much of the driver thread's replay of frame n overlapped with the app thread's work on frame n + 1.
 double overlapMilliseconds(std::span<const FrameTimings> frames) {
     double seconds = 0;
     for (size_t i = 0; i + 1 < frames.size(); ++i) {

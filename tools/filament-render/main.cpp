@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// filament-render [MODEL] [options]: one command line, one or two backends, their pictures and the comparison of the
-// two. Exit status 0: everything asked for was drawn and, with two backends, all pixels are equal (within --tolerance).
+// filament-render [MODEL] [options]: draws the picture of one command line on one or two backends and compares the two.
+// Exit status 0: everything was drawn and, with two backends, all pixels are equal (within --tolerance).
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/common/Console.h"
 #include "tools/common/Machine.h"
@@ -36,7 +36,7 @@ std::filesystem::path picturePath(Options const& options, Backend backend) {
     return options.out / fmt::format("{}.{}", fileStem(backend), options.format == PictureFormat::Exr ? "exr" : "png");
 }
 
-/// Draws and saves; what went wrong goes to `errors`, once, however many backends say it.
+/// Draws and saves. Errors go to `errors`, once each, however many backends report them.
 std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& files,
                                 std::vector<std::string>& errors) {
     const auto note = [&](std::string const& message) {
@@ -60,7 +60,7 @@ std::vector<BackendRun> drawAll(Options const& options, showcase::Files const& f
             note(saved.error().message);
         else
             std::printf("%-7s %s: %s\n", fileStem(backend), run->device.device.c_str(), path.string().c_str());
-        if (run->decision) { // both APIs draw what the first one can afford, or there is nothing to compare
+        if (run->decision) { // both APIs must draw with the same settings to be comparable
             wanted.quality = run->decision->quality;
             wanted.budgetMilliseconds.reset();
             std::fputs(run->decision->explanation.c_str(), stdout);
@@ -79,7 +79,7 @@ Result<ImageComparison> compareRuns(Options const& options, BackendRun const& a,
     return comparison;
 }
 
-/// One table of the backends that were measured.
+/// Combines the tables of the measured backends.
 Result<void> writeCosts(Options const& options, std::vector<BackendRun> const& runs) {
     std::optional<QualityCosts> costs;
     for (BackendRun const& run : runs) {

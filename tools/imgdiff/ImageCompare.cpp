@@ -21,11 +21,11 @@ uint32_t componentDifference8(std::byte a, std::byte b) {
 uint32_t componentDifference16(uint16_t a, uint16_t b) {
     if (a == b) return 0;
     const float difference = std::abs(floatFromHalf(a) - floatFromHalf(b)) * 255.0f;
-    if (!(difference < 255.0f)) return 255; // not a number as well
+    if (!(difference < 255.0f)) return 255; // includes NaN
     return std::max(1u, static_cast<uint32_t>(std::ceil(difference)));
 }
 
-/// Largest difference of a component, 0 only for identical bits.
+/// Largest difference of a component; 0 only for identical bits.
 uint32_t pixelDifference(Format format, const std::byte* a, const std::byte* b) {
     uint32_t largest = 0;
     if (format == Format::RGBA8) {
@@ -50,7 +50,7 @@ uint8_t displayByte(Format format, const std::byte* pixel, int component) {
 } // namespace
 
 std::string ImageComparison::line() const {
-    // In whole steps of 0.0001 %, so that no rounding can turn one wrong pixel into 100 %.
+    // Counts whole steps of 0.0001 %, so that rounding cannot turn one wrong pixel into 100 %.
     const uint64_t steps = pixels ? identical * 1'000'000 / pixels : 0;
     return fmt::format("identical: {}.{:04} % of pixels, max difference {}/255", steps / 10'000, steps % 10'000,
                        maxDifference);

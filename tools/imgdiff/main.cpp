@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // imgdiff A.png B.png [--out DIFF.png] [--tolerance N]: the comparison of filament-render for any two pictures.
-// Exit status: 0 within the tolerance, 1 not, 2 when there was nothing to compare.
+// Exit status 0: within the tolerance; 1: not; 2: the pictures could not be compared.
 #include "filament_core/assets/image/ImageWriter.h"
 #include "tools/imgdiff/ImageCompare.h"
 

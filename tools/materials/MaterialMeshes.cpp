@@ -8,7 +8,7 @@
 namespace filament::tools {
 namespace {
 
-/// A point of a parametric surface: normal and tangent need not be unit.
+/// A point of a parametric surface; normal and tangent need not be unit.
 struct SurfacePoint {
     float3 position, normal, tangent;
 };
@@ -32,7 +32,8 @@ MaterialVertex vertexOf(SurfacePoint const& point, float2 uv) {
     return vertex;
 }
 
-/// columns x rows cells over [0, 1]^2; `point(u, v)`: counter-clockwise from outside where u runs right and v up.
+/// columns x rows cells over [0, 1]^2. Seen from outside, u runs to the right and v up; triangles are
+/// counter-clockwise.
 template <class Point>
 void addGrid(MaterialMesh& mesh, uint32_t columns, uint32_t rows, Point const& point) {
     const auto first = static_cast<uint32_t>(mesh.vertices.size());
@@ -71,7 +72,7 @@ SurfacePoint torusPoint(float u, float v) {
 
 SurfacePoint planePoint(float u, float v) { return { { 2 * u - 1, 2 * v - 1, 0 }, { 0, 0, 1 }, { 1, 0, 0 } }; }
 
-/// A sheet rolled up around y, so that both of its sides are seen.
+/// A sheet rolled up around y, so that both sides are visible.
 SurfacePoint scrollPoint(float u, float v) {
     const float angle = 2 * kPi * (1.35f * u - 0.15f), radius = 0.35f + 0.55f * u;
     const float3 out(std::sin(angle), 0, std::cos(angle)), along(std::cos(angle), 0, -std::sin(angle));

@@ -37,7 +37,7 @@ Error unknownValue(MaterialFile const& file, std::string const& name) {
                 suggestion(name, known));
 }
 
-/// A block that goes through the object from left to right.
+/// A block that passes through the object from left to right.
 double4x4 slabPlace() {
     return glm::scale(glm::rotate(double4x4(1.0), 0.35, double3(0, 0, 1)), double3(2.0, 0.22, 0.9));
 }
@@ -93,7 +93,7 @@ Result<void> MaterialStand::setOne(Engine& engine, MaterialFile const& file, std
                                    std::string const& value) {
     shader::Parameter const* parameter = file.package.findParameter(name);
     if (!parameter) {
-        if (file.package.findConstant(name)) return {}; // set when the material was made
+        if (file.package.findConstant(name)) return {}; // set when the material was created
         return unknownValue(file, name);
     }
     if (!shader::isTexture(parameter->type)) return setMaterialValue(engine, mInstance, *parameter, value);

@@ -12,7 +12,7 @@
 namespace filament::tools {
 namespace {
 
-/// Nothing if one of the words is no number.
+/// Returns nothing if a word is not a number.
 std::optional<std::vector<double>> numbersOf(std::string const& words) {
     std::vector<double> numbers;
     for (size_t begin = 0; begin <= words.size();) {

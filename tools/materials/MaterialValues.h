@@ -21,7 +21,7 @@ using MaterialValues = std::vector<std::pair<std::string, std::string>>;
 Result<void> setMaterialValue(Engine& engine, MaterialInstance instance, shader::Parameter const& parameter,
                               std::string const& words);
 
-/// Those of the values that are constants of the package.
+/// The values that belong to constants of the package.
 Result<std::vector<MaterialConstant>> materialConstants(shader::MaterialPackage const& package,
                                                         MaterialValues const& values);
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// markdownOf(): docs/numerics.md as a whole, words and tables.
+// markdownOf(): the whole of docs/numerics.md, text and tables.
 #include "tools/numerics/Report.h"
 
 #include <fmt/format.h>
@@ -105,7 +105,7 @@ void appendErrors(std::string& text, RowResult const& row) {
     text += fmt::format(" {} | {} |\n", limitsOf(*row.row), reasonOf(*row.row));
 }
 
-/// "number", "number, inf": what came out at all.
+/// "number", "number, inf": the kinds of results.
 std::string outcomesOf(OutsideCount const& count) {
     std::string text;
     const auto add = [&](uint32_t n, std::string_view name) {
@@ -117,7 +117,7 @@ std::string outcomesOf(OutsideCount const& count) {
     return text;
 }
 
-/// "fp16" for both of its columns, and so on; the names of the columns where no word covers them.
+/// "fp16" for both of its columns, and so on; the names of the columns if there is no common word.
 std::string nameOf(std::vector<Column> const& columns) {
     const std::vector<Column> single{ Column::VulkanSingle, Column::GlesSingle };
     const std::vector<Column> half{ Column::VulkanHalf, Column::GlesHalf };
@@ -133,11 +133,11 @@ std::string nameOf(std::vector<Column> const& columns) {
 }
 
 std::string outsideCell(RowResult const& row, size_t input) {
-    std::vector<std::pair<std::string, std::vector<Column>>> groups; // columns of equal outcomes
+    std::vector<std::pair<std::string, std::vector<Column>>> groups; // columns with equal outcomes
     for (const Column column : kColumns) {
         if (!row.of(column)) continue;
         const std::string outcomes = outcomesOf(row.of(column)->outside[input]);
-        if (outcomes.empty()) continue; // the interval ends with the numbers of the format
+        if (outcomes.empty()) continue; // the interval extends to the limits of the format
         auto known = std::find_if(groups.begin(), groups.end(), [&](auto const& g) { return g.first == outcomes; });
         if (known == groups.end()) known = groups.insert(known, { outcomes, {} });
         known->second.push_back(column);

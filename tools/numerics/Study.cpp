@@ -13,7 +13,7 @@ namespace {
 
 using backend::BackendType;
 
-/// The rows of a format with their points; a row's index here is its index in every list below.
+/// The rows of a format with their points. A row has the same index in all lists below.
 struct Work {
     Format format{};
     std::vector<size_t> indices; ///< into Study::rows
@@ -38,8 +38,8 @@ Work workOf(Study const& study, Format format) {
 
 bool isVulkan(Column column) { return column == Column::VulkanSingle || column == Column::VulkanHalf; }
 
-/// These round like the CPU. Others may be off by a few units in the last place, by 2^-11 in sin() and cos()
-/// (Vulkan 1.3, "Precision and Operation of SPIR-V Instructions"), and differ from each other.
+/// These round like the CPU. Other operations may be off by a few units in the last place, or by 2^-11 in sin() and
+/// cos() (Vulkan 1.3, "Precision and Operation of SPIR-V Instructions"), and differ between devices.
 bool isMesaCpu(std::string_view device) { return device.find("llvmpipe") != std::string_view::npos; }
 
 void measureAll(Study& study, Work const& work, Column column, std::vector<Results> const& results) {
@@ -76,7 +76,7 @@ void evaluateInCpp(Study& study, Work const& work) {
     measureAll(study, work, Column::Cpp, results);
 }
 
-/// What one device made of the work, for the comparison with the other; empty without a device.
+/// One device's results for the work, for the comparison with the other; empty without a device.
 struct DeviceResults {
     std::vector<Results> single, half;
 };

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// filament-numerics [--only TEXT] [--csv FILE] [--json FILE] [--write FILE]: every function of shaders/lib over edge
-// grids in fp32 and fp16 on the CPU and both APIs, against fp64. Exit status 0: every promise is kept. 1: some are not,
-// or the run could not be made. docs/numerics.md.
+// filament-numerics [--only TEXT] [--csv FILE] [--json FILE] [--write FILE]: evaluates every function of shaders/lib
+// over edge grids in fp32 and fp16 on the CPU and both APIs, and compares with fp64. Exit status 0: every promise is
+// kept. 1: some are broken, or the run failed. See docs/numerics.md.
 #include "tools/common/CommandLine.h"
 #include "tools/common/Program.h"
 #include "tools/numerics/Report.h"

@@ -9,7 +9,7 @@ from matplotlib.patches import Patch
 
 from style import BadInput, field, finite, load_json
 
-# Names in the legend, the longest in total first; the rest share one colour.
+# Names in the legend, longest total first; the rest share one colour.
 PALETTE = ("#0072b2", "#e69f00", "#009e73", "#cc79a7", "#d55e00", "#56b4e9", "#8b6fc6", "#b8a100", "#4a7a5c", "#a0522d",
            "#6b8cae", "#d98880", "#3d9970", "#7f7f00", "#b565a7")
 OTHERS = "#b5b5b5"

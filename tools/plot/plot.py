@@ -71,7 +71,7 @@ def parse_arguments(words):
 
 
 def save(figure, path):
-    # no date: the same figures, the same bytes
+    # no date, so that the same figures give the same bytes
     figure.savefig(path, metadata={"Date": None} if path.suffix.lower() == ".svg" else None)
     plt.close(figure)
 

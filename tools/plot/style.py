@@ -4,7 +4,7 @@ import json
 
 import matplotlib.pyplot as plt
 
-# Colours that stay apart for the colour-blind: Okabe and Ito 2008, "Color universal design".
+# Colours that colour-blind readers can distinguish: Okabe and Ito 2008, "Color universal design".
 BLUE, ORANGE, GREEN, PINK, GREY, SKY, RED, YELLOW = (
     "#0072b2", "#e69f00", "#009e73", "#cc79a7", "#8c8c8c", "#56b4e9", "#d55e00", "#d9c82b")
 CONTENDER_COLORS = {"ours": BLUE, "tbb": ORANGE, "openmp": GREEN, "async": PINK, "serial": GREY, "copy": GREY, "futex": GREY,

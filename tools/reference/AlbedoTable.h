@@ -58,14 +58,14 @@ public:
 private:
     inline static const double kLeastLog = std::log(0.045); // kMinPerceptualRoughness
 
-    // Catmull and Rom 1974: through the entries, with continuous slope.
+    // Catmull and Rom 1974: interpolates the entries, with a continuous slope.
     static std::array<double, 4> weights(double x) {
         const double t = x - std::floor(x);
         return { ((2 - t) * t - 1) * t / 2, ((3 * t - 5) * t * t + 2) / 2, ((4 - 3 * t) * t + 1) * t / 2,
                  (t - 1) * t * t / 2 };
     }
 
-    // One entry beyond the border, the table continues as the parabola through its last three entries.
+    // Beyond the border, the table continues for one entry as the parabola through its last three entries.
     Value at(int x, int y) const {
         const int column = std::clamp(x, 0, mCosines - 1), row = std::clamp(y, 0, mRoughnesses - 1);
         const int dx = column - x, dy = row - y;

@@ -84,8 +84,8 @@ Bsdf::Bsdf(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusi
     chooseChances();
 }
 
-// In proportion to what each part sends to the viewer, and a twentieth at least for each that is there. What a view
-// from inside transmits through tilted facets, beyond the critical angle of the surface, its estimate does not know.
+// In proportion to what each part sends to the viewer, and at least a twentieth for each part that exists. The estimate
+// cannot know what a view from inside transmits through tilted facets beyond the surface's critical angle.
 void Bsdf::chooseChances() {
     const double throughCoat = mCoat ? mCoat->attenuationOfView() : 1;
     const double throughSheen = throughCoat * (mSheen ? mSheen->scalingOfView() : 1);
@@ -151,7 +151,7 @@ double3 Bsdf::coatedAt(double3 light, LightSource source) const {
     return sum;
 }
 
-// As the engine: what comes from behind passes the coat in both directions, the sheen on its way out.
+// As in the engine: light from behind crosses the coat in both directions, and the sheen on its way out.
 double3 Bsdf::behindAt(double3 light, LightSource source) const {
     double3 sum(0.0);
     const double sheen = mSheen ? mSheen->scalingOfView() : 1;

@@ -57,7 +57,7 @@ private:
 
     double3 mNormal;
     Base mBase;                // below an exact coat: seen along the refracted view
-    std::optional<Base> mBare; // where the surface has no exact coat
+    std::optional<Base> mBare; // for the part without an exact coat
     std::optional<CoatLayer> mCoat;
     std::optional<SheenLayer> mSheen;
     std::optional<TransmissionLobe> mTransmission;

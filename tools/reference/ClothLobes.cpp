@@ -42,11 +42,11 @@ LobeValues ClothLobes::evaluate(double3 light, LightSource) const {
     return values;
 }
 
-// The wrapped lobe's own density, whose mean is that of its cosines: ((c + w) / (1 + w))^2 is uniform.
+// The wrapped lobe's own density, whose integral weights its cosines: ((c + w) / (1 + w))^2 is uniform.
 std::optional<double3> ClothLobes::sample(double2 u, double choice) const {
     const double wrap = mSubsurfaceColor ? lib::kClothWrap : 0;
     const double cosine =
-            choice < kDiffuseChance ? (1 + wrap) * std::sqrt(1 - u.y) - wrap : 1 - u.y; // else all directions alike
+            choice < kDiffuseChance ? (1 + wrap) * std::sqrt(1 - u.y) - wrap : 1 - u.y; // otherwise uniform
     const double sine = std::sqrt(std::max(1 - cosine * cosine, 0.0)), azimuth = lib::kTwoPi * u.x;
     return glm::normalize(mFrame.toWorld({ sine * std::cos(azimuth), sine * std::sin(azimuth), cosine }));
 }

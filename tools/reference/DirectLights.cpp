@@ -29,7 +29,7 @@ DirectLights::DirectLights(std::vector<SunLight> const& suns, std::vector<PointL
                             .inverseSquaredRange = inverseSquare(point.rangeMeters) });
     }
     for (SpotLight const& spot : spots) {
-        // KHR_lights_punctual, with the engine's least difference of the cosines.
+        // KHR_lights_punctual, with the engine's minimum difference of the cosines.
         const double cosOuter = std::cos(double(spot.outerConeRadians));
         const double cosInner = std::cos(std::min<double>(spot.innerConeRadians, spot.outerConeRadians));
         const double scale = 1 / std::max(1e-3, cosInner - cosOuter);
@@ -69,7 +69,7 @@ DirectSample DirectLights::sample(double3 position, double u) const {
         chosen = arriving(light, position);
         chosen.illuminance *= total / weight;
         remaining -= weight;
-        if (remaining < 0) break; // or the last one that shines, should rounding leave a crumb
+        if (remaining < 0) break; // rounding may leave a rest: then the last light that shines
     }
     return chosen;
 }

@@ -31,8 +31,8 @@ struct Reflection {
     double voh = 0, nol = 0;
 };
 
-/// Heitz' disc: every point is a half vector, equally likely to be seen from v. Points are told by an azimuth and by an
-/// angle whose sine is the radius, so that nothing is singular at the disc's edge.
+/// Heitz' disc: every point is a half vector, and all are equally likely to be seen from v. Points are given by an
+/// azimuth and an angle whose sine is the radius, so that nothing is singular at the disc's edge.
 class VisibleNormals {
 public:
     VisibleNormals(double nov, double alpha)
@@ -51,12 +51,12 @@ public:
         return { voh, 2 * voh * h.z - mView.z };
     }
 
-    /// The angle at which light comes from the horizon, or that of the disc's edge: the integrand bends there.
+    /// The angle at which light comes from the horizon, or that of the disc's edge: the integrand has a kink there.
     double horizon(double azimuth) const {
         double inside = 0, outside = kPi / 2;
         double above = reflection(inside, azimuth).nol, below = reflection(outside, azimuth).nol;
         if (below > 0) return outside;
-        for (int step = 0; step < 8; ++step) { // Illinois: the secant, halving the end that stays
+        for (int step = 0; step < 8; ++step) { // Illinois method: secant, halving the retained end
             const double middle = inside + (outside - inside) * above / (above - below);
             const double nol = reflection(middle, azimuth).nol;
             if (nol > 0) {
@@ -126,7 +126,7 @@ double2 directionalAlbedo(double nov, double perceptualRoughness) {
 }
 
 double2 averageDirectionalAlbedo(double perceptualRoughness) {
-    constexpr int kEntries = 256; // linear between them: 1e-5
+    constexpr int kEntries = 256; // linear interpolation between them: 1e-5
     static const std::vector<double2> sTable = [] {
         std::vector<double2> table;
         for (int i = 0; i <= kEntries; ++i)

@@ -23,7 +23,7 @@ Distribution::Distribution(std::span<const double> weights) : mCumulative(weight
 }
 
 Picked Distribution::pick(double u) const {
-    // The first sum above u: shares of size zero end where they begin and are stepped over.
+    // The first sum above u. Items of weight zero end where they begin, and are skipped.
     const auto above = std::upper_bound(mCumulative.begin() + 1, mCumulative.end() - 1, u);
     const auto index = static_cast<uint32_t>(above - mCumulative.begin()) - 1;
     const double share = probability(index);

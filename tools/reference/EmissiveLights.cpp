@@ -23,7 +23,7 @@ bool glows(assets::MaterialData const& material) {
     return emitted.x > 0 || emitted.y > 0 || emitted.z > 0;
 }
 
-/// Radiance towards `view`, nothing where a mask cuts the surface away.
+/// Radiance towards `view`; zero where a mask cuts the surface away.
 double3 emittedAt(Part const& part, TrianglePoint const& point, double3 view) {
     return isMaskedOut(part, point) ? double3(0.0) : surfaceAt(part, point, view).emitted;
 }

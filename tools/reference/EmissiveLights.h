@@ -44,7 +44,7 @@ private:
 
     std::vector<Part> const* mParts = nullptr;
     std::vector<Triangle> mTriangles;
-    std::vector<uint32_t> mFirstOfPart; // an emissive part has all its triangles here, in order; others: kNone
+    std::vector<uint32_t> mFirstOfPart; // kNone: not emissive; else all triangles, in order
     Distribution mChoice;
 };
 

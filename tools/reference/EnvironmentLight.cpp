@@ -43,8 +43,9 @@ double3 EnvironmentLight::texel(int x, int y) const {
     return double3(mImage->at(static_cast<uint32_t>(column), static_cast<uint32_t>(row)));
 }
 
-// Mean over the components and over the pixels whose centres the cell holds; one pixel where cells are pixels. The
-// bilinear picture integrates over a pixel to the weights 1 6 1 (/ 8) of it and its neighbours in either direction.
+// Mean over the components and over the pixels whose centres are in the cell; a single pixel if cells are pixels.
+// Integrating the bilinear picture over a pixel gives the weights 1 6 1 (/ 8) for it and its neighbours in either
+// direction.
 double EnvironmentLight::cellWeight(uint32_t column, uint32_t row) const {
     constexpr double kWeights[3] = { 0.125, 0.75, 0.125 };
     const auto span = [](uint32_t cell, uint32_t cells, uint32_t pixels) {
@@ -77,7 +78,7 @@ double3 EnvironmentLight::skyFromWorld(double3 d) const {
     return { mCosine * d.x - mSine * d.z, d.y, mSine * d.x + mCosine * d.z };
 }
 
-// As <filament/Environment.h> says.
+// As specified in <filament/Environment.h>.
 double2 EnvironmentLight::pictureFromWorld(double3 direction) const {
     const double3 d = skyFromWorld(direction);
     const double u = 0.5 - std::atan2(d.x, d.z) / (2 * kPi);

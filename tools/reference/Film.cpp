@@ -14,8 +14,8 @@ double3 Film::variance(Pixel const& pixel) const {
     return glm::max(spread, 0.0) / (n * (n - 1));
 }
 
-// The luminance of the error is taken as the error of the luminance with fully dependent components, which is what
-// brightness noise looks like and never less than the truth.
+// Assumes that the errors of the components are fully dependent, as for noise of the brightness; never underestimates
+// the error.
 void Film::measure(RenderStatistics& statistics) const {
     double luminance = 0, squares = 0;
     for (Pixel const& pixel : mPixels) {

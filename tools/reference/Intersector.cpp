@@ -12,7 +12,7 @@ namespace filament::reference {
 namespace {
 
 struct TraceContext {
-    RTCIntersectContext embree; // first: Embree hands out its address
+    RTCIntersectContext embree; // first member, because Embree passes its address
     Ray const* ray;
 };
 
@@ -23,7 +23,7 @@ bool wasPassed(PassedTriangles const& passed, uint32_t part, uint32_t triangle) 
     });
 }
 
-// Called for every candidate; valid[0] = 0 refuses it.
+// Called for every candidate; valid[0] = 0 rejects it.
 void refuseWhatIsNotThere(RTCFilterFunctionNArguments const* arguments) {
     auto const& part = *static_cast<Part const*>(arguments->geometryUserPtr);
     Ray const& ray = *reinterpret_cast<TraceContext const*>(arguments->context)->ray;
@@ -40,7 +40,7 @@ bool needsFilter(assets::MaterialData const& material) {
     return !material.doubleSided || material.alphaMode != assets::AlphaMode::Opaque;
 }
 
-// Embree reads 16 bytes at the last vertex: it gets buffers of its own, which it pads.
+// Embree reads 16 bytes at the last vertex, so it gets its own buffers, which it pads.
 bool attach(RTCDevice device, RTCScene scene, Part const& part, uint32_t id) {
     RTCGeometry geometry = rtcNewGeometry(device, RTC_GEOMETRY_TYPE_TRIANGLE);
     void* const vertices = rtcSetNewGeometryBuffer(geometry, RTC_BUFFER_TYPE_VERTEX, 0, RTC_FORMAT_FLOAT3,
@@ -98,10 +98,10 @@ TraceContext contextOf(Ray const& ray) {
 void Intersector::Deleter::operator()(void* scene) const { rtcReleaseScene(static_cast<RTCScene>(scene)); }
 
 Result<Intersector> Intersector::build(std::span<const Part> parts) {
-    // One thread: it makes the same tree on every machine with this instruction set.
+    // One thread: it builds the same tree on every machine with this instruction set.
     RTCDevice device = rtcNewDevice("threads=1");
     if (!device) return embreeFailure(rtcGetDeviceError(nullptr));
-    Intersector intersector(rtcNewScene(device)); // holds a reference to the device
+    Intersector intersector(rtcNewScene(device)); // keeps a reference to the device
     const auto scene = static_cast<RTCScene>(intersector.mScene.get());
     rtcSetSceneFlags(scene, RTC_SCENE_FLAG_ROBUST);
     rtcSetSceneBuildQuality(scene, RTC_BUILD_QUALITY_MEDIUM);
@@ -130,7 +130,7 @@ bool Intersector::isOccluded(Ray const& ray) const {
     TraceContext context = contextOf(ray);
     RTCRay query = embreeRay(ray);
     rtcOccluded1(static_cast<RTCScene>(mScene.get()), &context.embree, &query);
-    return query.tfar < 0; // Embree's answer: minus infinity
+    return query.tfar < 0; // Embree's way to report a hit: minus infinity
 }
 
 } // namespace filament::reference

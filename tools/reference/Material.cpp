@@ -15,7 +15,7 @@ namespace lib = shader::lib64;
 using assets::AlphaMode;
 using assets::MaterialData;
 
-constexpr double kReflectance = 0.5; // of glTF's dielectrics: f0 = 4 %
+constexpr double kReflectance = 0.5; // glTF's dielectrics: f0 = 4 %
 
 double4 baseColorOf(MaterialPoint const& point) {
     MaterialData const& material = point.material();
@@ -55,7 +55,7 @@ void evaluateMetallicRoughness(MaterialPoint const& point, double3 baseColor, Su
     addLayers(point, baseColor, roughness, surface);
 }
 
-// KHR_materials_pbrSpecularGlossiness, as shaders/material/gltf/specular_glossiness.glsl.
+// KHR_materials_pbrSpecularGlossiness, like shaders/material/gltf/specular_glossiness.glsl.
 void evaluateSpecularGlossiness(MaterialPoint const& point, double3 baseColor, SurfaceSample& surface) {
     assets::SpecularGlossinessData const& data = *point.material().specularGlossiness;
     const double4 map = has(data.map) ? point.fetch(data.map) : double4(1.0);
@@ -89,7 +89,8 @@ SurfaceSample surfaceAt(Part const& part, TrianglePoint const& point, double3 vi
     if (has(part.material->normal)) surface.unmappedNormal = at.smoothNormal();
     surface.tangent = double3(varyings.tangent) * side;
     surface.uv = varyings.uvs[0];
-    // Embree's floats: 2^-24 of the coordinates and, for the distance along a ray, some 2^-23 of the triangle's size.
+    // The precision of Embree's floats: 2^-24 of the coordinates and, for the distance along a ray, about 2^-23 of the
+    // triangle's size.
     const double3 size = glm::abs(varyings.position);
     surface.selfAvoidance = 0x1p-20 * (std::max({ size.x, size.y, size.z }) + varyings.longestEdge);
 

@@ -17,14 +17,14 @@ void weighReflectance(MaterialPoint const& point, double3 baseColor, SurfaceSamp
     const double4 maps = point.fetchColorAndScalar(material.specular.maps);
     const double weight = lib::saturate(material.specular.factor * maps.w);
     const double f0 = lib::f0FromIor(double(material.ior));
-    // The weights do not darken twice: f90 is that of the bare interface, then weighed.
+    // The weight must not darken twice: f90 is that of the bare interface, multiplied by the weight.
     surface.f90 =
             f90Of(glm::mix(double3(f0), baseColor, surface.metallic)) * lib::f90FromSpecular(weight, surface.metallic);
     surface.f0 = lib::f0FromSpecular(baseColor, surface.metallic, f0, double3(material.specular.color) * double3(maps),
                                      weight);
 }
 
-/// KHR_materials_anisotropy: rougher along its direction, and as it is across.
+/// KHR_materials_anisotropy: rougher along its direction, unchanged across it.
 void addAnisotropy(MaterialPoint const& point, double roughness, SurfaceSample& surface) {
     assets::AnisotropyData const& data = point.material().anisotropy;
     if (!data.isUsed()) return;
@@ -47,7 +47,7 @@ void addAnisotropy(MaterialPoint const& point, double roughness, SurfaceSample& 
     surface.tangent = point.toWorld({ direction.x, direction.y, 0 });
 }
 
-/// KHR_materials_clearcoat: the base stays as it is in air.
+/// KHR_materials_clearcoat: the base is that of a surface in air.
 void addClearCoat(MaterialPoint const& point, SurfaceSample& surface) {
     assets::ClearCoatData const& data = point.material().clearCoat;
     if (!data.isUsed()) return;
@@ -67,7 +67,7 @@ void addSheen(MaterialPoint const& point, SurfaceSample& surface) {
                       .perceptualRoughness = lib::clampPerceptualRoughness(data.roughness * maps.w) };
 }
 
-/// KHR_materials_volume and KHR_materials_dispersion. Lengths of the file become those of the world.
+/// KHR_materials_volume and KHR_materials_dispersion. Converts lengths of the file to lengths in the world.
 void addVolume(MaterialPoint const& point, double thickness, TransmissionSample& below) {
     assets::TransmissionData const& data = point.material().transmission;
     below.isThin = false;
@@ -79,7 +79,7 @@ void addVolume(MaterialPoint const& point, double thickness, TransmissionSample&
             point.part.worldFromScene;
 }
 
-/// KHR_materials_transmission takes its part of the diffuse lobe. Returns that part.
+/// KHR_materials_transmission takes its share of the diffuse lobe. Returns that share.
 double addTransmission(MaterialPoint const& point, SurfaceSample& surface) {
     assets::TransmissionData const& data = point.material().transmission;
     if (!data.isUsed()) return 0;
@@ -93,7 +93,7 @@ double addTransmission(MaterialPoint const& point, SurfaceSample& surface) {
     return part;
 }
 
-/// KHR_materials_diffuse_transmission. `transmitted`: what KHR_materials_transmission has taken.
+/// KHR_materials_diffuse_transmission. `transmitted`: the share taken by KHR_materials_transmission.
 void addDiffuseTransmission(MaterialPoint const& point, double transmitted, SurfaceSample& surface) {
     assets::DiffuseTransmissionData const& data = point.material().diffuseTransmission;
     if (!data.isUsed()) return;

@@ -35,7 +35,7 @@ double3 liftedAboveHorizon(double3 view) {
 double3 sampleVisibleNormal(double3 view, double2 alpha, double2 u) {
     const double3 stretched = glm::normalize(double3(alpha.x * view.x, alpha.y * view.y, view.z));
     Frame disc(stretched);
-    // The disc's second axis lies in the plane of the normal: there the horizon cuts it.
+    // The disc's second axis lies in the plane of the normal, where the horizon cuts it.
     const double size = std::hypot(stretched.x, stretched.y);
     if (size > 0) {
         disc.tangent = double3(-stretched.y, stretched.x, 0) / size;
@@ -66,7 +66,7 @@ double visibleReflectionPdf(double3 view, double3 light, double2 alpha) {
     if (length < 1e-12) return 0;
     const double3 halfway = sum / length;
     if (halfway.z <= 0) return 0;
-    // Visible half vectors: G1 D (v.h) / n.v; light directions are 4 v.h times sparser.
+    // Visible half vectors have the density G1 D (v.h) / n.v; that of light directions is 4 v.h times smaller.
     return smithMasking(view, alpha) * ggx(halfway, alpha) / (4 * view.z);
 }
 
@@ -78,7 +78,7 @@ double3 Interface::single(double cosine) const {
         outside = std::sqrt(1 - sine2);
     }
     if (mTerm == FresnelTerm::Schlick) return lib::fresnelSchlick(mF0, mF90, outside);
-    return lib::fresnelExact(mF0, mMetallic, outside) * mF90; // as shaders/material/surface/quality.glsl
+    return lib::fresnelExact(mF0, mMetallic, outside) * mF90; // like shaders/material/surface/quality.glsl
 }
 
 double3 Interface::throughSheet(double cosine) const {
@@ -86,8 +86,9 @@ double3 Interface::throughSheet(double cosine) const {
     return mBelow.color * lib::transmittance(mBelow.absorption, path);
 }
 
-// Stokes 1862, "On the Intensity of the Light Reflected from or Transmitted through a Pile of Plates": a sheet of sides
-// that reflect F, which lets t of the light inside pass once, reflects F + (1 - F)^2 F t^2 / (1 - F^2 t^2).
+// Stokes 1862, "On the Intensity of the Light Reflected from or Transmitted through a Pile of Plates": a sheet whose
+// sides reflect F, and which transmits t of the light inside per crossing, reflects F + (1 - F)^2 F t^2 / (1 - F^2
+// t^2).
 double3 Interface::reflectance(double cosine) const {
     const double3 f = single(cosine);
     if (!mBelow.isThin || mBelow.color == double3(0.0)) return f;

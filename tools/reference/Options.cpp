@@ -157,7 +157,7 @@ Result<void> convertNumbers(Words const& words, Options& options) {
     if (words.threads.empty()) return {};
     const auto threads = wholeNumber(words.threads, 1, 256);
     if (!threads) return invalidOption("--threads", words.threads, "a whole number from 1 to 256");
-    options.workers = static_cast<int>(*threads) - 1; // this thread works as well
+    options.workers = static_cast<int>(*threads) - 1; // this thread works, too
     return {};
 }
 

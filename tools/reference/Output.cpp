@@ -22,7 +22,7 @@ static_assert(static_cast<int>(ToneMapper::Linear) == lib::kToneMapLinear &&
               static_cast<int>(ToneMapper::Filmic) == lib::kToneMapFilmic &&
               static_cast<int>(ToneMapper::Mobile) == lib::kToneMapMobile);
 
-// As shaders/post/tonemap.mat and the conversion to UNORM after it.
+// Like shaders/post/tonemap.mat, followed by the conversion to UNORM.
 float3 displayColor(float3 color, ColorGrading const& grading, float2 pixelCenter) {
     const int mapper = static_cast<int>(grading.toneMapper);
     float3 result = lib::toneMap(color, mapper);

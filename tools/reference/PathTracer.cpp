@@ -12,19 +12,19 @@ namespace lib = shader::lib64;
 
 namespace {
 
-// Pairs of dimensions of the sample's numbers: 0 is the pixel's, then five a bounce; layers have their own.
+// Pairs of dimensions of the sample's numbers: pair 0 is the pixel's, then five per bounce; layers have their own.
 enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kPerBounce };
 constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21;
 
-constexpr uint32_t kRouletteFrom = 4;      // events that never end a path by chance
-constexpr uint32_t kMostEvents = 1u << 16; // what a path's numbers have room for
+constexpr uint32_t kRouletteFrom = 4;      // before this event, no path ends by roulette
+constexpr uint32_t kMostEvents = 1u << 16; // limit of the dimensions of a path
 
 double powerHeuristic(double pdf, double otherPdf) {
     const double a = pdf * pdf, b = otherPdf * otherPdf;
     return a > 0 ? a / (a + b) : 0;
 }
 
-// Light is not carried through a triangle by its shading normal: both normals must say whether it is transmitted.
+// A shading normal must not carry light through a triangle: both normals must agree on whether it is transmitted.
 bool isOnOneSide(SurfaceSample const& surface, double3 direction) {
     const bool isAbove = glm::dot(direction, surface.geometricNormal) > 0;
     if (!surface.transmits()) return isAbove;
@@ -40,14 +40,14 @@ struct PathTracer::Path {
     Hit hit{};
     bool isCamera = true;
     double3 throughput{ 1.0 };
-    double bsdfPdf = 0;  // of the direction, once the path was reflected
-    uint32_t bounce = 0; // reflections, on either side of a surface
-    uint32_t events = 0; // those, and what went through surfaces
+    double bsdfPdf = 0;  // of the direction, after a reflection
+    uint32_t bounce = 0; // reflections on either side of a surface
+    uint32_t events = 0; // reflections, and crossings of surfaces
     uint32_t layers = 0;
     PassedTriangles passed{};
-    int color = -1;             // the only one it carries, since light was dispersed
-    double spread = 1;          // index^2 of what it is in: radiance there is so much larger
-    bool isBehindGlass = false; // went straight through since it was reflected: shadow rays do not
+    int color = -1;             // the only one it carries after dispersion
+    double spread = 1;          // index^2 of the medium, by which radiance there is larger
+    bool isBehindGlass = false; // straight crossing since the last reflection
 
     double2 pair(BounceDimension dimension) const {
         return numbers.pair(kFirstBounce + events * kPerBounce + dimension);
@@ -73,7 +73,7 @@ double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64
     return sum + path.throughput * missed(path);
 }
 
-/// What was absorbed on the way to the inside of a solid, and which colour goes on.
+/// Applies the absorption on the way to the inner side of a solid, and chooses the colour that continues.
 void PathTracer::enterSurface(Path& path, SurfaceSample& surface) const {
     TransmissionSample& below = surface.transmission;
     if (below.isThin) return;
@@ -95,7 +95,7 @@ Bsdf PathTracer::bsdfAt(SurfaceSample const& surface) const {
     return Bsdf(surface, mSettings.bsdf, mUseOcclusion, mSettings.integrator == Integrator::Unoccluded);
 }
 
-// The surface that the path meets next, blended ones by chance: one of little opacity may still reflect much.
+// The next surface on the path. Blended surfaces are chosen at random: even one of low opacity may reflect much.
 std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
     path.ray.passed = path.passed.count > 0 ? &path.passed : nullptr;
     while (true) {
@@ -128,7 +128,7 @@ double3 PathTracer::missed(Path const& path) const {
     return weight > 0 ? environment.radiance(path.ray.direction) * (mExposure * weight) : double3(0.0);
 }
 
-/// Of the environment as the BSDF's sample finds it.
+/// Weight of the environment if the BSDF's sample finds it.
 double PathTracer::environmentWeight(double bsdfPdf, double3 direction) const {
     switch (mSettings.sampling) {
     case Sampling::Bsdf:
@@ -164,7 +164,7 @@ double3 PathTracer::environmentSample(Path& path, SurfaceSample const& surface, 
     return reflected * (share * weight / sample.pdf);
 }
 
-/// Of a glowing surface as a path finds it that was reflected: emissiveSample() has found the rest.
+/// Weight of a glowing surface that a reflected path hits; emissiveSample() accounts for the rest.
 double PathTracer::emissionWeight(Path const& path) const {
     if (path.isCamera || path.isBehindGlass || mSettings.sampling == Sampling::Bsdf) return 1;
     const double pdf = mScene.emissiveLights().pdf(path.hit, path.ray.direction);
@@ -176,12 +176,12 @@ double3 PathTracer::emissiveSample(Path& path, SurfaceSample const& surface, Bsd
     EmissiveLights const& lights = mScene.emissiveLights();
     const bool isOn = mSettings.integrator == Integrator::Path && mSettings.sampling != Sampling::Bsdf;
     if (lights.empty() || !isOn) return double3(0.0);
-    // Which triangle: the roulette's second number, which it does not need.
+    // The triangle is chosen by the second number of the roulette's pair, which roulette does not use.
     const EmissiveSample sample = lights.sample(surface.position, path.pair(kEmission), path.pair(kRoulette).y);
     if (!(sample.pdf > 0)) return double3(0.0);
     const double3 reflected = bsdf.evaluate(sample.direction, LightSource::Ambient) * sample.radiance;
     if (reflected == double3(0.0)) return reflected;
-    // Not as far as the light itself.
+    // Stop before the light itself.
     const double farthest = sample.distance - std::max(sample.distance * 1e-5, 2 * surface.selfAvoidance);
     if (farthest <= 0) return double3(0.0);
     const double share = visibility(path, surface, sample.direction, farthest);

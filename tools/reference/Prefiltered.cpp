@@ -32,10 +32,10 @@ constexpr double kBandFactors[9] = { 1, 2.0 / 3, 2.0 / 3, 2.0 / 3, 0.25, 0.25, 0
 } // namespace
 
 // With u = cos of light and axis, cos^2 of half vector and axis is (1 + u) / 2, and D / 4 = alpha^2 / (4 pi (a + b
-// u)^2) is the density of the light's direction: the mean of u is alpha^2 / 2 times the integral of u / (a + b u)^2.
+// u)^2) is the density of the light's direction. The mean of u is alpha^2 / 2 times the integral of u / (a + b u)^2.
 double meanCosineOfLobe(double alpha) {
     const double a2 = alpha * alpha, a = 0.5 * (1 + a2), b = 0.5 * (a2 - 1);
-    if (std::abs(b) < 1e-4) return 0.5 * a2 * (0.5 / (a * a) - 2.0 / 3 * b / (a * a * a)); // series: b^2 cancels
+    if (std::abs(b) < 1e-4) return 0.5 * a2 * (0.5 / (a * a) - 2.0 / 3 * b / (a * a * a)); // series: b^2 would cancel
     return 0.5 * a2 / (b * b) * (std::log(a2 / a) + a / a2 - 1);
 }
 

@@ -13,9 +13,9 @@ namespace filament::reference {
 namespace {
 
 constexpr uint32_t kMaxSide = 16384, kMaxSamples = 1u << 20, kMaxBounces = 4096;
-constexpr uint32_t kWantedPasses = 16;      // enough for a standard error that is itself good to a fifth
-constexpr uint32_t kMaxSamplesPerPass = 64; // progress and the error estimate come this often
-constexpr uint32_t kPassesBeforeStop = 4;   // before an error estimate may end the picture
+constexpr uint32_t kWantedPasses = 16;      // the standard error is then accurate to a fifth
+constexpr uint32_t kMaxSamplesPerPass = 64; // interval of progress and error estimates
+constexpr uint32_t kPassesBeforeStop = 4;   // before an error estimate may stop the rendering
 constexpr size_t kPixelsPerJob = 32;
 
 Result<void> check(ReferenceView const& view, ReferenceSettings const& settings) {
@@ -50,14 +50,14 @@ struct Plan {
     uint32_t samplesPerPass = 1, passes = 2;
 };
 
-// A power of two samples fills the strata of Sobol's sequence; two passes are the least that tell an error.
+// A power of two samples fills the strata of Sobol's sequence; estimating an error takes at least two passes.
 Plan planOf(ReferenceSettings const& settings) {
     const uint32_t wanted = std::bit_floor(std::max(settings.samplesPerPixel / kWantedPasses, 1u));
     const uint32_t samples = std::min(wanted, kMaxSamplesPerPass);
     return { samples, std::max((settings.samplesPerPixel + samples - 1) / samples, 2u) };
 }
 
-/// Camera rays, as Camera::clipFromView() would project them back, in double precision.
+/// Camera rays, as Camera::clipFromView() would unproject them, in double precision.
 class Lens {
 public:
     Lens(ReferenceView const& view, double3 sceneOrigin)
@@ -72,7 +72,7 @@ public:
         const double length = glm::length(view);
         return { .origin = mOrigin,
                  .direction = glm::normalize(mWorldFromView * view),
-                 .nearest = mNear * length, // the near plane is perpendicular to the view, the ray is not
+                 .nearest = mNear * length, // the near plane is perpendicular to the view, not to the ray
                  .skipsBackFaces = true };
     }
 

@@ -16,7 +16,7 @@ namespace lib = shader::lib64;
 
 constexpr int kCosines = 40, kRoughnesses = 24, kSteps = 64;
 
-// The density of importanceSampleCharlie(): ndfCharlie() noh without the floor of its sine.
+// The density of importanceSampleCharlie(): ndfCharlie() noh without the lower limit of its sine.
 double densityOf(double sine, double cosine, double alpha) {
     return (2 + 1 / alpha) * std::pow(sine, 1 / alpha) * cosine / lib::kTwoPi;
 }
@@ -27,7 +27,7 @@ double integrate(double nov, double alpha, int steps, Factor const& factor) {
     const double3 view(std::sqrt(1 - nov * nov), 0, nov);
     double sum = 0;
     for (int i = 0; i < steps; ++i) {
-        const double share = (i + 0.5) / steps, u = 1 - share * share; // dense where the half vector is grazing
+        const double share = (i + 0.5) / steps, u = 1 - share * share; // dense at grazing half vectors
         for (int j = 0; j < steps; ++j) {
             const double3 h = lib::importanceSampleCharlie({ 0.5 * (j + 0.5) / steps, u }, alpha);
             const double voh = glm::dot(view, h), nol = 2 * voh * h.z - nov;

@@ -38,7 +38,7 @@ double3 SheenLayer::evaluate(double3 light, LightSource source) const {
     return mColor * (lib::ndfCharlie(noh, mAlpha) * lib::visibilityNeubelt(mView.z, nol) * nol * limit);
 }
 
-// The lobe is wide: all directions above the surface are alike.
+// The lobe is wide, so all directions above the surface are equally likely.
 std::optional<double3> SheenLayer::sample(double2 u) const {
     const double3 local = mLobe ? mLobeFrame.toWorld(mLobe->sample(u)) : lib::hemisphereUniformSample(u);
     if (local.z <= 0 && !mLobe) return {};

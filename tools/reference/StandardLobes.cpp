@@ -19,13 +19,13 @@ Frame frameOf(SurfaceSample const& surface) {
     return isStretched(surface) ? Frame(surface.normal, surface.tangent) : Frame(surface.normal);
 }
 
-// What a stretched lobe loses: shaders/material/surface/anisotropy.glsl, groovesCompensation().
+// The loss of a stretched lobe: shaders/material/surface/anisotropy.glsl, groovesCompensation().
 double3 compensationOfGrooves(double3 compensation, double anisotropy) {
     const double amount = std::abs(anisotropy);
     return 1.0 + (compensation - 1.0) * (1 - amount * (0.85 - 0.25 * amount));
 }
 
-// What the far side of a sheet adds to the albedo of the near one: surface/refraction.glsl, farReflectedShare().
+// What the far side of a sheet adds to the albedo of the near side: surface/refraction.glsl, farReflectedShare().
 double3 farReflectedShare(SurfaceSample const& surface, double nov, double3 f) {
     TransmissionSample const& below = surface.transmission;
     if (!below.isThin || below.color == double3(0.0)) return double3(0.0);
@@ -41,7 +41,7 @@ double3 StandardLobes::mirroredView(SurfaceSample const& surface) const {
     return 2 * glm::dot(bent, mView) * bent - mView;
 }
 
-// As shaders/material/surface/occlusion.glsl, without bounces between what occludes.
+// Like shaders/material/surface/occlusion.glsl, without bounces between occluders.
 double StandardLobes::specularOcclusionOf(SurfaceSample const& surface) const {
     if (surface.bentNormal) {
         const double3 mirrored(-mView.x, -mView.y, mView.z);
@@ -75,7 +75,7 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     mAlbedo = mDiffuse * mCoupling.towardsView() + mSpecularAlbedo;
     const double specular = lib::luminance(mSpecularAlbedo);
     const double diffuse = lib::luminance(mDiffuse * mCoupling.towardsView());
-    // A tenth at least for each lobe that is there.
+    // At least a tenth for each lobe that exists.
     const bool samplesDiffuse = diffuse > 0 && model.diffuseLight == DiffuseLight::Integral;
     mSpecularChance = samplesDiffuse ? std::clamp(specular / (specular + diffuse), 0.1, 0.9) : 1;
     if (model.lobes == LobeChoice::Diffuse) mSpecularChance = 0;
@@ -84,7 +84,7 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     if (model.lobes != LobeChoice::Diffuse) mCompensation = compensationOfGrooves(mCompensation, surface.anisotropy);
 }
 
-// As shaders/material/surface/anisotropy.glsl for a stretched lobe: looked up along a bent normal.
+// Like shaders/material/surface/anisotropy.glsl for a stretched lobe: looked up along a bent normal.
 void StandardLobes::usePrefiltered(SurfaceSample const& surface, double2 dfg) {
     mLobe.emplace(mRoughness, mModel.splitSumLevels);
     mLobeAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation;
@@ -133,7 +133,7 @@ LobeValues StandardLobes::evaluate(double3 light, LightSource source) const {
     return values;
 }
 
-// Without what is pre-filtered.
+// Excludes pre-filtered parts.
 LobeValues StandardLobes::lobesAt(double3 local, LightSource source) const {
     const double3 sum = mView + local;
     const double length = glm::length(sum);

@@ -63,7 +63,7 @@ int wrapped(int coordinate, int size, backend::WrapMode mode) {
 
 double4 lookUp(assets::Image const& image, backend::SamplerDesc const& sampler, double2 uv) {
     const Texels texels(image, sampler);
-    // What a damaged file asks for far outside is nothing that one can see.
+    // Coordinates far outside, as in damaged files, show nothing meaningful.
     constexpr double kFarthest = 1e8;
     const double x = std::clamp(uv.x * texels.width(), -kFarthest, kFarthest);
     const double y = std::clamp(uv.y * texels.height(), -kFarthest, kFarthest);

@@ -15,7 +15,7 @@ using assets::ModelData;
 using assets::NodeData;
 using assets::PrimitiveData;
 
-/// One primitive at one node, before it is made.
+/// One primitive at one node, before conversion.
 struct Placement {
     ModelData const* model = nullptr;
     PrimitiveData const* primitive = nullptr;
@@ -24,10 +24,10 @@ struct Placement {
     double sceneFromMesh = 1, worldFromScene = 1; // lengths
 };
 
-/// What a length becomes, of all directions together.
+/// The scale of lengths, averaged over all directions.
 double scaleOf(double4x4 const& transform) {
     const double scale = std::cbrt(std::abs(glm::determinant(double3x3(transform))));
-    return scale > 0 ? scale : 1; // a flat one holds no volume
+    return scale > 0 ? scale : 1; // a flat object encloses no volume
 }
 
 bool isFinite(double4x4 const& m) {
@@ -118,7 +118,7 @@ Result<void> checkScene(ReferenceScene const& scene) {
                                             "finite, not negative, directions not zero");
 }
 
-/// Walks the nodes once: what to trace, what shines, and what cannot be traced.
+/// Walks the nodes once: collects what to trace and what shines, and reports what cannot be traced.
 class Collector {
 public:
     Collector(ReferenceScene const& scene, std::vector<std::string>& warnings) : lights(scene), mWarnings(warnings) {
@@ -126,7 +126,7 @@ public:
     }
 
     std::vector<Placement> placements;
-    ReferenceScene lights; // those of the scene and of its models
+    ReferenceScene lights; // those of the scene and its models
     Box bounds;
 
 private:
@@ -205,7 +205,7 @@ Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::Jo
 
     auto* const traced = new TracedScene(std::move(*intersector));
     TracedScenePtr result(traced);
-    traced->mParts = std::move(parts); // the elements stay where they are
+    traced->mParts = std::move(parts); // moving the vector does not move its elements
     traced->mEmissiveLights = EmissiveLights(traced->mParts);
     traced->mOrigin = origin;
     traced->mWarnings = std::move(warnings);

@@ -11,7 +11,7 @@ namespace lib = shader::lib64;
 
 namespace {
 
-constexpr double kLeastIndexStep = 1e-6; // below it nothing bends
+constexpr double kLeastIndexStep = 1e-6; // for smaller steps light goes straight
 
 double alphaOfTransmission(SurfaceSample const& surface) {
     const double roughness = surface.perceptualRoughness, ior = surface.transmission.ior;
@@ -36,7 +36,7 @@ TransmissionLobe::TransmissionLobe(SurfaceSample const& surface, BsdfModel const
     }
 }
 
-// As shaders/material/surface/refraction.glsl.
+// Like shaders/material/surface/refraction.glsl.
 void TransmissionLobe::lookUp(SurfaceSample const& surface, double3 f) {
     TransmissionSample const& below = surface.transmission;
     mKind = Kind::LookUp;

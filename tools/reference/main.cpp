@@ -49,7 +49,7 @@ std::string progressLine(RenderProgress const& progress, float wantedError) {
     constexpr size_t kWidth = 24;
     double done = double(progress.samplesDone) / progress.samplesTotal;
     if (wantedError > 0 && progress.relativeError > 0) {
-        const double ratio = double(wantedError) / progress.relativeError; // errors shrink with the root of the samples
+        const double ratio = double(wantedError) / progress.relativeError; // error ~ 1 / sqrt(samples)
         done = std::max(done, std::min(ratio * ratio, 1.0));
     }
     const auto filled = static_cast<size_t>(done * kWidth);

@@ -18,7 +18,7 @@ void addVertex(Shape& shape, float3 position, float3 normal, float2 uv) {
 }
 
 /// Joins a grid of (columns + 1) x (rows + 1) vertices that begins at `first`, row by row. Seen from outside, columns
-/// run to the right and rows downwards. Triangles without area (at poles) are left out.
+/// run to the right and rows downwards. Triangles without area (at poles) are omitted.
 void addGridTriangles(Shape& shape, uint32_t first, uint32_t columns, uint32_t rows) {
     const auto add = [&](uint32_t a, uint32_t b, uint32_t c) {
         const float3 *p = shape.positions.data(), &pa = p[a], &pb = p[b], &pc = p[c];
@@ -36,7 +36,7 @@ void addGridTriangles(Shape& shape, uint32_t first, uint32_t columns, uint32_t r
     FILAMENT_ASSERT(shape.positions.size() <= 65536, "a shape has at most 65536 vertices");
 }
 
-/// cos and sin that close circles exactly: the last step is the first one's value.
+/// cos and sin that close circles exactly: the last step has the values of the first.
 float2 circle(uint32_t step, uint32_t steps) {
     const float angle = kTwoPi * static_cast<float>(step % steps) / static_cast<float>(steps);
     return { std::cos(angle), std::sin(angle) };
@@ -53,8 +53,8 @@ float4 hueColor(float hue) {
     return { channel(0.0f), channel(2.0f / 3), channel(1.0f / 3), 1.0f };
 }
 
-/// Coordinates of the grid lines across one side of a rounded box as (position of the inner box's part, tangent of the
-/// angle beyond it): equal angles on the rounding, one long cell between.
+/// Coordinates of the grid lines across one side of a rounded box as (position on the inner box, tangent of the angle
+/// beyond it): equal angles on the rounding, one long cell in between.
 std::vector<float2> roundedSide(float inner, uint32_t steps) {
     std::vector<float2> lines;
     for (uint32_t i = 0; i <= steps; ++i) {
@@ -71,7 +71,7 @@ Shape sphere(float radius, uint32_t segments, float2 uvRepeats) {
     Shape shape;
     for (uint32_t ring = 0; ring <= rings; ++ring) {
         const float polar = kPi * fraction(ring, rings);
-        // exactly on the axis at the poles, so that their triangles are seen to have no area
+        // exactly on the axis at the poles, so that triangles without area are recognised
         const float across = ring == 0 || ring == rings ? 0.0f : std::sin(polar);
         for (uint32_t segment = 0; segment <= segments; ++segment) {
             const float2 around = circle(segment, segments);
@@ -141,7 +141,7 @@ Shape torusKnot(uint32_t p, uint32_t q, float radius, float tubeRadius, uint32_t
         return float3{ ring * std::cos(turn), ring * std::sin(turn), std::sin(static_cast<float>(q) * t) } *
                (radius / 3);
     };
-    constexpr float kStep = 1e-2f; // of the central difference; the curve turns by at most q * kStep
+    constexpr float kStep = 1e-2f; // of the central difference; the curve turns by q * kStep at most
     Shape shape;
     for (uint32_t segment = 0; segment <= segments; ++segment) {
         const float t = kTwoPi * fraction(segment % segments, segments);
@@ -177,7 +177,7 @@ Shape lathe(std::span<const float2> profile, uint32_t segments, float2 uvRepeats
         }
     }
     addGridTriangles(shape, 0, segments, static_cast<uint32_t>(last));
-    // Profiles run upwards, grids downwards: turn the triangles over.
+    // Profiles run upwards, grids downwards, so the triangles are reversed.
     for (size_t i = 0; i < shape.indices.size(); i += 3) std::swap(shape.indices[i + 1], shape.indices[i + 2]);
     return shape;
 }

@@ -63,7 +63,7 @@ MaterialData plain(std::string name, float3 color, float metallic, float roughne
              .roughnessFactor = roughness };
 }
 
-/// Factors of 1: the pictures say it all.
+/// Factors of 1: the pictures contain everything.
 MaterialData pictured(std::string name, TextureSetImages const& images) {
     MaterialData material{ .name = std::move(name), .metallicFactor = images.surface == assets::kNone ? 0.0f : 1.0f };
     material.baseColor = textured(images.color);
@@ -87,7 +87,7 @@ MaterialData glowing(std::string name, float3 color, float strength) {
     return material;
 }
 
-// The stage: a slab of 10 x 9.6 m whose top is y = 0, with stairs for the chart at its back.
+// The stage: a slab of 10 x 9.6 m with its top at y = 0, and stairs for the chart at the back.
 constexpr uint32_t kRows = 5, kColumns = 7;
 constexpr float kStairDepth = 1.14f, kStairRise = 0.8f, kFirstStairZ = 0.35f;
 
@@ -102,7 +102,7 @@ void addStage(SceneBuilder& scene, Images const& images) {
     const uint32_t stairs = scene.add(plain("stairs", { 0.42f, 0.41f, 0.40f }, 0, 0.6f));
     for (uint32_t row = 0; row < kRows; ++row) {
         const float3 top = chartPosition(row, 3);
-        const float halfHeight = 0.5f * top.y + 0.05f; // its foot sinks into the slab
+        const float halfHeight = 0.5f * top.y + 0.05f; // the foot sinks into the slab
         scene.place("stair", roundedBox({ 4.85f, halfHeight, kStairDepth * 0.5f - 0.01f }, 0.05f, 3), stairs,
                     { 0, top.y - halfHeight, top.z });
     }
@@ -132,7 +132,7 @@ void addChart(SceneBuilder& scene) {
     }
 }
 
-/// A turned column with a knot of all hues on it.
+/// A turned column with a knot of all hues on top.
 void addCenterpiece(SceneBuilder& scene, float3 foot) {
     constexpr float2 kColumn[] = { { 0, 0 },         { 0.55f, 0.0f },  { 0.56f, 0.08f },
                                    { 0.30f, 0.16f }, { 0.22f, 0.45f }, { 0.28f, 0.66f },
@@ -191,8 +191,8 @@ void addTexturedExhibits(SceneBuilder& scene, Images const& images) {
     scene.place("steel ring", torus(0.52f, 0.2f, 72, 28), scene.add(steel), { 1.85f, 0.2f, 3.85f });
 }
 
-/// Four beads, each three times as bright as the one before: the shoulder of the tone mapper. glTF's emission does not
-/// depend on the exposure; 1 is as bright as a white wall in the right one.
+/// Four beads, each three times as bright as the previous one: shows the tone mapper's shoulder. glTF's emission does
+/// not depend on the exposure; 1 is as bright as a correctly exposed white wall.
 void addBeads(SceneBuilder& scene) {
     const Shape bead = sphere(0.13f, 28);
     float strength = 0.2f;
@@ -209,8 +209,8 @@ assets::AnalyticSkyOptions skyOptions(bool sunDisc) {
     };
 }
 
-/// The model brings its sun as a light, so the sky has no disc. Near the horizon still water mirrors it, a backdrop
-/// without a horizon line; further down is sunlit ground.
+/// The model contains its sun as a light, so the sky has no disc. Below the horizon the sky is mirrored as in still
+/// water, a backdrop without a horizon line; further down it is sunlit ground.
 Result<assets::HdrImage> makeSky(jobs::JobSystem& jobs) {
     Result<assets::HdrImage> sky = assets::makeAnalyticSky(skyOptions(false), jobs);
     if (!sky) return sky;

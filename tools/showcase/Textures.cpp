@@ -93,12 +93,12 @@ TextureSet brickTextures(uint32_t size) {
 }
 
 TextureSet woodTextures(uint32_t size) {
-    // Distance from a wavy axis, counted in growth rings; fibres are noise drawn out along v.
+    // Distance from a wavy axis in growth rings; fibres are noise stretched along v.
     const auto ring = [](float2 uv) {
         const float sway = fractalNoise(uv * float2(3, 2), { 3, 2 }, 3, 21);
         const float phase = 7.0f * std::abs(uv.x - 0.5f) + 2.5f * sway;
         const float tooth = phase - std::floor(phase);
-        return tooth * tooth; // slow rise of early wood, sharp end of late wood
+        return tooth * tooth; // slow rise in early wood, sharp end in late wood
     };
     const auto fibre = [](float2 uv) { return fractalNoise(uv * float2(96, 3), { 96, 3 }, 3, 22); };
     TextureSet set;
@@ -161,7 +161,7 @@ TextureSet latticeTextures(uint32_t size) {
     TextureSet set;
     set.color = paint(size, [](float2 uv) {
         const float2 cell = uv * kHoles - glm::floor(uv * kHoles) - 0.5f;
-        // Half a hole's border wide ramp, so that the cut at 0.5 stays smooth under filtering.
+        // A ramp of half a hole's border, so that the cut at 0.5 stays smooth under filtering.
         const float alpha = glm::clamp((length(cell) - 0.38f) * 16.0f + 0.5f, 0.0f, 1.0f);
         return encoded({ 0.92f, 0.90f, 0.86f }, alpha);
     });

@@ -14,7 +14,7 @@ namespace {
 using conformance::SceneSpec;
 using reference::BsdfModel;
 
-constexpr double kAlbedo = 0.6, kEmission = 0.25; // of the scene files
+constexpr double kAlbedo = 0.6, kEmission = 0.25; // as in the scene files
 constexpr double kRounding = 1e-5;                // relative: colours and normals are floats in files
 
 double factorOf(SceneSpec const& scene) { return static_cast<double>(scene.exposure.factor()); }
@@ -25,7 +25,7 @@ double skyOf(SceneSpec const& scene) {
 
 double sunOf(SceneSpec const& scene) {
     SunLight const& sun = std::get<SunLight>(scene.lights.front());
-    const double cosine = -glm::normalize(double3(sun.directionWorld)).z; // of the quad's normal, +z
+    const double cosine = -glm::normalize(double3(sun.directionWorld)).z; // with the quad's normal, +z
     return static_cast<double>(sun.illuminance.value) * factorOf(scene) * cosine;
 }
 
@@ -35,7 +35,7 @@ struct Form {
     double (*expected)(SceneSpec const& scene);
 };
 
-/// Lambert's lobe alone, and all of it.
+/// Lambert's lobe alone, and the whole material.
 constexpr BsdfModel kLambert{ .coupling = reference::CouplingTerm::Never, .lobes = reference::LobeChoice::Diffuse };
 
 constexpr Form kForms[] = {

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ClosedForms: the path tracer itself against scenes whose radiance is a formula: what its stated error is worth.
+/// ClosedForms: checks the path tracer, and its stated error, in scenes whose radiance is a formula.
 ///   Thread  one at a time; works on the job system.
-///   Fails   what the scene files say.
+///   Fails   errors of the scene files.
 ///   Cost    under a second.
 #pragma once
 
@@ -14,9 +14,9 @@ struct ClosedForm {
     std::string name, formula;
     double expected = 0, mean = 0;
     double standardError = 0; ///< of the mean
-    /// How far off in standard errors; 0 if both say the same.
+    /// The deviation in standard errors; 0 if both values are equal.
     double deviations() const;
-    /// Within four standard errors and what floats round.
+    /// Within four standard errors and the rounding of floats.
     bool agrees() const;
 };
 

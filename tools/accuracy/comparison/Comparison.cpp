@@ -23,7 +23,7 @@ using reference::ReferenceImage;
 
 constexpr uint32_t kClosedFormSamples = 1024;
 
-/// One row while it is made.
+/// One row while it is computed.
 class RowMaker {
 public:
     RowMaker(ComparisonRow const& row, SceneSpec const& scene, Studio& studio, ComparisonOptions const& options,
@@ -95,7 +95,7 @@ private:
         Result<ReferenceImage> image =
                 render({ .integrator = rung.integrator, .maxBounces = rung.maxBounces, .bsdf = rung.bsdf });
         if (!image) return image.error();
-        // The first one follows the engine: the noise of that step is all this picture's.
+        // The first traced picture follows the engine's, so the noise of that step is entirely its own.
         if (mNoise.empty()) mNoise = image->standardError;
         mLastNoise = std::move(image->standardError);
         return Picture{ image->width, image->height, std::move(image->color) };
@@ -104,7 +104,7 @@ private:
     void measure() {
         std::vector<Picture> const& pictures = mResult.pictures;
         Picture const &engine = pictures.front(), &truth = pictures.back();
-        mScale.emplace(truth, pictures[1]); // supersampled: edges of half a pixel are black in neither
+        mScale.emplace(truth, pictures[1]); // supersampled: half-covered edges are black in neither
         mResult.rms = rms(engine, truth, *mScale);
         mResult.bias = bias(engine, truth, *mScale);
         mResult.noise = noise(mNoise, *mScale);
@@ -144,7 +144,7 @@ private:
         return {};
     }
 
-    /// The engine's 8-bit frame against its half floats through the same tone mapper, in display units.
+    /// The engine's 8-bit frame compared with its half floats through the same tone mapper, in display units.
     Result<void> measureBits() {
         Result<std::unique_ptr<Take>> shot = take(mRungs.front(), false);
         if (!shot) return shot.error();

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Comparison: the engine's pictures against the path tracer's, each difference explained by named approximations.
+/// Comparison: compares the engine's pictures with the path tracer's, and explains each difference by named
+/// approximations.
 ///   In      rows of comparison/rows.json: a scene, samples, and how much may stay unexplained.
-///   Out     for every row the pictures of its ladder (Ladder.h) and what each step contributes.
+///   Out     for every row the pictures of its ladder (Ladder.h) and the contribution of each step.
 ///   Thread  one at a time; the reference works on the job system.
-///   Fails   Unreadable, InvalidArgument: file, row, field. A row whose assets are not there is skipped with the
-///           reason.
+///   Fails   Unreadable, InvalidArgument: file, row, field. A row with missing assets is skipped with the reason.
 ///   Memory  the pictures of a row, ten of them.
 ///   Cost    for a row of 240 x 136 pixels and 256 samples, about 20 core seconds.
 #pragma once
@@ -52,7 +52,7 @@ struct RowResult {
     std::vector<StepResult> steps, alternatives;
     std::vector<Picture> pictures; ///< of the rungs, the path tracer's last
     bool isExplained() const { return unexplained <= row.unexplained; }
-    /// RMS of the step that the row is about; 0 if it is about none.
+    /// RMS of the step that the row examines; 0 if it examines none.
     double stepError() const;
     bool isWithinLimit() const { return stepError() <= row.limit; }
 };
@@ -75,7 +75,7 @@ struct ComparisonOptions {
 
 Result<std::vector<ComparisonRow>> readComparisonRows(std::filesystem::path const& file);
 
-/// What is being done, and how much of all is.
+/// The current step, and the fraction done.
 using ComparisonProgress = std::function<void(std::string const& what, double done)>;
 
 Result<ComparisonResults> comparePictures(ComparisonOptions const& options, ComparisonProgress const& progress);

@@ -74,7 +74,7 @@ Json jsonOf(RowResult const& result) {
              { "alternatives", std::move(others) } };
 }
 
-/// Writes a picture into a folder beside the fragment and returns an element that shows it.
+/// Writes a picture into a folder beside the fragment, and returns an element that shows it.
 class Pictures {
 public:
     explicit Pictures(fs::path folder) : mFolder(std::move(folder)) {}
@@ -94,7 +94,7 @@ private:
     fs::path mFolder;
 };
 
-/// Steps by how much they change, largest first; the unexplained one is shown in any case.
+/// Steps by the size of their change, largest first; the unexplained one is always shown.
 std::vector<size_t> largestSteps(RowResult const& result) {
     std::vector<size_t> order;
     for (size_t i = 0; i < result.steps.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ComparisonPage: what comparePictures() found, as a section of the accuracy report and as JSON.
+/// ComparisonPage: the results of comparePictures() as a section of the accuracy report and as JSON.
 ///   Out     OUT/comparison.json, OUT/comparison/ROW-*.png, OUT/comparison.fragment.html, which the report includes
 ///           together with the pictures.
 ///   Fails   Unreadable with the path.
@@ -16,7 +16,7 @@ nlohmann::ordered_json jsonOf(ComparisonResults const& results);
 
 Result<void> writeComparison(ComparisonResults const& results, std::filesystem::path const& out);
 
-/// What a terminal shows: a line a row, and its steps.
+/// Text for a terminal: one line per row, followed by its steps.
 std::string textOf(ComparisonResults const& results);
 
 } // namespace filament::accuracy

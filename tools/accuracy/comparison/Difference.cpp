@@ -92,7 +92,7 @@ Image differenceMap(Picture const& a, Picture const& b, DifferenceScale const& s
     image.pixels.reserve(a.pixels.size() * 4);
     for (size_t i = 0; i < a.pixels.size(); ++i) {
         if (!scale.counts(i)) {
-            push(image, double3(0.85)); // grey: nothing is compared here
+            push(image, double3(0.85)); // grey: not compared
             continue;
         }
         const double value = std::clamp(luminanceOf(difference(a, b, i, scale)) / full, -1.0, 1.0);
@@ -109,7 +109,7 @@ double displayError(Picture const& shown, Picture const& linear, ToneMapper tone
     double sum = 0;
     size_t count = 0;
     for (size_t i = 0; i < shown.pixels.size(); ++i) {
-        if (isBlack(linear.pixels[i])) continue; // the background has nothing to round
+        if (isBlack(linear.pixels[i])) continue; // rounding does not affect the background
         float3 exact = lib::toneMap(linear.pixels[i], mapper);
         if (!lib::toneMapIncludesTransfer(mapper)) exact = lib::srgbFromLinear(exact);
         const double3 error = double3(lib::srgbFromLinear(shown.pixels[i])) - double3(lib::saturate(exact));

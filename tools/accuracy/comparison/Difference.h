@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Difference: how two pictures of one scene differ, relative to how bright the engine and the truth are there.
+/// Difference: the differences between two pictures of one scene, relative to the local brightness of the engine's
+/// picture and of the truth.
 ///   Unit    of a pixel: (a - b) / (mean of |truth| and |engine| + 1 % of the mean of |truth|), lengths of RGB vectors.
-///           At most 2 wherever one is black and the other is not: deep shadows do not decide alone.
-///   Pixels  those that show something; not those beside the background, which a rasteriser and rays own differently.
+///           At most 2 where one is black and the other is not, so that deep shadows do not dominate.
+///   Pixels  those that show something, except those next to the background, where rasteriser and rays cover
+///           differently.
 ///   Thread  any; pure.
 #pragma once
 
@@ -14,7 +16,7 @@
 
 namespace filament::accuracy {
 
-/// What every difference of one scene is weighed by.
+/// The weights for all differences of one scene.
 class DifferenceScale {
 public:
     /// A pixel counts if neither picture touches its background (black) there.
@@ -34,21 +36,21 @@ private:
 double rms(Picture const& a, Picture const& b, DifferenceScale const& scale);
 /// Mean of the relative difference of luminance: > 0 where a is brighter.
 double bias(Picture const& a, Picture const& b, DifferenceScale const& scale);
-/// Mean of (a - b) . (c - d): of a step and the whole, over the square of the whole, it is the step's share, and the
-/// shares of all steps add up to 1.
+/// Mean of (a - b) . (c - d). For a step and the whole difference, divided by the square of the whole, it is the step's
+/// share; the shares of all steps sum to 1.
 double product(Picture const& a, Picture const& b, Picture const& c, Picture const& d, DifferenceScale const& scale);
 /// Root mean square of standard errors, in the same unit.
 double noise(std::vector<float3> const& standardError, DifferenceScale const& scale);
 
-/// Relative difference of luminance as colour: blue where a is darker than b, red where it is brighter, white where
-/// both agree; full colour at `full`.
+/// Relative difference of luminance as a colour: blue where a is darker than b, red where it is brighter, white where
+/// both agree; saturated at `full`.
 Image differenceMap(Picture const& a, Picture const& b, DifferenceScale const& scale, double full);
 
-/// Root mean square of what 8 bits a component change, in units of a display's white: `shown` are sRGB codes made
-/// linear, `linear` is what they were made of.
+/// Root mean square of the change due to 8 bits per component, in units of a display's white: `shown` are sRGB codes
+/// converted to linear light, `linear` is their source.
 double displayError(Picture const& shown, Picture const& linear, ToneMapper toneMapper);
 
-/// As a display shows it: the ACES curve of the engine.
+/// As shown by a display: through the engine's ACES curve.
 Image tonemapped(Picture const& picture);
 
 } // namespace filament::accuracy

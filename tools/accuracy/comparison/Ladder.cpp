@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Size: allRungs() is a table: one rung of the ladder after the other.
+// Size: allRungs() is a table that lists one rung after the other.
 #include "tools/accuracy/comparison/Ladder.h"
 
 #include <algorithm>
@@ -20,7 +20,7 @@ using reference::SpecularLight;
 constexpr uint32_t kSupersampling = 8;
 constexpr uint32_t kLevels = 6; // of a cube of 512 texels a face: assets::specularLevelCount()
 
-/// Tables as large as they go: what is left of their error is below that of half floats.
+/// The largest tables: their remaining error is below that of half floats.
 std::vector<std::string> finestTables() {
     return { "environment.faceSize=512", "environment.samples=1024", "dfgTableSize=256" };
 }

@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Ladder: from the engine's picture to the path tracer's, one named approximation at a time.
-///   Idea     the first rung is what the engine draws, the last one what light does. Between two neighbours exactly one
-///            approximation is made exact, first in the engine, then, once both compute the same thing, in the
-///            reference: the differences of all neighbours add up to the whole difference, pixel by pixel, and each has
-///            a name. One of them has none: between the engine at its finest and the reference with the same
-///            approximations there should be nothing.
+/// Ladder: leads from the engine's picture to the path tracer's, one named approximation at a time.
+///   Idea     the first rung is the engine's picture, the last one the exact light. Between two neighbours exactly one
+///            approximation is made exact: first in the engine, then, once both compute the same thing, in the
+///            reference. The differences between neighbours add up to the whole difference, pixel by pixel, and each
+///            has a name, except one: there should be no difference between the engine at its finest and the reference
+///            with the same approximations.
 ///   Adding   one row of kRungs in Ladder.cpp.
 ///   Thread   any; constants.
 #pragma once
@@ -21,10 +21,10 @@ namespace filament::accuracy {
 
 enum class RungKind : uint8_t { Engine, Reference };
 
-/// What a scene must have for an approximation to mean anything.
+/// The features that a scene must have for an approximation to matter.
 enum class Needs : uint8_t { Nothing, Environment, Coat, Sheen, Refraction, NoRefraction, Solid };
 
-/// What a scene has.
+/// The features of a scene.
 struct LadderScene {
     bool hasEnvironment = true;
     MaterialFeatures material{};
@@ -33,15 +33,15 @@ struct LadderScene {
 /// One picture of the ladder.
 struct Rung {
     RungKind kind = RungKind::Engine;
-    // Of the engine.
+    // For the engine.
     uint32_t supersampling = 1;     ///< a side; the mean of so many squared samples
     std::vector<std::string> set{}; ///< settings beyond the scene's own
-    // Of the reference.
+    // For the reference.
     reference::Integrator integrator = reference::Integrator::Path;
     uint32_t maxBounces = 64;
     reference::BsdfModel bsdf{};
 
-    // What the next rung does better than this one. Not of the last one.
+    // What the next rung does better than this one. Unused in the last rung.
     std::string_view name{};        ///< "splitSum"
     std::string_view title{};       ///< "Split sum"
     std::string_view approximate{}; ///< what is done here
@@ -52,10 +52,10 @@ struct Rung {
 /// The name of the step that should change nothing.
 inline constexpr std::string_view kUnexplained = "unexplained";
 
-/// Top: the engine's frame. Bottom: the path tracer's. Rungs that mean nothing in this scene are left out.
+/// First the engine's frame, last the path tracer's. Rungs without effect in this scene are omitted.
 std::vector<Rung> ladder(LadderScene const& scene);
 
-/// What no rung holds: a change of the whole model, to be seen beside the ladder.
+/// A change of the whole model that no rung contains; shown beside the ladder.
 struct Alternative {
     reference::BsdfModel bsdf{};
     std::string_view name{}, title{}, text{};

@@ -17,7 +17,7 @@ namespace {
 constexpr uint32_t kWidth = 512;
 constexpr size_t kRowsPerProgram = 8;
 
-/// The three inputs, filled up to whole lines of pixels.
+/// The three inputs, padded to whole lines of pixels.
 struct Texels {
     std::array<std::vector<glm::vec4>, 3> inputs;
     uint32_t height = 0;

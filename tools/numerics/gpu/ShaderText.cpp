@@ -32,7 +32,7 @@ layout(set = 0, binding = 1) uniform highp sampler2D inputU;
 layout(set = 0, binding = 2) uniform highp sampler2D inputV;
 layout(location = 0) out highp vec4 result;
 )";
-/// Results of any type as four numbers. The names of the types become those of the precision.
+/// Converts results of any type to four numbers. The type names become those of the precision.
 constexpr std::string_view kPack = R"(
 vec4 asVec4(bool x) { return vec4(x ? 1.0f : 0.0f, 0.0f, 0.0f, 0.0f); }
 vec4 asVec4(float x) { return vec4(x, 0.0f, 0.0f, 0.0f); }
@@ -48,7 +48,7 @@ Result<std::string> textOf(fs::path const& path) {
     return text.str();
 }
 
-/// Every row is computed, the pixel's own is kept.
+/// Computes every row, and keeps the pixel's own.
 std::string evaluateText(std::span<Row const* const> rows) {
     std::string text = "void evaluate(int row, vec4 s, vec3 u, vec3 v, OUT(vec4) x) {\n    x = vec4(0.0f);\n";
     for (size_t i = 0; i < rows.size(); ++i)

@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-// Size: parameterRows() is a table: one row for each function.
+// Size: parameterRows() is a table with one row per function.
 #include "tools/numerics/table/Call.h"
 
 namespace filament::shader::numerics {
 namespace {
 
-/// What clampPerceptualRoughness() and its medium variant leave, squared.
+/// The ranges of clampPerceptualRoughness() and its medium variant, squared.
 Argument alpha() { return inHalf(number("alpha", 0.002025, 1), 0.007921, 1); }
 Argument cosine(std::string_view name) { return unit(name); }
 

@@ -32,7 +32,7 @@ inline Packed pack(glm::dvec3 x) { return { { x, 0 }, 3 }; }
 inline Packed pack(glm::vec2 x) { return pack(glm::dvec2(x)); }
 inline Packed pack(glm::vec3 x) { return pack(glm::dvec3(x)); }
 
-// The functions of the library are internal to each file that includes it, and so are these two.
+// The library's functions are internal to each file that includes them, and so are these two.
 #define NUMERICS_CALL(...)                                                                                             \
     Call {                                                                                                             \
         .text = #__VA_ARGS__,                                                                                          \

@@ -87,7 +87,7 @@ std::vector<Row> toneTableRows() {
     };
 }
 
-/// A curve that rises from 0 over [0, 1], of a number or of each component of a colour.
+/// A curve that increases from 0 over [0, 1], of a number or of each component of a colour.
 Row curveRow(std::string_view function, Call call, Argument const& x, double highest, Limits const& limits,
              std::string_view fp32Only = {}) {
     Row row{ .file = "color",

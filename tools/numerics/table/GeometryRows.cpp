@@ -17,7 +17,7 @@ Row frameRow(std::string_view part, Call call) {
              .limits = absolute(1e-6, 1e-2, "a unit vector: the error is relative to its length") };
 }
 
-/// A direction out of directionFromAngles().
+/// A direction from directionFromAngles().
 Row sampleRow(std::string_view function, Call call, std::array<Argument, 4> arguments) {
     return { .file = "sampling",
              .function = function,

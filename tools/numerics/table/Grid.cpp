@@ -15,7 +15,7 @@ constexpr float kFloatInfinity = std::numeric_limits<float>::infinity();
 constexpr float kNaN = std::numeric_limits<float>::quiet_NaN();
 constexpr float kHalfMax = 65504.0f;
 
-/// The interval in one format, as floats that lie inside of it.
+/// The interval in one format, as floats inside it.
 struct Bounds {
     float low = 0, high = 0;
     bool open = false;
@@ -37,7 +37,7 @@ float next(float x, float direction, Format format) {
     return near != x ? near : halfRounded(x + sign * step);
 }
 
-/// Numbers that programs get wrong: of both signs, the steps around 0 and 1, and one per decade.
+/// Numbers that are often handled wrongly: of both signs, the steps around 0 and 1, and one per decade.
 std::vector<float> notableNumbers() {
     std::vector<float> numbers{ 0.0f,    1e-45f, 1e-40f, std::numeric_limits<float>::min(),
                                 1e-30f,  1e-20f, 1e-15f, 1e-10f,
@@ -56,7 +56,7 @@ std::vector<float> notableNumbers() {
     return numbers;
 }
 
-/// The ends, a step inside of each, notable numbers, and an even division of the interval or of its first unit.
+/// The ends, one step inside each, notable numbers, and even subdivisions of the interval or of its first unit.
 std::vector<float> numbersIn(Bounds bounds, Format format, uint32_t divisions) {
     std::vector<float> numbers = notableNumbers();
     numbers.insert(numbers.end(), { bounds.low, next(bounds.low, kFloatMax, format), bounds.high,
@@ -78,7 +78,7 @@ glm::vec4 rounded(glm::vec4 value, Format format) {
     return value;
 }
 
-/// Axes, diagonals, and directions that leave the z and the x axis by 1e-7 to 1.4 radians.
+/// Axes, diagonals, and directions that deviate from the z and the x axis by 1e-7 to 1.4 radians.
 std::vector<glm::vec3> directions() {
     std::vector<glm::vec3> result{ { 0, 0, 1 }, { 0, 0, -1 }, { 1, 0, 0 }, { -1, 0, 0 }, { 0, 1, 0 }, { 0, -1, 0 } };
     for (const float x : { -1.0f, 1.0f }) {
@@ -96,7 +96,7 @@ std::vector<glm::vec3> directions() {
 
 std::vector<glm::vec4> rotations() {
     std::vector<glm::vec4> result;
-    for (const float sign : { -1.0f, 1.0f }) { // tiny w: what the writer keeps above zero
+    for (const float sign : { -1.0f, 1.0f }) { // tiny w: the writer keeps it above zero
         for (const glm::vec3 axis : directions()) {
             for (const float w : { 1.0f, 0.92f, 0.5f, 1e-2f, 1.0f / 32767.0f }) {
                 result.emplace_back(axis * std::sqrt(1.0f - w * w), sign * w);
@@ -106,7 +106,7 @@ std::vector<glm::vec4> rotations() {
     return result;
 }
 
-/// Saturated and mixed colours behind the greys; `high` scales them, and tiny ones stand beside.
+/// Greys, then saturated and mixed colours; `high` scales them, and tiny ones are added.
 std::vector<glm::vec3> colours(float high) {
     std::vector<glm::vec3> result;
     for (const float scale : { high, std::min(high, 1.0f), 1e-3f, 1e-7f }) {
@@ -156,13 +156,13 @@ Grid gridOf(Argument const& argument, Format format, uint32_t divisions) {
 
 std::vector<Beyond> beyondOf(Argument const& argument, Format format) {
     std::vector<Beyond> result;
-    if (argument.kind == Kind::Integer) return result; // converting such a number is undefined in both languages
+    if (argument.kind == Kind::Integer) return result; // converting it is undefined in both languages
     const bool vector = argument.kind != Kind::Number;
     const auto add = [&](glm::vec4 value, OutsideInput input) { result.push_back({ rounded(value, format), input }); };
     const auto spread = [&](float x) { return vector ? glm::vec4(x) : glm::vec4(x, 0, 0, 0); };
     const Bounds bounds = boundsOf(argument, format);
     const float huge = format == Format::Single ? kFloatMax : kHalfMax;
-    const float far = format == Format::Single ? 100.0f : 4.0f; // its fifth power must not be huge
+    const float far = format == Format::Single ? 100.0f : 4.0f; // its fifth power must stay moderate
     std::vector<float> near{
         next(bounds.low, -huge, format), next(bounds.high, huge, format), -1.0f, -0.1f, 2.0f, far
     };

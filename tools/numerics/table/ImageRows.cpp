@@ -4,7 +4,7 @@
 namespace filament::shader::numerics {
 namespace {
 
-/// irradianceSh() of four coefficients in nine places (Wrappers.glsl).
+/// irradianceSh() with four coefficients in nine places (Wrappers.glsl).
 Row irradianceRow(std::string_view part, Call call) {
     const Argument coefficient = number("sh", -100, 100);
     return { .file = "ibl",

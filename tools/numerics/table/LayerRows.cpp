@@ -4,7 +4,7 @@
 namespace filament::shader::numerics {
 namespace {
 
-/// What clampPerceptualRoughness() and its medium variant leave, squared.
+/// The ranges of clampPerceptualRoughness() and its medium variant, squared.
 Argument alpha(std::string_view name = "alpha", double high = 1) {
     return inHalf(number(name, 0.002025, high), 0.007921, high);
 }

@@ -17,7 +17,7 @@ void remember(std::optional<Point>& first, Point const& point) {
     if (!first) first = point;
 }
 
-/// One result against the truth; appends the errors of its components.
+/// Compares one result with the truth, and appends the errors of its components.
 void compare(Row const& row, Column column, Point const& point, glm::vec4 result, Measurement& sum,
              std::vector<double>& errors) {
     const Packed truth = truthAt(row, point);
@@ -45,7 +45,7 @@ void compare(Row const& row, Column column, Point const& point, glm::vec4 result
     }
 }
 
-/// Steps against the direction count when they exceed the error that the row allows.
+/// A step in the wrong direction counts if it exceeds the error that the row allows.
 void checkOrder(Row const& row, Column column, Points const& points, Results const& results, Measurement& sum) {
     if (row.monotone == Monotone::No) return;
     const double sign = row.monotone == Monotone::Rising ? 1 : -1;
@@ -65,7 +65,7 @@ void checkOrder(Row const& row, Column column, Points const& points, Results con
 }
 
 void countOutside(Row const& row, Points const& points, Results const& results, Measurement& sum) {
-    bool beyond = false; // whether the first input is somewhat outside, which says more than one that is huge
+    bool beyond = false; // the first input is slightly outside; more telling than a huge one
     for (size_t i = 0; i < results.size(); ++i) {
         OutsideCount& count = sum.outside[static_cast<size_t>(points.outsideInputs[i])];
         bool nan = false, infinite = false;

@@ -10,7 +10,7 @@
 namespace filament::shader::numerics {
 namespace {
 
-/// Where an argument's numbers go, and which they are.
+/// Which numbers an argument takes, and where they go.
 struct Axis {
     enum class Slot : uint8_t { X, Y, Z, W, S, U, V } slot{};
     Argument const* argument = nullptr;
@@ -39,7 +39,7 @@ uint32_t argumentCount(Row const& row) {
 
 std::vector<Axis> axesOf(Row const& row, Format format) {
     std::vector<Axis> axes;
-    const uint32_t first = argumentCount(row) == 1 ? 1024 : 64; // divisions of the argument that walks
+    const uint32_t first = argumentCount(row) == 1 ? 1024 : 64; // divisions of the argument that varies along a line
     const auto add = [&](Argument const& argument, Axis::Slot slot) {
         if (isUsed(argument)) axes.push_back({ slot, &argument, gridOf(argument, format, axes.empty() ? first : 16) });
     };
@@ -89,7 +89,7 @@ void addInside(Points& points, std::vector<Axis> const& axes) {
     points.orderedLength = axes[0].grid.orderedCount;
 }
 
-/// The others stand at four places inside.
+/// The other arguments take four values inside.
 void addOutside(Points& points, std::vector<Axis> const& axes, Axis const& axis, Format format) {
     for (Beyond const& beyond : beyondOf(*axis.argument, format)) {
         for (uint32_t place = 0; place < 4; ++place) {

@@ -66,7 +66,7 @@ std::vector<Row> specularRows() {
     };
 }
 
-/// A direction behind the surface z = 0; the view is above it.
+/// A direction behind the surface z = 0; the view is in front.
 Row bentRow(std::string_view function, Call call, Limits limits) {
     return { .file = "refraction",
              .function = function,
@@ -78,7 +78,7 @@ Row bentRow(std::string_view function, Call call, Limits limits) {
              .openOutside = kNoIor };
 }
 
-/// A cosine or a length of the bent ray.
+/// A cosine or a length of the refracted ray.
 Row insideRow(std::string_view function, Call call, Argument third, std::string_view why) {
     return { .file = "refraction",
              .function = function,
@@ -125,7 +125,7 @@ std::vector<Row> directionRows() {
     };
 }
 
-/// Light that has passed the first interface of a thin sheet.
+/// Light that has crossed the first interface of a thin sheet.
 Row sheetRow(std::string_view function, Call call) {
     return { .file = "refraction",
              .function = function,

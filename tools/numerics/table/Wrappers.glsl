@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Functions with outputs or arrays, as functions of s, u and v that return one value. The text is GLSL, and C++ in both
-// precisions, as it stands: no literals, no `float`.
+// Wraps functions with outputs or arrays as functions of s, u and v that return one value. The same text is GLSL, and
+// C++ in both precisions: no literals, no `float`.
 
 vec3 tangentFrameNormal(vec4 q) {
     vec3 n, t, b;
@@ -20,7 +20,7 @@ vec3 tangentFrameBitangent(vec4 q) {
     return b;
 }
 
-// Nine different coefficients out of four.
+// Nine different coefficients made of four.
 vec3 irradianceShOf(vec4 c, vec3 n, int bands) {
     vec4 sh[9];
     sh[0] = c;
