@@ -1,4 +1,4 @@
-# Installs the build into a prefix of its own, then configures, builds and runs the consumer against it.
+# Installs the build into a separate prefix, then configures, builds and runs the consumer against it.
 #   cmake -D BUILD=<build tree> -D COMPILER=<g++|clang++> -D WORK=<scratch folder> -P RunConsumer.cmake
 cmake_minimum_required(VERSION 3.25)
 

@@ -12,7 +12,7 @@
 namespace filament::test {
 namespace {
 
-/// Without memory of its own: the blocks that live are counted around it.
+/// Uses no heap memory itself, because live blocks are counted around it.
 struct Outcome {
     bool struck = false;
     std::array<char, 160> text{};
@@ -46,7 +46,7 @@ uint64_t sweepAllocations(Sweep const& sweep, std::function<std::unique_ptr<Scen
     const std::filesystem::path folder = faultFolder();
     std::filesystem::create_directories(folder);
     std::ofstream list(folder / fileName(sweep));
-    runOnce(sweep, ~0u, make); // what the process keeps once
+    runOnce(sweep, ~0u, make); // allocates what the process keeps
     const uint64_t stride = isStress() ? 1 : sweep.stride;
     uint64_t failed = 0;
     for (uint64_t at = 1;; at += stride) {

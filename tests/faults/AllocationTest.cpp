@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Host memory runs out, at every allocation of making an engine, of a first and of a later frame, of loading a model,
-// of ending all of it; on the null backend. What failed where: <build>/faults/*.txt.
+// Host memory runs out at every allocation: making an engine, the first and a later frame, loading a model, and
+// destroying it all; on the null backend. <build>/faults/*.txt lists what failed where.
 #include "tests/faults/AllocationSweep.h"
 #include "tests/faults/FaultStage.h"
 
@@ -17,7 +17,7 @@ void expectEachNamesMemory(std::vector<std::string> const& errors) {
     for (std::string const& error : errors) EXPECT_TRUE(contains(error, "memory")) << error;
 }
 
-/// An error is OutOfMemory or DeviceLost, or a read-back without pixels, of which takeErrors() says why.
+/// An error must be OutOfMemory or DeviceLost, or a read-back without pixels whose reason takeErrors() gives.
 void expectNamed(Result<void> const& outcome, std::vector<std::string> const& errors) {
     if (outcome.ok()) return;
     const ErrorCode code = outcome.error().code;
@@ -26,7 +26,7 @@ void expectNamed(Result<void> const& outcome, std::vector<std::string> const& er
     EXPECT_TRUE(code == ErrorCode::OutOfMemory || !errors.empty()) << outcome.error().message;
 }
 
-/// A frame of the stage after the memory came back, or the news of a lost device, twice the same.
+/// Draws a frame once memory is available again: the picture, or news of a lost device, must be the same twice.
 void expectSoundFrames(Engine& engine, FaultStage& stage, uint64_t expectedPacket, Result<void> const& outcome) {
     for (int i = 0; i < 2; ++i) {
         const Result<Image> image = stage.draw();
@@ -41,7 +41,7 @@ void expectSoundFrames(Engine& engine, FaultStage& stage, uint64_t expectedPacke
     }
     engine.waitIdle();
     const std::vector<std::string> errors = engine.takeErrors();
-    expectEachNamesMemory(errors); // and no rule of the command stream is broken
+    expectEachNamesMemory(errors); // no rule of the command stream may be broken
     expectNamed(outcome, errors);
 }
 
@@ -83,7 +83,7 @@ private:
     std::optional<Engine> mEngine;
 };
 
-/// A frame, the first one or a later one, and the pixels of it.
+/// The first or a later frame, with its pixels.
 class Draws final : public Scenario {
 public:
     Draws(StageOptions const& options, uint64_t packet, int framesBefore)
@@ -105,7 +105,7 @@ private:
     FaultStage mStage;
 };
 
-/// The end of a renderer, of what it drew, and of the engine.
+/// Destroying a renderer, what it drew, and the engine.
 class Ends final : public Scenario {
 public:
     explicit Ends(StageOptions const& options) : mEngine(std::move(*makeEngine(options))) {
@@ -310,7 +310,7 @@ TEST(EnvironmentWithoutMemory, IsLoadedOrRefused) {
     }
 }
 
-// The instrument itself: without a boundary the exception would arrive here.
+// Tests the instrument itself: without a boundary, the exception would arrive here.
 TEST(FailingAllocator, FailsTheAllocationThatItWasAskedFor) {
     AllocationFailure failure(Whose::App, 2);
     void* first = ::operator new(8); // called by name: pairs of new and delete may be optimised away

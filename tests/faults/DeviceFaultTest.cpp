@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device is lost at every command of a small frame, and runs out of memory at every creation; on the null backend.
-// tests/faults/devices does some of it on both APIs.
+// The device is lost at every command of a small frame, or runs out of memory at every creation; on the null backend.
+// tests/faults/devices does part of this on both APIs.
 #include "tests/faults/FaultStage.h"
 
 namespace filament::test {
@@ -13,7 +13,7 @@ struct Broken {
     explicit Broken(StageOptions const& options = {}) : engine(makeEngine(options, injector)) {
         EXPECT_TRUE(engine.ok());
         stage.emplace(*engine);
-        engine->waitIdle(); // what was made before the frame is there
+        engine->waitIdle(); // objects created before the frame exist
     }
 
     std::shared_ptr<FaultInjector> injector = std::make_shared<FaultInjector>();
@@ -21,7 +21,7 @@ struct Broken {
     std::optional<FaultStage> stage;
 };
 
-/// Commands and creations of the first frame and of reading it.
+/// Commands and creations of the first frame and of its read-back.
 std::pair<uint64_t, uint64_t> countsOfAFrame() {
     Broken whole;
     whole.injector->arm({});
@@ -41,7 +41,7 @@ TEST(LostDevice, IsToldOnceAtEveryCommandOfAFrameAndEverythingReturns) {
         const Result<Image> image = broken.stage->draw();
         ASSERT_FALSE(image.ok());
         EXPECT_EQ(image.error().code, ErrorCode::DeviceLost) << image.error().message;
-        for (int i = 0; i < 5; ++i) EXPECT_FALSE(broken.stage->draw().ok()); // returns, and waits for nobody
+        for (int i = 0; i < 5; ++i) EXPECT_FALSE(broken.stage->draw().ok()); // returns without waiting
         broken.engine->waitIdle();
         const std::vector<std::string> errors = broken.engine->takeErrors();
         ASSERT_EQ(errors.size(), 1u) << errors[0];
@@ -91,7 +91,7 @@ TEST(DeviceMemory, RefusedAtEveryCreationOfAFrameIsNamedAndTheRestIsDrawn) {
         Broken broken;
         broken.injector->arm({ .refuseCreation = at });
         const Result<Image> image = broken.stage->draw();
-        // Without the image itself there is nothing to read, which is an answer, too.
+        // Without the image itself there is nothing to read, which is a valid answer, too.
         if (!image) {
             EXPECT_EQ(image.error().code, ErrorCode::NotFound) << image.error().message;
         }

@@ -16,7 +16,7 @@
 #include <new>
 #include <string_view>
 
-extern "C" const char __executable_start, etext; // of the linker
+extern "C" const char __executable_start, etext; // set by the linker
 
 namespace filament::test {
 namespace {
@@ -30,7 +30,7 @@ std::atomic<int64_t> gLive{ 0 };
 std::atomic<Whose> gWhose{ Whose::App };
 std::atomic<Lasting> gLasting{ Lasting::Once };
 std::atomic<Callers> gCallers{ Callers::All };
-std::array<void*, kFrames> gStack{}; // of the first failure, by whoever set gHasStruck
+std::array<void*, kFrames> gStack{}; // of the first failure; written by the thread that set gHasStruck
 int gStackDepth = 0;
 
 constinit thread_local bool tIsApp = false;
@@ -58,10 +58,9 @@ bool isOfThisProgram(const void* caller) {
     return caller >= static_cast<const void*>(&__executable_start) && caller < static_cast<const void*>(&etext);
 }
 
-// A device's library calls back into templates of the standard library that live in this program: so the whole stack
-// counts.
+// A device's library calls templates of the standard library that are part of this program, so the whole stack counts.
 bool isCalledByThisProgramOnly(const void* caller) {
-    if (!isOfThisProgram(caller)) return false; // most calls, and quick
+    if (!isOfThisProgram(caller)) return false; // the common case, and fast
     tIsInside = true;
     std::array<void*, kFrames> stack{};
     const int depth = backtrace(stack.data(), kFrames);
@@ -102,7 +101,7 @@ void release(void* memory) {
     std::free(memory);
 }
 
-// "program(_ZN8filament4Foo3barEv+0x1f) [0x55...]" -> "filament::Foo::bar()"; nothing for other functions.
+// "program(_ZN8filament4Foo3barEv+0x1f) [0x55...]" -> "filament::Foo::bar()"; empty for other functions.
 std::string engineFunction(const char* line) {
     const char* begin = std::strchr(line, '(');
     const char* end = begin ? std::strpbrk(begin, "+)") : nullptr;
@@ -113,7 +112,7 @@ std::string engineFunction(const char* line) {
             abi::__cxa_demangle(mangled.c_str(), nullptr, nullptr, &status), &std::free);
     std::string text = status == 0 ? name.get() : "";
     if (text.find("filament::test") != std::string::npos) return {};
-    // Templates of the standard library are told by the engine's function that instantiates them.
+    // Templates of the standard library are identified by the engine's function that instantiates them.
     if (!text.starts_with("filament::")) return {};
     return text.substr(0, text.find('('));
 }
@@ -133,7 +132,7 @@ const char* toString(Whose whose) {
 }
 
 AllocationFailure::AllocationFailure(Whose whose, uint64_t at, Lasting lasting, Callers callers) {
-    backtrace(gStack.data(), 1); // loads what it needs now, not inside of operator new
+    backtrace(gStack.data(), 1); // loads its library now, not inside operator new
     tIsApp = true;
     gWhose = whose;
     gLasting = lasting;

@@ -23,10 +23,10 @@
 
 namespace filament::test {
 
-/// FILAMENT_STRESS: test every place instead of some.
+/// FILAMENT_STRESS is set: test every place instead of some.
 inline bool isStress() { return std::getenv("FILAMENT_STRESS") != nullptr; }
 
-/// What the tests write lies here.
+/// The folder for the tests' output.
 inline std::filesystem::path faultFolder() { return tools::buildDir() / "faults"; }
 
 struct StageOptions {
@@ -50,7 +50,7 @@ inline Result<Engine> makeEngine(StageOptions const& options, std::shared_ptr<ba
     return Engine::create(engineOptions(options, std::move(faults)));
 }
 
-/// Spheres in rows, each at a node below one root, and a sun; pictures of 32 x 32 pixels.
+/// Spheres in rows, each at a child of one root, and a sun; pictures of 32 x 32 pixels.
 class FaultStage {
 public:
     explicit FaultStage(Engine& engine, StageOptions const& options = {})
@@ -70,7 +70,7 @@ public:
         mRenderer.emplace(engine);
     }
 
-    /// One frame, waited for.
+    /// Draws one frame and waits for it.
     Result<Image> draw() { return mRenderer->renderToImage(mScene, mView); }
     /// Makes the next frame place every sphere again.
     void move() {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Engines with workers on several threads, each with a fault of its own at another place, while the others go on. For
-// the thread sanitizer above all; FILAMENT_STRESS makes it twenty times as long.
+// Engines with workers on several threads; each suffers a fault at a different place while the others continue. Mainly
+// for the thread sanitizer; FILAMENT_STRESS makes it twenty times as long.
 #include "tests/faults/FaultStage.h"
 
 #include <latch>
@@ -28,7 +28,7 @@ backend::Faults someFault(std::mt19937& random) {
     }
 }
 
-/// One engine's life: frames and read-backs with a fault among them, armed while the driver thread is at work.
+/// The life of one engine: frames and read-backs with a fault among them, armed while the driver thread is working.
 void liveWithAFault(uint32_t seed) {
     std::mt19937 random(seed);
     const auto injector = std::make_shared<backend::FaultInjector>();

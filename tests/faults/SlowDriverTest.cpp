@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A driver thread that is slow, frames that are larger than any buffer, and what the app sees of them.
+// A slow driver thread, frames that are larger than any buffer, and what the app notices.
 #include "tests/faults/FailingAllocator.h"
 #include "tests/faults/FaultStage.h"
 
@@ -39,7 +39,7 @@ TEST(SlowDriver, HoldsTheAppBackAtTwoFramesAhead) {
     const Clock::time_point begin = Clock::now();
     slow.render(12);
     const auto elapsed = Clock::now() - begin;
-    // All but the two that may be ahead and the one being replayed have been waited for.
+    // All frames have been waited for, except the two that may be ahead and the one being replayed.
     EXPECT_GE(elapsed, 9 * 20ms);
     EXPECT_GE(slow.engine->statistics().backPressureNanoseconds, 150'000'000u);
     slow.injector->arm({});
@@ -69,7 +69,7 @@ TEST(SlowDriver, LosesNoFrameAndNoPixel) {
     }
 }
 
-/// What the log says while it lives.
+/// Collects the log during its lifetime.
 class LogLines {
 public:
     LogLines()
@@ -92,7 +92,7 @@ private:
 TEST(SlowDriver, ThatIsStuckInACommandIsNamedWithItByWhoeverWaits) {
     LogLines lines;
     Slow slow({ .commandDelay = 400ms });
-    // The engine warns after ten seconds; the stream below it can be asked to do so earlier.
+    // The engine warns after ten seconds; its stream can be asked to warn earlier.
     const auto stream = backend::CommandStream::start(
             [&](backend::ResultSink& sink) -> Result<std::unique_ptr<backend::Driver>> {
                 auto device = backend::createDriver(backend::BackendType::Null, {}, sink);
@@ -123,7 +123,7 @@ TEST(LargePayload, OfMoreThanAnyBlockArrivesWhole) {
     EXPECT_TRUE(engine->takeErrors().empty());
 }
 
-// A frame's buffer keeps what a frame needs, not what one frame once needed.
+// A frame's buffer keeps the memory of a usual frame, not that of a single large one.
 TEST(LargePayload, IsGivenBackWhenFramesAreSmallAgain) {
     auto engine = makeEngine({ .validation = false });
     FaultStage stage(*engine);

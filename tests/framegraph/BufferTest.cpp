@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Buffers as resources of a graph: who runs, how long they live, what they are made for, and the rules.
+// Buffers as resources of a graph: culling, lifetimes, usages, and the rules.
 #include "tests/framegraph/AllocationCount.h"
 #include "tests/framegraph/GraphFixture.h"
 

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures that are kept from frame to frame: which texture is the previous one, when it is cleared, when it goes.
+// Pictures that are kept from frame to frame: which texture is the previous one, when it is cleared, when it is
+// destroyed.
 #include "tests/framegraph/AllocationCount.h"
 #include "tests/framegraph/GraphFixture.h"
 
@@ -32,7 +33,7 @@ struct Frame {
 
 class HistoryTest : public DeviceGraphTest {
 protected:
-    /// A pass that reads the previous picture, and one that writes the current one, as the frame says.
+    /// A pass that reads the previous picture, and one that writes the current one, as the frame requests.
     Seen frame(Frame const& what = {}) {
         const TextureId out = target();
         const History taa = graph.history(

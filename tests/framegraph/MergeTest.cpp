@@ -6,7 +6,7 @@ namespace {
 
 class MergePasses : public GraphTest {
 protected:
-    /// color -> tone map at the current pixel; returns what became of the tone map.
+    /// color -> tone map at the current pixel; returns how the tone map was merged.
     Merge outcome(MergeLimits const& limits = {}) { return steps(limits).order.decisions[toneMap].merge; }
 
     void declareColor(TextureId hdr, TextureId z) {
@@ -42,7 +42,7 @@ TEST_F(MergePasses, APassThatReadsTheCurrentPixelBecomesASubpass) {
     EXPECT_EQ(group.layout.subpasses[0], (backend::SubpassDesc{ .colorMask = 1, .inputMask = 0, .usesDepth = true }));
     EXPECT_EQ(group.layout.subpasses[1], (backend::SubpassDesc{ .colorMask = 2, .inputMask = 1, .usesDepth = false }));
     EXPECT_EQ(s.order.decisions[toneMap].subpass, 1);
-    // Nothing reads hdr or z afterwards: both stay in the tile, the output does not.
+    // Nothing reads hdr or z afterwards: both stay in the tile, but the output does not.
     EXPECT_EQ(group.colors[0].store, StoreOp::Discard);
     EXPECT_EQ(group.colors[1].store, StoreOp::Store);
     EXPECT_EQ(s.usage[hdr.index()],

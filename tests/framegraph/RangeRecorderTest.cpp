@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Recording in ranges: the same stream whoever records it, and nothing allocated once every buffer has gone round.
+// Recording in ranges: the same stream whichever thread records, and no allocations once every buffer has been used.
 #include "backend/stream/StreamHash.h"
 #include "tests/framegraph/AllocationCount.h"
 #include "tests/framegraph/GraphFixture.h"
@@ -67,7 +67,7 @@ TEST_P(RangesWithWorkers, EveryItemIsRecordedOnceAndRangesFollowFromTheCountAlon
     EXPECT_EQ(seen.groups, (std::vector<std::string>{ "items from 0", "items from 500", "items from 1000" }));
 }
 
-// Like a stream with two frames ahead: three buffers in turn share one recorder.
+// Like a stream with two frames ahead: three buffers take turns with one recorder.
 TEST_P(RangesWithWorkers, ASteadyFrameAllocatesNothing) {
     std::array<CommandBuffer, 3> frames;
     const auto draws = [](CommandBuffer& commands, size_t begin, size_t end) {

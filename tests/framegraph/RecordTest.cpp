@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// compile() and record() against a validated null driver: what the commands say, what the pool keeps, what is
-// explained.
+// compile() and record() on a validated null driver: the commands, the contents of the pool, the explanations.
 #include "tests/framegraph/AllocationCount.h"
 #include "tests/framegraph/GraphFixture.h"
 
@@ -9,7 +8,7 @@ namespace {
 
 using namespace backend;
 
-/// Writes a stream as text: the commands that a frame graph makes, in order.
+/// Writes a stream as text: the commands of a frame graph, in order.
 struct Script {
     std::string text;
     void line(std::string_view what, std::string_view name = {}) {
@@ -307,7 +306,7 @@ TEST_F(Record, TimersMeasureGroups) {
 
 class Pool : public Record {
 protected:
-    /// A chain of `count` passes, each sampling the one before it.
+    /// A chain of `count` passes, each sampling the previous one.
     void declareChain(int count, const char* const* names) {
         TextureId previous = color(names[0]);
         graph.addPass(

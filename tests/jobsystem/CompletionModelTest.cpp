@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The count of a group under the model checker: its owner forks, runs and waits, thieves steal, fork and finish.
-// Waiting and closing go as in Scheduler::sleepInWait() and Scheduler::close(), over the smallest queue that there is.
+// The count of a group under the model checker: its owner forks, runs and waits; thieves steal, fork and finish.
+// Waiting and closing work as in Scheduler::sleepInWait() and Scheduler::close(), over the smallest possible queue.
 #include "jobsystem/Completion.h"
 #include "tests/jobsystem/ModelAtomics.h"
 

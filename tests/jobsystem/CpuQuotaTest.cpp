@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Directories with the files of /proc and of the cgroup mounts as various machines have them.
+// Directories with the files of /proc and of the cgroup mounts, as found on various machines.
 #include "jobsystem/CpuQuota.h"
 
 #include "tests/jobsystem/FakeRoot.h"
@@ -84,7 +84,7 @@ TEST(CpuQuota, FindsTheGroupBelowAMountThatShowsAPartOfTheHierarchy) {
     root.write("proc/self/cgroup", "4:cpu:/docker/abc/nested\n");
     writeQuota(root, "cpu/nested", "100000", "100000");
     EXPECT_EQ(cpuQuota(root.path()), 1.0);
-    // other containers, the first of which only looks alike: what is mounted is as near as one can see
+    // other containers, the first of which only looks similar: the mount point is as close as one can see
     for (const char* folder : { "def", "other" }) {
         writeQuota(root, std::string("cpu/") + folder, "50000", "100000");
     }

@@ -18,8 +18,8 @@ struct Item {
     Plain<int> runs;
 };
 
-/// The owner follows a script: p pushes the next item (and runs it itself if the deque is full), t takes one, and in
-/// the end it takes until nothing is left. Thieves steal `steals` times each.
+/// The owner follows a script: p pushes the next item (and runs it itself if the deque is full), t takes one. At the
+/// end the owner takes until nothing is left. Thieves steal `steals` times each.
 template <uint32_t kSlots>
 struct OwnerAgainstThieves : Scenario {
     OwnerAgainstThieves(std::string script, int thiefCount, int stealCount)
@@ -99,7 +99,7 @@ TEST(DequeModel, EveryItemComesOutExactlyOnceInLongerRuns) {
 
 // ---------------------------------------------------------------------------------------------- what if it were weaker
 
-/// What the checker says when one operation of the deque is another.
+/// What the checker reports if one operation of the deque is replaced.
 std::string findingOf(Mutation const& mutation) {
     for (Case const& c : kQuick) {
         const Report report = check(c.script, c.thieves, c.steals, { .mutate = mutation });
@@ -108,7 +108,7 @@ std::string findingOf(Mutation const& mutation) {
     return "";
 }
 
-// Two threads that run the same item race for it, unless something else puts one after the other.
+// Two threads that run the same item race, unless another operation orders them.
 constexpr const char* kTwice = "an item comes out once";
 constexpr const char* kRace = "a data race: a read that a write does not happen before";
 
@@ -152,8 +152,8 @@ TEST(DequeModel, StealMustSeeAnOwnersClaimThatItsLookAtTheTopCameAfter) {
     EXPECT_EQ(findingOf(Mutation::weaken("steal", Kind::Load, std::memory_order_acquire)), kRace);
 }
 
-// Among the thieves and the owner alone a releasing push would do. That it must not be weaker than it is for the sake
-// of the sleepers is shown in ParkingLotModelTest.cpp.
+// Between the thieves and the owner alone, a releasing push would suffice. ParkingLotModelTest.cpp shows why sleepers
+// need a stronger one.
 TEST(DequeModel, WithoutSleepersAReleasingPushWouldDo) {
     const Options weaker = boundedIfSanitized({ .mutate = Mutation::toReleaseStore("push") });
     EXPECT_EQ(check("pptp", 1, 2, weaker).failure, "");

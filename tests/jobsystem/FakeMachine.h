@@ -24,7 +24,7 @@ public:
     FakeMachine(FakeMachine const&) = delete;
     FakeMachine& operator=(FakeMachine const&) = delete;
 
-    /// Says of these processors what an operating system says of a kind of its own.
+    /// Sets what an operating system would report about these processors as a separate kind.
     FakeMachine& kind(std::initializer_list<unsigned> cpus,
                       std::initializer_list<std::pair<const char*, const char*>> properties) {
         hwloc_bitmap_t set = hwloc_bitmap_alloc();

@@ -108,8 +108,8 @@ TEST(JobTrace, DropsTheOldestAndCountsThem) {
     EXPECT_EQ(json::parse(written(tracks))["otherData"]["droppedEvents"], 85);
 }
 
-// Every field of event i follows from i, so an event mixed from two is found. Also under the thread sanitizer.
-// The smallest rings are overwritten fastest; larger ones give longer copies.
+// Every field of event i follows from i, so a mixture of two events is detected. Also for the thread sanitizer. The
+// smallest rings are overwritten fastest; larger ones give longer copies.
 class JobTraceRace : public testing::TestWithParam<uint32_t> {};
 INSTANTIATE_TEST_SUITE_P(Capacity, JobTraceRace, testing::Values(2, 8, 64), testing::PrintToStringParamName());
 
@@ -231,7 +231,7 @@ TEST(ChromeTrace, HasAThreadForEachTrackAndACompleteEventForEachJob) {
     EXPECT_EQ(events[7]["args"], json::object());
 }
 
-// A double keeps 53 bits: nanoseconds of 200 days as microseconds would lose their last digits.
+// A double has 53 bits: nanoseconds of 200 days, written as microseconds, would lose their last digits.
 TEST(ChromeTrace, WritesTimesOfLongRunsExactly) {
     const TraceTrack track{ "worker",
                             { { "first", 0, 1 }, { "last", 17'280'000'123'456'789, 17'280'000'123'456'790 } } };

@@ -23,7 +23,7 @@ enum class State : uint8_t { Ready, Sleeping, Returned };
 struct Thread {
     std::unique_ptr<Fiber> fiber;
     State state = State::Ready;
-    Operation next; // announced, not made
+    Operation next; // announced, but not performed
 };
 
 struct Step {
@@ -149,7 +149,7 @@ void Checker::judge(Scenario& scenario) {
     if (mEnd == End::None) mEnd = end;
 }
 
-/// The body of every fiber: once around is one run.
+/// The body of every fiber: each iteration is one run.
 void Checker::runThread(int thread) {
     for (;;) {
         mSelf = thread;
@@ -164,7 +164,7 @@ void Checker::runThread(int thread) {
     }
 }
 
-/// The running thread has nothing left to do in this run.
+/// The running thread has finished its part of this run.
 void Checker::leave() {
     Fiber& here = *mThreads[static_cast<size_t>(mSelf)].fiber;
     const int next = mEnd == End::None ? nextThread() : -1;
@@ -208,7 +208,7 @@ int Checker::nextThread() {
         note("the run does not end");
         return -1;
     }
-    // A step that touches nothing is independent of all others: it need not be tried in any other order.
+    // A step that touches nothing is independent of all others, so no other order need be tried.
     for (int i = 0; i < static_cast<int>(mThreads.size()); ++i) {
         Thread const& thread = mThreads[static_cast<size_t>(i)];
         if (thread.state == State::Ready && thread.next.kind == Kind::Resume) return i;
@@ -225,7 +225,7 @@ int Checker::branch(uint8_t ready) {
         mEnd = End::Pruned;
         return next;
     }
-    if (mOptions.preemptions >= 0) return next; // a bound leaves runs out that the sleep sets would rely on
+    if (mOptions.preemptions >= 0) return next; // a bound omits runs that the sleep sets would rely on
     uint8_t asleep = 0;
     for (size_t i = 0; i < mThreads.size(); ++i) {
         if (!(mSearch.explored() >> i & 1)) continue;
@@ -237,7 +237,7 @@ int Checker::branch(uint8_t ready) {
     return next;
 }
 
-/// Returns when it is this thread's turn to make the operation.
+/// Returns when it is this thread's turn to perform the operation.
 void Checker::announce(Operation const& operation) {
     const int self = mSelf;
     Thread& thread = mThreads[static_cast<size_t>(self)];
@@ -264,7 +264,7 @@ void Checker::destroyed(const void* object) {
     if (!mMemory.destroy(mSelf, location)) note("an atomic is destroyed while another thread may still use it");
 }
 
-int Checker::find(const void* object) const { // the newest one, because memory is used again
+int Checker::find(const void* object) const { // the newest one, because memory is reused
     for (int i = static_cast<int>(mObjects.size()) - 1; i >= 0; --i) {
         if (mObjects[static_cast<size_t>(i)] == object) return i;
     }
@@ -273,7 +273,7 @@ int Checker::find(const void* object) const { // the newest one, because memory 
 
 Outcome Checker::perform(const void* object, Operation operation) {
     operation.location = find(object);
-    if (isUnwinding()) { // destructors of what the run left behind
+    if (isUnwinding()) { // destructors of objects that the run left behind
         if (mSelf >= 0 && std::uncaught_exceptions() == 0) throw RunGivenUp{};
         return {};
     }
@@ -285,7 +285,7 @@ Outcome Checker::perform(const void* object, Operation operation) {
     mMemory.tick(mSelf);
     mSteps.push_back({ mSelf, operation, 0, "" });
     const Outcome outcome = make(operation);
-    mMemory.tick(mSelf); // what the thread does from here on is not covered by what the operation released
+    mMemory.tick(mSelf); // later steps of the thread are not covered by the operation's release
     return outcome;
 }
 
@@ -342,7 +342,7 @@ Outcome Checker::change(Operation const& operation) {
     return { before };
 }
 
-// The scenario is made or judged; no thread runs.
+// The scenario is being created or checked; no thread runs.
 Outcome Checker::performAlone(Operation const& operation) {
     const uint64_t before = mMemory.latest(operation.location);
     const bool fits = operation.kind != Kind::CompareExchange || before == operation.expected;

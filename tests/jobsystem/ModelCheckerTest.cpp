@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the checker itself promises: it goes through everything, it knows the memory model, it finds what is wrong.
+// The checker's own promises: it explores everything, it knows the memory model, it finds errors.
 #include "tests/jobsystem/ModelAtomics.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ constexpr auto release = std::memory_order_release;
 constexpr auto acq_rel = std::memory_order_acq_rel;
 constexpr auto seq_cst = std::memory_order_seq_cst;
 
-/// Two variables, four results, and one function for each thread. The classic litmus tests fit.
+/// Two variables, four results, and one function per thread: enough for the classic litmus tests.
 struct Litmus : Scenario {
     struct Vars {
         Atomic<int> x{ 0 }, y{ 0 };
@@ -43,7 +43,7 @@ struct Litmus : Scenario {
     Vars vars;
 };
 
-/// The ends that a program can come to: "<r0..r3> x<last> y<last>".
+/// The possible outcomes of a program: "<r0..r3> x<last> y<last>".
 std::set<std::string> endsOf(std::vector<Litmus::Body> const& program, Options const& options = {},
                              Report* report = nullptr) {
     std::set<std::string> results;

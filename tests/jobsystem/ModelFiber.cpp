@@ -29,7 +29,7 @@ namespace {
 
 constexpr size_t kStackBytes = 256 << 10;
 
-// makecontext() passes integers only; what a switch has to hand over lies here.
+// makecontext() passes only integers, so the arguments of a switch are here.
 Fiber* gLeaving = nullptr;
 Fiber* gArriving = nullptr;
 
@@ -58,7 +58,7 @@ void Fiber::arrive() {
     const void* bottom = nullptr;
     size_t size = 0;
     FILAMENT_IF_ASAN(__sanitizer_finish_switch_fiber(mFakeStack, &bottom, &size));
-    if (!gLeaving->mStack && bottom) { // the thread's own stack, which only the sanitizer can tell
+    if (!gLeaving->mStack && bottom) { // the thread's own stack, known only to the sanitizer
         gLeaving->mStackBottom = bottom;
         gLeaving->mStackSize = size;
     }

@@ -49,8 +49,8 @@ void ModelMemory::join(View& into, View const& from) const {
     for (int i = 0; i < kMaxThreads; ++i) into.clock[i] = std::max(into.clock[i], from.clock[i]);
 }
 
-// Coherence: nothing older than what the thread has seen. Total order: a seq_cst operation that reads or writes
-// before what an earlier seq_cst operation on the same object read or wrote would be coherence-ordered before it.
+// Coherence: nothing older than what the thread has seen. Total order: otherwise a seq_cst operation would be
+// coherence-ordered before what an earlier seq_cst operation on the same object read or wrote.
 uint8_t ModelMemory::floor(int thread, int location, std::memory_order order) const {
     uint8_t floor = mViews[thread].seen[location];
     if (order == std::memory_order_seq_cst) raise(location, floor, mLocations[location].seqCstFloor);

@@ -10,7 +10,7 @@ bool touchesMemory(Kind kind) { return kind != Kind::NotifyOne && kind != Kind::
 
 } // namespace
 
-// `function` is all of "bool filament::jobs::WorkStealingDeque<T, kSlots, Policy>::push(T*) [with T = ...]".
+// `function` is the whole of "bool filament::jobs::WorkStealingDeque<T, kSlots, Policy>::push(T*) [with T = ...]".
 std::string_view Operation::functionName() const {
     std::string_view name = function;
     size_t arguments = name.find('(');
@@ -43,7 +43,7 @@ bool areIndependent(Operation const& a, Operation const& b, bool settled) {
     if (entersKernel(a.kind) && entersKernel(b.kind)) return false;
     if (!touchesMemory(a.kind) || !touchesMemory(b.kind)) return true;
     if (!onlyReads(a.kind) || !onlyReads(b.kind)) return false;
-    // Of two seq_cst loads the second reads nothing older than the first.
+    // Of two seq_cst loads, the second reads nothing older than the first.
     return settled || a.order != std::memory_order_seq_cst || b.order != std::memory_order_seq_cst;
 }
 

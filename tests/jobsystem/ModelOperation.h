@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Operation: one step of a thread under the model checker; and Mutation: what if the step were weaker?
+/// Operation: one step of a thread under the model checker. Mutation: replaces a step by a weaker one.
 ///   Thread  any.
-///   Limits  a function is recognised by its name alone; overloads and lambdas inside of it are one.
+///   Limits  a function is recognised by its name alone; its overloads and lambdas count as the same function.
 #pragma once
 
 #include <atomic>
@@ -42,11 +42,11 @@ struct Operation {
     bool isIn(const char* name) const;
     /// The name without its class, result and arguments.
     std::string_view functionName() const;
-    /// What a store or modification leaves behind.
+    /// The effect of a store or modification.
     uint64_t result(uint64_t before) const;
 };
 
-/// Two steps of different threads that lead to the same state in either order, from the state at hand on (Katz and
+/// Whether two steps of different threads lead to the same state in either order, from the current state on (Katz and
 /// Peled 1992, "Defining conditional independence using collapses"). `settled`: a seq_cst load of b's object has one
 /// choice.
 bool areIndependent(Operation const& a, Operation const& b, bool settled);
@@ -57,11 +57,11 @@ const char* nameOf(std::memory_order order);
 struct Mutation {
     std::function<void(Operation&)> apply;
 
-    /// Operations of this kind, written in this function, have another order.
+    /// Operations of this kind, written in this function, get another order.
     static Mutation weaken(const char* function, Kind kind, std::memory_order order);
-    /// ... or are of another kind.
+    /// ... or become another kind.
     static Mutation to(Kind replacement, const char* function, Kind kind);
-    /// An exchange() whose result nobody looks at becomes a store().
+    /// An exchange() whose result is not used becomes a store().
     static Mutation toReleaseStore(const char* function);
 
     void operator()(Operation& operation) const { apply(operation); }

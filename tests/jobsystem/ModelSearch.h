@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// ModelSearch: the depth-first search over everything that can go differently. A run asks it at every fork which way
-/// to go; advance() makes the next run go another way at the last fork where there is one left.
+/// ModelSearch: the depth-first search over all choices. At every fork, a run asks which way to go; advance() makes the
+/// next run differ at the last fork that has choices left.
 ///   Source  sleep sets: Godefroid 1996, "Partial-Order Methods for the Verification of Concurrent Systems", chapter 5.
-///   Thread  one.  Memory: 4 bytes a fork of the current path.  Fails: never.
+///   Thread  one.  Memory: 4 bytes per fork of the current path.  Fails: never.
 #pragma once
 
 #include <bit>
@@ -21,7 +21,7 @@ public:
         mSleepSet = 0;
     }
 
-    /// One of the threads in the bit mask; kNobody if whatever they do next was explored before, in another order.
+    /// One of the threads in the bit mask; kNobody if all their next steps have been explored before, in another order.
     int pickThread(uint8_t mask, int preferred) {
         if (mDepth == mNodes.size()) {
             const auto fresh = static_cast<uint8_t>(mask & ~mSleepSet);
@@ -33,9 +33,9 @@ public:
         return mNodes[mDepth++].choice;
     }
 
-    /// Threads whose next step need not be tried here, as all that follows from it has been; after pickThread().
+    /// Threads whose next step need not be tried here, because its consequences have been explored; after pickThread().
     uint8_t explored() const { return mNodes[mDepth - 1].done; }
-    /// Those of them for which that still holds after the step of the thread that was picked.
+    /// Those of them for which this still applies after the step of the picked thread.
     void setSleepSet(uint8_t mask) { mSleepSet = mask; }
 
     /// A number below `count`.
@@ -45,7 +45,7 @@ public:
         return mNodes[mDepth++].choice;
     }
 
-    /// False if all was explored.
+    /// False if everything has been explored.
     bool advance() {
         while (!mNodes.empty()) {
             Node& node = mNodes.back();

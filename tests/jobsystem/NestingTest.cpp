@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Waits in waits, on large and small stacks, and the storage that they exhaust.
+// Nested waits, on large and small stacks, and the storage that they exhaust.
 #include "tests/jobsystem/JobSystemFixture.h"
 
 #include <pthread.h>
@@ -22,7 +22,7 @@ int nest(JobSystem& jobs, int depth) {
     return below + 1;
 }
 
-/// Runs `function` on a thread whose stack has `bytes`.
+/// Runs `function` on a thread with a stack of `bytes`.
 template <class F>
 void onStackOf(size_t bytes, F&& function) {
     pthread_attr_t attributes;
@@ -82,7 +82,7 @@ TEST_P(NestingTest, BackgroundJobsNestDeeply) {
     EXPECT_EQ(depth, 5'000);
 }
 
-/// More jobs than there is storage for, and nobody else to run them.
+/// More jobs than the storage has room for, and no other thread to run them.
 TEST_P(NestingTest, ExhaustedStorageRunsJobsAtOnce) {
     constexpr int kJobs = 30'000;
     for (const bool adopted : { false, true }) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Sleeping and waking under the model checker: who pushes and then looks for sleepers, against who announces its sleep
-// and then looks for work. The worker's loop is the one of Scheduler::runWorker().
+// Sleeping and waking under the model checker: threads that push and then look for sleepers, and threads that announce
+// their sleep and then look for work. The worker's loop is that of Scheduler::runWorker().
 #include "jobsystem/ParkingLot.h"
 #include "jobsystem/WorkStealingDeque.h"
 #include "tests/jobsystem/ModelAtomics.h"
@@ -15,7 +15,7 @@
 namespace filament::jobs::model {
 namespace {
 
-/// Counts what goes into the kernel to wake somebody, a run.
+/// Counts the wake-up calls into the kernel, per run.
 struct CountingAtomics : ModelAtomics {
     static inline int wakeUps = 0;
 
@@ -29,8 +29,8 @@ struct Job {
     Plain<int> runs;
 };
 
-/// The smallest thing that can be pushed to and taken from: one bit a job. A push is one point in the total order of
-/// seq_cst operations, as the deque's is; with so few steps more threads can be explored.
+/// The smallest queue: one bit per job. A push is one point in the total order of seq_cst operations, like the deque's;
+/// with so few steps more threads can be explored.
 class Bits {
 public:
     bool push(Job* job, Job* first) {
@@ -75,7 +75,7 @@ struct Plan {
     }
 };
 
-/// Threads: the workers, then the producers. Workers never return; a run ends well when they sleep and all is done.
+/// Threads: the workers, then the producers. Workers never return; a run ends well if they sleep and all jobs are done.
 template <class Queue>
 struct PushThenNotify : Scenario {
     explicit PushThenNotify(Plan const& options) : plan(options) { CountingAtomics::wakeUps = 0; }
@@ -181,8 +181,8 @@ TEST(ParkingLotModel, AFutexThatReturnsForNoReasonChangesNothing) {
     expectCorrect<Bits>({ .producers = 1, .jobs = 2, .workers = 1 }, { .spuriousReturns = 1 });
 }
 
-// With three and four threads every day with at most two (three) switches that no thread asked for: most errors of
-// concurrent programs need no more (Musuvathi and Qadeer 2007, "Iterative context bounding").
+// With three and four threads, explores every run with at most two (three) switches that no thread asked for: most
+// concurrency errors need no more (Musuvathi and Qadeer 2007, "Iterative context bounding").
 TEST(ParkingLotModel, NoWakeUpIsLostAmongThreeAndFourThreads) {
     expectCorrect<Bits>({ .producers = 1, .jobs = 1, .workers = 2 }, { .preemptions = 2 });
     expectCorrect<Bits>({ .producers = 1, .jobs = 2, .workers = 2 }, { .preemptions = 2 });
@@ -190,7 +190,7 @@ TEST(ParkingLotModel, NoWakeUpIsLostAmongThreeAndFourThreads) {
     expectCorrect<Bits>({ .producers = 2, .jobs = 1, .workers = 2 }, { .preemptions = 1 });
 }
 
-// A burst makes one system call; that all of its jobs get a worker is up to the workers, who pass the wake-up on.
+// A burst makes one system call; the workers pass the wake-up on, so that all of its jobs get a worker.
 TEST(ParkingLotModel, ABurstReachesAsManyWorkersAsItHasJobs) {
     expectCorrect<Bits>({ .producers = 1, .jobs = 2, .workers = 2, .firstJobLasts = true }, { .preemptions = 2 });
     expectCorrect<Bits>({ .producers = 2, .jobs = 1, .workers = 2, .firstJobLasts = true }, { .preemptions = 1 });
@@ -251,7 +251,7 @@ TEST(ParkingLotModel, AWorkerThatKeepsItsWakeUpForItselfLeavesWorkBesideSleepers
     EXPECT_EQ(report.failure.substr(0, report.failure.find('\n')), kLost);
 }
 
-// The store of a push that only releases waits in the store buffer while its thread finds nobody asleep.
+// A push that only releases stays in the store buffer while its thread finds no sleepers.
 TEST(ParkingLotModel, APushThatOnlyReleasesLosesAWakeUp) {
     EXPECT_EQ(findingOf<Deque>(Mutation::toReleaseStore("push")), kLost);
     EXPECT_EQ(findingOf<Deque>(Mutation::weaken("push", Kind::Exchange, std::memory_order_acq_rel)), kLost);

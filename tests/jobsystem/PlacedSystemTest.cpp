@@ -39,7 +39,7 @@ private:
 
 void onOwnThread(std::function<void()> const& body) { std::thread(body).join(); }
 
-// Keeps every worker inside a job at the same time and asks each for its cores.
+// Holds every worker in a job at the same time and asks each for its cores.
 std::vector<std::vector<int>> coresOfWorkers(JobSystem& jobs) {
     std::mutex mutex;
     std::vector<std::vector<int>> cores;
@@ -152,7 +152,7 @@ struct Timeline {
     size_t stolen = 0;
 };
 
-// What every timeline must obey: jobs of one track are disjoint or contain one another.
+// The rules of every timeline: jobs of one track are disjoint or nested.
 Timeline checked(std::vector<TraceTrack> const& tracks) {
     Timeline timeline;
     for (TraceTrack const& track : tracks) {

@@ -10,7 +10,7 @@ namespace {
 class PriorityTest : public JobSystemFixture {};
 INSTANTIATE_TEST_SUITE_P(Workers, PriorityTest, testing::Values(1, 2, 7), workersName);
 
-/// In which order jobs started.
+/// The order in which jobs started.
 class StartOrder {
 public:
     void note(char what) {
@@ -28,7 +28,7 @@ private:
 };
 
 TEST(Priority, AWorkerStartsCriticalJobsBeforeNormalOnesThatWereQueuedEarlier) {
-    for (const bool adopted : { true, false }) { // through the deque of a seat, and through the injection queue
+    for (const bool adopted : { true, false }) { // through a seat's deque, and through the injection queue
         JobSystem jobs({ .workers = 1 });
         std::unique_ptr<AdoptedThread> seat = adopted ? std::make_unique<AdoptedThread>(jobs) : nullptr;
         WorkersHeld held(jobs);

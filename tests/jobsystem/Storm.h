@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What storms share: many threads that begin at the same moment, as often as the machine has time for.
+/// Shared by the storms: many threads that start at the same moment, as often as time allows.
 #pragma once
 
 #include <algorithm>
@@ -17,7 +17,7 @@ inline int scaled(int count) {
     return count * std::max(1, text ? std::atoi(text) : 1);
 }
 
-/// Runs body(0), body(1), ... on a thread each, all from the same moment on. Returns when all are done.
+/// Runs body(0), body(1), ... on one thread each, all starting at the same moment. Returns when all are done.
 inline void onThreads(int count, std::function<void(int)> const& body) {
     std::latch start(count);
     std::vector<std::jthread> threads;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Storms: what many threads do to a job system at once, with 1, 2 and 16 workers on however many cores there are. Meant
-// for the thread sanitizer. FILAMENT_STRESS=N makes every storm N times as long.
+// Storms: many threads use a job system at once, with 1, 2 and 16 workers on any number of cores. Meant for the thread
+// sanitizer. FILAMENT_STRESS=N makes every storm N times as long.
 #include "tests/jobsystem/JobSystemFixture.h"
 #include "tests/jobsystem/Storm.h"
 
@@ -19,7 +19,7 @@ using test::scaled;
 
 void add(std::atomic<int64_t>& to, int64_t value = 1) { to.fetch_add(value, std::memory_order_relaxed); }
 
-/// Some work that the compiler keeps: about `count` nanoseconds.
+/// Work that the compiler does not remove: about `count` nanoseconds.
 void spend(uint32_t count) {
     for (uint32_t i = 0; i < count; ++i) asm volatile("" ::: "memory");
 }
@@ -136,7 +136,7 @@ TEST_P(StressTest, ContinuationsUnderTheftSeeTheWholeGroupBeforeThem) {
     });
 }
 
-// Nobody helps the workers here, and they have time to fall asleep: a lost wake-up stays lost.
+// Nobody helps the workers here, and they have time to fall asleep, so a lost wake-up stays lost.
 TEST_P(StressTest, EveryJobReachesAWorkerAlthoughNobodyWaits) {
     std::mt19937 random(1);
     const AdoptedThread seat(jobs);

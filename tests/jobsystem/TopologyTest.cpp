@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other machines are described by hwloc's own synthetic topologies, exported as XML.
+// Other machines, described by hwloc's synthetic topologies and exported as XML.
 #include "jobsystem/Topology.h"
 
 #include "jobsystem/Affinity.h"
@@ -19,7 +19,7 @@
 
 static std::atomic<int> sLoads = 0;
 
-// Takes the place of hwloc's own function in this program, and counts.
+// Replaces hwloc's function in this program, and counts the calls.
 extern "C" int hwloc_topology_load(hwloc_topology_t topology) {
     static const auto load = reinterpret_cast<int (*)(hwloc_topology_t)>(dlsym(RTLD_NEXT, "hwloc_topology_load"));
     ++sLoads;
@@ -87,8 +87,8 @@ TEST(Topology, OfAThreadWithOneCoreIsOneCore) {
     EXPECT_EQ(coresOfThisThread(), cores) << "a thread is restricted, not the process";
 }
 
-/// How often this process has loaded the machine's description when eight threads have asked for it together; -1 if
-/// they were told different things.
+/// How often this process has loaded the machine's description after eight threads have asked for it together; -1 if
+/// their answers differ.
 int loadsForThreadsThatAskTogether() {
     std::vector<Topology> seen(8);
     std::latch start(std::ssize(seen));
@@ -105,7 +105,7 @@ int loadsForThreadsThatAskTogether() {
     return sLoads;
 }
 
-// In a process of its own, in which nobody has asked before.
+// In a separate process, in which nobody has asked before.
 TEST(TopologyDeathTest, LoadsOnceForThreadsThatAskTogether) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     EXPECT_EXIT(std::_Exit(loadsForThreadsThatAskTogether()), testing::ExitedWithCode(1), "");
@@ -147,7 +147,7 @@ TEST(Topology, RanksTheClassesOfAHybridMachine) {
     EXPECT_EQ(topology.cpus[2].efficiencyClass, topology.cpus[3].efficiencyClass);
 }
 
-// hwloc gives up ranking when one kind says nothing of itself; then the known frequency decides.
+// hwloc gives up ranking if one kind reports nothing; then the known frequency decides.
 TEST(Topology, RanksClassesByFrequencyWhereHwlocDoesNot) {
     const std::string xml = FakeMachine("pack:1 l3:1 core:4 pu:1")
                                     .kind({ 0, 3 }, { { "FrequencyMaxMHz", "2400" } })

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What sleeping costs: nothing while there is no work, and one wake-up for one job.
+// The cost of sleeping: nothing while there is no work, and one wake-up for one job.
 #include "tests/jobsystem/JobSystemFixture.h"
 
 #include <sys/resource.h>
@@ -22,7 +22,7 @@ double processorSeconds() {
     return seconds(usage.ru_utime) + seconds(usage.ru_stime);
 }
 
-/// How often the threads with this name went to sleep of their own accord, so far.
+/// How often the threads with this name have gone to sleep voluntarily.
 int64_t timesAsleep(std::string const& threadName) {
     int64_t sum = 0;
     for (auto const& task : std::filesystem::directory_iterator("/proc/self/task")) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// shaders/lib over edge grids: fp32 and fp16 against fp64 of the same text, and a row for every function that the
-// sources define.
+// shaders/lib over edge grids: fp32 and fp16 compared with fp64 of the same text, and a row for every function in the
+// sources.
 #include "tools/numerics/Report.h"
 #include "tools/paths/Paths.h"
 
@@ -88,7 +88,7 @@ TEST(NumericsTable, JustifiesEveryLimit) {
                 << row.function << ": say why its error is so large";
 }
 
-/// Every row in every precision, once: the devices and their compilers are what takes the time.
+/// Every row in every precision, computed once: devices and their compilers take most of the time.
 Result<Study> const& study() {
     static const auto* const result = new Result<Study>(runStudy());
     return *result;
@@ -147,7 +147,7 @@ Row const& rowOf(std::string_view function) {
     return *std::find_if(rows().begin(), rows().end(), [&](Row const& row) { return row.function == function; });
 }
 
-/// A column that computed in 32 bits would be far better than its limit, and say nothing about fp16.
+/// A column that was computed in 32 bits would be far better than its limit, and tell nothing about fp16.
 TEST(NumericsStudy, ReallyRoundsTo16BitsInTheHalfColumns) {
     ASSERT_TRUE(study()) << study().error().message;
     for (RowResult const& row : study()->rows) {
@@ -207,7 +207,7 @@ TEST(NumericsReport, NamesABrokenPromiseInEveryTable) {
     EXPECT_THAT(markdownOf(*study), ::testing::HasSubstr("**C++ fp32: 3 NaN"));
 }
 
-/// Defects that people make, some of which this table found when it was new.
+/// Typical human errors; this table found some of them when it was new.
 struct Defect {
     const char* name;
     const char* function;
@@ -287,8 +287,8 @@ TEST(NumericsStudy, FailsForAMutationWithoutItsText) {
     EXPECT_EQ(mutant.error().code, ErrorCode::NotFound);
 }
 
-/// The mutations that prove the measurement: a result that is off by one part in a thousand, NaN, out of range, or in
-/// the wrong order is found.
+/// Mutations that prove the measurement: it detects a result that is off by one part in a thousand, NaN, out of range,
+/// or in the wrong order.
 class MeasurementOf : public ::testing::Test {
 protected:
     Row const& row = rowOf("pow5(float)");

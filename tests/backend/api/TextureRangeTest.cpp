@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Ranges against the sets of levels and layers that they stand for, for every range of a small texture.
+// Ranges compared with the sets of levels and layers that they stand for, for every range of a small texture.
 #include "backend/api/TextureRange.h"
 
 #include <gtest/gtest.h>

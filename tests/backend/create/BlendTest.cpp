@@ -15,7 +15,7 @@ using testing::Each;
 
 DRIVER_SUITE(Blend);
 
-// Multiples of 1/8: exact in half floats, and so are their products and sums.
+// Multiples of 1/8: they, their products and their sums are exact in half floats.
 constexpr Rgba kSource{ 0.5f, 0.25f, 1.0f, 0.75f };
 constexpr Rgba kTarget{ 0.25f, 0.5f, 0.125f, 0.5f };
 
@@ -56,7 +56,7 @@ float combine(BlendOp op, float s, float d, float source, float target) {
     case BlendOp::ReverseSubtract:
         return d - s;
     case BlendOp::Min:
-        return std::min(source, target); // without factors
+        return std::min(source, target); // min and max ignore factors
     case BlendOp::Max:
         return std::max(source, target);
     }
@@ -128,7 +128,7 @@ std::vector<BlendState> allFactors() {
                            .dstColor = BlendFactor::Zero,
                            .srcAlpha = which,
                            .dstAlpha = BlendFactor::Zero });
-        if (which == BlendFactor::SrcAlphaSaturate) continue; // a source factor
+        if (which == BlendFactor::SrcAlphaSaturate) continue; // allowed only as a source factor
         states.push_back({ .enabled = true,
                            .srcColor = BlendFactor::Zero,
                            .dstColor = which,
@@ -242,7 +242,8 @@ DRIVER_TEST(Blend, StoredColorsClampAndRoundToTheirFormat) {
         Format format;
         Rgba written;
     };
-    // Floats are exact ones: which way a conversion to half rounds is the device's choice (Mesa's llvmpipe truncates).
+    // The values are exact in half floats, because devices may round a conversion either way (Mesa's llvmpipe
+    // truncates).
     for (Case const& one :
          { Case{ Format::RGBA8, { -1, 2, 0.25f, 0.625f } }, Case{ Format::RGB10A2, { 0.25f, 0.625f, 7, 0.3f } },
            Case{ Format::RGBA16F, { 0.125f, 1000.5f, -7, 60000 } },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Dispatches: integer results that have one right answer, and the order of writes and reads around them.
+// Dispatches: integer results with a single correct answer, and the order of reads and writes around them.
 #include "tests/backend/create/Gpu.h"
 
 #include <gmock/gmock.h>
@@ -15,7 +15,7 @@ namespace {
 
 constexpr BufferUsage kReadable = BufferUsage::Storage | BufferUsage::TransferSource;
 
-/// A compute stage of `size` invocations a group whose main() is `body`.
+/// A compute stage of `size` invocations per group with `body` as main().
 std::string computeOf(uint32_t size, std::string_view declarations, std::string_view body) {
     return fmt::format("#version 450\nlayout(local_size_x = {}) in;\n{}\nvoid main() {{\n{}\n}}\n", size, declarations,
                        body);
@@ -25,7 +25,7 @@ BindGroupEntry whole(uint8_t binding, BufferHandle buffer, uint32_t bytes) {
     return { .binding = binding, .buffer = buffer, .size = bytes };
 }
 
-/// Numbers that look like nothing in particular (a linear congruential generator).
+/// Pseudo-random numbers (a linear congruential generator).
 std::vector<uint32_t> scattered(size_t count) {
     std::vector<uint32_t> values(count);
     uint32_t state = 12345;
@@ -85,7 +85,7 @@ DRIVER_TEST(Compute, AHistogramThroughSharedMemoryAndAtomicsCountsEveryValue) {
     EXPECT_EQ(gpu.readBuffer<uint32_t>(bins, kBins), expected);
 }
 
-// Three dispatches, each reading what the one before it wrote: sums of blocks, sums of those, both together.
+// Three dispatches, each reading the results of the previous one: sums of blocks, sums of those, both together.
 DRIVER_TEST(Compute, APrefixSumOverManyBlocksSeesTheSumsOfTheOnesBefore) {
     constexpr uint32_t kBlock = 128, kBlocks = 100, kCount = kBlock * kBlocks;
     const std::vector<uint32_t> values = scattered(kCount);
@@ -194,7 +194,7 @@ DRIVER_TEST(Compute, ADispatchSamplesWhatAPassHasJustDrawn) {
     EXPECT_EQ(gpu.readBuffer<uint32_t>(bins, 16), expected);
 }
 
-// Four writers of one buffer take turns, and every reader sees the one before it.
+// Four writers of one buffer in turn; each reader sees the result of the previous writer.
 DRIVER_TEST(Compute, UploadsDispatchesDrawsAndReadBacksOfOneBufferStayInOrder) {
     const Program doubled = gpu.computeProgram(computeOf(
             1, "layout(set = 0, binding = 0, std430) buffer Value { vec4 value; };", "value = value * 2.0 + 1.0;"));
@@ -271,7 +271,7 @@ DRIVER_TEST(Compute, APartOfABufferIsBoundAndTheRestIsLeftAlone) {
 
 DRIVER_TEST(Compute, AProgramThatDoesNotCompileIsReportedOnceAndItsDispatchSkipped) {
     const BufferHandle buffer = gpu.buffer(kReadable, std::vector<uint32_t>{ 7 });
-    const std::array<uint32_t, 5> header{ 0x07230203, 0x00010300, 0, 1, 0 }; // SPIR-V that announces nothing
+    const std::array<uint32_t, 5> header{ 0x07230203, 0x00010300, 0, 1, 0 }; // valid header, empty SPIR-V module
     const std::string_view spirv(reinterpret_cast<const char*>(header.data()), sizeof(header));
     const bool isVulkan = gpu.backend() == BackendType::Vulkan;
     const ProgramHandle broken =

@@ -60,7 +60,7 @@ TEST(CreateDriverTest, TheVectorWidthIsFixedBeforeADriverIsLoaded) {
 
 using Variables = std::map<std::string, std::string>;
 
-/// The environment as it is after the changes.
+/// The environment after the changes.
 Variables afterChanges(Variables variables) {
     const MesaEnvironment environment = mesaEnvironment([&](const char* name) {
         const auto found = variables.find(name);

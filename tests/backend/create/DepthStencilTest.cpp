@@ -38,8 +38,8 @@ PipelineHandle pipelineWith(Gpu& gpu, Scene const& scene, std::function<void(Pip
     return gpu.pipeline(desc);
 }
 
-/// A triangle over the whole target in the plane z = a + b * x, x running from 0 at the left edge to 1 at the right
-/// one.
+/// A triangle over the whole target in the plane z = a + b * x, where x goes from 0 at the left edge to 1 at the right
+/// edge.
 BufferHandle plane(Gpu& gpu, float a, float b, Rgba const& color = kWhite) {
     return gpu.buffer(BufferUsage::Vertex, std::vector<ColorVertex>{ { { -1, -1, a, 1 }, color },
                                                                      { { 3, -1, a + 2 * b, 1 }, color },
@@ -88,7 +88,7 @@ DRIVER_TEST(DepthStencil, EveryComparisonDecidesBetweenIncomingAndStoredDepth) {
             const bool passes = compares(op, z, 0.5f);
             EXPECT_THAT(gpu.readAs<Rgba>(scene.color, { 0, 0, 2, 2 }), Each(passes ? kWhite : Rgba{}))
                     << i << " at " << z;
-            // None: neither test nor write.
+            // None: no test and no writes.
             const float stored = passes && op != CompareOp::None ? z : 0.5f;
             EXPECT_THAT(gpu.readAs<float>(scene.depth, { 0, 0, 2, 2 }), Each(stored)) << i << " at " << z;
         }
@@ -218,7 +218,7 @@ uint8_t applied(StencilOp op, uint8_t value, uint8_t reference) {
     return value;
 }
 
-/// Stencil has no read-back: white where it equals `expected`.
+/// Stencil cannot be read back: draws white where it equals `expected`.
 void expectStencil(Gpu& gpu, Scene& scene, uint8_t expected, std::string const& what) {
     const StencilFace equal{ .compare = CompareOp::Equal };
     const PipelineHandle probe = pipelineWith(gpu, scene, [&](PipelineDesc& desc) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The device itself: what it says about itself, specialisation, what it refuses, timers, lifetimes, traces.
+// The device itself: its description, specialisation, what it refuses, timers, lifetimes, traces.
 #include "tests/backend/create/Gpu.h"
 
 #include "backend/create/CreateDriver.h"
@@ -36,7 +36,7 @@ DRIVER_TEST(Device, StatisticsCountWhatWasReplayed) {
     const Program program = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
     gpu.read(gpu.paint(program, {}), { 0, 0, 4, 4 });
     gpu.read(gpu.paint(program, {}), { 0, 0, 4, 4 });
-    EXPECT_TRUE(gpu.takeErrors().empty()); // waits: an answer may come before the numbers of its stream
+    EXPECT_TRUE(gpu.takeErrors().empty()); // waits: an answer may come before its stream's numbers
     const DriverStatistics after = gpu.statistics();
     EXPECT_EQ(after.draws - before.draws, 2u);
     EXPECT_EQ(after.passes - before.passes, 2u);
@@ -69,7 +69,7 @@ layout(constant_id = 7) const float scale = 0.5;)";
 // ---------------------------------------------------------------------------------------------- refusals
 
 DRIVER_TEST(Device, AProgramThatDoesNotCompileIsReportedByNameAndItsDrawsAreSkipped) {
-    // SPIR-V: a header that announces nothing; ESSL: an undeclared name.
+    // SPIR-V: a header with an empty module; ESSL: an undeclared name.
     const std::array<uint32_t, 5> header{ 0x07230203, 0x00010300, 0, 1, 0 };
     const std::string_view spirv(reinterpret_cast<const char*>(header.data()), sizeof(header));
     constexpr std::string_view kEssl = "#version 310 es\nvoid main() { undeclared = 1.0; }\n";
@@ -97,7 +97,7 @@ DRIVER_TEST(Device, ATextureThatDoesNotFitIsReportedByNameAndLifeGoesOn) {
                                              .width = size,
                                              .height = size,
                                              .debugName = "far too large" });
-    gpu.upload(huge, { 0, 0, 1, 1 }, Bytes(16)); // on an object that was refused: ignored
+    gpu.upload(huge, { 0, 0, 1, 1 }, Bytes(16)); // on a refused object: ignored
     const std::vector<DriverError> errors = gpu.takeErrors();
     ASSERT_FALSE(errors.empty());
     EXPECT_EQ(errors.front().kind, DriverErrorKind::OutOfMemory);
@@ -138,8 +138,8 @@ DRIVER_TEST(Device, NestedTimersAreAnsweredOnceAndTheOuterOneTakesNoLess) {
 }
 
 DRIVER_TEST(Device, ObjectsDestroyedRightAfterTheirUseAreKeptUntilTheDeviceIsDone) {
-    // The kit destroys what it made at the end; here everything dies in the stream that uses it, and its memory is
-    // reused.
+    // The kit destroys its objects at the end; here everything is destroyed in the stream that uses it, and its memory
+    // is reused.
     for (int round = 0; round < 3; ++round) {
         Gpu inner = gpu.another();
         const Program program =
@@ -152,7 +152,7 @@ DRIVER_TEST(Device, ObjectsDestroyedRightAfterTheirUseAreKeptUntilTheDeviceIsDon
         const Ticket ticket = inner.nextTicket();
         inner.record(CmdReadTexture{ .texture = target, .rect = { 0, 0, 2, 2 }, .ticket = ticket });
         inner.destroyAll();
-        // New objects under the same indices, with other contents, still in the same stream.
+        // New objects with the same indices and other contents, still in the same stream.
         const TextureHandle other = inner.image(Format::R32F, 1, 1, bytesOf(std::vector<float>{ -1 }));
         static_cast<void>(other);
         const Bytes bytes = inner.wait(ticket);

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Which pixels a draw touches, and with which vertices. Targets are RGBA32F so that values come back as they were
-// written.
+// Which pixels a draw touches, and with which vertices. Targets are RGBA32F, so that values are read back unchanged.
 #include "tests/backend/create/Gpu.h"
 
 #include <gmock/gmock.h>
@@ -54,7 +53,7 @@ std::vector<Rgba> endAndRead(Gpu& gpu, Setup const& setup) {
 DRIVER_TEST(Draw, ATriangleCoversExactlyThePixelsWhoseCentresLieInside) {
     constexpr uint32_t kSize = 16;
     const Setup setup = setUp(gpu, kSize, kSize);
-    // No centre lies on an edge: the three edge equations decide without a tie.
+    // No pixel centre lies on an edge, so the three edge equations decide without ties.
     const double x[] = { 1.3, 14.1, 4.2 }, y[] = { 2.1, 5.7, 13.9 };
     std::vector<ColorVertex> vertices;
     for (int i = 0; i < 3; ++i) vertices.push_back({ at(x[i], y[i], kSize, kSize), kRed });
@@ -92,7 +91,7 @@ DRIVER_TEST(Draw, ColorsInterpolateLinearlyOverTheScreen) {
     }
 }
 
-// One pixel per point: what is drawn tells which vertex it was.
+// One pixel per point: the picture shows which vertex it was.
 std::vector<ColorVertex> pointRow(uint32_t count) {
     std::vector<ColorVertex> vertices;
     for (uint32_t i = 0; i < count; ++i)
@@ -230,7 +229,7 @@ DRIVER_TEST(Draw, TopologiesConnectVerticesAsTheirNamesSay) {
             desc.raster.topology = one.topology;
         });
         std::vector<ColorVertex> vertices;
-        // 1e-3 to the side of the diagonal's centres: which one owns a tie is not the question here
+        // 1e-3 beside the diagonal's pixel centres: ties are not tested here
         for (auto const& [x, y] : one.points) vertices.push_back({ at(x - 1e-3, y - 1e-3, 4, 4), kRed });
         const BufferHandle buffer = gpu.buffer(BufferUsage::Vertex, vertices);
         beginWith(gpu, setup, buffer);
@@ -335,7 +334,7 @@ DRIVER_TEST(Draw, FragCoordCountsPixelCentresFromTheTopLeft) {
 
 DRIVER_TEST(Draw, PrimitivesCrossingTheNearPlaneAreClippedAtItsExactPlace) {
     const Setup setup = setUp(gpu, 8, 8);
-    // z runs from -1 at the left edge to +1 at the right one: the left half has z < 0 and is cut away.
+    // z runs from -1 at the left edge to +1 at the right edge: the left half has z < 0 and is clipped.
     const std::vector<ColorVertex> vertices{ { { -1, -1, -1, 1 }, kRed },
                                              { { 3, -1, 3, 1 }, kRed },
                                              { { -1, 3, -1, 1 }, kRed } };

@@ -65,7 +65,7 @@ StreamOrReason& streamOf(BackendType type) {
     return it != streams().end() ? it->second : streams().emplace(type, startStream(type)).first->second;
 }
 
-// Drivers go before the libraries under them unload themselves at exit, and what they leak is an error of this program.
+// Drivers must end before the libraries below them unload at exit; leaks of the drivers are errors of this program.
 class CloseStreams final : public testing::Environment {
     void TearDown() override { streams().clear(); }
 };
@@ -114,7 +114,7 @@ std::span<const std::byte> codeBytes(T const& code) {
 // ---------------------------------------------------------------------------------------------- objects
 
 Gpu::Gpu(CommandStream& stream) : mStream(stream), mHandlesBefore(stream.liveHandles()) {
-    submit(); // an empty frame: what a driver keeps for itself is there after its first one
+    submit(); // an empty frame: afterwards the driver has allocated its own objects
     mStream.waitIdle();
     mBytesBefore = mStream.statistics().deviceBytes;
 }
@@ -361,7 +361,7 @@ void useColorVertices(PipelineDesc& desc) {
 
 namespace {
 
-/// What one test read back on one API; kept for the comparison of both.
+/// What a test read back on one API; kept to compare both.
 using Answers = std::vector<Bytes>;
 
 Answers const* runOnce(std::string const& test, BackendType backend, void (*body)(Gpu&)) {

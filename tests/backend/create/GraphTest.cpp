@@ -22,7 +22,7 @@ using framegraph::TextureId;
 
 constexpr uint32_t kSize = 32;
 
-/// Graphs one after the other on the stream of `gpu`.
+/// Runs graphs one after the other on the stream of `gpu`.
 class Frames {
 public:
     explicit Frames(Gpu& gpu) : mGpu(gpu), mPool(gpu.stream()) {}
@@ -44,8 +44,8 @@ private:
     framegraph::TransientPool mPool;
 };
 
-/// A full-screen draw of `program` that samples `from` (none: nothing) as binding 0 of group 1. By reference: the
-/// program and the sampler live in the test.
+/// A full-screen draw of `program` that samples `from` (none: nothing) as binding 0 of group 1. Takes references,
+/// because the test owns program and sampler.
 struct Effect {
     Gpu& gpu;
     Program program;

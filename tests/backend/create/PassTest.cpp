@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Passes: load and store, multisampling and resolve, merged passes, what is reset between them.
+// Passes: load and store, multisampling and resolve, merged passes, and which state they reset.
 #include "tests/backend/create/Gpu.h"
 #include "tests/backend/create/Texel.h"
 
@@ -71,7 +71,7 @@ DRIVER_TEST(Pass, DepthAloneIsAPassAndCarriesOverToTheNext) {
     second.depth = { .texture = depth, .load = LoadOp::Load };
     desc = pipelineFor(gpu.program(kFullScreenVertex, fragmentOf("", "result = vec4(1.0, 0.0, 0.0, 1.0);")),
                        second.layout);
-    desc.depthStencil = { .depthCompare = CompareOp::Equal }; // the same vertex stage gives the same depth: z pre-pass
+    desc.depthStencil = { .depthCompare = CompareOp::Equal }; // equal vertex stages give equal depths: z pre-pass
     drawFullScreen(gpu, second, gpu.pipeline(desc));
     const std::vector<Rgba> texels = gpu.readAs<Rgba>(color, { 0, 0, 4, 4 });
     for (uint32_t i = 0; i < 16; ++i) EXPECT_EQ(texels[i], i % 4 < 2 ? kRed : Rgba{}) << i;
@@ -179,7 +179,7 @@ DepthScene multisampledDepth(Gpu& gpu, Format format, uint32_t size) {
     return scene;
 }
 
-/// Depth at a place of the picture, in pixels; samples of one pixel differ by at least 0.015.
+/// Depth at a position of the picture, in pixels; samples of one pixel differ by at least 0.015.
 double slopingDepth(double x, double y) { return x / 16 + y / 256; }
 
 /// From the left edge to `right`, all rows.
@@ -393,7 +393,7 @@ DRIVER_TEST(Pass, APassSamplesWhatTheOneBeforeItDrew) {
 
 DRIVER_TEST(Pass, AChainOfHalvedTexturesEndsInTheAverageOfTheFirst) {
     using enum TextureUsage;
-    // A chain of separate textures, as down-sampling passes use them: each samples the one before with a linear filter.
+    // A chain of separate textures, as in down-sampling passes: each samples the previous one with a linear filter.
     const Program half =
             gpu.program(kFullScreenVertex,
                         fragmentOf("layout(set = 1, binding = 0) uniform sampler2D image;",

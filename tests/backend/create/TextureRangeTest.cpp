@@ -91,7 +91,7 @@ DRIVER_TEST(TextureRanges, EachLevelIsMadeFromTheOneAboveItInOneTexture) {
     }
 }
 
-// The way up of a bloom: every level gets the one below it added, while that one is sampled with a filter.
+// The upsampling half of a bloom: adds the level below to every level, while sampling that one with a filter.
 DRIVER_TEST(TextureRanges, LevelsAreAddedUpwardsWithAFilterWhileTheyAreSampled) {
     const TextureHandle chain = mipped(gpu, Format::RGBA16F, ColorAttachment);
     std::vector<uint16_t> texels(size_t{ kSize } * kSize * 4);
@@ -155,7 +155,7 @@ DRIVER_TEST(TextureRanges, TheFirstLevelAndLayerOfTheRangeAreLevelAndLayerZero) 
                         { .binding = 1, .texture = array, .sampler = mips } });
     const TextureHandle painted = gpu.paint(program, { .width = 1, .height = 1, .group = group });
     EXPECT_EQ(gpu.readAs<Rgba>(painted, { 0, 0, 1, 1 })[0],
-              (Rgba{ 21, 32 + 1000 * 34, 8 * 10 + 2 + 4000, 32 })); // lod and layer clamp to the last of the range
+              (Rgba{ 21, 32 + 1000 * 34, 8 * 10 + 2 + 4000, 32 })); // lod and layer clamp to the end of the range
 }
 
 DRIVER_TEST(TextureRanges, OneLayerIsWrittenWhileOthersAreSampled) {

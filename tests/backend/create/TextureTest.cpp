@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a fragment stage reads from textures: formats, shapes, samplers. Expected values from Texel.h and closed forms.
+// What a fragment stage reads from textures: formats, shapes, samplers. Expected values come from Texel.h and closed
+// forms.
 #include "tests/backend/create/Gpu.h"
 #include "tests/backend/create/Texel.h"
 
@@ -184,7 +185,7 @@ DRIVER_TEST(Texture, EveryBlockCompressedFormatDecodesHandMadeBlocks) {
         for (size_t t = 0; t < 4; ++t) {
             for (size_t c = 0; c < 4; ++c) {
                 const double expected = info.isSrgb && c < 3 ? linearFromSrgb(one.row[t][c]) : double{ one.row[t][c] };
-                // Interpolated colours are rounded to 8 bits by decoders, and sRGB follows after that.
+                // Decoders round interpolated colours to 8 bits, before sRGB decoding.
                 ASSERT_NEAR(seen[t][c], expected, 0.009 * std::max(1.0, expected))
                         << "texel " << t << " component " << c;
             }
@@ -337,7 +338,7 @@ DRIVER_TEST(Texture, ExplicitLevelsOfDetailRoundOrBlendByTheMipFilter) {
         const double lambda = std::clamp(i * 0.25 - 1.0, 0.0, 4.0);
         EXPECT_EQ(none[static_cast<size_t>(i)], 0) << i;
         EXPECT_NEAR(linear[static_cast<size_t>(i)], lambda, 1.0 / 256) << i;
-        if (std::abs(lambda - std::floor(lambda) - 0.5) < 0.1) continue; // a tie: either neighbour will do
+        if (std::abs(lambda - std::floor(lambda) - 0.5) < 0.1) continue; // a tie: either neighbour is correct
         EXPECT_EQ(nearest[static_cast<size_t>(i)], std::round(lambda)) << i;
     }
 }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Bytes in and out: buffers that change between passes, dynamic offsets, blits, mip chains, read-backs of parts.
+// Bytes in and out: buffers that change between passes, dynamic offsets, blits, mip chains, partial read-backs.
 #include "tests/backend/create/Gpu.h"
 #include "tests/backend/create/Texel.h"
 
@@ -291,7 +291,7 @@ struct MipCase {
     double tolerance; ///< one step of the format: filters of 8 bits may round twice (Mesa's llvmpipe does)
 };
 
-// Every level against the 2x2 box of the level above as it was read back, so that errors do not add up.
+// Compares each level with the 2x2 box of the level above as read back, so that errors do not accumulate.
 void checkMips(Gpu& gpu, MipCase const& one) {
     using enum TextureUsage;
     FormatInfo const& info = formatInfo(one.format);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a vertex stage reads from each vertex format, and from attributes that are not there.
+// What a vertex stage reads from each vertex format, and from missing attributes.
 #include "tests/backend/create/Gpu.h"
 
 #include "base/math/Half.h"
@@ -36,7 +36,7 @@ Rgba readAttribute(Gpu& gpu, VertexFormat format, Bytes const& vertex) {
     const TextureHandle target = gpu.target(Format::RGBA32F, 1, 1);
     const PassDesc pass = passOver({ { target, Format::RGBA32F } }, 1, 1);
     PipelineDesc desc = pipelineFor(gpu.program(vertexReading(type, value), kShowSeen), pass.layout);
-    const auto stride = static_cast<uint16_t>((vertex.size() + 3) / 4 * 4 + 4); // something else follows each vertex
+    const auto stride = static_cast<uint16_t>((vertex.size() + 3) / 4 * 4 + 4); // other data follows each vertex
     desc.vertices.attributes[0] = { .location = 3, .buffer = 0, .format = format, .offset = 4 };
     desc.vertices.attributeCount = 1;
     desc.vertices.buffers[0].stride = stride;

@@ -39,7 +39,7 @@ TEST(GlesDeviceTest, AnUnknownDeviceIsAnErrorThatListsTheKnownOnes) {
     EXPECT_NE(driver.error().message.find(listGlesDevices().at(0).deviceName), std::string::npos);
 }
 
-// A process of its own, in which libEGL finds no vendor library behind it (libglvnd reads this variable).
+// A separate process in which libEGL finds no vendor library (libglvnd reads this variable).
 TEST(GlesDeviceDeathTest, AMachineWithoutADriverIsToldWhatToInstall) {
     GTEST_FLAG_SET(death_test_style, "threadsafe");
     const auto tryWithoutDriver = [] {

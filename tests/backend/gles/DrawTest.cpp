@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a draw reads: uniforms, textures, constants, vertex attributes.
+// The inputs of a draw: uniforms, textures, constants, vertex attributes.
 #include "tests/backend/gles/GlesFixture.h"
 
 #include <bit>
@@ -67,7 +67,7 @@ TEST_F(DrawTest, ADynamicOffsetMovesTheUniformBlock) {
 }
 
 TEST_F(DrawTest, AGroupFollowsTheNumbersOfTheProgramItIsUsedWith) {
-    // Group 1 has block number 0 in one program and number 2 in the other, in one pass and bound once.
+    // Group 1 has block number 0 in one program and number 2 in the other; both run in one pass, and it is bound once.
     constexpr std::string_view kThird = R"(#version 310 es
         precision highp float;
         layout(std140, binding = 0) uniform A { vec4 a; };

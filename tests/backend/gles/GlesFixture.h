@@ -128,7 +128,7 @@ protected:
         return handle;
     }
 
-    /// Draws without vertex buffers; everything is drawn.
+    /// Draws without vertex buffers and without any test.
     PipelineHandle simplePipeline(ProgramHandle shader, PassLayout const& pass) {
         PipelineDesc desc;
         desc.program = shader;
@@ -154,7 +154,7 @@ protected:
         commands.record(CmdEndPass{});
     }
 
-    /// Runs what was recorded, waits, and returns the texels.
+    /// Runs the recorded commands, waits, and returns the texels.
     template <class T>
     std::vector<T> read(TextureHandle from, Rect rect, uint8_t level = 0, uint16_t layer = 0) {
         const Ticket ticket{ ++lastTicket };
@@ -168,7 +168,7 @@ protected:
         return values;
     }
 
-    /// The error that the test provokes: exactly one, of this kind, with this name.
+    /// Expects exactly one error, of this kind and with this name, which the test provokes.
     void expectError(DriverErrorKind kind, std::string_view naming) {
         ASSERT_EQ(sink.errors.size(), 1u);
         EXPECT_EQ(sink.errors[0].kind, kind);

@@ -45,7 +45,7 @@ TEST_F(GlesTest, AMergedPassReadsWhatTheSubpassBeforeWrote) {
     commands.record(CmdEndPass{});
     using Float4 = std::array<float, 4>;
     EXPECT_EQ(read<Float4>(display, { 0, 0, 2, 2 }), std::vector<Float4>(4, Float4{ 1, 0.5f, 0.25f, 2 }));
-    // The mask of the second subpass kept the first attachment: half 0x3800 is 0.5.
+    // The mask of the second subpass protected the first attachment: half 0x3800 is 0.5.
     EXPECT_EQ(read<uint16_t>(light, { 0, 0, 1, 1 }), (std::vector<uint16_t>{ 0x3800, 0x3400, 0x3000, 0x3C00 }));
 }
 
@@ -61,7 +61,8 @@ TEST_F(GlesTest, AResolvedPixelIsTheMeanOfItsSamples) {
     pass.layout.resolveMask = 1;
     pass.colors[0].resolve = resolved;
     pass.colors[0].store = StoreOp::Discard;
-    // Covers everything below the diagonal: whole pixels are 255 or 0, the diagonal has some samples of four.
+    // Covers everything below the diagonal: pixels are 255 or 0, except on the diagonal, which has some of four
+    // samples.
     constexpr std::string_view kVertex = R"(#version 310 es
         void main() {
             vec2 corner = vec2(gl_VertexID == 1 ? 1.0 : -1.0, gl_VertexID == 2 ? 1.0 : -1.0);

@@ -21,7 +21,7 @@ DeviceTextureDesc copyable(Format format, uint32_t width, uint32_t height, uint8
     return desc;
 }
 
-/// Bytes that are a legal texel in every format: no NaN, no infinity.
+/// Bytes that are valid texels in every format: no NaN, no infinity.
 std::vector<std::byte> pattern(size_t count) {
     std::vector<std::byte> bytes(count);
     for (size_t i = 0; i < count; ++i) bytes[i] = static_cast<std::byte>((i * 37 + 11) & 0x3F);
@@ -31,7 +31,7 @@ std::vector<std::byte> pattern(size_t count) {
 class FormatTest : public GlesTest, public testing::WithParamInterface<Format> {};
 
 TEST_P(FormatTest, AnUploadReadsBackByteForByte) {
-    constexpr uint32_t kWidth = 5, kHeight = 3; // rows that no alignment fits
+    constexpr uint32_t kWidth = 5, kHeight = 3; // rows that no alignment suits
     const TextureHandle image = texture(copyable(GetParam(), kWidth, kHeight));
     const std::vector<std::byte> bytes = pattern(imageBytes(GetParam(), kWidth, kHeight));
     commands.record(CmdUploadTexture{ .texture = image, .rect = { 0, 0, kWidth, kHeight }, .bytes = bytes });

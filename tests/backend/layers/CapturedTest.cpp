@@ -8,7 +8,7 @@
 namespace filament::backend {
 namespace {
 
-/// Remembers what reached the driver.
+/// Records what reached the driver.
 class Witness final : public Driver {
 public:
     explicit Witness(ResultSink& sink) : mNull(createNullDriver(sink)) {}

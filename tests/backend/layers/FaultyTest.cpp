@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What of a stream reaches the driver inside, and what the sink is told.
+// Which part of a stream reaches the inner driver, and what the sink is told.
 #include "backend/layers/Faulty.h"
 #include "backend/stream/CommandFields.h"
 #include "tests/backend/layers/LayerTestKit.h"
@@ -9,7 +9,7 @@
 namespace filament::backend {
 namespace {
 
-/// Remembers the commands that arrive, by their names.
+/// Records the names of the commands that arrive.
 class Collector final : public Driver {
 public:
     explicit Collector(std::vector<std::string>& names) : mNames(names) {}

@@ -195,7 +195,7 @@ inline void recordContents(CommandBuffer& to) {
     to.record(CmdGenerateMips{ kImage });
 }
 
-/// Every command, correctly.
+/// Every command, used correctly.
 inline void recordFrame(CommandBuffer& to, uint64_t frame = 1, uint64_t firstTicket = 1) {
     to.record(CmdBeginFrame{ frame });
     to.record(CmdPushGroup{ "frame" });

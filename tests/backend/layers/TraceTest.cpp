@@ -195,7 +195,7 @@ TEST_F(TraceFile, HoldsEveryStreamBeforeTheDriverExecutesTheNext) {
     (*driver)->execute(objects.view());
     EXPECT_THAT(content(), testing::EndsWith("debugName=\"counters\" }\n"));
     (*driver)->execute(frame.view());
-    const auto loaded = loadTrace(mPath); // the driver still lives: everything is flushed
+    const auto loaded = loadTrace(mPath); // the driver still runs: all output has been flushed
     ASSERT_TRUE(loaded.ok()) << loaded.error().message;
     ASSERT_EQ(loaded->size(), 2u);
     EXPECT_EQ((*loaded)[0].commandCount(), objects.commandCount());
@@ -251,7 +251,7 @@ std::vector<uint8_t> fuzzSeed() {
     return seed;
 }
 
-// Cuts, copies and flips; words of the grammar are likelier than noise.
+// Cuts, copies and flips; words of the grammar are more frequent than noise.
 void mutate(std::vector<uint8_t>& input, std::mt19937& random) {
     static constexpr std::string_view kWords[] = { " ",
                                                    "=",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// Size: objectCases() and drawCases() are tables: one rule of the driver contract a line.
-// One case a rule: a correct world, one broken command, the words of the message, and whether a driver still sees it.
+// Size: objectCases() and drawCases() are tables: one rule of the driver contract per line.
+// A case consists of a correct world, one broken command, the words of the message, and whether a driver still sees the
+// command.
 #include "backend/layers/Validated.h"
 
 #include "backend/null/NullDriver.h"
@@ -133,7 +134,7 @@ struct Case {
 
 void PrintTo(Case const& one, std::ostream* out) { *out << one.name; }
 
-// A pass with everything bound; `change` may replace the bindings, `draw` is what is under test.
+// A pass with everything bound; `change` may replace the bindings, `draw` is the command under test.
 void inPass(CommandBuffer& to, std::function<void(CommandBuffer&)> const& draw, PassDesc const& desc = passDesc()) {
     to.record(CmdBeginPass{ desc });
     recordBindings(to);

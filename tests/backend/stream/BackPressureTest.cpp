@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// How far an app may be ahead of the driver thread, and what it reads about the frames in between.
+// How far an app may run ahead of the driver thread, and what it learns about the frames in between.
 #include "backend/stream/LatencyLog.h"
 #include "tests/backend/stream/CountAllocations.h"
 #include "tests/backend/stream/StreamTestKit.h"
@@ -38,7 +38,7 @@ TEST_P(FramesAhead, AcquireWaitsExactlyWhenSoManySubmittedFramesAreUnreplayed) {
     EXPECT_GT(stream->backPressureNanoseconds(), 10'000'000u);
 }
 
-/// Remembers the draws that arrive.
+/// Records the draws that arrive.
 class CollectingDriver final : public Driver {
 public:
     explicit CollectingDriver(std::vector<uint32_t>& seen) : mSeen(seen) {}
@@ -54,7 +54,7 @@ private:
     std::vector<uint32_t>& mSeen;
 };
 
-// The buffer that acquire() gives is the one replayed longest ago: what is being replayed is never recorded into.
+// acquire() returns the buffer that was replayed longest ago: a buffer is never recorded while it is replayed.
 TEST_P(FramesAhead, ManyFramesArriveWholeAndInOrder) {
     std::vector<uint32_t> seen;
     constexpr uint32_t kFrames = 300, kDraws = 50;

@@ -12,7 +12,7 @@
 namespace filament::backend {
 namespace {
 
-/// Executes nothing; remembers what came, in order.
+/// Executes nothing; records the order of the commands.
 struct Listener {
     std::vector<uint32_t> ids;
     std::vector<CmdDraw> draws;
@@ -67,7 +67,7 @@ TEST(CommandBuffer, CopiesNamesAndPayloadsSoThatTheCallersMemoryMayGo) {
     EXPECT_THAT(heard.payloads, testing::ElementsAre(numbered(1000, 7)));
 }
 
-// Every span and name of every command, at any depth, must point elsewhere after adoption.
+// After adoption every span and name of every command, at any depth, must point elsewhere.
 struct PayloadsOutside {
     uintptr_t begin, end;
     int outside = 0, inside = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// A driver that hangs: who is told, what the text names, and how often.
+// A driver that hangs: who is told, what the message names, and how often.
 #include "tests/backend/stream/StreamTestKit.h"
 
 #include <gmock/gmock.h>
@@ -12,8 +12,7 @@ using testing::HasSubstr;
 using testing::IsEmpty;
 using testing::MatchesRegex;
 
-/// Hangs in the `hangInNumber`-th command of type `hangInId` until the gate opens; takes `pause` for each of the
-/// others.
+/// Hangs in the `hangInNumber`-th command of type `hangInId` until the gate opens; waits `pause` in each other command.
 struct Hang {
     uint32_t hangInId = ~0u;
     uint32_t hangInNumber = 1;
@@ -52,7 +51,7 @@ std::unique_ptr<CommandStream> startHanging(Hang& hang, CommandStreamOptions opt
     return std::move(*stream);
 }
 
-/// Frame 16 makes two pipelines; frame 17 draws with one of them in pass 'color' and with none in pass 'post'.
+/// Frame 16 creates two pipelines; frame 17 draws with one of them in pass 'color' and with none in pass 'post'.
 void submitTwoFrames(CommandStream& stream) {
     const PipelineHandle helmet = stream.allocatePipeline(), other = stream.allocatePipeline();
     CommandBuffer& first = stream.acquire();
@@ -87,7 +86,7 @@ std::vector<std::string> linesWhenHangingIn(uint32_t number = 1) {
     std::thread app([&] { stream->waitIdle(); });
     hang.gate.waitForArrival();
     while (log.lines().empty()) std::this_thread::sleep_for(1ms);
-    std::this_thread::sleep_for(60ms); // three times the limit: a second warning would come now
+    std::this_thread::sleep_for(60ms); // three times the limit: enough for a second warning
     hang.gate.open();
     app.join();
     return log.lines();
@@ -187,7 +186,7 @@ TEST(ReplayWatch, ADeviceThatNeverFinishesIsNotBlamedOnACommand) {
     EXPECT_THAT(log.lines(), ElementsAre(HasSubstr("driver thread: waiting for the device to finish frame 4 for")));
 }
 
-// The whole stream takes three times the limit, every command a twentieth of it.
+// The whole stream takes three times the limit, but each command only a twentieth of it.
 TEST(ReplayWatch, ADriverThatIsSlowButMovesIsLeftAlone) {
     CollectedLog log;
     Hang hang{ .pause = 25ms };
@@ -229,7 +228,7 @@ TEST(ReplayWatch, AFactoryThatHangsIsNamed) {
     EXPECT_THAT(log.lines(), ElementsAre(HasSubstr("driver thread: making the driver for")));
 }
 
-// Descriptions read the stream while the driver thread may end it at any moment; meant for the thread sanitizer.
+// Descriptions read the stream, which the driver thread may end at any moment; for the thread sanitizer.
 TEST(ReplayWatch, DescribesAtAnyTimeWhileFramesComeAndGo) {
     CollectedLog log;
     auto stream = startNull({ .stallWarning = 1ms });

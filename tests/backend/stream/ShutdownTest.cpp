@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// A stream ends with work in flight: everything submitted is replayed, the device is waited for, the driver dies on its
-// thread, whoever ends it and whatever state it is in.
+// A stream ends with work in flight: everything submitted is replayed, the device finishes, and the driver is destroyed
+// on its thread, whichever thread ends the stream and in whatever state.
 #include "tests/backend/stream/StreamTestKit.h"
 
 #include <gmock/gmock.h>

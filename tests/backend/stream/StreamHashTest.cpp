@@ -22,7 +22,7 @@ uint64_t hashOf(C const&... command) {
     return hashStream(commands.view());
 }
 
-/// A leaf changed to another value, whatever its type.
+/// Changes a leaf to another value, whatever its type.
 template <class T>
 void change(T& value) {
     static constexpr std::array<std::byte, 3> kBytes{ std::byte{ 1 }, std::byte{ 2 }, std::byte{ 3 } };
@@ -51,7 +51,7 @@ void changeEachField(Command& command, S& part, std::string const& path, Changed
         using T = std::remove_reference_t<decltype(field)>;
         const std::string at = path + "." + name;
         if constexpr (std::same_as<T, Ticket>) {
-            // counts by its place in the stream: see the tests of tickets
+            // counts by its position in the stream: see the tests of tickets
         } else if constexpr (kIsArray<T>) {
             auto& element = field[field.size() - 1];
             using E = std::remove_reference_t<decltype(element)>;
@@ -106,7 +106,7 @@ TEST(StreamHash, OrderCounts) {
     EXPECT_NE(hashOf(CmdPushGroup{ "ab" }, CmdPushGroup{ "c" }), hashOf(CmdPushGroup{ "a" }, CmdPushGroup{ "bc" }));
 }
 
-// Commands made in memory that held something else before: what lies between the fields differs.
+// Commands created in memory with other previous contents, so the padding between fields differs.
 TEST(StreamHash, PaddingDoesNotCount) {
     const auto hashOver = [](unsigned char rubbish) {
         alignas(CmdBindGroup) std::array<unsigned char, sizeof(CmdBindGroup)> memory;
@@ -140,7 +140,7 @@ TEST(StreamHash, ChunksAndAddressesDoNotCount) {
     EXPECT_EQ(hashStream(head.view()), hashStream(whole.view()));
 }
 
-// The same frame rendered twice in one process asks with other tickets.
+// Rendering the same frame twice in one process uses different tickets.
 TEST(StreamHash, TicketsCountByTheirPlaceInTheStream) {
     const auto frame = [](uint64_t first, uint64_t second, uint64_t third) {
         return hashOf(CmdBeginTimer{ Ticket{ first } }, CmdBeginTimer{ Ticket{ second } },

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Drivers that do what a test says, and streams around them.
+/// Drivers controlled by a test, and streams around them.
 #pragma once
 
 #include "backend/null/NullDriver.h"
@@ -52,7 +52,7 @@ private:
     int mArrived = 0;
 };
 
-/// The lines that are logged while it lives.
+/// Collects the lines that are logged during its lifetime.
 class CollectedLog {
 public:
     CollectedLog() {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Uploads, mips, blits, read-backs, and the order of transfers among draws.
+// Uploads, mips, blits, read-backs, and the order of transfers and draws.
 #include "tests/backend/vulkan/DriverFixture.h"
 
 #include <algorithm>

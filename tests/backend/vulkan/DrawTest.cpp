@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What pipelines, bindings and vertex data do to pixels.
+// The effect of pipelines, bindings and vertex data on pixels.
 #include "tests/backend/vulkan/DriverFixture.h"
 
 #include <bit>
@@ -25,7 +25,7 @@ PipelineDesc positionPipeline(ProgramHandle program, PassLayout const& pass) {
 
 class FrontFaceTest : public DriverTest {
 protected:
-    /// Whether a half-screen triangle of these corners is drawn when back faces are culled.
+    /// Whether a half-screen triangle with these corners is drawn if back faces are culled.
     bool isDrawn(std::vector<float> const& corners, FrontFace frontFace) {
         const ProgramHandle program = makeProgram(kPositionVertex, kRedFragment);
         PipelineDesc desc = positionPipeline(program, colorLayout());
@@ -199,7 +199,7 @@ TEST_F(DriverTest, FirstInstanceOffsetsPerInstanceAttributesAndVertexOffsetTheIn
     desc.vertices.buffers[1] = { .stride = 4, .perInstance = true };
     desc.vertices.bufferCount = 2;
     const PipelineHandle pipeline = makePipeline(desc);
-    // Two vertices of nonsense in front, skipped by the vertex offset.
+    // Two meaningless vertices come first; the vertex offset skips them.
     const BufferHandle corners =
             makeBuffer(BufferUsage::Vertex, std::vector<float>{ 0, 0, 0, 0, -1, -1, 3, -1, -1, 3 });
     const BufferHandle tints =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-/// A Vulkan driver with validation, and short ways to record what the tests of this folder draw.
+/// A Vulkan driver with validation, and shortcuts for what the tests of this folder record.
 ///   Skips the test if the machine has no Vulkan device; fails it if validation reports anything.
 #pragma once
 
@@ -61,7 +61,7 @@ protected:
         }
     }
 
-    /// Replays what was recorded and starts over.
+    /// Replays the recorded commands and starts over.
     void replay() {
         driver->execute(commands.view());
         commands.reset();

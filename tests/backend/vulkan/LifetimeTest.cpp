@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames, answers, destruction under way, and everything that may fail.
+// Frames, answers, destruction while work is in flight, and everything that may fail.
 #include "backend/vulkan/Driver.h"
 #include "tests/backend/vulkan/DriverFixture.h"
 
@@ -129,7 +129,7 @@ TEST_F(DriverTest, StatisticsCountWhatWasDone) {
 
 class FailureTest : public DriverTest {
 protected:
-    /// Draws `pipeline` over a green clear and says whether anything changed.
+    /// Draws `pipeline` over a green clear; returns whether anything changed.
     bool draws(PipelineHandle pipeline, BindGroupHandle group = {}) {
         const TextureHandle target = makeTarget(1, 1);
         beginPass(target, 1, 1, { 0, 1, 0, 1 });

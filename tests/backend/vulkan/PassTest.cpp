@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Load and store operations, merged passes, resolves, and textures that change between attachment and sampled.
+// Load and store operations, merged passes, resolves, and textures that alternate between attachment and sampled.
 #include "tests/backend/vulkan/DriverFixture.h"
 
 namespace filament::backend::vulkan {
@@ -21,7 +21,7 @@ TEST_F(DriverTest, LoadKeepsWhatIsOutsideTheAreaAndInside) {
 
 class MergedPassTest : public DriverTest {
 protected:
-    /// Subpass 0 writes (0.25, 0.5, 0, 1) as half floats, subpass 1 reads it at its pixel and writes twice as much.
+    /// Subpass 0 writes (0.25, 0.5, 0, 1) as half floats; subpass 1 reads it at its pixel and writes twice as much.
     std::vector<Rgba8> drawMerged(TextureUsage hdrUsage, StoreOp hdrStore) {
         PassLayout layout;
         layout.colorFormats = { Format::RGBA16F, Format::RGBA8 };

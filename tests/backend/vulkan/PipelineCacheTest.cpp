@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a device's pipeline cache holds is kept in a file and handed to the next device. lavapipe's cache keeps nothing,
-// so the functions of the device are replaced by some that do.
+// The contents of a device's pipeline cache are kept in a file and passed to the next device. lavapipe's cache stores
+// nothing, so some functions of the device are replaced.
 #include "tests/backend/vulkan/DriverFixture.h"
 
 #include <gmock/gmock.h>
@@ -17,7 +17,7 @@ using Bytes = std::vector<std::byte>;
 
 const Bytes kCompiled(5000, std::byte{ 0x5A });
 
-/// A cache that hands out kCompiled and makes pipelines from nothing else.
+/// A cache that returns kCompiled and makes pipelines from nothing else.
 struct FakeCache {
     Bytes given;                                ///< when the device's cache was made
     PFN_vkCreatePipelineCache create = nullptr; ///< the real ones
@@ -63,7 +63,7 @@ protected:
         fs::remove_all(mFolder);
     }
 
-    /// From no device to a pipeline and back.
+    /// From opening a device to a pipeline, and back.
     DriverStatistics run(fs::path const& folder) {
         driver.reset();
         auto instance = Instance::create(&sink);

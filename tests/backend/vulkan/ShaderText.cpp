@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Through glslang's C interface: its C++ classes come without run-time type information, which UBSan asks for.
+// Uses glslang's C interface: its C++ classes have no run-time type information, which UBSan needs.
 #include "tests/backend/vulkan/ShaderText.h"
 
 #include <glslang/Include/glslang_c_interface.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shortest way through every file of the driver: a clear, a triangle, a read-back.
+// The shortest path through every file of the driver: a clear, a triangle, a read-back.
 #include "backend/vulkan/Driver.h"
 #include "tests/backend/vulkan/DriverFixture.h"
 

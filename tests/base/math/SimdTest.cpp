@@ -41,7 +41,7 @@ struct Boxes {
     }
 };
 
-/// How many of the boxes are inside; each of them must be so by both ways.
+/// Counts the boxes that are inside; both methods must agree on each.
 uint32_t expectSameAsOneByOne(Frustum const& frustum, Boxes const& boxes) {
     const Frustum8 frustum8(frustum);
     uint32_t inside = 0;
@@ -80,7 +80,7 @@ TEST(Frustum8, AgreesOnBoxesThatTouchAPlaneOrMissItByOneBit) {
         float4 const& plane = planes.planes[static_cast<size_t>(i) % planes.planes.size()];
         const float3 normal(plane), extent(half(random), half(random), half(random));
         float3 center(at(random), at(random), at(random));
-        // onto the plane that the box touches from outside, give or take roundings
+        // onto the plane that the box touches from outside, up to rounding
         center -= normal * (glm::dot(normal, center) + plane.w + glm::dot(glm::abs(normal), extent));
         center.x = std::nextafter(center.x, i % 3 == 0 ? center.x : i % 3 == 1 ? kInfinity : -kInfinity);
         boxes.add(center, extent);

@@ -40,7 +40,7 @@ TEST(PairedRatios, AreFormedWithinARoundAndLeaveOutZeros) {
     EXPECT_THAT(pairedRatios(a, b), ElementsAre(0.5, 0.5));
 }
 
-/// Says what it is told, round after round.
+/// Returns given figures, round after round.
 Sampler playing(std::vector<std::vector<double>> rounds) {
     return [rounds = std::move(rounds), next = size_t{ 0 }](std::vector<double>& figures) mutable {
         figures = rounds[next++];
@@ -54,8 +54,8 @@ Measured measure(Workload workload, int rounds) {
 }
 
 TEST(Rounds, CompareFiguresOfTheSameRoundOnly) {
-    // The machine is a hundred times slower in the second round: every ratio is still 1/2, the ratio of the medians
-    // too, but that of figures from different rounds would not be.
+    // The machine is a hundred times slower in the second round: every ratio is still 1/2, and so is the ratio of the
+    // medians, but ratios across rounds would not be.
     const Measured measured = measure({ .contenders = { { "ours", playing({ { 1 }, { 100 }, { 3 } }) },
                                                         { "tbb", playing({ { 2 }, { 200 }, { 6 } }) } } },
                                       3);

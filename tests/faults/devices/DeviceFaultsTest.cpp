@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Some of the faults of tests/faults on Vulkan and OpenGL ES: the picture after a fault is the undisturbed one to the
-// bit, or there is none and everybody knows. FILAMENT_STRESS tries every place.
+// Some of the faults of tests/faults on Vulkan and OpenGL ES: the picture after a fault equals the undisturbed one to
+// the bit, or there is none and the app is told. FILAMENT_STRESS tries every place.
 #include "tests/faults/AllocationSweep.h"
 #include "tests/faults/FaultStage.h"
 
@@ -12,7 +12,7 @@ using backend::FaultInjector;
 class DeviceFaults : public testing::TestWithParam<Backend> {
 protected:
     StageOptions options() const { return { .backend = GetParam(), .validation = false }; }
-    /// About so many places of `count`.
+    /// About this many places out of `count`.
     static uint64_t strideFor(uint64_t count, uint64_t places) {
         return isStress() ? 1 : std::max<uint64_t>(1, count / places);
     }
@@ -50,7 +50,7 @@ TEST_P(DeviceFaults, ALostDeviceIsToldOnceAndEverythingReturns) {
     for (uint64_t at = 1; at <= commands; at += strideFor(commands, 16)) {
         SCOPED_TRACE(at);
         Broken broken(options());
-        broken.injector->arm({ .loseDeviceAt = at }); // in the middle of a pass, too: the driver ends with it open
+        broken.injector->arm({ .loseDeviceAt = at }); // also inside a pass: the driver ends with it open
         const Result<Image> image = broken.stage->draw();
         ASSERT_FALSE(image.ok());
         EXPECT_EQ(image.error().code, ErrorCode::DeviceLost) << image.error().message;
@@ -79,7 +79,7 @@ TEST_P(DeviceFaults, ARefusedObjectIsNamedAndTheRestIsDrawn) {
         const std::vector<std::string> errors = broken.engine->takeErrors();
         ASSERT_FALSE(errors.empty());
         EXPECT_TRUE(contains(errors[0], "out of device memory")) << errors[0];
-        // Without its image there is no picture; without anything else there is one, perhaps with less on it.
+        // Without its image there is no picture; without any other object there is one, perhaps with less in it.
         EXPECT_EQ(first.ok(), second.ok());
         if (second.ok()) {
             EXPECT_EQ(second->pixels.size(), size_t{ 32 } * 32 * 4);
@@ -87,7 +87,7 @@ TEST_P(DeviceFaults, ARefusedObjectIsNamedAndTheRestIsDrawn) {
     }
 }
 
-/// A first frame for which memory runs out, then one for which it does not.
+/// A first frame that runs out of memory, then one that does not.
 class DrawsAgain final : public Scenario {
 public:
     DrawsAgain(StageOptions const& options, std::vector<std::byte> const& expected)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where an engine's threads run: cores that are not there are refused, two engines do not share pins.
+// Where an engine's threads run: missing cores are refused, and two engines do not share pins.
 #include <filament/Engine.h>
 
 #include "filament_core/engine/EngineImpl.h"
@@ -20,7 +20,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-// Of every worker, each held in a job until all have told theirs.
+// The cores of every worker; each worker is held in a job until all have reported.
 std::set<std::vector<int>> coresOfWorkers(Engine& engine) {
     jobs::JobSystem& jobs = engine.impl().jobs;
     std::vector<std::vector<int>> cores(jobs.workerCount());

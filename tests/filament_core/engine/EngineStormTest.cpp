@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Many engines in one process: made and ended in parallel, rendering side by side, ended with frames in flight. On the
-// null backend, so that a thread sanitizer sees all of it. FILAMENT_STRESS=N makes it N times as long.
+// Many engines in one process: created and destroyed in parallel, rendering side by side, destroyed with frames in
+// flight. On the null backend, so that a thread sanitizer sees everything. FILAMENT_STRESS=N makes it N times as long.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/jobsystem/Storm.h"
 #include "tests/scenes/Sphere.h"
@@ -24,7 +24,7 @@ std::optional<Engine> makeNullEngine(int workers) {
     return std::nullopt;
 }
 
-/// Enough spheres for several jobs a frame, and a target to draw them to.
+/// Enough spheres for several jobs per frame, and a target to draw them to.
 class Crowd {
 public:
     static constexpr int kSide = 24;
@@ -47,7 +47,7 @@ public:
         }
     }
 
-    /// What the engine made of all frames: packets and streams.
+    /// The results of all frames: packets and streams.
     std::vector<std::pair<uint64_t, uint64_t>> const& hashes() {
         mEngine.waitIdle();
         takeHashes();

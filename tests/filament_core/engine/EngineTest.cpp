@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The public API: errors as values, leaks by name, lifetimes, the same bits however the frame is made.
+// The public API: errors as values, leaks by name, lifetimes, and the same bits however the frame is made.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/scenes/Sphere.h"
 
@@ -17,7 +17,7 @@
 namespace filament {
 namespace {
 
-/// A few spheres under a sun, a point light and no environment: small, but with every kind of draw.
+/// A few spheres under a sun and a point light, without an environment: small, but with every kind of draw.
 class Spheres {
 public:
     explicit Spheres(Engine& engine) : scene(engine), mEngine(engine), mSphere(engine, scenes::makeSphere(16, 32)) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every pass of every frame has its time, however many there are.
+// Every pass of every frame has a time, however many there are.
 #include "filament_core/engine/FrameTimingLog.h"
 
 #include <filament/Engine.h>
@@ -62,7 +62,7 @@ TEST_F(FrameTimingLogTest, FramesWithMoreAndWithFewerPassesFollowEachOther) {
     for (size_t i = 0; i < counts.size(); ++i) expectPasses(timings[i], counts[i]);
 }
 
-// 64 frames of 40 passes are more answers than the stream keeps.
+// 64 frames of 40 passes have more answers than the stream keeps.
 TEST_F(FrameTimingLogTest, FramesThatNobodyAsksForKeepTheTimesOfTheirPasses) {
     FrameTimingLog log(mEngine->impl());
     for (uint64_t number = 1; number <= 100; ++number) frame(log, number, 40);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // White furnace: in a constant environment a surface that absorbs nothing is invisible. The environment itself is not
-// drawn: behind the sphere is a grey that nothing in the furnace reflects, which shows where the sphere is.
+// drawn: the background is a grey that nothing in the furnace reflects, which shows where the sphere is.
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
@@ -29,7 +29,7 @@ public:
         mView.clearColor = float4(kBackground);
     }
 
-    /// The sphere's radius is 1: the cone that touches it opens by asin(1 / distance).
+    /// The sphere's radius is 1: the half angle of the cone that touches it is asin(1 / distance).
     static double coveredPixels() {
         const double silhouette = 1 / std::sqrt(kDistance * kDistance - 1);
         const double halfPicture = std::tan(kFovDegrees / 2 * std::numbers::pi / 180);
@@ -57,7 +57,7 @@ private:
     Scene mScene;
 };
 
-/// Of the pixels of the sphere, of which there must be as many as its silhouette covers.
+/// Statistics of the sphere's pixels; there must be as many as its silhouette covers.
 test::Extremes extremesOfSphere(Image const& image) {
     test::Extremes found;
     size_t covered = 0;
@@ -73,7 +73,7 @@ test::Extremes extremesOfSphere(Image const& image) {
             }
         }
     }
-    // The mesh is a polyhedron inside of the sphere.
+    // The mesh is a polyhedron inside the sphere.
     EXPECT_NEAR(static_cast<double>(covered) / Furnace::coveredPixels(), 1, 0.02);
     return found;
 }

@@ -68,7 +68,7 @@ struct Extremes {
     float least = 1e9f, most = -1e9f;
 };
 
-/// Of the colours of a picture of half floats; expects that all are finite.
+/// The range of the colours of a picture of half floats; expects that all are finite.
 inline Extremes extremesOf(Image const& image) {
     Extremes found;
     for (uint32_t y = 0; y < image.height; ++y) {
@@ -89,7 +89,7 @@ struct Difference {
     int largest = 0; ///< of a component
 };
 
-/// Of two pictures of RGBA8.
+/// Differences between two RGBA8 pictures.
 inline Difference differenceOf(Image const& a, Image const& b) {
     Difference difference;
     EXPECT_EQ(a.pixels.size(), b.pixels.size());
@@ -104,7 +104,7 @@ inline Difference differenceOf(Image const& a, Image const& b) {
     return difference;
 }
 
-/// A test that uses files beside the checkout.
+/// For tests that use files beside the checkout.
 class AssetTest : public testing::Test {
 protected:
     void SetUp() override {

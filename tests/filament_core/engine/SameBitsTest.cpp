@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a frame is does not depend on how many threads made it or where they ran: packet, command stream, image.
+// A frame does not depend on how many threads made it or where they ran: packet, command stream, image.
 #include "filament_core/prepare/DrawList.h"
 #include "filament_core/prepare/SortItems.h"
 #include "tests/filament_core/engine/RenderFixture.h"
@@ -33,14 +33,14 @@ std::vector<Threads> everyKindOfThreads() {
     return all;
 }
 
-/// Each number of workers and each policy, not every combination: images take longer than streams.
+/// Each number of workers and each policy once, not every combination: images take longer than streams.
 std::vector<Threads> someKindsOfThreads() {
     return { { 0 }, { 1 }, { 2, ThreadAffinity::None, 0 }, { 2, ThreadAffinity::Pin }, { 3, ThreadAffinity::BigCores },
              { 16 } };
 }
 
-/// A square field of spheres of several materials, opaque and blended, all of it in view but for every eighth sphere,
-/// which is behind the camera.
+/// A square field of spheres of several materials, opaque and blended, all in view except every eighth sphere, which is
+/// behind the camera.
 class Field {
 public:
     Field(Engine& engine, int side) : scene(engine), mEngine(engine), mSphere(engine, scenes::makeSphere(4, 8)) {

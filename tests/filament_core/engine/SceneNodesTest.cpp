@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Nodes through the public API: models are copies of their file's nodes, and images follow nodes.
+// Nodes through the public API: models are copies of the nodes of their files, and images follow nodes.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/scenes/Sphere.h"
 
@@ -53,7 +53,7 @@ assets::GlbScene carScene() {
     return scene;
 }
 
-/// A .glb of its own for every test, gone with it.
+/// A separate .glb for every test, deleted with it.
 class GlbFile {
 public:
     explicit GlbFile(assets::GlbScene const& scene) {
@@ -74,7 +74,7 @@ private:
     std::filesystem::path mPath;
 };
 
-/// Without a device: what the scene says.
+/// Without a device: queries of the scene.
 struct SceneNodesTest : testing::Test {
     std::optional<Engine> engine = test::makeEngine(Backend::Null);
 
@@ -189,7 +189,7 @@ TEST_F(SceneNodesDeathTest, NamesTheRuleThatWasBroken) {
     EXPECT_DEATH(scene.add(part), "its worldFromObject stays the identity");
 }
 
-/// With a device: what the pictures say.
+/// With a device: pictures.
 class SceneNodesImagesTest : public testing::TestWithParam<Backend> {
 protected:
     void SetUp() override {
@@ -226,7 +226,7 @@ TEST_P(SceneNodesImagesTest, AModelMovedByItsRootLooksLikeOneAddedThere) {
     EXPECT_EQ(render(moved), expected);
     EXPECT_NE(before, expected);
 
-    // the same again below a node of its own
+    // the same again below another node
     const Node stand = deep.add(NodeDesc{ .parentFromNode = place, .name = "stand" });
     const Node below = deep.add(*mModel);
     render(deep);

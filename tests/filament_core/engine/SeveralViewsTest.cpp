@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Several views of one engine that take turns: none makes the others pay, and each keeps its picture.
+// Several views of one engine that take turns: none slows the others down, and each keeps its picture.
 #include "backend/layers/Traced.h"
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
@@ -56,7 +56,7 @@ struct Stage {
     View view;
 };
 
-/// Objects that a stream makes and ends.
+/// Counts the objects that a stream creates and destroys.
 struct Creations {
     uint32_t bindGroups = 0, others = 0, ended = 0;
     void execute(backend::CmdCreateBindGroup const&) { ++bindGroups; }
@@ -83,7 +83,7 @@ public:
         std::filesystem::remove(path.string() + ".bin");
     }
 
-    /// Of every submission so far.
+    /// The total over all submissions so far.
     std::vector<Creations> creations() {
         engine.waitIdle();
         std::vector<Creations> all;
@@ -123,7 +123,7 @@ TEST(SeveralViews, AChangedTextureIsBoundAnewForEveryFilterInUseAndNoOther) {
     Stage stage(traced.engine);
     Renderer renderer(traced.engine);
     const Owned<SwapChain> target = traced.engine.own(traced.engine.create(SwapChainDesc{ .size = stage.view.size }));
-    size_t counted = 0; // submissions; waiting for them hands over what was set before the frame
+    size_t counted = 0; // waiting for submissions delivers the uploads made before the frame
     const auto drawAndCount = [&](TextureFilter filter) {
         renderer.render(stage.scene, stage.viewWith(filter), target);
         const std::vector<Creations> streams = traced.creations();

@@ -101,7 +101,7 @@ inline Image seenOnSphere(std::string const& material, Sky const& sky, uint32_t 
     });
 }
 
-/// From the camera of seenOnSphere() through the middle of a pixel.
+/// The ray from the camera of seenOnSphere() through the middle of a pixel.
 inline float3 directionThrough(uint32_t x, uint32_t y, uint32_t side) {
     const float half = std::tan(glm::radians(22.5f));
     const float2 at = (float2(x, y) + 0.5f) / static_cast<float>(side) * 2.0f - 1.0f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Who makes the mips of a texture: the driver, or, where it would have to encode sRGB, the engine.
+// Who makes the mips of a texture: the driver, or, if sRGB must be encoded, the engine.
 #include "backend/layers/Captured.h"
 #include "filament_core/assets/image/MipMaps.h"
 #include "tests/filament_core/engine/RenderFixture.h"
@@ -16,13 +16,13 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-/// What one texture was filled with.
+/// The contents of one texture.
 struct Filling {
     std::map<uint32_t, Bytes> levels; ///< by level: what was uploaded, layer after layer
     uint32_t generated = 0;           ///< CmdGenerateMips
 };
 
-/// Writes down, on the driver thread, what the stream does to textures.
+/// Records, on the driver thread, what the stream does to textures.
 class FillingLog final : public backend::StreamEdit {
 public:
     explicit FillingLog(Filling& filling) : mFilling(filling) {}
@@ -46,7 +46,7 @@ private:
     Filling& mFilling;
 };
 
-/// Creates `desc` on an engine of its own; `before` are the uploads that a fresh engine makes itself.
+/// Creates `desc` on a separate engine; `before` are the uploads that a new engine makes itself.
 Filling fillingOf(Backend backend, TextureDesc const& desc) {
     Filling filling;
     auto engine = Engine::create(
@@ -83,7 +83,7 @@ TEST_P(TextureMips, OfSrgbAreUploadedWholeSoThatNoDriverEncodesThem) {
         desc.format = Format::RGBA8Srgb, desc.generateMips = true, desc.pixels = pixels;
         const Filling filling = fillingOf(GetParam(), desc);
         EXPECT_EQ(filling.generated, 0u);
-        std::map<uint32_t, Bytes> expected; // each layer by itself
+        std::map<uint32_t, Bytes> expected; // each layer separately
         for (uint32_t layer = 0; layer < desc.layers; ++layer) {
             const auto own = std::span(pixels).subspan(layer * layerBytes, layerBytes);
             const assets::Image mips = assets::withMipMaps(

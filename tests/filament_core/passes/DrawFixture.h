@@ -61,7 +61,7 @@ public:
         return draws;
     }
 
-    /// What `beforePass` of a pass does, into `setup`.
+    /// Runs `beforePass` of a pass, into `setup`.
     std::vector<backend::PipelineHandle> choose(std::span<const prepare::DrawCall> draws, backend::CommandBuffer& setup,
                                                 framegraph::RangeRecorder* ranges = nullptr, uint8_t variant = 0) {
         framegraph::PassContext pass(plan, setup, ranges);

@@ -12,7 +12,7 @@ using framegraph::PassContext;
 using framegraph::RangeRecorder;
 using prepare::DrawCall;
 
-/// A second implementation of binding: remembers what is bound and what every draw finds.
+/// A second implementation of binding: tracks what is bound and what every draw sees.
 struct BoundState {
     PipelineHandle pipeline;
     CmdBindGroup view{}, pass{}, material{};
@@ -131,7 +131,7 @@ TEST(DrawRecorder, DrawsWithoutAPipelineAreSkippedWithTheirState) {
 
 class SameBits : public testing::TestWithParam<int> {
 protected:
-    /// Pipelines chosen and draws recorded from nothing; the hash of both streams.
+    /// Chooses pipelines and records draws from scratch; returns the hash of both streams.
     static std::pair<uint64_t, uint64_t> record(RangeRecorder* ranges, size_t count) {
         DrawFixture fixture(7, 100, 60);
         const std::vector<DrawCall> draws = fixture.randomDraws(count, 3);

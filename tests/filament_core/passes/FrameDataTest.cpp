@@ -37,7 +37,7 @@ std::vector<C> commandsOf(backend::CommandBuffer const& commands) {
     return found;
 }
 
-/// What shaders would read: the contents of buffers, and which of them a bind group shows.
+/// What shaders would read: the contents of buffers, and which of them a bind group refers to.
 struct BufferMemory {
     std::map<uint32_t, std::vector<std::byte>> buffers;
     std::map<uint32_t, std::map<uint8_t, backend::BindGroupEntry>> groups;
@@ -55,7 +55,7 @@ struct BufferMemory {
     }
     void execute(auto const&) {}
 
-    /// `bytes` of what a binding shows, at the dynamic offset of the command.
+    /// `bytes` of the range that a binding refers to, at the dynamic offset of the command.
     std::span<const std::byte> read(backend::CmdBindGroup const& bind, shader::ViewBinding binding, size_t bytes) {
         backend::BindGroupEntry const& entry = groups.at(bind.group.bits).at(binding);
         const uint32_t offset = bind.dynamicOffsets[binding]; // the three buffers come first
@@ -80,7 +80,7 @@ struct FrameDataTest : testing::Test {
     FrameData data{ *stream };
     backend::CommandBuffer commands;
 
-    /// Prepares and uploads what the cube holds now; `commands` holds the result.
+    /// Prepares and uploads the cube's current contents; `commands` receives the result.
     prepare::FramePacket upload() {
         arena.reset();
         commands.reset();
@@ -100,7 +100,7 @@ struct FrameDataTest : testing::Test {
         return packet;
     }
 
-    /// Some see much, some little, some nothing.
+    /// Some views see much, some little, some nothing.
     static std::vector<prepare::ViewInput> manyViews(uint32_t count) {
         using prepare::ViewKind;
         const prepare::ViewInput all = prepare::BoxScene::cubeView(count);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is found out about a full-screen material before anything is drawn. What it draws: devices/FullScreenPassTest.cpp.
+// Errors of full-screen materials that are detected before anything is drawn. Drawing is tested by
+// devices/FullScreenPassTest.cpp.
 #include "filament_core/passes/FullScreenPass.h"
 
 #include <gmock/gmock.h>

@@ -22,7 +22,7 @@ struct PassBlocksTest : testing::Test {
         EXPECT_TRUE(stream->takeErrors().empty());
     }
 
-    /// A frame with blocks of such sizes, each filled with its number.
+    /// A frame with blocks of these sizes, each filled with its number.
     std::vector<BindGroupEntry> frame(std::vector<size_t> const& sizes) {
         backend::CommandBuffer& commands = stream->acquire();
         blocks.begin();

@@ -267,7 +267,8 @@ TEST(PipelineTable, AnswersAsAMapDoesThroughInsertionsAndRemovals) {
     }
 }
 
-// Keys differ only in the bits of the material or of the layout; a hash of some bits would put them all in one place.
+// The keys differ only in the bits of the material or of the layout; a hash of some of the bits would make them
+// collide.
 TEST(PipelineTable, SpreadsKeysThatDifferInAnyOfTheirFields) {
     for (const int shift : { 0, 4, 8, 20, 32, 40 }) {
         PipelineTable table;

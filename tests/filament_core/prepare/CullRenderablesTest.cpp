@@ -27,7 +27,7 @@ struct CullTest : testing::Test, BoxScene {
         return cullRenderables(jobs, arena, renderables(), space, counts);
     }
 
-    /// Some of everything: boxes in and out of view, mirrored, never dropped, without indices, collapsed, not a number.
+    /// Some of every kind: boxes in and out of view, mirrored, never culled, without indices, collapsed, NaN.
     void addMixture(uint32_t count) {
         const auto* look = material();
         Random random(count + 1);

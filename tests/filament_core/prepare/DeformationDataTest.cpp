@@ -33,7 +33,7 @@ struct DeformationDataTest : testing::Test, BoxScene {
         return prepareFrame(jobs, arena, scene, view);
     }
 
-    /// A box that hangs on one joint.
+    /// A box attached to one joint.
     Renderable addSkinned(Node joint, Node node) {
         const Skin skin =
                 scene::addSkin(scene, { .node = node, .joints = { joint }, .jointFromBind = { scene::kIdentity } });
@@ -57,7 +57,7 @@ TEST_F(DeformationDataTest, ASceneWithoutDeformationsHasNoneInItsPacket) {
     EXPECT_EQ(packet.mainView().opaque[0].deformation, scene::kNotDeformed);
 }
 
-// The joint decides whether a skinned mesh is in view, wherever it was bound.
+// The joint determines whether a skinned mesh is in view, wherever it was bound.
 TEST_F(DeformationDataTest, JointsBringSkinnedMeshesIntoTheViewAndOutOfIt) {
     const Node joint = scene.transforms.add({}, moved(0, 0, -5), "joint"),
                node = scene.transforms.add({}, moved(0, 0, 90), "");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// From scenes to draw calls: what merges, in which order, and that it is the same for any number of workers.
+// From scenes to draw calls: what merges, in which order, and that workers make no difference.
 #include "filament_core/prepare/DrawList.h"
 
 #include "filament_core/prepare/ObjectData.h"
@@ -26,7 +26,7 @@ struct DrawListTest : testing::Test, BoxScene {
     }
     ViewPacket prepare(int workers = 1) { return frame(workers).mainView(); }
 
-    /// Every visible object is drawn once, by a draw of its own drawable and side, inside of one window.
+    /// Expects that every visible object is drawn once, by a draw of its drawable and side, within one window.
     void expectCoversItsObjects(ViewPacket const& packet) {
         uint32_t next = 0;
         uint64_t triangles = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Frames of several views: each as if it were alone, and what they share once.
+// Frames of several views: each view is prepared as if it were alone, and shared data exists once.
 #include "filament_core/prepare/PrepareFrame.h"
 
 #include "filament_core/scene/SceneSkins.h"
@@ -33,14 +33,14 @@ struct PrepareViewsTest : testing::Test, BoxScene {
         return view;
     }
 
-    /// Of one view's part of a packet.
+    /// A hash of one view's part of a packet.
     static uint64_t hashOf(FramePacket const& packet, size_t view) {
         FramePacket part;
         part.views = packet.views.subspan(view, 1);
         return hashPacket(part);
     }
 
-    /// Boxes on both sides of the camera, some of them blended, and more lights than a view keeps.
+    /// Boxes on both sides of the camera, some of them blended, and more lights than a view accepts.
     void addCrowd(uint32_t count) {
         const std::array looks{ material(), material(), material(shader::Blending::Transparent) };
         Random random(count);

@@ -15,7 +15,7 @@
 namespace filament::prepare {
 namespace {
 
-/// The same from run to run and machine to machine.
+/// The same numbers on every run and machine.
 class Random {
 public:
     explicit Random(uint32_t seed) : mState(seed * 2654435761u + 1) {}
@@ -25,7 +25,7 @@ public:
     }
     double real() { return below(2'000'001) * 1e-6 - 1; } // [-1, 1]
 
-    /// Rotation-like, skewed, mirrored; sometimes flat, now and then broken.
+    /// Like a rotation, skewed or mirrored; sometimes flat, rarely broken.
     double4x4 transform() {
         double4x4 matrix(1.0);
         for (int column = 0; column < 4; ++column) {
@@ -223,7 +223,7 @@ TEST(UpdateTransforms, EqualsANaiveRecursionAfterAnySequenceOfEdits) {
     }
 }
 
-/// `count` nodes with a box each, every node below a random one of the `reach` before it; reach 1: a chain.
+/// `count` nodes with a box each; every node is a child of a random one of the previous `reach`. reach 1 gives a chain.
 struct Forest {
     Forest(uint32_t count, uint32_t reach) {
         Random random(count);
@@ -236,7 +236,7 @@ struct Forest {
         }
     }
 
-    /// Near to the identity, so that thousands of them in a row stay in the range of double.
+    /// Close to the identity, so that thousands of them in a row stay in the range of double.
     static double4x4 small(Random& random) {
         double4x4 matrix(1.0);
         const double angle = random.real();

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skins and morph weights in a scene: where bones are, what is mirrored, and that bounds hold what they bound.
+// Skins and morph weights in a scene: positions of bones, mirroring, and bounds that contain everything.
 #include "filament_core/scene/SceneSkins.h"
 
 #include "filament_core/scene/SceneNodes.h"
@@ -20,7 +20,7 @@ struct SkinsTest : testing::Test {
     MaterialInstance instance{ .material = &material };
     SceneData scene;
 
-    /// One level after the other, as prepare does.
+    /// Updates one level after the other, like prepare.
     void update() {
         Transforms& transforms = scene.transforms;
         scene.deformations.beginMoving(transforms.slotLimit());
@@ -179,8 +179,7 @@ struct Random {
     float3 point() { return { real(), real(), real() }; }
 };
 
-// Random vertices, joints, weights, morph targets: no deformed vertex is outside of the box, which is not much too
-// large.
+// Random vertices, joints, weights, morph targets: no deformed vertex is outside the box, which is not much too large.
 TEST_F(SkinsTest, NoDeformedVertexLeavesTheBounds) {
     Random random;
     constexpr size_t kVertices = 40, kBones = 5, kTargets = 3;

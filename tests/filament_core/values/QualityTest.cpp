@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Names of quality choices: every one is read back as it was written, unknown ones say what would be right.
+// Names of quality choices: each can be read back as written, and errors for unknown ones list valid names.
 #include <filament/EnvironmentFormat.h>
 #include <filament/Quality.h>
 
@@ -63,7 +63,7 @@ TEST(Quality, AValueOutOfRangeChangesNothingAndNamesTheRange) {
     EXPECT_NE(result.error().message.find("schlick or exact"), std::string::npos) << result.error().message;
 }
 
-/// Every word of what is chosen when files are loaded names one value, and no other word does.
+/// Every word for the options of loading files names one value, and no other word does.
 template <class E>
 void expectNames(std::initializer_list<const char*> words, std::optional<E> (*fromName)(std::string_view)) {
     uint8_t next = 0;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Where the scene stands and how large it is must not show: cameras and transforms are double, shaders see what lies
-// near the camera.
+// The position and size of the scene must not be visible: cameras and transforms are double, and shaders receive
+// positions relative to the camera.
 #include "tests/numerics/scenes/HardCase.h"
 
 #include <fmt/format.h>
@@ -14,7 +14,7 @@ struct Placed {
     bool lamp = true;
 };
 
-/// Two spheres, one of metal, one bumpy, a floor; sun, sky and a lamp. Everything that has a length follows `placed`.
+/// Two spheres, one metallic, one bumpy, and a floor; sun, sky and a lamp. All lengths follow `placed`.
 void portrait(Stage& stage, Placed placed, Node node = {}) {
     const auto at = [&](double3 p, double size) {
         const double3 base = node ? double3(0) : placed.origin;
@@ -46,7 +46,7 @@ HardCase farAway(double distance) {
              .twin = [](Stage& stage) { portrait(stage, {}); } };
 }
 
-// A chain of nodes that goes far away and comes back half-way: what hangs there is composed in double.
+// A chain of nodes that goes far away and half-way back: the object at its end is composed in double.
 HardCase nodesFarAway() {
     const double3 away(1e7, -2e7, 3e7);
     return { .name = "Nodes that hang far from the origin look like renderables there",
@@ -61,7 +61,7 @@ HardCase nodesFarAway() {
 }
 
 HardCase scaled(double scale) {
-    const bool lamp = scale > 0.01; // one nearer than a centimetre shines as from a centimetre: light.glsl
+    const bool lamp = scale > 0.01; // a lamp nearer than a centimetre shines as from a centimetre: light.glsl
     return { .name = fmt::format("A scene of scale {:.0e} looks like the one of scale 1", scale),
              .scene = [=](Stage& stage) { portrait(stage, { .scale = scale, .lamp = lamp }); },
              .twin = [=](Stage& stage) { portrait(stage, { .lamp = lamp }); } };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is made and ended over and over leaves nothing behind: engines and swap chains, a thousand on the null backend,
-// some on the devices; FILAMENT_STRESS=1 makes it a thousand there, too.
+// Objects that are created and destroyed repeatedly leave nothing behind: engines and swap chains, a thousand on the
+// null backend, some on the devices; FILAMENT_STRESS=1 makes it a thousand there, too.
 #include "shaders/package/EngineMaterials.h"
 #include "tests/scenes/Sphere.h"
 
@@ -22,7 +22,7 @@ int repetitions(Backend backend, int onDevices) {
     return backend == Backend::Null || isStress ? 1000 : onDevices;
 }
 
-/// Pages of the process in memory, after the heap gave back what it holds for later.
+/// Resident pages of the process, after the heap has returned its spare memory.
 double residentMebibytes() {
     malloc_trim(0);
     std::ifstream file("/proc/self/statm");
@@ -72,7 +72,7 @@ class Endless : public testing::TestWithParam<Backend> {};
 INSTANTIATE_TEST_SUITE_P(Backends, Endless, testing::Values(Backend::Null, Backend::Vulkan, Backend::Gles),
                          [](auto const& test) { return std::string(toString(test.param)); });
 
-/// Growth a round that counts as flat: a forgotten object of any kind is more than that, a table that doubles is less.
+/// Growth per round that counts as flat: a leaked object of any kind is larger, a table that doubles is smaller.
 constexpr double kFlatKibibytes = 4;
 
 double growthPerRound(double before, double after, int rounds) {
@@ -83,8 +83,8 @@ double growthPerRound(double before, double after, int rounds) {
 
 TEST_P(Endless, EnginesComeAndGoInTheSameMemory) {
     const int count = repetitions(GetParam(), 200);
-    for (int i = 0; i < 10; ++i) liveOnce(GetParam()); // what drivers and the C library keep once
-    // The heap of threads that end moves by up to 0.9 MiB, once or twice; what every round forgets grows every time.
+    for (int i = 0; i < 10; ++i) liveOnce(GetParam()); // memory that drivers and the C library keep
+    // The heap of threads that end varies by up to 0.9 MiB, once or twice; leaks grow in every round.
     constexpr int kTries = 3;
     double growth = kFlatKibibytes + 1;
     for (int attempt = 0; attempt < kTries && growth > kFlatKibibytes; ++attempt) {
@@ -103,7 +103,7 @@ TEST_P(Endless, SwapChainsOfEverySizeComeAndGoInTheSameMemory) {
     const int count = repetitions(GetParam(), 200);
     double before = 0;
     uint64_t bytesBefore = 0;
-    for (int i = -64; i < count; ++i) { // a period of sizes before: pools and tables then have theirs
+    for (int i = -64; i < count; ++i) { // one period of sizes before, so that pools and tables have grown
         const auto step = static_cast<uint32_t>(i + 64) % 32;
         ball.view.size = { 16 + 7 * (step % 8), 16 + 11 * (step / 8) };
         const Owned<SwapChain> target = engine->own(engine->create(SwapChainDesc{ .size = ball.view.size }));

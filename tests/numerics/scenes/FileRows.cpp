@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files whose attributes are degenerate: each is drawn without inf and NaN. What is broken instead (wrong counts,
-// indices out of range) is refused: tests/filament_core/assets/gltf/GltfBrokenFileTest.cpp.
+// glTF files with degenerate attributes: each is drawn without inf and NaN. Broken files (wrong counts, indices out of
+// range) are refused: tests/filament_core/assets/gltf/GltfBrokenFileTest.cpp.
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
 #include "tests/numerics/scenes/HardCase.h"
 
@@ -16,7 +16,7 @@ namespace {
 using assets::test::kFloat;
 using assets::test::TestFile;
 
-/// A square at z = 0 that fills much of the picture, before something is done to it.
+/// A square at z = 0 that fills much of the picture, before it is modified.
 struct Square {
     std::vector<float> positions{ -1, -1, 0, 1, -1, 0, 1, 1, 0, -1, 1, 0 };
     std::vector<float> normals{ 0, 0, 1, 0, 0, 1, 0, 0, 1, 0, 0, 1 };
@@ -106,7 +106,7 @@ std::vector<HardCase> positionRows() {
 
 // ------------------------------------------------------------------------------- surfaces in one place
 
-/// [-1, 1]^2 cut into triangles around a point: not one vertex but the corners is shared by two such meshes.
+/// [-1, 1]^2 divided into triangles around a point: two such meshes share only the corners.
 Mesh fanMesh(float2 center) {
     Mesh mesh = quadMesh();
     mesh.vertices.push_back({ .position = float3(center, 0), .uv = center });
@@ -125,7 +125,7 @@ void layer(Stage& stage, std::vector<float2> const& centers, double tilt) {
     stage.view.camera = Camera::lookAt({ 1.5, 1.1, 2 }, { 0, 0, 0 }, { .verticalFovDegrees = 50 });
 }
 
-// Depths of the same plane differ by roundings there, so that both surfaces show in places; but always in the same.
+// Depths of the same plane differ by rounding, so both surfaces may show; but always in the same places.
 HardCase fighting(double tilt) {
     const SceneBuilder build = [tilt](Stage& stage) { layer(stage, { { 0.3f, 0.1f }, { -0.21f, 0.37f }, {} }, tilt); };
     return { .name = fmt::format("Surfaces in one place with other vertices are drawn the same each time tilted {:g}",

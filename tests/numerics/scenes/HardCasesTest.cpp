@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Draws every row of the table on both APIs. The pictures lie in <build>/hard/.
+// Draws every row of the table on both APIs. The pictures are in <build>/hard/.
 #include "tests/numerics/scenes/HardCase.h"
 #include "tools/paths/Paths.h"
 
@@ -40,7 +40,7 @@ void save(std::string const& name, Image const& display) {
     EXPECT_TRUE(saved.ok());
 }
 
-/// One device an API for all rows, gone before main() returns.
+/// One device per API for all rows, destroyed before main() returns.
 class Devices : public testing::Test {
 protected:
     static void SetUpTestSuite() {

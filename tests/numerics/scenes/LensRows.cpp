@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Lenses that touch the scene, scenes that reach to the horizon, pictures of one pixel and of one line.
+// Lenses that touch the scene, scenes that extend to the horizon, pictures of one pixel and of one line.
 #include "tests/numerics/scenes/HardCase.h"
 
 #include <fmt/format.h>
@@ -37,8 +37,8 @@ HardCase wallBeforeTheLens(std::string name, double distance, uint32_t expectedP
              .holds = [=](Picture const& picture) { EXPECT_EQ(picture.coveredCount(), expectedPixels); } };
 }
 
-// Reversed depth is floating point: its steps are a part in 2^24 of the distance, wherever that is. The wall in front
-// is drawn first or last, depending on which was made first.
+// Reversed depth is floating point: its steps are a part in 2^24 of the distance, at any distance. The front wall is
+// drawn first or last, depending on which wall was created first.
 HardCase nearlyTouchingWalls(double distance, bool redFirst) {
     return { .name = fmt::format("Of two walls {:.0e} m away the nearer by a part in 1e5 wins, {} first", distance,
                                  redFirst ? "red" : "blue"),

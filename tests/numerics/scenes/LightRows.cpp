@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Thirteen decades of light through half floats: noon, moonlight, the sun in a mirror, lamps one looks into.
+// Thirteen decades of light in half floats: noon, moonlight, the sun in a mirror, a look into lamps.
 #include "tests/numerics/scenes/Exact.h"
 #include "tests/numerics/scenes/HardCase.h"
 
@@ -40,7 +40,8 @@ HardCase wallRow(std::string name, Wall const& wall) {
                      } };
 }
 
-// D of a mirror depends on 1 - noh^2 of normals and half vectors in fp32: 3 % by brdf.glsl, and its neighbours' share.
+// D of a mirror depends on 1 - noh^2 of normals and half vectors in fp32: 3 % according to brdf.glsl, plus the share of
+// its neighbours.
 constexpr double kMirrorError = 0.04;
 
 std::vector<HardCase> sunRows() {
@@ -78,7 +79,7 @@ void expectEverywhere(Picture const& picture, float expected, float relative) {
     EXPECT_EQ(wrong, 0u) << "components are not " << expected << "; the first pixel is " << picture.at(0, 0).x;
 }
 
-// The sun's disc as a sky: the largest half float times 24 426 lux are 1.6e9 nits, from everywhere.
+// The sun's disc as the whole sky: the largest half float times 24 426 lux is 1.6e9 nits, from everywhere.
 HardCase insideTheSun(std::string name, Look const& look, Exposure exposure) {
     const float radiance = std::min(65504.0f * 24426 * exposure.factor(), kLargestStored);
     return { .name = std::move(name),
@@ -102,7 +103,7 @@ std::vector<HardCase> skyRows() {
     };
 }
 
-// Emission of glTF materials is relative to a white of 1; what no half float holds is cut.
+// Emission of glTF materials is relative to a white of 1; values beyond half floats are clamped.
 HardCase lamp(std::string name, float nits, uint8_t samples) {
     return {
         .name = std::move(name),
@@ -120,7 +121,7 @@ HardCase lamp(std::string name, float nits, uint8_t samples) {
     };
 }
 
-// Source over: no number of layers exceeds what one may hold.
+// Source over: no number of layers exceeds the limit of a single one.
 HardCase lampsBehindGlass() {
     return { .name = "Sixteen blended lamps in front of each other stay finite",
              .scene =

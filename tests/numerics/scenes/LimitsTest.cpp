@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Pictures as large as a device allows and larger: drawn, or refused in one line that names the size.
+// Pictures of the largest size that a device allows, and larger ones: drawn, or refused in one line that names the
+// size.
 #include <filament/filament.h>
 
 #include <gtest/gtest.h>
@@ -23,7 +24,7 @@ protected:
 INSTANTIATE_TEST_SUITE_P(BothApis, Limits, testing::Values(Backend::Vulkan, Backend::Gles),
                          [](auto const& test) { return std::string(toString(test.param)); });
 
-/// What the engine says about a picture of this size: the errors, or nothing if it is drawn.
+/// The engine's errors for a picture of this size, or nothing if it is drawn.
 std::vector<std::string> drawEmpty(Engine& engine, uint2 size, bool& hasPixels) {
     Scene scene(engine);
     Renderer renderer(engine);

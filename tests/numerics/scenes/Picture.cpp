@@ -20,7 +20,7 @@ float4 halfPixel(Image const& image, uint32_t x, uint32_t y) {
     return { floatFromHalf(bits[0]), floatFromHalf(bits[1]), floatFromHalf(bits[2]), floatFromHalf(bits[3]) };
 }
 
-/// Exponent bits all set: inf or NaN, in the two layouts that attachments with floats have.
+/// All exponent bits set: inf or NaN, in the two layouts of floating-point attachments.
 template <class Word>
 uint32_t countNotFinite(std::span<const std::byte> bytes, Word exponent, size_t& first) {
     uint32_t count = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Transforms and vertices that have no inverse, no normal, no area; surfaces in the same place.
+// Transforms and vertices without an inverse, a normal or an area; coincident surfaces.
 #include "tests/numerics/scenes/Exact.h"
 #include "tests/numerics/scenes/HardCase.h"
 
@@ -23,7 +23,7 @@ void light(Stage& stage, double3 eye = { 0.5, 0.8, 3 }, float nearMeters = 0.01f
 
 // ------------------------------------------------------------------------------------------- scales
 
-/// The unit sphere scaled component by component, with the normals that an ellipsoid has: gradients of x^2/a^2 + ...
+/// The unit sphere scaled component by component, with the normals of an ellipsoid: gradients of x^2/a^2 + ...
 Mesh ellipsoidMesh(double3 axes) {
     Mesh mesh = transformed(sphereMesh(), float3(axes));
     for (Vertex& vertex : mesh.vertices) {
@@ -53,7 +53,7 @@ HardCase stretched(double3 axes) {
                      } };
 }
 
-// What the transform undoes must not matter: cofactors of such scales are 1e-24 to 1e24.
+// A scale that the transform undoes must not matter: cofactors of such scales are 1e-24 to 1e24.
 HardCase rescaled(double scale) {
     return { .name = fmt::format("A sphere of radius {:.0e} shrunk to 1 is the unit sphere", scale),
              .scene =
@@ -96,7 +96,7 @@ HardCase flattened() {
                      [=](Picture const& picture) {
                          View view{ .size = { 64, 64 } };
                          place(view);
-                         // The rim's own normals lie in the plane: flattened, they point nowhere.
+                         // The rim's own normals lie in the plane: when flattened, they have no direction.
                          expectSunOnWall(picture, view, look, sun, 0.01, 0.95);
                          EXPECT_GT(picture.coveredCount(), 700u);
                      } };
@@ -155,7 +155,7 @@ void soundQuad(Stage& stage) {
     light(stage);
 }
 
-// The quad fills 1200 pixels; none may be black, whatever its frame is.
+// The quad covers 1200 pixels; none may be black, whatever its frame.
 void expectNoBlackTile(Picture const& picture) {
     uint32_t black = 0;
     forEachCovered(picture, [&](uint32_t, uint32_t, float4 color) { black += color.x < 0.01f; });

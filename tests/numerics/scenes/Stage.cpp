@@ -26,7 +26,7 @@ Owned<Material> loadMaterial(Engine& engine, const char* package, std::vector<Ma
     return engine.own(*material);
 }
 
-// Tangent-space normals that lean up to 40 degrees in every direction: frames with a wrong axis or sign show at once.
+// Tangent-space normals tilted up to 40 degrees in every direction: a wrong axis or sign of a frame is visible at once.
 std::vector<uint8_t> waveTexels(uint32_t size) {
     std::vector<uint8_t> texels;
     for (uint32_t y = 0; y < size; ++y) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Conditions that mix a parameter with what differs from fragment to fragment, written by an author or meant by a layer
-// that is there or not: lavapipe of Mesa 22.3 crashed on them (backend/vulkan/Quirks.h).
+// Conditions that combine a parameter with a value that varies per fragment, written by an author or generated for a
+// layer that may be absent: lavapipe of Mesa 22.3 crashed on them (backend/vulkan/Quirks.h).
 #include "tests/samples/materials/SampleStage.h"
 
 #include <gtest/gtest.h>
@@ -8,7 +8,7 @@
 namespace filament::samples {
 namespace {
 
-// A loop, which no driver turns into a choice between two values.
+// A loop, which drivers do not turn into a selection between two values.
 #define SEVERAL_TIMES "for (int i = 0; i < int(getUV0().y * 9.0); ++i) material.roughness *= 0.8;"
 
 struct Condition {
@@ -18,8 +18,8 @@ struct Condition {
 
 class ConditionsOfParameterAndVarying : public testing::TestWithParam<Condition> {};
 
-/// clear_coat.mat with another statement in place of its coat. The driver spoils what it finds only for a parameter
-/// that is not the first of its buffer.
+/// clear_coat.mat with another statement in place of its coat. The driver's defect only affects a parameter that is not
+/// the first of its buffer.
 std::vector<tools::TextEdit> editsFor(std::string const& statement) {
     return { { "shadingModel : lit,", "shadingModel : lit, requires : [ uv0, tangents ]," },
              { "{ name : strength, type : float }",

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// White furnace of every shading model and layer as they are drawn: a sphere that is white all through, in a white
-// environment, is nowhere brighter than what is behind it, on both APIs. Prints what is lost at most.
+// White furnace of every shading model and layer as drawn: an entirely white sphere in a white environment is nowhere
+// brighter than the background, on both APIs. Prints the largest loss.
 #include "base/math/Half.h"
 #include "tools/conformance/SceneAssets.h"
 #include "tools/materials/MaterialStand.h"
@@ -23,7 +23,7 @@ namespace {
 
 using tools::MaterialTerm;
 
-/// What filtering and half floats may add to radiance 1.
+/// How much filtering and half floats may add to radiance 1.
 constexpr float kNoGain = 1.005f;
 
 struct Extremes {
@@ -50,7 +50,7 @@ public:
 
     Engine& engine() { return *mEngine; }
 
-    /// Of all pixels, in radiances of the environment.
+    /// The range over all pixels, in units of the environment's radiance.
     Extremes draw(tools::MaterialStand const& stand) {
         Scene scene(*mEngine);
         stand.addTo(scene);

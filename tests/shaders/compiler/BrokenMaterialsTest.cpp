@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What an author reads who made a mistake: materials that are wrong in one place each, with the whole message.
+// The messages for mistakes of authors: materials with one error each, and the whole message.
 #include "shaders/compiler/MaterialCompiler.h"
 
 #include <gtest/gtest.h>
@@ -142,7 +142,7 @@ constexpr Broken kContradictions[] = {
       "sampler2d with currentPixel : true" },
 };
 
-// The sentences of the GLSL compiler, and what may have been meant.
+// Messages of the GLSL compiler, with suggestions.
 constexpr Broken kMisspelt[] = {
     { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.metalic = 1.0;"),
       "a.mat:5: 'metalic' : no such field in structure 'material'; did you mean 'metallic'?" },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Every complete example of the materials guide, extracted from its text, compiles as it stands; or it is listed here
-// with what is wrong with it.
+// Every complete example of the materials guide, extracted from its text, compiles unchanged, or is listed here with
+// its errors.
 #include "shaders/compiler/MaterialCompiler.h"
 #include "tools/paths/Paths.h"
 
@@ -17,7 +17,7 @@
 namespace filament::shader {
 namespace {
 
-/// What the guide's examples show, in our own words: for where the guide is not.
+/// What the guide's examples show, in our own words, for machines without the guide.
 constexpr const char* kOwnExamples[] = {
     R"(material {
     name : "Painted wood", // quotes, a comment and trailing commas
@@ -76,7 +76,7 @@ fragment {
 })",
 };
 
-/// Where the guide itself is wrong, by a line of the example, and what our compiler answers.
+/// Errors of the guide itself, by a line of the example, and our compiler's message.
 struct KnownMistake {
     std::string_view containing, message, reason;
 };
@@ -101,7 +101,7 @@ KnownMistake const* mistakeOf(std::string const& example, Error const& error) {
     return found != std::end(kMistakes) ? found : nullptr;
 }
 
-/// The line of the brace that closes the block that begins in line `begin`; the end of the text if there is none.
+/// The line of the closing brace of the block that begins in line `begin`; the end of the text if there is none.
 size_t endOfBlock(std::vector<std::string> const& lines, size_t begin) {
     int depth = 0;
     for (size_t i = begin; i < lines.size(); ++i) {
@@ -113,7 +113,7 @@ size_t endOfBlock(std::vector<std::string> const& lines, size_t begin) {
 
 bool opensBlock(std::string const& line) { return line == "material {" || line == "fragment {" || line == "vertex {"; }
 
-/// Runs of blocks with nothing but blank lines between them, that have a material and a fragment block.
+/// Runs of blocks separated only by blank lines that include a material and a fragment block.
 std::vector<std::string> completeExamples(std::vector<std::string> const& lines) {
     std::vector<std::string> examples;
     for (size_t i = 0; i < lines.size(); ++i) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// shaders/interface/interface.glsl against shaders/interface/ShaderInterface.h, by reflection.
+// Compares shaders/interface/interface.glsl with shaders/interface/ShaderInterface.h, by reflection.
 #include "shaders/interface/ShaderInterface.h"
 
 #include "shaders/compiler/EmbeddedSources.h"
@@ -134,7 +134,7 @@ TEST(GroupLayouts, EveryKindOfPassGroupIsPartOfThatOfLitSurfaces) {
     }
 }
 
-/// The vertex stage of what is deformed reads every block and texture of the Deformation group.
+/// The vertex stage of deformed geometry reads every block and texture of the Deformation group.
 class DeformationInterface : public Interface {
 protected:
     DeformationInterface() : Interface(compiled()) {}

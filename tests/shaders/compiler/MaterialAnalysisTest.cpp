@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a material sets decides what it costs: an unset member and a neutral one change no bit of the package.
+// A material costs what it sets: unset and neutral members do not change any bit of the package.
 #include "shaders/compiler/MaterialAnalysis.h"
 #include "base/Hash.h"
 #include "shaders/compiler/EmbeddedSources.h"
@@ -26,7 +26,7 @@ std::string material(std::string_view code, std::string_view properties = "", st
                        properties, before, code);
 }
 
-/// Whether the term is in; "?" with the reason where the text does not compile.
+/// Whether the term is included; "?" with the reason if the text does not compile.
 bool hasTerm(std::string_view term, std::string const& text) {
     Result<MaterialText> parsed = parseMaterialText(text, "a.mat", engineFile);
     EXPECT_TRUE(parsed) << (parsed ? "" : parsed.error().message);

@@ -24,7 +24,7 @@ std::string withProperties(std::string_view properties) {
     return "material {\n" + std::string(properties) + "\n}" + std::string(kEmptyFragment);
 }
 
-/// Compiles without optimiser: the tests look at what is there, not at how fast it is.
+/// Compiles without the optimiser: the tests check contents, not speed.
 Result<MaterialPackage> compile(std::string_view text, CompileOptions options = {}) {
     options.optimization = Optimization::None;
     return compileMaterial(text, "wood.mat", options);

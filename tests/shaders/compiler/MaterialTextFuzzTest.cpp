@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What the fuzzer of material texts keeps in tests/fuzz/corpus, and edits of it, without clang.
+// Replays the fuzzer's corpus of material texts in tests/fuzz/corpus, and edits of it, without clang.
 #include "tests/shaders/compiler/MaterialTextFuzzBody.h"
 #include "tools/paths/Paths.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What is said and means nothing costs nothing: a property at its default and a member at its neutral value give the
-// bytes of a material that does not mention them, whatever the shading model.
+// Statements without effect cost nothing: a property at its default or a member at its neutral value gives the same
+// bytes as a material that does not mention it, for every shading model.
 #include "base/Hash.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/compiler/MaterialMembers.h"
@@ -20,7 +20,7 @@ struct Default {
     std::string_view property, value; ///< empty value: the property has none
 };
 
-/// As the guide has them (4.2), and our own.
+/// In the order of the guide (4.2), then our own.
 constexpr Default kDefaults[] = {
     { "name", "" }, // is what it is called
     { "domain", "surface" },
@@ -45,7 +45,7 @@ constexpr Default kDefaults[] = {
     { "colorWrite", "true" },
     { "depthWrite", "true" },
     { "depthCulling", "true" },
-    { "doubleSided", "" }, // saying it at all lets instances switch it
+    { "doubleSided", "" }, // mentioning it lets instances switch it
     { "alphaToCoverage", "false" },
     { "reflections", "default" },
     { "shadowMultiplier", "false" },
@@ -60,7 +60,7 @@ constexpr Default kDefaults[] = {
     { "clothDistribution", "" }, // only with shadingModel : cloth
 };
 
-/// The lists of the guide, empty or with what is there anyway.
+/// The lists of the guide, empty or with default contents.
 constexpr Default kLists[] = { { "parameters", "[]" }, { "constants", "[]" },          { "variantFilter", "[]" },
                                { "requires", "[]" },   { "requires", "[ position ]" }, { "variables", "[]" } };
 
@@ -69,14 +69,14 @@ std::string materialOf(std::string_view properties, std::string_view code) {
                        code);
 }
 
-/// Of the whole package; 0 where the text does not compile, with a failure.
+/// The hash of the whole package; 0, and a failure, if the text does not compile.
 uint64_t hashOf(std::string const& text) {
     const Result<MaterialPackage> package = compileMaterial(text, "a.mat", { .filteredVariants = kVariantPunctual });
     EXPECT_TRUE(package) << text << (package ? "" : package.error().message);
     return package ? hashBytes(writePackage(*package)) : 0;
 }
 
-// Everything that the terms could be in: each of them unset here.
+// Everything that the terms could affect: each of them is unset here.
 constexpr const char* kCode = "prepareMaterial(m); m.baseColor.rgb = vec3(0.2, 0.4, 0.6);";
 
 TEST(Neutral, DefaultsThatAreStatedChangeNoByte) {
@@ -94,7 +94,7 @@ TEST(Neutral, DefaultsThatAreStatedChangeNoByte) {
     }
 }
 
-// The test above would pass if the bytes never changed.
+// The test above would also pass if the bytes never changed.
 TEST(Neutral, OtherValuesThanTheDefaultsChangeTheBytes) {
     const uint64_t unset = hashOf(materialOf("", kCode));
     for (const char* other : { "culling : none", "blending : fade", "doubleSided : true", "maskThreshold : 0.5",
@@ -134,7 +134,7 @@ TEST(Neutral, MembersAtTheirNeutralValueChangeNoByteOfAnyShadingModel) {
         const MaterialDefinition definition = definitionOf(model);
         for (MaterialMember const& member : materialMembers()) {
             if (!member.isMemberOf(definition) || member.absent == Absent::Untouched) continue;
-            // what is always read is neutral where it begins
+            // a member that is always read is neutral at its initial value
             const std::string set = setTo(member, member.absent == Absent::Neutral ? member.neutral : member.initial);
             EXPECT_EQ(hashOf(materialOf(model, set + " prepareMaterial(m);")), unset) << model << ' ' << set;
             ++compared;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// What quality, platform and featureLevel of a material change.
+// The effects of a material's quality, platform and featureLevel.
 #include "shaders/compiler/Cost.h"
 #include "shaders/compiler/MaterialCompiler.h"
 

@@ -14,7 +14,7 @@ namespace {
 using backend::BlendFactor;
 using ::testing::HasSubstr;
 
-/// The definition alone: what the shader text can do with it is another matter.
+/// Only the definition; what the shader text can do with it is tested elsewhere.
 Result<MaterialDefinition> define(std::string const& properties) {
     Result<MaterialText> text = parseMaterialText(
             "material {\n" + properties + "\n}\nfragment { void material(inout MaterialInputs material) { } }",
@@ -148,7 +148,7 @@ struct Budget {
     int samplers;
 };
 
-// The guide's numbers, but for level 3: a bind group holds 15 textures beside the block of parameters.
+// The guide's numbers, except for level 3: a bind group has room for 15 textures beside the block of parameters.
 constexpr Budget kBudgets[] = {
     { "", 9 },
     { "featureLevel : 2,", 9 },

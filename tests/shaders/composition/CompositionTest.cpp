@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// White furnace and reciprocity of whole materials, as shaders/material composes them, with what the compiler leaves of
-// them: their fragment stages run as C++ in double precision. Prints what each keeps at least and at most.
+// White furnace and reciprocity of whole materials as composed by shaders/material, with the code that the compiler
+// includes: their fragment stages run as C++ in double precision. Prints the least and the most light that each keeps.
 #include "tests/shaders/composition/Composition.h"
 #include "tests/shaders/lib/Furnace.h"
 
@@ -25,8 +25,8 @@ constexpr double kMetallics[] = { 0.0, 0.5, 1.0 };
 
 double largest(vec3 color) { return std::max(color.x, std::max(color.y, color.z)); }
 
-/// Integral of light from above (side 1) or below (-1). Midpoints that crowd around the horizon and around the plane of
-/// the view, where the lobes of grazing views are a hundredth of a radian wide.
+/// Integral over light from above (side 1) or below (-1). The midpoints are denser near the horizon and near the plane
+/// of the view, where the lobes of grazing views are a hundredth of a radian wide.
 vec3 integrate(Composition const& material, Inputs const& inputs, vec3 view, double side, int polar, int azimuth) {
     const double pi = lib64::kPiOfTests, toView = std::atan2(view.y, view.x);
     vec3 sum(0.0);
@@ -41,7 +41,7 @@ vec3 integrate(Composition const& material, Inputs const& inputs, vec3 view, dou
     return sum;
 }
 
-/// What comes back of light from everywhere.
+/// The reflection of light from everywhere.
 double albedoOf(Composition const& material, Inputs const& inputs, vec3 view, int steps = 160) {
     return largest(integrate(material, inputs, view, 1, steps, steps) + integrate(material, inputs, view, -1, 24, 24));
 }
@@ -70,7 +70,7 @@ std::string textOf(Composition const& material, Inputs const& inputs, double nov
            std::to_string(nov);
 }
 
-/// Along the tangent; of what is not round, also across it and between.
+/// Along the tangent; for stretched lobes also across it and in between.
 std::vector<vec3> viewsOf(std::string const& name, double nov) {
     const vec3 along = viewAt(nov);
     if (name != "anisotropy" && name != "all_layers" && name != "combinations") return { along };
@@ -109,7 +109,7 @@ TEST(Composition, NoMaterialIsBrighterThanAWhiteSky) {
                 for (const vec3 view : viewsOf(material.name, nov)) {
                     const double seen = largest(material.environment(inputs, view));
                     EXPECT_LE(seen, lib64::kNoGain) << textOf(material, inputs, nov);
-                    if (inputs.metallic != 0.5) sky.add(seen); // loses what both lobes leave, by definition
+                    if (inputs.metallic != 0.5) sky.add(seen); // loses light that both lobes leave, by definition
                 }
             }
         });
@@ -117,7 +117,7 @@ TEST(Composition, NoMaterialIsBrighterThanAWhiteSky) {
     }
 }
 
-// Coat, sheen, grooves, film and transmission, on or off.
+// Coat, sheen, grooves, film and transmission, each on or off.
 TEST(Composition, NoCombinationOfLayersGivesMoreThanArrives) {
     constexpr int kCombinations = 32, kSteps = 96;
     Composition const& material = *std::ranges::find_if(
@@ -143,7 +143,7 @@ TEST(Composition, NoCombinationOfLayersGivesMoreThanArrives) {
     }
 }
 
-/// Scattering below a surface is not meant to be: a wrapped lobe has no cosine of its own. docs/energy.md.
+/// Scattering below a surface is not meant to be reciprocal: a wrapped lobe has no cosine of its own. docs/energy.md.
 bool isReciprocal(std::string const& name) {
     static const std::set<std::string> kNot{ "cloth_subsurface", "subsurface" };
     return !kNot.contains(name);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Other words for what the base reflects, and what its surroundings take from it, on both devices: the same bits, and
-// what the formulas say in closed form.
+// Alternative parameters of the base's reflectance, and occlusion by its surroundings, on both devices: the same bits,
+// and the values of the formulas in closed form.
 #include "shaders/lib/LibCpp.h"
 #include "tests/shaders/exact/LayerFixture.h"
 

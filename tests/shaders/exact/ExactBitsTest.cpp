@@ -116,7 +116,7 @@ INSTANTIATE_TEST_SUITE_P(
                 Named{ "ggx", "vec4(p.x * p.x / (3.14159265 * pow((p.y * p.y) * (p.x * p.x - 1.0) + 1.0, 2.0)))" }),
         [](auto const& each) { return std::string(each.param.name); });
 
-/// The formulas of ExactFormulas.h mean what GLSL means: identities that hold for the mathematical functions.
+/// The formulas of ExactFormulas.h compute GLSL's functions: identities of the mathematical functions.
 class ExactFormulas : public ExactBits {};
 
 TEST_P(ExactFormulas, SatisfyTheIdentity) {
@@ -159,7 +159,7 @@ INSTANTIATE_TEST_SUITE_P(
                 Named{ "integerModulo", "vec4((int(a.x * 100.0) / 7) * 7 + int(a.x * 100.0) % 7 - int(a.x * 100.0))" }),
         [](auto const& each) { return std::string(each.param.name); });
 
-/// The mutation that proves the test: what the pass spells out really is different without it.
+/// The mutation that proves the test: without the pass, the results differ.
 TEST_F(ExactBits, DifferSomewhereWithoutTheLowering) {
     size_t different = 0;
     std::string names;

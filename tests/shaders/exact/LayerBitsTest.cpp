@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What lies above, below and behind the base, on both devices: the same bits, and what the formulas say in closed form.
+// The layers above, below and behind the base, on both devices: the same bits, and the values of the formulas in closed
+// form.
 #include "tests/shaders/exact/LayerFixture.h"
 
 namespace filament::shader {

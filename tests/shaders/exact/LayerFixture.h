@@ -46,7 +46,7 @@ protected:
         return scene;
     }
 
-    /// One channel of draw(), of the pixels that the object covers.
+    /// One channel of draw(), for the pixels that the object covers.
     static Pixels render(MaterialScene const& scene, size_t channel = 0) {
         const std::vector<float> rgba = draw(scene);
         if (rgba.empty()) return {};

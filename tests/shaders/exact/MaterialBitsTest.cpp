@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine's materials on both devices: the same bits, and the energy that goes in comes out.
+// The engine's materials on both devices: the same bits, and energy is conserved.
 #include "tests/shaders/exact/PictureFixture.h"
 
 #include <algorithm>
@@ -71,7 +71,8 @@ TEST_F(MaterialBits, EveryVariantWithEveryFeatureHasTheSameBits) {
         const char* material;
         uint8_t variant;
     };
-    // The drivers take half a second for each: the blending modes share their lights, so one variant of them is enough.
+    // The drivers need half a second for each material; the blending modes share their lighting, so one variant
+    // suffices.
     for (Case const& each :
          { Case{ "gltf_lit_opaque", 0 }, Case{ "gltf_lit_opaque", 1 }, Case{ "gltf_lit_opaque", 2 },
            Case{ "gltf_lit_opaque", 3 }, Case{ "gltf_lit_masked", 3 }, Case{ "gltf_lit_blended", 3 } }) {

@@ -31,7 +31,7 @@ protected:
     }
 
 private:
-    /// By their bits; missing ones differ.
+    /// Compares bits; a missing picture differs.
     static size_t differentValues(std::vector<float> const& a, std::vector<float> const& b) {
         size_t different = std::max(a.size(), b.size()) - std::min(a.size(), b.size());
         for (size_t i = 0; i < std::min(a.size(), b.size()); ++i)

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// brdf_anisotropic.glsl: physics of the stretched lobe, and that it is the round one where nothing is stretched.
+// brdf_anisotropic.glsl: physics of the stretched lobe, and that it equals the round one without stretching.
 #include "tests/shaders/lib/Furnace.h"
 
 #include <gtest/gtest.h>
@@ -84,7 +84,7 @@ TEST(Anisotropy, OneBounceNeverReflectsMoreThanArrives) {
     }
 }
 
-// Moments of the distribution that the samples claim to have.
+// Moments of the distribution that the samples should follow.
 TEST(Anisotropy, SamplesFollowTheDistribution) {
     for (const vec2 alpha : kAlphas) {
         const auto sampler = [&](vec2 u) { return importanceSampleGgxAnisotropic(u, alpha); };

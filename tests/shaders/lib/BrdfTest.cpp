@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Physics of the specular lobe: what must be true of any correct D, V and F, whatever the formula.
+// Physics of the specular lobe: properties of any correct D, V and F, whatever the formula.
 #include "tests/shaders/lib/Numeric.h"
 
 #include <gtest/gtest.h>
@@ -40,7 +40,7 @@ TEST(Brdf, TheNormalDistributionPeaksAtOneOverPiAlphaSquared) {
     }
 }
 
-// In double from the exact cosine, against what fp32 makes of the rounded cosine and of the vectors.
+// Compares double precision from the exact cosine with fp32 from the rounded cosine and from the vectors.
 TEST(Brdf, TheCrossProductFormKeepsTheHighlightOfTheLeastRoughnessWhereTheCosineFormLosesPercents) {
     const double alpha = kMinAlpha, a2 = alpha * alpha;
     double worstFromCosine = 0, worstFromVectors = 0;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// coat.glsl: the lobe of a clear coat, and what it leaves to the layers below.
+// coat.glsl: the lobe of a clear coat, and the light that it leaves to the layers below.
 #include "tests/shaders/lib/Furnace.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 namespace filament::shader::lib64 {
 namespace {
 
-/// What the coat's own lobe reflects towards v.
+/// The reflectance of the coat's own lobe towards v.
 double coatAlbedo(double nov, double alpha) {
     const vec3 v = viewAt(nov);
     return integrateHalf(v,
@@ -57,7 +57,7 @@ TEST(Coat, AttenuationIsReciprocal) {
     EXPECT_EQ(visibilityKelemen(0.5), 1.0);
 }
 
-// By way of the index of refraction, which f0UnderCoat() never computes.
+// Goes through the index of refraction, which f0UnderCoat() never computes.
 TEST(Coat, TheBaseBordersOnTheCoatInsteadOfAir) {
     for (const double f0 : { 0.0, 0.02, 0.04, 0.3, 0.75, 0.99 }) {
         const double ior = iorFromF0(f0), r = (ior - 1.5) / (ior + 1.5);
@@ -67,7 +67,7 @@ TEST(Coat, TheBaseBordersOnTheCoatInsteadOfAir) {
     EXPECT_NEAR(f0UnderCoat(0.04), 0, 1e-30) << "the same glass on both sides";
 }
 
-// The cubic that is in use elsewhere to save the root is up to 0.03 too bright; the root is affordable.
+// The cubic that others use to avoid the root is up to 0.03 too bright; the root is affordable.
 TEST(Coat, TheExactFormIsWorthItsRoot) {
     double worst = 0;
     for (int i = 0; i <= 1000; ++i) {
@@ -100,8 +100,8 @@ TEST(Coat, TheFurnaceOfAWhiteBaseBelowAnyCoatHasNoGain) {
     }
 }
 
-// With the albedo of the lobe instead of Fresnel's equations nothing is lost on the way out, so what remains to be lost
-// is the 9 % of the way in.
+// With the albedo of the lobe instead of Fresnel's equations nothing is lost on the way out, so only the 9 % of the way
+// in remain.
 TEST(Coat, ARoughCoatLosesNothingAtGrazingAnglesWhenItsAlbedoComesFromTheTable) {
     for (const double roughness : { 0.1, 0.4, 0.7, 1.0 }) {
         for (const double nov : { 0.05, 0.2, 0.5, 1.0 }) {
@@ -122,7 +122,7 @@ TEST(Coat, ARoughCoatLosesNothingAtGrazingAnglesWhenItsAlbedoComesFromTheTable) 
     }
 }
 
-// Image-based light has no direction of its own: its diffuse part enters with the average.
+// Image-based light has no single direction: its diffuse part enters with the average.
 TEST(Coat, TheDiffuseBaseGetsTheSameFromTheSkyAsFromItsLights) {
     for (const double nov : { 0.1, 0.5, 1.0 }) {
         EXPECT_NEAR(coatTransmission(nov, 1.0) * coatAverageTransmission(1.0), attenuatedDiffuse(nov), 1e-4);

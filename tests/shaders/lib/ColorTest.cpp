@@ -36,7 +36,7 @@ TEST(Color, EveryToneMapperIsMonotoneInGreys) {
     }
 }
 
-// The mobile curve has the transfer function in it: on the display it must look like the filmic one.
+// The mobile curve includes the transfer function: on the display it must look like the filmic one.
 TEST(Color, TheMobileCurveIsTheFilmicOneWithItsTransferFunction) {
     EXPECT_TRUE(toneMapIncludesTransfer(kToneMapMobile));
     EXPECT_FALSE(toneMapIncludesTransfer(kToneMapFilmic));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table's four integrals against closed forms and against slower ways to integrate.
+// The table's four integrals, compared with closed forms and with slower ways to integrate.
 #include "filament_core/assets/tables/DfgTable.h"
 #include "base/math/Half.h"
 #include "shaders/lib/LibCppDouble.h"
@@ -27,7 +27,7 @@ TEST(DfgTable, TheRoughestSurfaceHasAClosedForm) {
     }
 }
 
-// A mirror reflects everything, and by Schlick (1 - nov)^5 of what f90 adds.
+// A mirror reflects everything, and by Schlick f90 contributes (1 - nov)^5.
 TEST(DfgTable, TheSmoothestSurfaceIsFresnelAlone) {
     for (const double nov : { 0.1, 0.5, 1.0 }) {
         EXPECT_NEAR(dfg(nov, kMinPerceptualRoughness).y, 1, 1e-3);
@@ -35,8 +35,9 @@ TEST(DfgTable, TheSmoothestSurfaceIsFresnelAlone) {
     }
 }
 
-// Points of a square as half vectors, equally likely to be seen. Dupuy and Benyoub 2023, "Sampling Visible GGX Normals
-// with Spherical Caps". Neither the coordinates nor the nodes of the table, and nothing is done about the horizon.
+// Points of a square as half vectors, all equally likely to be seen. Dupuy and Benyoub 2023, "Sampling Visible GGX
+// Normals with Spherical Caps". Uses neither the coordinates nor the nodes of the table, and does not treat the horizon
+// specially.
 double2 albedoByVisibleNormals(double nov, double alpha, int steps) {
     const double3 v(std::sqrt(1 - nov * nov), 0, nov), stretched = glm::normalize(double3(alpha, 1, 1) * v);
     const double masking = 2 * nov / (nov + std::sqrt(alpha * alpha + (1 - alpha * alpha) * nov * nov));

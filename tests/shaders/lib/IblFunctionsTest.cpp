@@ -75,7 +75,7 @@ TEST(IblFunctions, ThreeBandsAreExactForPolynomialsOfTheSecondDegree) {
     check(quadratic, "quadratic");
 }
 
-// A sky that falls off with the cosine from +y: the reference is its closed form at the pole, the integral elsewhere.
+// A sky that falls off with the cosine from +y: compared with the closed form at the pole and the integral elsewhere.
 TEST(IblFunctions, ThreeBandsAreWithinThreePercentOfACosineLobe) {
     const auto lobe = [](vec3 d) { return std::max(0.0f, d.y); };
     const std::array<vec4, 9> sh = projectSh(lobe);
@@ -97,8 +97,8 @@ TEST(IblFunctions, IrradianceIsNeverNegative) {
     EXPECT_EQ(irradianceSh(sh.data(), vec3(0, -1, 0), 3), vec3(0.0f));
 }
 
-// The furnace: under a white sky a white metal must vanish. The lobe is integrated over light directions without the
-// table; the table only compensates. One bounce alone loses up to more than half.
+// The furnace: under a white sky a white metal must be invisible. The lobe is integrated over light directions without
+// the table; the table only compensates. A single bounce loses up to more than half.
 TEST(IblFunctions, AWhiteMetalPassesTheFurnaceOnlyWithEnergyCompensation) {
     for (const float roughness : { 0.5f, 0.75f, 1.0f }) {
         const float alpha = alphaFromPerceptual(roughness);

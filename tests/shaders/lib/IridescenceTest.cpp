@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// iridescence.glsl against the physics that it approximates: every wavelength by itself, through all orders.
+// iridescence.glsl compared with the physics that it approximates: every wavelength separately, all orders included.
 #include "tests/shaders/lib/Furnace.h"
 
 #include <gtest/gtest.h>
@@ -20,7 +20,7 @@ double airy(double outer, double inner, double phase) {
     return sum;
 }
 
-/// The integral of airy() over a box of wavelengths around the peak of y, which stands for the eye's green.
+/// The integral of airy() over a band of wavelengths around the peak of y, which stands for the eye's green.
 double averageOverGreen(double outer, double inner, double difference, double shift) {
     double sum = 0;
     constexpr int kSteps = 200;
@@ -47,9 +47,9 @@ TEST(Iridescence, AFilmOfTheBasesOwnIndexHasNoColourAtNormalIncidence) {
     }
 }
 
-// The interference of green light in a film on glass: bright and dark at the thicknesses where Airy's sum says so.
+// Interference of green light in a film on glass: bright and dark at the thicknesses given by Airy's sum.
 TEST(Iridescence, GreenIsBrightAndDarkWhereAirysSumIs) {
-    const double ior = 1.38, base = 1.8; // light inside is turned by half a wave at the base, not at the air
+    const double ior = 1.38, base = 1.8; // the phase of light inside is inverted at the base, not at the air
     const double outer = f0FromIor(ior), inner = sq((base - ior) / (base + ior));
     double bright = 0, dark = 1, expectedBright = 0, expectedDark = 1;
     double brightAt = 0, darkAt = 0, expectedBrightAt = 0, expectedDarkAt = 0;

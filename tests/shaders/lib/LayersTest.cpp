@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// White furnace and reciprocity of every stack of layers, lit by lights: base, sheen above it, coat above both. Each
-// layer takes from those below as its file says. Prints how much light each stack keeps at least and at most;
+// White furnace and reciprocity of every stack of layers under lights: base, sheen above it, coat above both. Each
+// layer reduces those below as its file describes. Prints the least and the most light that each stack keeps;
 // docs/energy.md has that table.
 #include "tests/shaders/lib/Furnace.h"
 
@@ -16,7 +16,7 @@ constexpr double kCosines[] = { 0.05, 0.2, 0.5, 0.9 };
 /// The azimuth resolves grazing lobes, which are a twentieth of a radian wide.
 constexpr Quadrature kFine{ .polar = 200, .azimuth = 360 };
 
-/// A directional albedo at cosines between 0 and 1, as a table would hold it.
+/// A directional albedo at cosines between 0 and 1, as a table would store it.
 class Albedo {
 public:
     template <class F>
@@ -69,7 +69,7 @@ public:
 private:
     static constexpr double kCoatAlpha = 0.09; // roughness 0.3
 
-    /// What the split-sum table is made of.
+    /// The integrals of the split-sum table.
     static double smoothCoat(vec3 v, vec3 l) {
         const double noh = std::min(glm::normalize(v + l).z, 1.0);
         return ndfGgx(noh, kCoatAlpha) * visibilitySmithGgxCorrelated(v.z, l.z, kCoatAlpha);
@@ -134,7 +134,7 @@ TEST(Layers, NoStackReflectsMoreThanArrives) {
     }
 }
 
-// The wrapped diffuse lobe of cloth scatters through the surface: it alone is not meant to be reciprocal.
+// The wrapped diffuse lobe of cloth scatters through the surface; only this lobe is not meant to be reciprocal.
 TEST(Layers, StacksAreReciprocal) {
     const vec3 a = glm::normalize(vec3(0.3, -0.8, 0.2)), b = glm::normalize(vec3(-0.9, 0.1, 0.7));
     for (const Base base : { Base::WhiteMetal, Base::BrushedMetal, Base::WhitePlastic }) {

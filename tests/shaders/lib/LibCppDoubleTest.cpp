@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The shader library in double precision: it is really double, it is the same library, and it is all of it.
+// The shader library in double precision: it is really double, it is the same library, and it is complete.
 #include "shaders/lib/LibCppDouble.h"
 #include "shaders/lib/LibCpp.h"
 #include "tools/paths/Paths.h"
@@ -93,7 +93,7 @@ TEST(LibCppDouble, EveryFileOfTheLibraryHasACopyAndIsIncluded) {
     EXPECT_GE(files, 9u);
 }
 
-// What is not a number or the word float is the same text: the numbers are removed from both and the rest compared.
+// Everything except numbers and the word float is the same text: both are removed, and the rest is compared.
 TEST(LibCppDouble, CopiesDifferFromTheirSourcesInFloatAndInSuffixesOnly) {
     const std::regex literal(R"(\b(\d+\.\d*|\.\d+|\d+(?=[eE]))([eE][-+]?\d+)?f)");
     for (auto const& entry : std::filesystem::directory_iterator(kLibrary)) {

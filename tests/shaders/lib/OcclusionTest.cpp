@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// occlusion.glsl and normals.glsl: cones against solid angles that are counted, blended normals against rotations.
+// occlusion.glsl and normals.glsl: cones compared with counted solid angles, blended normals with rotations.
 #include "tests/shaders/lib/Furnace.h"
 
 #include <gtest/gtest.h>
@@ -21,7 +21,7 @@ TEST(Cones, TheSpecularConeRunsFromAMirrorToATenth) {
     EXPECT_NEAR(specularConeVersine(0.5), 1 - std::pow(10, -0.25), 1e-7);
 }
 
-// Counted on a grid of directions. The smooth step is known to be off in between: 0.055 of the hemisphere.
+// Counted on a grid of directions. The smooth step has a known error in between: 0.055 of the hemisphere.
 TEST(Cones, TheIntersectionIsTheSolidAngleInBoth) {
     for (const double a : { 0.1, 0.5 }) {
         for (const double b : { 0.2, 0.6 }) {

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// parallax.glsl over a field of heights that is a formula, as a material's macro would put a texture there.
+// parallax.glsl over a height field that is a formula, in the place of a material's texture.
 #include "tests/shaders/lib/Numeric.h"
 
 #include <gtest/gtest.h>

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The terms that <filament/Quality.h> offers beside the defaults, against closed forms and second formulas.
+// The terms that <filament/Quality.h> offers besides the defaults, compared with closed forms and second formulas.
 #include "filament_core/assets/tables/DfgTable.h"
 #include "tests/shaders/lib/Numeric.h"
 
@@ -63,7 +63,7 @@ TEST(Fresnel, AMetalReflectsAsItsComplexIndexSays) {
     }
 }
 
-// Gulbrandsen's parameters are made for this: whatever the tint, r is the reflectance at normal incidence.
+// Gulbrandsen's parameters have this purpose: r is the reflectance at normal incidence for any tint.
 TEST(Fresnel, AtNormalIncidenceTheExactTermIsF0AndAtGrazingItIsOne) {
     for (const float f0 : { 0.02f, 0.04f, 0.3f, 0.7f, 0.95f }) {
         for (const float tint : { 0.0f, 0.25f, 1.0f }) {
@@ -106,7 +106,7 @@ TEST(Diffuse, DisneysLobeIsReciprocalAndRetroReflectsWhereItIsRough) {
 }
 
 TEST(SplitSum, TheAnalyticFitIsAsNearToTheIntegralAsItsCommentSaysAndOrderedAsATableEntry) {
-    // By hand: r = (0.7, 0.03425, 0.8684, -0.0334), a = 0.49 cut to 2^-8.816, times 0.7, plus 0.03425.
+    // By hand: r = (0.7, 0.03425, 0.8684, -0.0334), a = 0.49 limited to 2^-8.816, times 0.7, plus 0.03425.
     EXPECT_NEAR(dfgAnalytic(0.95f, 0.3f).x, 0.0038f, 1e-3f);
     EXPECT_NEAR(dfgAnalytic(0.95f, 0.3f).y, 0.8350f, 1e-3f);
     for (const float roughness : { 0.1f, 0.3f, 0.5f, 0.7f, 1.0f }) {

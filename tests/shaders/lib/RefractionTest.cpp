@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// refraction.glsl: directions against a ray that is traced through a ball, path lengths and absorption by their
+// refraction.glsl: directions compared with a ray traced through a ball, path lengths and absorption with their
 // definitions.
 #include "tests/shaders/lib/Furnace.h"
 
@@ -36,7 +36,7 @@ TEST(Refraction, AllLightIsReflectedBeyondTheCriticalAngleAndNoneJumpsThere) {
     EXPECT_NEAR(refractOrReflect(-at, kNormal, 1.5).z, 0, 1e-5) << "along the surface";
 }
 
-// The ball of diameter 2 below the origin, by intersecting the ray with it and bending it twice.
+// The ball of diameter 2 below the origin: intersects the ray with it and refracts it twice.
 TEST(Refraction, TheSolidModelIsARayThroughABall) {
     for (const double ior : kIors) {
         for (const double nov : kCosines) {
@@ -72,7 +72,7 @@ TEST(Refraction, ThinLayersAreCrossedAlongTheBentRay) {
     EXPECT_EQ(thinPathLength(0.0, 1.0, 0.5), 16) << "along the surface, where it would be infinite";
 }
 
-// Every bounce by itself, the tint at each crossing.
+// Every bounce separately, with the tint at each crossing.
 TEST(Refraction, AThinLayerWithAColorReflectsAndTransmitsTheSumOfAllBounces) {
     for (const double f : { 0.0, 0.04, 0.3, 0.9 }) {
         for (const double tint : { 0.0, 0.25, 0.8, 1.0 }) {
@@ -93,7 +93,7 @@ TEST(Refraction, AThinLayerWithAColorReflectsAndTransmitsTheSumOfAllBounces) {
     EXPECT_LE(thinTransmittance(vec3(1.0), vec3(1.0)).x, 0.0);
 }
 
-// Every bounce by itself: f, then (1-f)^2 f (f^2)^k.
+// Every bounce separately: f, then (1-f)^2 f (f^2)^k.
 TEST(Refraction, AThinLayerReflectsTheSumOfAllBounces) {
     for (const double f : { 0.04, 0.3, 0.9 }) {
         double sum = f;

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// sheen.glsl: lobes of fibres, their energy, and what they leave to the layer below.
+// sheen.glsl: lobes of fibres, their energy, and the light that they leave to the layer below.
 #include "tests/shaders/lib/Furnace.h"
 
 #include <gtest/gtest.h>
@@ -80,7 +80,7 @@ TEST(Sheen, TheSeriesOfOneMinusExpMeetsTheExponential) {
     EXPECT_NEAR(oneMinusExp(0.125), oneMinusExp(std::nextafter(0.125, 0.0)), 1e-8) << "where both pieces meet";
 }
 
-// Why sheenLimit() exists.
+// The reason for sheenLimit().
 TEST(Sheen, NeubeltsVisibilityReflectsMoreThanArrivesFromSmoothFibresUnlessItIsLimited) {
     EXPECT_GT(neubeltAlbedo(0.05, 0.04), 1.2);
     for (const double alpha : kAlphas) {
@@ -106,7 +106,7 @@ TEST(Sheen, NoSheenLeavesTheBaseAsItIs) {
     EXPECT_EQ(sheenAlbedoScaling(vec3(1.0, 0.5, 0.2), 0.0), 1);
 }
 
-// Lights: each direction has an albedo, the lesser result of both counts, which is reciprocal.
+// Lights: each direction has an albedo, and the smaller result of both counts, which is reciprocal.
 TEST(Sheen, TheFurnaceOfAWhiteBaseBelowASheenHasNoGain) {
     for (const double alpha : kAlphas) {
         for (const vec3 color : { vec3(1.0), vec3(0.5), vec3(1.0, 0.3, 0.0) }) {

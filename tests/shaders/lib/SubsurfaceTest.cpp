@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// cloth.glsl and subsurface.glsl: light that comes out elsewhere must not become more.
+// cloth.glsl and subsurface.glsl: light that leaves elsewhere must not gain energy.
 #include "tests/shaders/lib/Furnace.h"
 
 #include <gtest/gtest.h>
@@ -60,7 +60,7 @@ TEST(Subsurface, IsBrightestAgainstTheLight) {
     EXPECT_GT(subsurfaceScatter(-1.0, -1.0, 0.1, 12.0), 3 * subsurfaceScatter(-1.0, 0.5, 0.1, 12.0));
 }
 
-// The same half width: where the lobe of the environment, around the ray straight on, falls to half of its peak.
+// The same half width: where the lobe of the environment, around the straight ray, falls to half of its peak.
 TEST(Subsurface, TheSkyBehindIsBlurredAsFarAsTheLobeReaches) {
     for (const double power : { 8.0, 12.234, 40.0 }) {
         const double alpha = alphaFromPerceptual(subsurfaceForwardRoughness(power));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// aa.glsl, ao.glsl and tangent.glsl: what happens to a surface before and after it is lit.
+// aa.glsl, ao.glsl and tangent.glsl: computations on a surface before and after lighting.
 #include "tests/shaders/lib/Numeric.h"
 
 #include <gtest/gtest.h>
@@ -7,7 +7,7 @@
 namespace filament::shader::lib {
 namespace {
 
-// Kaplanyan's filter adds at most `threshold` to alpha^2, nothing where the normal is constant.
+// Kaplanyan's filter adds at most `threshold` to alpha^2, and nothing if the normal is constant.
 TEST(SpecularAntiAliasing, OnlyEverRoughens) {
     EXPECT_NEAR(filteredPerceptualRoughness(0.3f, vec3(0.0f), vec3(0.0f), 0.15f, 0.2f), 0.3f, 1e-6f);
     const float filtered = filteredPerceptualRoughness(0.1f, vec3(9, 0, 0), vec3(0, 9, 0), 0.15f, 0.2f);
@@ -48,7 +48,7 @@ TEST(AmbientOcclusion, BouncedOcclusionBrightensBrightSurfacesMoreThanDarkOnes) 
     EXPECT_NEAR(multiBounceAo(1.0f, vec3(0.5f)).y, 1.0f, 0.01f);
 }
 
-// A frame from a quaternion against the rotation matrix of the same axis and angle.
+// Compares a frame from a quaternion with the rotation matrix of the same axis and angle.
 TEST(TangentFrame, ATangentQuaternionIsTheRotationOfTheAxes) {
     const vec3 axis = glm::normalize(vec3(1, 2, 3));
     for (float angle = 0.1f; angle < 6.2f; angle += 0.3f) {

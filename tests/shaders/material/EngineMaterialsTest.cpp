@@ -44,7 +44,7 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
     }
 }
 
-/// What the engine gives a material of this kind when every effect is on.
+/// The textures that the engine gives a material of this kind if every effect is on.
 uint32_t engineShare(MaterialPackage const& package) {
     const bool screen =
             package.refractionMode == RefractionMode::ScreenSpace || package.reflections == Reflections::ScreenSpace;
@@ -55,7 +55,7 @@ uint32_t ownSamplers(MaterialPackage const& package, uint16_t key) {
     return samplerCount(programLayout(package, key)[kGroupMaterial]);
 }
 
-// Of every material what no constant can switch off, and of those below level 3 all, fits into any device.
+// The textures that no constant can switch off, and all textures of materials below level 3, fit into any device.
 TEST(EngineMaterials, FitEveryDeviceInEveryVariantWithEveryEffectOn) {
     for (const std::string_view name : engineMaterialNames()) {
         const MaterialPackage package = read(name);
@@ -64,7 +64,7 @@ TEST(EngineMaterials, FitEveryDeviceInEveryVariantWithEveryEffectOn) {
         });
         for (Variant const& variant : package.variants) {
             EXPECT_LE(alwaysRead + engineShare(package), kSamplersOfEveryDevice) << name << " " << variant.key;
-            if (package.featureLevel == 3) continue; // the next test's
+            if (package.featureLevel == 3) continue; // covered by the next test
             EXPECT_LE(ownSamplers(package, variant.key) + engineShare(package), kSamplersOfEveryDevice)
                     << name << " " << variant.key;
             EXPECT_EQ(samplerCount(programLayout(package, variant.key)[kGroupDeformation]), 0u)
@@ -73,7 +73,7 @@ TEST(EngineMaterials, FitEveryDeviceInEveryVariantWithEveryEffectOn) {
     }
 }
 
-/// Each texture that can be switched off, on or off by the bits of `used`.
+/// Each texture that can be switched off is on or off according to the bits of `used`.
 std::vector<backend::ConstantValue> constantsFor(MaterialPackage const& package, uint32_t used) {
     std::vector<backend::ConstantValue> constants;
     uint32_t bit = 0;

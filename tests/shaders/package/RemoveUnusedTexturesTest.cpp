@@ -17,8 +17,8 @@ using backend::ConstantValue;
 
 constexpr uint32_t kOpDecorate = 4u << 16 | 71, kBinding = 33, kDescriptorSet = 34;
 
-/// The annotations of a module that has variable 10 + n at binding n of the material group, one at binding 2 of the
-/// Pass group, and a function.
+/// The annotations of a module that has variable 10 + n at binding n of the material group, one variable at binding 2
+/// of the Pass group, and a function.
 std::vector<uint32_t> module(uint32_t textures) {
     std::vector<uint32_t> words{ 0x07230203, 0x10300, 0, 100, 0 };
     const auto decorate = [&](uint32_t id, uint32_t decoration, uint32_t value) {
@@ -45,7 +45,8 @@ std::string samplerAt(int unit, std::string const& name) {
     return "layout(binding = " + std::to_string(unit) + ") uniform highp sampler2D " + name + ";\n";
 }
 
-/// A lit material: a block, textures 1 to 4 (`always`, then one a constant of ids 0, 1, 2), a cube at 5 for constant 3.
+/// A lit material: a block, textures 1 to 4 (`always`, then one per constant with ids 0, 1, 2), a cube at 5 for
+/// constant 3.
 MaterialPackage fourTextures() {
     MaterialPackage package;
     package.layout[kGroupView] = viewGroupLayout();

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The report's pictures are files in a folder of the page's name: every picture that a page shows is there, and those
-// of an earlier report are gone.
+// The report's pictures are files in a folder with the page's name: every picture that a page shows exists, and those
+// of an earlier report are deleted.
 #include "tools/accuracy/Page.h"
 #include "tools/accuracy/PagePictures.h"
 #include "tools/paths/Paths.h"

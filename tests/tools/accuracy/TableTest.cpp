@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The table of effects: what is committed can be measured, and what is wrong is refused in one line.
+// The table of effects: committed rows can be measured, and errors are refused in one line.
 #include "tools/accuracy/Effect.h"
 #include "tools/accuracy/Integrals.h"
 #include "tools/accuracy/Page.h"

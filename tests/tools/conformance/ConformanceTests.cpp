@@ -65,7 +65,7 @@ TEST(Bisect, FindsNothingWhereNothingDiffers) {
     EXPECT_EQ(*found, "");
 }
 
-// The promise of equal bits is the doing of the exact shaders: without them a case that demands bits must fail.
+// Equal bits are due to the exact shaders: without them a case that requires bits must fail.
 TEST(Exactness, ShadersLeftToTheDriversAreNoticed) {
     Options options = optionsFor("");
     options.only = { "roughness-chart/linear" };

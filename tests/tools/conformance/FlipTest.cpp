@@ -22,11 +22,11 @@ TEST(Flip, IsSymmetricAndGrowsWithTheDifference) {
     EXPECT_LT(flip(grey(40), grey(50)).mean, flip(grey(40), grey(90)).mean);
 }
 
-// The paper's largest distance is the one between these two, and its error is 1.
+// The paper's largest distance is that between these two, and its error is 1.
 TEST(Flip, OfGreenAndBlueIsOne) { EXPECT_NEAR(flip(flat({ 0, 255, 0 }), flat({ 0, 0, 255 })).mean, 1, 1e-5); }
 
-/// The eye's filters leave a picture of one colour alone, and it has no features: what is left for two greys is the
-/// distance of their lightness (CIE L*), its power and its redistribution, here in double precision.
+/// The eye's filters do not change a picture of one colour, and it has no features. For two greys only the distance of
+/// their lightness (CIE L*), its power and its redistribution remain, computed here in double precision.
 double flipOfGreys(double codeA, double codeB) {
     const auto lightness = [](double code) {
         const double v = code / 255;

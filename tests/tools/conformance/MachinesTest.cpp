@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Child processes that play other machines: what becomes of a case when they draw it, draw something else, die or hang.
+// Child processes that simulate other machines: the result of a case if they draw it, draw something else, crash or
+// hang.
 #include "tools/conformance/Machines.h"
 #include "tests/tools/conformance/Pictures.h"
 #include "tools/conformance/Baselines.h"
@@ -66,7 +67,7 @@ TEST(Machines, AreChosenByNameOrAllThatAreNotEmulated) {
 
 // ---------------------------------------------------------------------------------------------- a program that misbehaves
 
-/// Answers like filament-conformance, but does what the names of the cases say.
+/// Answers like filament-conformance, but behaves as the names of the cases say.
 constexpr const char* kActor = R"sh(#!/bin/sh
 while [ $# -gt 0 ]; do
     case $1 in
@@ -104,7 +105,7 @@ protected:
             GTEST_SKIP() << "no bits are promised here: the processor lacks AVX or FMA";
     }
 
-    /// A finished run with these cases, whose pictures are there, drawn again on `machine`.
+    /// Draws a finished run with these cases, whose pictures exist, again on `machine`.
     Results drawn(std::string const& machine, std::vector<std::string> const& names) {
         Results results;
         for (std::string const& name : names) {
@@ -235,7 +236,7 @@ TEST(JournalFile, HasWhatEndedAndWhatIsOpenEvenIfItsLastLineIsCutOff) {
 
 // ---------------------------------------------------------------------------------------------- the real program
 
-// Without a machine that draws other bits nobody knew whether the overrides arrive.
+// Without a machine that draws other bits, nobody would know whether the overrides take effect.
 TEST(RealMachines, DrawOtherBitsWithoutFmaAndTheSameWithOtherVectors) {
     if (thisMachine({}, {}).cpuFeatures != kPromisedFeatures) GTEST_SKIP() << "no bits are promised here";
     Options options;

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The case "mip-chain" shows what it says: a code that is one off in any level changes one pixel, the one of its texel.
+// The case "mip-chain" shows what it claims: changing one code of any level by one changes one pixel, that of its
+// texel.
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Stage.h"
 #include "tools/paths/Paths.h"
@@ -34,7 +35,7 @@ Image draw(std::unique_ptr<backend::StreamEdit> edit) {
     return shot ? std::move(shot->image) : Image();
 }
 
-/// Pixels that are not the same bits, counted by rows.
+/// Indices of the pixels whose bits differ, counted by rows.
 std::vector<uint32_t> differing(Image const& a, Image const& b) {
     std::vector<uint32_t> pixels;
     const size_t bytes = a.pixels.size() / (size_t{ a.width } * a.height);

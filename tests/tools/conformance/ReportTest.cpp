@@ -32,7 +32,7 @@ size_t countOf(std::string const& text, std::string_view part) {
     return count;
 }
 
-/// One case of each status; the failed one differs in a picture and let a mutant pass.
+/// One case of each status; the failed one differs in a picture and missed a mutant.
 Results mixedResults() {
     const Comparison equal{ .configuration = "gles", .passed = true };
     const Comparison differs{ .configuration = "gles",
@@ -147,7 +147,7 @@ TEST(Baselines, GoByTheThumbnailOnAnotherMachineAndSaySo) {
     EXPECT_FALSE(baselines.check("case", grey(110), kThere).passed);
 }
 
-// Makers, generations and wider vectors do not count; what rounds differently does.
+// Makers, generations and wider vectors do not matter; features that change rounding do.
 TEST(Baselines, OfOneClassOfProcessorsAreThoseWithAvxAndFma) {
     for (const char* override : { static_cast<const char*>(nullptr), "avx", "avx2", "avx512", "" })
         EXPECT_EQ(cpuFeatures(true, true, override), "avx fma");

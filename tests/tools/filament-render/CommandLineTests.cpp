@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The program itself, as a user starts it: every bad input ends with one line and a status, never with a crash.
+// The program as a user starts it: every bad input ends with one line and a status, never with a crash.
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "tools/paths/Paths.h"
@@ -35,7 +35,7 @@ void writeText(std::filesystem::path const& path, std::string const& text) {
     ASSERT_TRUE(assets::replaceFile(path, std::as_bytes(std::span(text))).ok());
 }
 
-/// One triangle, whole: positions as a data URI.
+/// A complete triangle: positions as a data URI.
 std::string triangleGltf() {
     return R"({"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0}],)"
            R"("meshes":[{"primitives":[{"attributes":{"POSITION":0}}]}],"accessors":[{"bufferView":0,"componentType":5126,)"

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Size: AllReachTheirFields is a list: every option once on a command line, every field once.
+// Size: AllReachTheirFields is a list: every option on a command line once, every field once.
 #include "tools/filament-render/Options.h"
 
 #include <gmock/gmock.h>

@@ -40,7 +40,7 @@ std::string contents(fs::path const& path) {
     return { std::istreambuf_iterator<char>(file), {} };
 }
 
-/// A folder of its own that is gone afterwards.
+/// A temporary folder, deleted afterwards.
 class Matc : public ::testing::Test {
 protected:
     void SetUp() override { fs::create_directories(mFolder); }
@@ -63,7 +63,7 @@ protected:
     fs::path mFolder = fs::temp_directory_path() / ("matc_test_" + std::to_string(getpid()));
 };
 
-/// Three maps and a normal, as most materials of models are.
+/// Three maps and a normal map, like most materials of models.
 constexpr const char* kStandard = R"(material { name : standard, shadingModel : lit, requires : [ uv0 ],
     parameters : [ { name : baseColor, type : sampler2d }, { name : normal, type : sampler2d }, { name : orm, type : sampler2d } ] }
 fragment {

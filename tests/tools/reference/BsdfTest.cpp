@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The material as a function and as a sampler: physics, and each against the other.
+// The material as a function and as a sampler: physics, and each compared with the other.
 #include "tests/tools/reference/BsdfChecks.h"
 
 #include "shaders/lib/LibCppDouble.h"
@@ -119,7 +119,7 @@ TEST(Bsdf, CoupledWhitePlasticReflectsAllThatArrives) {
     }
 }
 
-// As the engine: light mirrored by a normal map fades below the surface that carries the map. Only where nothing else
+// As in the engine: light mirrored by a normal map fades below the surface that has the map, only if nothing else
 // occludes.
 TEST(Bsdf, ANormalMapsReflectionsFadeBelowItsSurface) {
     SurfaceSample surface = surfaceOf(0.3, 1, double3(0.9), directionAt(0.5, 0));
@@ -176,7 +176,7 @@ TEST(Bsdf, EverySampleHasTheWeightThatTheDensityPromises) {
     }
 }
 
-// Every choice is the library's function of that name, and no other.
+// Every choice is the library's function of the same name, and no other.
 TEST(Bsdf, EachChosenTermIsTheLibrarys) {
     namespace lib = shader::lib64;
     const double nov = 0.4, nol = 0.7, roughness = 0.5, alpha = 0.25, metallic = 0.6;
@@ -236,7 +236,7 @@ TEST(Bsdf, ViewsAndLightsAtOrBelowTheHorizonStayFinite) {
                 const double3 value = bsdf.evaluate(inFrame(local), LightSource::Ambient);
                 EXPECT_TRUE(std::isfinite(value.x) && value.x >= 0);
                 EXPECT_TRUE(std::isfinite(bsdf.pdf(inFrame(local))));
-                // What reflects can be sampled, else estimates would miss it.
+                // Directions that reflect must be sampled, otherwise estimates would miss them.
                 EXPECT_EQ(value.x > 0, bsdf.pdf(inFrame(local)) > 0) << viewCosine;
             }
             for (uint32_t i = 0; i < 64; ++i) {

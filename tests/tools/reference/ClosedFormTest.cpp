@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Scenes whose picture is a formula: the reference agrees within the error that it states.
+// Scenes whose picture is a formula: the reference agrees within its stated error.
 #include "tests/tools/reference/TestScenes.h"
 
 #include "tools/reference/DirectionalAlbedo.h"
@@ -13,7 +13,7 @@ ReferenceSettings settingsOf(Integrator integrator, uint32_t samples = 64) {
     return { .integrator = integrator, .samplesPerPixel = samples };
 }
 
-/// Lambert's lobe alone, as if nothing lay over it.
+/// Lambert's lobe alone, without a specular lobe.
 ReferenceSettings diffuseOnly(Integrator integrator, uint32_t samples) {
     ReferenceSettings settings = settingsOf(integrator, samples);
     settings.bsdf = { .coupling = CouplingTerm::Never, .lobes = LobeChoice::Diffuse };
@@ -29,7 +29,7 @@ ReferenceScene sceneOf(assets::PrimitiveData primitive, assets::MaterialData mat
 TEST(ClosedForm, AWhiteDielectricVanishesInAWhiteFurnace) {
     ReferenceScene scene = sceneOf(floorPrimitive(), lambert(1));
     scene.environment = uniformSky();
-    // The diffuse lobe takes what the specular lobe leaves: together they reflect all.
+    // The diffuse lobe gets what the specular lobe leaves: together they reflect everything.
     for (const Integrator integrator : kIntegrators) {
         for (const double height : { 0.3, 1.0, 5.0 }) {
             const Estimate estimate =
@@ -50,7 +50,7 @@ TEST(ClosedForm, AWhiteMetalVanishesInAWhiteFurnaceAtEveryRoughness) {
     }
 }
 
-// What one bounce keeps, from quadrature over half vectors in another file.
+// The fraction that one bounce keeps, from quadrature over half vectors in another file.
 TEST(ClosedForm, ASingleScatteringMetalLosesOneMinusItsDirectionalAlbedo) {
     for (const float roughness : { 0.3f, 0.6f, 1.0f }) {
         ReferenceScene scene = sceneOf(floorPrimitive(), metal(roughness));
@@ -76,7 +76,7 @@ TEST(ClosedForm, ALambertFloorUnderASunShowsAlbedoOverPiTimesTheIlluminanceTimes
     }
 }
 
-/// What a dielectric of alpha 1 reflects of light from everywhere.
+/// The fraction of light from everywhere that a dielectric of alpha 1 reflects.
 double albedoOfRoughDielectric(double cosine) {
     const double2 dfg = integrateDirectionalAlbedo(cosine, 1);
     return (0.04 * (dfg.y - dfg.x) + dfg.x) * (1 + 0.04 * (1 / dfg.y - 1));
@@ -194,7 +194,7 @@ TEST(ClosedForm, InsideOfAGlowingRoomAllBouncesSumUpToTheGeometricSeries) {
             const Estimate estimate = estimated(sceneOf(primitive, material), viewFrom({ 0, 0, 0 }, { 0.3, 1, 0.2 }),
                                                 diffuseOnly(Integrator::Path, 512));
             const double expected = 0.5 / (1 - double(albedo));
-            // What the corners' safety distance, or normals that are not the facets', may lose.
+            // Losses due to the safety distance at corners, or to normals that differ from those of the facets.
             expectAgrees(estimate, double3(expected), 2e-3 * expected);
         }
     }
@@ -230,9 +230,9 @@ TEST(ClosedForm, WhatAnotherPlaneHidesFromTheSunIsBlackOnlyWithVisibility) {
     EXPECT_GT(estimated(scene, below, settings).mean.x, 0.01);
 }
 
-// One bounce more: what a lit floor sends to a ceiling right above one of its points. The form factor of a square of
-// half side s from a parallel element at distance d below its centre (Howell, "Catalog of Radiation Heat Transfer
-// Configuration Factors", B-4): four times that of a corner.
+// One more bounce: the light that a lit floor sends to a ceiling directly above one of its points. The form factor of a
+// square of half side s from a parallel element at distance d below its centre (Howell, "Catalog of Radiation Heat
+// Transfer Configuration Factors", B-4): four times that of a corner.
 TEST(ClosedForm, ALitFloorLightsTheCeilingByItsFormFactor) {
     auto model = makeModel(floorPrimitive(), lambert(0.5f));
     model->nodes.push_back({ .name = "ceiling", .mesh = 0 });
@@ -252,7 +252,7 @@ TEST(ClosedForm, ALitFloorLightsTheCeilingByItsFormFactor) {
 }
 
 TEST(ClosedForm, ASmoothMetalShowsTheSkyInTheMirrorDirection) {
-    // A sky that changes slowly, so that the lobe of half a degree sees its value in the middle.
+    // A sky that changes slowly, so that a lobe of half a degree sees its central value.
     const auto value = [](double3 d) { return 1.5 + d.x + 0.3 * d.z; };
     ReferenceScene scene = sceneOf(floorPrimitive(), metal(0));
     scene.environment = { .image = makeSky(256, [&](double3 d) { return float3(static_cast<float>(value(d))); }),

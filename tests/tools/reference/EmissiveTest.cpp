@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Glowing triangles as lights: their solid angle, their light, and that every way of finding them finds the same.
+// Glowing triangles as lights: their solid angle, their light, and agreement of all techniques that find them.
 #include "tests/tools/reference/TestScenes.h"
 
 #include "tools/reference/EmissiveLights.h"
@@ -17,7 +17,7 @@ assets::MaterialData lamp(float radiance) {
     return material;
 }
 
-/// Lambert's lobe and nothing else.
+/// Only Lambert's lobe.
 const BsdfModel kLambert{ .coupling = CouplingTerm::Never, .lobes = LobeChoice::Diffuse };
 
 /// A floor of albedo 0.5 and a square lamp of side 2 * `half` one metre above its middle.

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Layers and lobes beyond the standard ones: each as a density, as physics, and against a second way to compute it.
+// Layers and lobes beyond the standard ones: each as a density, as physics, and compared with a second computation.
 #include "tests/tools/reference/BsdfChecks.h"
 
 #include "tools/reference/DirectionalAlbedo.h"
@@ -35,7 +35,7 @@ SurfaceSample clothOf(SurfaceSample surface, double3 sheenColor, std::optional<d
     return surface;
 }
 
-/// Of a dielectric of this index, all of whose light goes on.
+/// For a dielectric of this index that transmits all of its light.
 SurfaceSample glass(double roughness, double3 view, double ior, bool isThin, bool isFromInside = false) {
     SurfaceSample surface = surfaceOf(roughness, 0, double3(0), view);
     surface.f0 = double3(lib::f0FromIor(ior));
@@ -141,7 +141,7 @@ TEST(Layers, ReflectTheSameInBothDirections) {
             const Bsdf fromA(one.surface(a), model, false), fromB(one.surface(b), model, false);
             const double3 there = fromA.evaluate(inFrame(b), LightSource::Direct) / b.z;
             const double3 back = fromB.evaluate(inFrame(a), LightSource::Direct) / a.z;
-            // A specular base's albedo towards the viewer is in the series of an exact coat.
+            // The series of an exact coat contains the albedo of a specular base towards the viewer.
             const double tolerance = model.coat == CoatTerm::Exact ? 2e-2 : 1e-9;
             EXPECT_LT(glm::length(there - back), tolerance * glm::length(there)) << one.name << ' ' << i;
         }
@@ -190,7 +190,7 @@ TEST(Coat, ExactOnWhitePaperReflectsAllLight) {
     }
 }
 
-// What the coat reflects is missing below, and nothing else: white paper stays white in both.
+// Only the light that the coat reflects is missing below: white paper stays white in both.
 TEST(Coat, TheEnginesAttenuationOnWhitePaperKeepsAllLightOfTheSky) {
     for (const double cosine : { 0.3, 0.9 }) {
         SurfaceSample surface = whitePaper(directionAt(cosine, 0));
@@ -211,7 +211,8 @@ TEST(Coat, OfALightTheLesserOfBothDirectionsCounts) {
     EXPECT_NEAR(found, passed * 0.15 / kPiExact, 1e-6);
 }
 
-/// Light bounce by bounce between a smooth coat and a mirror of GGX facets below it, seen from above: what leaves.
+/// Light between a smooth coat and a mirror of GGX facets below it, bounce by bounce, seen from above: the light that
+/// leaves.
 double walkedAlbedo(double nov, double alpha, double f0Below, uint32_t count) {
     std::mt19937 random(3);
     std::uniform_real_distribution<double> unit(1e-9, 1);
@@ -253,7 +254,7 @@ TEST(Coat, ExactIsWhatAWalkThroughBothInterfacesFinds) {
             model.energy = EnergyTerm::SingleScatter;
             const double walked = walkedAlbedo(cosine, roughness * roughness, below, 200'000);
             const double found = albedoOf(surface, model, cosine);
-            // Light that a rough base sends beyond the critical angle comes back to it; the closed form lets it go.
+            // Light that a rough base sends beyond the critical angle returns to it; the closed form lets it leave.
             const double lacking = roughness > 0.3 ? 0.08 : 0.01;
             EXPECT_LT(found, walked * 1.01) << cosine << ' ' << roughness;
             EXPECT_GT(found, walked * (1 - lacking)) << cosine << ' ' << roughness;
@@ -365,7 +366,7 @@ TEST(Transmission, FresnelIsTheSameFromBothSidesAndTotalBeyondTheCriticalAngle) 
     }
 }
 
-// f(v, l) / n_v^2 = f(l, v) / n_l^2: light takes the same way back, radiance squeezed by the square of the index.
+// f(v, l) / n_v^2 = f(l, v) / n_l^2: the path is reversible, with radiance scaled by the square of the index.
 TEST(Transmission, LightTakesTheSameWayBackThroughAnInterface) {
     std::mt19937 random(5);
     std::uniform_real_distribution<double> unit(0.1, 1);
@@ -376,7 +377,7 @@ TEST(Transmission, LightTakesTheSameWayBackThroughAnInterface) {
         const double3 straight(-above.x / ior, -above.y / ior, -lib::refractedCosine(above.z, ior));
         const double3 below = glm::normalize(straight + 0.2 * (double3(unit(random), unit(random), 0) - 0.5));
         const Bsdf in(glass(0.6, above, ior, false), {}, false);
-        // From inside the normal looks the other way: turn the world about the surface.
+        // From inside, the normal points the other way: rotate the world about the surface.
         SurfaceSample inside = glass(0.6, above, ior, false, true);
         inside.normal = inside.geometricNormal = -kNormal;
         inside.view = inFrame(below);

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The KHR_materials extensions at a point of a model, against what their formulas give by hand.
+// The KHR_materials extensions at a point of a model, compared with values computed by hand from their formulas.
 #include "tests/tools/reference/TestScenes.h"
 
 #include "tools/reference/Geometry.h"

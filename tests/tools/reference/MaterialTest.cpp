@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Textures, frames and alpha: what a ray finds at a point is what the engine's shaders would make of it.
+// Textures, frames and alpha: at a point, a ray finds what the engine's shaders would compute.
 #include "tests/tools/reference/TestScenes.h"
 
 #include "shaders/lib/LibCppDouble.h"
@@ -148,7 +148,7 @@ TEST(Material, TheNormalMapTurnsTheNormalInTheTangentFrame) {
     triangle.material.normalScale = 0.5f;
     const double3 flatter = glm::normalize(texel * double3(0.5, 0.5, 1));
     EXPECT_LT(glm::distance(triangle.at(0.3, 0.3).normal, flatter), 1e-4);
-    // From behind the whole frame looks the other way.
+    // From behind, the whole frame is reversed.
     EXPECT_LT(glm::distance(triangle.at(0.3, 0.3, { 0, 0, -1 }).normal, -flatter), 1e-4);
     EXPECT_LT(glm::distance(triangle.at(0.3, 0.3, { 0, 0, -1 }).geometricNormal, double3(0, 0, -1)), 1e-12);
 }

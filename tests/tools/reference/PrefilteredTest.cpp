@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What stands in for integrals: the split sum's lobe and the sky's harmonics, against quadrature, closed forms and the
-// exact integrals where both must agree.
+// Substitutes for integrals: the split sum's lobe and the sky's harmonics, compared with quadrature, closed forms and
+// the exact integrals where both must agree.
 #include "tests/tools/reference/TestScenes.h"
 
 #include "filament_core/assets/environment/IblBaker.h"
@@ -17,7 +17,7 @@ const double kAlphas[] = { 0.002025, 0.05, 0.3, 0.7, 0.99, 0.9999, 1.0 };
 
 TEST(PrefilteredLobe, ItsMeanCosineIsThatOfItsDensityByQuadrature) {
     for (const double alpha : kAlphas) {
-        // Half angles by t^3, so that narrow lobes have points.
+        // Half angles by t^3, so that narrow lobes get enough points.
         double sum = 0;
         constexpr int kSteps = 20000;
         for (int i = 0; i < kSteps; ++i) {

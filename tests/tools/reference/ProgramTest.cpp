@@ -132,7 +132,7 @@ TEST(Output, PixelsGoThroughTheEnginesToneMapper) {
     EXPECT_EQ(mobile[4], code(0.5 / 0.655 * 1.019)) << "its transfer function is included";
 }
 
-/// A folder that goes away with the test.
+/// A folder that is deleted with the test.
 class Program : public ::testing::Test {
 protected:
     Program() { std::filesystem::create_directories(mFolder); }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The renderer as a whole: determinism, honest errors, agreement of its own techniques, alpha, and refusals.
+// The renderer as a whole: determinism, honest errors, agreement of its techniques, alpha, and refusals.
 #include "tests/tools/reference/TestScenes.h"
 
 #include <gmock/gmock.h>
@@ -57,7 +57,8 @@ TEST(Render, AnotherSeedGivesAnotherPictureOfTheSameScene) {
     }
 }
 
-// The one error estimate against the spread of 24 pictures: of the mean over pixels, and pixel by pixel.
+// The error estimate of one picture compared with the spread of 24 pictures: for the mean over pixels, and pixel by
+// pixel.
 TEST(Render, StatesTheErrorThatItMakes) {
     ReferenceSettings settings{ .samplesPerPixel = 64 };
     constexpr uint32_t kPictures = 24;
@@ -138,7 +139,7 @@ TEST(Render, TheOccludedPictureIsDarkerWhereThingsAreNear) {
 }
 
 TEST(Render, ABlendedPaneShowsItselfAndWhatIsBehind) {
-    // Black but for its emission 2 * 0.25; behind it a glowing floor of 8: 0.5 + 0.75 * 8, through both panes twice.
+    // Black except for its emission 2 * 0.25; behind it a glowing floor of 8: 0.5 + 0.75 * 8, through both panes twice.
     auto model = makeModel(floorPrimitive(), lambert(0));
     model->materials[0].emissiveFactor = float3(8);
     assets::MaterialData pane = lambert(0);
@@ -192,7 +193,7 @@ TEST(Render, TheCameraDoesNotSeeSingleSidedSurfacesFromBehind) {
 }
 
 TEST(Render, MaskedTexelsAreHolesForEyesAndForLight) {
-    // Left half of the pane cut away.
+    // The left half of the pane is cut away.
     auto model = makeModel(floorPrimitive(), lambert(0.5f));
     assets::MaterialData pane = lambert(0.5f);
     pane.alphaMode = assets::AlphaMode::Mask;

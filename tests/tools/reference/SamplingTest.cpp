@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Numbers, choices and directions: they are what their densities say.
+// Numbers, choices and directions follow their densities.
 #include "tests/tools/reference/TestScenes.h"
 
 #include "tools/reference/DirectLights.h"

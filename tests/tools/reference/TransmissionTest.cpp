@@ -83,7 +83,7 @@ const double3 kEyes[] = { { 0, 5, 0.01 }, { 4, 5, 0 }, { 9, 4, 3 } };
 
 double cosineOf(double3 eye) { return glm::normalize(eye).y; }
 
-/// Two parallel interfaces and all bounces between them; t: what passes inside, once.
+/// Two parallel interfaces and all bounces between them; t: the fraction transmitted inside per crossing.
 double plateTransmittance(double f, double t) { return (1 - f) * (1 - f) * t / (1 - f * f * t * t); }
 
 TEST(Solid, AClearBallVanishesInAWhiteFurnace) {
@@ -93,7 +93,7 @@ TEST(Solid, AClearBallVanishesInAWhiteFurnace) {
         for (const double aside : { 0.0, 0.5, 0.8 }) {
             const Estimate estimate =
                     estimated(scene, viewFrom({ 0, 0.02, 50 }, { aside, 0, 0 }, { 8, 8 }, 0.05f), pathOf(256));
-            // Facets and smooth normals disagree about who is above the surface; where they do light is lost.
+            // Facets and smooth normals may disagree about which directions are above the surface; then light is lost.
             expectAgrees(estimate, double3(1), 1e-2);
         }
     }
@@ -110,7 +110,7 @@ TEST(Solid, OfIndexOneIsInvisible) {
     EXPECT_LT(estimate.error.x, 1e-4) << "nothing is left to chance";
 }
 
-// What goes through a plate: Stokes' series of Fresnel's equations at the angle of the view.
+// Light through a plate: Stokes' series with Fresnel's equations at the angle of the view.
 TEST(Solid, APlateTransmitsWhatFresnelsEquationsSay) {
     for (const double ior : { 1.3, 1.5, 2.0 }) {
         ReferenceScene scene = plateOf({ .ior = ior });
@@ -138,7 +138,7 @@ TEST(Solid, APlateAbsorbsByTheLengthOfTheWayInside) {
     }
 }
 
-// KHR_materials_volume: a coloured foil around the plate. What is reflected inside does not pass it.
+// KHR_materials_volume: a coloured foil around the plate. Light that is reflected inside does not cross it.
 TEST(Solid, ABaseColourCountsAtBothInterfacesOrOnceAsInTheEngine) {
     const double3 color(0.9, 0.6, 0.3);
     ReferenceScene scene = plateOf({ .color = color });
@@ -153,7 +153,7 @@ TEST(Solid, ABaseColourCountsAtBothInterfacesOrOnceAsInTheEngine) {
     }
 }
 
-// The shift that a plate gives to what lies behind it, and through a smooth ball the direction of the library.
+// The offset of the view through a plate, and through a smooth ball the library's direction.
 TEST(Solid, ABallBendsTheViewAsTwoRefractionsDo) {
     ReferenceScene scene = sceneOf(spherePrimitive(512), {});
     const auto sky = [](double3 d) { return 1.5 + d.x + 0.3 * d.y; };
@@ -204,7 +204,7 @@ TEST(Solid, DispersionBendsBlueMoreThanRedAndLosesNothing) {
     const ReferenceView view = viewFrom({ 0, 0.02, 50 }, { 0.6, 0, 0 }, { 8, 8 }, 0.05f);
     expectAgrees(estimated(white, view, pathOf(1024)), double3(1), 1.5e-2);
 
-    // The sky rises towards where a ball bends the view to: what bends more sees more.
+    // The sky grows brighter in the direction to which a ball bends the view: stronger refraction sees more.
     ReferenceScene ramp = sceneOf(spherePrimitive(256), { .dispersion = 1 });
     ramp.environment = { .image = makeSky(256, [](double3 d) { return float3(static_cast<float>(1 - d.x)); }),
                          .illuminance = Lux{ 1 } };
@@ -218,7 +218,7 @@ TEST(Solid, DispersionBendsBlueMoreThanRedAndLosesNothing) {
     const double3 normal = eye + direction * (along - reach);
     const double nov = -glm::dot(normal, direction);
     for (int i = 0; i < 3; ++i) {
-        const double f = lib::fresnelComplex(nov, 1.5, 0.0); // of the middle index, as the material has it
+        const double f = lib::fresnelComplex(nov, 1.5, 0.0); // index of the middle colour, as in the material
         const double through = 1 - lib::refractedSolid(normal, -direction, iors[i]).x;
         const double mirrored = 1 - (2 * nov * normal + direction).x;
         EXPECT_NEAR(seen.mean[i], (1 - f) * (1 - f) * through + f * mirrored, 0.02 + 4 * seen.error[i]) << i;
@@ -257,7 +257,7 @@ TEST(Sheet, IsWhatAPlateOfGlassIs) {
     }
 }
 
-// Both lobes of a sheet together lose what one bounce of microfacets loses, whatever Fresnel's equations say.
+// Both lobes of a sheet together lose what one bounce of microfacets loses, whatever Fresnel's equations give.
 TEST(Sheet, LosesInAWhiteFurnaceWhatItsFacetsShadow) {
     for (const double roughness : { 0.0, 0.3, 0.6 }) {
         ReferenceScene scene = sceneOf(floorPrimitive(), { .roughness = roughness, .isThin = true });
@@ -286,7 +286,7 @@ TEST(Unoccluded, SeesThroughABallAsTheEngineDoes) {
     const Estimate traced = estimated(scene, view, settings);
     settings.integrator = Integrator::Unoccluded;
     const Estimate ball = estimated(scene, view, settings);
-    // The engine's ball loses light once where it enters, a traced one a second time where it leaves.
+    // The engine's ball loses light once, on entry; a traced ball loses it again on exit.
     for (int i = 0; i < 3; ++i) EXPECT_NEAR(ball.mean[i], traced.mean[i], 0.06 * traced.mean[i]) << i;
 }
 

@@ -40,7 +40,7 @@ TEST(Noise, IsContinuousAndStaysInItsRange) {
 }
 
 TEST(Noise, AnEdgeIsAsFarFromBothItsCells) {
-    // Walk until the nearest cell changes; there the edge must be close.
+    // Walks until the nearest cell changes; there the edge must be close.
     const int2 period{ 8, 8 };
     int changes = 0;
     float previous = cellularNoise({ 0, 0.4f }, period, 3).random;

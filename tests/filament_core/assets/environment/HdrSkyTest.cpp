@@ -46,7 +46,7 @@ TEST_F(HdrSkyTest, TheSunIsWhereItWasPutAndBrighterThanHalfFloats) {
     EXPECT_GT(glm::dot(found, sun), std::cos(2 * kPi / float(sky.width) * 1.5f));
 }
 
-// The disc adds exactly the illuminance that a directional light of the same name would, at any resolution.
+// The disc adds exactly the illuminance of the corresponding directional light, at any resolution.
 TEST_F(HdrSkyTest, TheDiscCarriesTheSunsIlluminanceEvenWhenSmallerThanAPixel) {
     for (const uint32_t height : { 16u, 128u, 512u }) {
         for (const float3 direction : { float3(0.45f, 0.55f, 0.70f), float3(0.001f, 1, 0), float3(0, 0.2f, -1) }) {
@@ -65,7 +65,8 @@ TEST_F(HdrSkyTest, TheDiscCarriesTheSunsIlluminanceEvenWhenSmallerThanAPixel) {
     }
 }
 
-// Preetham et al. 1999, figures 6 to 8, and CIE tables: some 100 klx of sun and 10 to 20 klx of blue sky at noon.
+// Preetham et al. 1999, figures 6 to 8, and CIE tables: about 100 klx from the sun and 10 to 20 klx from a blue sky at
+// noon.
 TEST_F(HdrSkyTest, AClearNoonHasTheIlluminanceOfAClearNoon) {
     const AnalyticSkyOptions options{
         .height = 64, .sunDirection = { 0.2f, 1, 0.2f }, .turbidity = 2.5f, .sunDisc = false

@@ -26,7 +26,7 @@ const std::array<float3, 6> kNormals{ float3(1, 0, 0),
                                       float3(-0.57735f, 0.57735f, -0.57735f),
                                       float3(0, -0.6f, 0.8f) };
 
-// A sky with broad features on both sides and all axes.
+// A sky with broad features on both sides of all axes.
 float3 unevenSky(float3 d) {
     return float3(1.0f + d.x, std::exp(3.0f * d.y - 2.0f), d.z > 0 ? 2.0f * d.z * d.z : 0.1f);
 }
@@ -156,7 +156,8 @@ TEST_F(IblBakerTest, TheIrradianceCubeOfASmoothSkyAgreesWithTheCoefficients) {
     }
 }
 
-// What importance sampling gets wrong by half: lamps of a few texels in a dark room, at roughness 1 (n.l alone weighs).
+// A case that importance sampling gets wrong by half: lamps of a few texels in a dark room, at roughness 1 (only n.l
+// weighs).
 TEST_F(IblBakerTest, SmallBrightLampsLightTheRoughestLevelByTheCosine) {
     const std::array<float3, 2> lamps{ glm::normalize(float3(0.3f, 0.9f, 0.2f)),
                                        glm::normalize(float3(-0.7f, 0.1f, 0.6f)) };
@@ -182,8 +183,8 @@ TEST_F(IblBakerTest, SmallBrightLampsLightTheRoughestLevelByTheCosine) {
         if (excess > 1e-3f)
             lit.push_back({ glm::normalize(directionFromCube(point)), excess * angles[i % (128 * 128)] });
     }
-    // A lamp on the horizon of a texel is seen by half, which its node, taken by its centre, may miss: the mean height
-    // of half a disc of that radius, 2 r / (3 pi), of what facing the lamp gives.
+    // A lamp on the horizon of a texel is half visible, which its node, judged by its centre, may miss. Allowance: the
+    // mean height of half a disc of that radius, 2 r / (3 pi), relative to a lamp straight ahead.
     const double radius = std::acos(0.9995), facing = 5000 * 2 * (1 - 0.9995);
     const double atHorizon = 2 * radius / (3 * std::numbers::pi) * facing;
     const int size = static_cast<int>(levels.back().size());
@@ -206,7 +207,7 @@ TEST_F(IblBakerTest, TheFirstLevelIsTheSkyItself) {
     EXPECT_EQ(std::memcmp(&levels[0].at(0, 0, 0), &cube[1].at(0, 0, 0), 32 * sizeof(Texel)), 0);
 }
 
-// Energy that a rough level shows must be that of the sun: blurring moves light, it does not make or lose any.
+// A rough level must contain the sun's energy: blurring moves light, but neither creates nor loses any.
 TEST_F(IblBakerTest, ABrightDiscKeepsItsEnergyThroughAllRoughnesses) {
     const float3 sun = glm::normalize(float3(0.4f, 0.5f, 0.8f));
     const float cosRadius = std::cos(0.03f);

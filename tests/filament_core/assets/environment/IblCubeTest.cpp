@@ -24,7 +24,7 @@ double energy(IblCubeLevel const& level) {
     return sum;
 }
 
-// OpenGL ES 3.2 table 8.25, written out once more by hand: texel (0, 0) and the middle of the first row of each face.
+// OpenGL ES 3.2 table 8.25, written out by hand: texel (0, 0) and the middle of the first row of each face.
 TEST_F(IblCubeTest, FaceCoordinatesAreThoseOfTheGraphicsApis) {
     const std::array<float3, 6> centres{ float3(1, 0, 0),  float3(-1, 0, 0), float3(0, 1, 0),
                                          float3(0, -1, 0), float3(0, 0, 1),  float3(0, 0, -1) };
@@ -61,7 +61,8 @@ TEST_F(IblCubeTest, DirectionsAndPixelsOfThePictureAreInverses) {
     }
 }
 
-// Six pixels of the picture carry colours, computed here by hand from u = 0.5 - atan2(x, z) / 2pi, v = acos(y) / pi.
+// Six pixels of the picture have colours; their places follow by hand from u = 0.5 - atan2(x, z) / 2pi, v = acos(y) /
+// pi.
 TEST_F(IblCubeTest, SixColouredDirectionsLandOnTheirFacesAndTexels) {
     HdrImage image{ .width = 512, .height = 256, .pixels = std::vector<float3>(512 * 256), .repairs = {} };
     struct Mark {
@@ -139,7 +140,7 @@ TEST_F(IblCubeTest, TheEnergyOfASmallBrightDiscIsTheSameInThePictureAndOnAllLeve
     }
 }
 
-// A smooth sky looked up along a path over edges and corners: no step larger than the sky itself makes.
+// A smooth sky sampled along a path over edges and corners: no step is larger than those of the sky itself.
 TEST_F(IblCubeTest, LookUpsAreSmoothAcrossFaceEdgesAndCorners) {
     const auto sky = [](float3 d) { return float3(1 + 0.5f * d.x + 0.3f * d.y * d.z); };
     const IblCube cube = cubeFromEquirect(pictureOf(128, sky), 32, mJobs);

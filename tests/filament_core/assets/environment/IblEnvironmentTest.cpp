@@ -135,7 +135,7 @@ TEST_F(IblEnvironmentTest, RandomBytesInTheCacheNeverCrash) {
 
 TEST_F(IblEnvironmentTest, ACacheThatCannotBeWrittenCostsAWarningOnly) {
     ASSERT_TRUE(replaceFile(mFolder / "file", std::vector<std::byte>(1)));
-    mOptions.cacheDirectory = mFolder / "file"; // a file where a folder must be; works for root, unlike permissions
+    mOptions.cacheDirectory = mFolder / "file"; // a file in place of a folder fails even for root, unlike permissions
     const auto data = load();
     ASSERT_TRUE(data) << data.error().message;
     ASSERT_EQ(mWarnings.size(), 1u);

@@ -26,7 +26,7 @@ AnimationSampler sampler(Interpolation interpolation, uint32_t width, std::vecto
     return { .interpolation = interpolation, .width = width, .times = std::move(times), .values = std::move(values) };
 }
 
-// What is written at a key comes out there, to the bit, whatever lies between the keys.
+// At a key the result is its value, to the bit, whatever lies between the keys.
 TEST(Animation, IsExactlyTheKeyAtAKey) {
     const std::vector<float> times{ 0.1f, 0.3f, 0.7f, 1.9f };
     const std::vector<float> values{ 0.1f, -3e-20f, 7e11f, 1 / 3.0f };
@@ -61,7 +61,7 @@ TEST(Animation, StepsHoldUntilTheNextKeyAndLinesDoNot) {
     EXPECT_EQ(at(sampler(Interpolation::Linear, 2, { 0, 2 }, { 4, 0, 8, -2 }), 0.5), (std::vector<double>{ 5, -0.5 }));
 }
 
-// The Hermite polynomials reproduce every cubic whose values and derivatives they are given.
+// The Hermite polynomials reproduce every cubic that has the given values and derivatives.
 TEST(Animation, SplinesThroughACubicAreThatCubic) {
     const auto p = [](double t) { return 2 * t * t * t - 3 * t * t + 0.5 * t - 1; };
     const auto derivative = [](double t) { return 6 * t * t - 6 * t + 0.5; };
@@ -74,7 +74,7 @@ TEST(Animation, SplinesThroughACubicAreThatCubic) {
     for (double t = 0; t <= 2; t += 0.0625) EXPECT_NEAR(at(keys, t)[0], p(t), 1e-6) << t;
 }
 
-// A turn of 90 degrees about z: at every moment its share of the angle, on the unit sphere.
+// A rotation by 90 degrees about z: at every moment a proportional angle, on the unit sphere.
 TEST(Animation, RotationsTurnAtConstantSpeedAlongTheShorterArc) {
     const auto half = static_cast<float>(std::numbers::sqrt2 / 2);
     for (const float sign : { 1.0f, -1.0f }) { // -q is the same rotation

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real files: every model of the asset folder, and what is known about some of them.
+// Real files: every model of the asset folder, and known facts about some of them.
 #include "base/Hash.h"
 #include "filament_core/assets/gltf/Tangents.h"
 #include "shaders/lib/LibCpp.h"
@@ -87,7 +87,7 @@ TEST(GltfAssets, EveryModelLoadsAndKeepsThePromisesOfModelData) {
     }
 }
 
-/// The three ways of storing the unit box: the numbers are the same.
+/// Three ways of storing the unit box give the same numbers.
 TEST(GltfAssets, InterleavedDracoAndMeshoptBoxesAreTheSameBox) {
     REQUIRE_ASSETS();
     for (const char* name :
@@ -104,7 +104,7 @@ TEST(GltfAssets, InterleavedDracoAndMeshoptBoxesAreTheSameBox) {
             EXPECT_NEAR(bounds.high[axis], 0.5, 1e-3);
         }
         const std::vector<float3> corners = cornersOf(primitive);
-        for (size_t i = 0; i < corners.size(); i += 3) { // every triangle faces outwards, along its vertices' normal
+        for (size_t i = 0; i < corners.size(); i += 3) { // every triangle faces outwards, like its vertices' normals
             const float3 outside = glm::cross(corners[i + 1] - corners[i], corners[i + 2] - corners[i]);
             float3 n, t, b;
             shader::lib::tangentFrame(vertexValue(primitive, shader::kAttributeTangents, indicesOf(primitive)[i]), n, t,
@@ -157,8 +157,8 @@ TEST(GltfAssets, InstancesArePlaced) {
     EXPECT_EQ(loadModel("SimpleInstancing/SimpleInstancing.glb").nodes.size(), 1u + 125u);
 }
 
-// The bind pose of RiggedFigure is its rest pose up to rounding, so that skinning must not move it out of the bounds
-// that the file states for the bind pose.
+// The bind pose of RiggedFigure is its rest pose up to rounding, so skinning must keep it within the bounds that the
+// file states for the bind pose.
 TEST(GltfAssets, SkinnedModelsStandWhereTheirBindPoseStands) {
     REQUIRE_ASSETS();
     const Bounds figure = worldBounds(loadModel("RiggedFigure/RiggedFigure.glb"));
@@ -188,7 +188,7 @@ TEST(GltfAssets, TheResultDoesNotDependOnTheNumberOfWorkers) {
     }
 }
 
-/// Generated tangents against those that the authoring tool wrote: mean angle in degrees, and how many corners agree in
+/// Compares generated tangents with those of the authoring tool: mean angle in degrees, and how many corners agree in
 /// handedness.
 struct Agreement {
     double meanDegrees = 0, sameHandedness = 0;
@@ -222,9 +222,8 @@ Agreement compareTangents(PrimitiveData const& primitive) {
     return agreement;
 }
 
-// The bounds are what was measured, rounded up. 0.003 degrees is what the 16 bits of the frames leave of equal
-// tangents, so the tools behind the first two files follow MikkTSpace to the digit; the one behind the helmet averages
-// differently.
+// The bounds are measured values, rounded up. The 16 bits of the frames cause 0.003 degrees between equal tangents, so
+// the tools behind the first two files follow MikkTSpace exactly; the one behind the helmet averages differently.
 TEST(GltfAssets, GeneratedTangentsAgreeWithThoseOfTheFiles) {
     REQUIRE_ASSETS();
     for (const auto& [name, degrees] : { std::pair{ "AlphaBlendModeTest/AlphaBlendModeTest.glb", 0.005 },

@@ -10,7 +10,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::StartsWith;
 
-/// The message of the error that the file must cause.
+/// The message of the error that the file must produce.
 std::string refusal(TestFile const& file, ErrorCode code = ErrorCode::Corrupt) {
     const Result<ModelData> model = file.load({ .name = "broken.glb" });
     if (model) return "was loaded";

@@ -26,7 +26,7 @@ std::string errorOf(TestFile const& file) {
     return model ? "" : model.error().message;
 }
 
-/// Two joints, the second below the first; the third vertex hangs between them with weights that sum to 2.
+/// Two joints, the second a child of the first; the third vertex is attached to both, with weights that sum to 2.
 TestFile skinnedTriangle() {
     TestFile file = TestFile::triangle();
     file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1 });

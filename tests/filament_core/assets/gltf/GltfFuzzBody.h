@@ -143,7 +143,7 @@ inline const char* brokenPromise(ModelData const& model, AnimationData const& an
     return std::isfinite(animation.durationSeconds) ? nullptr : "duration";
 }
 
-/// The first promise of ModelData.h that the model breaks; null if it keeps all.
+/// The first promise of ModelData.h that the model breaks; null if it keeps them all.
 inline const char* brokenPromise(ModelData const& model) {
     const char* broken = nullptr;
     const auto check = [&](auto const& list) {

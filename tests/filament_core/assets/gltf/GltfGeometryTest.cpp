@@ -228,10 +228,10 @@ TestFile skinnedTriangle() {
 TEST(GltfGeometry, SkinsFollowTheirJointsAndNotTheirNode) {
     const ModelData model = loaded(skinnedTriangle());
     ASSERT_EQ(model.meshes.size(), 1u);
-    // first joint (0, 0, 10), second (0, 5, 10); the third vertex hangs between them, its weights sum to 2
+    // first joint (0, 0, 10), second (0, 5, 10); the third vertex is attached to both, and its weights sum to 2
     EXPECT_THAT(cornersOf(model.meshes[0].primitives[0]),
                 ElementsAre(float3(0, 0, 10), float3(1, 5, 10), float3(0, 3.5f, 10)));
-    // the mesh stands at a root of its own; its node in the file, and the joints, are nodes without it
+    // the mesh gets a root node of its own; its node in the file, and the joints, are nodes without a mesh
     ASSERT_EQ(model.nodes.size(), 4u);
     EXPECT_EQ(model.nodes[0].mesh, kNone);
     EXPECT_EQ(model.nodes[0].worldFromNode[3].x, 100);
@@ -302,7 +302,7 @@ TEST(GltfGeometry, InstancingPlacesOneNodePerInstance) {
     file.root["nodes"][0]["translation"] = { 0, 10, 0 };
     file.root["nodes"][0]["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = translations;
     const ModelData model = loaded(file);
-    ASSERT_EQ(model.nodes.size(), 4u); // the node of the file, and below it the instances
+    ASSERT_EQ(model.nodes.size(), 4u); // the file's node, with the instances below it
     EXPECT_EQ(model.nodes[0].mesh, kNone);
     for (uint32_t i = 1; i < 4; ++i) {
         EXPECT_EQ(model.nodes[i].parent, 0u);

@@ -78,7 +78,7 @@ TEST(GltfMaterial, AnImageUsedAsColourAndAsDataBecomesTwo) {
     EXPECT_EQ(material.metallicRoughness.image, material.occlusion.image);
     EXPECT_EQ(model.images[material.baseColor.image].format, backend::Format::RGBA8Srgb);
     EXPECT_EQ(model.images[material.occlusion.image].format, backend::Format::RGBA8);
-    // half of the light is 0.735 in sRGB, half of a number is a half
+    // the middle between black and white is 0.735 in sRGB for light, but 0.5 for a plain number
     EXPECT_EQ(model.images[material.baseColor.image].data[8], std::byte{ 188 });
     EXPECT_EQ(model.images[material.occlusion.image].data[8], std::byte{ 128 });
 }
@@ -138,8 +138,8 @@ TEST(GltfMaterial, TexturesWithoutASamplerRepeatAndFilter) {
 
 float2 transformed(TextureRef const& texture, float2 uv) { return float2(texture.uvTransform * float3(uv, 1.0f)); }
 
-// The quads of TextureTransformTest: an arrow whose tip is at (7/9, 7/9) of its image, and green markers where the tip
-// must appear on the quad. Their places are in the file, in the quad's coordinates.
+// The quads of TextureTransformTest: an arrow with its tip at (7/9, 7/9) of the image, and green markers where the tip
+// must appear on the quad. The file gives the positions in the quad's coordinates.
 TEST(GltfMaterial, TextureTransformsPutTheArrowsOfTheTestModelOntoTheirMarkers) {
     const TextureRef turned = onlyMaterial(Json::parse(R"({ "emissiveTexture": { "index": 0, "extensions": {
         "KHR_texture_transform": { "rotation": 0.39269908169872414 } } } })"))

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Real and written files, cut and scratched: nothing may crash, hang or break a promise. The seeds are fixed; how many
-// rounds run depends on the time, which is limited.
+// Real and generated files, truncated and damaged: nothing may crash, hang or break a promise. The seeds are fixed; the
+// number of rounds depends on the time, which is limited.
 #include "filament_core/assets/gltf/GltfUri.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
@@ -15,7 +15,7 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-/// A .glb in its two parts, so that a mutation of one leaves the container whole.
+/// The two parts of a .glb, so that mutating one leaves the container valid.
 struct Specimen {
     std::string json;
     Bytes binary;
@@ -83,7 +83,7 @@ Specimen writtenSpecimen() {
     return specimenFrom(file.root, file.binary);
 }
 
-/// A model of the asset folder; its buffer is put into the file, so that its bytes can be scratched too.
+/// A model of the asset folder with its buffer embedded, so that its bytes can be damaged, too.
 Specimen assetSpecimen(std::filesystem::path const& path) {
     const Bytes file = *readGltfFile(path);
     if (path.extension() == ".glb") {
@@ -137,7 +137,7 @@ public:
 private:
     size_t below(size_t count) { return count == 0 ? 0 : mRandom() % count; }
 
-    /// One number of the file becomes another, often a nasty one.
+    /// Replaces one number of the file, often by a nasty one.
     void replaceNumber(std::string& text) {
         static constexpr std::array kNumbers{ "-1",
                                               "0",
@@ -170,7 +170,7 @@ private:
         if (!text.empty()) text[below(text.size())] = static_cast<char>(mRandom());
     }
 
-    /// Cuts a piece out, or doubles it.
+    /// Removes a piece, or duplicates it.
     void moveText(std::string& text) {
         const size_t start = below(text.size()), length = below(32);
         if (below(2) == 0) {
@@ -202,7 +202,7 @@ TEST(GltfMutation, ScratchedFilesAreRefusedOrLoadedWhole) {
             ++runs;
         }
     }
-    EXPECT_GT(loads, runs / 20); // scratches that always break the JSON would test nothing
+    EXPECT_GT(loads, runs / 20); // damage that always breaks the JSON would test nothing
     EXPECT_LT(loads, runs);
 }
 

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Vertices in fewer bits: what is decoded again is as near to what was stored as the format says.
+// Vertices in fewer bits: decoded values are as close to the stored ones as the format allows.
 #include "base/math/Half.h"
 #include "filament_core/assets/gltf/GltfGeometry.h"
 #include "shaders/lib/LibCpp.h"
@@ -74,7 +74,7 @@ TEST(GltfStorage, Unorm16PositionsAreWithinHalfAStepOfTheBoundingCube) {
     EXPECT_NEAR(packed.positionScale, 4, 0.05f) << "the longest side";
     for (size_t i = 0; i < geometry.positions.size(); ++i) {
         const float3 decoded = packed.positionOffset + packed.positionScale * float3(read(packed, i, 0));
-        // Half a step, and the rounding of floats around 100.
+        // Half a step, plus the rounding of floats around 100.
         EXPECT_LT(glm::distance(decoded, geometry.positions[i]), packed.positionScale / 65535 + 2e-5f) << i;
     }
     EXPECT_EQ(packed.boundsMin, float3(0));

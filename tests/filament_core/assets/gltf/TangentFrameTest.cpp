@@ -15,7 +15,7 @@ struct Frame {
     float3 normal, tangent, bitangent;
 };
 
-/// What the shader makes of the four integers.
+/// What the shader computes from the four integers.
 Frame decoded(std::array<int16_t, 4> const& encoded) {
     float4 q;
     for (int i = 0; i < 4; ++i) q[i] = std::max(static_cast<float>(encoded[static_cast<size_t>(i)]) / 32767.0f, -1.0f);

@@ -87,8 +87,8 @@ TEST(Tangents, VerticesOnAMirrorSeamAreSplit) {
 }
 
 TEST(Tangents, TheMeanIsWeightedByTheAngleOfTheCorner) {
-    // Around the origin: two triangles of 45 degrees with dP/du = (1, 0), one of 90 degrees with dP/du = (2, 2).
-    // Neither their number nor their sizes count: 90 degrees of the one against 90 of the other.
+    // Around the origin: two triangles of 45 degrees with dP/du = (1, 0), one of 90 degrees with dP/du = (2, 2). Their
+    // number and sizes do not matter: 90 degrees of one against 90 of the other.
     Mesh mesh;
     const float3 n(0, 0, 1);
     mesh.add(float3(0, 0, 0), n, float2(0, 0));

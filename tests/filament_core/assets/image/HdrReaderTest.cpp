@@ -94,7 +94,7 @@ HdrImage testPicture(uint32_t width = 23, uint32_t height = 37) {
     return image;
 }
 
-// Through libtinyexr, which can write what our own reader must read.
+// Uses libtinyexr to write files for our own reader.
 std::vector<std::byte> exrFile(HdrImage const& image, int compression, bool half,
                                std::vector<const char*> names = { "B", "G", "R" }) {
     EXRHeader header;
@@ -196,7 +196,7 @@ TEST(HdrReader, DamagedRadianceFilesNeverCrash) {
     expectSurvival(*file, 3000);
 }
 
-// PIZ is decoded by libtinyexr, which loses memory over damaged blocks (not over truncated ones): see HdrExr.cpp.
+// libtinyexr decodes PIZ, and leaks memory if blocks are damaged (not if they are truncated): see HdrExr.cpp.
 TEST(HdrReader, DamagedExrFilesNeverCrash) {
     for (const int compression : { TINYEXR_COMPRESSIONTYPE_NONE, TINYEXR_COMPRESSIONTYPE_RLE,
                                    TINYEXR_COMPRESSIONTYPE_ZIPS, TINYEXR_COMPRESSIONTYPE_ZIP }) {

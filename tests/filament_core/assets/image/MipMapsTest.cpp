@@ -36,7 +36,7 @@ double linearFromSrgb(double code) { return code <= 0.04045 ? code / 12.92 : std
 double srgbFromLinear(double v) { return v <= 0.0031308 ? v * 12.92 : 1.055 * std::pow(v, 1 / 2.4) - 0.055; }
 
 /// The mean over the part of `image` level 0 that texel (x, y) of `level` covers, integrated exactly in double. Only
-/// for levels whose chain never rounds a size down unevenly: level 1 of any size, all levels of powers of two.
+/// for levels whose chain never rounds an odd size down: level 1 of any size, all levels of powers of two.
 double expectedCode(Image const& base, bool isColor, uint32_t width, uint32_t height, uint32_t x, uint32_t y,
                     uint32_t c) {
     const bool isSrgb = isColor && c < 3;
@@ -147,8 +147,9 @@ TEST(MipMaps, EachLayerHasTheChainThatItWouldHaveAlone) {
     }
 }
 
-// pow() of doubles has other last bits in the C library's variants for processors with and without FMA (about 1e-16 of its
-// value, 1e-11 here). The table has the same entries everywhere, because none is that close to a rounding boundary.
+// The C library's variants of pow() for processors with and without FMA differ in the last bits of doubles (about 1e-16
+// of the value, 1e-11 here). The table has the same entries everywhere, because none is that close to a rounding
+// boundary.
 TEST(ChannelTransfer, NoEntryOfSrgbDependsOnTheLastBitsOfPow) {
     for (int code = 0; code < 256; ++code) {
         const long double unit = code / 255.0L;

@@ -58,7 +58,7 @@ TEST(TexturePacking, NumbersAreInterpolatedBetweenTheCentresOfTexels) {
     EXPECT_EQ(code(packed, 3, 0, 0), 200);
 }
 
-// Of black and white in equal parts comes 188 in sRGB, and 128 in alpha.
+// Black and white in equal parts give 188 in sRGB, and 128 in alpha.
 TEST(TexturePacking, ColoursAreInterpolatedInLinearLightAndAlphaIsNot) {
     const Image wide = image(3, 1, { 0, 0, 0, 7, 0, 0, 0, 7, 0, 0, 0, 7 });
     const Image narrow = image(2, 1, { 0, 0, 0, 0, 255, 255, 255, 255 });

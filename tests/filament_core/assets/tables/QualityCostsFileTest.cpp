@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Cost tables as JSON: what is written is read back; what is wrong is refused with the place and the reason.
+// Cost tables as JSON: written tables are read back; errors are refused with their place and the reason.
 #include "tests/fuzz/QualityCostsFuzzBody.h"
 
 #include <filament/QualityCosts.h>

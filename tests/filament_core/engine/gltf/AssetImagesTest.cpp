@@ -39,7 +39,7 @@ constexpr std::array kModels{ "FlightHelmet/FlightHelmet.gltf",
 constexpr std::array kEnvironments{ "studio_small_03_1k.hdr", "st_fagans_interior_1k.hdr",
                                     "spiaggia_di_mondello_1k.hdr" };
 
-/// One engine with every environment loaded, kept for all models: loading is not what these tests measure.
+/// One engine with all environments, kept for all models: these tests do not measure loading.
 struct Stage {
     Engine engine;
     std::vector<Environment> environments;

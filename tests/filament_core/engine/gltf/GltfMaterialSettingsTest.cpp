@@ -145,7 +145,7 @@ TEST(GltfMaterialSettings, SpecularGlossinessHasNeitherMetalNorLayers) {
     EXPECT_EQ(parameter<float>(settings, "glossinessFactor"), 0.4f);
 }
 
-/// With every feature, every map and a transform on each that the family has.
+/// A material with every feature, every map and a transform on each that its family has.
 MaterialData everything() {
     assets::TextureRef map = texture(0);
     map.uvSet = 1;
@@ -191,7 +191,7 @@ TEST(GltfMaterialSettings, WhereADeviceSamplesFewTexturesTheLastLayersGoWithoutM
     EXPECT_THAT(constantsOf(five), testing::Not(testing::Contains("hasClearCoatMap")));
 }
 
-// The engine takes it for its own defect if it is otherwise, and stops.
+// Otherwise the engine would take it for a defect of its own, and stop.
 TEST(GltfMaterialSettings, EverySettingIsNamedByItsPackage) {
     std::vector<MaterialData> materials(6, everything());
     materials[1].diffuseTransmission = { .factor = 1, .maps = materials[1].sheen.maps };

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Models of files: animated ones have the same bits on both devices at every time; instances and animations of a file.
+// Models from files: animated ones have the same bits on both devices at all times; instances and animations of a file.
 #include "tests/filament_core/engine/RenderFixture.h"
 
 namespace filament {
@@ -70,8 +70,8 @@ TEST_P(AnimatedModel, HasTheSameBitsOnBothApisAtEveryTime) {
     EXPECT_EQ(test::differenceOf(vulkan.front(), vulkan.back()).pixels, 0u) << "and comes back to rest";
 }
 
-// What the loader computes on the CPU and what the device computes from bones and weights: in fewer than one pixel of a
-// hundred a different last bit.
+// Compares deformation on the CPU by the loader with that on the device from bones and weights: the last bit may differ
+// in less than one pixel in a hundred.
 TEST_P(AnimatedModel, RestsWhereTheLoaderWouldPutIt) {
     const std::vector<Image> device = play(Backend::Vulkan, GetParam());
     const std::vector<Image> loader = play(Backend::Vulkan, GetParam(), false);
@@ -88,7 +88,7 @@ INSTANTIATE_TEST_SUITE_P(Files, AnimatedModel, testing::ValuesIn(playedModels())
     return name;
 });
 
-/// Models of which no picture is needed.
+/// Models whose pictures are not needed.
 class OnNullDevice : public test::AssetTest {
 protected:
     Result<Model> load(const char* file) { return loadGltf(*engine, tools::assetDir() / "models" / file); }
@@ -128,7 +128,7 @@ TEST_F(Animations, NamesThatAModelLacksAreAnsweredWithThoseThatItHas) {
               "Fox.glb has no animation 'Wlk' among 'Survey', 'Walk', 'Run'; did you mean 'Walk'?");
 }
 
-// Half way between two animations, and both ends.
+// Half-way between two animations, and at both ends.
 TEST_F(Animations, CrossFadesBeginAtTheFirstAndEndAtTheSecond) {
     ASSERT_TRUE(engine.ok());
     const Result<Model> model = load("Fox/Fox.glb");

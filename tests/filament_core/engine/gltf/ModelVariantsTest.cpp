@@ -49,7 +49,7 @@ protected:
         if (engine) test::expectNoErrors(*engine);
     }
 
-    /// What is seen at the left and the right triangle of a copy moved up by `y`.
+    /// The colours of the left and the right triangle of a copy moved up by `y`.
     std::pair<float4, float4> colors(double y = 0) {
         const auto at = [&](double x) {
             const View view{ .camera = Camera::lookAt({ x + 0.25, y + 0.25, 0.2 }, { x + 0.25, y + 0.25, 0 },

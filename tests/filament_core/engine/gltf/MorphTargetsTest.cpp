@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Morph targets on both devices: against meshes that were moved before they were uploaded.
+// Morph targets on both devices, compared with meshes that were moved before they were uploaded.
 #include "tests/filament_core/engine/gltf/DeformationStage.h"
 
 #include <array>
@@ -12,7 +12,7 @@ using test::drawOnBoth;
 using test::expectNearlyEqual;
 using test::Joints;
 
-// A target of each kind, at weights that overshoot, is the mesh that was moved before it was uploaded.
+// One target of each kind, at weights beyond 1, gives the mesh that was moved before it was uploaded.
 TEST(Deformation, MorphTargetsMoveVerticesByTheirWeights) {
     const auto shift = [](float3 p) { return float3(0.5f * p.y, 0.3f, 0.2f * p.x); };
     const auto build = [&](DeformationStage& stage, float weight, Joints joints) {

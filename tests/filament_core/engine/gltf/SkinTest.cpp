@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Skins on both devices: against rigid transforms, whose pictures are known.
+// Skins on both devices, compared with rigid transforms, whose pictures are known.
 #include "tests/filament_core/engine/gltf/DeformationStage.h"
 
 #include <glm/gtc/matrix_transform.hpp>
@@ -32,7 +32,7 @@ Image skinned(Joints joints, std::vector<float4x4> const& bones) {
     });
 }
 
-// Where all bones agree, the mesh moves like a rigid one: positions, normals, faces.
+// If all bones agree, the mesh moves like a rigid one: positions, normals, faces.
 TEST(Deformation, BonesThatAgreeAreATransform) {
     const double4x4 turned =
             glm::rotate(glm::translate(double4x4(1.0), double3(0.4, -0.2, 0)), 0.8, double3(0.3, 1, 0));
@@ -50,7 +50,7 @@ TEST(Deformation, BonesThatAgreeAreATransform) {
             << "the test sees transforms";
 }
 
-// Weights are a mean of transforms: bones 0, 1, 2, 3 count 1/2, 1/4, 1/8, 1/8; of eight, half of it and 1/8 each.
+// Weights average transforms: bones 0, 1, 2, 3 count 1/2, 1/4, 1/8, 1/8; with eight bones, half of that and 1/8 each.
 TEST(Deformation, WeightsAreAMeanOfTheBones) {
     std::vector<float4x4> bones;
     for (const float x : { 0.8f, -0.4f, 0.4f, 1.2f })

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Boxes of blue glass that absorb by what light passes of them, and sheets in the colour that is left:
-// AttenuationTest.glb of the glTF sample models, seen from far away in a white environment, against closed forms.
+// Boxes of blue glass that absorb according to the light's path, and sheets with the colour that remains:
+// AttenuationTest.glb of the glTF sample models, seen from far away in a white environment, compared with closed forms.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
 
@@ -10,7 +10,7 @@
 namespace filament {
 namespace {
 
-// Columns hold boxes as thick as their length, or as dense; rows state thickness and distance in four ways.
+// In the columns, boxes differ in length or in density; the rows state thickness and distance in four ways.
 constexpr std::array<double, 5> kLengths{ 0.25, 0.5, 1, 1.5, 2 };
 constexpr std::array<double, 5> kColumns{ -3.5, -2, 0, 2.5, 6 };
 constexpr std::array<double, 4> kRowsOfBoxes{ 3, 0, -3, -6 };
@@ -18,11 +18,11 @@ constexpr double kRowOfSheets = 6;
 const double3 kLeftAfterOneMetre(0.1, 0.5, 0.9);
 constexpr double kReflected = 0.04; // of index 1.5, head on
 
-constexpr double kTolerance = 1; // byte: rounding is half of one; a tenth more glass is up to seven
+constexpr double kTolerance = 1; // byte: rounding is half a step; a tenth more glass changes up to seven
 
 constexpr uint32_t kSize = 320;
 constexpr double2 kCenter(1.5, 0);
-constexpr double kHalfSide = 8.5, kAway = 300; // metres: so far that all views are along the axis within 2 degrees
+constexpr double kHalfSide = 8.5, kAway = 300; // metres: at this distance all views are within 2 degrees of the axis
 
 View viewOfAll() {
     const double degrees = glm::degrees(2 * std::atan(kHalfSide / kAway));
@@ -49,13 +49,13 @@ double3 srgbBytes(double3 linear) {
     return bytes;
 }
 
-// Beer 1852: equal lengths keep equal shares.
+// Beer 1852: equal lengths transmit equal fractions.
 double3 leftAfter(double metres) { return glm::pow(kLeftAfterOneMetre, double3(metres)); }
 
-// One interface and what is left of the rest: the engine takes a box for a ball that is entered and left once.
+// One interface and the rest of the light: the engine treats a box as a ball that light enters and leaves once.
 double3 boxColor(double metres) { return kReflected + (1 - kReflected) * leftAfter(metres); }
 
-// Two interfaces, the bounces between them, and a colour that every crossing takes on. Stokes 1862.
+// Two interfaces, the bounces between them, and a colour applied at each crossing. Stokes 1862.
 double3 sheetColor(double3 tint) {
     const double3 series = 1.0 / (1.0 - kReflected * kReflected * tint * tint);
     const double both = (1 - kReflected) * (1 - kReflected);

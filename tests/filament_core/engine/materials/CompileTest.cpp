@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Materials prepared before they are drawn: nothing is made by the first draw, nobody waits, and what cannot be is
-// said.
+// Materials prepared before they are drawn: the first draw creates nothing, nobody waits, and impossible requests are
+// reported.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
 #include <gmock/gmock.h>
@@ -46,7 +46,7 @@ protected:
         mTarget = mEngine->own(mEngine->create(SwapChainDesc{ .size = mView.size }));
     }
 
-    /// Polls as an app without frames would.
+    /// Polls like an app without frames.
     CompileProgress finish(Compilation compilation) {
         CompileProgress progress = mEngine->progress(compilation);
         while (!progress.isComplete()) {
@@ -95,7 +95,7 @@ TEST_P(Compile, WhatIsPreparedForAnExpectedFrameIsNotMadeByTheFirstDraw) {
     }
 }
 
-// Whatever passes a frame has: expecting it walks the graph that draws it.
+// Works whatever passes a frame has: expecting a frame walks the graph that draws it.
 TEST_P(Compile, AnExpectedFrameAsksForThePipelinesOfEveryPassOfItsOwn) {
     constexpr std::array<uint16_t, 6 * 4> kTexels{};
     const Owned<Texture> cube =

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Blending, its functions, depth and post-lighting colours against the arithmetic of the materials guide, 4.2.15
+// Blending, its functions, depth and post-lighting colours, compared with the arithmetic of the materials guide, 4.2.15
 // to 4.2.25; the same bits on both APIs. All colours and their products are exact in half floats.
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
@@ -72,7 +72,7 @@ TEST(Blending, CustomTakesAnyFactorForColorAndAlpha) {
 
 // ------------------------------------------------------------------------------------------ depth
 
-/// A square at z = 1, and then one behind it, of the properties given for either.
+/// A square at z = 1, and one behind it; properties are given for each.
 float4 frontThenBack(std::string_view front, std::string_view back) {
     return centerPixel(onBothApis([&](MaterialStage& stage) {
         stage.view.clearColor = kTarget;

@@ -11,7 +11,7 @@
 
 namespace filament::test {
 
-/// The package of a .mat text; a failure of the test if it does not compile.
+/// The package of a .mat text; the test fails if it does not compile.
 inline std::vector<std::byte> compilePackage(std::string_view text, shader::CompileOptions const& options = {}) {
     const Result<shader::MaterialPackage> package = shader::compileMaterial(text, "test.mat", options);
     if (package) return shader::writePackage(*package);
@@ -68,7 +68,7 @@ public:
 
     VertexBuffer vertices() const { return mVertices; }
 
-    /// The square fills it.
+    /// The square fills the picture.
     static View view(uint2 size = { 16, 16 }) {
         return { .camera = Camera::lookAt({ 0, 0, 1 }, { 0, 0, 0 }, { .verticalFovDegrees = 80 }), .size = size };
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Parameters and constants of every type arrive in the shader of both APIs, and what does not fit is refused in words.
+// Parameters and constants of every type arrive in the shaders of both APIs, and mismatches are refused with a message.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
 #include <gmock/gmock.h>
@@ -9,7 +9,7 @@ namespace {
 
 using testing::HasSubstr;
 
-/// Red is the number of the first value that is not what it should be, green 1 if there is none.
+/// Red is the number of the first wrong value; green is 1 if there is none.
 constexpr const char* kEveryType = R"(material {
     name : everyType, shadingModel : unlit,
     parameters : [
@@ -75,7 +75,7 @@ protected:
         const Result<void> done = mEngine->set(instance, name, value);
         EXPECT_TRUE(done) << done.error().message;
     }
-    /// The line with which setting it is refused.
+    /// The message with which setting it is refused.
     template <class... Values>
     std::string refusal(MaterialInstance instance, const char* name, Values const&... values) {
         const Result<void> done = mEngine->set(instance, name, values...);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a material says about blending, passes, faces and interpolation, as pictures whose colours follow from a line of
-// arithmetic; the same bits on both APIs.
+// A material's blending, passes, faces and interpolation as pictures whose colours follow from simple arithmetic; the
+// same bits on both APIs.
 #include "base/Log.h"
 #include "tests/filament_core/engine/materials/MaterialStage.h"
 
@@ -28,7 +28,7 @@ fragment {{ void material(inout MaterialInputs material) {{
 
 float4 over(float4 above, float4 below) { return above + below * (1 - above.w); }
 
-// All of them exact in half floats, and so are their products.
+// All of them, and their products, are exact in half floats.
 constexpr float4 kRed{ 0.5f, 0, 0, 0.5f }, kGreen{ 0, 0.25f, 0, 0.25f }, kBlue{ 0, 0, 0.5f, 0.5f };
 constexpr float4 kBlack{ 0, 0, 0, 1 };
 
@@ -91,7 +91,7 @@ TEST(TwoPasses, AMirroredObjectShowsTheSame) {
 
 // ------------------------------------------------------------------------------------------ double-sided
 
-/// Lit by nothing but itself: the normal as a colour.
+/// Only emissive: shows the normal as a colour.
 constexpr std::string_view kShowsNormal = R"(
 fragment { void material(inout MaterialInputs material) {
     prepareMaterial(material);
@@ -144,7 +144,7 @@ fragment { void material(inout MaterialInputs material) {
     material.baseColor = vec4(getColor().rg, variable_position.x, 1.0);
 } })";
     const Image picture = onBothApis([&](MaterialStage& stage) {
-        // Both triangles end at a vertex of their own; the farther ends are out of view, so that clipping cuts there.
+        // Each triangle ends at its own vertex; the far ends are out of view, so clipping cuts there.
         const std::vector<test::StageVertex> vertices{
             { .position = { -64, -64, 0 }, .color = { 1, 0, 0, 1 } },
             { .position = { 64, -64, 0 }, .color = { 0, 1, 0, 1 } },

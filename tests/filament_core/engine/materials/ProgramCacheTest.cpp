@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// EngineOptions::cachePrograms: what a device made of programs serves the next engine, and damage costs nothing but
-// time.
+// EngineOptions::cachePrograms: a device's compiled programs serve the next engine, and a damaged cache costs nothing
+// but time.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
 #include "base/Log.h"
@@ -47,7 +47,7 @@ protected:
         double milliseconds = 0;
     };
 
-    /// From no engine to a picture and back.
+    /// From creating an engine to a picture, and back.
     Outcome run(bool isCached = true, float red = 0.5f) {
         const auto begin = std::chrono::steady_clock::now();
         Outcome outcome;
@@ -104,7 +104,7 @@ TEST_P(ProgramCache, TheSecondEngineDrawsTheSamePictureAndCompilesNothingThatThe
                 static_cast<unsigned long long>(fs::file_size(files()[0])),
                 static_cast<unsigned long long>(second.statistics.programsFromCache),
                 static_cast<unsigned long long>(second.statistics.programsCreated));
-    // lavapipe keeps no more than the header of a pipeline cache.
+    // lavapipe stores no more than the header of a pipeline cache.
     if (GetParam() == Backend::Gles) {
         EXPECT_EQ(second.statistics.programsFromCache, second.statistics.programsCreated);
     }

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Refraction as pictures: the same bits on both APIs, and colours that follow from the physics by a line of arithmetic.
+// Refraction as pictures: the same bits on both APIs, and colours that follow from the physics by simple arithmetic.
 #include "tests/filament_core/engine/SkyStage.h"
 
 #include <algorithm>
@@ -46,7 +46,7 @@ TEST(RefractionModel, AThinLayerDoesNotBendLight) {
     for (uint32_t at = 0; at < 32; at += 3) {
         const float4 seen = halfPixel(picture, at, 31 - at);
         const float3 straight = kDirectionSky.radiance(directionThrough(at, 31 - at, 32));
-        // What is reflected differs in z alone, and clear glass loses nothing.
+        // Reflections differ only in z, and clear glass loses nothing.
         EXPECT_NEAR(seen.x, straight.x, 3e-3f) << at;
         EXPECT_NEAR(seen.y, straight.y, 3e-3f) << at;
         EXPECT_GT(seen.z, straight.z) << at;
@@ -58,7 +58,7 @@ TEST(RefractionModel, AThinLayerDoesNotBendLight) {
 TEST(RefractionModel, ABallTurnsWhatIsBehindItAround) {
     const Image picture = seenOnSphere(text(kSolid, "material.roughness = 0.0;"), kDirectionSky);
     for (const uint32_t at : { 9u, 12u, 19u, 22u }) {
-        // refraction.glsl, with the sphere as the ball: where the view meets it, and out at the other side.
+        // refraction.glsl, with the sphere as the ball: in where the view meets it, out on the other side.
         const float3 origin(0, 0, 3), view = directionThrough(at, 16, 32);
         const float along = -glm::dot(origin, view);
         const float3 n = origin + view * (along - std::sqrt(along * along - 8.0f)); // |origin|^2 - 1 = 8
@@ -86,7 +86,7 @@ TEST(RefractionModel, AbsorptionFollowsBeerAndLambertWithTheThickness) {
     }
     const float3 share = through(kSolid, absorbing);
     for (int c = 0; c < 3; ++c) EXPECT_NEAR(share[c], 1 - absorption[c], 3e-3f) << "without a distance";
-    // Thin: what the far interface reflects has crossed the layer twice, and on.
+    // Thin: light reflected by the far interface has crossed the layer twice, and so on.
     const float3 thin = through(kThin, absorbing + "material.microThickness = 0.5;");
     for (int c = 0; c < 3; ++c) {
         const float f = 0.04f, t = std::exp(-absorption[c] * 0.5f), bounces = 1 / (1 - f * f * t * t);
@@ -121,7 +121,7 @@ TEST(RefractionModel, DispersionBendsBlueMoreThanGreenAndRedLess) {
     const Image with = seenOnSphere(text(kSolid, code + "material.dispersion = 1.0;"), gray);
     const Image none = seenOnSphere(text(kSolid, code + "material.dispersion = 0.0;"), gray);
     EXPECT_EQ(without.pixels, none.pixels) << "neutral";
-    // Straight above the middle: y alone changes, and the ball turns it around.
+    // Directly above the middle: only y changes, and the ball inverts it.
     for (const uint32_t y : { 10u, 13u }) {
         EXPECT_EQ(halfPixel(with, 16, y).y, halfPixel(without, 16, y).y) << "green stays";
     }

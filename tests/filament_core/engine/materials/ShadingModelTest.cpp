@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Cloth, subsurface and custom shading as pictures: the same bits on both APIs, and colours that follow from the
-// physics of the model by a line of arithmetic.
+// model's physics by simple arithmetic.
 #include "filament_core/assets/tables/DfgTable.h"
 #include "tests/filament_core/engine/SkyStage.h"
 
@@ -43,7 +43,8 @@ TEST(ClothModel, TheSheenIsTheRootOfTheBaseColorUnlessItIsSaid) {
     EXPECT_NE(unsaid.pixels, black.pixels);
 }
 
-/// Radiance of the middle of a square under a sun of illuminance 1 whose cosine to the normal of the square is given.
+/// Radiance at the middle of a square under a sun of illuminance 1, given the cosine of the sun and the square's
+/// normal.
 float4 underSun(std::string const& material, float cosine) {
     return centerPixel(onBothApis([&](MaterialStage& stage) {
         stage.view.size = { 9, 9 };
@@ -115,7 +116,7 @@ TEST(SubsurfaceModel, ALightBehindShinesThroughTheThinnerTheMoreAndInTheSubsurfa
     };
     const float2 dfg = assets::integrateDfg(1, 1);
     const float left = 1 - glm::mix(dfg.x, dfg.y, 0.04f) * (1 + 0.04f * (1 / dfg.y - 1)); // by the specular lobe
-    // subsurface.glsl: half of it straight on, in a lobe of which 2^(p (cos - 1)) is left.
+    // subsurface.glsl: half of it continues straight, in a lobe of which 2^(p (cos - 1)) remains.
     const auto expected = [left](float thickness, float power) {
         const float x = power * std::log(2.0f);
         const float integral = (1 - std::exp(-x)) / x + std::exp2(-power);
@@ -134,7 +135,7 @@ TEST(SubsurfaceModel, ALightBehindShinesThroughTheThinnerTheMoreAndInTheSubsurfa
 
 // ------------------------------------------------------------------------------------------ custom
 
-/// The guide's own example, 4.4.3.
+/// The guide's own example, section 4.4.3.
 std::string toon(std::string_view visible = "") {
     return fmt::format(R"(material {{ name : Toon, shadingModel : lit, customSurfaceShading : true,
     parameters : [ {{ type : float3, name : baseColor }} ] }}

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The budget's choice against all combinations, its rules for ties and limits, and against presets. No device.
+// The budget's choice compared with all combinations, its rules for ties and limits, and compared with presets. No
+// device.
 #include <filament/QualityBudget.h>
 
 #include <gtest/gtest.h>
@@ -25,7 +26,7 @@ QualityCosts tableOf(std::vector<QualityEffect> effects) {
 
 QualityBudget budgetOf(double milliseconds) { return { .gpuMilliseconds = milliseconds, .size = { 100, 100 } }; }
 
-/// Three choices with clear prices: bands are cheap and worth much, filters dear.
+/// Three choices with clear prices: bands are cheap and save much, filters are expensive.
 QualityCosts smallTable() {
     return tableOf({ { "energyCompensation", { cost("off", 0.5, 7), cost("on", 0, kFrame) } },
                      { "shBands", { cost("1", 0.25, 7), cost("2", 0.125, 7.5), cost("3", 0, kFrame) } },
@@ -57,7 +58,7 @@ struct Combination {
     auto key() const { return std::tie(squaredError, milliseconds, changes); }
 };
 
-/// Every combination of all values, without any cleverness.
+/// Tries every combination of all values.
 void visitAll(QualityCosts const& costs, size_t effect, Quality const& quality, std::vector<Combination>& all) {
     if (effect < costs.effects.size()) {
         for (QualityCost const& value : costs.effects[effect].values) {

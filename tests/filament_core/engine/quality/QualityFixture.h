@@ -49,7 +49,7 @@ public:
 
     static MaterialDesc lit() { return { .package = shader::engineMaterial("gltf_lit_opaque") }; }
 
-    /// Another patch, with a centre and a material of its own.
+    /// Another patch with its own centre and material.
     Renderable add(MaterialInstance material, double3 center) {
         double4x4 world(1.0);
         world[3] = double4(center, 1);

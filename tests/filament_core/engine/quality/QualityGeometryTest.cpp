@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// glTF files with vertices in fewer bits: the same model, nearly the same picture.
+// glTF files with vertices in fewer bits: the same model, almost the same picture.
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/scenes/Sphere.h"
 
@@ -51,7 +51,7 @@ Image drawn(Engine& engine, GltfLoadOptions const& options, Box& bounds) {
     return image ? std::move(*image) : Image{};
 }
 
-/// Pixels that are more than two steps of 8 bits apart.
+/// Pixels that differ by more than two steps of 8 bits.
 size_t apart(Image const& a, Image const& b) {
     size_t count = 0;
     for (size_t i = 0; i < a.pixels.size(); ++i)

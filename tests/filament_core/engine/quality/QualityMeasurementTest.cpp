@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// A cost table measured here and now, what it says about settings that it never saw, and the budget that buys from it.
-// Times are ratios to frames drawn in turns with them, so that other work on the machine slows both; a disturbed round
-// is measured again.
+// A cost table measured by the test, its predictions for settings that it does not contain, and the budget that uses
+// it. Times are ratios to frames drawn in turns with them, so that other work on the machine slows both; a disturbed
+// round is measured again.
 #include "tests/filament_core/engine/quality/QualityFixture.h"
 
 #include <filament/QualityBudget.h>
@@ -13,7 +13,7 @@
 namespace filament {
 namespace {
 
-/// A textured floor up to the horizon, lit by a sun and an environment: every pixel pays for every choice.
+/// A textured floor up to the horizon, lit by a sun and an environment: every choice affects every pixel.
 class Floor {
 public:
     explicit Floor(Engine& engine) : mTexture(checker(engine)), mPatch(engine, 80, textured()) {
@@ -52,8 +52,8 @@ class QualityMeasurementTest : public testing::TestWithParam<Backend> {
 protected:
     static constexpr int kAttempts = 4;
 
-    /// Ratio of `quality`'s frames to default ones, drawn in turns: the median of the faster half of the rounds. Of
-    /// processor time: the devices of these tests are the processor.
+    /// Ratio of the frame times of `quality` to those of the defaults, drawn in turns: the median of the faster half of
+    /// the rounds. Measures processor time, because the devices of these tests run on the processor.
     static double ratioToDefault(Engine& engine, Floor& floor, Quality const& quality) {
         Renderer renderer(engine, { .passTimers = true });
         const Owned<SwapChain> target =
@@ -97,7 +97,7 @@ double errorOf(Image const& image, Image const& exact) {
     return std::sqrt(sum / count);
 }
 
-/// What presets differ in.
+/// The choices in which presets differ.
 const CostMeasurement kMeasurement{ .rounds = 31,
                                     .choices = { "specularVisibility", "fresnel", "energyCompensation", "splitSum",
                                                  "dfgTableSize", "diffuseIrradiance", "shBands", "textureFilter" } };
@@ -136,7 +136,7 @@ TEST_P(QualityMeasurementTest, AnUnknownChoiceOrTooFewRoundsAreRefused) {
     EXPECT_NE(costs.error().message.find("did you mean 'textureFilter'?"), std::string::npos) << costs.error().message;
 }
 
-/// The budget is what a preset takes.
+/// Uses the cost of a preset as the budget.
 QualityDecision buyFor(QualityPreset preset, Backend backend, QualityCosts const& costs, double& milliseconds) {
     QualityBudget budget{ .gpuMilliseconds = 1, .size = costs.size, .backend = backend };
     const Result<QualityPrediction> predicted = predictQuality(qualityPreset(preset), budget, costs);

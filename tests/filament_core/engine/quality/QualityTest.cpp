@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality choices of the shading as pictures: each value draws the same bits on both APIs, and draws what its formula
-// says. The formulas are the shader library compiled as C++ (shaders/lib/LibCpp.h), which its own tests check.
+// Quality choices of the shading as pictures: each value draws the same bits on both APIs, and matches its formula.
+// The formulas are the shader library compiled as C++ (shaders/lib/LibCpp.h), which has its own tests.
 #include "base/math/Rgbm.h"
 #include "base/math/SharedExponent.h"
 #include "filament_core/assets/tables/DfgTable.h"
@@ -31,7 +31,7 @@ Angles angles() {
     return { v.z, kTowardsSun.z, h.z, glm::dot(v, h) };
 }
 
-/// The share of the diffuse lobe that the specular one leaves, one bounce.
+/// The share of light that the specular lobe leaves to the diffuse one after one bounce.
 float3 coupling(float3 f0) {
     const float alpha = lib::alphaFromPerceptual(kRoughness);
     const auto albedo = [&](float cosine) { return lib::specularDfg(f0, 1, assets::integrateDfg(cosine, alpha)); };
@@ -124,7 +124,7 @@ TEST_P(QualityTest, WithoutCouplingTheDiffuseLobeGetsWhatIsReflectedAsWell) {
                float3(0.5f * lib::diffuseLambert() * missing * std::numbers::pi_v<float> * angles().nol));
 }
 
-// 16 bits keep 11 digits; the terms of the sum are of the same size, so that a few roundings are what is lost.
+// 16 bits keep 11 binary digits; the terms of the sum have similar sizes, so the error is a few roundings.
 TEST_P(QualityTest, HalfPrecisionShadesTheSameLightToAPercentDownToTheRoughnessThatItHolds) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
@@ -149,7 +149,7 @@ TEST_P(QualityTest, HalfPrecisionShadesTheSameLightToAPercentDownToTheRoughnessT
     test::expectNoErrors(*engine);
 }
 
-// In an environment of radiance 1, a white metal reflects the table's second entry, or all with compensation.
+// In an environment of radiance 1, a white metal reflects the table's second entry, or everything with compensation.
 TEST_P(QualityTest, WithoutEnergyCompensationARoughWhiteMetalLosesWhatTheTableSays) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
@@ -203,7 +203,7 @@ TEST_P(QualityTest, EachBandAddsItsTermsToTheDiffuseLight) {
     test::expectNoErrors(*engine);
 }
 
-// A white metal shows the radiance of its level, which Patch::addEnvironment() numbers from 1.
+// A white metal shows the radiance of its level; Patch::addEnvironment() numbers the levels from 1.
 TEST_P(QualityTest, EachRoughnessMappingReadsTheLevelThatItsFormulaSays) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
@@ -269,7 +269,7 @@ TEST_P(QualityTest, ASkyInRgbmIsDecoded) {
     test::expectNoErrors(*engine);
 }
 
-// Radiance 1 in every format of an environment is radiance 1 in the picture.
+// Radiance 1 is radiance 1 in the picture, in every format of an environment.
 TEST_P(QualityTest, EnvironmentsOfEveryFormatAreSampledAsWhatTheyHold) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
@@ -320,13 +320,13 @@ std::vector<Image> renderEveryValue(Backend backend) {
     return images;
 }
 
-/// Choices that show nothing in the light of a flat, untextured patch: QualityViewTest.cpp and QualityToneTest.cpp have
-/// pictures for them.
+/// Choices without effect on a flat, untextured patch: QualityViewTest.cpp and QualityToneTest.cpp have pictures for
+/// them.
 bool isOfTheView(std::string_view name) {
     return name == "textureFilter" || name == "depthRange" || name == "cameraRelative" || name == "toneMapping";
 }
 
-/// Half floats are rounded by each driver where it likes: a step of them at most, not the same bits.
+/// Drivers may round half floats differently: a difference of one step at most, not the same bits.
 bool isRoundedByTheDriver(std::string_view name, std::string_view value) {
     return name == "shadingPrecision" && value == "half";
 }

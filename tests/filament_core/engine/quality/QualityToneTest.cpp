@@ -25,7 +25,7 @@ const std::array kColors{ float3(0),
 
 using Bytes = std::array<uint8_t, 4>;
 
-/// Each of kColors as the display gets it.
+/// Each of kColors as sent to the display.
 std::vector<Bytes> shown(Engine& engine, ToneMapper mapper, ToneMapping mapping, uint8_t samples = 1) {
     Scene scene(engine);
     Renderer renderer(engine);

@@ -11,7 +11,7 @@ using test::Patch;
 
 class QualityViewTest : public testing::TestWithParam<Backend> {};
 
-constexpr float kStep = 40.0f / 255; // what a mip level of stepTexture() is brighter than the one before
+constexpr float kStep = 40.0f / 255; // each mip level of stepTexture() is this much brighter than the previous one
 
 /// 128 x 128; level n holds n * kStep, so that a pixel tells which levels it was made of.
 Owned<Texture> stepTexture(Engine& engine) {
@@ -72,7 +72,7 @@ TEST_P(QualityViewTest, ATextureFilterMayChangeFromFrameToFrame) {
     test::expectNoErrors(*engine);
 }
 
-/// How many pixels of two patches, 2 mm apart and 40 m away, show the colour of the one behind.
+/// The number of pixels of two patches, 2 mm apart and 40 m away, that show the colour of the one behind.
 size_t pixelsOfThePatchBehind(Engine& engine, DepthRange range, bool swapMaterials) {
     Patch patch(engine, 0, plain());
     const Owned<Material> material = engine.own(*engine.create(plain()));

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Full-screen passes on both devices: where a pixel is, what it reads, and the same bits however the pass is drawn.
+// Full-screen passes on both devices: pixel positions, inputs, and the same bits however the pass is drawn.
 #include "filament_core/passes/FullScreenPass.h"
 
 #include "backend/create/CreateDriver.h"
@@ -31,7 +31,7 @@ struct Output {
     uint8_t levels = 1, level = 0; ///< the one that is drawn to and read back
 };
 
-/// A device with what passes need of an engine.
+/// A device with the parts of an engine that passes need.
 class Stage {
 public:
     explicit Stage(BackendType type)
@@ -49,7 +49,7 @@ public:
 
     CommandStream& stream() { return *mStream; }
 
-    /// Of the text between "material {" and the end of the fragment block.
+    /// A material from the text between "material {" and the end of the fragment block.
     scene::Material& material(std::string const& properties, std::string const& code) {
         const Result<shader::MaterialPackage> package = shader::compileMaterial(
                 "material { name : effect, domain : postprocess,\n" + properties +
@@ -121,7 +121,7 @@ private:
         return target;
     }
 
-    /// The view has a size of its own, which no pass here draws at.
+    /// The view has another size, which no pass here uses.
     FrameContext* beginFrame(CommandBuffer& commands) {
         mArena.reset();
         mGraph.reset();
@@ -167,7 +167,7 @@ protected:
         }
     }
 
-    /// draw(stage) on both devices: the picture, which is the same to the bit.
+    /// Runs draw(stage) on both devices; the pictures must be equal to the bit.
     template <class Draw>
     static Floats onBoth(Draw&& draw) {
         Stage vulkan(BackendType::Vulkan), gles(BackendType::Gles);
@@ -207,7 +207,7 @@ TEST_F(FullScreenPasses, CountCoordinatesOverTheTargetAndNotOverTheView) {
     }
 }
 
-// A pattern of whole numbers, so that sums are exact.
+// A pattern of integers, so that sums are exact.
 constexpr const char* kPattern = "inputs.color = vec4(float(getPixel().x * 3 + getPixel().y * 256), 1.0, 2.0, 3.0);";
 
 TEST_F(FullScreenPasses, AtHalfSizeReadTheFourPixelsThatTheyCover) {
@@ -238,7 +238,7 @@ TEST_F(FullScreenPasses, AtHalfSizeReadTheFourPixelsThatTheyCover) {
     }
 }
 
-/// pattern -> effect over its own pixel and a second picture; `between` keeps the two from merging.
+/// pattern -> effect, which reads its own pixel and a second picture; `between` prevents merging.
 Floats drawEffect(Stage& stage, bool between) {
     scene::Material& pattern = stage.material("", kPattern);
     scene::Material& other = stage.material("", "inputs.color = vec4(getNormalizedUV().yx, 0.5, 1.0);");

@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// Committed rows whose engine misses a term: each must exceed the limit that the row states, and keep it as it is.
+// Committed rows with an engine that lacks a term: each must exceed the limit of the row, and stay below it unmodified.
 #include "tests/tools/accuracy/comparison/ComparisonFixture.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"
 
@@ -12,7 +12,7 @@ namespace {
 
 using nlohmann::json;
 
-/// The engine gets the edited text of the material; the path tracer takes the values for what they are named after.
+/// The engine gets the edited text of the material; the path tracer uses the values according to their names.
 struct Break {
     const char *row, *from, *to;
 };
@@ -26,7 +26,8 @@ ComparisonRow committedRow(std::string_view name) {
     return {};
 }
 
-/// Adds a feature to the scene of a row, "solid/sky" for one: the same with an edit of its material. Returns its name.
+/// Adds a feature to the scene of a row, for example "solid/sky": the same with an edit of its material. Returns its
+/// name.
 std::string addBroken(fs::path const& scenes, std::string const& scene, std::string const& feature,
                       Break const& broken) {
     const size_t slash = scene.find('/');
@@ -48,8 +49,8 @@ json rowOf(ComparisonRow const& row, std::string const& name, std::string const&
              { "limit", row.limit } };
 }
 
-// Half of the way through the sheet and through the ball, a colour that counts twice, colours that all bend alike,
-// highlights blurred too far.
+// Half the path through the sheet and through the ball, a colour that counts twice, colours that all refract alike,
+// highlights blurred too much.
 constexpr Break kBreaks[] = {
     { "thin-sky", "= materialParams.microThickness;", "= 0.5 * materialParams.microThickness;" },
     { "solid-sky", "= materialParams.thickness;", "= 0.5 * materialParams.thickness;" },

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// The engine against the path tracer, small: what no approximation explains stays below a limit, and the limit notices
-// an engine that shades otherwise.
+// The engine compared with the path tracer, in small pictures: the unexplained difference stays below a limit, and the
+// limit detects an engine that shades differently.
 #include "tests/tools/accuracy/comparison/ComparisonFixture.h"
 #include "tools/accuracy/comparison/ComparisonPage.h"
 #include "tools/common/Html.h"
@@ -88,7 +88,8 @@ fs::path scenesWith(std::string const& features) {
     return folder;
 }
 
-// The engine gets another text than the path tracer reads from the values: each term of a layered material is missed.
+// The engine gets a text that differs from what the path tracer reads from the values: each missing term of a layered
+// material is detected.
 TEST(Comparison, AMaterialWithoutItsTermIsNotExplained) {
     const fs::path scenes = scenesWith(R"(
         "coat": {"model": {"edits": {"= materialParams.clearCoat;": "= 0.5 * materialParams.clearCoat;"},
