@@ -51,7 +51,7 @@ BlobStore::BlobStore(fs::path file, uint64_t identity, uint64_t maxBytes)
     const auto bytes = contents(mFile);
     if (!bytes || read(std::as_bytes(std::span(*bytes)))) return;
     mBlobs.clear();
-    log(Severity::Warning, "'{}' is damaged or of another device: what it kept is made anew", mFile.string());
+    log(Severity::Warning, "'{}' is damaged or from another device: its contents are generated again", mFile.string());
 }
 
 bool BlobStore::read(std::span<const std::byte> file) {

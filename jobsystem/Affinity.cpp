@@ -47,12 +47,12 @@ void reportIgnored(AffinityPolicy const& policy, Topology const& topology, std::
     const std::vector<int> cores = indicesOf(topology.cpus);
     for (int core : policy.avoidedCores) {
         if (!contains(cores, core))
-            log(Severity::Warning, "{}: core {} need not be avoided, this process may run on cores {} only", owner,
+            log(Severity::Warning, "{}: avoiding core {} has no effect: this process may run only on cores {}", owner,
                 core, rangesOf(cores));
     }
     for (Cpu const& cpu : allowedCpus(policy, topology)) {
         if (contains(policy.avoidedCores, cpu.index))
-            log(Severity::Warning, "{}: core {} cannot be avoided, no other one is left", owner, cpu.index);
+            log(Severity::Warning, "{}: core {} cannot be avoided: no other core is left", owner, cpu.index);
     }
 }
 
@@ -147,7 +147,7 @@ CorePins CoreRegistry::lend(Topology const& topology, std::span<const Cpu> candi
         cores.push_back(core);
     }
     if (shared > 0)
-        log(Severity::Warning, "{}: {} of {} pinned threads share a core with another one, only {} cores for them",
+        log(Severity::Warning, "{}: {} of {} pinned threads share a core with another one: only {} cores are available",
             owner, shared, threads, candidates.size());
     return { *this, std::move(cores), callerCore };
 }

@@ -44,8 +44,9 @@ void Scheduler::startWorkers(std::string const& threadName) {
         try {
             mThreads.emplace_back(&Scheduler::runWorker, this, i, name);
         } catch (std::system_error const& error) {
-            FILAMENT_ASSERT(i > 0, "a job system with workers needs one, and the system refuses every thread");
-            log(Severity::Warning, "{} has {} of {} workers: {}", threadName, i, workers, error.what());
+            FILAMENT_ASSERT(i > 0, "the operating system refuses every worker thread; end other threads or set "
+                                   "JobSystemOptions::workers to 0");
+            log(Severity::Warning, "{} starts with only {} of {} workers: {}", threadName, i, workers, error.what());
             return;
         }
     }

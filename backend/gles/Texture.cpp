@@ -83,7 +83,7 @@ void Textures::create(TextureHandle handle, DeviceTextureDesc const& desc) {
                       formatInfo(desc.format).name);
     } else if (const uint32_t most = mDevice.info.limits.maxTextureSize; std::max(desc.width, desc.height) > most) {
         // Reported here, because GL_INVALID_VALUE would name neither the size nor the limit.
-        mDevice.error(DriverErrorKind::Other, "texture '{}': {} x {} texels; this device has at most {} each way",
+        mDevice.error(DriverErrorKind::Other, "texture '{}': {} x {} texels; this device supports at most {} per side",
                       desc.debugName, desc.width, desc.height, most);
     } else {
         mDevice.beginCreation();

@@ -273,7 +273,7 @@ std::string readLine(std::string_view text, std::span<const std::byte> blob, siz
     const std::string_view name = line.word();
     if (!readCommand(name, line, to, Commands{})) return fmt::format("there is no command '{}'", name.substr(0, 40));
     if (!line.error().empty()) return fmt::format("{}: {}", name, line.error());
-    return line.atEnd() ? std::string{} : fmt::format("{}: something follows the last field", name);
+    return line.atEnd() ? std::string{} : fmt::format("{}: unexpected text after the last field", name);
 }
 
 } // namespace
@@ -282,7 +282,7 @@ Result<std::vector<CommandBuffer>> readTrace(std::string_view text, std::span<co
     std::vector<CommandBuffer> streams;
     size_t blobUsed = 0;
     if (!text.starts_with(traceHeader())) {
-        return fail(ErrorCode::Corrupt, "line 1: no trace of this version; it begins with 'filament-trace 1'");
+        return fail(ErrorCode::Corrupt, "line 1: not a trace of this version; expected 'filament-trace 1'");
     }
     for (size_t number = 1; !text.empty(); ++number) {
         const std::string_view line = takeLine(text);

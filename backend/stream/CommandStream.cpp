@@ -98,8 +98,7 @@ Result<std::vector<std::byte>> CommandStream::waitReadback(Ticket ticket, std::c
     if (outcome == ResultMailbox::Wait::Answered) {
         // Two threads may wait for the same ticket; the other one may have taken it.
         if (std::optional<std::vector<std::byte>> bytes = takeReadback(ticket)) return std::move(*bytes);
-        return fail(ErrorCode::NotFound, "read-back {} was taken by somebody else: each is given out once",
-                    ticket.value);
+        return fail(ErrorCode::NotFound, "read-back {} was already taken: each can be taken only once", ticket.value);
     }
     if (outcome == ResultMailbox::Wait::DeviceLost) {
         return fail(ErrorCode::DeviceLost, "read-back {}: the device was lost; make a new engine", ticket.value);

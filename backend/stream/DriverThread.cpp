@@ -78,8 +78,8 @@ Result<void> DriverThread::start(DriverFactory factory) {
         mThread = std::thread(
                 [this, &outcome, factory = std::move(factory)]() mutable { run(std::move(factory), outcome); });
     } catch (std::system_error const& error) {
-        return fail(ErrorCode::OutOfMemory, "driver thread: the operating system refuses it ({}); end other threads",
-                    error.what());
+        return fail(ErrorCode::OutOfMemory,
+                    "driver thread: the operating system refuses to start it ({}); end other threads", error.what());
     }
     std::unique_lock lock(mMutex);
     waitForProgress(lock, [&] { return mStarted; });

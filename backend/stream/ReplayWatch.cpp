@@ -156,7 +156,7 @@ void ReplayWatch::check() {
             text = "is stuck";
         }
     }
-    log(Severity::Warning, "driver thread: {}; until it goes on nothing is drawn or answered", text);
+    log(Severity::Warning, "driver thread: {}; until it continues, nothing is drawn or answered", text);
 }
 
 std::string ReplayWatch::describe() {

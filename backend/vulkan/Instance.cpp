@@ -98,7 +98,7 @@ Result<std::unique_ptr<Instance>> Instance::create(ResultSink* sink) {
     if (vkEnumerateInstanceVersion) vkEnumerateInstanceVersion(&version);
     if (version < VK_API_VERSION_1_1) {
         return fail(ErrorCode::DeviceUnavailable,
-                    "Vulkan: the loader knows 1.0 only, 1.1 is needed; update libvulkan1");
+                    "Vulkan: the loader supports only version 1.0, but 1.1 is needed; update libvulkan1");
     }
     if (sink && !hasValidationLayer()) {
         sink->onError(DriverErrorKind::Validation, "Vulkan: validation was asked for but is not installed, going on "

@@ -102,8 +102,8 @@ bool fitsDevice(Engine::Impl& engine, filament::TextureDesc const& desc) {
     const uint32_t most = engine.device.maxTextureSize;
     if (std::max(desc.width, desc.height) <= most) return true;
     engine.report(
-            fmt::format("texture '{}': {} x {} texels; this device has at most {} each way: it has no texels, and "
-                        "what is drawn to it or read from it is left out",
+            fmt::format("texture '{}': {} x {} texels; this device supports at most {} per side: it has no texels, and "
+                        "drawing to it and reading from it are skipped",
                         desc.name, desc.width, desc.height, most));
     return false;
 }

@@ -29,11 +29,10 @@ Result<void> checkNeeded(scene::Material const& material, FullScreenInterface co
     const bool isInput = shader::isTexture(parameter.type);
     if (isInput && !parameter.isBound) return {};
     if (parameter.type == ParameterType::SubpassInput) {
-        return fail(
-                ErrorCode::InvalidArgument,
-                "material '{}': input '{}' is a subpassInput, so pass '{}' could not draw it where it is not merged; "
-                "make it type : sampler2d, currentPixel : true",
-                material.name, parameter.name, given.pass);
+        return fail(ErrorCode::InvalidArgument,
+                    "material '{}': input '{}' is a subpassInput, so pass '{}' cannot draw it unless it is merged; "
+                    "make it type : sampler2d, currentPixel : true",
+                    material.name, parameter.name, given.pass);
     }
     const bool isGiven = isInput ? std::ranges::count(given.inputs, parameter.name) > 0
                                  : std::ranges::count(given.values, parameter.name, &FullScreenParameter::name) > 0;

@@ -61,7 +61,7 @@ Result<void> writeStage(Words const& lowered, bool half, ProgramCompileOptions c
 
 Result<StageShader> compileStage(std::string_view glsl, backend::ShaderStage stage,
                                  ProgramCompileOptions const& options) {
-    FILAMENT_ASSERT(options.layout, "a stage by itself is numbered by a layout that is given");
+    FILAMENT_ASSERT(options.layout, "compiling a single stage needs ProgramCompileOptions::layout");
     const bool isVertex = stage == backend::ShaderStage::Vertex;
     const std::string_view name = isVertex ? options.vertexName : options.fragmentName;
     Result<Words> lowered = lowerStage(glsl, stage, name, options);

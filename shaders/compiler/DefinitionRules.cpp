@@ -39,7 +39,7 @@ constexpr Contradiction kContradictions[] = {
     { [](MaterialDefinition const& d) { return isPost(d) && (d.requiredAttributes != 0 || !d.variables.empty()); },
       "domain", "a material of the domain postprocess reads no attributes and has no variables" },
     { [](MaterialDefinition const& d) { return d.halfPrecision && !hasStandardText(d); }, "halfPrecision",
-      "halfPrecision is for lit materials and specularGlossiness: nothing else is computed in 16 bits" },
+      "halfPrecision is only for lit materials and specularGlossiness: no others are computed in 16 bits" },
     { [](MaterialDefinition const& d) {
          return d.fullScreenTriangle && d.package.vertexDomain != VertexDomain::Device;
      },
@@ -55,23 +55,24 @@ constexpr Contradiction kContradictions[] = {
      },
       "blending", "blending : custom needs a blendFunction : { srcRGB : ..., srcA : ..., dstRGB : ..., dstA : ... }" },
     { [](MaterialDefinition const& d) { return hasTwoPasses(d) && !blends(d.package.blending); }, "transparency",
-      "two passes are for what is blended; set a blending, for instance transparent" },
+      "two passes need a blended material; set a blending, for instance transparent" },
     { [](MaterialDefinition const& d) {
          return d.package.transparency == TransparencyMode::TwoPassesOneSide && !d.package.depthCulling;
      },
-      "transparency", "twoPassesOneSide finds out what is nearest by the depth test; leave out depthCulling : false" },
+      "transparency",
+      "twoPassesOneSide needs the depth test to find the nearest surface; leave out depthCulling : false" },
     { [](MaterialDefinition const& d) { return hasTwoPasses(d) && refracts(d); }, "transparency",
       "two passes are for materials that do not refract; leave out transparency or refractionMode" },
     { [](MaterialDefinition const& d) { return refracts(d) && isUnlit(d); }, "refractionMode",
-      "an unlit material refracts nothing; use shadingModel : lit" },
+      "an unlit material cannot refract; use shadingModel : lit" },
     { [](MaterialDefinition const& d) { return refracts(d) && d.package.shading == ShadingModel::Cloth; },
-      "refractionMode", "the threads of cloth let light through without bending it; use shadingModel : lit" },
+      "refractionMode", "cloth lets light through without refraction; use shadingModel : lit" },
     { [](MaterialDefinition const& d) { return refracts(d) && d.package.shading == ShadingModel::Subsurface; },
       "refractionMode",
-      "light below a subsurface material is scattered, and its thickness is a share; to refract, use shadingModel : "
+      "a subsurface material scatters light, and its thickness is a fraction; to refract, use shadingModel : "
       "lit" },
     { [](MaterialDefinition const& d) { return refracts(d) && blends(d.package.blending); }, "refractionMode",
-      "what refracts is drawn opaque, because it shows what is behind it by itself; leave out blending" },
+      "a refracting material shows the background itself and is drawn opaque; leave out blending" },
     { [](MaterialDefinition const& d) { return d.package.shadowMultiplier && !isUnlit(d); }, "shadowMultiplier",
       "shadowMultiplier is for shadingModel : unlit; lit materials receive shadows anyway" },
     { [](MaterialDefinition const& d) { return d.customSurfaceShading && d.package.shading != ShadingModel::Lit; },
@@ -81,7 +82,7 @@ constexpr Contradiction kContradictions[] = {
      },
       "clothDistribution", "clothDistribution is for shadingModel : cloth" },
     { [](MaterialDefinition const& d) { return d.package.reflections != Reflections::Default && isUnlit(d); },
-      "reflections", "an unlit material reflects nothing; use shadingModel : lit" },
+      "reflections", "an unlit material cannot reflect; use shadingModel : lit" },
 };
 
 bool readsScreen(MaterialPackage const& package) {

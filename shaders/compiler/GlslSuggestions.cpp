@@ -45,7 +45,7 @@ std::vector<std::string> identifiersOf(MaterialDefinition const& definition) {
 std::string aboutCurrentPixel(MaterialDefinition const& definition) {
     const auto own = std::ranges::find(definition.package.parameters, true, &Parameter::currentPixel);
     if (own == definition.package.parameters.end()) return {};
-    return fmt::format("; a currentPixel parameter is read by getCurrentPixel(materialParams_{}) alone", own->name);
+    return fmt::format("; only getCurrentPixel(materialParams_{}) can read a currentPixel parameter", own->name);
 }
 
 } // namespace

@@ -189,7 +189,8 @@ Result<std::vector<uint32_t>> halfFromRelaxed(std::span<const uint32_t> spirv) {
         optimizer.RegisterPass(spvtools::CreateConvertRelaxedToHalfPass());
     });
     if (half && !spvtools::SpirvTools(SPV_ENV_VULKAN_1_1).Validate(*half))
-        return fail(ErrorCode::Unsupported, "what is marked mediump cannot be computed in 16 bits; avoid local arrays");
+        return fail(ErrorCode::Unsupported,
+                    "the mediump code of this shader cannot be computed in 16 bits; avoid local arrays");
     return half;
 }
 

@@ -70,7 +70,7 @@ Result<void> readFormat(JsonValue const& value, Parameter& out) {
         { "uint", SamplerFormat::Uint },
     };
     if (!isTexture(out.type) || out.type == ParameterType::SubpassInput)
-        return errorAt(value.at, fmt::format("only samplers have a format, and '{}' is none", out.name));
+        return errorAt(value.at, fmt::format("only samplers have a format, and '{}' is not a sampler", out.name));
     return readEnum(value, "format", kFormats, out.format);
 }
 
@@ -79,15 +79,16 @@ Result<void> readCurrentPixel(JsonValue const& value, Parameter& out) {
     if (Result<void> done = readBool(value, "currentPixel", out.currentPixel); !done) return done;
     const bool isImage = out.type == ParameterType::Sampler2D && out.format == SamplerFormat::Float;
     if (isImage || !out.currentPixel) return {};
-    return errorAt(value.at,
-                   fmt::format("only a sampler2d of format float has a current pixel, and '{}' is none", out.name));
+    return errorAt(value.at, fmt::format("only a sampler2d of format float can have currentPixel, and '{}' is not one",
+                                         out.name));
 }
 
 /// Names of constants, which may be declared later: resolveUsedIf() looks them up.
 Result<void> readUsedIf(JsonValue const& value, Parameter const& parameter, ParameterSource& out) {
     if (!isTexture(parameter.type) || parameter.type == ParameterType::SubpassInput || parameter.currentPixel)
         return errorAt(value.at,
-                       fmt::format("usedIf is for samplers that read anywhere, and '{}' is none", parameter.name));
+                       fmt::format("usedIf is only for samplers that can be read anywhere, and '{}' is not one",
+                                   parameter.name));
     const std::span<JsonValue const> items =
             value.kind == JsonValue::Kind::Array ? std::span<JsonValue const>(value.items) : std::span(&value, 1);
     for (JsonValue const& item : items) {
@@ -286,7 +287,7 @@ Result<void> resolveUsedIf(MaterialDefinition& definition, size_t index) {
             return errorAt(name.at, fmt::format("there is no constant '{}'{}", name.name,
                                                 suggestion(name.name, namesOf(definition.package.constants))));
         if (constant->type != ConstantType::Bool)
-            return errorAt(name.at, fmt::format("usedIf names constants of type bool, and '{}' is none", name.name));
+            return errorAt(name.at, fmt::format("usedIf names constants of type bool, and '{}' is not one", name.name));
         parameter.usedIf.push_back(constant->id);
     }
     const std::string inCode = "materialParams_" + parameter.name;

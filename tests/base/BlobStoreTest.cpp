@@ -88,7 +88,7 @@ TEST_F(BlobStoreTest, TakesNothingFromADamagedFileAndSaysSoOnce) {
         write(bad);
         mLines.clear();
         EXPECT_EQ(open().size(), 0u) << at;
-        EXPECT_THAT(mLines, ElementsAre(HasSubstr("is damaged or of another device"))) << at;
+        EXPECT_THAT(mLines, ElementsAre(HasSubstr("is damaged or from another device"))) << at;
         write(good.substr(0, at));
         EXPECT_EQ(open().size(), 0u) << at;
     }

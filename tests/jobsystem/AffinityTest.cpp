@@ -316,7 +316,7 @@ TEST(WorkerPlacement, ReportsCoresThatCannotBeAvoided) {
         placement.placeWorker(0);
         EXPECT_EQ(coresOfThisThread(), std::vector{ cores.front() });
         EXPECT_THAT(log.lines(),
-                    ElementsAre(HasSubstr("worker: core 8190 need not be avoided"),
+                    ElementsAre(HasSubstr("worker: avoiding core 8190 has no effect"),
                                 HasSubstr("worker: core " + std::to_string(cores.front()) + " cannot be avoided")));
     });
 }

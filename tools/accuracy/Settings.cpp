@@ -143,7 +143,7 @@ Error unknown(std::string_view name) {
 Result<void> change(Settings& settings, std::string_view word) {
     const size_t equals = word.find('=');
     if (equals == std::string_view::npos)
-        return fail(ErrorCode::InvalidArgument, "'{}' is no setting: write NAME=VALUE", word);
+        return fail(ErrorCode::InvalidArgument, "'{}' is not a setting; write NAME=VALUE", word);
     const std::string_view name = word.substr(0, equals);
     const std::string value(word.substr(equals + 1));
     Choice const* choice = findChoice(name);

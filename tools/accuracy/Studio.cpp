@@ -32,7 +32,7 @@ Take::Take(Engine& engine, Renderer& renderer, TakeParts parts)
 Result<void> Take::checkDevice() {
     const std::vector<std::string> errors = mEngine.takeErrors();
     if (errors.empty()) return {};
-    return fail(ErrorCode::DeviceLost, "the device said: {}", errors.front());
+    return fail(ErrorCode::DeviceLost, "the device reported: {}", errors.front());
 }
 
 Result<Picture> Take::shoot() {

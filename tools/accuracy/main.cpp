@@ -51,7 +51,7 @@ int compare(Options const& options) {
     if (!std::ranges::all_of(results->closedForms, &ClosedForm::agrees))
         return failed(fail(ErrorCode::Internal, "the path tracer contradicts a closed form, see above"));
     if (!std::ranges::all_of(results->rows, &RowResult::isExplained))
-        return failed(fail(ErrorCode::Internal, "more than a row allows is unexplained, see above"));
+        return failed(fail(ErrorCode::Internal, "an unexplained difference exceeds the limit of its row, see above"));
     if (!std::ranges::all_of(results->rows, &RowResult::isWithinLimit))
         return failed(fail(ErrorCode::Internal, "an approximation changes more than its row allows, see above"));
     return 0;

@@ -66,7 +66,7 @@ Result<ChildProcess> ChildProcess::start(ChildCommand const& command) {
     pid_t id = -1;
     const int error = posix_spawnp(&id, arguments[0], redirection.get(), nullptr, arguments.data(), environment.data());
     if (error != 0)
-        return fail(ErrorCode::NotFound, "'{}' does not start (output to '{}'): {}", command.words[0],
+        return fail(ErrorCode::NotFound, "'{}' cannot be started (output to '{}'): {}", command.words[0],
                     command.log.string(), std::strerror(error));
     return ChildProcess(id);
 }

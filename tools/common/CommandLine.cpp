@@ -25,7 +25,7 @@ std::vector<std::string> wordsBackwards(int argc, const char* const* argv) {
 } // namespace
 
 Error invalidOption(const char* option, std::string const& value, const char* cure) {
-    return fail(ErrorCode::InvalidArgument, "{}: '{}' is not possible; give {}", option, value, cure);
+    return fail(ErrorCode::InvalidArgument, "{}: '{}' is not valid; give {}", option, value, cure);
 }
 
 std::optional<double> finiteNumber(std::string const& word) {

@@ -9,7 +9,7 @@ Result<void> makeOutFolder(SceneOptions const& options) {
     std::error_code error;
     std::filesystem::create_directories(options.out, error);
     if (std::filesystem::is_directory(options.out)) return {};
-    return fail(ErrorCode::Unreadable, "--out '{}': not a folder that can be made ({}); give another one",
+    return fail(ErrorCode::Unreadable, "--out '{}': the folder cannot be created ({}); give another one",
                 options.out.string(), error ? error.message() : "there is a file of that name");
 }
 

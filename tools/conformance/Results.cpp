@@ -201,12 +201,13 @@ Result<Results> merge(std::vector<Results> parts) {
     for (Results& part : parts) {
         if (all.build.empty()) all.build = part.build, all.reference = part.reference;
         if (part.build != all.build || part.reference != all.reference)
-            return fail(ErrorCode::InvalidArgument, "results of build '{}' ({}) do not merge with those of '{}' ({})",
-                        part.build, part.reference, all.build, all.reference);
+            return fail(ErrorCode::InvalidArgument,
+                        "results of build '{}' ({}) cannot be merged with those of '{}' ({})", part.build,
+                        part.reference, all.build, all.reference);
         for (auto const& [backend, device] : part.devices) {
             const auto [known, isNew] = all.devices.emplace(backend, device);
             if (!isNew && known->second != device)
-                return fail(ErrorCode::InvalidArgument, "results of '{}' do not merge with those of '{}'", device,
+                return fail(ErrorCode::InvalidArgument, "results of '{}' cannot be merged with those of '{}'", device,
                             known->second);
         }
         all.machines.merge(part.machines);

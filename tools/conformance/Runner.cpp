@@ -140,7 +140,7 @@ private:
         if (!compared) return blame(name, compared.error().message);
         const bool caught = !compared->passed;
         mResult.kills.push_back({ name, caught, compared->differing });
-        if (name == "none" && caught) blame("mutations", "a stage that changes nothing draws something else");
+        if (name == "none" && caught) blame("mutations", "a stage without changes draws a different picture");
         if (name != "none" && !caught)
             blame("mutations", fmt::format("'{}' ({}) was not noticed", name, mutation->what));
     }

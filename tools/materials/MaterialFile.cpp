@@ -86,7 +86,7 @@ Result<MaterialShow> readMaterialShow(std::string_view text, std::string_view fi
     for (std::string word; words >> word;) {
         const size_t equals = word.find('=');
         if (equals == 0 || equals == std::string::npos)
-            return fail(ErrorCode::InvalidArgument, "{}: '{}' behind '// show:' is not name=value", fileName, word);
+            return fail(ErrorCode::InvalidArgument, "{}: '{}' after '// show:' is not name=value", fileName, word);
         std::string name = word.substr(0, equals), value = word.substr(equals + 1);
         if (name == "mesh")
             show.mesh = value;

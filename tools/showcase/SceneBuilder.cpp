@@ -48,7 +48,7 @@ uint32_t SceneBuilder::add(assets::MaterialData material) {
 
 void SceneBuilder::place(std::string name, Shape const& shape, uint32_t material, float3 position,
                          float rotationRadians) {
-    FILAMENT_ASSERT(material < mScene.materials.size(), "materials are added before what wears them");
+    FILAMENT_ASSERT(material < mScene.materials.size(), "materials are added before the shapes that use them");
     assets::GlbPrimitive primitive{ .positions = shape.positions,
                                     .normals = shape.normals,
                                     .colors = shape.colors,

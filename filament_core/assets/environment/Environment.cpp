@@ -109,7 +109,7 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
                                         EnvironmentOptions const& options) try {
     if (auto checked = checkOptions(options); !checked) return checked.error();
     if (image.width == 0 || image.height == 0 || image.pixels.size() != size_t(image.width) * image.height) {
-        return fail(ErrorCode::InvalidArgument, "an environment of {} x {} pixels has {} of them", image.width,
+        return fail(ErrorCode::InvalidArgument, "an environment of {} x {} pixels has data for {}", image.width,
                     image.height, image.pixels.size());
     }
     const uint32_t skySize = skyFaceSize(image.width);

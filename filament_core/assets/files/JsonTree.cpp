@@ -192,7 +192,7 @@ JsonTree::JsonTree(std::span<const std::byte> text, Diagnostics& diagnostics) : 
     } catch (json::parse_error const& error) {
         diagnostics.refuse(ErrorCode::Corrupt, "the JSON is broken at byte {}", error.byte);
     } catch (json::exception const&) { // a number beyond the range of double
-        diagnostics.refuse(ErrorCode::Corrupt, "the JSON holds a number that no double can");
+        diagnostics.refuse(ErrorCode::Corrupt, "the JSON has a number beyond the range of double");
     }
     if (!mValue->is_object()) diagnostics.refuse(ErrorCode::Corrupt, "the JSON is not an object");
 }

@@ -103,8 +103,9 @@ private:
         for (size_t i = 0; i < keys; ++i) {
             const bool grows = i == 0 ? sampler.times[0] >= 0 : sampler.times[i] > sampler.times[i - 1];
             if (grows) continue;
-            mDiagnostics.warn("{}: the time of key {} is {}, which does not grow; the channel is left out", path, i,
-                              sampler.times[i]);
+            mDiagnostics.warn(
+                    "{}: the time of key {} is {}, which is not later than the one before; the channel is left out",
+                    path, i, sampler.times[i]);
             return false;
         }
         return true;

@@ -28,7 +28,7 @@ Bytes bufferBytes(GltfDocument& document, size_t index, GltfContainer const& con
         return {}; // views report it, unless they read another buffer through meshopt
     }
     if (bytes.size() < buffer.byteLength) {
-        diagnostics.refuse(ErrorCode::Corrupt, "buffers[{}]: {} bytes are there of {}", index, bytes.size(),
+        diagnostics.refuse(ErrorCode::Corrupt, "buffers[{}]: only {} of {} bytes are present", index, bytes.size(),
                            buffer.byteLength);
         return {};
     }

@@ -72,7 +72,8 @@ public:
                 mDiagnostics.refuse(ErrorCode::Corrupt, "{}: the Draco stream lacks {}", mPath, name);
             } else {
                 mDraco->read(dracoId, kComponents, numbers);
-                if (replaceNonFinite(numbers) > 0) mDiagnostics.warn("{}: {} was not finite everywhere", mPath, name);
+                if (replaceNonFinite(numbers) > 0)
+                    mDiagnostics.warn("{}: {} has values that are not finite; they became 0", mPath, name);
             }
         } else {
             values = readVectors<T>(mDocument, accessor, name, mDiagnostics);

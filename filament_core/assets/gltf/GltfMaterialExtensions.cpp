@@ -110,7 +110,7 @@ void parseTransmission(Extensions const& extensions, GltfMaterial& material) {
     material.values.transmission.factor = node["transmissionFactor"].numberInRange(0, 0, 1);
     material.transmission.first = extensions.texture(node, "transmissionTexture");
     if (material.values.transmission.isUsed() && material.values.alphaMode == AlphaMode::Blend) {
-        node.diagnostics().warn("{}: shows what is behind by itself, so alphaMode BLEND is drawn as OPAQUE",
+        node.diagnostics().warn("{}: refraction already shows the background, so alphaMode BLEND is drawn as OPAQUE",
                                 node.path());
         material.values.alphaMode = AlphaMode::Opaque;
     }

@@ -286,7 +286,7 @@ void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
         ++reached;
         open.insert(open.end(), nodes[node].children.begin(), nodes[node].children.end());
     }
-    if (reached != nodes.size()) diagnostics.refuse(ErrorCode::Corrupt, "nodes: the children links close a circle");
+    if (reached != nodes.size()) diagnostics.refuse(ErrorCode::Corrupt, "nodes: the children links form a cycle");
 }
 
 /// The roots of the default scene; a file without scenes shows all parentless nodes.

@@ -53,7 +53,7 @@ std::vector<float4x4> jointTransforms(GltfDocument const& document, uint32_t ski
     const std::vector<float4x4> inverseBind =
             readVectors<float4x4>(document, skin.inverseBindMatrices, "inverseBindMatrices", diagnostics);
     if (skin.joints.empty() || (!inverseBind.empty() && inverseBind.size() < skin.joints.size())) {
-        diagnostics.refuse(ErrorCode::Corrupt, "skins[{}]: {} joints and {} inverse bind matrices do not go together",
+        diagnostics.refuse(ErrorCode::Corrupt, "skins[{}]: {} joints and {} inverse bind matrices do not match",
                            skinIndex, skin.joints.size(), inverseBind.size());
         return {};
     }

@@ -68,9 +68,10 @@ private:
                     pairFor(material.diffuseTransmission, PackLayout::ColorAlpha, "diffuseTransmissionTexture");
         } else if (material.diffuseTransmission.first.texture != kNone ||
                    material.diffuseTransmission.second.texture != kNone) {
-            mDiagnostics.warn("materials[{}]: the textures of KHR_materials_diffuse_transmission are left out beside "
-                              "KHR_materials_transmission, as a material has 12",
-                              mMaterial);
+            mDiagnostics.warn(
+                    "materials[{}]: the textures of KHR_materials_diffuse_transmission are left out: with those of "
+                    "KHR_materials_transmission, the material would have more than 12",
+                    mMaterial);
         }
     }
 

@@ -62,7 +62,7 @@ std::vector<std::byte> decodeMeshopt(MeshoptSource const& source, std::span<cons
                                      std::string_view path, Diagnostics& diagnostics) {
     constexpr uint64_t kMaxRatio = 2048, kMaxCount = uint64_t{ 1 } << 31;
     if (!isAllowed(source)) {
-        diagnostics.refuse(ErrorCode::Corrupt, "{}: the meshopt stride, count and filter do not go together", path);
+        diagnostics.refuse(ErrorCode::Corrupt, "{}: the meshopt stride, count and filter do not match", path);
         return {};
     }
     if (source.count > kMaxCount || source.count * source.byteStride > bytes.size() * kMaxRatio) {

@@ -8,7 +8,8 @@
 namespace filament::assets {
 
 Result<uint32_t> findVariant(std::span<const std::string> variants, std::string_view name, std::string_view model) {
-    if (variants.empty()) return fail(ErrorCode::InvalidArgument, "{} has no variants, so also none '{}'", model, name);
+    if (variants.empty())
+        return fail(ErrorCode::InvalidArgument, "{} has no variants, so there is no '{}'", model, name);
     const auto found = std::ranges::find(variants, name);
     if (found != variants.end()) return static_cast<uint32_t>(found - variants.begin());
     const std::vector<std::string_view> known(variants.begin(), variants.end());

@@ -52,7 +52,7 @@ std::optional<Error> checkHdrSize(int64_t width, int64_t height) {
         static_cast<uint64_t>(width) * static_cast<uint64_t>(height) <= kMaxHdrPixels) {
         return std::nullopt;
     }
-    return fail(ErrorCode::Unsupported, "its size {} x {} is not within 1 and {} pixels a side and {} in all", width,
+    return fail(ErrorCode::Unsupported, "its size {} x {} is not within 1 and {} pixels per side and {} in all", width,
                 height, kMaxHdrSide, kMaxHdrPixels);
 }
 

@@ -275,7 +275,7 @@ Result<uint32_t> Model::findAnimation(std::string_view name) const {
         if (animation.name == name) return static_cast<uint32_t>(names.size());
         names.push_back(animation.name);
     }
-    if (names.empty()) return fail(ErrorCode::NotFound, "{} has no animations, so none is '{}'", mImpl->name, name);
+    if (names.empty()) return fail(ErrorCode::NotFound, "{} has no animations, so there is no '{}'", mImpl->name, name);
     std::string known;
     for (const std::string_view other : names) known += fmt::format("{}'{}'", known.empty() ? "" : ", ", other);
     return fail(ErrorCode::NotFound, "{} has no animation '{}' among {}{}", mImpl->name, name, known,

@@ -69,8 +69,8 @@ MorphTargets Engine::Impl::createMorphTargets(MorphTargetsDesc const& desc) {
                       .texels = texels };
     for (MorphTargetDesc const& target : desc.targets) state.targets.reach.push_back(reachOf(target));
     if ((used + width - 1) / width > device.maxTextureSize) {
-        report(fmt::format("morph targets '{}': {} targets of {} vertices are more than this device has texels for: "
-                           "they do not move anything",
+        report(fmt::format("morph targets '{}': {} targets of {} vertices exceed the texels of this device: "
+                           "they have no effect",
                            desc.name, desc.targets.size(), desc.vertexCount));
         state.targets.targetCount = 0;
         return draft.keep();

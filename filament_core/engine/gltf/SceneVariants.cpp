@@ -27,7 +27,7 @@ Result<void> Scene::setVariant(Node copy, std::string_view variant) {
     const auto found = std::ranges::find(mImpl->copies, copy, &Impl::ModelCopy::root);
     if (found == mImpl->copies.end()) {
         return fail(ErrorCode::InvalidArgument,
-                    "'{}' has no variants, so also none '{}'; give the root of a model with KHR_materials_variants",
+                    "'{}' has no variants, so there is no '{}'; give the root of a model with KHR_materials_variants",
                     name, variant);
     }
     Model::Impl const& model = *found->model;

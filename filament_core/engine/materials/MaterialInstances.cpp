@@ -190,10 +190,11 @@ Result<void> Engine::setDoubleSided(MaterialInstance handle, bool doubleSided) {
     shader::MaterialPackage const& package = instance.material->package;
     Parameter const* parameter = package.findParameter(shader::kDoubleSidedParameter);
     if (!parameter && !package.doubleSided) {
-        return fail(ErrorCode::InvalidArgument,
-                    "material '{}' was compiled for one side: say doubleSided : true or doubleSided : false in it, and "
-                    "its instances can choose",
-                    instance.material->name);
+        return fail(
+                ErrorCode::InvalidArgument,
+                "material '{}' was compiled for one side; set doubleSided : true or doubleSided : false in it, so that "
+                "its instances can choose",
+                instance.material->name);
     }
     if (parameter) {
         if (Result<void> done = set(handle, parameter->name, ParameterValue(doubleSided)); !done) return done;
@@ -209,7 +210,7 @@ Result<void> Engine::setMaskThreshold(MaterialInstance handle, float threshold) 
                     material.name);
     }
     if (!(threshold >= 0 && threshold <= 1)) {
-        return fail(ErrorCode::InvalidArgument, "material '{}': a mask threshold lies in [0, 1], and {} does not",
+        return fail(ErrorCode::InvalidArgument, "material '{}': a mask threshold must be in [0, 1], but is {}",
                     material.name, threshold);
     }
     return set(handle, shader::kMaskThresholdParameter, ParameterValue(threshold));

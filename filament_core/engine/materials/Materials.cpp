@@ -32,7 +32,7 @@ Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     const bool isFlat = loaded->package.interpolation == shader::Interpolation::Flat;
     if (isFlat && !stream->info().features.lastVertexProvokes) {
         return fail(ErrorCode::Unsupported,
-                    "material '{}': interpolation : flat takes the last vertex of a triangle, and {} can only take the "
+                    "material '{}': interpolation : flat uses the last vertex of a triangle, but {} supports only the "
                     "first (it lacks VK_EXT_provoking_vertex); use interpolation : smooth",
                     loaded->name, device.device);
     }

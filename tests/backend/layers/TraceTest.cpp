@@ -127,7 +127,7 @@ TEST(Trace, ErrorsNameTheLineAndTheReason) {
     EXPECT_EQ(message("Draw vertices=4"), "line 4: Draw: Draw has no field 'vertices'");
     EXPECT_EQ(message("Draw vertexCount=1 vertexCount=2"), "line 4: Draw: field 'vertexCount' is given twice");
     EXPECT_EQ(message("Draw vertexCount"), "line 4: Draw: '=' is missing before ''");
-    EXPECT_EQ(message("EndPass }"), "line 4: EndPass: something follows the last field");
+    EXPECT_EQ(message("EndPass }"), "line 4: EndPass: unexpected text after the last field");
     EXPECT_EQ(message("SetStencilReference front=256"), "line 4: SetStencilReference: 256 is out of range");
     EXPECT_EQ(message("DestroyBuffer handle=1048576.1"), "line 4: DestroyBuffer: handle 1048576.1 is out of range");
     EXPECT_EQ(message("CreateTexture desc={ format=RGBA9 }"), "line 4: CreateTexture: 'RGBA9' is no such name");
@@ -141,7 +141,7 @@ TEST(Trace, ErrorsNameTheLineAndTheReason) {
     EXPECT_EQ(message("UpdateBuffer bytes=@4+4", bytes(8)),
               "line 4: UpdateBuffer: payload @4+4: the next one begins at byte 0");
     EXPECT_EQ(message("PushGroup name=\"a\\q\""), "line 4: PushGroup: an escape is \\xNN");
-    EXPECT_THAT(readTrace("filament-trace 2\n", {}).error().message, HasSubstr("line 1: no trace of this version"));
+    EXPECT_THAT(readTrace("filament-trace 2\n", {}).error().message, HasSubstr("line 1: not a trace of this version"));
     EXPECT_THAT(readTrace(std::string(traceHeader()) + "Draw\n", {}).error().message,
                 HasSubstr("before the first 'Stream'"));
 }

@@ -80,7 +80,7 @@ TEST(FullScreenMaterial, IsRefusedWhereItDrawsSurfacesOrIsAlwaysMerged) {
     scene::Material merged = withoutWeights();
     merged.package.parameters[0].type = ParameterType::SubpassInput;
     EXPECT_EQ(complaint(merged),
-              "material 'bloom': input 'color' is a subpassInput, so pass 'glow' could not draw it where it is not "
+              "material 'bloom': input 'color' is a subpassInput, so pass 'glow' cannot draw it unless it is "
               "merged; make it type : sampler2d, currentPixel : true");
 }
 

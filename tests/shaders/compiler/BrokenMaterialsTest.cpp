@@ -55,7 +55,7 @@ constexpr Broken kValues[] = {
     { "material {\n parameters : [ { name : x, type : sampler2d[2] } ] }" GOOD_FRAGMENT,
       "a.mat:2: samplers cannot be arrays; use sampler2dArray" },
     { "material {\n parameters : [ { name : x, type : float, format : int } ] }" GOOD_FRAGMENT,
-      "a.mat:2: only samplers have a format, and 'x' is none" },
+      "a.mat:2: only samplers have a format, and 'x' is not a sampler" },
     { "material {\n constants : [ { name : x, type : float2 } ] }" GOOD_FRAGMENT,
       "a.mat:2: 'type' cannot be 'float2'; did you mean 'float'?" },
     { "material {\n constants : [ { name : x, type : int, default : 0.5 } ] }" GOOD_FRAGMENT,
@@ -76,26 +76,26 @@ constexpr Broken kContradictions[] = {
     { "material {\n blending : custom }" GOOD_FRAGMENT,
       "a.mat:2: blending : custom needs a blendFunction : { srcRGB : ..., srcA : ..., dstRGB : ..., dstA : ... }" },
     { "material {\n transparency : twoPassesOneSide }" GOOD_FRAGMENT,
-      "a.mat:2: two passes are for what is blended; set a blending, for instance transparent" },
+      "a.mat:2: two passes need a blended material; set a blending, for instance transparent" },
     { "material {\n blending : fade,\n transparency : twoPassesOneSide,\n refractionMode : cubemap }" GOOD_FRAGMENT,
       "a.mat:3: two passes are for materials that do not refract; leave out transparency or refractionMode" },
     { "material {\n blending : fade, transparency : twoPassesOneSide,\n depthCulling : false }" GOOD_FRAGMENT,
-      "a.mat:2: twoPassesOneSide finds out what is nearest by the depth test; leave out depthCulling : false" },
+      "a.mat:2: twoPassesOneSide needs the depth test to find the nearest surface; leave out depthCulling : false" },
     { "material { shadingModel : unlit, vertexDomain : device, fullScreenTriangle : true,\n instanced : true "
       "}" GOOD_FRAGMENT,
       "a.mat:2: a full-screen triangle has no instances; leave out instanced" },
     { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.roughness = float(getInstanceIndex());"),
       "a.mat:2: this block calls getInstanceIndex(); that needs the property instanced : true" },
     { "material {\n blending : fade,\n refractionMode : cubemap }" GOOD_FRAGMENT,
-      "a.mat:3: what refracts is drawn opaque, because it shows what is behind it by itself; leave out blending" },
+      "a.mat:3: a refracting material shows the background itself and is drawn opaque; leave out blending" },
     { "material {\n shadingModel : unlit,\n refractionMode : cubemap }" GOOD_FRAGMENT,
-      "a.mat:3: an unlit material refracts nothing; use shadingModel : lit" },
+      "a.mat:3: an unlit material cannot refract; use shadingModel : lit" },
     { "material {\n shadowMultiplier : true }" GOOD_FRAGMENT,
       "a.mat:2: shadowMultiplier is for shadingModel : unlit; lit materials receive shadows anyway" },
     { "material {\n shadingModel : cloth,\n refractionMode : cubemap }" GOOD_FRAGMENT,
-      "a.mat:3: the threads of cloth let light through without bending it; use shadingModel : lit" },
+      "a.mat:3: cloth lets light through without refraction; use shadingModel : lit" },
     { "material {\n shadingModel : subsurface,\n refractionMode : cubemap }" GOOD_FRAGMENT,
-      "a.mat:3: light below a subsurface material is scattered, and its thickness is a share; to refract, use "
+      "a.mat:3: a subsurface material scatters light, and its thickness is a fraction; to refract, use "
       "shadingModel : lit" },
     { "material {\n clothDistribution : ashikhmin }" GOOD_FRAGMENT,
       "a.mat:2: clothDistribution is for shadingModel : cloth" },
@@ -105,7 +105,7 @@ constexpr Broken kContradictions[] = {
     { "material {\n customSurfaceShading : true, shadingModel : cloth }" GOOD_FRAGMENT,
       "a.mat:2: customSurfaceShading works with shadingModel : lit only" },
     { "material {\n reflections : screenspace, shadingModel : unlit }" GOOD_FRAGMENT,
-      "a.mat:2: an unlit material reflects nothing; use shadingModel : lit" },
+      "a.mat:2: an unlit material cannot reflect; use shadingModel : lit" },
     { "material {\n domain : postprocess,\n shadingModel : lit }" GOOD_FRAGMENT,
       "a.mat:3: a material of the domain postprocess cannot be lit" },
     { "material { constants : [ { name : hasX, type : bool } ],\n parameters : [ { name : x, type : sampler2d, usedIf "
@@ -114,9 +114,9 @@ constexpr Broken kContradictions[] = {
       "a.mat:2: there is no constant 'hasY'; did you mean 'hasX'?" },
     { "material { constants : [ { name : hasX, type : int } ],\n parameters : [ { name : x, type : sampler2d, usedIf : "
       "[ hasX ] } ] }" GOOD_FRAGMENT,
-      "a.mat:2: usedIf names constants of type bool, and 'hasX' is none" },
+      "a.mat:2: usedIf names constants of type bool, and 'hasX' is not one" },
     { "material {\n parameters : [ { name : x, type : float, usedIf : hasX } ] }" GOOD_FRAGMENT,
-      "a.mat:2: usedIf is for samplers that read anywhere, and 'x' is none" },
+      "a.mat:2: usedIf is only for samplers that can be read anywhere, and 'x' is not one" },
     { "material {\n parameters : [ { name : x, type : sampler2d, usedIf : [] } ] }" GOOD_FRAGMENT,
       "a.mat:2: usedIf names at least one constant" },
     { "material { requires : [ uv0 ], constants : [ { name : hasX, type : bool }, { name : hasY, type : bool } ],\n"
@@ -131,9 +131,9 @@ constexpr Broken kContradictions[] = {
       "material.worldPosition += textureLod(materialParams_x, vec2(0.0), 0.0); } }\n" GOOD_FRAGMENT,
       "a.mat:2: 'x' has usedIf, so only the fragment block can read it" },
     { "material {\n parameters : [ { name : x, type : samplerCubemap, currentPixel : true } ] }" GOOD_FRAGMENT,
-      "a.mat:2: only a sampler2d of format float has a current pixel, and 'x' is none" },
+      "a.mat:2: only a sampler2d of format float can have currentPixel, and 'x' is not one" },
     { "material {\n parameters : [ { name : x, type : sampler2d, format : int, currentPixel : true } ] }" GOOD_FRAGMENT,
-      "a.mat:2: only a sampler2d of format float has a current pixel, and 'x' is none" },
+      "a.mat:2: only a sampler2d of format float can have currentPixel, and 'x' is not one" },
     { "material {\n parameters : [ { name : x, type : sampler2d, currentPixel : true } ] }" GOOD_FRAGMENT,
       "a.mat:2: currentPixel exists only in the domain postprocess" },
     { "material { domain : postprocess,\n parameters : [ { name : x, type : sampler2d, currentPixel : true },\n"
@@ -158,8 +158,8 @@ constexpr Broken kMisspelt[] = {
     { "material { domain : postprocess, parameters : [ { name : x, type : sampler2d, currentPixel : true } ] }\n"
       "fragment {\n void postProcess(inout PostProcessInputs inputs) {\n"
       "inputs.color = texture(materialParams_x, vec2(0.5)); } }",
-      "a.mat:4: 'texture' : no matching overloaded function found (and 1 more); a currentPixel parameter is read by "
-      "getCurrentPixel(materialParams_x) alone" },
+      "a.mat:4: 'texture' : no matching overloaded function found (and 1 more); only "
+      "getCurrentPixel(materialParams_x) can read a currentPixel parameter" },
 };
 
 constexpr Broken kCode[] = {

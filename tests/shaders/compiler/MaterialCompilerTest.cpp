@@ -285,7 +285,7 @@ TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsThe
     }
     EXPECT_THAT(
             errorOf("material { shadingModel : unlit, halfPrecision : true }" + std::string(kEmptyFragment)).message,
-            HasSubstr("halfPrecision is for lit materials"));
+            HasSubstr("halfPrecision is only for lit materials"));
 }
 
 TEST(MaterialCompiler, KeepsAllBitsOfWhatAsksForMediumPrecisionUnlessItIsInexact) {

@@ -80,7 +80,7 @@ TEST_F(Child, ThatCannotStartIsAnErrorWithItsName) {
     const auto child = ChildProcess::start({ { "no-such-program-anywhere" }, {}, mLog });
     ASSERT_FALSE(child.ok());
     EXPECT_EQ(child.error().code, ErrorCode::NotFound);
-    EXPECT_NE(child.error().message.find("'no-such-program-anywhere' does not start"), std::string::npos);
+    EXPECT_NE(child.error().message.find("'no-such-program-anywhere' cannot be started"), std::string::npos);
     EXPECT_FALSE(ChildProcess::start({ { "true" }, {}, "/nowhere/log.txt" }).ok());
 }
 

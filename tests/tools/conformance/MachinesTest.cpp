@@ -197,7 +197,7 @@ TEST_F(ActedMachines, WithoutTheirProgramAreAnErrorThatNamesIt) {
     mOptions.machines = { "libm" };
     const Result<void> done = drawOnMachines(mOptions, results);
     ASSERT_FALSE(done.ok());
-    EXPECT_THAT(done.error().message, HasSubstr("machine libm: '/nowhere/filament-conformance' does not start"));
+    EXPECT_THAT(done.error().message, HasSubstr("machine libm: '/nowhere/filament-conformance' cannot be started"));
 }
 
 TEST_F(ActedMachines, AreInTheReportsAndReadBackFromThem) {

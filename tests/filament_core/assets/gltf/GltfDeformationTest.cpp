@@ -247,7 +247,7 @@ TEST(GltfAnimation, WhatMakesNoSenseIsLeftOutByName) {
         EXPECT_THAT(model.warnings, ElementsAre(HasSubstr(reason)));
     };
     expectLeftOut(movingTriangle({ 0, 1, 1 }, std::vector<float>(9)),
-                  "animations[0].channels[0]: the time of key 2 is 1, which does not grow");
+                  "animations[0].channels[0]: the time of key 2 is 1, which is not later than the one before");
     expectLeftOut(movingTriangle({ -1, 1 }, std::vector<float>(6)), "the time of key 0 is -1");
     expectLeftOut(movingTriangle({ 0, 1 }, std::vector<float>(9)), "9 values for 2 keys of 3 numbers");
     expectLeftOut(movingTriangle({}, {}), "0 values for 0 keys");

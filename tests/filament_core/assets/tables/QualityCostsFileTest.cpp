@@ -84,7 +84,7 @@ constexpr Refused kRefused[] = {
     { "NoTime", "\"vulkan\": 3", "\"vulkan\": 0", "milliseconds.vulkan" },
     { "NotANumber", "\"vulkan\": 3", "\"vulkan\": \"NaN\"", "must be a number" },
     { "NanAsLiteral", "\"vulkan\": 3", "\"vulkan\": NaN", "the JSON is broken at byte" },
-    { "InfiniteNumber", "\"vulkan\": 3", "\"vulkan\": 1e999", "number that no double can" },
+    { "InfiniteNumber", "\"vulkan\": 3", "\"vulkan\": 1e999", "number beyond the range of double" },
     { "UnknownChoice", "\"fresnel\"", "\"fresnell\"",
       "there is no quality choice 'fresnell'; did you mean 'fresnel'?" },
     { "UnknownValue", "\"exact\"", "\"exakt\"", "effects[0].values[1].value: quality choice fresnel: 'exakt'" },

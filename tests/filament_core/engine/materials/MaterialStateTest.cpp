@@ -130,7 +130,7 @@ TEST(DoubleSided, AMaterialThatDoesNotMentionItSaysHowToAllowIt) {
     MaterialStage stage(*engine);
     const Result<void> done = engine->setDoubleSided(stage.material(vertexColored("")), true);
     ASSERT_FALSE(done);
-    EXPECT_THAT(done.error().message, testing::HasSubstr("say doubleSided : true or doubleSided : false"));
+    EXPECT_THAT(done.error().message, testing::HasSubstr("set doubleSided : true or doubleSided : false"));
 }
 
 // ------------------------------------------------------------------------------------------ flat

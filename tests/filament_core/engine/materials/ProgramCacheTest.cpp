@@ -129,7 +129,7 @@ TEST_P(ProgramCache, ADamagedFileIsIgnoredWithOneWarningAndReplaced) {
     const Outcome damaged = run();
     EXPECT_EQ(damaged.pixels, first.pixels);
     EXPECT_EQ(damaged.statistics.programsFromCache, 0u);
-    EXPECT_THAT(mLines, testing::ElementsAre(testing::HasSubstr("is damaged or of another device")));
+    EXPECT_THAT(mLines, testing::ElementsAre(testing::HasSubstr("is damaged or from another device")));
     mLines.clear();
     const Outcome again = run();
     EXPECT_EQ(again.pixels, first.pixels);
