@@ -97,20 +97,20 @@ std::string sectionOf(EffectResult const& result, Plots const& plots) {
     return html;
 }
 
-constexpr const char* kMethod = R"(</ul><p>All of it again:</p><pre>{0} --compare --out out/accuracy &amp;&amp;
-{0} --out out/accuracy --page docs/accuracy.html</pre><p>Beside each row stands the command for that row.</p>
+constexpr const char* kMethod = R"(</ul><p>To reproduce everything:</p><pre>{0} --compare --out out/accuracy &amp;&amp;
+{0} --out out/accuracy --page docs/accuracy.html</pre><p>Every section names the command that reproduces it alone.</p>
 <p><b>Error</b> of a pixel: the difference to the reference over the brighter of both plus 1 % of the reference's mean; RMS
 and largest over all pixels that show something. FLIP (Andersson et al. 2020) is what a viewer sees when flipping between the
 pictures: 0 nothing, 1 everything. <b>Whole frame</b>: RMS of the scene <code>{1}</code> against the best value of the effect.
 <b>Time</b>: medians of {2} turns at {3} x {4}, all values of an effect in turns; the ratio to the standard value (bold) is
-taken turn by turn, its 95 % interval by bootstrap. Errors are of the first backend; where the second one does not draw the
+taken turn by turn, its 95 % interval by bootstrap. Errors are those of the first backend; if the second one does not draw the
 same bits, <a href="quality.md">quality.md</a> says so.</p>
 )";
 
 std::string introduction(Results const& results) {
     std::string html = fmt::format(
-            R"(<h1>What accuracy costs</h1><p>Every approximation of the engine that has an alternative, measured: how far
-each value is from the truth of its effect, and what it costs. {} effects. Commit {}, {}, on {}.</p><ul>)",
+            R"(<h1>What accuracy costs</h1><p>Measures every approximation of the engine that has an alternative: the error of
+each value against its effect's reference, and its cost. {} effects. Commit {}, {}, on {}.</p><ul>)",
             results.effects.size(), tools::escapedHtml(results.commit), tools::escapedHtml(results.date),
             tools::escapedHtml(results.machine));
     for (auto const& [backend, driver] : results.drivers)
@@ -138,7 +138,7 @@ std::string glanceOf(EffectResult const& result) {
     std::string row = fmt::format("<tr><td><a href=\"#{}\">{}</a></td><td>{}</td><td>{}</td>",
                                   tools::escapedHtml(result.effect.name), tools::escapedHtml(result.effect.title),
                                   tools::escapedHtml(standard.value.name), percent(standard.own.rms));
-    if (&best == &standard) return row + "<td colspan=\"3\" class=\"small\">nothing is more exact</td></tr>";
+    if (&best == &standard) return row + "<td colspan=\"3\" class=\"small\">no value is more exact</td></tr>";
     return row + fmt::format("<td>{}</td><td>{}</td><td>{}</td></tr>", tools::escapedHtml(best.value.name),
                              percent(best.own.rms), ratiosOf(best));
 }

@@ -151,10 +151,10 @@ std::string tableOf(RowResult const& result) {
 
 std::string notesOf(RowResult const& result) {
     std::string html = fmt::format(
-            "<p class=\"small\">{} Scene <code>{}</code>, {} x {}, {} samples a pixel: standard error {} where the "
+            "<p class=\"small\">{} Scene <code>{}</code>, {} x {}, {} samples per pixel: standard error {} where the "
             "reference follows the engine, {} of the path tracer. Unexplained beyond the first: {}, at most {} "
             "allowed. Mean "
-            "FLIP {:.4f}. 8 bits a component: {} of white.",
+            "FLIP {:.4f}. 8 bits per component: {} of white.",
             result.isExplained() ? "" : "<b>More than allowed is unexplained.</b>", escapedHtml(result.row.scene),
             result.size.x, result.size.y, result.row.samples, percent(result.noise), percent(result.tracedNoise),
             percent(result.unexplained), percent(result.row.unexplained), result.flip, percent(result.eightBits));
@@ -170,13 +170,14 @@ std::string notesOf(RowResult const& result) {
 }
 
 constexpr const char* kIntroduction =
-        R"(<section id="against-the-path-tracer"><h2>Against the path tracer</h2><p>The engine's frame and what light would
-do, step by step: each line makes one named approximation exact, first in the engine, below the line "Unexplained" in the
-path tracer (<code>tools/reference</code>), which above it computes what the engine computes. <b>Changes</b> is what the step
-does to the picture, <b>mean</b> how much brighter the approximation is, <b>share</b> its part of the squared difference (they
-add up to 100 %; a negative one hides another), <b>left</b> what then still differs from the path tracer. Differences are
-relative to the mean of engine and path tracer; maps are red where the upper picture of a step is brighter, blue
-where it is darker, full at 25 %, grey where nothing is compared. A mouse over a line says what is exact in it.</p>)";
+        R"(<section id="against-the-path-tracer"><h2>Against the path tracer</h2><p>From the engine's frame to the exact light,
+step by step: each line makes one named approximation exact. Above the line "Unexplained" that happens in the engine; below
+it, in the path tracer (<code>tools/reference</code>), which starts with the engine's approximations. <b>Changes</b> is the
+effect of the step on the picture, <b>mean</b> how much brighter the approximation is, <b>share</b> its part of the squared
+difference (the shares add up to 100 %; a negative one hides another), <b>left</b> the remaining difference from the path
+tracer. Differences are relative to the mean of engine and path tracer. Maps are red where the upper picture of a step is
+brighter and blue where it is darker, saturated at 25 %, and grey where nothing is compared. Hover over a line to see what it
+makes exact.</p>)";
 
 std::string closedFormTable(ComparisonResults const& results) {
     std::string html =

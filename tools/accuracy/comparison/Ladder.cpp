@@ -28,14 +28,15 @@ std::vector<std::string> finestTables() {
 std::vector<Rung> allRungs() {
     return {
         { .name = "oneSample",
-          .title = "One sample a pixel",
+          .title = "One sample per pixel",
           .approximate = "the centre of a pixel, textures through mip levels",
-          .exact = "64 samples a pixel" },
+          .exact = "64 samples per pixel" },
         { .supersampling = kSupersampling,
           .name = "tables",
           .title = "Resolution of look-up tables",
-          .approximate = "environment of 256 texels a face, each integrating 512 pieces of the sky; albedo table of 64 "
-                         "texels a side",
+          .approximate =
+                  "environment of 256 texels per face, each integrating 512 pieces of the sky; albedo table with 64 "
+                  "texels per side",
           .exact = "512 texels, 1024 pieces; 256 texels",
           .needs = Needs::Environment },
         { .supersampling = kSupersampling,
@@ -80,8 +81,8 @@ std::vector<Rung> allRungs() {
         { .kind = RungKind::Reference,
           .integrator = Integrator::Unoccluded,
           .name = "refraction",
-          .title = "One look-up for what lies behind",
-          .approximate = "a solid is a ball that touches the point, its inside a colour; nothing blocks light",
+          .title = "One look-up for the background",
+          .approximate = "a solid is a ball that touches the point, filled with a colour; nothing blocks light",
           .exact = "rays are refracted where they enter and where they leave, and absorbed between",
           .needs = Needs::Refraction },
         { .kind = RungKind::Reference,
@@ -90,7 +91,7 @@ std::vector<Rung> allRungs() {
           .name = "solidTint",
           .title = "Base colour of solids",
           .approximate = "light takes on the base colour once, where it enters: color * exp(-absorption * distance)",
-          .exact = "at each interface, as KHR_materials_volume has it",
+          .exact = "at each interface, as KHR_materials_volume specifies",
           .needs = Needs::Solid },
         { .kind = RungKind::Reference,
           .maxBounces = 1,
@@ -101,21 +102,22 @@ std::vector<Rung> allRungs() {
         { .kind = RungKind::Reference,
           .name = "coupling",
           .title = "Coupling of the lobes",
-          .approximate = "of the sky's and indirect light the diffuse lobe gets what the specular lobe leaves towards "
-                         "the view",
-          .exact = "what it leaves towards view and light, as of suns and lamps" },
+          .approximate = "for light from the sky and indirect light, the diffuse lobe gets what the specular lobe "
+                         "leaves towards the view",
+          .exact = "what it leaves towards view and light, as for suns and lamps" },
         { .kind = RungKind::Reference,
           .bsdf = { .coupling = CouplingTerm::Always },
           .name = "sheen",
           .title = "Sheen's single-lobe energy",
-          .approximate = "the base keeps what the sheen does not send to the viewer, or of a light the lesser share",
-          .exact = "so much that white on white reflects all light, in both directions alike",
+          .approximate = "the base keeps what the sheen does not send to the viewer; for lights, the smaller share of "
+                         "view and light",
+          .exact = "as much as makes white on white reflect all light, reciprocally",
           .needs = Needs::Sheen },
         { .kind = RungKind::Reference,
           .bsdf = { .coupling = CouplingTerm::Always, .sheen = SheenTerm::Exact },
           .name = "coat",
           .title = "Clear coat's attenuation",
-          .approximate = "what passes the coat in, times what passes it out; nothing bends, nothing is reflected back",
+          .approximate = "the transmission in times the transmission out, without refraction or internal reflection",
           .exact = "two interfaces: refraction, Fresnel's equations, the series of reflections between them",
           .needs = Needs::Coat },
         { .kind = RungKind::Reference,
@@ -167,9 +169,8 @@ std::span<const Alternative> alternatives() {
                     .coupling = CouplingTerm::Always },
           .name = "energyCompensation",
           .title = "Energy compensation",
-          .text = "the factor that gives back what microfacets lose by counting one bounce: what leaving it out "
-                  "changes "
-                  "bounds what is wrong with it" },
+          .text = "the factor that restores what microfacets lose with a single bounce: the change without it "
+                  "bounds its error" },
     };
     return kAll;
 }
