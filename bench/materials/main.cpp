@@ -261,7 +261,7 @@ int main(int argc, char** argv) {
     bench::Options options;
     std::string size = "1280x720";
     CLI::App app{ "What each term of a material costs over a full screen, beside the standard model." };
-    app.add_option("--rounds", options.rounds, "every material once a round")->check(CLI::Range(1, 10'000));
+    app.add_option("--rounds", options.rounds, "rounds; each draws every material once")->check(CLI::Range(1, 10'000));
     app.add_option("--frames", options.frames, "frames a measurement")->check(CLI::Range(1, 1000));
     app.add_option("--lamps", options.lamps, "point lights besides environment and sun")->check(CLI::Range(0, 64));
     app.add_option("--size", size, "WxH in pixels");

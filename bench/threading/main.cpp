@@ -145,8 +145,8 @@ int main(int argc, char** argv) {
             ->check(CLI::Range(0, 254));
     app.add_option("--json", options.json, "write all figures to this file");
     app.add_option("--plot", options.plot, "draw the figures into this .png or .svg (tools/plot)");
-    app.add_flag("--quick", settings.quick, "three rounds of small sizes: seconds, proves only that it works");
-    app.add_flag("--list", options.list, "name the workloads and exit");
+    app.add_flag("--quick", settings.quick, "three rounds of small sizes: takes seconds, only tests that it works");
+    app.add_flag("--list", options.list, "list the workloads and exit");
     CLI11_PARSE(app, argc, argv);
     settings.threads = static_cast<unsigned>(workers) + 1;
     if (settings.quick) {

@@ -38,13 +38,14 @@ void declare(CLI::App& app, Words& words, Options& options) {
             ->type_name("FILE");
     app.add_option("--include", words.include, "HTML fragments with further sections of the report")
             ->type_name("FILE...");
-    app.add_option("--frame", words.frame, "scene of whole frames; default: the showcase")->type_name("SCENE");
+    app.add_option("--frame", words.frame, "scene for whole frames; default: the showcase")->type_name("SCENE");
     app.add_option("--backend", words.backends, "vulkan gles; errors are measured on the first")->type_name("NAME...");
-    app.add_option("--rounds", words.rounds, "turns that every value is timed, 1 to 1000; default 15")->type_name("N");
-    app.add_option("--size", words.size, "of frames that are timed; default 960x540")->type_name("WxH");
+    app.add_option("--rounds", words.rounds, "rounds in which every value is timed, 1 to 1000; default 15")
+            ->type_name("N");
+    app.add_option("--size", words.size, "size of the timed frames; default 960x540")->type_name("WxH");
     app.add_option("--plots", words.plots, "draw them")->type_name("on|off");
-    app.add_option("--pictures", words.pictures, "also keep every picture that an error is of")->type_name("DIR");
-    app.add_flag("--quick", words.quick, "small frames, three rounds: to see that it works, not to quote");
+    app.add_option("--pictures", words.pictures, "also keep every picture whose error is measured")->type_name("DIR");
+    app.add_flag("--quick", words.quick, "small frames, three rounds: a quick test, not for quoting");
 }
 
 Result<void> convertBackends(std::vector<std::string> const& words, std::vector<Backend>& backends) {

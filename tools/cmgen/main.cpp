@@ -169,7 +169,7 @@ int main(int argc, char** argv) {
     app.add_option("environment", arguments.environment, "the picture")->required();
     app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")
             ->capture_default_str();
-    app.add_option("--samples", arguments.samples, "pieces of the sky that each texel integrates, about")
+    app.add_option("--samples", arguments.samples, "approximate number of sky pieces that each texel integrates")
             ->capture_default_str();
     const std::map<std::string, backend::Format> formats{ { "rgba16f", backend::Format::RGBA16F },
                                                           { "r11g11b10f", backend::Format::R11G11B10F },

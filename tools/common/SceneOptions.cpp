@@ -150,7 +150,7 @@ void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options
     app.add_option("--exposure", words.exposure, "APERTURE SHUTTER_SECONDS ISO (16 0.008 100)")
             ->expected(3)
             ->allow_extra_args(false);
-    app.add_option("--ibl-intensity", words.iblIntensity, "lux of radiance 1 of the environment (30000)");
+    app.add_option("--ibl-intensity", words.iblIntensity, "lux that radiance 1 of the environment stands for (30000)");
     app.add_option("--sun", words.sun, "LUX DX DY DZ: a sun and the direction in which its light travels")
             ->expected(4)
             ->allow_extra_args(false);

@@ -56,17 +56,19 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--cases", options.cases, "of those, the cases with these names")->type_name("NAME...");
     app.add_option("--shard", words.shard, "every N-th case beginning with case I; or auto, from the scheduler")
             ->type_name("I/N");
-    app.add_option("--merge", words.merge, "do not run: join the results of shards")->type_name("DIR...");
+    app.add_option("--merge", words.merge, "do not run: merge the results of shards")->type_name("DIR...");
     app.add_option("--backends", words.backends, "vulkan gles, the first is the reference")->type_name("NAME...");
     app.add_option("--require-device", options.requireDevice, "part of the device's name")->type_name("NAME");
     app.add_option("--threads", words.threads, "also compare 0, 2 and 8 workers and affinity policies")
             ->type_name("on|off");
-    app.add_option("--mutations", words.mutations, "check that defects are noticed")->type_name("on|off");
-    app.add_option("--machines", words.machines,
-                   "draw the cases again in child processes that play other machines: none, all, or those that --list "
-                   "prints")
+    app.add_option("--mutations", words.mutations, "check that injected defects are detected")->type_name("on|off");
+    app.add_option(
+               "--machines", words.machines,
+               "draw the cases again in child processes that simulate other machines: none, all, or those that --list "
+               "prints")
             ->type_name("NAME...");
-    app.add_option("--journal", words.journal, "write down each case as it begins and ends")->type_name("FILE");
+    app.add_option("--journal", words.journal, "record the beginning and end of each case in this file")
+            ->type_name("FILE");
     app.add_option("--set", words.set, "exact=off, or a quality choice of docs/quality.md, in every case; repeatable")
             ->type_name("NAME=VALUE")
             ->expected(1)
@@ -75,7 +77,7 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--build", options.build, "name of this build in the results")->type_name("NAME");
     app.add_option("--bisect", options.bisect, "do not run: find the first draw of a case that differs")
             ->type_name("CASE");
-    app.add_option("--mutate", options.mutate, "with --bisect: put this defect into the first backend")
+    app.add_option("--mutate", options.mutate, "with --bisect: inject this defect into the first backend")
             ->type_name("MUTATION");
     app.add_flag("--list", options.list, "print the cases and the mutations");
 }

@@ -97,21 +97,22 @@ Result<void> convertTime(Words const& words, Options& options) {
 void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--backend", words.backend, "vulkan, gles or both (default)")->default_str("both");
     app.add_option("--frames", words.frames, "frames to draw; the last one is saved (1)");
-    app.add_option("--copies", words.copies, "draw the model so many times, on a grid (1)");
+    app.add_option("--copies", words.copies, "number of copies of the model, on a grid (1)");
     app.add_option("--parameter", words.values, "NAME=VALUE: a parameter or constant of a material (repeatable)");
-    app.add_option("--time", words.time, "SECONDS: where the animation stands, and the time that materials see (0)");
+    app.add_option("--time", words.time, "SECONDS: the time of the animation and of materials (0)");
     app.add_option("--animation", words.animation, "NAME or INDEX of the animation to pose (with --time the first)");
     app.add_option("--tolerance", words.tolerance, "largest difference in 1/255 that still counts as equal (0)");
     app.add_option("--format", words.format, "png, or exr: scene-linear half floats before the tone mapper (png)");
-    app.add_flag("--timing", options.timing, "print what start and frames cost");
+    app.add_flag("--timing", options.timing, "print the time taken by start-up and frames");
     app.add_flag("--explain", options.explain, "print what ran, what was culled, and why");
-    app.add_flag("--trace", options.trace, "write every command as text: DIR/vulkan.trace, DIR/gles.trace");
+    app.add_flag("--trace", options.trace, "write every command as text to DIR/vulkan.trace and DIR/gles.trace");
     app.add_option("--trace-jobs", words.traceJobs,
-                   "FILE: what every thread did when, for chrome://tracing or tools/plot/plot.py jobs");
+                   "FILE: the timeline of every thread, for chrome://tracing or tools/plot/plot.py jobs");
     app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
     app.add_option("--affinity", words.affinity, "none, pin or big-cores: where the job threads run (none)");
-    app.add_option("--budget", words.budget,
-                   "MS: device time of a frame; chooses the quality with the least error in it and says why");
+    app.add_option(
+            "--budget", words.budget,
+            "MS: device time per frame; chooses the quality with the least error within it, and explains the choice");
     app.add_option("--costs", words.costs, "FILE: the cost table for --budget (the library's own)");
     app.add_option("--measure-costs", words.measureCosts,
                    "FILE: measure what every quality choice costs in this scene, for --costs");

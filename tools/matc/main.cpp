@@ -101,20 +101,20 @@ int main(int argc, char** argv) {
     app.add_option("-a,--api", arguments.api, "languages in the package")
             ->check(CLI::IsMember({ "opengl", "vulkan", "all" }));
     app.add_option("-p,--platform", arguments.platform,
-                   "whose defaults of quality and occlusion (one package runs on all)")
+                   "platform whose defaults for quality and occlusion apply (one package runs on all)")
             ->check(CLI::IsMember({ "desktop", "mobile", "all" }));
     app.add_option("-v,--variant-filter", arguments.filters, "variants to leave out, separated by commas")
             ->delimiter(',');
-    app.add_option("-j,--jobs", arguments.threads, "threads; the bytes do not depend on it (default: all cores)")
+    app.add_option("-j,--jobs", arguments.threads, "threads; the output does not depend on it (default: all cores)")
             ->check(CLI::Range(1, 256));
     app.add_flag("-S,--optimize-size", arguments.optimizeSize, "small shaders rather than fast ones");
     app.add_flag("-g,--no-optimization", arguments.noOptimization, "shaders as written, for debugging");
     app.add_flag("--inexact", arguments.inexact,
-                 "leave dot, normalize, mix, ... to the drivers: the APIs may differ in bits");
+                 "leave dot, normalize, mix, ... to the drivers; the bits may then differ between APIs");
     auto* const preprocess = app.add_flag("--preprocess", arguments.preprocess, "print the generated GLSL and stop");
     auto* const reflect = app.add_option("-r,--reflect", arguments.reflect, "print what the material declares, as JSON")
                                   ->check(CLI::IsMember({ "parameters" }));
-    auto* const cost = app.add_flag("--cost", arguments.cost, "print what the fragment stages do and stop");
+    auto* const cost = app.add_flag("--cost", arguments.cost, "print the operations of the fragment stages and stop");
     CLI11_PARSE(app, argc, argv);
     if (output->empty() && preprocess->empty() && reflect->empty() && cost->empty()) {
         std::fprintf(stderr, "matc: give the package to write with -o\n");

@@ -163,10 +163,10 @@ Result<void> convertNumbers(Words const& words, Options& options) {
 
 void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--integrator", words.integrator, "path: all light; unoccluded: one reflection, no shadows (path)");
-    app.add_option("--spp", words.samples, "samples a pixel; with --error the most of them (256)");
+    app.add_option("--spp", words.samples, "samples per pixel; with --error the maximum (256)");
     app.add_option("--error", words.error, "stop when the relative standard error of the picture is below this");
-    app.add_option("--max-bounces", words.maxBounces, "most reflections of a path (64)");
-    app.add_option("--seed", words.seed, "another one gives another noise (1)");
+    app.add_option("--max-bounces", words.maxBounces, "maximum number of reflections per path (64)");
+    app.add_option("--seed", words.seed, "seed of the noise (1)");
     app.add_option("--filter", words.filter, "box: the mean over a pixel; center: its middle (box)");
     app.add_option("--occlusion-map", words.occlusion, "on, off or auto: with unoccluded only (auto)");
     app.add_option("--visibility", words.visibility, "correlated, fast or uncorrelated (correlated)");
@@ -174,15 +174,17 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--diffuse", words.diffuse, "lambert or disney (lambert)");
     app.add_option("--energy", words.energy, "compensated or single-scatter (compensated)");
     app.add_option("--coupling", words.coupling,
-                   "engine, ambient-only, always or never: which light the diffuse lobe gets what is reflected of");
+                   "engine, ambient-only, always or never: the light for which the diffuse lobe gets only what the "
+                   "specular lobe leaves");
     app.add_option("--lobes", words.lobes, "both, diffuse or specular (both)");
     app.add_option("--solid-tint", words.solidTint,
-                   "each-interface or once: how often the base colour of a solid counts (each-interface)");
+                   "each-interface or once: how often the base colour of a solid applies (each-interface)");
     app.add_option("--specular-light", words.specularLight,
                    "integral or split-sum: how the environment is gathered (integral)");
-    app.add_option("--diffuse-light", words.diffuseLight, "integral or harmonics: the same, diffuse (integral)");
-    app.add_option("--ibl-rotation", words.rotation, "degrees that the environment is turned around +Y (0)");
-    app.add_option("--threads", words.threads, "threads that trace (one per core)");
+    app.add_option("--diffuse-light", words.diffuseLight,
+                   "integral or harmonics: the same for diffuse light (integral)");
+    app.add_option("--ibl-rotation", words.rotation, "rotation of the environment around +Y in degrees (0)");
+    app.add_option("--threads", words.threads, "number of tracing threads (one per core)");
     app.add_flag("--error-image", options.writesErrors, "write DIR/error.exr: the standard error of every pixel");
 }
 
