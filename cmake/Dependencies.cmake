@@ -18,12 +18,12 @@ pkg_check_modules(HWLOC REQUIRED IMPORTED_TARGET hwloc)
 
 add_library(hwloc ALIAS PkgConfig::HWLOC)
 
-# moodycamel's queue is headers only.
+# moodycamel's queue is header-only.
 find_path(CONCURRENTQUEUE_INCLUDE concurrentqueue.h PATH_SUFFIXES concurrentqueue/moodycamel concurrentqueue moodycamel REQUIRED)
 add_library(concurrentqueue INTERFACE)
 target_include_directories(concurrentqueue SYSTEM INTERFACE ${CONCURRENTQUEUE_INCLUDE})
 
-# Vulkan is loaded at run time: no link against the loader, so that a machine without one still runs OpenGL ES.
+# Vulkan is loaded at run time instead of linked, so that OpenGL ES also runs on a machine without a Vulkan loader.
 add_library(volk INTERFACE)
 target_include_directories(volk SYSTEM INTERFACE ${Vulkan_INCLUDE_DIRS})
 target_compile_definitions(volk INTERFACE VK_NO_PROTOTYPES)
@@ -48,7 +48,7 @@ target_link_libraries(asset_codecs INTERFACE
     nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG
     ZLIB::ZLIB)
 
-# The reference renderer's ray tracer. Its CMake package asks for TBB's headers, which nobody here needs.
+# The reference renderer's ray tracer. Its CMake package requires TBB's headers, which are not needed here.
 find_path(EMBREE_INCLUDE embree3/rtcore.h REQUIRED)
 find_library(EMBREE_LIBRARY embree3 REQUIRED)
 add_library(embree INTERFACE)
@@ -61,7 +61,7 @@ if(FILAMENT_BUILD_TESTS)
 endif()
 if(FILAMENT_BUILD_BENCHES)
     find_package(benchmark REQUIRED)
-    find_package(TBB REQUIRED) # these two: what bench/threading is compared with
+    find_package(TBB REQUIRED) # these two: for the comparison in bench/threading
     find_package(OpenMP REQUIRED COMPONENTS CXX)
 endif()
 

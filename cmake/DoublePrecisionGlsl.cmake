@@ -1,6 +1,6 @@
 # cmake -D SOURCES="a.glsl;b.glsl" -D TARGET_DIR=DIR -P DoublePrecisionGlsl.cmake
 # Copies of the shader library for shaders/lib/LibCppDouble.h: `float` becomes double, literals lose the suffix f, and
-# all.inl includes every copy. A copy whose text stays the same keeps its time, so that nothing recompiles.
+# all.inl includes every copy. An unchanged copy keeps its time stamp, so that nothing is recompiled.
 
 function(write_if_different path text)
     if(EXISTS ${path})
@@ -17,7 +17,7 @@ list(FILTER SOURCES EXCLUDE REGEX "/math\\.glsl$")
 get_filename_component(first "${CMAKE_CURRENT_LIST_DIR}/../shaders/lib/math.glsl" ABSOLUTE)
 list(PREPEND SOURCES ${first})
 
-# What precedes a literal, else 0x1e4fu would hold one; and the literal, with a point or an exponent or both.
+# The character before a literal, because 0x1e4fu contains none; and the literal, with a point, an exponent or both.
 set(before "([^0-9A-Za-z_.])")
 set(exponent "[eE][-+]?[0-9]+")
 set(literal "([0-9]+\\.[0-9]*(${exponent})?|\\.[0-9]+(${exponent})?|[0-9]+${exponent})f")

@@ -1,5 +1,5 @@
-# A room is a folder: every .cpp in it belongs to one library of the same name, its headers are included from the
-# repository root, so that the layer is visible at the include.
+# A room is a folder: all .cpp files in it form one library of the same name, and its headers are included from the
+# repository root, so that every include shows the layer.
 
 # A public header lies in the lowest room that uses it; users see one folder, <filament/...>.
 set(FILAMENT_PUBLIC_INCLUDES ${CMAKE_SOURCE_DIR}/base/include ${CMAKE_SOURCE_DIR}/shaders/package/include
@@ -8,9 +8,9 @@ set(FILAMENT_PUBLIC_INCLUDES ${CMAKE_SOURCE_DIR}/base/include ${CMAKE_SOURCE_DIR
 add_library(filament_options INTERFACE)
 target_compile_options(filament_options INTERFACE
     -Wall -Wextra -Wpedantic -Wshadow -Wconversion -Wno-sign-conversion -Wnon-virtual-dtor
-    -Wno-missing-field-initializers # descriptions name the fields they set, the rest has defaults
+    -Wno-missing-field-initializers # descriptions name the fields that they set; the others have defaults
     -ffp-contract=off # the same bits from every compiler
-    # gcc 12 sees a temporary's members as uninitialized where a constructor may throw (GCC bug 105562 and its kin)
+    # gcc 12 sees a temporary's members as uninitialized where a constructor may throw (GCC bug 105562 and similar ones)
     $<$<AND:$<CXX_COMPILER_ID:GNU>,$<VERSION_LESS:$<CXX_COMPILER_VERSION>,13>>:-Wno-maybe-uninitialized>)
 target_include_directories(filament_options INTERFACE
     ${CMAKE_SOURCE_DIR} ${FILAMENT_PUBLIC_INCLUDES})
@@ -21,13 +21,13 @@ if(FILAMENT_SANITIZE)
     target_link_options(filament_options INTERFACE -fsanitize=${FILAMENT_SANITIZE})
 endif()
 
-# ---- precompiled headers: what most files include of other projects, parsed once for all rooms and tools and once for
-# all tests. Nothing of ours: an edit rebuilds no more than without. Every file still includes what it uses. The compiler
-# takes a precompiled header only where every option agrees: programs' mains (-fPIE) and files that are optimised in
-# another way go without.
+# ---- precompiled headers: the headers of other projects that most files include, parsed once for all rooms and tools and
+# once for all tests. They contain no headers of this project, so an edit rebuilds no more than before. Every file still
+# includes what it uses. The compiler accepts a precompiled header only if all options agree: the main files of programs
+# (-fPIE) and files with other optimisation options do without.
 option(FILAMENT_PCH "Precompile what most files include; OFF shows whether each file includes what it uses" ON)
 
-# ccache keeps objects that came from a precompiled header only if it is told that no macro of the date matters.
+# ccache caches objects built with a precompiled header only if it is told that macros of date and time do not matter.
 foreach(language C CXX)
     if(FILAMENT_PCH AND CMAKE_${language}_COMPILER_LAUNCHER MATCHES "^([^;]*/)?ccache$")
         set(CMAKE_${language}_COMPILER_LAUNCHER ${CMAKE_COMMAND} -E env CCACHE_SLOPPINESS=pch_defines,time_macros
@@ -101,8 +101,8 @@ function(filament_program name)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 endfunction()
 
-# What tests compile themselves runs once: beyond -O1 the compiler takes longer than the tests save. HOT programs, which
-# compute for seconds in their own objects, keep the preset's level and go without the precompiled header.
+# The code of tests runs once: beyond -O1, compiling takes longer than the tests save. HOT programs, which compute for
+# seconds in their own objects, keep the preset's level and do without the precompiled header.
 set(FILAMENT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
 
 # One test program per mirrored folder: tests/<folder>/*.cpp.

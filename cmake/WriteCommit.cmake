@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
-# cmake -D ROOT=DIR -D OUTPUT=FILE -P WriteCommit.cmake: a header with the commit that is being built. Run by every build;
-# the file is only touched when the commit changes.
+# cmake -D ROOT=DIR -D OUTPUT=FILE -P WriteCommit.cmake: writes a header with the commit that is being built. Runs in every
+# build; the file changes only if the commit does.
 cmake_minimum_required(VERSION 3.25)
 execute_process(COMMAND git -C ${ROOT} describe --always --dirty --exclude=*
     OUTPUT_VARIABLE commit OUTPUT_STRIP_TRAILING_WHITESPACE ERROR_QUIET)

@@ -1,6 +1,6 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks the documents: every file that a .md or .html file links to or shows is there, and no picture lies about unused.
+"""Checks the documents: every file that a .md or .html file links to or shows exists, and every picture is used.
 
   scripts/check_documents.py [--root DIR]     prints file:line: what is wrong; exit status 1 if anything is
 
@@ -23,7 +23,7 @@ PICTURES = {".png", ".svg"}
 
 
 def without_code(text):
-    """Markdown with its code blocks and code spans blanked; lines stay where they are."""
+    """Markdown with its code blocks and code spans blanked; line numbers do not change."""
     blank = lambda found: re.sub(r"[^\n]", " ", found[0])
     return re.sub(r"^```.*?^```|`[^`\n]*`", blank, text, flags=re.DOTALL | re.MULTILINE)
 
@@ -46,7 +46,7 @@ def targets(document):
 
 
 def check(root):
-    """What is wrong, one line each, and how many documents there are."""
+    """The errors, one line each, and the number of documents."""
     files = tracked(root)
     documents = [file for file in files if file.suffix in LINKS]
     wrong, shown = [], set()

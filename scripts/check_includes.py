@@ -1,6 +1,7 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Checks that includes point down, that every library has its room, and that docs/architecture.md shows this table.
+"""Checks that includes point down, that libraries are included only in their rooms, and that docs/architecture.md shows this
+table.
 
   scripts/check_includes.py [--root DIR]     prints file:line: rule for every broken rule; exit status 1 if any
   scripts/check_includes.py --write          writes the table into docs/architecture.md
@@ -12,7 +13,7 @@ import pathlib
 import re
 import sys
 
-# Bottom up; room: the rooms that it may include, besides itself. What is not listed here is no room.
+# Bottom up; room: the rooms that it may include, besides itself. A folder that is not listed is not a room.
 ROOMS = {
     "base": [],
     "base/math": ["base"],
@@ -56,7 +57,8 @@ ROOMS = {
                              "filament_core/assets/gltf", "filament_core/prepare", "filament_core/passes"],
 }
 
-# Above the rooms: any room, but a backend only through backend/create; a test may look inside the folder it mirrors.
+# Above the rooms: these may include any room, but backends only through backend/create; a test may include the folder that it
+# mirrors.
 USERS = ["tools", "tests", "bench"]
 BEHIND_CREATE = ["backend/vulkan", "backend/gles"]
 
@@ -68,7 +70,8 @@ PUBLIC_ENGINE_USERS = ["filament_core/include", "filament_core/engine", "tools",
 
 TABLE_BEGIN, TABLE_END = "<!-- scripts/check_includes.py --write -->\n```\n", "```\n"
 
-# library header: the rooms that may include it, and their tests. Everything else of a library's kind is free (the standard, POSIX, fmt).
+# library header: the rooms that may include it, with their tests. All other library headers are allowed (the standard, POSIX,
+# fmt).
 LIBRARIES = {
     r"vulkan/|volk\.h": ["backend/vulkan"],
     r"EGL/|GLES\d?/|GLES2/|KHR/": ["backend/gles"],
@@ -84,7 +87,7 @@ LIBRARIES = {
     r"gtest/|gmock/": ["tests"],
     r"benchmark/|oneapi/|tbb/|omp\.h": ["bench"],
 }
-GENERATED = re.compile(r"generated/")  # written by the build, not in the tree
+GENERATED = re.compile(r"generated/")  # written by the build, not part of the tree
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SOURCES = {".h", ".cpp", ".inl"}
@@ -126,7 +129,7 @@ def quoted_rule(root, path, room, target):
     if room == "samples":
         return "samples see only the public headers <filament/...>"
     if target_room in (None, *USERS, "samples"):
-        # users may share among themselves: tests a tool's library, benches the test scenes
+        # users may include each other: tests use the tools' libraries, benches use the test scenes
         return None if room in USERS and target_room in USERS else f"{room} may not include {target_room or 'this'}"
     if room in USERS:
         if target_room in BEHIND_CREATE and mirrored(path) != target_room:
@@ -189,7 +192,7 @@ def source_files(root):
 
 
 def check_order():
-    """The drawing of the table has no arrow that runs up: each room lists only rooms above it in ROOMS."""
+    """No arrow of the table points up: each room lists only rooms that precede it in ROOMS."""
     seen = set()
     for room, below in ROOMS.items():
         for name in below:
@@ -199,7 +202,7 @@ def check_order():
 
 
 def table():
-    """Bottom up, one room a line; the sub-rooms of assets together where a room sees them all."""
+    """Bottom up, one room per line; the sub-rooms of assets are combined if a room may include all of them."""
     width = max(map(len, ROOMS)) + 1
     lines = []
     for room, below in ROOMS.items():
@@ -216,7 +219,7 @@ def table():
 
 
 def split_document(text):
-    """What stands before the table, the table, and what follows; None if the document has no place for one."""
+    """The text before the table, the table, and the text after it; None if the document has no place for one."""
     begin = text.find(TABLE_BEGIN)
     end = text.find(TABLE_END, begin + len(TABLE_BEGIN))
     if begin < 0 or end < 0:

@@ -1,12 +1,12 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Turns the GLSL of a fragment stage into C++ in double precision, for tests that integrate what a device draws.
+"""Turns the GLSL of a fragment stage into C++ in double precision, for tests that integrate over what a device draws.
 
   matc --preprocess FILE.mat | glsl_to_cpp.py --variant KEY > OUT
 
-The result is text to be included into a namespace behind tests/shaders/composition/GlslCpp.h: uniforms, inputs and outputs
-become variables, main() becomes fragmentMain(), specialisation constants can be set. Understands what the texts of shaders/
-use; what it does not understand does not compile.
+The result is included into a namespace after tests/shaders/composition/GlslCpp.h: uniforms, inputs and outputs
+become variables, main() becomes fragmentMain(), specialisation constants can be set. Supports what the texts of shaders/
+use; anything else does not compile.
 """
 import argparse
 import re
@@ -26,7 +26,7 @@ def section(text, variant):
 
 
 def without_layout(text):
-    """Drops what C++ does not know: versions, layouts, precisions, comments."""
+    """Removes what C++ lacks: versions, layouts, precisions, comments."""
     text = re.sub(r"//[^\n]*", "", text)
     text = re.sub(r"(?m)^#(version|extension|line)\b.*$", "", text)
     text = re.sub(r"(?m)^\s*precision\s+\w+\s+\w+\s*;", "", text)
@@ -50,7 +50,7 @@ def with_cpp_types(text):
 
 
 def start_of_postfix(text, end):
-    """Where the expression that ends before text[end], a name with members, indices and calls, begins."""
+    """The start of the expression that ends before text[end]: a name with members, indices and calls."""
     at = end
     while at > 0:
         c = text[at - 1]

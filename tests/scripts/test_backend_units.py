@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""backend/vulkan and backend/gles: a unit has the same name where it does the same job, and the tables say so."""
+"""backend/vulkan and backend/gles: units with the same task have the same name, and the tables list them."""
 import pathlib
 import re
 import unittest
@@ -13,7 +13,7 @@ def units(folder):
 
 
 def table(folder):
-    """The rows of the table of units as text, from its heading to the first line that is no row."""
+    """The rows of the table of units as text, from its heading to the first line that is not a row."""
     lines = (ROOT / "backend" / folder / "README.md").read_text(encoding="utf-8").splitlines()
     start = lines.index("| unit | Vulkan | OpenGL ES |")
     rows = []

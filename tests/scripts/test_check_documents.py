@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The document checker finds links and pictures that lead nowhere, and pictures that no document shows."""
+"""The document checker finds broken links, missing pictures, and pictures that no document shows."""
 import pathlib
 import subprocess
 import sys

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The include checker finds what it is there to find: each bad tree breaks one rule, each good tree none."""
+"""The include checker finds every broken rule: each bad tree breaks one rule, each good tree none."""
 import importlib
 import pathlib
 import subprocess

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""The size report finds every kind of function with its true length, and fails for what is too long without a reason."""
+"""The size report finds every kind of function with its true length, and fails if something is too long without a reason."""
 import importlib.machinery
 import importlib.util
 import pathlib

@@ -12,8 +12,8 @@ BACKEND_COLORS = {"vulkan": BLUE, "gles": ORANGE}
 BACKEND_TITLES = {"vulkan": "Vulkan", "gles": "OpenGL ES"}
 EFFECT_COLORS = (BLUE, ORANGE, GREEN, PINK, RED, SKY, YELLOW, "#332288", "#117733", "#882255", "#44aa99", "#999933")
 SETTINGS_MARKERS = {"preset": "D", "budget": "s"}
-FARTHEST = 1.9  # times the default: what takes longer stands at the edge of the picture of whole frames, its time beside it
-LEAST_SPAN = 0.16  # of the median: what differs by less is drawn close together, for it is
+FARTHEST = 1.9  # times the default: slower values are drawn at the edge of the picture of whole frames, with their time
+LEAST_SPAN = 0.16  # of the median: values that differ by less are drawn close together
 LABEL_HEIGHT = 11  # pixels between labels at 100 dpi
 
 
@@ -133,7 +133,7 @@ def time_limits(axes, bounds):
 
 
 def place_labels(axes, labels):
-    """Above their points, on the side that has room, moved up until none covers another one.
+    """Placed above their points, on the side that has room, and moved up until none covers another.
 
     labels: (x, y, text, color, weight)."""
     scale = axes.figure.dpi / 100
@@ -159,8 +159,8 @@ def place_labels(axes, labels):
 # ------------------------------------------------------------------------------------------------------- figures
 
 def times_of(effect, backend):
-    """Milliseconds with their interval, by value: the standard value's median times the ratios, which are sharper than
-    the medians of a machine that others use as well."""
+    """Milliseconds with their interval, by value: the standard value's median times the ratios, which are more precise
+    than medians on a shared machine."""
     unit = next((p.times[backend][0] for p in effect.points if p.standard and backend in p.times), None)
     return {p.label: tuple(unit * r for r in p.ratios[backend]) if unit else p.times[backend]
             for p in effect.points if backend in p.times}

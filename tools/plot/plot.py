@@ -1,12 +1,12 @@
 #!/usr/bin/python3
 # SPDX-License-Identifier: Apache-2.0
-"""Draws what the benchmarks and the tracers write down.
+"""Draws the results of the benchmarks and the tracers.
 
   plot.py bench   FILE.json  -o OUT   all figures of threading_bench --json: costs, wake-ups, scaling, frames
-  plot.py scaling FILE.json  -o OUT   only how they grow with workers and with renderables
-  plot.py jobs    TRACE.json -o OUT   who ran what when: a Chrome trace-event file, as --trace-jobs writes it
-  plot.py materials FILE.json -o OUT  what the terms of a material cost: material_bench --json
-  plot.py accuracy FILE.json -o DIR   results.json of filament-accuracy: one picture an effect, and frames; --format
+  plot.py scaling FILE.json  -o OUT   only their growth with workers and renderables
+  plot.py jobs    TRACE.json -o OUT   timeline of the threads: a Chrome trace-event file from --trace-jobs
+  plot.py materials FILE.json -o OUT  cost of the terms of a material: material_bench --json
+  plot.py accuracy FILE.json -o DIR   results.json of filament-accuracy: one picture per effect, and frames; --format
 
 OUT ends in .png, .svg or .pdf. A file that cannot be drawn is refused with one line on standard error and exit status 2.
 Needs matplotlib (Debian: python3-matplotlib, which belongs to /usr/bin/python3).

@@ -1,5 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
-"""tools/plot draws what it is given, and refuses what it cannot draw with one line that says why."""
+"""tools/plot draws its input, or refuses it with one line that says why."""
 import contextlib
 import io
 import json
@@ -91,7 +91,7 @@ class Plot(unittest.TestCase):
         self.folder = pathlib.Path(folder.name)
 
     def run_plot(self, command, content, *more, output="out.png"):
-        """Exit status and what was said. `content` is written as it is if it is bytes, else as JSON; None: no file."""
+        """Exit status and output. `content` is written as it is if it is bytes, else as JSON; None: no file."""
         source = self.folder / "input.json"
         if content is not None:
             source.write_bytes(content if isinstance(content, bytes) else json.dumps(content).encode())
@@ -107,7 +107,7 @@ class Plot(unittest.TestCase):
         return (self.folder / output).read_bytes()
 
     def texts(self, command, content, *more):
-        """Everything that the picture says."""
+        """All text of the picture."""
         root = xml.etree.ElementTree.fromstring(self.drawn(command, content, *more, output="out.svg"))
         return " ".join("".join(node.itertext()) for node in root.iter("{http://www.w3.org/2000/svg}text"))
 

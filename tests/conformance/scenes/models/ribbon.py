@@ -1,9 +1,10 @@
 #!/usr/bin/env python3
 # SPDX-License-Identifier: Apache-2.0
-"""Writes ribbon.gltf beside this file: a strip that eight joints bend, eight to a vertex, with two morph targets.
+"""Writes ribbon.gltf beside this file: a strip bent by eight joints, all of which affect every vertex, with two
+morph targets.
 
-Vertex i of a row lies at height i / 16; its weights on the eight joints are a bell around it, which sums to 1. Joint k
-stands at height k / 7 below joint k - 1. The animation turns all joints about x and swings the targets' weights."""
+Vertex i of a row is at height i / 16; its weights for the eight joints form a bell curve around it, which sums to 1. Joint k is
+at height k / 7 and a child of joint k - 1. The animation rotates all joints about x and varies the targets' weights."""
 import base64
 import json
 import math
