@@ -159,8 +159,8 @@ PhysicalDevice survey(Instance const& instance, VkPhysicalDevice handle) {
 }
 
 bool containsIgnoringCase(std::string_view text, std::string_view part) {
-    const auto lower = [](char c) { return std::tolower(static_cast<unsigned char>(c)); };
-    return !std::ranges::search(text, part, {}, lower, lower).empty() || part.empty();
+    const auto isSame = [](unsigned char a, unsigned char b) { return std::tolower(a) == std::tolower(b); };
+    return std::search(text.begin(), text.end(), part.begin(), part.end(), isSame) != text.end() || part.empty();
 }
 
 int rankOf(VkPhysicalDeviceType type) {

@@ -69,9 +69,9 @@ public:
             }
         }
         std::ranges::sort(edges.inputs, {}, &ShaderInput::location);
-        const auto repeated =
-                std::ranges::unique(edges.inputs, {}, &ShaderInput::location); // merge components of one location
-        edges.inputs.erase(repeated.begin(), repeated.end());
+        // Merges the components of one location.
+        const auto isSame = [](ShaderInput const& a, ShaderInput const& b) { return a.location == b.location; };
+        edges.inputs.erase(std::unique(edges.inputs.begin(), edges.inputs.end(), isSame), edges.inputs.end());
         return edges;
     }
 
@@ -101,8 +101,6 @@ private:
             define(operand(0), { op, operand(2), operand(1) });
             break;
         case OpConstant:
-            define(operand(1), { op, operand(0), operand(2) });
-            break;
         case OpVariable:
             define(operand(1), { op, operand(0), operand(2) });
             break;

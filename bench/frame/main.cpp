@@ -71,6 +71,7 @@ Result<Measured> measure(Backend backend, std::filesystem::path const& assets, S
     };
     measured.firstFrameSeconds = frame();
     std::vector<double> times;
+    times.reserve(static_cast<size_t>(frames));
     for (int i = 0; i < frames; ++i) times.push_back(frame() * 1e3);
     std::sort(times.begin(), times.end());
     measured.minimum = times.front();

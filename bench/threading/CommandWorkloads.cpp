@@ -37,7 +37,7 @@ void recordBindsAndDraws(CommandBuffer& commands) {
 }
 
 /// Nanoseconds per draw of repeating `work`, which processes kDraws of them.
-Sampler perDraw(Settings const& settings, std::function<void()> work) {
+Sampler perDraw(Settings const& settings, std::function<void()> const& work) {
     return [=, sampleNs = settings.sampleNs](std::vector<double>& figures) {
         work(); // warm up: allocates the chunks and brings them into the cache
         uint64_t repeats = 0;

@@ -47,7 +47,7 @@ WorkloadList allWorkloads(Settings const& settings) {
     return list;
 }
 
-Sampler timed(std::shared_ptr<Runtime> runtime, RepeatedWork work, double items, double sampleNs) {
+Sampler timed(std::shared_ptr<Runtime> const& runtime, RepeatedWork const& work, double items, double sampleNs) {
     return [=, repeats = uint64_t{ 0 }](std::vector<double>& figures) mutable {
         runtime->enter();
         warmUp(*runtime);

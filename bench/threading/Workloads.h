@@ -36,7 +36,7 @@ using RepeatedWork = std::function<void(Runtime& runtime, uint64_t repeats)>;
 
 /// One figure per round: nanoseconds of `work` over its `items`, repeated until a sample takes Settings::sampleNs. The
 /// runtime is warmed up before it and goes to sleep after it; neither is counted.
-Sampler timed(std::shared_ptr<Runtime> runtime, RepeatedWork work, double items, double sampleNs);
+Sampler timed(std::shared_ptr<Runtime> const& runtime, RepeatedWork const& work, double items, double sampleNs);
 
 /// timed() once, without repetition, for work that takes milliseconds. Returns nanoseconds.
 double timeOnce(Runtime& runtime, std::function<void(Runtime&)> const& work);

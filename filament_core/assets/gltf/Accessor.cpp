@@ -114,6 +114,7 @@ void forEachElement(GltfDocument const& document, GltfAccessor const& accessor, 
         std::byte const* indices = document.viewBytes[sparse.indicesView].data() + sparse.indicesOffset;
         std::byte const* values = document.viewBytes[sparse.valuesView].data() + sparse.valuesOffset;
         for (uint64_t i = 0; i < sparse.count; ++i) {
+            // NOLINTNEXTLINE(bugprone-signed-char-misuse): checkAccessor() has refused negative ones
             const auto index = static_cast<uint64_t>(loadComponent<Index>(indices + i * sizeof(Index)));
             store(index * accessor.components, values + i * elementBytes(accessor));
         }

@@ -27,8 +27,10 @@ DracoMesh::DracoMesh(std::span<const std::byte> stream, std::string_view path, D
         buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
         draco::Decoder decoder;
         auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-        if (decoded.ok()) mState->mesh = std::move(decoded).value();
-        if (!decoded.ok()) reason = decoded.status().error_msg_string();
+        if (decoded.ok())
+            mState->mesh = std::move(decoded).value();
+        else
+            reason = decoded.status().error_msg_string();
     } catch (std::exception const& exception) { // e.g. bad_alloc, length_error: sizes made up by the stream
         reason = exception.what();
     }

@@ -27,6 +27,7 @@ template <>
 void addDeltas(GltfDocument const& document, uint32_t accessor, float weight, const char* name,
                std::vector<float4>& tangents, Diagnostics& diagnostics) {
     std::vector<float3> directions; // morph targets do not change the handedness
+    directions.reserve(tangents.size());
     for (float4 const& tangent : tangents) directions.emplace_back(tangent);
     addDeltas(document, accessor, weight, name, directions, diagnostics);
     for (size_t i = 0; i < tangents.size(); ++i) tangents[i] = float4(directions[i], tangents[i].w);

@@ -187,10 +187,10 @@ std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, si
     const auto earlier = [](VariantMaterial const& a, VariantMaterial const& b) { return a.variant < b.variant; };
     const auto same = [](VariantMaterial const& a, VariantMaterial const& b) { return a.variant == b.variant; };
     std::ranges::stable_sort(materials, earlier);
-    const auto repeated = std::ranges::unique(materials, same);
-    if (!repeated.empty()) {
+    const auto repeated = std::unique(materials.begin(), materials.end(), same);
+    if (repeated != materials.end()) {
         primitive.diagnostics().warn("{}: a variant has two materials, the first is used", primitive.path());
-        materials.erase(repeated.begin(), repeated.end());
+        materials.erase(repeated, materials.end());
     }
     return materials;
 }

@@ -17,7 +17,7 @@ using assets::TextureRef;
 
 constexpr float kMaxHalf = 65504; // shaders may compute in 16 bits
 
-std::string withSuffix(std::string family, AlphaMode mode) {
+std::string withSuffix(std::string const& family, AlphaMode mode) {
     switch (mode) {
     case AlphaMode::Opaque:
         return family + "_opaque";

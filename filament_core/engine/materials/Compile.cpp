@@ -9,7 +9,6 @@ namespace filament {
 namespace {
 
 using engine::CompileJob;
-using engine::CompileWish;
 using prepare::DrawPass;
 
 constexpr uint32_t kJointsAttribute = static_cast<uint32_t>(Attribute::Joints);

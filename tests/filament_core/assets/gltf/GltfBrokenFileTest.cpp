@@ -101,7 +101,7 @@ TEST(GltfBrokenFile, SparseIndicesOutOfRangeAreRefused) {
 TEST(GltfBrokenFile, NodesMustFormAForest) {
     TestFile file = TestFile::triangle();
     file.root["nodes"] = Json::parse(R"([ { "mesh": 0 }, { "children": [ 2 ] }, { "children": [ 1 ] } ])");
-    EXPECT_THAT(refusal(file), HasSubstr("circle"));
+    EXPECT_THAT(refusal(file), HasSubstr("cycle"));
     file.root["nodes"] = Json::parse(R"([ { "mesh": 0, "children": [ 0 ] } ])");
     EXPECT_THAT(refusal(file), HasSubstr("nodes[0].children: nodes[0]"));
     file.root["nodes"] = Json::parse(R"([ { "children": [ 2 ] }, { "children": [ 2 ] }, {} ])");
