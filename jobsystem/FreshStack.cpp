@@ -4,8 +4,11 @@
 #include "base/Assert.h"
 
 #include <pthread.h>
+#include <sys/mman.h>
+#include <ucontext.h>
 
 #include <algorithm>
+#include <utility>
 
 namespace filament::jobs {
 namespace {
@@ -41,6 +44,31 @@ void* runHelper(void* erased) {
     return nullptr;
 }
 
+void runMapped(uint32_t high, uint32_t low) { // makecontext() passes ints only
+    Call& call = *reinterpret_cast<Call*>(uintptr_t(high) << 32 | low);
+    call.call(call.argument);
+}
+
+/// Where the system refuses a thread: the same thread on other memory. Sanitizers and debuggers may lose track of it.
+bool callOnMappedStack(Call& request) {
+    void* const stack =
+            mmap(nullptr, kStackBytes, PROT_READ | PROT_WRITE, MAP_PRIVATE | MAP_ANONYMOUS | MAP_STACK, -1, 0);
+    if (stack == MAP_FAILED) return false;
+    ucontext_t here{}, there{};
+    getcontext(&there);
+    there.uc_stack.ss_sp = stack;
+    there.uc_stack.ss_size = kStackBytes;
+    there.uc_link = &here;
+    const auto address = reinterpret_cast<uintptr_t>(&request);
+    makecontext(&there, reinterpret_cast<void (*)()>(&runMapped), 2, static_cast<uint32_t>(address >> 32),
+                static_cast<uint32_t>(address));
+    const uintptr_t floor = std::exchange(tThread.stackFloor, reinterpret_cast<uintptr_t>(stack) + kReserveBytes);
+    swapcontext(&here, &there);
+    tThread.stackFloor = floor;
+    munmap(stack, kStackBytes);
+    return true;
+}
+
 } // namespace
 
 void measureStack() {
@@ -64,8 +92,12 @@ void callOnFreshStack(void (*call)(void*), void* argument) {
     pthread_attr_setstacksize(&attributes, kStackBytes);
     const int error = pthread_create(&helper, &attributes, &runHelper, &request);
     pthread_attr_destroy(&attributes);
-    FILAMENT_ASSERT(error == 0, "jobs are nested so deeply that the system refuses a thread for more stack");
-    pthread_join(helper, nullptr);
+    if (error == 0) {
+        pthread_join(helper, nullptr);
+        return;
+    }
+    const bool done = callOnMappedStack(request);
+    FILAMENT_ASSERT(done, "jobs are nested so deeply that the system refuses memory for more stack");
 }
 
 } // namespace filament::jobs

@@ -3,11 +3,11 @@
 ///   Why     a wait() runs jobs, which wait, which run jobs: the nesting is unbounded, but the stack is not. Near its
 ///           end the thread lends its seat to a helper thread with a new stack and sleeps until the helper returns.
 ///           These are threads rather than switched stacks because debuggers, sanitizers and unwinders understand
-///           threads.
+///           threads. Where the operating system refuses a thread, the stack is switched.
 ///   Thread  any; the helper inherits ThreadState and the assertion context. Other thread-locals are the helper's own.
 ///   Memory  8 MiB of address space per helper; the operating system provides only the pages that are touched.
 ///   Limits  between two checks of the stack a job may use 256 KiB; on a small stack, a quarter of the stack.
-///   Fails   ends the process with a message if the operating system refuses another thread.
+///   Fails   ends the process with a message if there is no memory for another stack.
 ///   Cost    isStackLow(): a compare; callOnFreshStack(): starting and ending a thread, 30 to 100 us per 8 MiB of
 ///           nesting.
 #pragma once

@@ -31,6 +31,7 @@ Scheduler::Scheduler(JobSystemOptions const& options)
           mStorage(4096 + (mSeats.workers() + SeatTable::kGuestSeats) * 2 * JobStorage::kBatch) {
     const uint32_t workers = mSeats.workers();
     if (workers == 0) return;
+    mHasWorkers = true;
     mBackground = std::make_unique<BackgroundThreads>(*this, std::max(1u, workers / 2), options.threadName + " bg");
     startWorkers(options.threadName);
 }
@@ -44,9 +45,10 @@ void Scheduler::startWorkers(std::string const& threadName) {
         try {
             mThreads.emplace_back(&Scheduler::runWorker, this, i, name);
         } catch (std::system_error const& error) {
-            FILAMENT_ASSERT(i > 0, "the operating system refuses every worker thread; end other threads or set "
-                                   "JobSystemOptions::workers to 0");
             log(Severity::Warning, "{} starts with only {} of {} workers: {}", threadName, i, workers, error.what());
+            if (i > 0) return;
+            mHasWorkers = false; // as with JobSystemOptions::workers 0: all work runs on the threads that ask for it
+            mBackground.reset();
             return;
         }
     }

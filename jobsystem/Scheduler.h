@@ -39,7 +39,8 @@ public:
     Scheduler(Scheduler const&) = delete;
     Scheduler& operator=(Scheduler const&) = delete;
 
-    uint32_t workerCount() const { return mSeats.workers(); }
+    /// 0 also if the operating system refuses every thread.
+    uint32_t workerCount() const { return mHasWorkers ? mSeats.workers() : 0; }
     uint64_t busyNanoseconds();
 
     /// An empty job, or null: there are no workers, or no free job.
@@ -148,6 +149,7 @@ private:
     alignas(kCacheLineBytes) std::atomic<bool> mStopping{ false };
     Completion mBackgroundCompletion{ 0, Priority::Background };
     std::unique_ptr<BackgroundThreads> mBackground; // null without workers
+    bool mHasWorkers = false;                       // constant after construction
     std::vector<std::thread> mThreads;
     // The last member: ends the running threads, even if the constructor could not start all of them.
     struct ThreadEnd {
