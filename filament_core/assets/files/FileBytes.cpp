@@ -3,17 +3,23 @@
 
 #include <atomic>
 #include <cerrno>
+#include <chrono>
+#include <csignal>
 #include <cstdio>
 #include <cstring>
 #include <memory>
+#include <optional>
 #include <string>
 #include <system_error>
 
 #include <fcntl.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 namespace filament::assets {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr uintmax_t kMaxFileBytes = uintmax_t(4) << 30;
 
@@ -42,6 +48,74 @@ bool writeAll(int descriptor, std::span<const std::byte> bytes) {
     return true;
 }
 
+/// Writes and closes. Returns 0 or the first error: close() reports what some file systems delay.
+int writeAndClose(int descriptor, std::span<const std::byte> bytes) {
+    const int failed = writeAll(descriptor, bytes) ? 0 : errno;
+    const bool closed = ::close(descriptor) == 0;
+    return failed != 0 || closed ? failed : errno;
+}
+
+/// The file that `path` names through any number of links, whether or not it exists. The links of /proc, to which
+/// /dev/stdout leads, are not followed: their files are open already, and need not have a name.
+fs::path linkedFile(fs::path path, std::error_code& error) {
+    constexpr int kMostLinks = 40; // as in Linux
+    for (int i = 0; i < kMostLinks; ++i) {
+        std::error_code none;
+        if (path.native().starts_with("/proc/") || !fs::is_symlink(fs::symlink_status(path, none))) return path;
+        const fs::path target = fs::read_symlink(path, error);
+        if (error) return path;
+        path = target.is_absolute() ? target : path.parent_path() / target;
+    }
+    error = std::make_error_code(std::errc::too_many_symbolic_link_levels);
+    return path;
+}
+
+Result<void> writeInto(fs::path const& path, std::span<const std::byte> bytes) {
+    const int descriptor = ::open(path.c_str(), O_WRONLY | O_CLOEXEC);
+    if (descriptor < 0) return unwritable(path, std::strerror(errno));
+    if (const int failed = writeAndClose(descriptor, bytes); failed != 0)
+        return unwritable(path, std::strerror(failed));
+    return {};
+}
+
+/// `mode`: permissions of the file that is replaced; 0: there is none.
+Result<void> writeBeside(fs::path const& path, std::span<const std::byte> bytes, mode_t mode) {
+    static std::atomic<uint32_t> serial{ 0 }; // unique within the process; the id makes it unique among processes
+    const std::string temporary = fmt::format("{}.{}-{}", path.string(), ::getpid(), serial.fetch_add(1));
+    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
+    if (descriptor < 0) return unwritable(path, std::strerror(errno));
+    if (mode != 0) ::fchmod(descriptor, mode); // cannot matter more than the contents
+    int failed = writeAndClose(descriptor, bytes);
+    if (failed == 0 && ::rename(temporary.c_str(), path.c_str()) != 0) failed = errno;
+    if (failed == 0) return {};
+    ::unlink(temporary.c_str());
+    return unwritable(path, std::strerror(failed));
+}
+
+/// The process id in the name of a temporary file, "NAME.ID-SERIAL".
+std::optional<pid_t> writerOf(std::string const& name) {
+    const size_t dot = name.rfind('.'), dash = name.rfind('-');
+    if (dot == std::string::npos || dash == std::string::npos || dash < dot) return std::nullopt;
+    const auto isNumber = [](std::string_view text) {
+        return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string_view::npos;
+    };
+    const std::string id = name.substr(dot + 1, dash - dot - 1);
+    if (!isNumber(id) || !isNumber(std::string_view(name).substr(dash + 1))) return std::nullopt;
+    return static_cast<pid_t>(std::stol(id));
+}
+
+bool isLeftover(fs::directory_entry const& entry) {
+    using namespace std::chrono_literals;
+    std::error_code error;
+    const std::optional<pid_t> writer = writerOf(entry.path().filename().string());
+    if (!writer || !entry.is_regular_file(error) || entry.is_symlink(error)) return false;
+    const auto written = entry.last_write_time(error);
+    if (error) return false;
+    const auto age = fs::file_time_type::clock::now() - written;
+    const bool isGone = ::kill(*writer, 0) != 0 && errno == ESRCH;
+    return age > 1h || (isGone && age > 1min);
+}
+
 } // namespace
 
 Result<std::vector<std::byte>> readFileBytes(std::filesystem::path const& path) {
@@ -63,29 +137,43 @@ Result<std::vector<std::byte>> readFileBytes(std::filesystem::path const& path) 
     return bytes;
 }
 
+Result<std::string> readText(std::filesystem::path const& path, size_t most) {
+    const File file(std::fopen(path.c_str(), "rb"));
+    if (!file && errno == ENOENT) return fail(ErrorCode::NotFound, "no file '{}'; check the path", path.string());
+    if (!file) return unreadable(path, std::strerror(errno));
+    std::string text;
+    char buffer[65536];
+    while (const size_t count = std::fread(buffer, 1, sizeof buffer, file.get())) {
+        text.append(buffer, count);
+        if (text.size() > most) return unreadable(path, fmt::format("larger than {} bytes", most).c_str());
+    }
+    if (std::ferror(file.get()) != 0) return unreadable(path, std::strerror(errno)); // also a directory
+    return text;
+}
+
 Result<void> replaceFile(std::filesystem::path const& path, std::span<const std::byte> bytes) {
     std::error_code error;
-    if (path.has_parent_path()) {
-        std::filesystem::create_directories(path.parent_path(), error);
+    const fs::path file = linkedFile(path, error);
+    if (error) return unwritable(path, error.message().c_str());
+    struct stat status {};
+    const bool exists = ::stat(file.c_str(), &status) == 0;
+    if (exists && S_ISDIR(status.st_mode)) return unwritable(path, "it is a directory");
+    if (file.native().starts_with("/proc/") || (exists && !S_ISREG(status.st_mode))) return writeInto(file, bytes);
+    if (file.has_parent_path()) {
+        fs::create_directories(file.parent_path(), error);
         if (error) return unwritable(path, error.message().c_str());
     }
-    static std::atomic<uint32_t> serial{ 0 }; // unique within the process; the id makes it unique among processes
-    const std::string temporary = fmt::format("{}.{}-{}", path.string(), ::getpid(), serial.fetch_add(1));
-    const int descriptor = ::open(temporary.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0666);
-    if (descriptor < 0) return unwritable(path, std::strerror(errno));
-    const bool wrote = writeAll(descriptor, bytes);
-    const int writeError = errno;
-    const bool closed = ::close(descriptor) == 0;
-    if (!wrote || !closed) {
-        ::unlink(temporary.c_str());
-        return unwritable(path, std::strerror(wrote ? errno : writeError));
+    return writeBeside(file, bytes, exists ? status.st_mode & 07777 : 0);
+}
+
+size_t removeLeftovers(std::filesystem::path const& folder) {
+    size_t removed = 0;
+    std::error_code error;
+    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
+        std::error_code failed;
+        if (isLeftover(*entry) && fs::remove(entry->path(), failed)) ++removed;
     }
-    std::filesystem::rename(temporary, path, error);
-    if (error) {
-        ::unlink(temporary.c_str());
-        return unwritable(path, error.message().c_str());
-    }
-    return {};
+    return removed;
 }
 
 } // namespace filament::assets
