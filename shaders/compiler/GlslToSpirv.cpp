@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/GlslToSpirv.h"
 
+#include "shaders/compiler/GlslLimits.h"
 #include "shaders/compiler/SpirvWords.h"
 
 #include <glslang/Public/ResourceLimits.h>
@@ -81,6 +82,7 @@ static EShLanguage languageOf(backend::ShaderStage stage) {
 }
 
 Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name) {
+    if (const Result<void> within = checkGlslLimits(glsl, name); !within) return within.error();
     static const GlslangProcess process;
     const EShLanguage language = languageOf(stage);
     const std::string nameText(name);
