@@ -1,20 +1,24 @@
 // SPDX-License-Identifier: Apache-2.0
 /// matc: compiles one material definition (.mat) into a package (.fmat). Flags as in the materials guide, 5.2.
-///   Out     the same bytes for any number of threads. Nothing is written if there is an error.
+///   Out     the same bytes for any number of threads. If there is an error, also a full disk, nothing is written: an
+///           old package stays as it was.
+///   In      the material, and #include files of its folder (--allow-outside: of any), 1 MiB together.
 ///   Status  0: written; 1: the reason is on standard error, as the guide shows it (5.1): "ERROR: file:line: reason"
 ///           with the line of the author's file, and which material was not compiled.
 #include "base/Suggest.h"
+#include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/files/PathInside.h"
 #include "jobsystem/JobSystem.h"
 #include "shaders/compiler/Cost.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/compiler/MaterialDefinition.h"
+#include "tools/common/StandardOutput.h"
 
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
+#include <exception>
 #include <filesystem>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 #include <vector>
@@ -31,12 +35,18 @@ struct Arguments {
     std::vector<std::string> filters;
     int threads = 0;
     bool optimizeSize = false, noOptimization = false, inexact = false, preprocess = false, cost = false;
+    assets::FilesFrom includes = assets::FilesFrom::Folder;
 };
 
-std::optional<std::string> readFile(std::filesystem::path const& path) {
-    std::ifstream file(path, std::ios::binary);
+constexpr size_t kMaxTextBytes = 1 << 20; // as the compiler's limit for a material with its includes
+
+/// Files beside the material; see --allow-outside.
+std::optional<std::string> readInclude(Arguments const& arguments, std::string_view path) {
+    const std::filesystem::path folder = std::filesystem::path(arguments.input).parent_path();
+    const Result<std::filesystem::path> file = assets::fileInside(folder, path, arguments.includes);
     if (!file) return std::nullopt;
-    return std::string(std::istreambuf_iterator<char>(file), {});
+    Result<std::string> text = assets::readText(*file, kMaxTextBytes);
+    return text ? std::optional(std::move(*text)) : std::nullopt;
 }
 
 Result<uint16_t> filteredBits(std::vector<std::string> const& filters) {
@@ -52,23 +62,21 @@ Result<uint16_t> filteredBits(std::vector<std::string> const& filters) {
     return bits;
 }
 
-Result<void> write(std::string const& path, std::vector<std::byte> const& bytes) {
-    std::ofstream file(path, std::ios::binary);
-    file.write(reinterpret_cast<const char*>(bytes.data()), static_cast<std::streamsize>(bytes.size()));
-    file.close();
-    if (file) return {};
-    return fail(ErrorCode::Unreadable, "cannot write '{}'; does its folder exist?", path);
+Result<void> write(std::filesystem::path const& path, std::vector<std::byte> const& bytes) {
+    const std::filesystem::path folder = path.has_parent_path() ? path.parent_path() : ".";
+    if (!std::filesystem::is_directory(folder)) // replaceFile() would make one, whose name may be a typing error
+        return fail(ErrorCode::Unreadable, "cannot write '{}'; does its folder exist?", path.string());
+    return assets::replaceFile(path, bytes);
 }
 
 Result<void> print(Result<std::string> const& text) {
     if (!text) return text.error();
-    std::fputs(text->c_str(), stdout);
-    return {};
+    return tools::printText(*text);
 }
 
 Result<void> run(Arguments const& arguments) {
-    const std::optional<std::string> text = readFile(arguments.input);
-    if (!text) return fail(ErrorCode::NotFound, "cannot read '{}'", arguments.input);
+    const Result<std::string> text = assets::readText(arguments.input, kMaxTextBytes);
+    if (!text) return text.error();
     const Result<uint16_t> filtered = filteredBits(arguments.filters);
     if (!filtered) return filtered.error();
 
@@ -80,8 +88,7 @@ Result<void> run(Arguments const& arguments) {
     options.essl = arguments.api != "vulkan";
     if (arguments.optimizeSize) options.optimization = shader::Optimization::Size;
     if (arguments.noOptimization) options.optimization = shader::Optimization::None;
-    const std::filesystem::path folder = std::filesystem::path(arguments.input).parent_path();
-    options.includes = [&](std::string_view path) { return readFile(folder / path); };
+    options.includes = [&](std::string_view path) { return readInclude(arguments, path); };
 
     if (arguments.preprocess) return print(shader::preprocessMaterial(*text, arguments.input, options));
     if (arguments.cost) return print(shader::costReport(*text, arguments.input, options));
@@ -89,6 +96,15 @@ Result<void> run(Arguments const& arguments) {
     const Result<shader::MaterialPackage> package = shader::compileMaterial(*text, arguments.input, options);
     if (!package) return package.error();
     return write(arguments.output, shader::writePackage(*package));
+}
+
+Result<void> guarded(Arguments const& arguments) {
+    try {
+        return run(arguments);
+    } catch (std::exception const& error) {
+        return fail(ErrorCode::OutOfMemory, "{}: out of resources ({}); try a smaller material, or -j 1",
+                    arguments.input, error.what());
+    }
 }
 
 } // namespace
@@ -111,16 +127,24 @@ int main(int argc, char** argv) {
     app.add_flag("-g,--no-optimization", arguments.noOptimization, "shaders as written, for debugging");
     app.add_flag("--inexact", arguments.inexact,
                  "leave dot, normalize, mix, ... to the drivers; the bits may then differ between APIs");
+    app.add_flag_callback(
+            "--allow-outside", [&] { arguments.includes = assets::FilesFrom::Anywhere; },
+            "#include files outside of the material's folder too: absolute paths, \"..\", links that lead out");
     auto* const preprocess = app.add_flag("--preprocess", arguments.preprocess, "print the generated GLSL and stop");
     auto* const reflect = app.add_option("-r,--reflect", arguments.reflect, "print what the material declares, as JSON")
                                   ->check(CLI::IsMember({ "parameters" }));
     auto* const cost = app.add_flag("--cost", arguments.cost, "print the operations of the fragment stages and stop");
-    CLI11_PARSE(app, argc, argv);
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::ParseError const& problem) {
+        const int status = app.exit(problem);
+        return tools::finishOutput() ? status : 1;
+    }
     if (output->empty() && preprocess->empty() && reflect->empty() && cost->empty()) {
         std::fprintf(stderr, "matc: give the package to write with -o\n");
         return 1;
     }
-    const Result<void> done = run(arguments);
+    const Result<void> done = guarded(arguments);
     if (!done) {
         std::fprintf(stderr, "ERROR: %s\n\nCould not compile material %s\n", done.error().message.c_str(),
                      arguments.input.c_str());

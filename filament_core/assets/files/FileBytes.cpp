@@ -139,7 +139,8 @@ Result<std::vector<std::byte>> readFileBytes(std::filesystem::path const& path) 
 
 Result<std::string> readText(std::filesystem::path const& path, size_t most) {
     const File file(std::fopen(path.c_str(), "rb"));
-    if (!file && errno == ENOENT) return fail(ErrorCode::NotFound, "no file '{}'; check the path", path.string());
+    if (!file && errno == ENOENT)
+        return fail(ErrorCode::NotFound, "cannot read '{}': there is no such file; check the path", path.string());
     if (!file) return unreadable(path, std::strerror(errno));
     std::string text;
     char buffer[65536];

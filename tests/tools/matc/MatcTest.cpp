@@ -24,8 +24,9 @@ struct Outcome {
     std::string output; ///< both streams
 };
 
-Outcome matc(std::string const& arguments) {
-    const std::string command = (filament::tools::buildDir() / "bin/matc ").string() + arguments + " 2>&1";
+const std::string kProgram = (filament::tools::buildDir() / "bin/matc ").string();
+
+Outcome shell(std::string const& command) {
     Outcome outcome;
     FILE* const pipe = popen(command.c_str(), "r");
     EXPECT_NE(pipe, nullptr);
@@ -34,6 +35,8 @@ Outcome matc(std::string const& arguments) {
     outcome.status = WEXITSTATUS(pclose(pipe));
     return outcome;
 }
+
+Outcome matc(std::string const& arguments) { return shell(kProgram + arguments + " 2>&1"); }
 
 std::string contents(fs::path const& path) {
     std::ifstream file(path, std::ios::binary);
@@ -166,6 +169,62 @@ TEST_F(Matc, IncludesFilesBesideTheMaterial) {
                          "void material(inout MaterialInputs m) { prepareMaterial(m); m.baseColor *= kHalf; } }\n");
     const Outcome outcome = matc("-o " + path("out") + " " + input);
     EXPECT_EQ(outcome.status, 0) << outcome.output;
+}
+
+TEST_F(Matc, RefusesWhatIsNoSmallTextFile) {
+    const auto refusal = [&](std::string const& input) {
+        const Outcome outcome = matc("-o " + path("out") + " " + input);
+        EXPECT_EQ(outcome.status, 1) << input;
+        EXPECT_FALSE(fs::exists(path("out")));
+        return outcome.output;
+    };
+    EXPECT_THAT(refusal(mFolder.string()), HasSubstr("': Is a directory"));
+    EXPECT_THAT(refusal("/dev/zero"), HasSubstr("larger than 1048576 bytes"));
+    EXPECT_THAT(refusal(path("missing.mat")), HasSubstr("there is no such file"));
+    const std::string including = "material {}\nfragment {\n#include \".\"\n}\n";
+    EXPECT_THAT(refusal(file("includes.mat", including)), HasSubstr("includes.mat:3: cannot find the file \".\""));
+}
+
+TEST_F(Matc, IncludesFilesOfOtherFoldersOnlyWhereThatIsAllowed) {
+    fs::create_directories(mFolder / "sub");
+    const std::string half = file("half.glsl", "const float kHalf = 0.5;\n");
+    fs::create_symlink(half, mFolder / "sub" / "link.glsl");
+    for (std::string const& name : { std::string("../half.glsl"), half, std::string("link.glsl") }) {
+        const std::string input =
+                file("sub/stone.mat", "material { shadingModel : unlit }\nfragment {\n#include \"" + name +
+                                              "\"\nvoid material(inout MaterialInputs m) { prepareMaterial(m); "
+                                              "m.baseColor *= kHalf; } }\n");
+        EXPECT_THAT(matc("--preprocess " + input).output, HasSubstr("stone.mat:3: cannot find the file")) << name;
+        EXPECT_EQ(matc("--allow-outside --preprocess " + input).status, 0) << name;
+    }
+}
+
+// The disk is full after so many blocks of 512 bytes. ReplaceFile.AFullDisk... tries every byte.
+TEST_F(Matc, KeepsTheGoodPackageIfTheDiskIsFull) {
+    const std::string input = file("stone.mat", "material { shadingModel : unlit }\nfragment { void material(inout "
+                                                "MaterialInputs m) { prepareMaterial(m); } }\n");
+    ASSERT_EQ(matc("-a vulkan -o " + path("good.fmat") + " " + input).status, 0);
+    const std::string good = contents(path("good.fmat"));
+    for (const char* blocks : { "0", "1", "3" }) {
+        const Outcome outcome = shell(std::string("trap '' XFSZ; ulimit -f ") + blocks + "; " + kProgram + "-o " +
+                                      path("good.fmat") + " " + input + " 2>&1");
+        EXPECT_EQ(outcome.status, 1) << blocks;
+        EXPECT_THAT(outcome.output, HasSubstr("good.fmat': File too large"));
+        EXPECT_EQ(contents(path("good.fmat")), good) << blocks;
+    }
+    EXPECT_EQ(std::distance(fs::directory_iterator(mFolder), fs::directory_iterator()), 2) << "and nothing beside it";
+    EXPECT_EQ(matc("-o /dev/full " + input).status, 1);
+    EXPECT_TRUE(fs::is_character_file("/dev/full"));
+}
+
+TEST_F(Matc, AFullStandardOutputIsAnError) {
+    const std::string input = file("stone.mat", kLit);
+    for (const char* mode : { "--preprocess ", "--cost ", "--reflect parameters " }) {
+        const Outcome outcome = shell(kProgram + mode + input + " 3>&1 >/dev/full 2>&3");
+        EXPECT_EQ(outcome.status, 1) << mode;
+        EXPECT_THAT(outcome.output, HasSubstr("cannot write to the standard output: No space left on device"));
+    }
+    EXPECT_EQ(shell(kProgram + "--help >/dev/full").status, 1);
 }
 
 TEST_F(Matc, PrintsTheGeneratedGlslOnRequest) {
