@@ -108,6 +108,12 @@ std::optional<Result<void>> convertLoadChoice(std::string const& name, std::stri
         return choose(options.modelOptions.positions, positionStorageFromName(value), "asAuthored, half or unorm16");
     if (name == "model.tangents")
         return choose(options.modelOptions.tangents, tangentStorageFromName(value), "snorm16, snorm8 or float");
+    if (name == "model.files") {
+        if (value != "folder" && value != "anywhere")
+            return invalidOption("--set model.files", value, "folder or anywhere");
+        options.modelOptions.filesFromAnywhere = value == "anywhere";
+        return Result<void>();
+    }
     return std::nullopt;
 }
 

@@ -2,6 +2,7 @@
 #include "tools/materials/MaterialFile.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/files/PathInside.h"
 #include "shaders/compiler/MaterialCompiler.h"
 
 #include <algorithm>
@@ -34,7 +35,9 @@ Result<std::string> edited(std::string text, std::vector<TextEdit> const& edits,
 
 Result<std::vector<std::byte>> compiled(std::string const& text, fs::path const& path) {
     const auto beside = [&](std::string_view name) -> std::optional<std::string> {
-        const Result<std::string> file = readText(path.parent_path() / name);
+        const Result<fs::path> inside = assets::fileInside(path.parent_path(), name);
+        if (!inside) return std::nullopt;
+        const Result<std::string> file = readText(*inside);
         return file ? std::optional(*file) : std::nullopt;
     };
     const Result<shader::MaterialPackage> package =

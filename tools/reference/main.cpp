@@ -25,7 +25,9 @@ Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, 
     const Result<showcase::Files> files = tools::chooseFiles(options);
     if (!files) return files.error();
     showProgress("loading the model");
-    Result<assets::ModelData> model = assets::loadGltf(files->model, jobs);
+    const assets::FilesFrom from =
+            options.modelOptions.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder;
+    Result<assets::ModelData> model = assets::loadGltf(files->model, jobs, { .files = from });
     if (!model) return model.error();
     if (const Result<void> done = assets::selectVariant(*model, options.variant); !done) return done.error();
     warnings = model->warnings;

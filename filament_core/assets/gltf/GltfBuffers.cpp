@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfBuffers.h"
 
-#include "filament_core/assets/gltf/GltfUri.h"
 #include "filament_core/assets/gltf/Meshopt.h"
 
 namespace filament::assets {
@@ -10,12 +9,12 @@ namespace {
 using Bytes = std::span<const std::byte>;
 
 /// Where the bytes of a buffer are; empty for a fallback.
-Bytes bufferBytes(GltfDocument& document, size_t index, GltfContainer const& container,
-                  std::filesystem::path const& baseDirectory, Diagnostics& diagnostics) {
+Bytes bufferBytes(GltfDocument& document, size_t index, GltfContainer const& container, GltfFolder const& folder,
+                  Diagnostics& diagnostics) {
     GltfBuffer const& buffer = document.buffers[index];
     Bytes bytes;
     if (!buffer.uri.empty()) {
-        Result<std::vector<std::byte>> read = readGltfUri(buffer.uri, baseDirectory);
+        Result<std::vector<std::byte>> read = readGltfUri(buffer.uri, folder);
         if (!read) {
             diagnostics.refuse(read.error().code, "buffers[{}]: {}", index, read.error().message);
             return {};
@@ -75,11 +74,11 @@ void decompressViews(GltfDocument& document, std::vector<CompressedView>& compre
 
 } // namespace
 
-void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, std::filesystem::path const& baseDirectory,
+void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, GltfFolder const& folder,
                      jobs::JobSystem& jobs, Diagnostics& diagnostics) {
     std::vector<Bytes> buffers(document.buffers.size());
     for (size_t i = 0; i < buffers.size() && diagnostics.ok(); ++i) {
-        buffers[i] = bufferBytes(document, i, container, baseDirectory, diagnostics);
+        buffers[i] = bufferBytes(document, i, container, folder, diagnostics);
     }
     std::vector<CompressedView> compressed;
     document.viewBytes.resize(document.views.size());

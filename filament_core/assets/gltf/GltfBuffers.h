@@ -10,13 +10,12 @@
 #include "filament_core/assets/files/Diagnostics.h"
 #include "filament_core/assets/gltf/GltfContainer.h"
 #include "filament_core/assets/gltf/GltfDocument.h"
+#include "filament_core/assets/gltf/GltfUri.h"
 #include "jobsystem/JobSystem.h"
-
-#include <filesystem>
 
 namespace filament::assets {
 
-void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, std::filesystem::path const& baseDirectory,
+void loadGltfBuffers(GltfDocument& document, GltfContainer const& container, GltfFolder const& folder,
                      jobs::JobSystem& jobs, Diagnostics& diagnostics);
 
 } // namespace filament::assets

@@ -54,20 +54,19 @@ std::vector<bool> usedMaterials(GltfDocument const& document, GltfScene const& s
 
 /// Images and primitives are independent: they are all jobs of one group.
 void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextures& textures,
-                 std::vector<GltfPrimitiveJob>& primitives, std::filesystem::path const& baseDirectory,
-                 jobs::JobSystem& jobs, GltfOptions const& options) {
+                 std::vector<GltfPrimitiveJob>& primitives, jobs::JobSystem& jobs, GltfOptions const& options) {
     Progress progress(options, GltfStage::Content, textures.jobs.size() + textures.packs.size() + primitives.size());
     const jobs::AdoptedThread seat(jobs);
     jobs::JobGroup group(jobs);
     for (GltfImageJob& job : textures.jobs) {
-        group.run<"decode image">([&document, &baseDirectory, &options, &progress, &job] {
-            decodeImageJob(document, baseDirectory, options.maxTextureSize, job);
+        group.run<"decode image">([&document, &textures, &options, &progress, &job] {
+            decodeImageJob(document, textures, options.maxTextureSize, job);
             progress.step();
         });
     }
     for (GltfPackJob& job : textures.packs) {
-        group.run<"pack images">([&document, &baseDirectory, &options, &progress, &job] {
-            packImagesJob(document, baseDirectory, options.maxTextureSize, job);
+        group.run<"pack images">([&document, &textures, &options, &progress, &job] {
+            packImagesJob(document, textures, options.maxTextureSize, job);
             progress.step();
         });
     }
@@ -78,6 +77,15 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextu
         });
     }
     group.wait();
+}
+
+void readImages(GltfDocument const& document, GltfFolder const& folder, GltfTextures& textures, jobs::JobSystem& jobs,
+                Diagnostics& diagnostics) {
+    jobs::parallelFor<"read image">(jobs, textures.sources.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) readImage(document, folder, textures.sources[i]);
+    });
+    for (GltfImageSource& source : textures.sources) diagnostics.merge(std::move(source.diagnostics));
+    if (diagnostics.ok()) checkImageBudget(textures, diagnostics);
 }
 
 void warnAboutAnimations(GltfDocument const& document, Diagnostics& diagnostics) {
@@ -91,22 +99,22 @@ void mergeDiagnostics(GltfTextures& textures, std::vector<GltfPrimitiveJob>& pri
     for (GltfPackJob& job : textures.packs) diagnostics.merge(std::move(job.diagnostics));
 }
 
-GltfDocument loadDocument(std::span<const std::byte> file, std::filesystem::path const& baseDirectory,
-                          jobs::JobSystem& jobs, Diagnostics& diagnostics) {
+GltfDocument loadDocument(std::span<const std::byte> file, GltfFolder const& folder, jobs::JobSystem& jobs,
+                          Diagnostics& diagnostics) {
     const Result<GltfContainer> container = openGltfContainer(file);
     if (!container) {
         diagnostics.refuse(container.error());
         return {};
     }
     GltfDocument document = parseGltf(container->json, diagnostics);
-    if (diagnostics.ok()) loadGltfBuffers(document, *container, baseDirectory, jobs, diagnostics);
+    if (diagnostics.ok()) loadGltfBuffers(document, *container, folder, jobs, diagnostics);
     return document;
 }
 
-ModelData load(std::span<const std::byte> file, std::filesystem::path const& baseDirectory, jobs::JobSystem& jobs,
+ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::JobSystem& jobs,
                GltfOptions const& options, Diagnostics& diagnostics) {
     Progress structure(options, GltfStage::Structure, 1);
-    GltfDocument document = loadDocument(file, baseDirectory, jobs, diagnostics);
+    GltfDocument document = loadDocument(file, folder, jobs, diagnostics);
     if (!diagnostics.ok()) return {};
     GltfScene scene = planScene(document, options.deformation, diagnostics);
     std::vector<GltfPrimitiveJob> primitives = listPrimitives(document, scene, diagnostics);
@@ -115,7 +123,9 @@ ModelData load(std::span<const std::byte> file, std::filesystem::path const& bas
 
     std::vector<uint32_t> newMaterial;
     GltfTextures textures = planTextures(document, usedMaterials(document, scene), newMaterial, diagnostics);
-    loadContent(document, scene, textures, primitives, baseDirectory, jobs, options);
+    readImages(document, folder, textures, jobs, diagnostics);
+    if (!diagnostics.ok()) return {};
+    loadContent(document, scene, textures, primitives, jobs, options);
     mergeDiagnostics(textures, primitives, diagnostics);
     ModelData model;
     if (options.deformation == GltfDeformation::Kept)
@@ -161,7 +171,7 @@ Result<ModelData> loadGltfFromMemory(std::span<const std::byte> file, std::files
                                      jobs::JobSystem& jobs, GltfOptions const& options) {
     try {
         Diagnostics diagnostics;
-        ModelData model = load(file, baseDirectory, jobs, options, diagnostics);
+        ModelData model = load(file, GltfFolder(baseDirectory, options.files), jobs, options, diagnostics);
         if (!diagnostics.ok())
             return fail(diagnostics.error().code, "{}: {}", options.name, diagnostics.error().message);
         return model;

@@ -18,6 +18,7 @@
 #pragma once
 
 #include "base/Result.h"
+#include "filament_core/assets/files/PathInside.h"
 #include "filament_core/assets/gltf/ModelData.h"
 #include "jobsystem/JobSystem.h"
 
@@ -39,7 +40,8 @@ struct GltfOptions {
     uint32_t maxTextureSize = 0; ///< texels; larger images start at a smaller mip level. 0: no limit
     GeometryStorage storage{};
     GltfDeformation deformation = GltfDeformation::AtRest;
-    std::string name = "model"; ///< name of a file in memory in messages; loadGltf() fills it in
+    FilesFrom files = FilesFrom::Folder; ///< which buffers and images are opened
+    std::string name = "model";          ///< name of a file in memory in messages; loadGltf() fills it in
 };
 
 Result<ModelData> loadGltf(std::filesystem::path const& path, jobs::JobSystem& jobs, GltfOptions options = {});

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfTextures.h"
 
-#include "filament_core/assets/gltf/GltfUri.h"
 #include "filament_core/assets/image/MipMaps.h"
 #include "filament_core/assets/image/StbImage.h"
 
@@ -23,7 +22,8 @@ class TexturePlanner {
 public:
     TexturePlanner(GltfDocument const& document, GltfTextures& textures, Diagnostics& diagnostics)
             : mDocument(document), mTextures(textures), mDiagnostics(diagnostics),
-              mJobOfImage(document.images.size(), kNone) {}
+              mFirstOfSame(firstOfSameImages(document)), mSourceOfImage(document.images.size(), kNone),
+              mJobOfSource(document.images.size(), kNone) {}
 
     MaterialData resolve(uint32_t index) {
         mMaterial = index;
@@ -114,7 +114,7 @@ private:
             mDiagnostics.warn("textures[{}]: has no PNG or JPEG image and is left out", info.texture);
             return reference;
         }
-        reference.image = texture.image;
+        reference.image = mFirstOfSame[texture.image];
         reference.sampler = texture.sampler == kNone ? kDefaultSampler : mDocument.samplers[texture.sampler];
         reference.uvSet = info.uvSet;
         reference.uvTransform = info.uvTransform;
@@ -122,12 +122,22 @@ private:
         return reference;
     }
 
-    uint32_t slotFor(uint32_t image, bool isColor) {
-        if (mJobOfImage[image] == kNone) {
-            mJobOfImage[image] = static_cast<uint32_t>(mTextures.jobs.size());
-            mTextures.jobs.push_back({ .image = image, .color = {}, .data = {}, .diagnostics = {} });
+    uint32_t sourceFor(uint32_t image) {
+        uint32_t& source = mSourceOfImage[image];
+        if (source == kNone) {
+            source = static_cast<uint32_t>(mTextures.sources.size());
+            mTextures.sources.push_back({ .image = image });
         }
-        GltfImageJob& job = mTextures.jobs[mJobOfImage[image]];
+        return source;
+    }
+
+    uint32_t slotFor(uint32_t image, bool isColor) {
+        const uint32_t source = sourceFor(image);
+        if (mJobOfSource[source] == kNone) {
+            mJobOfSource[source] = static_cast<uint32_t>(mTextures.jobs.size());
+            mTextures.jobs.push_back({ .source = source, .color = {}, .data = {}, .diagnostics = {} });
+        }
+        GltfImageJob& job = mTextures.jobs[mJobOfSource[source]];
         uint32_t& slot = isColor ? job.colorTexture : job.dataTexture;
         if (slot == kNone) slot = mTextures.textureCount++;
         return slot;
@@ -138,7 +148,8 @@ private:
         const auto [entry, isNew] = mPacked.try_emplace(packed, mTextures.textureCount);
         if (isNew) {
             const auto [first, second, layout] = packed;
-            mTextures.packs.push_back({ first, second, layout, mTextures.textureCount++, {}, {} });
+            const uint32_t one = sourceFor(first), other = sourceFor(second);
+            mTextures.packs.push_back({ one, other, layout, mTextures.textureCount++, {}, {} });
         }
         return entry->second;
     }
@@ -146,20 +157,17 @@ private:
     GltfDocument const& mDocument;
     GltfTextures& mTextures;
     Diagnostics& mDiagnostics;
-    std::vector<uint32_t> mJobOfImage;
+    std::vector<uint32_t> mFirstOfSame, mSourceOfImage; // by index in the document
+    std::vector<uint32_t> mJobOfSource;
     std::map<Packed, uint32_t> mPacked; // -> its slot
     uint32_t mMaterial = 0;
 };
 
-Result<Image> decode(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t index) {
-    GltfImage const& image = document.images[index];
-    const std::string name = fmt::format("images[{}]", index);
-    if (image.view != kNone) return decodeImage(document.viewBytes[image.view], name);
-    const Result<std::vector<std::byte>> file = readGltfUri(image.uri, baseDirectory);
-    if (!file) return fail(file.error().code, "{}: {}", name, file.error().message);
-    const bool isData = image.uri.starts_with("data:");
-    return decodeImage(*file, isData ? name : fmt::format("{} {}", name, image.uri));
+Result<Image> decode(GltfDocument const& document, GltfImageSource const& source) {
+    return decodeImage(source.bytes, imageName(document, source.image));
 }
+
+uint64_t pixelsOf(uint2 size) { return uint64_t(size.x) * size.y; }
 
 } // namespace
 
@@ -176,37 +184,52 @@ GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const&
     return textures;
 }
 
-void decodeImageJob(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t maxSize,
-                    GltfImageJob& job) {
+void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics) {
+    uint64_t pixels = 0;
+    for (GltfImageJob const& job : textures.jobs) {
+        const uint64_t uses = (job.colorTexture != kNone ? 1u : 0u) + (job.dataTexture != kNone ? 1u : 0u);
+        pixels += uses * pixelsOf(textures.sources[job.source].size);
+    }
+    for (GltfPackJob const& job : textures.packs)
+        pixels += pixelsOf(glm::max(textures.sources[job.first].size, textures.sources[job.second].size));
+    if (pixels > kMaxImagePixels)
+        diagnostics.refuse(ErrorCode::Unsupported,
+                           "images: the {} textures have {} pixels, more than {}; use smaller ones",
+                           textures.textureCount, pixels, kMaxImagePixels);
+}
+
+void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfImageJob& job) {
+    GltfImageSource const& source = textures.sources[job.source];
     try {
-        Result<Image> image = decode(document, baseDirectory, job.image);
+        Result<Image> image = decode(document, source);
         if (!image) return job.diagnostics.refuse(image.error());
         const bool isBoth = job.colorTexture != kNone && job.dataTexture != kNone;
         if (isBoth) job.data = withMipMaps(*image, false, maxSize);
         (job.colorTexture != kNone ? job.color : job.data) =
                 withMipMaps(std::move(*image), job.colorTexture != kNone, maxSize);
     } catch (std::bad_alloc const&) {
-        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again", job.image);
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: out of memory; free some and try again",
+                               source.image);
     } catch (std::exception const& exception) {
-        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", job.image, exception.what());
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", source.image, exception.what());
     }
 }
 
-void packImagesJob(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t maxSize,
-                   GltfPackJob& job) {
+void packImagesJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfPackJob& job) {
+    GltfImageSource const &one = textures.sources[job.first], &other = textures.sources[job.second];
     try {
-        Result<Image> first = decode(document, baseDirectory, job.first);
+        Result<Image> first = decode(document, one);
         if (!first) return job.diagnostics.refuse(first.error());
-        Result<Image> second = decode(document, baseDirectory, job.second);
+        Result<Image> second = decode(document, other);
         if (!second) return job.diagnostics.refuse(second.error());
         Image packed = packImages(std::move(*first), std::move(*second), job.layout);
         job.image = withMipMaps(std::move(packed), job.layout == PackLayout::ColorAlpha, maxSize);
     } catch (std::bad_alloc const&) {
         job.diagnostics.refuse(ErrorCode::OutOfMemory,
-                               "images[{}] and images[{}]: out of memory; free some and try again", job.first,
-                               job.second);
+                               "images[{}] and images[{}]: out of memory; free some and try again", one.image,
+                               other.image);
     } catch (std::exception const& exception) {
-        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", job.first, exception.what());
+        job.diagnostics.refuse(ErrorCode::OutOfMemory, "images[{}]: {}", one.image, exception.what());
     }
 }
 

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// GltfTextures: the materials that a scene uses, and the images that they need.
 ///   In      a document, and the flags of its materials that are used.
-///   Out     materials in file order, and image jobs, one per image and use: an image used as colour and as data
+///   Out     materials in file order, and image jobs, one per image and use (images with the same bytes are one): an image used as colour and as data
 ///           becomes two textures (sRGB and linear) from one decoding. If an extension expects a pair of maps in one
 ///           texture and the file has two, they are packed, with one job per distinct pair. TextureRef::image is an
 ///           index into the jobs' textures, in order.
@@ -13,22 +13,22 @@
 
 #include "filament_core/assets/files/Diagnostics.h"
 #include "filament_core/assets/gltf/GltfDocument.h"
+#include "filament_core/assets/gltf/GltfImages.h"
 #include "filament_core/assets/image/TexturePacking.h"
 
-#include <filesystem>
 #include <vector>
 
 namespace filament::assets {
 
 struct GltfImageJob {
-    uint32_t image = 0;                                 ///< index in the document
+    uint32_t source = 0;                                ///< index in GltfTextures::sources
     uint32_t colorTexture = kNone, dataTexture = kNone; ///< slots in ModelData::images
     Image color, data;                                  ///< filled as requested
     Diagnostics diagnostics;
 };
 
 struct GltfPackJob {
-    uint32_t first = 0, second = 0; ///< indices in the document
+    uint32_t first = 0, second = 0; ///< indices in GltfTextures::sources
     PackLayout layout = PackLayout::RedGreen;
     uint32_t texture = 0; ///< slot in ModelData::images
     Image image;
@@ -37,6 +37,7 @@ struct GltfPackJob {
 
 struct GltfTextures {
     std::vector<MaterialData> materials;
+    std::vector<GltfImageSource> sources; ///< readImage() fills them before any job runs
     std::vector<GltfImageJob> jobs;
     std::vector<GltfPackJob> packs;
     uint32_t textureCount = 0;
@@ -47,10 +48,11 @@ struct GltfTextures {
 GltfTextures planTextures(GltfDocument const& document, std::vector<bool> const& used, std::vector<uint32_t>& remap,
                           Diagnostics& diagnostics);
 
-void decodeImageJob(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t maxSize,
-                    GltfImageJob& job);
-void packImagesJob(GltfDocument const& document, std::filesystem::path const& baseDirectory, uint32_t maxSize,
-                   GltfPackJob& job);
+/// An error if the textures together have more than kMaxImagePixels; the sources are read.
+void checkImageBudget(GltfTextures const& textures, Diagnostics& diagnostics);
+
+void decodeImageJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfImageJob& job);
+void packImagesJob(GltfDocument const& document, GltfTextures const& textures, uint32_t maxSize, GltfPackJob& job);
 
 /// Moves the decoded images into their slots.
 std::vector<Image> collectImages(GltfTextures& textures);

@@ -93,19 +93,14 @@ Result<std::vector<std::byte>> readGltfFile(std::filesystem::path const& path) {
     return bytes;
 }
 
-Result<std::vector<std::byte>> readGltfUri(std::string_view uri, std::filesystem::path const& baseDirectory) {
+Result<std::vector<std::byte>> readGltfUri(std::string_view uri, GltfFolder const& folder) {
     if (uri.starts_with("data:")) return dataUriBytes(uri);
     if (hasScheme(uri)) {
         return fail(ErrorCode::Unsupported, "'{}' is not a file beside the model; store it there", uri.substr(0, 80));
     }
-    const std::string decoded = percentDecoded(uri);
-    const std::filesystem::path relative = std::filesystem::path(decoded).lexically_normal();
-    const bool leaves = relative.is_absolute() || (!relative.empty() && *relative.begin() == "..");
-    if (relative.empty() || leaves || decoded.find('\0') != std::string::npos) {
-        return fail(ErrorCode::InvalidArgument, "'{}' lies outside the model's folder; store it inside",
-                    decoded.substr(0, 80));
-    }
-    return readGltfFile(baseDirectory / relative);
+    const Result<std::filesystem::path> file = fileInside(folder.directory, percentDecoded(uri), folder.from);
+    if (!file) return file.error();
+    return readGltfFile(*file);
 }
 
 } // namespace filament::assets

@@ -2,6 +2,8 @@
 // The only translation unit that contains stb_image, as static functions: other libraries have their own copies.
 #include "filament_core/assets/image/StbImage.h"
 
+#include "filament_core/assets/image/ImageSize.h"
+
 #include <cstring>
 #include <limits>
 #include <memory>
@@ -50,7 +52,7 @@ Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view nam
     int width = 0, height = 0, channels = 0;
     const std::unique_ptr<stbi_uc, StbFree> pixels(stbi_load_from_memory(data, size, &width, &height, &channels, 4));
     if (!pixels) {
-        const char* reason = stbi_failure_reason();
+        const char* reason = isCutShortPng(bytes) ? "the file is cut short" : stbi_failure_reason();
         return fail(ErrorCode::Corrupt, "image '{}' cannot be decoded: {}; export it again", name,
                     reason ? reason : "unknown reason");
     }

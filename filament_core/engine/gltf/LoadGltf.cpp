@@ -286,9 +286,11 @@ namespace {
 
 Result<std::unique_ptr<Model::Impl>> load(Engine& engine, std::filesystem::path const& path,
                                           GltfLoadOptions const& options) {
-    assets::GltfOptions loaderOptions{ .storage = { options.positions, options.tangents },
-                                       .deformation = options.deformable ? assets::GltfDeformation::Kept
-                                                                         : assets::GltfDeformation::AtRest };
+    assets::GltfOptions loaderOptions{
+        .storage = { options.positions, options.tangents },
+        .deformation = options.deformable ? assets::GltfDeformation::Kept : assets::GltfDeformation::AtRest,
+        .files = options.filesFromAnywhere ? assets::FilesFrom::Anywhere : assets::FilesFrom::Folder
+    };
     if (options.progress) {
         loaderOptions.progress = [&](assets::GltfStage stage, size_t done, size_t total) {
             options.progress(stage == assets::GltfStage::Structure ? "reading" : "decoding", done, total);

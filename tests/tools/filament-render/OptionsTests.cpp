@@ -67,6 +67,9 @@ TEST(Options, WhatIsChosenWhenFilesAreLoadedIsSetByNameAsWell) {
     EXPECT_EQ(options.modelOptions.positions, PositionStorage::Unorm16);
     EXPECT_EQ(options.modelOptions.tangents, TangentStorage::Snorm8);
     EXPECT_FALSE(options.exactShaders);
+    EXPECT_FALSE(options.modelOptions.filesFromAnywhere);
+    EXPECT_TRUE(parsed({ "--set", "model.files=anywhere" }).modelOptions.filesFromAnywhere);
+    EXPECT_THAT(refused({ "--set", "model.files=all" }), HasSubstr("folder or anywhere"));
 }
 
 TEST(Options, AQualityIsAPresetAndThenItsChangesInTheirOrder) {

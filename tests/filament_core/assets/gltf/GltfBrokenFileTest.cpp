@@ -173,7 +173,7 @@ TEST(GltfBrokenFile, FilesOutsideTheFolderAreNotOpened) {
     for (const char* uri : { "../secret.bin", "a/../../secret.bin", "/etc/hostname", "%2e%2e/secret.bin" }) {
         TestFile file = TestFile::triangle();
         file.root["buffers"] = { { { "byteLength", 36 }, { "uri", uri } } };
-        EXPECT_THAT(refusal(file, ErrorCode::InvalidArgument), HasSubstr("lies outside the model's folder")) << uri;
+        EXPECT_THAT(refusal(file, ErrorCode::InvalidArgument), HasSubstr("lies outside the folder of the file")) << uri;
     }
     for (const char* uri : { "http://example.org/a.bin", "file:///etc/hostname" }) {
         TestFile file = TestFile::triangle();

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+/// imageSize: the size that the header of a PNG or JPEG states, before anything is decoded.
+///   Thread  any; pure. Fails: never, for any bytes; {0, 0} if there is no size in them.
+#pragma once
+
+#include <filament/Math.h>
+
+#include <cstddef>
+#include <span>
+
+namespace filament::assets {
+
+uint2 imageSize(std::span<const std::byte> bytes);
+
+/// A PNG whose chunks go on behind its last byte, as after an interrupted download.
+bool isCutShortPng(std::span<const std::byte> bytes);
+
+} // namespace filament::assets
