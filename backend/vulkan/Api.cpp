@@ -5,7 +5,9 @@
 
 namespace filament::backend::vulkan {
 
-const char* toString(VkResult result) {
+namespace {
+
+const char* nameOf(VkResult result) {
     switch (result) {
     case VK_SUCCESS:
         return "VK_SUCCESS";
@@ -42,8 +44,16 @@ const char* toString(VkResult result) {
     case VK_ERROR_INVALID_SHADER_NV:
         return "VK_ERROR_INVALID_SHADER_NV";
     default:
-        return "an unknown VkResult";
+        return nullptr;
     }
+}
+
+} // namespace
+
+// Layers and newer drivers return results that this list lacks: the number can be looked up.
+std::string toString(VkResult result) {
+    const char* const name = nameOf(result);
+    return name ? name : fmt::format("VkResult {}", static_cast<int>(result));
 }
 
 bool isOutOfMemory(VkResult result) {

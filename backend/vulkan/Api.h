@@ -13,7 +13,7 @@
 namespace filament::backend::vulkan {
 
 /// "VK_ERROR_DEVICE_LOST" and the like.
-const char* toString(VkResult result);
+std::string toString(VkResult result);
 
 bool isOutOfMemory(VkResult result);
 

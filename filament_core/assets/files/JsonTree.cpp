@@ -71,7 +71,11 @@ uint64_t JsonNode::integer(uint64_t fallback) const {
     // Some exporters write counts as "24.0", so integral doubles are accepted.
     const double value = mValue->is_number() ? mValue->get<double>() : -1.0;
     if (value >= 0 && value <= kLargest && std::floor(value) == value) return static_cast<uint64_t>(value);
-    refuse("a non-negative integer");
+    if (value > kLargest)
+        mDiagnostics->refuse(ErrorCode::Corrupt, "{}: {:.17g} is beyond 2^53, the largest integer of JSON", mPath,
+                             value);
+    else
+        refuse("a non-negative integer");
     return fallback;
 }
 

@@ -1,8 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfContainer.h"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
+#include <string>
+#include <string_view>
 
 namespace filament::assets {
 namespace {
@@ -18,10 +21,32 @@ uint32_t wordAt(std::span<const std::byte> bytes, size_t offset) {
     return word;
 }
 
+/// JSON begins with a brace, after blanks or the mark of UTF-8.
+bool looksLikeJson(std::span<const std::byte> file) {
+    constexpr std::string_view kMark = "\xEF\xBB\xBF", kBlanks = " \t\r\n";
+    std::string_view text(reinterpret_cast<const char*>(file.data()), file.size());
+    if (text.starts_with(kMark)) text.remove_prefix(kMark.size());
+    const size_t first = text.find_first_not_of(kBlanks);
+    return first != std::string_view::npos && text[first] == '{';
+}
+
+Error notGltf(std::span<const std::byte> file) {
+    std::string bytes;
+    for (const std::byte byte : file.first(std::min<size_t>(file.size(), 4)))
+        bytes += fmt::format(" {:02X}", static_cast<unsigned>(byte));
+    return fail(ErrorCode::Corrupt,
+                "begins with the bytes{}: neither a GLB (67 6C 54 46, \"glTF\") nor the JSON of a .gltf (\"{{\")",
+                bytes);
+}
+
 } // namespace
 
 Result<GltfContainer> openGltfContainer(std::span<const std::byte> file) {
-    if (file.size() < 4 || wordAt(file, 0) != kMagic) return GltfContainer{ .json = file, .binary = {} };
+    if (file.empty()) return fail(ErrorCode::Corrupt, "the file is empty");
+    if (file.size() < 4 || wordAt(file, 0) != kMagic) {
+        if (!looksLikeJson(file)) return notGltf(file);
+        return GltfContainer{ .json = file, .binary = {} };
+    }
     if (file.size() < kHeaderBytes) return fail(ErrorCode::Corrupt, "the GLB header is cut off");
     if (const uint32_t version = wordAt(file, 4); version != 2) {
         return fail(ErrorCode::Unsupported, "GLB version {} is not 2", version);

@@ -12,6 +12,11 @@
 namespace filament::backend::vulkan {
 namespace {
 
+TEST(Results, WithoutANameAreShownAsNumbers) {
+    EXPECT_EQ(toString(VK_ERROR_DEVICE_LOST), "VK_ERROR_DEVICE_LOST");
+    EXPECT_EQ(toString(static_cast<VkResult>(-1000255000)), "VkResult -1000255000");
+}
+
 // ---------------------------------------------------------------------------------------------- RingCursor
 
 TEST(RingCursor, RefusesToOverwriteWhatIsInFlight) {

@@ -135,6 +135,25 @@ TEST(GltfBrokenFile, JsonErrorsNameTheByte) {
     EXPECT_EQ(model.error().message, "a.gltf: the JSON is broken at byte 13");
 }
 
+TEST(GltfBrokenFile, WhatIsNoGltfSaysHowItBegins) {
+    jobs::JobSystem jobs({ .workers = 0 });
+    const auto message = [&](std::string const& text) {
+        const auto model = loadGltfFromMemory(std::as_bytes(std::span(text)), ".", jobs, { .name = "a.glb" });
+        return model ? "was loaded" : model.error().message;
+    };
+    EXPECT_EQ(message(""), "a.glb: the file is empty");
+    EXPECT_THAT(message("glTX\2"), HasSubstr("a.glb: begins with the bytes 67 6C 54 58: neither a GLB"));
+    EXPECT_THAT(message("\x89PNG"), HasSubstr("begins with the bytes 89 50 4E 47"));
+    EXPECT_THAT(message("g"), HasSubstr("begins with the bytes 67: neither"));
+    EXPECT_THAT(message("\xEF\xBB\xBF \n{ \"asset\": { \"version\": \"2.0\" } }"), "was loaded");
+}
+
+TEST(GltfBrokenFile, IntegersBeyond2To53SayThatTheyAreTooLarge) {
+    TestFile file = TestFile::triangle();
+    file.root["accessors"][0]["count"] = 9223372036854775808u; // 2^63
+    EXPECT_THAT(refusal(file), HasSubstr("accessors[0].count: 9.2233720368547758e+18 is beyond 2^53"));
+}
+
 TEST(GltfBrokenFile, NumbersBeyondDoubleAreRefused) {
     jobs::JobSystem jobs({ .workers = 0 });
     const std::string text = R"({ "asset": { "version": "2.0" }, "x": 1e999 })";
