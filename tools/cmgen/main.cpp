@@ -5,9 +5,11 @@
 #include "base/math/Rgbm.h"
 #include "base/math/SharedExponent.h"
 #include "filament_core/assets/environment/Environment.h"
+#include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "filament_core/assets/tables/DfgTable.h"
 #include "shaders/lib/LibCpp.h"
+#include "tools/common/StandardOutput.h"
 
 #include <CLI/CLI.hpp>
 
@@ -100,14 +102,10 @@ Result<void> writeCube(Arguments const& arguments, Image const& cube, std::strin
 
 Result<void> writeSh(std::filesystem::path const& path, std::array<float4, 9> const& sh) {
     static constexpr const char* kPolynomials[9] = { "1", "y", "z", "x", "xy", "yz", "3zz-1", "zx", "xx-yy" };
-    std::unique_ptr<std::FILE, int (*)(std::FILE*)> file(std::fopen(path.c_str(), "w"), std::fclose);
-    if (!file)
-        return fail(ErrorCode::Unreadable, "cannot write '{}'; choose a directory you may write to", path.string());
-    fmt::print(file.get(), "# irradiance / pi = sum of coefficient * polynomial of the normal; red, green, blue\n");
-    for (size_t i = 0; i < 9; ++i) {
-        fmt::print(file.get(), "{:12.8f} {:12.8f} {:12.8f}  # {}\n", sh[i].x, sh[i].y, sh[i].z, kPolynomials[i]);
-    }
-    return {};
+    std::string text = "# irradiance / pi = sum of coefficient * polynomial of the normal; red, green, blue\n";
+    for (size_t i = 0; i < 9; ++i)
+        text += fmt::format("{:12.8f} {:12.8f} {:12.8f}  # {}\n", sh[i].x, sh[i].y, sh[i].z, kPolynomials[i]);
+    return replaceFile(path, std::as_bytes(std::span(text)));
 }
 
 Result<void> writeDfg(std::filesystem::path const& path, Image const& table) {
@@ -158,7 +156,7 @@ Result<void> run(Arguments const& arguments) {
                 data->statistics.sourceHeight, data->specular.levels, data->specular.width, elapsed.count());
     printLoss("specular", data->statistics.specularLoss);
     printLoss("sky", data->statistics.skyLoss);
-    return {};
+    return tools::finishOutput();
 }
 
 } // namespace
@@ -183,13 +181,15 @@ int main(int argc, char** argv) {
     app.add_option("--mapping", arguments.mapping, "of roughness to levels: quadratic, logarithmic or linear")
             ->transform(CLI::CheckedTransformer(mappings, CLI::ignore_case));
     app.add_option("--out", arguments.out, "directory for the results")->capture_default_str();
-    app.add_option("--workers", arguments.workers, "threads besides the main one; -1: all cores");
+    app.add_option("--workers", arguments.workers, "threads besides the main one; -1: all cores")
+            ->check(CLI::Range(-1, 256));
     app.add_flag("--png", arguments.previews, "tone-mapped previews beside the .exr files");
     app.add_option("--exposure", arguments.exposure, "factor of the previews")->capture_default_str();
     try {
         app.parse(argc, argv);
     } catch (CLI::ParseError const& problem) {
-        return app.exit(problem) == 0 ? 0 : 2;
+        if (app.exit(problem) != 0) return 2;
+        return tools::finishOutput() ? 0 : 1;
     }
     const Result<void> done = run(arguments);
     if (done) return 0;

@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Program: the common part of main() of every tool.
 ///   Out     the exit status: that of the job; 0 after the help text; 1 after one line on standard error that says what
-///           failed, including running out of memory.
+///           failed, including running out of memory and a standard output that is full.
 ///   Thread  the main thread.
 #pragma once
 
 #include "base/Result.h"
 #include "tools/common/Console.h"
+#include "tools/common/StandardOutput.h"
 
 #include <exception>
 #include <string_view>
@@ -30,7 +31,9 @@ int runProgram(std::string_view name, int argc, const char* const* argv, Parse&&
     try {
         const auto options = parse(argc, argv);
         if (!options) return failed(options.error());
-        return *options ? run(**options) : 0;
+        const int status = *options ? run(**options) : 0;
+        const Result<void> printed = finishOutput();
+        return printed ? status : failed(printed.error());
     } catch (std::exception const& error) {
         printError(fmt::format("out of resources ({}){}{}", error.what(), cure.empty() ? "" : "; ", cure));
         return 1;

@@ -2,6 +2,7 @@
 // imgdiff A.png B.png [--out DIFF.png] [--tolerance N]: the comparison of filament-render for any two pictures.
 // Exit status 0: within the tolerance; 1: not; 2: the pictures could not be compared.
 #include "filament_core/assets/image/ImageWriter.h"
+#include "tools/common/StandardOutput.h"
 #include "tools/imgdiff/ImageCompare.h"
 
 #include <CLI/CLI.hpp>
@@ -20,6 +21,11 @@ Result<Image> loadPng(std::string const& path) {
 int failed(Error const& error) {
     std::fprintf(stderr, "imgdiff: error: %s\n", error.message.c_str());
     return 2;
+}
+
+int finished(int status) {
+    const Result<void> printed = finishOutput();
+    return printed ? status : failed(printed.error());
 }
 
 int compareFiles(std::string const& pathA, std::string const& pathB, std::string const& out, uint32_t tolerance) {
@@ -52,9 +58,9 @@ int main(int argc, char** argv) {
         app.parse(argc, argv);
     } catch (CLI::CallForHelp const&) {
         std::fputs(app.help().c_str(), stdout);
-        return 0;
+        return filament::tools::finished(0);
     } catch (CLI::Error const& error) {
         return filament::tools::failed({ filament::ErrorCode::InvalidArgument, error.what() });
     }
-    return filament::tools::compareFiles(a, b, out, tolerance);
+    return filament::tools::finished(filament::tools::compareFiles(a, b, out, tolerance));
 }

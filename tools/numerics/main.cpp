@@ -2,6 +2,7 @@
 // filament-numerics [--only TEXT] [--csv FILE] [--json FILE] [--write FILE]: evaluates every function of shaders/lib
 // over edge grids in fp32 and fp16 on the CPU and both APIs, and compares with fp64. Exit status 0: every promise is
 // kept. 1: some are broken, or the run failed. See docs/numerics.md.
+#include "filament_core/assets/files/FileBytes.h"
 #include "tools/common/CommandLine.h"
 #include "tools/common/Program.h"
 #include "tools/numerics/Report.h"
@@ -9,7 +10,6 @@
 #include <CLI/CLI.hpp>
 
 #include <cstdio>
-#include <fstream>
 
 namespace filament::shader::numerics {
 namespace {
@@ -33,10 +33,7 @@ void declare(CLI::App& app, Options& options) {
 
 Result<void> write(std::string const& path, std::string const& text) {
     if (path.empty()) return {};
-    std::ofstream file(path, std::ios::binary);
-    if (!(file << text).flush())
-        return fail(ErrorCode::Unreadable, "{}: cannot be written; does its folder exist?", path);
-    return {};
+    return assets::replaceFile(path, std::as_bytes(std::span(text)));
 }
 
 int run(Options const& options) {
@@ -66,5 +63,7 @@ int main(int argc, char** argv) {
     shader::numerics::declare(app, options);
     const Result<bool> parsed = tools::parseWords(app, argc, argv);
     if (!parsed) return tools::failed(parsed.error());
-    return *parsed ? shader::numerics::run(options) : 0;
+    const int status = *parsed ? shader::numerics::run(options) : 0;
+    const Result<void> printed = tools::finishOutput();
+    return printed ? status : tools::failed(printed.error());
 }

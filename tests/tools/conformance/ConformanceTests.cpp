@@ -6,6 +6,9 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
+#include <sys/wait.h>
+
+#include <cstdlib>
 #include <fstream>
 #include <set>
 
@@ -97,6 +100,13 @@ TEST(SceneFiles, SayQualityByItsNamesAndAMisspeltOneIsAnError) {
     ASSERT_FALSE(misspelt.ok());
     EXPECT_NE(misspelt.error().message.find("shBands"), std::string::npos) << misspelt.error().message;
     EXPECT_FALSE(read(R"({ "shBands": 7 })").ok());
+}
+
+TEST(Program, AFullStandardOutputIsAnError) {
+    const std::string command = (tools::buildDir() / "bin/filament-conformance").string() + " --list --scenes " +
+                                (tools::sourceDir() / "tests/conformance/scenes").string() + " >/dev/full 2>/dev/null";
+    const int status = std::system(command.c_str());
+    EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
 }
 
 TEST(Shards, MergeToTheResultsOfOneRun) {

@@ -111,6 +111,16 @@ TEST_F(CommandLine, ATriangleIsTheSameBitsOnBothBackendsAndReported) {
     }
 }
 
+TEST_F(CommandLine, AFullStandardOutputIsAnError) {
+    for (const char* arguments : { "--list-devices", "--help" }) {
+        const std::string command = (tools::buildDir() / "bin/filament-render ").string() + arguments +
+                                    " >/dev/full 2>" + (sFolder / "errors").string();
+        const int status = std::system(command.c_str());
+        EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << arguments;
+        EXPECT_THAT(textOf(sFolder / "errors"), HasSubstr("cannot write to the standard output: No space left"));
+    }
+}
+
 TEST_F(CommandLine, SteadyFramesWithASkyTakeNothingFromTheHeap) {
     for (const char* more : { "", " --set toneMapping=table32 --set textureFilter=trilinear" }) {
         const Outcome outcome = run("triangle.gltf --size 96x54 --environment showcase.hdr --frames 30 --out sky "
