@@ -2,6 +2,7 @@
 #include "base/BlobStore.h"
 
 #include "base/Hash.h"
+#include "base/Leftovers.h"
 #include "base/Log.h"
 
 #include <unistd.h>
@@ -9,6 +10,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <charconv>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -35,6 +37,18 @@ std::optional<std::vector<char>> contents(fs::path const& path) {
     std::ifstream file(path, std::ios::binary);
     if (!file) return std::nullopt;
     return std::vector<char>(std::istreambuf_iterator<char>(file), {});
+}
+
+void removeLeftovers(fs::path const& file) {
+    const std::string prefix = file.filename().string() + '.';
+    const std::string folder = file.has_parent_path() ? file.parent_path().string() : ".";
+    removeLeftoverFiles(folder.c_str(), [&](std::string_view name) {
+        pid_t writer = 0;
+        if (!name.starts_with(prefix)) return writer;
+        const char* const end = name.data() + name.size();
+        const auto [read, error] = std::from_chars(name.data() + prefix.size(), end, writer);
+        return error == std::errc() && read == end ? writer : 0;
+    });
 }
 
 template <class T>
@@ -130,6 +144,7 @@ void BlobStore::save() {
     if (out) fs::rename(unfinished, mFile, failed);
     if (out && !failed) {
         mHasChanged = false;
+        removeLeftovers(mFile);
         return;
     }
     log(Severity::Warning, "'{}' cannot be written: nothing is kept for the next run", mFile.string());

@@ -28,7 +28,7 @@ public:
     void put(uint64_t key, std::span<const std::byte> bytes);
     void erase(uint64_t key);
     size_t size() const { return mBlobs.size(); }
-    /// Does nothing if nothing has changed since the file was read.
+    /// Does nothing if nothing has changed since the file was read. Also deletes what killed processes left beside it.
     void save();
 
 private:

@@ -7,8 +7,10 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <sys/wait.h>
 #include <unistd.h>
 
+#include <chrono>
 #include <cstring>
 #include <fstream>
 #include <iterator>
@@ -122,6 +124,28 @@ TEST_F(BlobStoreTest, StaysWithinItsLimitByForgettingWhatWasNotAskedForFirst) {
     EXPECT_THAT(last.find(1), IsEmpty());
     EXPECT_EQ(last.size(), 2u);
     EXPECT_LE(fs::file_size(mFile), 24u + 2 * 16 + 40);
+}
+
+TEST_F(BlobStoreTest, RemovesWhatKilledWritersLeftAndNothingElse) {
+    using namespace std::chrono_literals;
+    const pid_t child = ::fork();
+    if (child == 0) ::_exit(0);
+    ASSERT_EQ(::waitpid(child, nullptr, 0), child); // its id names no process now
+    fs::create_directories(mFile.parent_path());
+    const auto put = [&](std::string const& name, std::chrono::seconds age) {
+        const fs::path path = mFile.parent_path() / name;
+        std::ofstream(path) << "half";
+        fs::last_write_time(path, fs::file_time_type::clock::now() - age);
+        return path;
+    };
+    const std::string gone = std::to_string(child), alive = std::to_string(getpid());
+    const fs::path left = put("store." + gone, 2min), old = put("store." + alive, 2h);
+    const fs::path other = put("other." + gone, 2min), fresh = put("store." + gone + "0", 1s),
+                   backup = put("store.1b", 2h);
+    fill();
+    EXPECT_FALSE(fs::exists(left) || fs::exists(old));
+    EXPECT_TRUE(fs::exists(other) && fs::exists(fresh) && fs::exists(backup) && fs::exists(mFile));
+    EXPECT_THAT(mLines, IsEmpty());
 }
 
 TEST_F(BlobStoreTest, WarnsWhereItCannotWrite) {

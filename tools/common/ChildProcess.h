@@ -42,6 +42,7 @@ public:
 
     /// Does not wait; returns nothing while the child runs. Must not be called again after it has returned a result.
     std::optional<ChildEnd> poll();
+    pid_t id() const { return mId; } ///< for other signals; -1 after the end
     /// Sends SIGKILL; the result is that of the signal, unless the child ended before.
     ChildEnd kill();
 

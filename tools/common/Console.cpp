@@ -4,6 +4,7 @@
 #include "base/Log.h"
 
 #include <algorithm>
+#include <atomic>
 #include <cstdio>
 #include <mutex>
 #include <set>
@@ -14,7 +15,7 @@ namespace filament::tools {
 namespace {
 
 std::mutex gMutex;
-bool gProgressShown = false;
+std::atomic<bool> gProgressShown = false;
 std::string_view gProgram = "filament";
 
 void clearProgressLocked() {
@@ -47,6 +48,12 @@ void showProgress(std::string_view text) {
 void clearProgress() {
     const std::lock_guard lock(gMutex);
     clearProgressLocked();
+}
+
+void clearProgressInHandler() {
+    constexpr std::string_view kClear = "\r\x1b[K";
+    if (!gProgressShown) return;
+    [[maybe_unused]] const ssize_t written = ::write(STDERR_FILENO, kClear.data(), kClear.size());
 }
 
 void printWarning(std::string_view text) {

@@ -13,6 +13,8 @@ void setProgramName(std::string_view name);
 
 void showProgress(std::string_view text);
 void clearProgress();
+/// For signal handlers: takes no lock and only writes to the terminal.
+void clearProgressInHandler();
 
 /// "PROGRAM: warning: ..."; a line that was printed before is not repeated.
 void printWarning(std::string_view text);

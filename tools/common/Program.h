@@ -7,6 +7,7 @@
 
 #include "base/Result.h"
 #include "tools/common/Console.h"
+#include "tools/common/Interrupt.h"
 #include "tools/common/StandardOutput.h"
 
 #include <exception>
@@ -27,6 +28,7 @@ template <class Parse, class Run>
 int runProgram(std::string_view name, int argc, const char* const* argv, Parse&& parse, Run&& run,
                std::string_view cure = {}) {
     setProgramName(name);
+    watchForInterrupts();
     routeLogToConsole();
     try {
         const auto options = parse(argc, argv);

@@ -3,6 +3,7 @@
 
 #include "base/Assert.h"
 #include "tools/common/Console.h"
+#include "tools/common/Interrupt.h"
 #include "tools/conformance/Compare.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/MachineRun.h"
@@ -203,7 +204,7 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
                 actor.stage->device().device + ", " + actor.stage->device().driver;
     Journal journal(options.journal);
     journal.devices(results.devices);
-    for (size_t i = 0; i < cases.size(); ++i) {
+    for (size_t i = 0; i < cases.size() && !tools::isInterrupted(); ++i) {
         showCase(i, cases.size(), cases[i].name);
         journal.begins(cases[i].name);
         const auto start = std::chrono::steady_clock::now();
@@ -215,7 +216,7 @@ Result<Results> runHere(Options const& options, std::vector<SceneSpec> const& ca
         for (std::string const& reason : results.cases.back().reasons)
             std::printf("%-8s %s: %s\n", toString(results.cases.back().status), cases[i].name.c_str(), reason.c_str());
     }
-    if (options.updateBaselines) {
+    if (options.updateBaselines && !tools::isInterrupted()) {
         if (const Result<void> written = baselines->write(options.baselines); !written) return written.error();
     }
     return results;
@@ -280,7 +281,7 @@ std::vector<SceneSpec> casesOf(std::vector<SceneSpec> all, Options const& option
 
 Result<Results> runCases(Options const& options, std::vector<SceneSpec> const& cases) {
     Result<Results> results = runHere(options, cases);
-    if (!results) return results;
+    if (!results || tools::isInterrupted()) return results;
     if (const Result<void> done = drawOnMachines(options, *results); !done) return done.error();
     return results;
 }

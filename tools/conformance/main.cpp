@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-conformance [options]: draws every scene on every backend with every number of workers and compares the
-// pictures. Exit status 0: no case failed. 1: some did, or the run could not be made. docs/conformance.md.
+// pictures. Exit status 0: no case failed. 1: some did, or the run could not be made. 130: stopped by Ctrl-C, with a
+// report of the cases until then. docs/conformance.md.
 #include "tools/common/Console.h"
 #include "tools/common/Program.h"
 #include "tools/conformance/Machines.h"
@@ -67,9 +68,14 @@ int run(Options const& options) {
     if (options.list) return list(cases);
     std::error_code error;
     std::filesystem::remove_all(options.out / "images", error); // those of an earlier run
+    const tools::StopOnInterrupt scope;
     const Result<Results> results = runCases(options, cases);
     tools::clearProgress();
-    return results ? finish(options, *results) : failed(results.error());
+    if (!results) return failed(results.error());
+    const int status = finish(options, *results);
+    if (!tools::isInterrupted()) return status;
+    tools::printWarning(fmt::format("interrupted after {} of {} cases", results->cases.size(), cases.size()));
+    return tools::kInterruptedStatus;
 }
 
 } // namespace

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // filament-reference [MODEL] [options]: the picture that filament-render approximates, from the same command line.
-// Exit status 0: rendered and written.
+// Exit status 0: rendered and written. 130: written with fewer samples, after Ctrl-C.
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/ModelVariants.h"
 #include "filament_core/assets/image/HdrReader.h"
@@ -73,10 +73,11 @@ int run(Options const& options) {
     notes.insert(notes.end(), warnings(**traced).begin(), warnings(**traced).end());
 
     const ReferenceView view{ .camera = tools::cameraOf(options), .size = options.size };
+    const tools::StopOnInterrupt scope;
     const Result<ReferenceImage> image =
             render(**traced, view, options.settings, jobs, [&](RenderProgress const& progress) {
                 showProgress(progressLine(progress, options.settings.relativeError));
-                return true;
+                return !tools::isInterrupted();
             });
     tools::clearProgress();
     if (!image) return failed(image.error());
@@ -88,7 +89,10 @@ int run(Options const& options) {
     std::printf("%s: %u samples a pixel, standard error %.2f %%, %.1f Mrays in %.1f s\n",
                 (options.out / "reference.exr").c_str(), statistics.samplesPerPixel, statistics.relativeError * 100,
                 static_cast<double>(statistics.rays) * 1e-6, statistics.seconds);
-    return 0;
+    if (!tools::isInterrupted()) return 0;
+    tools::printWarning(fmt::format("interrupted: the picture has {} of {} samples a pixel", statistics.samplesPerPixel,
+                                    options.settings.samplesPerPixel));
+    return tools::kInterruptedStatus;
 }
 
 } // namespace

@@ -79,6 +79,7 @@ Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs
     if (Result<void> written = replaceFile(file, encodeEnvironment(*baked, key)); !written) {
         log(Severity::Warning, "environment is not cached: {}", written.error().message);
     }
+    removeLeftovers(directory);
     return baked;
 }
 

@@ -1,15 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/files/FileBytes.h"
 
+#include "base/Leftovers.h"
+
 #include <atomic>
 #include <cerrno>
-#include <chrono>
-#include <csignal>
+#include <charconv>
 #include <cstdio>
 #include <cstring>
 #include <memory>
-#include <optional>
 #include <string>
+#include <string_view>
 #include <system_error>
 
 #include <fcntl.h>
@@ -92,28 +93,18 @@ Result<void> writeBeside(fs::path const& path, std::span<const std::byte> bytes,
     return unwritable(path, std::strerror(failed));
 }
 
-/// The process id in the name of a temporary file, "NAME.ID-SERIAL".
-std::optional<pid_t> writerOf(std::string const& name) {
+/// The process id in the name of a temporary file, "NAME.ID-SERIAL"; 0 for other names.
+pid_t writerOf(std::string_view name) {
     const size_t dot = name.rfind('.'), dash = name.rfind('-');
-    if (dot == std::string::npos || dash == std::string::npos || dash < dot) return std::nullopt;
-    const auto isNumber = [](std::string_view text) {
-        return !text.empty() && text.size() < 10 && text.find_first_not_of("0123456789") == std::string_view::npos;
+    if (dot == std::string_view::npos || dash == std::string_view::npos || dash < dot) return 0;
+    pid_t id = 0;
+    uint32_t serial = 0;
+    const auto isNumber = [&](std::string_view text, auto& number) {
+        const char* const end = text.data() + text.size();
+        const auto [read, error] = std::from_chars(text.data(), end, number);
+        return error == std::errc() && read == end;
     };
-    const std::string id = name.substr(dot + 1, dash - dot - 1);
-    if (!isNumber(id) || !isNumber(std::string_view(name).substr(dash + 1))) return std::nullopt;
-    return static_cast<pid_t>(std::stol(id));
-}
-
-bool isLeftover(fs::directory_entry const& entry) {
-    using namespace std::chrono_literals;
-    std::error_code error;
-    const std::optional<pid_t> writer = writerOf(entry.path().filename().string());
-    if (!writer || !entry.is_regular_file(error) || entry.is_symlink(error)) return false;
-    const auto written = entry.last_write_time(error);
-    if (error) return false;
-    const auto age = fs::file_time_type::clock::now() - written;
-    const bool isGone = ::kill(*writer, 0) != 0 && errno == ESRCH;
-    return age > 1h || (isGone && age > 1min);
+    return isNumber(name.substr(dot + 1, dash - dot - 1), id) && isNumber(name.substr(dash + 1), serial) ? id : 0;
 }
 
 } // namespace
@@ -167,14 +158,6 @@ Result<void> replaceFile(std::filesystem::path const& path, std::span<const std:
     return writeBeside(file, bytes, exists ? status.st_mode & 07777 : 0);
 }
 
-size_t removeLeftovers(std::filesystem::path const& folder) {
-    size_t removed = 0;
-    std::error_code error;
-    for (fs::directory_iterator entry(folder, error), end; !error && entry != end; entry.increment(error)) {
-        std::error_code failed;
-        if (isLeftover(*entry) && fs::remove(entry->path(), failed)) ++removed;
-    }
-    return removed;
-}
+size_t removeLeftovers(std::filesystem::path const& folder) { return removeLeftoverFiles(folder.c_str(), writerOf); }
 
 } // namespace filament::assets

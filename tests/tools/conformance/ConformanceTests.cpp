@@ -1,4 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
+#include "tools/common/ChildProcess.h"
+#include "tools/common/Interrupt.h"
+#include "tools/conformance/Journal.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Runner.h"
 #include "tools/paths/Paths.h"
@@ -8,9 +11,13 @@
 
 #include <sys/wait.h>
 
+#include <chrono>
+#include <csignal>
 #include <cstdlib>
 #include <fstream>
+#include <iterator>
 #include <set>
+#include <thread>
 
 namespace filament::conformance {
 namespace {
@@ -107,6 +114,38 @@ TEST(Program, AFullStandardOutputIsAnError) {
                                 (tools::sourceDir() / "tests/conformance/scenes").string() + " >/dev/full 2>/dev/null";
     const int status = std::system(command.c_str());
     EXPECT_TRUE(WIFEXITED(status) && WEXITSTATUS(status) == 1) << status;
+}
+
+// One signal: the case that is being drawn ends, and the report has those until then.
+TEST(Program, CtrlCEndsTheRunWithAReportOfWhatIsDone) {
+    const std::filesystem::path out = tools::buildDir() / "conformance-interrupted", journal = out / "journal.txt";
+    std::filesystem::remove_all(out);
+    std::filesystem::create_directories(out);
+    auto child =
+            tools::ChildProcess::start({ { (tools::buildDir() / "bin/filament-conformance").string(), "--scenes",
+                                           (tools::sourceDir() / "tests/conformance/scenes").string(), "--baselines",
+                                           "none", "--mutations", "off", "--threads", "off", "--only", "unlit", "sun",
+                                           "mask", "--out", out.string(), "--journal", journal.string() },
+                                         {},
+                                         out / "log.txt" });
+    ASSERT_TRUE(child.ok()) << child.error().message;
+    for (int i = 0; i < 6000 && readJournal(journal).cases.empty(); ++i)
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+    ASSERT_FALSE(readJournal(journal).cases.empty());
+    ::kill(child->id(), SIGINT);
+    std::optional<tools::ChildEnd> end;
+    for (int i = 0; i < 12000 && !end; ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(5));
+        end = child->poll();
+    }
+    ASSERT_TRUE(end.has_value());
+    EXPECT_EQ(end->exitStatus, tools::kInterruptedStatus) << end->text();
+    const Result<Results> results = readResults(out);
+    ASSERT_TRUE(results.ok()) << results.error().message;
+    EXPECT_EQ(results->cases.size(), readJournal(journal).cases.size());
+    std::ifstream log(out / "log.txt");
+    const std::string said{ std::istreambuf_iterator<char>(log), {} };
+    EXPECT_NE(said.find("interrupted after "), std::string::npos) << said;
 }
 
 TEST(Shards, MergeToTheResultsOfOneRun) {

@@ -6,6 +6,7 @@
 #include "filament_core/assets/image/ImageWriter.h"
 #include "tests/filament_core/assets/image/HdrTestSupport.h"
 
+#include <chrono>
 #include <cstdlib>
 #include <cstring>
 
@@ -140,6 +141,16 @@ TEST_F(IblEnvironmentTest, ACacheThatCannotBeWrittenCostsAWarningOnly) {
     ASSERT_TRUE(data) << data.error().message;
     ASSERT_EQ(mWarnings.size(), 1u);
     EXPECT_NE(mWarnings[0].find("not cached"), std::string::npos);
+}
+
+TEST_F(IblEnvironmentTest, WritingToTheCacheRemovesWhatKilledWritersLeftThere) {
+    const std::filesystem::path left = mFolder / "cache" / "0123456789abcdef.env.1-0";
+    ASSERT_TRUE(replaceFile(left, std::vector<std::byte>(1)));
+    std::filesystem::last_write_time(left, std::filesystem::file_time_type::clock::now() - std::chrono::hours(2));
+    ASSERT_TRUE(load());
+    ASSERT_EQ(cacheFiles().size(), 1u);
+    EXPECT_NE(cacheFiles()[0], left);
+    EXPECT_TRUE(mWarnings.empty());
 }
 
 TEST_F(IblEnvironmentTest, WithoutCacheNothingIsWritten) {
