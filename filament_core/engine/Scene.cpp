@@ -46,10 +46,13 @@ scene::Deformation deformationOf(Scene::Impl const& scene, RenderableDesc const&
     return deformation;
 }
 
+// Floats lose the squares of components above 1.8e19 and below 1e-19; doubles hold those of every float.
 float3 unitDirection(float3 direction) {
     const float length = glm::length(direction);
-    FILAMENT_ASSERT(length > 0 && std::isfinite(length), "a light's direction is finite and not zero");
-    return direction / length;
+    if (length > 1e-15f && length < 1e18f) return direction / length;
+    const double exact = glm::length(double3(direction));
+    FILAMENT_ASSERT(exact > 0 && std::isfinite(exact), "a light's direction is finite and not zero");
+    return float3(double3(direction) / exact);
 }
 
 // Adds a light whose record is in world space, or in the space of its node.

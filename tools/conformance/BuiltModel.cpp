@@ -156,8 +156,10 @@ private:
 
     static void readGrid(JsonReader& reader, Grid& grid) {
         reader.read("count", grid.count);
-        if (grid.count.x < 1 || grid.count.y < 1 || grid.count.x * grid.count.y > 4096)
+        if (grid.count.x < 1 || grid.count.y < 1 || uint64_t(grid.count.x) * grid.count.y > 4096) {
             reader.complain("count", "expected columns and rows, 4096 objects at most");
+            grid.count = { 1, 1 };
+        }
         reader.read("columnStep", grid.columnStep);
         reader.read("rowStep", grid.rowStep);
         float2 range(0.0f, 1.0f);

@@ -82,13 +82,16 @@ std::vector<Json const*> JsonReader::list(const char* key) {
     return elements;
 }
 
-void JsonReader::numbers(const char* key, double* values, size_t count) {
+void JsonReader::numbers(const char* key, double* values, size_t count, double low, double high) {
     Json const* found = find(key);
     if (!found) return;
     const bool fits = found->is_array() && found->size() == count &&
-                      std::all_of(found->begin(), found->end(),
-                                  [](Json const& j) { return j.is_number() && std::isfinite(j.get<double>()); });
+                      std::all_of(found->begin(), found->end(), [](Json const& j) { return j.is_number(); });
     if (!fits) return complain(key, fmt::format("expected a list of {} numbers", count));
+    const bool isInRange = std::all_of(found->begin(), found->end(), [&](Json const& j) {
+        return j.get<double>() >= low && j.get<double>() <= high;
+    });
+    if (!isInRange) return complain(key, fmt::format("expected {} numbers from {} to {}", count, low, high));
     for (size_t i = 0; i < count; ++i) values[i] = (*found)[i].get<double>();
 }
 

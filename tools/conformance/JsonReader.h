@@ -12,6 +12,7 @@
 
 #include <nlohmann/json_fwd.hpp>
 
+#include <limits>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -33,13 +34,14 @@ public:
     void read(const char* key, float& value, double low, double high);
     void read(const char* key, uint32_t& value, uint32_t low, uint32_t high);
     void read(const char* key, std::vector<std::string>& values);
-    /// `count` numbers of any finite value.
-    void numbers(const char* key, double* values, size_t count);
+    /// `count` numbers from `low` to `high`.
+    void numbers(const char* key, double* values, size_t count, double low, double high);
     template <int N, class T>
     void read(const char* key, glm::vec<N, T>& value) {
         double all[N];
         for (int i = 0; i < N; ++i) all[i] = static_cast<double>(value[i]);
-        numbers(key, all, N);
+        numbers(key, all, N, static_cast<double>(std::numeric_limits<T>::lowest()),
+                static_cast<double>(std::numeric_limits<T>::max()));
         for (int i = 0; i < N; ++i) value[i] = static_cast<T>(all[i]);
     }
     /// An enumerator by name: `fromName(text)` returns an optional.

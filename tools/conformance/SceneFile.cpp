@@ -13,9 +13,14 @@ namespace {
 
 constexpr double kFar = 1e12, kBright = 1e9;
 
+void readDirection(JsonReader& reader, float3& direction) {
+    reader.read("direction", direction);
+    if (direction == float3(0.0f)) reader.complain("direction", "expected one that is not zero");
+}
+
 void readSun(JsonReader& reader, SceneSpec& spec) {
     SunLight sun;
-    reader.read("direction", sun.directionWorld);
+    readDirection(reader, sun.directionWorld);
     reader.read("lux", sun.illuminance.value, 0, kBright);
     reader.read("color", sun.color);
     spec.lights.emplace_back(sun);
@@ -33,7 +38,7 @@ void readPoint(JsonReader& reader, SceneSpec& spec) {
 void readSpot(JsonReader& reader, SceneSpec& spec) {
     SpotLight light;
     reader.read("at", light.positionWorld);
-    reader.read("direction", light.directionWorld);
+    readDirection(reader, light.directionWorld);
     reader.read("candela", light.intensity.value, 0, kBright);
     reader.read("color", light.color);
     reader.read("range", light.rangeMeters, 0, kFar);
@@ -182,7 +187,7 @@ Result<Json> parseFile(std::filesystem::path const& file) {
     const auto* text = reinterpret_cast<const char*>(bytes->data());
     try {
         return Json::parse(text, text + bytes->size());
-    } catch (Json::parse_error const& error) {
+    } catch (Json::exception const& error) { // also a number beyond the range of double
         return fail(ErrorCode::Corrupt, "{}: {}", file.string(), error.what());
     }
 }

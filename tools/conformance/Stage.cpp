@@ -9,6 +9,8 @@
 namespace filament::conformance {
 namespace {
 
+constexpr uint64_t kMaxObjects = 1'000'000; // a scene has 2^20 handles of a type
+
 // Equal texts mean that it is loaded already.
 std::string keyOf(std::filesystem::path const& path, GltfLoadOptions const& options) {
     return fmt::format("{} {} {}", path.string(), toString(options.positions), toString(options.tangents));
@@ -73,12 +75,19 @@ Result<void> Stage::loadSky(SceneSpec const& spec) {
 }
 
 Result<void> Stage::placeModel(SceneSpec const& spec) {
+    uint64_t nodesOfOne = 0;
     for (double4x4 const& copy : placedCopies(spec)) {
         if (mMaterial) {
             mMaterial->addTo(*mScene, copy);
             continue;
         }
+        const uint64_t nodes = mScene->nodeCount();
+        if (nodes + nodesOfOne > kMaxObjects || mScene->renderableCount() + mModel->renderableCount() > kMaxObjects) {
+            return fail(ErrorCode::InvalidArgument, "{}: copies: {} copies of the model are more than {} objects",
+                        spec.name, spec.copies.size(), kMaxObjects);
+        }
         const Node root = mScene->add(*mModel, copy);
+        nodesOfOne = mScene->nodeCount() - nodes;
         if (!spec.animationSeconds) continue;
         if (spec.animation >= mModel->animationCount()) {
             return fail(ErrorCode::NotFound, "{}: animation.index: {} of {} animations", spec.name, spec.animation,

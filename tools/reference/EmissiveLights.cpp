@@ -58,7 +58,8 @@ void EmissiveLights::addPart(uint32_t index, std::vector<double>& weights) {
     for (uint32_t triangle = 0; triangle < part.indices.size() / 3; ++triangle) {
         const double area = areaOf(part, triangle);
         mTriangles.push_back({ index, triangle, area });
-        weights.push_back(area > 0 ? area * meanEmission(part, triangle) : 0);
+        const double weight = area > 0 ? area * meanEmission(part, triangle) : 0;
+        weights.push_back(std::isfinite(weight) ? weight : 0); // nodes can scale a triangle beyond the floats
     }
 }
 

@@ -66,6 +66,16 @@ backend::WrapMode parseWrap(JsonNode const& node) {
     }
 }
 
+/// KHR_lights_punctual: 0 <= inner < outer <= pi/2. Equal cones are a hard edge, and stay one.
+void parseCones(JsonNode const& spot, LightData& light) {
+    constexpr float kHalfPi = 1.57079633f, kNarrowest = 1e-3f; // below, the falloff has no digits left in a float
+    light.outerConeRadians = spot["outerConeAngle"].numberInRange(0.7853982f, kNarrowest, kHalfPi);
+    light.innerConeRadians = spot["innerConeAngle"].numberInRange(0, 0, kHalfPi);
+    if (light.innerConeRadians < light.outerConeRadians) return;
+    spot.diagnostics().warn("{}: the inner cone is not inside of the outer one and was narrowed", spot.path());
+    light.innerConeRadians = std::nextafter(light.outerConeRadians, 0.0f);
+}
+
 } // namespace
 
 GltfTextureInfo parseTextureInfo(JsonNode const& node, size_t textureCount) {
@@ -159,13 +169,7 @@ LightData parseGltfLight(JsonNode const& node) {
     light.color = { color[0], color[1], color[2] };
     light.intensity = node["intensity"].numberInRange(1, 0, kMaxFloat);
     light.rangeMeters = node["range"].numberInRange(0, 0, kMaxFloat);
-    constexpr float kHalfPi = 1.57079633f;
-    light.outerConeRadians = node["spot"]["outerConeAngle"].numberInRange(0.7853982f, 0, kHalfPi);
-    light.innerConeRadians = node["spot"]["innerConeAngle"].numberInRange(0, 0, kHalfPi);
-    if (light.type == LightType::Spot && light.innerConeRadians > light.outerConeRadians) {
-        node.diagnostics().warn("{}.spot: the inner cone is wider than the outer one and was narrowed", node.path());
-        light.innerConeRadians = light.outerConeRadians;
-    }
+    if (light.type == LightType::Spot) parseCones(node["spot"], light);
     return light;
 }
 

@@ -14,6 +14,10 @@
 namespace filament::assets {
 namespace {
 
+// A scene and a device have 2^20 handles of a type. A primitive takes two buffers; if its positions are scaled, it takes
+// a node.
+constexpr size_t kMaxNodes = 500'000, kMaxPlacements = 500'000;
+
 bool isFinite(double4x4 const& matrix) {
     double sum = 0; // inf and NaN survive multiplication by 0
     for (int column = 0; column < 4; ++column) sum += glm::dot(matrix[column], double4(0.0));
@@ -120,16 +124,15 @@ double4x4 transformOf(float3 translation, float4 rotation, float3 scale) {
 /// EXT_mesh_gpu_instancing: the transforms of the instances.
 std::vector<double4x4> instanceTransforms(GltfInstancing const& source, GltfDocument const& document, uint32_t index,
                                           Diagnostics& diagnostics) {
-    constexpr size_t kMaxInstances = size_t{ 1 } << 20;
     const auto translations = readVectors<float3>(document, source.translation, "TRANSLATION", diagnostics);
     const auto rotations = readVectors<float4>(document, source.rotation, "ROTATION", diagnostics);
     const auto scales = readVectors<float3>(document, source.scale, "SCALE", diagnostics);
     const size_t count = std::max({ translations.size(), rotations.size(), scales.size() });
     const auto fits = [&](size_t size) { return size == 0 || size == count; };
-    if (!fits(translations.size()) || !fits(rotations.size()) || !fits(scales.size()) || count > kMaxInstances) {
+    if (!fits(translations.size()) || !fits(rotations.size()) || !fits(scales.size()) || count > kMaxNodes) {
         diagnostics.refuse(ErrorCode::Corrupt,
                            "nodes[{}]: the instance attributes differ in length, or are more than {}", index,
-                           kMaxInstances);
+                           kMaxNodes);
         return {};
     }
     std::vector<double4x4> transforms;
@@ -195,6 +198,9 @@ public:
                                      .pose = source.pose });
             if (requests && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);
             push(source.children, added);
+            if (mScene.nodes.size() > kMaxNodes)
+                mDiagnostics.refuse(ErrorCode::Unsupported, "the scene has more than {} nodes and instances",
+                                    kMaxNodes);
         }
     }
 
@@ -247,6 +253,22 @@ void collectSkins(GltfDocument const& document, NodeList& nodes, GltfScene& scen
     }
 }
 
+/// Few bytes can place many primitives: every node places all those of its mesh, each with its variants.
+void checkPlacements(GltfDocument const& document, GltfScene const& scene, Diagnostics& diagnostics) {
+    std::vector<uint64_t> placements;
+    for (GltfMeshRequest const& request : scene.meshes) {
+        uint64_t& sum = placements.emplace_back(0);
+        for (GltfPrimitive const& primitive : document.meshes[request.mesh].primitives)
+            sum += 1 + primitive.variants.size();
+    }
+    uint64_t all = 0;
+    for (NodeData const& node : scene.nodes) all += node.mesh == kNone ? 0 : placements[node.mesh];
+    if (all > kMaxPlacements)
+        diagnostics.refuse(ErrorCode::Unsupported,
+                           "the scene places {} primitives and variants, more than {}; merge primitives", all,
+                           kMaxPlacements);
+}
+
 } // namespace
 
 GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, Diagnostics& diagnostics) {
@@ -258,6 +280,7 @@ GltfScene planScene(GltfDocument const& document, GltfDeformation deformation, D
     NodeList nodes(document, worldFromNode, scene, diagnostics);
     nodes.add(document.roots, &requests);
     collectSkins(document, nodes, scene, diagnostics);
+    checkPlacements(document, scene, diagnostics);
     return scene;
 }
 

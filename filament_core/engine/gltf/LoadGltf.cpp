@@ -183,7 +183,8 @@ private:
     /// KHR_materials_volume: a thickness is in the space of the mesh and scales with its nodes. For a non-uniform
     /// scale, the geometric mean preserves the volume.
     static float scaleOf(double4x4 const& worldFromNode) {
-        return static_cast<float>(std::cbrt(std::abs(glm::determinant(double3x3(worldFromNode)))));
+        const double scale = std::cbrt(std::abs(glm::determinant(double3x3(worldFromNode))));
+        return std::isfinite(scale) ? static_cast<float>(scale) : 1.0f; // NaN would be a key that is never found
     }
 
     static double4x4 meshFromPositions(PrimitiveData const& primitive) {

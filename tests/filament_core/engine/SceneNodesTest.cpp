@@ -105,6 +105,24 @@ TEST_F(SceneNodesTest, AModelBecomesACopyOfTheNodesOfItsFile) {
     EXPECT_EQ(scene.worldFromNode(car), movedBy({ 10, 0, 0 }) * scene.parentFromNode(car));
 }
 
+TEST_F(SceneNodesTest, SpotsOfAFileWithEqualConesAreAdded) {
+    assets::GlbScene glb = carScene();
+    glb.lights[0].innerConeRadians = glb.lights[0].outerConeRadians = 0.5f;
+    const Model model = load(glb);
+    Scene scene(*engine);
+    scene.add(model);
+    EXPECT_EQ(scene.lightCount(), 1u);
+}
+
+TEST_F(SceneNodesTest, DirectionsOfLightsHaveAnyLength) {
+    Scene scene(*engine);
+    for (const float length : { 1e-44f, 1e-30f, 1.0f, 1.8e19f, 3.4e38f }) {
+        scene.add(SunLight{ .directionWorld = { 0, -length, 0 } });
+        scene.add(SpotLight{ .directionWorld = { length, length, length } });
+    }
+    EXPECT_EQ(scene.lightCount(), 10u);
+}
+
 TEST_F(SceneNodesTest, CopiesOfAModelLiveAndDieOnTheirOwn) {
     const Model model = load(carScene());
     Scene scene(*engine);

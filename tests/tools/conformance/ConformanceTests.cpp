@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/common/ChildProcess.h"
 #include "tools/common/Interrupt.h"
+#include "tools/conformance/BuiltModel.h"
 #include "tools/conformance/Journal.h"
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Runner.h"
@@ -107,6 +108,32 @@ TEST(SceneFiles, SayQualityByItsNamesAndAMisspeltOneIsAnError) {
     ASSERT_FALSE(misspelt.ok());
     EXPECT_NE(misspelt.error().message.find("shBands"), std::string::npos) << misspelt.error().message;
     EXPECT_FALSE(read(R"({ "shBands": 7 })").ok());
+}
+
+// Each would become an assertion of the engine, or an endless model.
+TEST(SceneFiles, SayWhichValuesTheEngineCannotTake) {
+    const std::filesystem::path file = tools::buildDir() / "broken-scene.json";
+    const auto refusal = [&](std::string const& fields) {
+        std::ofstream(file) << R"({ "model": "a.glb", )" << fields << " }";
+        const auto scene = readSceneFile(file);
+        return scene.ok() ? "was read" : scene.error().message;
+    };
+    const auto expect = [&](std::string const& fields, const char* part) {
+        EXPECT_NE(refusal(fields).find(part), std::string::npos) << fields << ": " << refusal(fields);
+    };
+    expect(R"("suns": [ { "direction": [ 0, 0, 0 ] } ])", "suns[0]: direction: expected one that is not zero");
+    expect(R"("suns": [ { "direction": [ 0, 1e39, 0 ] } ])", "suns[0]: direction: expected 3 numbers from -3.4");
+    expect(R"("spots": [ { "direction": [ 1e-60, 0, 0 ] } ])", "spots[0]: direction: expected one that is not zero");
+    expect(R"("view": { "size": [ -1, 4 ] })", "view: size: expected 2 numbers from 0 to 4294967295");
+    expect(R"("origin": [ 1e999, 0, 0 ])", "out_of_range");
+    expect(R"("suns": [ { "direction": [ 1.8e19, 1.8e19, 0 ] } ])", "was read");
+}
+
+TEST(SceneFiles, GridsOfMoreThan4096ObjectsAreRefusedBeforeAnyIsMade) {
+    const Json model = Json::parse(R"({ "objects": [ { "grid": { "count": [ 65536, 65536 ] } } ] })");
+    const auto built = buildModel(model, "grid");
+    ASSERT_FALSE(built.ok());
+    EXPECT_NE(built.error().message.find("4096 objects at most"), std::string::npos) << built.error().message;
 }
 
 TEST(Program, AFullStandardOutputIsAnError) {

@@ -54,6 +54,13 @@ TEST(EmissiveLights, AFloorGetsTheFormFactorOfTheLampHoweverItIsFound) {
     }
 }
 
+// A node may scale a lamp beyond the floats; its area is then no weight.
+TEST(EmissiveLights, ALampOfInfiniteAreaIsNoLight) {
+    jobs::JobSystem jobs({ .workers = 0 });
+    for (const double half : { 1e20, 1e30, 1e38, 1e100, 1e200 })
+        EXPECT_TRUE(prepare(lampOverFloor(half, 3e38f), jobs).ok()) << half;
+}
+
 TEST(EmissiveLights, ASmallLampIsFoundWithATenthOfTheNoise) {
     const ReferenceScene scene = lampOverFloor(0.05, 1000);
     const Estimate both = floorUnder(scene, Sampling::Both), chance = floorUnder(scene, Sampling::Bsdf);

@@ -263,6 +263,37 @@ TEST(GltfBrokenFile, TransformsThatOverflowAreRefused) {
     EXPECT_THAT(refusal(file), HasSubstr("nodes[1]: its transform is not finite"));
 }
 
+// A scene has 2^20 handles of a type; a file of some kilobytes can ask for more.
+TEST(GltfBrokenFile, ScenesOfMoreNodesThanTheEngineHoldsAreRefused) {
+    TestFile file = TestFile::triangle();
+    const size_t translations =
+            file.addAccessor({ { "componentType", int(kFloat) }, { "count", 300'000 }, { "type", "VEC3" } });
+    Json node{ { "mesh", 0 } };
+    node["extensions"]["EXT_mesh_gpu_instancing"]["attributes"]["TRANSLATION"] = translations;
+    file.root["nodes"] = { node };
+    EXPECT_EQ(loaded(file).nodes.size(), 300'001u);
+    file.root["nodes"] = { node, node };
+    file.root["scenes"][0]["nodes"] = { 0, 1 };
+    EXPECT_THAT(refusal(file, ErrorCode::Unsupported), HasSubstr("more than 500000 nodes and instances"));
+    file.root["accessors"][translations]["count"] = 1'048'576;
+    EXPECT_THAT(refusal(file),
+                HasSubstr("nodes[0]: the instance attributes differ in length, or are more than 500000"));
+}
+
+TEST(GltfBrokenFile, NodesThatPlaceMorePrimitivesThanTheEngineHoldsAreRefused) {
+    TestFile file = TestFile::triangle();
+    Json nodes = Json::array(), roots = Json::array();
+    for (int i = 0; i < 1001; ++i) {
+        nodes.push_back({ { "mesh", 0 } });
+        roots.push_back(i);
+    }
+    Json& primitives = file.root["meshes"][0]["primitives"];
+    while (primitives.size() < 500) primitives.push_back(Json(primitives[0]));
+    file.root["nodes"] = std::move(nodes);
+    file.root["scenes"][0]["nodes"] = std::move(roots);
+    EXPECT_THAT(refusal(file, ErrorCode::Unsupported), HasSubstr("places 500500 primitives and variants"));
+}
+
 TEST(GltfBrokenFile, WarningsStopGrowing) {
     TestFile file = TestFile::triangle();
     Json materials = Json::array();

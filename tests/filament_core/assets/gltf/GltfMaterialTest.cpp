@@ -240,6 +240,30 @@ TEST(GltfMaterial, LightsHaveTheDefaultsOfTheirExtension) {
     EXPECT_EQ(model.nodes[0].mesh, 0u);
 }
 
+// The engine asserts 0 <= inner < outer <= pi/2.
+TEST(GltfMaterial, SpotsWhoseInnerConeIsNotInsideTheOuterOneAreNarrowed) {
+    TestFile file = TestFile::triangle();
+    file.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([
+        { "type": "spot", "spot": { "innerConeAngle": 0.5, "outerConeAngle": 0.5 } },
+        { "type": "spot", "spot": { "innerConeAngle": 0.6, "outerConeAngle": 0.5 } },
+        { "type": "spot", "spot": { "innerConeAngle": 0.5, "outerConeAngle": 0.50000000001 } },
+        { "type": "spot", "spot": { "outerConeAngle": 0 } },
+        { "type": "spot", "spot": { "innerConeAngle": -1, "outerConeAngle": -0.5 } },
+        { "type": "spot", "spot": { "innerConeAngle": 2, "outerConeAngle": 3 } },
+        { "type": "spot", "spot": { "innerConeAngle": 1 } } ])");
+    const ModelData model = loaded(file);
+    ASSERT_EQ(model.lights.size(), 7u);
+    for (LightData const& light : model.lights) {
+        EXPECT_GE(light.innerConeRadians, 0.0f);
+        EXPECT_LT(light.innerConeRadians, light.outerConeRadians);
+        EXPECT_LE(light.outerConeRadians, 1.5707964f);
+    }
+    EXPECT_EQ(model.lights[0].outerConeRadians, 0.5f) << "the light keeps its size";
+    EXPECT_EQ(model.lights[0].innerConeRadians, std::nextafter(0.5f, 0.0f)) << "and its hard edge";
+    EXPECT_THAT(model.warnings,
+                testing::Contains(testing::HasSubstr("lights[0].spot: the inner cone is not inside of the outer one")));
+}
+
 TEST(GltfMaterial, ProgressCountsEveryImageAndPrimitive) {
     TestFile file = texturedTriangle(Json::parse(R"({ "emissiveTexture": { "index": 0 } })"));
     std::vector<std::string> steps;
