@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/GlslToSpirv.h"
 
+#include "shaders/compiler/EndlessLoops.h"
 #include "shaders/compiler/GlslLimits.h"
 #include "shaders/compiler/SpirvWords.h"
 
@@ -56,6 +57,13 @@ Error compileError(const char* log, std::string_view name) {
     return fail(ErrorCode::InvalidArgument, "{} (and {} more)", summary.firstError, summary.errors - 1);
 }
 
+Error endlessLoopError(EndlessLoop const& loop, std::string_view name) {
+    const std::string_view file = loop.file.empty() ? name : std::string_view(loop.file);
+    return fail(ErrorCode::InvalidArgument,
+                "{}:{}: this loop never ends; give it a condition that becomes false, a break or a return", file,
+                loop.line);
+}
+
 using PassSetup = void (*)(spvtools::Optimizer&);
 
 Result<std::vector<uint32_t>> runPasses(std::span<const uint32_t> spirv, PassSetup setup) {
@@ -106,7 +114,11 @@ Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::Shad
     glslang::SpvOptions options;
     options.disableOptimizer = true; // optimizeSpirv() is a separate step
     glslang::GlslangToSpv(*program.getIntermediate(language), spirv, &options);
-    return spirv;
+    if (!findEndlessLoop(spirv)) return spirv;
+    std::vector<uint32_t> withLines;
+    options.generateDebugInfo = true;
+    glslang::GlslangToSpv(*program.getIntermediate(language), withLines, &options);
+    return endlessLoopError(findEndlessLoop(withLines).value_or(EndlessLoop{}), name);
 }
 
 namespace {

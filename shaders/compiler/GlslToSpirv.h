@@ -16,7 +16,8 @@ namespace filament::shader {
 
 /// GLSL 450 with Vulkan semantics -> SPIR-V 1.3 with names. `#line n "file"` is understood and `name` is the file until
 /// then.
-///   Fails   InvalidArgument, "file:line: reason" of the first error and how many more there are.
+///   Fails   InvalidArgument, "file:line: reason" of the first error and how many more there are; also for a loop
+///           without an exit (EndlessLoops.h).
 Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name);
 
 /// SPIRV-Tools' passes for `goal`, which is not None. Fails: Internal if the module is not valid.

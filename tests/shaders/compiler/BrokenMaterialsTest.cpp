@@ -168,6 +168,11 @@ constexpr Broken kCode[] = {
                                     "prepareMaterial(material)" },
     { "material {}\n" FRAGMENT("\n #include \"gone.glsl\""),
       "a.mat:5: cannot find the file \"gone.glsl\" of this #include" },
+    { "material {}\n" FRAGMENT("prepareMaterial(material);\nwhile (true) material.roughness += 0.1;"),
+      "a.mat:5: this loop never ends; give it a condition that becomes false, a break or a return" },
+    { "material { shadingModel : unlit }\nfragment {\nfloat wait() {\n for (int i = 0;; ++i) {\n if (i > 3) continue;"
+      "\n }\n return 1.0;\n}\nvoid material(inout MaterialInputs material) {\n material.baseColor.r = wait(); } }",
+      "a.mat:4: this loop never ends; give it a condition that becomes false, a break or a return" },
     { "material { shadingModel : unlit }\nvertex {\n}\n" GOOD_FRAGMENT,
       "a.mat:2: this block must define void materialVertex(inout MaterialVertexInputs material)" },
 };
@@ -175,6 +180,14 @@ constexpr Broken kCode[] = {
 static_assert(std::size(kSyntax) + std::size(kValues) + std::size(kContradictions) + std::size(kMisspelt) +
                       std::size(kCode) >=
               40);
+
+/// Loops that look endless and are not.
+constexpr const char* kEndingLoops[] = {
+    "while (true) { material.roughness += 0.1; if (material.roughness > 1.0) break; }",
+    "for (;;) { material.roughness += 0.1; if (material.roughness > 1.0) return; }",
+    "do { material.roughness += 0.1; if (material.roughness > 1.0) discard; } while (true);",
+    "for (int i = 0; i < 3; ++i) { if (i == 1) continue; material.roughness += 0.1; }",
+};
 
 void expectMessages(std::span<const Broken> materials) {
     for (Broken const& broken : materials) {
@@ -187,6 +200,16 @@ TEST(BrokenMaterials, NameTheLineWhereTheTextStopsMakingSense) { expectMessages(
 TEST(BrokenMaterials, NameTheValueAndWhatItMayBe) { expectMessages(kValues); }
 TEST(BrokenMaterials, NameTheContradictionAndItsCure) { expectMessages(kContradictions); }
 TEST(BrokenMaterials, NameWhatWasProbablyMeantInTheCode) { expectMessages(kMisspelt); }
+TEST(BrokenMaterials, AreNotThoseWhoseLoopsHaveAnExit) {
+    for (const std::string loop : kEndingLoops) {
+        const std::string text = "material {}\nfragment { void material(inout MaterialInputs material) { "
+                                 "prepareMaterial(material); " +
+                                 loop + " } }";
+        const Result<MaterialPackage> package = compileMaterial(text, "a.mat");
+        EXPECT_TRUE(package) << loop << ": " << package.error().message;
+    }
+}
+
 TEST(BrokenMaterials, NameTheLineOfTheCode) { expectMessages(kCode); }
 
 } // namespace
