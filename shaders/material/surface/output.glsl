@@ -23,6 +23,15 @@ void addEmissive(MaterialInputs material, inout vec4 color) {
 #endif
 }
 
+// 1 for an opaque surface, unless the device derives coverage from it.
+float outputAlpha(float alpha) {
+#if (defined(BLEND_MODE_OPAQUE) && !defined(ALPHA_TO_COVERAGE)) || defined(BLEND_MODE_MASKED)
+    return 1.0;
+#else
+    return alpha;
+#endif
+}
+
 // The modes of postLightingBlending (materials guide, 4.2.17), with the post-lighting colour above the lit one. They
 // match the device's blending of the same name: multiply and screen weight all four channels.
 void blendPostLighting(MaterialInputs material, inout vec4 color) {
@@ -39,14 +48,6 @@ void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #elif defined(POST_LIGHTING_SCREEN)
     color += above * (1.0 - color);
 #endif
-#endif
-}
-
-// 1 for an opaque surface, unless the device derives coverage from it.
-float outputAlpha(float alpha) {
-#if (defined(BLEND_MODE_OPAQUE) && !defined(ALPHA_TO_COVERAGE)) || defined(BLEND_MODE_MASKED)
-    return 1.0;
-#else
-    return alpha;
+    color.a = outputAlpha(color.a); // what lies above an opaque surface cannot make it transparent
 #endif
 }

@@ -126,12 +126,13 @@ fragment {{ void material(inout MaterialInputs material) {{
 TEST(PostLighting, EveryModeIsItsFormulaForLitAndUnlitMaterials) {
     const float4 s = kSource, t(0.25f, 0.5f, 0.75f, 1); // what lighting left: the emission
     for (const std::string_view shading : { "unlit", "lit" }) {
-        EXPECT_EQ(postLit("", shading), s + t * (1 - s.w)) << "the default: transparent";
-        EXPECT_EQ(postLit("postLightingBlending : transparent", shading), s + t * (1 - s.w));
-        EXPECT_EQ(postLit("postLightingBlending : opaque", shading), s);
-        EXPECT_EQ(postLit("postLightingBlending : add", shading), s + t);
-        EXPECT_EQ(postLit("postLightingBlending : multiply", shading), s * t);
-        EXPECT_EQ(postLit("postLightingBlending : screen", shading), s + t * (1.0f - s)) << shading;
+        const auto opaque = [](float4 color) { return float4(float3(color), 1); }; // the surface stays opaque
+        EXPECT_EQ(postLit("", shading), opaque(s + t * (1 - s.w))) << "the default: transparent";
+        EXPECT_EQ(postLit("postLightingBlending : transparent", shading), opaque(s + t * (1 - s.w)));
+        EXPECT_EQ(postLit("postLightingBlending : opaque", shading), opaque(s));
+        EXPECT_EQ(postLit("postLightingBlending : add", shading), opaque(s + t));
+        EXPECT_EQ(postLit("postLightingBlending : multiply", shading), opaque(s * t));
+        EXPECT_EQ(postLit("postLightingBlending : screen", shading), opaque(s + t * (1.0f - s))) << shading;
     }
 }
 
