@@ -7,6 +7,7 @@
 #include "shaders/compiler/ForbidReordering.h"
 #include "shaders/compiler/FullPrecision.h"
 #include "shaders/compiler/GlslToSpirv.h"
+#include "shaders/compiler/OpaqueOutputs.h"
 #include "shaders/compiler/ReflectLayout.h"
 #include "shaders/compiler/SpirvToEssl.h"
 
@@ -35,8 +36,8 @@ Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std:
     const Optimization goal = goalOf(stage, options);
     if (spirv && goal != Optimization::None) spirv = optimizeSpirv(*spirv, goal);
     if (spirv) spirv = canonicalOrder(*spirv);
-    if (spirv && options.exact)
-        spirv = forbidReordering(lowerExactly(*spirv)); // last, so that no pass rearranges the result
+    if (spirv && options.exact) // last, so that no pass rearranges the result
+        spirv = forbidReordering(hideConstantOutputs(lowerExactly(*spirv)));
     return spirv;
 }
 
