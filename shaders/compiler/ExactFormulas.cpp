@@ -3,7 +3,9 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <iterator>
+#include <limits>
 #include <numbers>
 #include <vector>
 
@@ -14,7 +16,10 @@ namespace filament::shader {
 Value exactLength(Value v) { return v.isVector() ? call(GLSLstd450Sqrt, { dot(v, v) }) : call(GLSLstd450FAbs, { v }); }
 
 Value exactNormalize(Value v) {
-    return v.isVector() ? v * call(GLSLstd450InverseSqrt, { dot(v, v) }) : call(GLSLstd450FSign, { v });
+    if (!v.isVector()) return call(GLSLstd450FSign, { v });
+    const Value square = dot(v, v); // raised, so that a zero vector stays zero
+    const Value raised = call(GLSLstd450FMax, { square, square.like(std::numeric_limits<float>::min()) });
+    return v * call(GLSLstd450InverseSqrt, { raised });
 }
 
 Value exactReflect(Value incident, Value normal) { return incident - normal * (2.0f * dot(normal, incident)); }
@@ -67,6 +72,52 @@ Value exactDivide(Value x, Value y) {
     return x * Value{ y.editor, y.editor->constant(reciprocal, y.type()) };
 }
 
+namespace {
+
+constexpr int kLargestProduct = 8;
+
+bool isSmallWhole(float exponent) { return std::abs(exponent) <= kLargestProduct && exponent == std::trunc(exponent); }
+
+/// x^n in at most four multiplications, n in [0, 8].
+Value product(Value x, int n) {
+    if (n == 0) return x.like(1.0f);
+    Value power = x, result{};
+    for (int bit = 1; bit <= n; bit *= 2, power = bit <= n ? power * power : power) {
+        if ((n & bit) != 0) result = result.editor ? power * result : power;
+    }
+    return result;
+}
+
+Value wholePower(Value x, float exponent) {
+    const Value power = product(x, static_cast<int>(std::abs(exponent)));
+    return exponent < 0.0f ? 1.0f / power : power;
+}
+
+/// The driver knows the exponent when it compiles, and Mesa's GLSL compiler then replaces 1, 2 and 4 by products.
+Value powSpecialised(Value x, Value exponent) {
+    SpirvEditor& editor = *x.editor;
+    Value result = call(GLSLstd450Pow, { x, exponent });
+    for (const float n : { 1.0f, 2.0f, 3.0f, 4.0f }) {
+        const auto isN = editor.emit(spv::OpFOrdEqual, editor.boolTypeLike(x.type()), { exponent.id, x.like(n).id });
+        result.id = editor.emit(spv::OpSelect, x.type(), { isN, wholePower(x, n).id, result.id });
+    }
+    return result;
+}
+
+} // namespace
+
+Value exactPow(Value x, Value exponent) {
+    const std::span<const float> found = x.editor->constantOf(exponent.id);
+    if (found.empty()) return x.editor->isConstantExpression(exponent.id) ? powSpecialised(x, exponent) : Value{};
+    const std::vector<float> exponents(found.begin(), found.end()); // new constants may move the table
+    if (!std::ranges::all_of(exponents, isSmallWhole)) return {};
+    if (std::ranges::all_of(exponents, [&](float each) { return each == exponents[0]; }))
+        return wholePower(x, exponents[0]);
+    std::vector<Value> parts;
+    for (uint32_t i = 0; i < x.size(); ++i) parts.push_back(wholePower(x[i], exponents[i]));
+    return compose(x.type(), parts);
+}
+
 // ---------------------------------------------------------------------------------------------- one variable
 
 Value exactTan(Value x) { return call(GLSLstd450Sin, { x }) / call(GLSLstd450Cos, { x }); }
@@ -99,9 +150,19 @@ Value exactAtan2(Value y, Value x) {
 
 Value exactAtan(Value x) { return exactAtan2(x, x.like(1.0f)); }
 
-Value exactAsin(Value x) { return exactAtan2(x, call(GLSLstd450Sqrt, { (1.0f - x) * (1.0f + x) })); }
+namespace {
 
-Value exactAcos(Value x) { return exactAtan2(call(GLSLstd450Sqrt, { (1.0f - x) * (1.0f + x) }), x); }
+/// sqrt(1 - x^2); 0 outside [-1, 1], so that arc functions saturate there.
+Value legOfUnitCircle(Value x) {
+    const Value square = (1.0f - x) * (1.0f + x);
+    return call(GLSLstd450Sqrt, { call(GLSLstd450FMax, { square, x.like(0.0f) }) });
+}
+
+} // namespace
+
+Value exactAsin(Value x) { return exactAtan2(x, legOfUnitCircle(x)); }
+
+Value exactAcos(Value x) { return exactAtan2(legOfUnitCircle(x), x); }
 
 Value exactSinh(Value x) { return 0.5f * (call(GLSLstd450Exp, { x }) - call(GLSLstd450Exp, { -x })); }
 

@@ -9,7 +9,7 @@ namespace filament::shader {
 
 // ---- geometry and blending
 Value exactLength(Value v);                       ///< sqrt(dot(v, v)); |v| for scalars
-Value exactNormalize(Value v);                    ///< v * inversesqrt(dot(v, v)); sign(v) for scalars
+Value exactNormalize(Value v);                    ///< v * inversesqrt(dot(v, v)), 0 for 0; sign(v) for scalars
 Value exactReflect(Value incident, Value normal); ///< I - N * (2 * dot(N, I))
 Value exactRefract(Value incident, Value normal, Value eta);
 Value exactCross(Value a, Value b);
@@ -18,6 +18,8 @@ Value exactMix(Value a, Value b, Value t); ///< a + (b - a) * t
 Value exactSmoothStep(Value edge0, Value edge1, Value x);
 Value exactMod(Value x, Value y);    ///< x - y * floor(x / y)
 Value exactDivide(Value x, Value y); ///< by a constant: x * (1 / y)
+/// Products for whole constant exponents in [-8, 8], defined for negative x, too; nothing (keep pow) for others.
+Value exactPow(Value x, Value exponent);
 
 // ---- functions of one variable
 Value exactTan(Value x); ///< sin(x) / cos(x)

@@ -21,6 +21,8 @@ public:
 
     Id run() const {
         if (mAt.op == spv::OpSMod) return lowerSignedModulo();
+        if (mAt.op == spv::OpConvertFToS) return convertClamped(-2147483648.0f, 2147483520.0f);
+        if (mAt.op == spv::OpConvertFToU) return convertClamped(0.0f, 4294967040.0f);
         if (!mEditor.isFloat32(mAt.type)) return 0;
         if (mAt.op == spv::OpExtInst) return mEditor.isExtended(mAt) ? lowerExtended().id : 0;
         return lowerCore().id;
@@ -58,6 +60,15 @@ private:
         return mEditor.emit(spv::OpISub, mAt.type, { x, mEditor.emit(spv::OpIMul, mAt.type, { quotient, y }) });
     }
 
+    /// GLSL leaves integers out of range undefined; `high` is the largest float that fits. NaN becomes `low`.
+    Id convertClamped(float low, float high) const {
+        const Value x = operand(0);
+        if (!mEditor.isFloat32(x.type())) return 0;
+        const Value raised = call(GLSLstd450FMax, { x, x.like(low) });
+        const Value clamped = call(GLSLstd450FMin, { raised, x.like(high) });
+        return mEditor.emit(mAt.op, mAt.type, { clamped.id });
+    }
+
     Value lowerDivision() const {
         const Value divisor = operand(1);
         return mEditor.isConstantExpression(divisor.id) ? exactDivide(operand(0), divisor) : Value{};
@@ -83,6 +94,8 @@ private:
             return exactMix(argument(0), argument(1), argument(2));
         case GLSLstd450SmoothStep:
             return exactSmoothStep(argument(0), argument(1), argument(2));
+        case GLSLstd450Pow:
+            return exactPow(argument(0), argument(1));
         case GLSLstd450Fma:
             return argument(0) * argument(1) + argument(2);
         case GLSLstd450Determinant:

@@ -4,8 +4,9 @@
 ///           of a dot product then depends on the API. After this pass both see additions and multiplications.
 ///   What    dot, matrix products, outer product, determinant, inverse, normalize, length, distance, reflect, refract,
 ///           cross, faceforward, mix, smoothstep, fma, mod, tan, asin, acos, atan, radians, degrees, the hyperbolic
-///           functions and their inverses, division by a constant (multiplication by its rounded reciprocal), and % of
-///           signed integers.
+///           functions and their inverses, division by a constant (multiplication by its rounded reciprocal), % of
+///           signed integers, and pow with a small whole exponent, which becomes products. Conversions to integers are
+///           clamped to their range (docs/materials-undefined.md).
 ///   In      valid SPIR-V; run it after the optimiser, which would restore some of the operations.
 ///   Limits  32-bit floats; modf, frexp and ldexp are not changed.
 ///   Thread  any. Fails: never for a valid module. Cost: one pass over the words.

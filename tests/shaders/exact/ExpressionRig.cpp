@@ -150,11 +150,13 @@ void ExpressionRig::draw(CommandBuffer& commands, ProgramShaders const& shaders,
     mStream->free(program);
 }
 
-Result<std::vector<uint32_t>> ExpressionRig::values(std::string const& expression, bool exact) {
+Result<std::vector<uint32_t>> ExpressionRig::values(std::string const& expression, bool exact,
+                                                    std::string const& statements) {
     // Every input is mentioned, so that all expressions share one layout.
     const std::string keep =
             "    if (a.x > 1e30) color = m[0] + n[0] + texture(smooth_, a.xy) + texture(cube, a.xyz);\n";
-    const std::string fragment = std::string(kPrelude) + "    color = " + expression + ";\n" + keep + "}\n";
+    const std::string fragment =
+            std::string(kPrelude) + statements + "\n    color = " + expression + ";\n" + keep + "}\n";
     const Result<ProgramShaders> shaders = compileProgram(
             kVertex, fragment,
             { .exact = exact, .dynamicUniformBuffers = std::vector<SetBinding>{}, .fragmentName = expression });

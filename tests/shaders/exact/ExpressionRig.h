@@ -23,8 +23,8 @@ public:
     /// Null where no such device is installed.
     static std::unique_ptr<ExpressionRig> make(backend::BackendType type);
 
-    /// 4 words per input: the IEEE bits of the result.
-    Result<std::vector<uint32_t>> values(std::string const& expression, bool exact);
+    /// 4 words per input: the IEEE bits of the result. `statements` precede the expression.
+    Result<std::vector<uint32_t>> values(std::string const& expression, bool exact, std::string const& statements = {});
 
 private:
     explicit ExpressionRig(std::unique_ptr<backend::CommandStream> stream) : mStream(std::move(stream)) {}

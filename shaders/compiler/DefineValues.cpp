@@ -1,0 +1,91 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "shaders/compiler/DefineValues.h"
+
+#include "shaders/compiler/SpirvWords.h"
+#include "shaders/interface/ShaderInterface.h"
+
+#include <algorithm>
+#include <map>
+#include <set>
+
+namespace filament::shader {
+namespace {
+
+constexpr size_t kBoundWord = 3;
+
+bool isUnset(spv::Op op, std::span<const uint32_t> words) {
+    const bool isLocal =
+            op == spv::OpVariable && (words[3] == spv::StorageClassFunction || words[3] == spv::StorageClassPrivate);
+    return isLocal && words.size() == 4;
+}
+
+/// Adds OpConstantNull before the first function or global variable, and names it in every unset variable.
+class Initializer {
+public:
+    explicit Initializer(std::span<const uint32_t> module) : mModule(module), mBound(module[kBoundWord]) {}
+
+    std::vector<uint32_t> run() {
+        forEachInstruction(mModule, [&](spv::Op op, std::span<const uint32_t> words) {
+            if (op == spv::OpTypePointer) mPointees[words[1]] = words[3];
+        });
+        mOut.assign(mModule.begin(), mModule.begin() + kModuleHeaderWords);
+        forEachInstruction(mModule, [&](spv::Op op, std::span<const uint32_t> words) {
+            if (op == spv::OpFunction && !mInFunctions) startFunctions();
+            if (!isUnset(op, words)) {
+                mOut.insert(mOut.end(), words.begin(), words.end());
+                return;
+            }
+            mOut.insert(mOut.end(), { 5u << 16 | op, words[1], words[2], words[3], zeroOf(mPointees.at(words[1])) });
+        });
+        mOut[kBoundWord] = mBound;
+        return std::move(mOut);
+    }
+
+private:
+    /// The zeros of all local variables, before the first function.
+    void startFunctions() {
+        mInFunctions = true;
+        forEachInstruction(mModule, [&](spv::Op op, std::span<const uint32_t> words) {
+            if (isUnset(op, words)) zeroOf(mPointees.at(words[1]));
+        });
+    }
+
+    uint32_t zeroOf(uint32_t type) {
+        uint32_t& zero = mZeros[type];
+        if (zero == 0) {
+            zero = mBound++;
+            mOut.insert(mOut.end(), { 3u << 16 | spv::OpConstantNull, type, zero });
+        }
+        return zero;
+    }
+
+    std::span<const uint32_t> mModule;
+    uint32_t mBound = 0;
+    bool mInFunctions = false;
+    std::map<uint32_t, uint32_t> mPointees, mZeros; ///< by type id
+    std::vector<uint32_t> mOut;
+};
+
+} // namespace
+
+std::vector<uint32_t> initializeVariables(std::span<const uint32_t> spirv) { return Initializer(spirv).run(); }
+
+bool hasDynamicIndices(std::span<const uint32_t> spirv) {
+    std::set<uint32_t> constants, engineBlocks;
+    std::map<uint32_t, uint32_t> bases; // of pointers made by access chains
+    bool found = false;
+    forEachInstruction(spirv, [&](spv::Op op, std::span<const uint32_t> words) {
+        const bool isGroup = op == spv::OpDecorate && words[2] == spv::DecorationDescriptorSet;
+        if (isGroup && words[3] != kGroupMaterial) engineBlocks.insert(words[1]);
+        if (op >= spv::OpConstantTrue && op <= spv::OpConstantNull) constants.insert(words[2]);
+        if (op != spv::OpAccessChain && op != spv::OpInBoundsAccessChain) return;
+        const auto base = bases.find(words[3]);
+        bases[words[2]] = base == bases.end() ? words[3] : base->second;
+        const bool isDynamic =
+                !std::ranges::all_of(words.subspan(4), [&](uint32_t id) { return constants.contains(id); });
+        found = found || (isDynamic && !engineBlocks.contains(bases[words[2]]));
+    });
+    return found;
+}
+
+} // namespace filament::shader
