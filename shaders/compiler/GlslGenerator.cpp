@@ -219,7 +219,7 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     declareInterface(out, definition);
     declareVariables(out, definition);
     declareMaterialInputs(out, definition);
-    if (needs.luminance) done = out.include("shaders/lib/color.glsl");
+    if (needs.colors) done = out.include("shaders/lib/color.glsl");
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_api.glsl");
     if (done) done = out.include("shaders/material/surface/fragment_api.glsl");
     return done;
@@ -337,7 +337,7 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     needs.tangent = needs.normal && fragment.mentions("getWorldTangentFrame");
     needs.clipSpaceTransform =
             definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");
-    needs.luminance = fragment.mentions("luminance");
+    needs.colors = mentionsAny(fragment, { "luminance", "inverseTonemap", "inverseTonemapSRGB", "ycbcrToRgb" });
     needs.instanceIndex = fragment.mentions("getInstanceIndex");
     return needs;
 }

@@ -16,7 +16,7 @@ struct MaterialNeeds {
     bool worldPosition = false, normal = false, tangent = false;
     bool clipSpaceTransform = false;
     bool instanceIndex = false; ///< getInstanceIndex() in the fragment stage
-    bool luminance = false;     ///< calls luminance() of the colour library
+    bool colors = false;        ///< calls a function of the colour library (materials guide, 4.5.7)
     uint64_t terms = 0;         ///< bit n: the term of materialMembers()[n] (findTerms())
 
     bool has(std::string_view term) const;

@@ -21,6 +21,8 @@ bool endsWord(char c) {
 
 JsonishLexer::JsonishLexer(std::string_view text, std::string_view fileName, IncludeResolver const& includes)
         : mIncludes(includes), mTotalBytes(text.size()) {
+    constexpr std::string_view kByteOrderMark = "\xEF\xBB\xBF"; // some editors write it at the start of UTF-8
+    if (text.starts_with(kByteOrderMark)) text.remove_prefix(kByteOrderMark.size());
     mInputs.push_back({ std::string(text), std::make_shared<std::string>(fileName) });
 }
 

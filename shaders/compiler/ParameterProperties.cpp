@@ -43,7 +43,7 @@ Result<void> readType(JsonValue const& value, Parameter& out) {
             return errorAt(value.at, fmt::format("\"{}\": an array size is a number from 1 to {}", value.text,
                                                  kMaxBlockBytes / 16));
         }
-        base.text.resize(bracket);
+        base.text.resize(base.text.find_last_not_of(' ', bracket - 1) + 1); // "float [2]" is "float[2]"
     }
     if (equalIgnoringCase(base.text, "samplerExternal")) {
         return errorAt(

@@ -3,6 +3,7 @@
 
 #include "shaders/compiler/PropertyReader.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <utility>
@@ -167,9 +168,9 @@ Result<void> readName(JsonValue const& value, std::string_view name, MaterialDef
 
 Result<void> readFeatureLevel(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
     float level = 0;
-    if (Result<void> done = readNumber(value, name, 1, 3, level); !done) return done;
-    if (level != std::floor(level)) return errorAt(value.at, "'featureLevel' is 1, 2 or 3");
-    out.package.featureLevel = static_cast<uint8_t>(level);
+    if (Result<void> done = readNumber(value, name, 0, 3, level); !done) return done;
+    if (level != std::floor(level)) return errorAt(value.at, "'featureLevel' is 0, 1, 2 or 3");
+    out.package.featureLevel = static_cast<uint8_t>(std::max(level, 1.0f)); // every device has level 1
     return {};
 }
 

@@ -39,11 +39,11 @@ constexpr Broken kValues[] = {
     { "material {\n culling : \"\" }" GOOD_FRAGMENT, "a.mat:2: 'culling' cannot be ''" },
     { "material {\n shadingModel : litt }" GOOD_FRAGMENT,
       "a.mat:2: 'shadingModel' cannot be 'litt'; did you mean 'lit'?" },
-    { "material {\n featureLevel : 4 }" GOOD_FRAGMENT, "a.mat:2: 'featureLevel' must lie in [1, 3], it is 4" },
+    { "material {\n featureLevel : 4 }" GOOD_FRAGMENT, "a.mat:2: 'featureLevel' must lie in [0, 3], it is 4" },
     { "material {\n featureLevel : 1 }\nfragment {\n void material(inout MaterialInputs m) {\n prepareMaterial(m);\n"
       " // textureGather(later)\n m.roughness = float(bitCount(3)); } }",
       "a.mat:7: 'bitCount' came with ESSL 3.10, which featureLevel 1 does not have; use featureLevel : 2" },
-    { "material {\n featureLevel : 1.5 }" GOOD_FRAGMENT, "a.mat:2: 'featureLevel' is 1, 2 or 3" },
+    { "material {\n featureLevel : 1.5 }" GOOD_FRAGMENT, "a.mat:2: 'featureLevel' is 0, 1, 2 or 3" },
     { "material {\n maskThreshold : -0.1 }" GOOD_FRAGMENT, "a.mat:2: 'maskThreshold' must lie in [0, 1], it is -0.1" },
     { "material {\n name : a,\n name : b }" GOOD_FRAGMENT, "a.mat:3: the property 'name' is given twice" },
     { "material {\n requires : [ custom8 ] }" GOOD_FRAGMENT,
