@@ -14,7 +14,6 @@ using namespace backend;
 using framegraph::FrameGraph;
 using framegraph::PassBuilder;
 using framegraph::PassContext;
-using framegraph::TextureId;
 using shader::MaterialPackage;
 using shader::Parameter;
 using shader::PassKind;

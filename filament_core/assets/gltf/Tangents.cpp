@@ -49,7 +49,6 @@ std::vector<uint32_t> weldVertices(TangentInput const& input) {
         size_t slot = hashBytes(std::as_bytes(std::span(&key, 1))) & (slots - 1);
         while (table[slot] != kNone) {
             const Key other = keyOf(table[slot]);
-            // NOLINTNEXTLINE(bugprone-suspicious-memory-comparison): the hash is of the bits, and -0 became 0
             if (std::memcmp(&key, &other, sizeof key) == 0) break;
             slot = (slot + 1) & (slots - 1);
         }
