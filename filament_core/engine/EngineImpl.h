@@ -189,6 +189,7 @@ struct Engine::Impl {
 
     engine::Defaults defaults;
     std::map<std::string, Material> engineMaterials; ///< by package and constants
+    uint64_t depthStateChanges = 0;                  ///< of instances; they change the order in which scenes draw
     std::vector<MaterialInstance> dirtyInstances;
     std::array<bool, scene::kTextureFilters> filtersInUse{ true }; ///< by TextureFilter: that of any frame so far
     uint32_t nextMaterialId = 0, nextInstanceId = 0;

@@ -8,6 +8,8 @@
 
 #include <filament/Scene.h>
 
+#include <utility>
+
 namespace filament {
 
 struct Scene::Impl {
@@ -18,14 +20,18 @@ struct Scene::Impl {
         std::vector<Renderable> renderables; ///< parallel to the model's; some may have been removed
     };
 
-    /// The data after all changes of nodes, from which frames and bounds are computed.
+    /// The data after all changes of nodes and material instances, from which frames and bounds are computed.
     scene::SceneData const& upToDate() const {
+        if (std::exchange(depthStateChanges, engine.depthStateChanges) != engine.depthStateChanges) {
+            data.renderables.drawables.updateOrders();
+        }
         prepare::updateTransforms(engine.jobs, data);
         return data;
     }
 
     Engine::Impl& engine;
     mutable scene::SceneData data; ///< data derived from nodes is computed on demand
+    mutable uint64_t depthStateChanges = 0;
     std::vector<ModelCopy> copies;
 };
 

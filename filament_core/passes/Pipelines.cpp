@@ -59,7 +59,7 @@ uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
 // because the slot determines it.
 uint16_t fullscreenVariant(PassSlot const& slot, shader::MaterialPackage const& package) {
     const bool isMerged = slot.layout.subpasses[slot.subpass].inputMask != 0;
-    return isMerged && package.findVariant(shader::kVariantMerged) ? shader::kVariantMerged : uint16_t{ 0 };
+    return isMerged && package.findVariant(shader::kVariantMerged) ? uint16_t{ shader::kVariantMerged } : uint16_t{ 0 };
 }
 
 uint64_t programKey(uint16_t variant, ShadingKey shading) { return uint64_t{ shading } << 16 | variant; }
@@ -81,6 +81,15 @@ CullMode cullMode(scene::InstanceRaster const& raster) {
 
 bool drawsNothing(scene::InstanceRaster const& raster) {
     return raster.culling == shader::Culling::FrontAndBack && !raster.cullingDisabled;
+}
+
+// Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface. Devices write no depth
+// while the test is off, so "no test" is a test that always passes.
+DepthStencilState depthState(scene::InstanceRaster const& raster, DepthRange range) {
+    const CompareOp nearer = range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
+    const bool writes = raster.depthWrite && !drawsNothing(raster);
+    if (!raster.depthCulling && !writes) return {};
+    return { .depthCompare = raster.depthCulling ? nearer : CompareOp::Always, .depthWrite = writes };
 }
 
 // Colours are pre-multiplied (DESIGN: conventions); coverage accumulates in alpha.
@@ -258,12 +267,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         desc.raster.topology = mLayouts[geometryLayout].topology;
     }
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
-    if (hasDepth && raster.depthCulling) {
-        // Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface.
-        desc.depthStencil.depthCompare =
-                slot.depthRange == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
-        desc.depthStencil.depthWrite = raster.depthWrite && !drawsNothing(raster);
-    }
+    if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     BlendState blend = blendState(package);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
     desc.blend.fill(blend);

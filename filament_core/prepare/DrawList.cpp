@@ -11,9 +11,16 @@ struct RangeDraws {
     uint64_t triangles = 0;
 };
 
-uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden) {
+// Nothing but casters is drawn into shadow maps, all of which leave their depth: there nothing is late.
+uint32_t lateOrders(ViewKind kind) {
+    using scene::Drawables;
+    return kind == ViewKind::Shadow ? 0 : Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder;
+}
+
+uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden, uint32_t late) {
     const auto depth = static_cast<uint32_t>(item.key);
     if (use.order & scene::Drawables::kBlendedOrder) return blendedKey(depth);
+    if (use.order & late) return lateKey(depth, (use.order & scene::Drawables::kNoDepthTestOrder) != 0);
     return opaqueKey(use.order, item.draw, sliceStart(span, use.users >> hidden, coarseStep(depth)), depth);
 }
 
@@ -62,10 +69,11 @@ uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem>
 } // namespace
 
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible) {
+                              VisibleItems const& visible, ViewKind kind) {
     const auto items = arena.arrayForOverwrite<SortItem>(visible.count());
     // The visible share of the scene as a power of two: the members of a draw are assumed to be visible in the same
     // proportion.
+    const uint32_t late = lateOrders(kind);
     const int hidden = static_cast<int>(std::bit_width(visible.slots.size()) - std::bit_width(items.size()));
     jobs::parallelFor<"sort keys">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
         const size_t range = begin / kCullRange;
@@ -73,16 +81,16 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
         for (size_t i = visible.firsts[range]; i < visible.firsts[range + 1]; ++i, ++from) {
             const scene::Drawables::Use use = drawables.use(drawableOf(from->draw));
             static_assert(scene::Drawables::kTwoPassesOrder << 1 == kDrawnTwice);
-            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden), from->renderable,
+            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden, late), from->renderable,
                          from->draw | (use.order & scene::Drawables::kTwoPassesOrder) << 1 };
         }
     });
     return items;
 }
 
-std::span<const SortItem> withoutBlended(std::span<const SortItem> sorted) {
-    const auto isOpaque = [](SortItem const& item) { return item.key < kBlendedKey; };
-    return { sorted.begin(), std::ranges::partition_point(sorted, isOpaque) };
+std::span<const SortItem> beforeSky(std::span<const SortItem> sorted) {
+    const auto isEarly = [](SortItem const& item) { return item.key < kLateKey; };
+    return { sorted.begin(), std::ranges::partition_point(sorted, isEarly) };
 }
 
 DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
@@ -101,11 +109,11 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     });
     for (RangeDraws const& range : ranges) counts.triangles += range.triangles;
 
-    // The first blended item starts a draw, because no draw contains both opaque and blended items.
-    const size_t opaqueItems = withoutBlended(items).size();
-    const auto isOpaque = [&](DrawCall const& draw) { return draw.firstObject < opaqueItems; };
-    const auto opaque = static_cast<size_t>(std::ranges::partition_point(draws, isOpaque) - draws.begin());
-    return { draws.first(opaque), draws.subspan(opaque) };
+    // The first item after the sky starts a draw, because items of one material share its place.
+    const size_t earlyItems = beforeSky(items).size();
+    const auto isEarly = [&](DrawCall const& draw) { return draw.firstObject < earlyItems; };
+    const auto early = static_cast<size_t>(std::ranges::partition_point(draws, isEarly) - draws.begin());
+    return { draws.first(early), draws.subspan(early) };
 }
 
 } // namespace filament::prepare

@@ -7,6 +7,7 @@
 
 #include "filament_core/prepare/CullRenderables.h"
 #include "filament_core/prepare/FramePacket.h"
+#include "filament_core/prepare/ViewInput.h"
 #include "shaders/interface/ShaderInterface.h"
 
 #include <span>
@@ -18,13 +19,13 @@ inline constexpr size_t kMergeRange = 16 * shader::kObjectsPerWindow;
 
 /// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene.
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible);
+                              VisibleItems const& visible, ViewKind kind);
 
-/// The part of a sorted list that does not blend.
-std::span<const SortItem> withoutBlended(std::span<const SortItem> sorted);
+/// The part of a sorted list that comes before the sky: what neither blends nor is late (SortKey.h).
+std::span<const SortItem> beforeSky(std::span<const SortItem> sorted);
 
 struct DrawLists {
-    std::span<const DrawCall> opaque, blended;
+    std::span<const DrawCall> opaque, blended; ///< before and after the sky
 };
 
 /// Neighbours of one draw become one instanced draw call; none crosses a window of shader::kObjectsPerWindow objects.

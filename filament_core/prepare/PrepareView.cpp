@@ -22,10 +22,10 @@ uint8_t variantFor(ViewCounts const& counts) {
                                 (counts.lights ? shader::kVariantPunctual : 0));
 }
 
-/// The items to draw, in order; a view without light omits blended ones.
+/// The items to draw, in order; a view without light omits blended and late ones.
 std::span<const SortItem> drawnItems(std::span<const SortItem> sorted, ViewKind kind, ViewCounts& counts) {
     if (isShaded(kind)) return sorted;
-    const std::span<const SortItem> solid = withoutBlended(sorted);
+    const std::span<const SortItem> solid = beforeSky(sorted);
     counts.blendedLeftOut = static_cast<uint32_t>(sorted.size() - solid.size());
     counts.visible -= counts.blendedLeftOut;
     return solid;
@@ -50,7 +50,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
 
     scene::Renderables const& renderables = scene.renderables;
     prepared.visible = cullRenderables(jobs, arena, renderables, space, packet.counts);
-    const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, prepared.visible);
+    const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, prepared.visible, view.kind);
     const std::span<const SortItem> order = drawnItems(sortItems(jobs, arena, items), view.kind, packet.counts);
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
     besideCulling.wait();

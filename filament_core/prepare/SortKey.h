@@ -8,8 +8,11 @@
 ///            30-41 instance   same parameters and textures together
 ///            10-29 drawable   same geometry: makes the draw unique, so that nothing comes between its instances
 ///             0- 9 depth      front to back inside of the slice, sixteen steps an octave
-///   blended  63    1
-///            31-62 depth      of the renderable, every bit, inverted: back to front
+///   late     63-62 10      opaque without depth writes or without depth test
+///            61    on top     without depth test
+///            30-60 depth      as of blended ones: the nearest object ends on top
+///   blended  63-62 11
+///            31-61 depth      of the renderable, every bit, inverted: back to front
 ///
 /// A draw is what instances can share: geometry, material instance and side. Its renderables are cut into slices by
 /// depth, and the slices of all draws are sorted front to back. A slice is as thin as a quarter of an octave if a draw
@@ -38,7 +41,8 @@ struct SortItem {
 };
 static_assert(sizeof(SortItem) == 16, "sorting moves four of them a cache line");
 
-inline constexpr uint64_t kBlendedKey = 1ull << 63;
+inline constexpr uint64_t kLateKey = 1ull << 63; ///< from here on: drawn after the sky
+inline constexpr uint64_t kBlendedKey = 3ull << 62;
 
 /// Set by writeKeys(): the two passes of an object follow each other, so that it shares no draw call.
 inline constexpr uint32_t kDrawnTwice = 1u << 31;
@@ -85,6 +89,13 @@ constexpr uint64_t opaqueKey(uint32_t order, uint32_t draw, uint32_t slice, uint
            instance << 30 | static_cast<uint64_t>(drawableOf(draw)) << 10 | depthStep(depth);
 }
 
+/// `depth`: depthBits(), whose highest bit is 0.
 constexpr uint64_t blendedKey(uint32_t depth) { return kBlendedKey | static_cast<uint64_t>(~depth) << 31; }
+
+/// What is opaque, but has to be drawn after the sky.
+constexpr uint64_t lateKey(uint32_t depth, bool onTop) {
+    const uint64_t inverted = ~depth & 0x7FFF'FFFFu;
+    return kLateKey | static_cast<uint64_t>(onTop) << 61 | inverted << 30;
+}
 
 } // namespace filament::prepare

@@ -7,12 +7,17 @@
 namespace filament::scene {
 namespace {
 
+uint32_t depthOrder(MaterialInstance const& instance) {
+    if (instance.material->isBlended()) return Drawables::kBlendedOrder;
+    if (!instance.raster.depthCulling) return Drawables::kNoDepthTestOrder;
+    return instance.raster.depthWrite ? 0 : Drawables::kNoDepthWriteOrder;
+}
+
 uint32_t orderOf(MaterialInstance const& instance) {
     constexpr uint32_t kMaterialMask = (1u << Drawables::kMaterialBits) - 1;
     constexpr uint32_t kInstanceMask = (1u << Drawables::kInstanceBits) - 1;
-    const uint32_t blended = instance.material->isBlended() ? Drawables::kBlendedOrder : 0;
     const uint32_t twice = instance.material->hasTwoPasses() ? Drawables::kTwoPassesOrder : 0;
-    return blended | twice | (instance.material->id & kMaterialMask) << Drawables::kInstanceBits |
+    return depthOrder(instance) | twice | (instance.material->id & kMaterialMask) << Drawables::kInstanceBits |
            (instance.id & kInstanceMask);
 }
 
@@ -58,6 +63,10 @@ void Drawables::release(uint32_t number) {
     if (--mUses[number].users > 0) return;
     mNumbers.erase(mDrawables[number]);
     mFree.push_back(number);
+}
+
+void Drawables::updateOrders() {
+    for (auto const& [drawable, number] : mNumbers) mUses[number].order = orderOf(*drawable.material);
 }
 
 } // namespace filament::scene

@@ -59,10 +59,15 @@ public:
     static constexpr uint32_t kMaterialBits = 12, kInstanceBits = 12;
     static constexpr uint32_t kBlendedOrder = 1u << 31;
     static constexpr uint32_t kTwoPassesOrder = 1u << 30; ///< blended, and drawn twice
+    /// Opaque, but leaves no depth by which it could keep its place: drawn after the sky, before what blends.
+    static constexpr uint32_t kNoDepthWriteOrder = 1u << 29;
+    static constexpr uint32_t kNoDepthTestOrder = 1u << 28; ///< opaque on top of all other opaque objects: after those
 
     /// The number of this pair; adds a user.
     uint32_t acquire(Drawable const& drawable);
     void release(uint32_t number);
+    /// After the raster state of a material instance changed.
+    void updateOrders();
 
     Drawable const& operator[](uint32_t number) const { return mDrawables[number]; }
     /// The part of a pair that sorting reads.

@@ -232,10 +232,12 @@ void Engine::setColorWrite(MaterialInstance handle, bool writes) {
 
 void Engine::setDepthWrite(MaterialInstance handle, bool writes) {
     mImpl->instances.get(handle).raster.depthWrite = writes;
+    ++mImpl->depthStateChanges;
 }
 
 void Engine::setDepthCulling(MaterialInstance handle, bool tests) {
     mImpl->instances.get(handle).raster.depthCulling = tests;
+    ++mImpl->depthStateChanges;
 }
 
 void Engine::destroy(MaterialInstance handle) {
