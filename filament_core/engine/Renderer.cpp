@@ -26,7 +26,11 @@ using passes::FrameOutput;
 using passes::PipelineSource;
 
 prepare::ViewInput inputOf(View const& view) {
-    return { .camera = view.camera, .size = view.size, .timeSeconds = view.timeSeconds, .quality = view.quality };
+    return { .camera = view.camera,
+             .size = view.size,
+             .timeSeconds = view.timeSeconds,
+             .materialGlobals = view.materialGlobals,
+             .quality = view.quality };
 }
 
 FrameOutput outputOf(engine::TextureState const& target) {

@@ -70,7 +70,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     PassSettings const& settings = context.settings;
     const TextureId color = targets.color;
     const framegraph::GraphTextureDesc like = graph.texture(color).desc;
-    const PassBlock target = declareTarget(context, like);
+    const PassBlock target = declareTarget(context, like, 0, settings.samples);
     const TextureId depth = graph.createTexture({ .width = like.width,
                                                   .height = like.height,
                                                   .format = Format::D32F,

@@ -11,10 +11,12 @@ namespace filament::passes {
 using namespace backend;
 using shader::PassKind;
 
-PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level) {
+PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level,
+                        uint8_t samples) {
     const auto width = static_cast<float>(std::max(1u, texture.width >> level));
     const auto height = static_cast<float>(std::max(1u, texture.height >> level));
-    const shader::PassUniforms block{ .target = { width, height, 1 / width, 1 / height } };
+    const shader::PassUniforms block{ .target = { width, height, 1 / width, 1 / height },
+                                      .raster = { samples, 0, 0, 0 } };
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 

@@ -11,8 +11,9 @@
 
 namespace filament::passes {
 
-/// For a pass that draws to `level` of `texture`.
-PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level = 0);
+/// For a pass that draws to `level` of `texture`, or draws `samples` a pixel and resolves them to it.
+PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level = 0,
+                        uint8_t samples = 1);
 
 backend::BindGroupHandle passGroup(framegraph::PassContext& pass, FrameContext const& context, shader::PassKind kind,
                                    PassBlock target);

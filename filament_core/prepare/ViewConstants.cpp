@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/ViewConstants.h"
 
+#include <algorithm>
 #include <cmath>
 
 namespace filament::prepare {
@@ -15,6 +16,13 @@ float4x4 rotationY(float radians) {
 float4x4 withOrdinaryDepth(float4x4 clip) {
     for (int column = 0; column < 4; ++column) clip[column][2] = clip[column][3] - clip[column][2];
     return clip;
+}
+
+// FrameUniforms::time. The fraction of a time just below a whole second must not round up to 1.
+float4 shaderTime(double seconds) {
+    const auto rounded = static_cast<float>(seconds);
+    const auto fraction = static_cast<float>(seconds - std::floor(seconds));
+    return { rounded, static_cast<float>(seconds - rounded), std::min(fraction, std::nextafter(1.0f, 0.0f)), 0 };
 }
 
 } // namespace
@@ -45,8 +53,10 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.viewFromWorld = space.viewFromWorld;
     frame.clipFromView = space.clipFromView;
     frame.cameraPosition = float4(float3(space.cameraWorld), view.quality.cameraRelative ? 0.0f : 1.0f);
-    frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), static_cast<float>(view.timeSeconds),
+    frame.exposure = float4(space.exposure, view.camera.exposure.ev100(), 0,
                             view.quality.depthRange == DepthRange::Ordinary ? 1.0f : 0.0f);
+    frame.time = shaderTime(view.timeSeconds);
+    frame.materialGlobals = view.materialGlobals;
 
     scene::IndirectLightRecord const& light = scene.indirectLight;
     const float ambient = light.specular ? light.illuminance.value * space.exposure : 0.0f;

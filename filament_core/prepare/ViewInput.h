@@ -7,6 +7,7 @@
 #include <filament/Camera.h>
 #include <filament/Quality.h>
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -31,6 +32,7 @@ struct ViewInput {
     std::optional<float4x4> clipFromView{};
     uint2 size{ 1, 1 }; ///< pixels, >= 1
     double timeSeconds = 0;
+    std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};
 };
 

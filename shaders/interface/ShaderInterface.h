@@ -57,18 +57,21 @@ struct FrameUniforms {
     float4x4 viewFromWorld;
     float4x4 clipFromView;
     float4 cameraPosition;       ///< xyz: absolute world position, for procedural materials; w: 1 if objects are absolute, not relative to it
-    float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: time in seconds; w: depth of infinity
+    float4 exposure;             ///< x: 1 / (1.2 * 2^EV100); y: EV100; z: unused; w: depth of infinity
+    float4 time;                 ///< x: seconds; y: what a double has beyond x; z: its fraction, [0, 1); w: unused
     float4 sunDirection;         ///< xyz: towards the sun, unit; w: 1 if there is a sun
     float4 sunIlluminance;       ///< rgb: pre-exposed linear colour x lux
     float4 ambient;              ///< x: pre-exposed IBL lux; y: level of roughness 1; z: SH bands; w: light count
     float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: unused
     std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients
     float4x4 worldFromEnvironment;       ///< rotation of the environment
+    std::array<float4, 4> materialGlobals; ///< View::materialGlobals
 };
 
 // ---- PassUniforms
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
+    float4 raster; ///< x: samples a pixel; yzw: unused
 };
 
 inline constexpr uint32_t kObjectsPerWindow = 256;

@@ -23,12 +23,14 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     mat4 clipFromView;
     vec4 cameraPosition;
     vec4 exposure;
+    vec4 time;
     vec4 sunDirection;
     vec4 sunIlluminance;
     vec4 ambient;
     vec4 skyFactor;
     vec4 irradianceSh[9];
     mat4 worldFromEnvironment;
+    vec4 materialGlobals[4];
 } frameUniforms;
 
 struct ObjectRecord {
@@ -53,6 +55,7 @@ layout(set = 0, binding = 2, std140) uniform LightUniforms {
 
 layout(set = 1, binding = 0, std140) uniform PassUniforms {
     vec4 target;
+    vec4 raster;
 } passUniforms;
 
 layout(set = 1, binding = 1) uniform samplerCube passSpecular;

@@ -19,6 +19,7 @@ using glm::cross;
 using glm::dot;
 using glm::exp;
 using glm::exp2;
+using glm::floor;
 using glm::fract;
 using glm::log;
 using glm::log2;

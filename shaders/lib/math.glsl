@@ -29,3 +29,31 @@ float oneMinusExp(float x) {
     float series = x * (1.0f - x * (0.5f - x * (0.16666667f - x * (0.041666667f - x * 0.0083333333f))));
     return x < 0.125f ? series : 1.0f - exp(-x);
 }
+
+// What a * b has beyond the rounded product, without a fused multiply-add (Dekker 1971, "A floating-point technique for
+// extending the available precision", with Veltkamp's split). Exact for factors from 1e-15 to 1e15. fp32 only.
+float productError(float a, float b) {
+    float aSplit = 4097.0f * a;
+    float bSplit = 4097.0f * b;
+    float aHigh = aSplit - (aSplit - a);
+    float bHigh = bSplit - (bSplit - b);
+    float aLow = a - aHigh;
+    float bLow = b - bHigh;
+    return ((aHigh * bHigh - a * b) + aHigh * bLow + aLow * bHigh) + aLow * bLow;
+}
+
+// x - modulus * floor(x / modulus), where a large quotient costs no digits of the rest. The rounded quotient may miss
+// the floor, so the result may be outside of [0, modulus) by as much. fp32 only.
+float moduloStep(float x, float modulus) {
+    float quotient = floor(x / modulus);
+    return (x - quotient * modulus) - productError(quotient, modulus);
+}
+
+// (seconds + rest) modulo `modulus`, in [0, modulus) for modulus > 0: to the last bits of `rest` although `seconds` may
+// be years. The second step mends a missed floor, the third the sum. The error is a few roundings of `modulus`; beyond
+// 2^24 periods it grows with their number. fp32 only.
+float timeModulo(float seconds, float rest, float modulus) {
+    float x = moduloStep(moduloStep(seconds, modulus), modulus);
+    x = moduloStep(x + rest, modulus);
+    return x < modulus ? x : 0.0f; // a rest of less than half a digit below 0 rounds to the modulus
+}

@@ -43,8 +43,13 @@ mat4 getUserWorldFromWorldMatrix() {
 vec4 getResolution() { return passUniforms.target; }
 vec3 getWorldCameraPosition() { return vec3(0.0); }
 vec3 getWorldOffset() { return frameUniforms.cameraPosition.xyz; }
-float getTime() { return fract(frameUniforms.exposure.z); }
-vec4 getUserTime() { return vec4(frameUniforms.exposure.z, 0.0, 0.0, 0.0); }
-float getUserTimeMod(float m) { return mod(frameUniforms.exposure.z, m); }
+float getTime() { return frameUniforms.time.z; }
+vec4 getUserTime() { return vec4(frameUniforms.time.xy, 0.0, 0.0); }
+float getUserTimeMod(float m) { return timeModulo(frameUniforms.time.x, frameUniforms.time.y, m); }
 float getExposure() { return frameUniforms.exposure.x; }
 float getEV100() { return frameUniforms.exposure.y; }
+
+vec4 getMaterialGlobal0() { return frameUniforms.materialGlobals[0]; }
+vec4 getMaterialGlobal1() { return frameUniforms.materialGlobals[1]; }
+vec4 getMaterialGlobal2() { return frameUniforms.materialGlobals[2]; }
+vec4 getMaterialGlobal3() { return frameUniforms.materialGlobals[3]; }

@@ -6,6 +6,7 @@
 #include <filament/Objects.h>
 #include <filament/Quality.h>
 
+#include <array>
 #include <optional>
 #include <string_view>
 
@@ -32,7 +33,9 @@ struct View {
     Quality quality{};               ///< the approximations that shading uses
     float4 clearColor{ 0, 0, 0, 1 }; ///< background without a skybox; scene-linear and pre-exposed
     uint8_t samples = 1;             ///< MSAA: 1 or 4
-    double timeSeconds = 0;          ///< passed to the materials
+    double timeSeconds = 0;          ///< passed to the materials; finite. They see it to a microsecond after years
+    /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.
+    std::array<float4, 4> materialGlobals{ { { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 } } };
 };
 
 } // namespace filament

@@ -78,9 +78,10 @@ TEST_F(Interface, FrameUniformsAgree) {
     expectMembers(type, { MEMBER(FrameUniforms, clipFromWorld), MEMBER(FrameUniforms, worldFromClip),
                           MEMBER(FrameUniforms, viewFromWorld), MEMBER(FrameUniforms, clipFromView),
                           MEMBER(FrameUniforms, cameraPosition), MEMBER(FrameUniforms, exposure),
-                          MEMBER(FrameUniforms, sunDirection), MEMBER(FrameUniforms, sunIlluminance),
-                          MEMBER(FrameUniforms, ambient), MEMBER(FrameUniforms, skyFactor),
-                          MEMBER(FrameUniforms, irradianceSh), MEMBER(FrameUniforms, worldFromEnvironment) });
+                          MEMBER(FrameUniforms, time), MEMBER(FrameUniforms, sunDirection),
+                          MEMBER(FrameUniforms, sunIlluminance), MEMBER(FrameUniforms, ambient),
+                          MEMBER(FrameUniforms, skyFactor), MEMBER(FrameUniforms, irradianceSh),
+                          MEMBER(FrameUniforms, worldFromEnvironment), MEMBER(FrameUniforms, materialGlobals) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));
 }
 
@@ -104,7 +105,7 @@ TEST_F(Interface, LightUniformsAgree) {
 
 TEST_F(Interface, PassUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kGroupPass, kBindingPass).base_type_id);
-    expectMembers(type, { MEMBER(PassUniforms, target) });
+    expectMembers(type, { MEMBER(PassUniforms, target), MEMBER(PassUniforms, raster) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(PassUniforms));
 }
 

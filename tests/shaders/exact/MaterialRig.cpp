@@ -205,7 +205,8 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
 }
 
 BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage const& package) {
-    const PassUniforms pass{ { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide } };
+    const PassUniforms pass{ .target = { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide },
+                             .raster = { 1, 0, 0, 0 } };
     const std::vector<BindGroupEntry> entries{
         { .binding = kBindingPass,
           .buffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&pass, 1))),

@@ -4,6 +4,8 @@
 namespace filament::shader::numerics {
 
 std::vector<Row> mathRows() {
+    constexpr std::string_view kSplit = "the split halves a 24-bit significand";
+    constexpr std::string_view kPhase = "as a phase: the division and the sine round";
     const Argument any = inHalf(number("x", -3e38, 3e38), -65504, 65504);
     const Argument anyVector{ .name = "x", .kind = Kind::Colour, .low = -100, .high = 100 };
     return {
@@ -35,6 +37,28 @@ std::vector<Row> mathRows() {
                       .half = 4e-3,
                       .why = "below 1/8 a series without cancellation, above it 1 - e^-x loses three bits" },
           .openOutside = "the power of e overflows for negative numbers" },
+        { .file = "math",
+          .function = "productError(float, float)",
+          .call = NUMERICS_CALL(productError(s.x, s.y) / (s.x * s.y)),
+          .s = { number("a", 1e-15, 1e15), number("b", 1e-15, 1e15) },
+          .range = { -0x1p-24, 0x1p-24 },
+          .noError = "what 32 bits round off is no error of 64 bits",
+          .fp32Only = kSplit,
+          .openOutside = "a product below the normal numbers has no exact error" },
+        { .file = "math",
+          .function = "moduloStep(float, float)",
+          .call = NUMERICS_CALL(onCircle(vec2(moduloStep(s.x, s.y), s.y))),
+          .s = { number("x", 0, 1e7), number("modulus", 0.1, 1e4) },
+          .range = { -1, 1 },
+          .limits = absolute(2e-6, 0, kPhase),
+          .fp32Only = kSplit },
+        { .file = "math",
+          .function = "timeModulo(float, float, float)",
+          .call = NUMERICS_CALL(onCircle(vec2(timeModulo(s.x, s.y, s.z), s.z))),
+          .s = { number("seconds", 0, 1e7), number("rest", -0.5, 0.5), number("modulus", 0.1, 1e4) },
+          .range = { -1, 1 },
+          .limits = absolute(4e-6, 0, "as a phase, and `rest` may be five times the modulus"),
+          .fp32Only = kSplit },
         { .file = "math",
           .function = "saturate(float)",
           .call = NUMERICS_CALL(saturate(s.x)),

@@ -34,3 +34,6 @@ vec3 irradianceShOf(vec4 c, vec3 n, int bands) {
     sh[8] = vec4(c.y, c.w, c.z, c.x);
     return irradianceSh(sh, n, bands);
 }
+
+// A rest as a point on a circle: next to its period it is next to 0, as it should be. x: the rest, y: the period.
+vec2 onCircle(vec2 rest) { return vec2(cos(kTwoPi * rest.x / rest.y), sin(kTwoPi * rest.x / rest.y)); }
