@@ -92,6 +92,13 @@ DepthStencilState depthState(scene::InstanceRaster const& raster, DepthRange ran
     return { .depthCompare = raster.depthCulling ? nearer : CompareOp::Always, .depthWrite = writes };
 }
 
+// The alpha from which the device derives coverage is that of a pixel; a covered sample is opaque.
+void keepCoveredAlpha(BlendState& blend) {
+    if (blend.enabled) return;
+    blend.enabled = true;
+    blend.dstAlpha = BlendFactor::OneMinusSrcAlpha;
+}
+
 // Colours are pre-multiplied (DESIGN: conventions); coverage accumulates in alpha.
 BlendState blendState(shader::MaterialPackage const& package) {
     BlendState over{ .enabled = true,
@@ -269,6 +276,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     BlendState blend = blendState(package);
+    if (desc.raster.alphaToCoverage) keepCoveredAlpha(blend);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;
     desc.blend.fill(blend);
     return desc;

@@ -5,8 +5,18 @@
 #define ALPHA_IS_COVERAGE
 #endif
 
+// With several samples a pixel, the edge becomes a ramp of one pixel's width around the threshold, from which the device
+// derives coverage (Golus 2017, "Anti-aliased alpha test: the esoteric alpha to coverage").
 void applyMask(inout vec4 baseColor) {
 #if defined(BLEND_MODE_MASKED)
+#if defined(ALPHA_TO_COVERAGE)
+    if (passUniforms.raster.x > 1.0) {
+        float ramp = (baseColor.a - getMaskThreshold()) / max(fwidth(baseColor.a), 1e-4) + 0.5;
+        if (ramp <= 0.0) discard;
+        baseColor.a = min(ramp, 1.0);
+        return;
+    }
+#endif
     if (baseColor.a < getMaskThreshold()) discard;
     baseColor.a = 1.0;
 #endif
@@ -23,9 +33,9 @@ void addEmissive(MaterialInputs material, inout vec4 color) {
 #endif
 }
 
-// 1 for an opaque surface, unless the device derives coverage from it.
+// 1 for an opaque surface, unless the device derives coverage from it. A masked one has what applyMask() left.
 float outputAlpha(float alpha) {
-#if (defined(BLEND_MODE_OPAQUE) && !defined(ALPHA_TO_COVERAGE)) || defined(BLEND_MODE_MASKED)
+#if defined(BLEND_MODE_OPAQUE) && !defined(ALPHA_TO_COVERAGE)
     return 1.0;
 #else
     return alpha;
@@ -37,6 +47,7 @@ float outputAlpha(float alpha) {
 void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #if defined(HAS_POST_LIGHTING_COLOR)
     vec4 above = material.postLightingColor;
+    float surfaceAlpha = color.a;
 #if defined(POST_LIGHTING_OPAQUE)
     color = above;
 #elif defined(POST_LIGHTING_TRANSPARENT)
@@ -48,6 +59,8 @@ void blendPostLighting(MaterialInputs material, inout vec4 color) {
 #elif defined(POST_LIGHTING_SCREEN)
     color += above * (1.0 - color);
 #endif
-    color.a = outputAlpha(color.a); // what lies above an opaque surface cannot make it transparent
+#if defined(BLEND_MODE_OPAQUE) || defined(BLEND_MODE_MASKED)
+    color.a = surfaceAlpha; // what lies above an opaque surface cannot make it transparent
+#endif
 #endif
 }
