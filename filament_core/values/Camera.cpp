@@ -14,6 +14,10 @@ float Exposure::factor() const {
     return 1.0f / (1.2f * std::exp2(ev100()));
 }
 
+float Exposure::luminance(float ev100) { return std::exp2(ev100 - 3.0f); }
+
+float Exposure::illuminance(float ev100) { return 2.5f * std::exp2(ev100); }
+
 Camera Camera::lookAt(double3 eye, double3 at, Lens lens, Exposure exposure, double3 up) {
     double3 back = eye - at;
     const double distance = glm::length(back);

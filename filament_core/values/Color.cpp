@@ -20,6 +20,10 @@ float3 srgbFromLinear(LinearColor linear) { return { encode(linear.x), encode(li
 
 float luminance(LinearColor linear) { return glm::dot(linear, float3(0.2126f, 0.7152f, 0.0722f)); }
 
+float3 absorptionAtDistance(LinearColor transmittance, float meters) {
+    return -glm::log(glm::clamp(transmittance, 1e-5f, 1.0f)) / std::max(meters, 1e-5f);
+}
+
 LinearColor fromTemperature(float kelvin) {
     // Krystek 1985, "An algorithm to calculate correlated colour temperature": rational fits of the Planckian locus in
     // CIE 1960 UCS, error below 1e-4 from 1000 K to 15 000 K.

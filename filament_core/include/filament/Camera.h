@@ -18,6 +18,12 @@ struct Exposure {
     float ev100() const;
     /// The factor for luminance in nits before tone mapping: 1 / (1.2 * 2^EV100).
     float factor() const;
+
+    /// The luminance in nits that a reflected-light meter reads as `ev100`: 2^(EV100 - 3), with the calibration constant
+    /// K = 12.5. For emissive colours given in EV (materials guide, 3.1.18).
+    static float luminance(float ev100);
+    /// The illuminance in lux that an incident-light meter reads as `ev100`: 2.5 * 2^EV100, with C = 250.
+    static float illuminance(float ev100);
 };
 
 struct Lens {

@@ -20,5 +20,10 @@ LinearColor fromTemperature(float kelvin);
 /// CIE Y of a linear Rec. 709 colour.
 float luminance(LinearColor linear);
 
+/// The absorption of a medium, per metre, through which white light has the colour `transmittance` after `meters`:
+/// -ln(transmittance) / meters (Beer and Lambert; materials guide, 3.1.22). Components below 1e-5 count as 1e-5, those
+/// above 1 as 1, and distances below 1e-5 m as 1e-5 m, so that the result is finite and >= 0.
+float3 absorptionAtDistance(LinearColor transmittance, float meters);
+
 } // namespace color
 } // namespace filament

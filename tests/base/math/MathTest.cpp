@@ -56,6 +56,9 @@ TEST(Exposure, MatchesTheSunny16Rule) {
     // f/16, 1/125 s, ISO 100: EV100 = log2(256 * 125) = 14.966; a white 110 000 lux sun lands at 2.86 (the talk).
     const Exposure sunny16{ 16, 1.0f / 125, 100 };
     EXPECT_NEAR(sunny16.ev100(), std::log2(32000.0f), 1e-5f);
+    EXPECT_EQ(Exposure::luminance(3), 1.0f);
+    EXPECT_EQ(Exposure::luminance(10), 128.0f);
+    EXPECT_EQ(Exposure::illuminance(4), 40.0f);
     EXPECT_NEAR(sunny16.factor(), 2.6042e-5f, 1e-9f);
     EXPECT_NEAR(sunny16.factor() * 110'000, 2.86462f, 1e-4f);
 }
