@@ -2,6 +2,7 @@
 #include "jobsystem/Affinity.h"
 
 #include "base/Log.h"
+#include "jobsystem/CpuMask.h"
 
 #include <pthread.h>
 #include <sched.h>
@@ -15,12 +16,6 @@
 namespace filament::jobs {
 namespace {
 
-constexpr int kMaxCores = 8192; // the largest configuration that Linux supports
-
-struct FreeMask {
-    void operator()(cpu_set_t* mask) const { CPU_FREE(mask); }
-};
-
 bool contains(std::span<const int> cores, int core) {
     return std::find(cores.begin(), cores.end(), core) != cores.end();
 }
@@ -32,15 +27,13 @@ std::vector<int> indicesOf(std::span<const Cpu> cpus) {
 }
 
 int bindToMask(std::span<const int> cores) {
-    const size_t bytes = CPU_ALLOC_SIZE(kMaxCores);
-    const std::unique_ptr<cpu_set_t, FreeMask> mask(CPU_ALLOC(kMaxCores));
+    const CpuMask mask = makeCpuMask();
     if (!mask) return ENOMEM;
-    CPU_ZERO_S(bytes, mask.get());
     for (int core : cores) {
         if (core < 0 || core >= kMaxCores) return EINVAL;
-        CPU_SET_S(core, bytes, mask.get());
+        CPU_SET_S(core, kCpuMaskBytes, mask.get());
     }
-    return pthread_setaffinity_np(pthread_self(), bytes, mask.get());
+    return pthread_setaffinity_np(pthread_self(), kCpuMaskBytes, mask.get());
 }
 
 void reportIgnored(AffinityPolicy const& policy, Topology const& topology, std::string_view owner) {

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "jobsystem/Topology.h"
 
+#include "jobsystem/CpuMask.h"
 #include "jobsystem/CpuQuota.h"
 
 #include <fmt/format.h>
@@ -17,11 +18,6 @@
 namespace filament::jobs {
 namespace {
 
-constexpr int kMaxCores = 8192; // the largest configuration of Linux; the kernel refuses a shorter mask than its own
-
-struct FreeMask {
-    void operator()(cpu_set_t* mask) const { CPU_FREE(mask); }
-};
 struct FreeTopology {
     void operator()(hwloc_topology_t topology) const { hwloc_topology_destroy(topology); }
 };
@@ -140,12 +136,11 @@ std::vector<Cpu> selectCpus(std::span<const Cpu> machine, std::span<const int> c
 } // namespace
 
 std::vector<int> coresOfThisThread() {
-    const size_t bytes = CPU_ALLOC_SIZE(kMaxCores);
-    const std::unique_ptr<cpu_set_t, FreeMask> mask(CPU_ALLOC(kMaxCores));
+    const CpuMask mask = makeCpuMask();
     std::vector<int> cores;
-    if (mask && sched_getaffinity(0, bytes, mask.get()) == 0) {
+    if (mask && sched_getaffinity(0, kCpuMaskBytes, mask.get()) == 0) {
         for (int core = 0; core < kMaxCores; ++core) {
-            if (CPU_ISSET_S(core, bytes, mask.get())) cores.push_back(core);
+            if (CPU_ISSET_S(core, kCpuMaskBytes, mask.get())) cores.push_back(core);
         }
     }
     if (cores.empty()) cores.push_back(0);

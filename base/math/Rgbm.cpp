@@ -7,14 +7,14 @@
 namespace filament {
 namespace {
 
-float clamped(float x) { return x > 0 ? x : 0.0f; } // NaN is not greater than 0
+float nonNegative(float x) { return x > 0 ? x : 0.0f; } // NaN is not greater than 0
 
 uint32_t byteOf(float x) { return static_cast<uint32_t>(std::lround(std::clamp(x, 0.0f, 1.0f) * 255.0f)); }
 
 } // namespace
 
 uint32_t packRgbm(float3 radiance) {
-    float3 light(clamped(radiance.x), clamped(radiance.y), clamped(radiance.z));
+    float3 light(nonNegative(radiance.x), nonNegative(radiance.y), nonNegative(radiance.z));
     const float brightest = std::max({ light.x, light.y, light.z });
     if (!(brightest > 0)) return 0;
     if (brightest > kMaxRgbm) light *= kMaxRgbm / brightest;

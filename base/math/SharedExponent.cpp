@@ -9,7 +9,7 @@ namespace {
 
 constexpr int kMantissaBits = 9, kBias = 15;
 
-float clamped(float x) { return x > 0 ? std::min(x, kMaxRgb9E5) : 0.0f; } // NaN is not greater than 0
+float inRange(float x) { return x > 0 ? std::min(x, kMaxRgb9E5) : 0.0f; } // NaN is not greater than 0
 
 // Exact: a power of two.
 float stepOf(int exponent) { return std::ldexp(1.0f, exponent - kBias - kMantissaBits); }
@@ -19,7 +19,7 @@ uint32_t mantissa(float x, int exponent) { return static_cast<uint32_t>(std::flo
 } // namespace
 
 uint32_t packRgb9E5(float3 value) {
-    const float r = clamped(value.x), g = clamped(value.y), b = clamped(value.z);
+    const float r = inRange(value.x), g = inRange(value.y), b = inRange(value.z);
     const float largest = std::max({ r, g, b });
     int exponent = largest > 0 ? std::max(-kBias - 1, std::ilogb(largest)) + 1 + kBias : 0;
     if (mantissa(largest, exponent) == 1u << kMantissaBits) ++exponent; // rounded up to the next power of two

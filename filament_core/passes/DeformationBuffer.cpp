@@ -16,7 +16,6 @@ using namespace backend;
 
 constexpr uint32_t kBoneWindow = sizeof(shader::BoneUniforms), kMorphWindow = sizeof(shader::MorphUniforms);
 constexpr uint32_t kTail = std::max(kBoneWindow, kMorphWindow); // a window may start at the last block
-constexpr size_t kCacheLineBytes = 64;
 
 } // namespace
 
@@ -86,7 +85,7 @@ void DeformationBuffer::upload(CommandStream& stream, jobs::JobSystem& jobs, Com
     if (list.bytes == 0) return;
     makeFixed(stream, commands);
     reserve(stream, commands, list.bytes);
-    const std::span<std::byte> memory = commands.allocate(list.bytes, kCacheLineBytes);
+    const std::span<std::byte> memory = commands.allocate(list.bytes, jobs::kCacheLineBytes);
     prepare::writeDeformations(jobs, list, memory);
     commands.recordAdopted(CmdUpdateBuffer{ mBuffer, 0, memory });
     mBinds.resize(list.places.size());

@@ -20,7 +20,6 @@ constexpr uint32_t kUniformBytes = (sizeof(FrameUniforms) + kAlignment - 1) / kA
 constexpr uint32_t kWindowBytes = sizeof(shader::ObjectUniforms);
 constexpr uint32_t kLightBytes = sizeof(shader::LightUniforms);
 static_assert(kWindowBytes % kAlignment == 0 && kLightBytes % kAlignment == 0);
-constexpr size_t kCacheLineBytes = 64;
 
 // At least one, so that there is something to bind.
 uint32_t windowsOf(prepare::ViewPacket const& view) {
@@ -90,7 +89,7 @@ void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Se
                               prepare::FramePacket const& packet) {
     if (std::ranges::all_of(packet.views, [](auto const& view) { return view.objects.empty(); })) return;
     const std::span<std::byte> memory =
-            commands.allocate(set.objects.capacity * size_t{ kWindowBytes }, kCacheLineBytes);
+            commands.allocate(set.objects.capacity * size_t{ kWindowBytes }, jobs::kCacheLineBytes);
     for (size_t i = 0; i < mViews.size(); ++i) {
         prepare::ObjectList const& list = packet.views[i].objects;
         if (list.empty()) continue;

@@ -70,7 +70,7 @@ void declareReads(PassBuilder& builder, std::span<const Input> inputs) {
 
 // ---------------------------------------------------------------------------------------------- before drawing
 
-struct Chosen {
+struct ChosenPipeline {
     PipelineHandle pipeline;
     BindGroupHandle pass, material;
 };
@@ -111,14 +111,14 @@ BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, De
                           std::span(entries).first(count), package.name);
 }
 
-Chosen choose(PassContext& pass, FrameContext const& context, Declared const& declared) {
+ChosenPipeline choose(PassContext& pass, FrameContext const& context, Declared const& declared) {
     PipelineSource const& pipelines = context.resources.pipelines;
     const uint32_t slot = pipelines.slot(fullScreenSlot(pass.passLayout(), pass.subpass()));
     return { pipelines.fullscreenPipeline(pass.commands(), slot, *declared.material),
              passGroup(pass, context, PassKind::Picture, declared.target), materialGroup(pass, context, declared) };
 }
 
-void draw(CommandBuffer& commands, FrameContext const& context, Chosen const& chosen) {
+void draw(CommandBuffer& commands, FrameContext const& context, ChosenPipeline const& chosen) {
     commands.record(CmdBindPipeline{ chosen.pipeline });
     commands.record(context.views[0].bind(0));
     commands.record(CmdBindGroup{ chosen.pass, shader::kGroupPass });
@@ -140,7 +140,7 @@ framegraph::PassId addFullScreenPass(FrameGraph& graph, FrameContext const& cont
                 builder.writeColor(0, pass.target, { .overwrites = covers, .level = pass.level });
             },
             [of = &context, declared](PassContext& at) { return choose(at, *of, declared); },
-            [of = &context](PassContext& at, Chosen const& chosen) { draw(at.commands(), *of, chosen); });
+            [of = &context](PassContext& at, ChosenPipeline const& chosen) { draw(at.commands(), *of, chosen); });
 }
 
 } // namespace filament::passes

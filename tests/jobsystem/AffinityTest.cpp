@@ -3,6 +3,7 @@
 
 #include "base/Log.h"
 #include "tests/jobsystem/FakeMachine.h"
+#include "tests/jobsystem/OwnThread.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -57,9 +58,6 @@ std::vector<int> allowed(AffinityPolicy const& policy, Topology const& topology)
 }
 
 std::vector<int> pinned(CorePins const& pins) { return { pins.cores().begin(), pins.cores().end() }; }
-
-// Runs on a thread of its own, which ends with whatever mask it was given.
-void onOwnThread(std::function<void()> const& body) { std::thread(body).join(); }
 
 // ---------------------------------------------------------------------------------------------- policy
 

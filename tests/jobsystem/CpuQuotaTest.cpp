@@ -12,7 +12,7 @@
 namespace filament::jobs {
 namespace {
 
-constexpr double kUnlimited = std::numeric_limits<double>::infinity();
+constexpr double kNoQuota = std::numeric_limits<double>::infinity();
 
 // Version 2, as on a current distribution.
 constexpr const char* kUnifiedMount =
@@ -28,7 +28,7 @@ void writeQuota(FakeRoot const& root, std::string const& group, const char* quot
     root.write("sys/fs/cgroup/" + group + "/cpu.cfs_period_us", period);
 }
 
-TEST(CpuQuota, IsUnlimitedWhereThereAreNoFilesAtAll) { EXPECT_EQ(cpuQuota(FakeRoot().path()), kUnlimited); }
+TEST(CpuQuota, IsUnlimitedWhereThereAreNoFilesAtAll) { EXPECT_EQ(cpuQuota(FakeRoot().path()), kNoQuota); }
 
 TEST(CpuQuota, IsTheQuotientOfCpuMaxInVersion2) {
     const FakeRoot root;
@@ -56,7 +56,7 @@ TEST(CpuQuota, IsTheQuotientOfTwoFilesInVersion1) {
     root.write("proc/self/mountinfo", kLegacyMount);
     root.write("proc/self/cgroup", "5:cpuset:/\n4:cpu,cpuacct:/docker/abc\n1:name=systemd:/docker/abc\n");
     writeQuota(root, "cpu,cpuacct/docker/abc", "-1\n", "100000\n");
-    EXPECT_EQ(cpuQuota(root.path()), kUnlimited);
+    EXPECT_EQ(cpuQuota(root.path()), kNoQuota);
     writeQuota(root, "cpu,cpuacct/docker/abc", "50000\n", "20000\n");
     EXPECT_EQ(cpuQuota(root.path()), 2.5);
 }
@@ -115,11 +115,11 @@ TEST(CpuQuota, IgnoresWhatIsMalformed) {
     const FakeRoot root;
     root.write("proc/self/mountinfo", std::string("\n - \nx - cgroup2\n1 2 3 4\n\\04") + '\n' + kUnifiedMount + "9 9");
     root.write("proc/self/cgroup", "nonsense\n0:\n::::\n0::\n0::/g\n\xff\xfe");
-    EXPECT_EQ(cpuQuota(root.path()), kUnlimited);
+    EXPECT_EQ(cpuQuota(root.path()), kNoQuota);
     for (const char* text :
          { "", "\n", "max", "x y", "-5 100000", "100000", "100000 0", "100000 -1", "1e999 1", "0 0" }) {
         root.write("sys/fs/cgroup/g/cpu.max", text);
-        EXPECT_EQ(cpuQuota(root.path()), kUnlimited) << '"' << text << '"';
+        EXPECT_EQ(cpuQuota(root.path()), kNoQuota) << '"' << text << '"';
     }
     root.write("sys/fs/cgroup/g/cpu.max", "100000 100000");
     EXPECT_EQ(cpuQuota(root.path()), 1.0);

@@ -34,6 +34,16 @@ bool becomesTrue(Condition&& condition) {
     return true;
 }
 
+/// Waits for a job that waits for a job ..., `depth` times. Returns `depth`.
+inline int nest(JobSystem& jobs, int depth) {
+    if (depth == 0) return 0;
+    int below = -1;
+    JobGroup group(jobs);
+    group.run<"nest">([&] { below = nest(jobs, depth - 1); });
+    group.wait();
+    return below + 1;
+}
+
 /// Keeps every worker of a system inside a job until opened.
 class WorkersHeld {
 public:

@@ -13,15 +13,6 @@ namespace {
 class NestingTest : public JobSystemFixture {};
 INSTANTIATE_TEST_SUITE_P(Workers, NestingTest, testing::Values(0, 1, 2, 7), workersName);
 
-int nest(JobSystem& jobs, int depth) {
-    if (depth == 0) return 0;
-    int below = -1;
-    JobGroup group(jobs);
-    group.run<"nest">([&] { below = nest(jobs, depth - 1); });
-    group.wait();
-    return below + 1;
-}
-
 /// Runs `function` on a thread with a stack of `bytes`.
 template <class F>
 void onStackOf(size_t bytes, F&& function) {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // Where the operating system refuses every thread, jobs run on the threads that ask for them.
-#include "jobsystem/JobSystem.h"
+#include "tests/jobsystem/JobSystemFixture.h"
 
 #include <gtest/gtest.h>
 
@@ -27,15 +27,6 @@ bool refuseThreads() {
     } catch (std::system_error const&) {
         return true;
     }
-}
-
-int nest(JobSystem& jobs, int depth) {
-    if (depth == 0) return 0;
-    int below = -1;
-    JobGroup group(jobs);
-    group.run<"nest">([&] { below = nest(jobs, depth - 1); });
-    group.wait();
-    return below + 1;
 }
 
 /// Ends with status 0 if `work` gives `expected` without any thread, or if threads cannot be refused here.

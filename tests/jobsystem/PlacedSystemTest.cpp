@@ -5,6 +5,7 @@
 #include "jobsystem/JobSystem.h"
 #include "jobsystem/JobTrace.h"
 #include "jobsystem/Topology.h"
+#include "tests/jobsystem/OwnThread.h"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
@@ -36,8 +37,6 @@ public:
 private:
     LogSink mPrevious;
 };
-
-void onOwnThread(std::function<void()> const& body) { std::thread(body).join(); }
 
 // Holds every worker in a job at the same time and asks each for its cores.
 std::vector<std::vector<int>> coresOfWorkers(JobSystem& jobs) {

@@ -40,16 +40,16 @@ struct Plane {
 
 const float3x3 kXyzFromRgb{ 0.4124564f, 0.2126729f, 0.0193339f, 0.3575761f, 0.7151522f,
                             0.1191920f, 0.1804375f, 0.0721750f, 0.9503041f };
-const float3 kWhite = kXyzFromRgb * float3(1.0f);
+const float3 kWhitePoint = kXyzFromRgb * float3(1.0f);
 
 float3 yccFromXyz(float3 xyz) {
-    const float3 n = xyz / kWhite;
+    const float3 n = xyz / kWhitePoint;
     return { 116 * n.y - 16, 500 * (n.x - n.y), 200 * (n.y - n.z) };
 }
 
 float3 xyzFromYcc(float3 ycc) {
     const float y = (ycc.x + 16) / 116;
-    return float3(y + ycc.y / 500, y, y - ycc.z / 200) * kWhite;
+    return float3(y + ycc.y / 500, y, y - ycc.z / 200) * kWhitePoint;
 }
 
 float3 labFromXyz(float3 xyz) {
@@ -57,7 +57,7 @@ float3 labFromXyz(float3 xyz) {
     const auto f = [](float t) {
         return t > kDelta * kDelta * kDelta ? std::cbrt(t) : t / (3 * kDelta * kDelta) + 4.0f / 29;
     };
-    const float3 n = xyz / kWhite;
+    const float3 n = xyz / kWhitePoint;
     return { 116 * f(n.y) - 16, 500 * (f(n.x) - f(n.y)), 200 * (f(n.y) - f(n.z)) };
 }
 

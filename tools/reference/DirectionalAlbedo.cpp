@@ -17,7 +17,7 @@ namespace {
 
 namespace lib = shader::lib64;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr int kCosines = 96, kRoughnesses = 64, kQuadrature = 16;
 constexpr int kCoatCosines = 48, kCoatRoughnesses = 32;
 
@@ -53,7 +53,7 @@ public:
 
     /// The angle at which light comes from the horizon, or that of the disc's edge: the integrand has a kink there.
     double horizon(double azimuth) const {
-        double inside = 0, outside = kPi / 2;
+        double inside = 0, outside = pi / 2;
         double above = reflection(inside, azimuth).nol, below = reflection(outside, azimuth).nol;
         if (below > 0) return outside;
         for (int step = 0; step < 8; ++step) { // Illinois method: secant, halving the retained end
@@ -81,7 +81,7 @@ auto integrate(double nov, double alpha, std::vector<QuadratureNode> const& node
     const double maskingOfView = masking(nov, alpha);
     decltype(weight(0.0)) sum(0.0);
     for (int j = 0; j < azimuths; ++j) {
-        const double azimuth = ((j + 0.5) / azimuths - 0.5) * kPi; // the other half is its mirror image
+        const double azimuth = ((j + 0.5) / azimuths - 0.5) * pi; // the other half is its mirror image
         const double last = normals.horizon(azimuth);
         for (QuadratureNode const& node : nodes) {
             const double angle = node.x * last;

@@ -9,7 +9,7 @@
 namespace filament::reference {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 constexpr uint32_t kMaxColumns = 4096, kMaxRows = 2048;
 
 uint32_t below(double unit, uint32_t count) {
@@ -70,8 +70,8 @@ double EnvironmentLight::cellWeight(uint32_t column, uint32_t row) const {
 }
 
 double EnvironmentLight::cellSolidAngle(uint32_t row) const {
-    const double cosTop = std::cos(kPi * row / mRows), cosBottom = std::cos(kPi * (row + 1) / mRows);
-    return 2 * kPi / mColumns * (cosTop - cosBottom);
+    const double cosTop = std::cos(pi * row / mRows), cosBottom = std::cos(pi * (row + 1) / mRows);
+    return 2 * pi / mColumns * (cosTop - cosBottom);
 }
 
 double3 EnvironmentLight::skyFromWorld(double3 d) const {
@@ -81,8 +81,8 @@ double3 EnvironmentLight::skyFromWorld(double3 d) const {
 // As specified in <filament/Environment.h>.
 double2 EnvironmentLight::pictureFromWorld(double3 direction) const {
     const double3 d = skyFromWorld(direction);
-    const double u = 0.5 - std::atan2(d.x, d.z) / (2 * kPi);
-    return { u - std::floor(u), std::acos(std::clamp(d.y, -1.0, 1.0)) / kPi };
+    const double u = 0.5 - std::atan2(d.x, d.z) / (2 * pi);
+    return { u - std::floor(u), std::acos(std::clamp(d.y, -1.0, 1.0)) / pi };
 }
 
 double3 EnvironmentLight::radiance(double3 direction) const {
@@ -100,9 +100,9 @@ double3 EnvironmentLight::radiance(double3 direction) const {
 EnvironmentSample EnvironmentLight::sample(double2 u) const {
     const Picked row = mRowChoice.pick(u.y);
     const Picked column = mColumnChoice[row.index].pick(u.x);
-    const double cosTop = std::cos(kPi * row.index / mRows), cosBottom = std::cos(kPi * (row.index + 1) / mRows);
+    const double cosTop = std::cos(pi * row.index / mRows), cosBottom = std::cos(pi * (row.index + 1) / mRows);
     const double y = cosTop + (cosBottom - cosTop) * row.remainder;
-    const double azimuth = (0.5 - (column.index + column.remainder) / mColumns) * 2 * kPi;
+    const double azimuth = (0.5 - (column.index + column.remainder) / mColumns) * 2 * pi;
     const double radius = std::sqrt(std::max(0.0, 1 - y * y));
     const double x = std::sin(azimuth) * radius, z = std::cos(azimuth) * radius;
     const double3 direction(mCosine * x + mSine * z, y, -mSine * x + mCosine * z);

@@ -11,19 +11,19 @@ namespace {
 
 namespace lib = shader::lib64;
 
-constexpr double kPi = std::numbers::pi;
+using std::numbers::pi;
 
 /// Real spherical harmonics up to band 2, normalised. Ramamoorthi and Hanrahan 2001, eq. 3.
 std::array<double, 9> harmonicsAt(double3 n) {
-    return { 0.5 * std::sqrt(1 / kPi),
-             std::sqrt(3 / (4 * kPi)) * n.y,
-             std::sqrt(3 / (4 * kPi)) * n.z,
-             std::sqrt(3 / (4 * kPi)) * n.x,
-             std::sqrt(15 / (4 * kPi)) * n.x * n.y,
-             std::sqrt(15 / (4 * kPi)) * n.y * n.z,
-             std::sqrt(5 / (16 * kPi)) * (3 * n.z * n.z - 1),
-             std::sqrt(15 / (4 * kPi)) * n.x * n.z,
-             std::sqrt(15 / (16 * kPi)) * (n.x * n.x - n.y * n.y) };
+    return { 0.5 * std::sqrt(1 / pi),
+             std::sqrt(3 / (4 * pi)) * n.y,
+             std::sqrt(3 / (4 * pi)) * n.z,
+             std::sqrt(3 / (4 * pi)) * n.x,
+             std::sqrt(15 / (4 * pi)) * n.x * n.y,
+             std::sqrt(15 / (4 * pi)) * n.y * n.z,
+             std::sqrt(5 / (16 * pi)) * (3 * n.z * n.z - 1),
+             std::sqrt(15 / (4 * pi)) * n.x * n.z,
+             std::sqrt(15 / (16 * pi)) * (n.x * n.x - n.y * n.y) };
 }
 
 // A clamped cosine's band factors over pi. Ibid., eq. 8.
@@ -81,11 +81,11 @@ double3 SplitSumLobe::sample(double2 u) const {
 
 SkyHarmonics::SkyHarmonics(assets::HdrImage const& image) {
     for (uint32_t y = 0; y < image.height; ++y) {
-        const double top = kPi * y / image.height, bottom = kPi * (y + 1) / image.height;
-        const double solidAngle = 2 * kPi / image.width * (std::cos(top) - std::cos(bottom));
+        const double top = pi * y / image.height, bottom = pi * (y + 1) / image.height;
+        const double solidAngle = 2 * pi / image.width * (std::cos(top) - std::cos(bottom));
         const double polar = 0.5 * (top + bottom);
         for (uint32_t x = 0; x < image.width; ++x) {
-            const double azimuth = (0.5 - (x + 0.5) / image.width) * 2 * kPi;
+            const double azimuth = (0.5 - (x + 0.5) / image.width) * 2 * pi;
             const double3 direction(std::sin(polar) * std::sin(azimuth), std::cos(polar),
                                     std::sin(polar) * std::cos(azimuth));
             const std::array<double, 9> basis = harmonicsAt(direction);

@@ -14,7 +14,7 @@ namespace {
 
 namespace lib = shader::lib64;
 
-constexpr int kCosines = 40, kRoughnesses = 24, kSteps = 64;
+constexpr int kSheenCosines = 40, kSheenRoughnesses = 24, kSteps = 64;
 
 // The density of importanceSampleCharlie(): ndfCharlie() noh without the lower limit of its sine.
 double densityOf(double sine, double cosine, double alpha) {
@@ -41,14 +41,14 @@ double integrate(double nov, double alpha, int steps, Factor const& factor) {
 }
 
 AlbedoTable<double> const& table() {
-    static const AlbedoTable<double> sTable(kCosines, kRoughnesses, [](double nov, double roughness) {
+    static const AlbedoTable<double> sTable(kSheenCosines, kSheenRoughnesses, [](double nov, double roughness) {
         return integrate(nov, lib::alphaFromPerceptual(roughness), kSteps, [](double) { return 1.0; });
     });
     return sTable;
 }
 
 AlbedoTable<double> const& limitedTable() {
-    static const AlbedoTable<double> sTable(kCosines, kRoughnesses, [](double nov, double roughness) {
+    static const AlbedoTable<double> sTable(kSheenCosines, kSheenRoughnesses, [](double nov, double roughness) {
         const double ofView = lib::sheenLimit(sheenAlbedo(nov, roughness));
         return integrate(nov, lib::alphaFromPerceptual(roughness), kSteps,
                          [&](double nol) { return std::min(ofView, lib::sheenLimit(sheenAlbedo(nol, roughness))); });

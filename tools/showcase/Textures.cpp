@@ -46,14 +46,14 @@ float4 surface(float roughness, float metalness) { return { 1, roughness, metaln
 /// From a linear colour to the codes of a colour texture.
 float4 encoded(float3 linear, float alpha = 1) { return { color::srgbFromLinear(linear), alpha }; }
 
-struct Brick {
+struct BrickCell {
     float2 inside;    ///< distance to the nearest border, in texture widths, per axis
     float random = 0; ///< of this brick
 };
 
 constexpr int kBrickColumns = 4, kBrickRows = 8;
 
-Brick brickAt(float2 uv) {
+BrickCell brickAt(float2 uv) {
     const float row = std::floor(uv.y * kBrickRows);
     const float shifted = uv.x * kBrickColumns + (static_cast<int>(row) % 2 ? 0.5f : 0.0f);
     const float column = std::floor(shifted);

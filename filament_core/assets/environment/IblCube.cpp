@@ -8,7 +8,7 @@
 namespace filament::assets {
 namespace {
 
-constexpr uint32_t kRowsPerJob = 4;
+constexpr uint32_t kCubeRowsPerJob = 4;
 constexpr uint32_t kLeastSubSamples = 4; // per axis: the source's bilinear kernel gets 4 samples per texel
 constexpr uint32_t kMostSubSamples = 32;
 
@@ -17,7 +17,7 @@ constexpr uint32_t kMostSubSamples = 32;
 HdrImage widenedTowardsPoles(HdrImage const& image, jobs::JobSystem& jobs) {
     HdrImage wide{ .width = image.width, .height = image.height, .pixels = {}, .repairs = {} };
     wide.pixels.resize(image.pixels.size());
-    jobs::parallelFor<"environment rows">(jobs, image.height, kRowsPerJob, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"environment rows">(jobs, image.height, kCubeRowsPerJob, [&](size_t begin, size_t end) {
         const auto width = static_cast<int>(image.width);
         std::vector<double3> sums(static_cast<size_t>(width) * 3 + 1); // running sums of three turns
         for (size_t y = begin; y < end; ++y) {
@@ -161,7 +161,7 @@ IblCubeLevel halved(IblCubeLevel const& level, jobs::JobSystem& jobs) {
     const uint32_t size = level.size() / 2;
     const std::vector<float> weights = texelSolidAngles(level.size());
     IblCubeLevel half(size);
-    jobs::parallelFor<"cube mips">(jobs, size_t(6) * size, kRowsPerJob, [&](size_t begin, size_t end) {
+    jobs::parallelFor<"cube mips">(jobs, size_t(6) * size, kCubeRowsPerJob, [&](size_t begin, size_t end) {
         for (size_t row = begin; row < end; ++row) {
             const auto face = static_cast<uint32_t>(row / size), y = static_cast<uint32_t>(row % size);
             for (uint32_t x = 0; x < size; ++x) {

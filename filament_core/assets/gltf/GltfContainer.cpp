@@ -10,7 +10,7 @@
 namespace filament::assets {
 namespace {
 
-constexpr uint32_t kMagic = 0x46546C67;     // "glTF"
+constexpr uint32_t kGlbMagic = 0x46546C67;  // "glTF"
 constexpr uint32_t kJsonChunk = 0x4E4F534A; // "JSON"
 constexpr uint32_t kBinChunk = 0x004E4942;  // "BIN\0"
 constexpr size_t kHeaderBytes = 12, kChunkHeaderBytes = 8;
@@ -43,7 +43,7 @@ Error notGltf(std::span<const std::byte> file) {
 
 Result<GltfContainer> openGltfContainer(std::span<const std::byte> file) {
     if (file.empty()) return fail(ErrorCode::Corrupt, "the file is empty");
-    if (file.size() < 4 || wordAt(file, 0) != kMagic) {
+    if (file.size() < 4 || wordAt(file, 0) != kGlbMagic) {
         if (!looksLikeJson(file)) return notGltf(file);
         return GltfContainer{ .json = file, .binary = {} };
     }

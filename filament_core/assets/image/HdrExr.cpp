@@ -41,7 +41,7 @@ struct ExrHeader {
     }
 };
 
-Error corrupt(const char* reason) { return fail(ErrorCode::Corrupt, "{}", reason); }
+Error corruptExr(const char* reason) { return fail(ErrorCode::Corrupt, "{}", reason); }
 Error unsupported(const char* reason) { return fail(ErrorCode::Unsupported, "{}", reason); }
 
 Result<void> parseChannels(std::span<const std::byte> bytes, ExrHeader& header) {
@@ -54,11 +54,11 @@ Result<void> parseChannels(std::span<const std::byte> bytes, ExrHeader& header) 
     ByteCursor cursor(bytes);
     for (;;) {
         const auto name = cursor.readUntil('\0', 255);
-        if (!name) return corrupt("its channel list has no end");
+        if (!name) return corruptExr("its channel list has no end");
         if (name->empty()) return {};
         const auto layout = cursor.read<Layout>();
-        if (!layout) return corrupt("its channel list is cut short");
-        if (layout->type > PixelType::Float) return corrupt("a channel has an unknown type");
+        if (!layout) return corruptExr("its channel list is cut short");
+        if (layout->type > PixelType::Float) return corruptExr("a channel has an unknown type");
         if (layout->xSampling != 1 || layout->ySampling != 1) return unsupported("a channel is subsampled");
         if (header.channels.size() == kMaxChannels) return unsupported("it has more than 64 channels");
         header.channels.push_back({ std::string(*name), layout->type });
@@ -68,7 +68,7 @@ Result<void> parseChannels(std::span<const std::byte> bytes, ExrHeader& header) 
 Result<void> parseDataWindow(std::span<const std::byte> bytes, ExrHeader& header) {
     ByteCursor cursor(bytes);
     const auto box = cursor.read<std::array<int32_t, 4>>(); // min x, min y, max x, max y, inclusive
-    if (!box) return corrupt("its data window is cut short");
+    if (!box) return corruptExr("its data window is cut short");
     const int64_t width = int64_t((*box)[2]) - (*box)[0] + 1, height = int64_t((*box)[3]) - (*box)[1] + 1;
     if (auto error = checkHdrSize(width, height)) return *error;
     header.minX = (*box)[0];
@@ -114,16 +114,16 @@ Result<ExrHeader> parseHeader(ByteCursor& cursor) {
     ExrHeader header;
     for (;;) {
         const auto name = cursor.readUntil('\0', 255);
-        if (!name) return corrupt("its header has no end");
+        if (!name) return corruptExr("its header has no end");
         if (name->empty()) break;
         const auto type = cursor.readUntil('\0', 255);
         const auto size = cursor.read<uint32_t>();
         const auto value = size ? cursor.take(*size) : std::nullopt;
-        if (!type || !value) return corrupt("its header is cut short");
+        if (!type || !value) return corruptExr("its header is cut short");
         if (auto parsed = parseAttribute(*name, *value, header); !parsed) return parsed.error();
     }
-    if (header.width == 0) return corrupt("it has no data window");
-    if (header.compression == Compression::Count) return corrupt("it does not say how it is compressed");
+    if (header.width == 0) return corruptExr("it has no data window");
+    if (header.compression == Compression::Count) return corruptExr("it does not say how it is compressed");
     if (auto chosen = chooseChannels(header); !chosen) return chosen.error();
     return header;
 }
@@ -212,19 +212,19 @@ struct Chunk {
 Result<std::vector<Chunk>> findChunks(std::span<const std::byte> file, ByteCursor cursor, ExrHeader const& header) {
     const uint32_t rows = header.rowsPerChunk();
     const uint32_t count = (header.height + rows - 1) / rows;
-    if (cursor.remaining() / sizeof(uint64_t) < count) return corrupt("its offset table is cut short");
+    if (cursor.remaining() / sizeof(uint64_t) < count) return corruptExr("its offset table is cut short");
     std::vector<Chunk> chunks(count);
     for (Chunk& chunk : chunks) {
         const uint64_t offset = *cursor.read<uint64_t>();
-        if (offset >= file.size()) return corrupt("a block of rows lies outside of the file");
+        if (offset >= file.size()) return corruptExr("a block of rows lies outside of the file");
         ByteCursor at(file.subspan(offset));
         const auto row = at.read<int32_t>();
         const auto size = at.read<uint32_t>();
         const auto packed = size ? at.take(*size) : std::nullopt;
-        if (!row || !packed) return corrupt("a block of rows is cut short");
+        if (!row || !packed) return corruptExr("a block of rows is cut short");
         const int64_t first = int64_t(*row) - header.minY;
         if (first < 0 || first >= header.height || first % rows != 0)
-            return corrupt("a block has rows outside of the image");
+            return corruptExr("a block has rows outside of the image");
         chunk = { static_cast<uint32_t>(first), *packed };
     }
     return chunks;

@@ -55,7 +55,7 @@ Result<RgbeHeader> parseResolution(std::string_view line, RgbeHeader header) {
     return header;
 }
 
-Result<RgbeHeader> parseHeader(ByteCursor& cursor) {
+Result<RgbeHeader> parseRgbeHeader(ByteCursor& cursor) {
     RgbeHeader header;
     for (size_t i = 0; i < kMaxHeaderLines; ++i) {
         const auto line = cursor.readUntil('\n', kMaxHeaderLine);
@@ -152,7 +152,7 @@ bool isRgbe(std::span<const std::byte> bytes) {
 
 Result<HdrImage> decodeRgbe(std::span<const std::byte> bytes) {
     ByteCursor cursor(bytes);
-    const Result<RgbeHeader> header = parseHeader(cursor);
+    const Result<RgbeHeader> header = parseRgbeHeader(cursor);
     if (!header) return header.error();
     HdrImage image{ .width = header->width, .height = header->height, .pixels = {}, .repairs = {} };
     std::vector<Rgbe> row(image.width);

@@ -10,7 +10,7 @@
 namespace filament::assets {
 namespace {
 
-constexpr size_t kChannels = 4, kAlpha = 3;
+constexpr size_t kPackedChannels = 4, kPackedAlpha = 3;
 
 /// Between texels `first` and `second`, with weight / total of the second.
 struct Tap {
@@ -34,7 +34,7 @@ Image resized(Image const& source, uint32_t width, uint32_t height, bool isColor
     Image image{ .width = width, .height = height, .data = {} };
     image.data.resize(image.levelBytes(0));
     const auto texel = [&](uint32_t x, uint32_t y, size_t c, ChannelTransfer const& transfer) -> uint64_t {
-        const auto code = static_cast<size_t>(source.data[(size_t{ y } * source.width + x) * kChannels + c]);
+        const auto code = static_cast<size_t>(source.data[(size_t{ y } * source.width + x) * kPackedChannels + c]);
         return transfer.linearFromCode[code];
     };
     std::byte* out = image.data.data();
@@ -42,8 +42,8 @@ Image resized(Image const& source, uint32_t width, uint32_t height, bool isColor
         const Tap v = tapOf(y, height, source.height);
         for (uint32_t x = 0; x < width; ++x) {
             const Tap h = tapOf(x, width, source.width);
-            for (size_t c = 0; c < kChannels; ++c, ++out) {
-                ChannelTransfer const& transfer = isColor && c < kAlpha ? colorTransfer() : dataTransfer();
+            for (size_t c = 0; c < kPackedChannels; ++c, ++out) {
+                ChannelTransfer const& transfer = isColor && c < kPackedAlpha ? colorTransfer() : dataTransfer();
                 const uint64_t top =
                         h.blend(texel(h.first, v.first, c, transfer), texel(h.second, v.first, c, transfer));
                 const uint64_t bottom =
@@ -72,8 +72,8 @@ Image packImages(Image first, Image second, PackLayout layout) {
     const bool isColor = layout == PackLayout::ColorAlpha;
     Image packed = withSize(std::move(first), width, height, isColor);
     const Image other = withSize(std::move(second), width, height, false);
-    const size_t taken = isColor ? kAlpha : 1;
-    for (size_t i = taken; i < packed.data.size(); i += kChannels) packed.data[i] = other.data[i];
+    const size_t taken = isColor ? kPackedAlpha : 1;
+    for (size_t i = taken; i < packed.data.size(); i += kPackedChannels) packed.data[i] = other.data[i];
     return packed;
 }
 

@@ -18,7 +18,7 @@ using testing::HasSubstr;
 
 DRIVER_SUITE(Device);
 
-constexpr std::string_view kWhite = "result = vec4(1.0);";
+constexpr std::string_view kWhiteCode = "result = vec4(1.0);";
 
 DRIVER_TEST(Device, TellsItsNameLimitsAndLanguage) {
     DeviceInfo const& info = gpu.info();
@@ -33,7 +33,7 @@ DRIVER_TEST(Device, TellsItsNameLimitsAndLanguage) {
 
 DRIVER_TEST(Device, StatisticsCountWhatWasReplayed) {
     const DriverStatistics before = gpu.statistics();
-    const Program program = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
+    const Program program = gpu.program(kFullScreenVertex, fragmentOf("", kWhiteCode));
     gpu.read(gpu.paint(program, {}), { 0, 0, 4, 4 });
     gpu.read(gpu.paint(program, {}), { 0, 0, 4, 4 });
     EXPECT_TRUE(gpu.takeErrors().empty()); // waits: an answer may come before its stream's numbers
@@ -82,7 +82,7 @@ DRIVER_TEST(Device, AProgramThatDoesNotCompileIsReportedByNameAndItsDrawsAreSkip
     EXPECT_EQ(errors.front().kind, DriverErrorKind::ShaderCompile);
     EXPECT_THAT(errors.front().message, HasSubstr("broken program"));
 
-    const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
+    const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhiteCode));
     EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }),
                 Each(Rgba{ 1, 1, 1, 1 }))
             << "life goes on";
@@ -102,7 +102,7 @@ DRIVER_TEST(Device, ATextureThatDoesNotFitIsReportedByNameAndLifeGoesOn) {
     ASSERT_FALSE(errors.empty());
     EXPECT_EQ(errors.front().kind, DriverErrorKind::OutOfMemory);
     EXPECT_THAT(errors.front().message, HasSubstr("far too large"));
-    const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
+    const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhiteCode));
     EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }),
                 Each(Rgba{ 1, 1, 1, 1 }));
 }
@@ -113,7 +113,7 @@ DRIVER_TEST(Device, ABrokenStreamIsDroppedByTheValidatedLayerBeforeTheDriverSees
     ASSERT_EQ(errors.size(), 2u);
     EXPECT_THAT(errors[0].message, HasSubstr("only inside a pass"));
     EXPECT_THAT(errors[1].message, HasSubstr("was dropped"));
-    const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
+    const Program good = gpu.program(kFullScreenVertex, fragmentOf("", kWhiteCode));
     EXPECT_THAT(gpu.readAs<Rgba>(gpu.paint(good, { .width = 2, .height = 2 }), { 0, 0, 2, 2 }),
                 Each(Rgba{ 1, 1, 1, 1 }));
 }
@@ -165,7 +165,7 @@ DRIVER_TEST(Device, ObjectsDestroyedRightAfterTheirUseAreKeptUntilTheDeviceIsDon
 }
 
 DRIVER_TEST(Device, APipelineOutlivesTheProgramItWasMadeFrom) {
-    const Program program = gpu.program(kFullScreenVertex, fragmentOf("", kWhite));
+    const Program program = gpu.program(kFullScreenVertex, fragmentOf("", kWhiteCode));
     const TextureHandle target = gpu.target(Format::RGBA32F, 2, 2);
     const PassDesc pass = passOver({ { target, Format::RGBA32F } }, 2, 2);
     const PipelineHandle pipeline = gpu.pipeline(pipelineFor(program, pass.layout));

@@ -14,7 +14,7 @@ using testing::ElementsAre;
 
 DRIVER_SUITE(Draw);
 
-constexpr Rgba kRed{ 1, 0, 0, 1 }, kGreen{ 0, 1, 0, 1 }, kNone{ 0, 0, 0, 0 };
+constexpr Rgba kGreen{ 0, 1, 0, 1 }, kNone{ 0, 0, 0, 0 };
 
 /// Clip space from pixels of a target: row 0 is the top row and y = -1.
 Rgba at(double x, double y, uint32_t width, uint32_t height, float z = 0.5f) {

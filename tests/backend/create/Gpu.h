@@ -21,6 +21,7 @@ namespace filament::backend {
 
 using Bytes = std::vector<std::byte>;
 using Rgba = std::array<float, 4>;
+inline constexpr Rgba kRed{ 1, 0, 0, 1 };
 using Rgba8 = std::array<uint8_t, 4>;
 
 template <class T>

@@ -14,8 +14,6 @@ using testing::Each;
 
 DRIVER_SUITE(Pass);
 
-constexpr Rgba kRed{ 1, 0, 0, 1 };
-
 void drawFullScreen(Gpu& gpu, PassDesc const& pass, PipelineHandle pipeline) {
     gpu.record(CmdBeginPass{ pass });
     gpu.record(CmdBindPipeline{ pipeline });

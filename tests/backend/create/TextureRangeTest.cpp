@@ -8,7 +8,7 @@ DRIVER_SUITE(TextureRanges);
 
 namespace {
 
-constexpr uint32_t kSize = 16;
+constexpr uint32_t kTextureSize = 16;
 constexpr uint8_t kLevels = 5;
 
 using enum TextureUsage;
@@ -20,16 +20,16 @@ TextureHandle mipped(Gpu& gpu, Format format, TextureUsage attachment, TextureTy
                          .usage = attachment | Sampled | TransferSource | TransferTarget,
                          .levels = kLevels,
                          .layers = layers,
-                         .width = kSize,
-                         .height = kSize,
+                         .width = kTextureSize,
+                         .height = kTextureSize,
                          .debugName = "chain" });
 }
 
-uint32_t sizeOf(uint32_t level) { return kSize >> level; }
+uint32_t sizeOf(uint32_t level) { return kTextureSize >> level; }
 
 /// Texels that a box filter halves without rounding at every level.
 std::vector<float> levelZero() {
-    std::vector<float> texels(kSize * kSize);
+    std::vector<float> texels(kTextureSize * kTextureSize);
     for (uint32_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<float>(i * 37 % 64) * 256;
     return texels;
 }
@@ -75,7 +75,7 @@ void draw(Gpu& gpu, PassDesc const& pass, PipelineHandle pipeline, BindGroupHand
 DRIVER_TEST(TextureRanges, EachLevelIsMadeFromTheOneAboveItInOneTexture) {
     const TextureHandle chain = mipped(gpu, Format::R32F, ColorAttachment);
     std::vector<float> expected = levelZero();
-    gpu.upload(chain, { 0, 0, kSize, kSize }, bytesOf(expected));
+    gpu.upload(chain, { 0, 0, kTextureSize, kTextureSize }, bytesOf(expected));
     const Program program = gpu.program(kFullScreenVertex, halve());
     const PipelineHandle pipeline = gpu.pipeline(pipelineFor(program, passTo(chain, Format::R32F, 1).layout));
     for (uint8_t level = 1; level < kLevels; ++level) {
@@ -94,7 +94,7 @@ DRIVER_TEST(TextureRanges, EachLevelIsMadeFromTheOneAboveItInOneTexture) {
 // The upsampling half of a bloom: adds the level below to every level, while sampling that one with a filter.
 DRIVER_TEST(TextureRanges, LevelsAreAddedUpwardsWithAFilterWhileTheyAreSampled) {
     const TextureHandle chain = mipped(gpu, Format::RGBA16F, ColorAttachment);
-    std::vector<uint16_t> texels(size_t{ kSize } * kSize * 4);
+    std::vector<uint16_t> texels(size_t{ kTextureSize } * kTextureSize * 4);
     for (uint8_t level = 0; level < kLevels; ++level) {
         const uint32_t size = sizeOf(level);
         for (uint32_t i = 0; i < size * size * 4; ++i)
@@ -163,7 +163,7 @@ DRIVER_TEST(TextureRanges, OneLayerIsWrittenWhileOthersAreSampled) {
     for (uint16_t layer = 0; layer < 2; ++layer) {
         std::vector<float> texels = levelZero();
         for (float& texel : texels) texel += layer;
-        gpu.upload(array, { 0, 0, kSize, kSize }, bytesOf(texels), 0, layer);
+        gpu.upload(array, { 0, 0, kTextureSize, kTextureSize }, bytesOf(texels), 0, layer);
     }
     const Program program =
             gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform highp sampler2DArray two;",
@@ -176,7 +176,7 @@ DRIVER_TEST(TextureRanges, OneLayerIsWrittenWhileOthersAreSampled) {
     draw(gpu, pass, gpu.pipeline(pipelineFor(program, pass.layout)), two);
     std::vector<float> expected = levelZero();
     for (float& texel : expected) texel = 3 * texel + 1;
-    EXPECT_EQ(gpu.readAs<float>(array, { 0, 0, kSize, kSize }, 0, 2), expected);
+    EXPECT_EQ(gpu.readAs<float>(array, { 0, 0, kTextureSize, kTextureSize }, 0, 2), expected);
 }
 
 DRIVER_TEST(TextureRanges, DepthLevelsKeepTheFarthestOfTheOnesAbove) {
@@ -185,7 +185,7 @@ DRIVER_TEST(TextureRanges, DepthLevelsKeepTheFarthestOfTheOnesAbove) {
     first.layout.depthFormat = Format::D32F;
     first.depth.texture = chain;
     first.depth.clear = {};
-    first.area = { 0, 0, kSize, kSize };
+    first.area = { 0, 0, kTextureSize, kTextureSize };
     first.debugName = "depth";
     const Program ramp =
             gpu.program(kFullScreenVertex, "#version 450\nvoid main() { ivec2 at = ivec2(gl_FragCoord.xy);\n"
@@ -228,8 +228,8 @@ DRIVER_TEST(TextureRanges, DepthLevelsKeepTheFarthestOfTheOnesAbove) {
 DRIVER_TEST(TextureRanges, AFaceOfACubeIsWrittenWhileTheLevelAboveIsSampled) {
     const TextureHandle cube = mipped(gpu, Format::R32F, ColorAttachment, TextureType::Cube, 6);
     for (uint16_t face = 0; face < 6; ++face) {
-        const std::vector<float> texels(size_t{ kSize } * kSize, static_cast<float>(face + 1));
-        gpu.upload(cube, { 0, 0, kSize, kSize }, bytesOf(texels), 0, face);
+        const std::vector<float> texels(size_t{ kTextureSize } * kTextureSize, static_cast<float>(face + 1));
+        gpu.upload(cube, { 0, 0, kTextureSize, kTextureSize }, bytesOf(texels), 0, face);
     }
     const Program program =
             gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform highp samplerCube above;",

@@ -7,7 +7,7 @@
 namespace filament::backend::vulkan {
 namespace {
 
-constexpr Rgba8 kRed{ 255, 0, 0, 255 }, kNothing{ 0, 0, 0, 0 };
+constexpr Rgba8 kNothing{ 0, 0, 0, 0 };
 
 const std::string kPositionVertex = R"(
 layout(location = 0) in vec2 position;

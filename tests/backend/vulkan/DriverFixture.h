@@ -43,6 +43,8 @@ public:
 };
 
 using Rgba8 = std::array<uint8_t, 4>;
+inline constexpr Rgba8 kRed{ 255, 0, 0, 255 };
+inline constexpr RasterState kNoCulling{ .cull = CullMode::None };
 
 class DriverTest : public ::testing::Test {
 protected:

@@ -10,8 +10,6 @@
 namespace filament::backend::vulkan {
 namespace {
 
-constexpr RasterState kNoCulling{ .cull = CullMode::None };
-
 // ---------------------------------------------------------------------------------------------- frames and answers
 
 TEST_F(DriverTest, ObjectsDestroyedRightAfterTheirLastUseStillServeIt) {

@@ -5,9 +5,6 @@
 namespace filament::backend::vulkan {
 namespace {
 
-constexpr Rgba8 kRed{ 255, 0, 0, 255 };
-constexpr RasterState kNoCulling{ .cull = CullMode::None };
-
 TEST_F(DriverTest, LoadKeepsWhatIsOutsideTheAreaAndInside) {
     const TextureHandle target = makeTarget(3, 1);
     beginPass(target, 3, 1, { 1, 0, 0, 1 });

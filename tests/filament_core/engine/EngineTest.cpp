@@ -58,7 +58,7 @@ private:
     Owned<MaterialInstance> mRed, mGlass;
 };
 
-std::vector<std::byte> render(Backend backend, int workers, uint8_t samples = 1, bool dither = false) {
+std::vector<std::byte> spheresOn(Backend backend, int workers, uint8_t samples = 1, bool dither = false) {
     auto engine = test::makeEngine(backend, workers);
     if (!engine) return {};
     Spheres spheres(*engine);
@@ -72,20 +72,20 @@ std::vector<std::byte> render(Backend backend, int workers, uint8_t samples = 1,
 }
 
 TEST(EngineImages, AreTheSameForAnyNumberOfWorkersAndOnBothApis) {
-    const std::vector<std::byte> reference = render(Backend::Vulkan, 0);
+    const std::vector<std::byte> reference = spheresOn(Backend::Vulkan, 0);
     ASSERT_FALSE(reference.empty());
     for (int workers : { 0, 1, 3 }) {
         for (Backend backend : test::kBothApis)
-            EXPECT_EQ(render(backend, workers), reference) << toString(backend) << workers;
+            EXPECT_EQ(spheresOn(backend, workers), reference) << toString(backend) << workers;
     }
 }
 
 TEST(EngineImages, AreTheSameOnBothApisWithFourSamplesAndWithDither) {
-    const std::vector<std::byte> plain = render(Backend::Vulkan, 1);
-    const std::vector<std::byte> samples = render(Backend::Vulkan, 1, 4);
-    const std::vector<std::byte> dithered = render(Backend::Vulkan, 1, 1, true);
-    EXPECT_EQ(samples, render(Backend::Gles, 1, 4));
-    EXPECT_EQ(dithered, render(Backend::Gles, 1, 1, true));
+    const std::vector<std::byte> plain = spheresOn(Backend::Vulkan, 1);
+    const std::vector<std::byte> samples = spheresOn(Backend::Vulkan, 1, 4);
+    const std::vector<std::byte> dithered = spheresOn(Backend::Vulkan, 1, 1, true);
+    EXPECT_EQ(samples, spheresOn(Backend::Gles, 1, 4));
+    EXPECT_EQ(dithered, spheresOn(Backend::Gles, 1, 1, true));
     EXPECT_NE(samples, plain) << "edges are smoothed";
     EXPECT_NE(dithered, plain);
 }
@@ -218,11 +218,11 @@ TEST_P(EngineTest, MayBeMovedWhileObjectsRemember) {
 }
 
 TEST_P(EngineTest, RendersWhileAnotherEngineRendersOnItsOwnThread) {
-    const std::vector<std::byte> reference = render(GetParam(), 1);
+    const std::vector<std::byte> reference = spheresOn(GetParam(), 1);
     std::vector<std::byte> a, b;
     {
-        std::jthread first([&] { a = render(GetParam(), 1); });
-        std::jthread second([&] { b = render(GetParam(), 2); });
+        std::jthread first([&] { a = spheresOn(GetParam(), 1); });
+        std::jthread second([&] { b = spheresOn(GetParam(), 2); });
     }
     EXPECT_EQ(a, reference);
     EXPECT_EQ(b, reference);

@@ -21,8 +21,8 @@ constexpr const char* kPaint = R"(material { name : paint, shadingModel : unlit 
 fragment { void material(inout MaterialInputs material) { prepareMaterial(material); material.baseColor = vec4(0.5); } })";
 
 /// A checkered square and a plain one, and a view for each filter.
-struct Stage {
-    explicit Stage(Engine& owner) : engine(owner), square(owner), scene(owner) {
+struct TwoSquares {
+    explicit TwoSquares(Engine& owner) : engine(owner), square(owner), scene(owner) {
         std::array<uint8_t, 4 * 4 * 4> texels{};
         for (size_t i = 0; i < texels.size(); ++i) texels[i] = static_cast<uint8_t>((i / 4 + i / 16) % 2 ? 255 : i);
         picture = engine.own(engine.create(TextureDesc{
@@ -99,7 +99,7 @@ public:
 
 TEST(SeveralViews, WithDifferentFiltersTakeTurnsWithoutMakingAnything) {
     TracedEngine traced("several-views");
-    Stage stage(traced.engine);
+    TwoSquares stage(traced.engine);
     Renderer renderer(traced.engine);
     const Owned<SwapChain> target = traced.engine.own(traced.engine.create(SwapChainDesc{ .size = stage.view.size }));
     const auto draw = [&](size_t frames) {
@@ -120,7 +120,7 @@ TEST(SeveralViews, WithDifferentFiltersTakeTurnsWithoutMakingAnything) {
 
 TEST(SeveralViews, AChangedTextureIsBoundAnewForEveryFilterInUseAndNoOther) {
     TracedEngine traced("several-views-changed");
-    Stage stage(traced.engine);
+    TwoSquares stage(traced.engine);
     Renderer renderer(traced.engine);
     const Owned<SwapChain> target = traced.engine.own(traced.engine.create(SwapChainDesc{ .size = stage.view.size }));
     size_t counted = 0; // waiting for submissions delivers the uploads made before the frame
@@ -154,13 +154,13 @@ TEST_P(SeveralViewsOnADevice, EachHasThePictureThatItHasAlone) {
     for (const TextureFilter filter : kFilters) {
         auto engine = test::makeEngine(GetParam());
         ASSERT_TRUE(engine);
-        Stage stage(*engine);
+        TwoSquares stage(*engine);
         alone.push_back(test::renderLinear(*engine, stage.scene, stage.viewWith(filter)).pixels);
     }
     EXPECT_NE(alone[0], alone[1]) << "the filter shows";
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
-    Stage stage(*engine);
+    TwoSquares stage(*engine);
     for (size_t frame = 0; frame < 9; ++frame) {
         const size_t i = frame * 2 % kFilters.size();
         EXPECT_EQ(test::renderLinear(*engine, stage.scene, stage.viewWith(kFilters[i])).pixels, alone[i]) << frame;

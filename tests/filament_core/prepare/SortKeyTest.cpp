@@ -10,7 +10,7 @@
 namespace filament::prepare {
 namespace {
 
-constexpr float kInfinity = std::numeric_limits<float>::infinity();
+constexpr float kFarthest = std::numeric_limits<float>::infinity();
 
 TEST(SortKey, DepthStepsGrowWithDepthSixteenAnOctave) {
     uint32_t last = 0;
@@ -26,14 +26,14 @@ TEST(SortKey, DepthStepsGrowWithDepthSixteenAnOctave) {
 }
 
 TEST(SortKey, WhatIsNotInFrontCountsAsNearestAndInfinityAsFarthest) {
-    for (float depth : { 0.0f, -0.0f, -3.0f, -kInfinity, std::numeric_limits<float>::quiet_NaN(),
+    for (float depth : { 0.0f, -0.0f, -3.0f, -kFarthest, std::numeric_limits<float>::quiet_NaN(),
                          -std::numeric_limits<float>::quiet_NaN() }) {
         EXPECT_EQ(depthBits(depth), 0u);
     }
     EXPECT_EQ(depthStep(0), 0u);
-    EXPECT_EQ(depthStep(depthBits(kInfinity)), 1023u);
+    EXPECT_EQ(depthStep(depthBits(kFarthest)), 1023u);
     EXPECT_EQ(blendedKey(0) & kBlendedKey, kBlendedKey);
-    EXPECT_LT(blendedKey(depthBits(kInfinity)), blendedKey(0));
+    EXPECT_LT(blendedKey(depthBits(kFarthest)), blendedKey(0));
 }
 
 TEST(SortKey, BlendedKeysFallWithDepthToTheLastBit) {
@@ -46,7 +46,7 @@ TEST(SortKey, OpaqueBeforeBlendedWhateverElse) {
 }
 
 TEST(SortKey, LateOnesBetweenOpaqueAndBlendedThoseWithoutTestLastAllBackToFront) {
-    const uint32_t far = depthBits(kInfinity), near = depthBits(1e-3f);
+    const uint32_t far = depthBits(kFarthest), near = depthBits(1e-3f);
     const uint64_t keys[] = { kLateKey,           lateKey(far, false), lateKey(near, false),
                               lateKey(far, true), lateKey(near, true), blendedKey(far),
                               blendedKey(near) };

@@ -13,7 +13,7 @@
 namespace filament::scene {
 namespace {
 
-double4x4 moved(double x, double y, double z) { return glm::translate(double4x4(1.0), double3(x, y, z)); }
+double4x4 movedBy(double x, double y, double z) { return glm::translate(double4x4(1.0), double3(x, y, z)); }
 
 struct SkinsTest : testing::Test {
     Material material;
@@ -56,11 +56,11 @@ struct SkinsTest : testing::Test {
 };
 
 TEST_F(SkinsTest, BonesTakeVerticesFromWhereTheyWereBoundIntoTheSpaceOfTheSkinsNode) {
-    const Node root = scene.transforms.add({}, moved(1e7, 0, 0), "root");
+    const Node root = scene.transforms.add({}, movedBy(1e7, 0, 0), "root");
     const Node skin = scene.transforms.add(root, double4x4(1.0), "skin");
-    const Node joint = scene.transforms.add(root, moved(0, 2, 0), "joint");
+    const Node joint = scene.transforms.add(root, movedBy(0, 2, 0), "joint");
     const Skin handle =
-            addSkin(scene, { .node = skin, .joints = { joint }, .jointFromBind = { affineFrom(moved(0, 0, 3)) } });
+            addSkin(scene, { .node = skin, .joints = { joint }, .jointFromBind = { affineFrom(movedBy(0, 0, 3)) } });
     update();
     shader::BoneData const& bone = scene.deformations.skin(handle).bones[0];
     EXPECT_EQ(bone.row0, float4(1, 0, 0, 0)) << "ten thousand kilometres from the origin";
@@ -75,10 +75,10 @@ TEST_F(SkinsTest, OnlySkinsWhoseJointsMovedAreComputedAgain) {
     addSkin(scene, { .joints = { b }, .jointFromBind = { kIdentity } });
     update();
     EXPECT_EQ(updates, 2) << "both are new";
-    scene.transforms.setTransform(other, moved(1, 0, 0));
+    scene.transforms.setTransform(other, movedBy(1, 0, 0));
     update();
     EXPECT_EQ(updates, 2);
-    scene.transforms.setTransform(a, moved(5, 0, 0));
+    scene.transforms.setTransform(a, movedBy(5, 0, 0));
     update();
     EXPECT_EQ(updates, 3);
     EXPECT_EQ(scene.deformations.skin(first).bones[0].row0.w, 5);
@@ -91,10 +91,10 @@ TEST_F(SkinsTest, BoundsFollowTheJointsAndNotTheNode) {
     const Renderable renderable = addSkinned(skin, node);
     update();
     EXPECT_EQ(centerOf(renderable), double3(0));
-    scene.transforms.setTransform(joint, moved(0, 0, -50));
+    scene.transforms.setTransform(joint, movedBy(0, 0, -50));
     update();
     EXPECT_EQ(centerOf(renderable), double3(0, 0, -50));
-    scene.transforms.setTransform(node, moved(9, 0, 0));
+    scene.transforms.setTransform(node, movedBy(9, 0, 0));
     update();
     EXPECT_EQ(centerOf(renderable), double3(0, 0, -50)) << "bones undo the transform of the skin's node";
 }
@@ -126,14 +126,14 @@ TEST_F(SkinsTest, OnlyBonesThatMoveVerticesDecideWhatIsMirrored) {
 }
 
 TEST_F(SkinsTest, ARemovedJointLeavesItsBoneWhereItWas) {
-    const Node joint = scene.transforms.add({}, moved(1, 2, 3), "joint");
+    const Node joint = scene.transforms.add({}, movedBy(1, 2, 3), "joint");
     const Node other = scene.transforms.add({}, double4x4(1.0), "other");
     const Skin skin = addSkin(scene, { .joints = { joint, other }, .jointFromBind = { kIdentity, kIdentity } });
     update();
     removeNode(scene, joint);
-    const Node reused = scene.transforms.add({}, moved(7, 7, 7), "in the same slot");
+    const Node reused = scene.transforms.add({}, movedBy(7, 7, 7), "in the same slot");
     EXPECT_EQ(reused.index(), joint.index());
-    scene.transforms.setTransform(other, moved(4, 0, 0));
+    scene.transforms.setTransform(other, movedBy(4, 0, 0));
     update();
     EXPECT_EQ(scene.deformations.skin(skin).bones[0].row1.w, 2);
     EXPECT_EQ(scene.deformations.skin(skin).bones[1].row0.w, 4);

@@ -8,8 +8,6 @@
 namespace filament::hard {
 namespace {
 
-const Look kRed{ .baseColor = { 0.9f, 0.05f, 0.05f, 1 } }, kBlue{ .baseColor = { 0.05f, 0.05f, 0.9f, 1 } };
-
 void balls(Stage& stage, float nearMeters) {
     for (int i = 0; i < 5; ++i)
         stage.add(sphereMesh(), translation({ i - 2.0, 0.4 * i - 0.8, -1.5 * i }),

@@ -13,8 +13,6 @@
 namespace filament::hard {
 namespace {
 
-const Look kRed{ .baseColor = { 0.9f, 0.05f, 0.05f, 1 } }, kBlue{ .baseColor = { 0.05f, 0.05f, 0.9f, 1 } };
-
 void light(Stage& stage, double3 eye = { 0.5, 0.8, 3 }, float nearMeters = 0.01f) {
     stage.scene.add(SunLight{ .directionWorld = { -0.4f, -0.7f, -1 } });
     stage.addConstantSky(Lux{ 8'000 });

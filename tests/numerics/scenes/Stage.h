@@ -44,6 +44,7 @@ struct Look {
     bool blended = false;
     bool bumpy = false; ///< with a normal map of waves: needs tangents and texture coordinates
 };
+inline const Look kRed{ .baseColor = { 0.9f, 0.05f, 0.05f, 1 } }, kBlue{ .baseColor = { 0.05f, 0.05f, 0.9f, 1 } };
 
 /// An engine with everything that all stages share: materials compile once.
 class Device {

@@ -30,7 +30,7 @@ Result<MaterialPackage> compile(std::string_view text, CompileOptions options = 
     return compileMaterial(text, "wood.mat", options);
 }
 
-Error errorOf(std::string_view text) {
+Error failureOf(std::string_view text) {
     const Result<MaterialPackage> package = compile(text);
     return package ? Error{ ErrorCode::Internal, "no error" } : package.error();
 }
@@ -127,22 +127,22 @@ TEST(MaterialCompiler, GivesMaskedMaterialsASettableThreshold) {
 // ---------------------------------------------------------------------------------------------- errors
 
 TEST(MaterialCompiler, SuggestsTheNameThatWasProbablyMeant) {
-    EXPECT_EQ(errorOf(withProperties("shadingModle : lit")).message,
+    EXPECT_EQ(failureOf(withProperties("shadingModle : lit")).message,
               "wood.mat:2: there is no property 'shadingModle'; did you mean 'shadingModel'?");
-    EXPECT_THAT(errorOf(withProperties("blending : transparant")).message, HasSubstr("did you mean 'transparent'?"));
-    EXPECT_THAT(errorOf(withProperties("requires : [ uvO ]")).message, HasSubstr("did you mean 'uv0'?"));
-    EXPECT_THAT(errorOf(withProperties("parameters : [ { name : a, type : flaot } ]")).message,
+    EXPECT_THAT(failureOf(withProperties("blending : transparant")).message, HasSubstr("did you mean 'transparent'?"));
+    EXPECT_THAT(failureOf(withProperties("requires : [ uvO ]")).message, HasSubstr("did you mean 'uv0'?"));
+    EXPECT_THAT(failureOf(withProperties("parameters : [ { name : a, type : flaot } ]")).message,
                 HasSubstr("did you mean 'float'?"));
-    EXPECT_THAT(errorOf(withProperties("parameters : [ { nmae : a, type : float } ]")).message,
+    EXPECT_THAT(failureOf(withProperties("parameters : [ { nmae : a, type : float } ]")).message,
                 HasSubstr("did you mean 'name'?"));
-    EXPECT_THAT(errorOf(withProperties("variantFilter : [ dynamicLightning ]")).message,
+    EXPECT_THAT(failureOf(withProperties("variantFilter : [ dynamicLightning ]")).message,
                 HasSubstr("did you mean 'dynamicLighting'?"));
 }
 
 TEST(MaterialCompiler, SaysWhichKnownFeaturesItLacks) {
     for (const char* properties : { "parameters : [ { name : a, type : sampler3d } ]",
                                     "parameters : [ { name : a, type : samplerCubemapArray } ]" }) {
-        const Error error = errorOf(withProperties(properties));
+        const Error error = failureOf(withProperties(properties));
         EXPECT_EQ(error.code, ErrorCode::Unsupported) << properties;
         EXPECT_THAT(error.message, HasSubstr("wood.mat:2: "));
         EXPECT_THAT(error.message, HasSubstr("known but not supported by this version"));
@@ -172,21 +172,21 @@ TEST(MaterialCompiler, RefusesValuesOutsideOfTheirRangeOrType) {
                                     "domain : postprocess, shadingModel : lit",
                                     "fullScreenTriangle : true",
                                     "parameters : [ { name : a, type : subpassInput } ]" }) {
-        const Error error = errorOf(withProperties(properties));
+        const Error error = failureOf(withProperties(properties));
         EXPECT_EQ(error.code, ErrorCode::InvalidArgument) << properties << ": " << error.message;
         EXPECT_TRUE(error.message.starts_with("wood.mat:")) << error.message;
     }
 }
 
 TEST(MaterialCompiler, ReportsGlslErrorsAtTheLineOfTheAuthorsFile) {
-    EXPECT_THAT(errorOf("material {\n shadingModel : lit\n}\n\nfragment {\n    void material(inout MaterialInputs "
-                        "material) {\n"
-                        "        prepareMaterial(material);\n        material.metalic = 1.0;\n    }\n}\n")
+    EXPECT_THAT(failureOf("material {\n shadingModel : lit\n}\n\nfragment {\n    void material(inout MaterialInputs "
+                          "material) {\n"
+                          "        prepareMaterial(material);\n        material.metalic = 1.0;\n    }\n}\n")
                         .message,
                 HasSubstr("wood.mat:8: 'metalic'"));
-    EXPECT_THAT(errorOf("material { shadingModel : unlit }\nvertex {\n\n void materialVertex(inout "
-                        "MaterialVertexInputs m) { oops; }\n}" +
-                        std::string(kEmptyFragment))
+    EXPECT_THAT(failureOf("material { shadingModel : unlit }\nvertex {\n\n void materialVertex(inout "
+                          "MaterialVertexInputs m) { oops; }\n}" +
+                          std::string(kEmptyFragment))
                         .message,
                 HasSubstr("wood.mat:4: 'oops'"));
 }
@@ -202,17 +202,18 @@ TEST(MaterialCompiler, ReportsGlslErrorsOfIncludedFilesThere) {
     const Result<MaterialPackage> package = compile(text, options);
     ASSERT_FALSE(package);
     EXPECT_THAT(package.error().message, HasSubstr("noise.glsl:2: 'b'"));
-    EXPECT_THAT(errorOf(text).message, HasSubstr("wood.mat:3: cannot find the file \"noise.glsl\""));
+    EXPECT_THAT(failureOf(text).message, HasSubstr("wood.mat:3: cannot find the file \"noise.glsl\""));
 }
 
 TEST(MaterialCompiler, SaysWhichFunctionABlockMustDefine) {
-    EXPECT_THAT(errorOf("material {}\nfragment { void main2() {} }").message,
+    EXPECT_THAT(failureOf("material {}\nfragment { void main2() {} }").message,
                 HasSubstr("void material(inout MaterialInputs material)"));
     EXPECT_THAT(
-            errorOf("material { shadingModel : lit }\nfragment { void material(inout MaterialInputs m) {} }").message,
+            failureOf("material { shadingModel : lit }\nfragment { void material(inout MaterialInputs m) {} }").message,
             HasSubstr("must call prepareMaterial(material)"));
-    EXPECT_THAT(errorOf("material {}\nvertex { }" + std::string(kEmptyFragment)).message, HasSubstr("materialVertex"));
-    EXPECT_THAT(errorOf("material {}").message, HasSubstr("there is no fragment block"));
+    EXPECT_THAT(failureOf("material {}\nvertex { }" + std::string(kEmptyFragment)).message,
+                HasSubstr("materialVertex"));
+    EXPECT_THAT(failureOf("material {}").message, HasSubstr("there is no fragment block"));
 }
 
 // ---------------------------------------------------------------------------------------------- variants and layout
@@ -284,7 +285,7 @@ TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsThe
         EXPECT_THAT(full.fragmentEssl, Not(HasSubstr("mediump vec3")));
     }
     EXPECT_THAT(
-            errorOf("material { shadingModel : unlit, halfPrecision : true }" + std::string(kEmptyFragment)).message,
+            failureOf("material { shadingModel : unlit, halfPrecision : true }" + std::string(kEmptyFragment)).message,
             HasSubstr("halfPrecision is only for lit materials"));
 }
 

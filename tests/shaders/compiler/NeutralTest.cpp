@@ -77,29 +77,29 @@ uint64_t hashOf(std::string const& text) {
 }
 
 // Everything that the terms could affect: each of them is unset here.
-constexpr const char* kCode = "prepareMaterial(m); m.baseColor.rgb = vec3(0.2, 0.4, 0.6);";
+constexpr const char* kPlainCode = "prepareMaterial(m); m.baseColor.rgb = vec3(0.2, 0.4, 0.6);";
 
 TEST(Neutral, DefaultsThatAreStatedChangeNoByte) {
-    const uint64_t unset = hashOf(materialOf("", kCode));
+    const uint64_t unset = hashOf(materialOf("", kPlainCode));
     for (StateProperty const& property : stateProperties()) {
         const auto known = std::ranges::find(kDefaults, property.name, &Default::property);
         ASSERT_NE(known, std::end(kDefaults)) << property.name << " has no default in this test";
         if (known->value.empty()) continue;
         const std::string stated = fmt::format("{} : {}", known->property, known->value);
-        EXPECT_EQ(hashOf(materialOf(stated, kCode)), unset) << stated;
+        EXPECT_EQ(hashOf(materialOf(stated, kPlainCode)), unset) << stated;
     }
     for (Default const& list : kLists) {
         const std::string stated = fmt::format("{} : {}", list.property, list.value);
-        EXPECT_EQ(hashOf(materialOf(stated, kCode)), unset) << stated;
+        EXPECT_EQ(hashOf(materialOf(stated, kPlainCode)), unset) << stated;
     }
 }
 
 // The test above would also pass if the bytes never changed.
 TEST(Neutral, OtherValuesThanTheDefaultsChangeTheBytes) {
-    const uint64_t unset = hashOf(materialOf("", kCode));
+    const uint64_t unset = hashOf(materialOf("", kPlainCode));
     for (const char* other : { "culling : none", "blending : fade", "doubleSided : true", "maskThreshold : 0.5",
                                "specularAntiAliasing : true", "featureLevel : 2", "vertexDomain : world" })
-        EXPECT_NE(hashOf(materialOf(other, kCode)), unset) << other;
+        EXPECT_NE(hashOf(materialOf(other, kPlainCode)), unset) << other;
 }
 
 constexpr const char* kModels[] = {

@@ -9,7 +9,7 @@
 namespace filament::shader::lib64 {
 namespace {
 
-const vec2 kAlphas[] = { { 0.05, 0.6 }, { 0.3, 0.3 }, { 1.6, 0.4 }, { 2.0, 0.1 } };
+const vec2 kAnisotropicAlphas[] = { { 0.05, 0.6 }, { 0.3, 0.3 }, { 1.6, 0.4 }, { 2.0, 0.1 } };
 constexpr Quadrature kFine{ .polar = 1500, .azimuth = 720, .polePower = 3 };
 
 vec3 localHalf(vec3 v, vec3 l) { return glm::normalize(v + l); }
@@ -38,7 +38,7 @@ TEST(Anisotropy, EqualRoughnessesGiveTheIsotropicLobe) {
 }
 
 TEST(Anisotropy, TheNormalDistributionCoversTheSurfaceExactlyOnce) {
-    for (const vec2 alpha : kAlphas) {
+    for (const vec2 alpha : kAnisotropicAlphas) {
         const double covered = integrateUpper([&](vec3 h) { return ndfGgxAnisotropic(h, alpha) * h.z; }, kFine);
         EXPECT_NEAR(covered, 1, 1e-3) << alpha.x << ' ' << alpha.y;
     }
@@ -46,7 +46,7 @@ TEST(Anisotropy, TheNormalDistributionCoversTheSurfaceExactlyOnce) {
 
 // Heitz 2014, eq. 72 and 86, in tangents.
 TEST(Anisotropy, MaskingTowardsTheNormalIsSmithsMaskingFunction) {
-    for (const vec2 alpha : kAlphas) {
+    for (const vec2 alpha : kAnisotropicAlphas) {
         for (const double angle : { 0.0, 0.7, 1.5 }) {
             for (const double nov : { 0.05, 0.4, 0.9 }) {
                 const double sine = std::sqrt(1 - nov * nov);
@@ -61,13 +61,13 @@ TEST(Anisotropy, MaskingTowardsTheNormalIsSmithsMaskingFunction) {
 
 TEST(Anisotropy, TheLobeIsReciprocal) {
     const vec3 a = glm::normalize(vec3(0.3, -0.8, 0.2)), b = glm::normalize(vec3(-0.9, 0.1, 0.7));
-    for (const vec2 alpha : kAlphas) {
+    for (const vec2 alpha : kAnisotropicAlphas) {
         EXPECT_DOUBLE_EQ(visibilitySmithGgxAnisotropic(a, b, alpha), visibilitySmithGgxAnisotropic(b, a, alpha));
     }
 }
 
 TEST(Anisotropy, OneBounceNeverReflectsMoreThanArrives) {
-    for (const vec2 alpha : kAlphas) {
+    for (const vec2 alpha : kAnisotropicAlphas) {
         for (const double nov : { 0.1, 0.5, 0.95 }) {
             for (const bool along : { true, false }) {
                 const vec3 v = along ? viewAt(nov) : vec3(0, viewAt(nov).x, nov);
@@ -86,7 +86,7 @@ TEST(Anisotropy, OneBounceNeverReflectsMoreThanArrives) {
 
 // Moments of the distribution that the samples should follow.
 TEST(Anisotropy, SamplesFollowTheDistribution) {
-    for (const vec2 alpha : kAlphas) {
+    for (const vec2 alpha : kAnisotropicAlphas) {
         const auto sampler = [&](vec2 u) { return importanceSampleGgxAnisotropic(u, alpha); };
         for (const int component : { 0, 1, 2 }) {
             const auto moment = [&](vec3 h) { return h[component] * h[component]; };

@@ -12,9 +12,9 @@
 namespace filament::shader::lib64 {
 namespace {
 
-constexpr double kCosines[] = { 0.05, 0.2, 0.5, 0.9 };
+constexpr double kLayerCosines[] = { 0.05, 0.2, 0.5, 0.9 };
 /// The azimuth resolves grazing lobes, which are a twentieth of a radian wide.
-constexpr Quadrature kFine{ .polar = 200, .azimuth = 360 };
+constexpr Quadrature kGrazing{ .polar = 200, .azimuth = 360 };
 
 /// A directional albedo at cosines between 0 and 1, as a table would store it.
 class Albedo {
@@ -119,9 +119,9 @@ TEST(Layers, NoStackReflectsMoreThanArrives) {
         for (const Above above : { Above{}, Above{ 1, 0 }, Above{ 0, 1 }, Above{ 1, 1 } }) {
             double least = 1, most = 0;
             for (StackBrdf const& brdf : surfaces) {
-                for (const double nov : kCosines) {
+                for (const double nov : kLayerCosines) {
                     const vec3 v = viewAt(nov);
-                    const double kept = integrateUpper([&](vec3 l) { return brdf(v, l, above) * l.z; }, kFine);
+                    const double kept = integrateUpper([&](vec3 l) { return brdf(v, l, above) * l.z; }, kGrazing);
                     EXPECT_LT(kept, kNoGain) << name << " nov " << nov << " sheen " << above.sheen << " coat "
                                              << above.coat << " surface " << &brdf - surfaces.data();
                     least = std::min(least, kept);

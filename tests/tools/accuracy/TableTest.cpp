@@ -19,7 +19,7 @@ using testing::AllOf;
 using testing::HasSubstr;
 using testing::Not;
 
-const std::filesystem::path kFolder = tools::sourceDir() / "tools" / "accuracy";
+const std::filesystem::path kEffectsFolder = tools::sourceDir() / "tools" / "accuracy";
 
 Result<std::vector<Effect>> readText(std::string const& text) {
     const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / "effects-of-a-test.json";
@@ -37,10 +37,10 @@ std::string rowWith(std::string const& more) {
 }
 
 TEST(EffectTable, TheCommittedTableHasAllItNeeds) {
-    const Result<std::vector<Effect>> effects = readEffects(kFolder / "effects.json");
+    const Result<std::vector<Effect>> effects = readEffects(kEffectsFolder / "effects.json");
     ASSERT_TRUE(effects) << effects.error().message;
     EXPECT_GE(effects->size(), 15u);
-    const Result<SceneLibrary> scenes = SceneLibrary::read(kFolder / "scenes");
+    const Result<SceneLibrary> scenes = SceneLibrary::read(kEffectsFolder / "scenes");
     ASSERT_TRUE(scenes) << scenes.error().message;
     for (Effect const& effect : *effects) {
         for (std::string const& scene : { effect.scene, effect.frame, effect.reference.scene }) {
@@ -53,7 +53,7 @@ TEST(EffectTable, TheCommittedTableHasAllItNeeds) {
 }
 
 TEST(EffectTable, EveryChoiceOfQualityIsMeasured) {
-    const Result<std::vector<Effect>> effects = readEffects(kFolder / "effects.json");
+    const Result<std::vector<Effect>> effects = readEffects(kEffectsFolder / "effects.json");
     ASSERT_TRUE(effects);
     for (QualityChoice const& choice : qualityChoices()) {
         const std::string prefix = std::string(choice.name) + "=";

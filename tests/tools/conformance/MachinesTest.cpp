@@ -23,7 +23,7 @@ namespace {
 using testing::HasSubstr;
 using Path = std::filesystem::path;
 
-Path freshFolder(const char* name) {
+Path freshImageFolder(const char* name) {
     const Path folder = tools::buildDir() / "conformance-machine-tests" / name;
     std::filesystem::remove_all(folder);
     std::filesystem::create_directories(folder / "images");
@@ -97,7 +97,7 @@ class ActedMachines : public testing::Test {
 protected:
     void SetUp() override {
         const auto* info = testing::UnitTest::GetInstance()->current_test_info();
-        mOptions.out = freshFolder(info->name());
+        mOptions.out = freshImageFolder(info->name());
         mOptions.program = mOptions.out / "actor.sh";
         std::ofstream(mOptions.program) << kActor;
         std::filesystem::permissions(mOptions.program, std::filesystem::perms::owner_all);
@@ -216,7 +216,7 @@ TEST_F(ActedMachines, AreInTheReportsAndReadBackFromThem) {
 }
 
 TEST(JournalFile, HasWhatEndedAndWhatIsOpenEvenIfItsLastLineIsCutOff) {
-    const Path file = freshFolder("journal") / "journal.txt";
+    const Path file = freshImageFolder("journal") / "journal.txt";
     EXPECT_TRUE(readJournal(file).cases.empty()) << "no file: nothing happened";
     {
         Journal journal(file);

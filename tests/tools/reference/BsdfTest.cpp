@@ -12,8 +12,8 @@
 namespace filament::reference {
 namespace {
 
-constexpr double kCosines[] = { 0.05, 0.3, 0.7, 1.0 };
-constexpr double kRoughnesses[] = { 0.2, 0.5, 1.0 };
+constexpr double kViewCosines[] = { 0.05, 0.3, 0.7, 1.0 };
+constexpr double kBsdfRoughnesses[] = { 0.2, 0.5, 1.0 };
 constexpr SpecularVisibility kVisibilities[] = { SpecularVisibility::Correlated, SpecularVisibility::Fast,
                                                  SpecularVisibility::Uncorrelated };
 
@@ -48,8 +48,8 @@ TEST(Bsdf, ReflectsTheSameInBothDirectionsWithoutTermsThatDependOnTheView) {
 }
 
 TEST(Bsdf, ItsDensityCoversTheDirectionsAboveTheSurfaceAndNoMoreThanOnce) {
-    for (const double cosine : kCosines) {
-        for (const double roughness : kRoughnesses) {
+    for (const double cosine : kViewCosines) {
+        for (const double roughness : kBsdfRoughnesses) {
             for (const double metallic : { 0.0, 1.0 }) {
                 const Bsdf bsdf(surfaceOf(roughness, metallic, double3(0.5), directionAt(cosine, 0)), {}, false);
                 const double covered = integrate(
@@ -72,8 +72,8 @@ TEST(Bsdf, SamplesFallAsTheirDensitySays) {
 }
 
 TEST(Bsdf, WithCouplingNoSurfaceReflectsMoreThanItGets) {
-    for (const double cosine : kCosines) {
-        for (const double roughness : kRoughnesses) {
+    for (const double cosine : kViewCosines) {
+        for (const double roughness : kBsdfRoughnesses) {
             for (const double metallic : { 0.0, 0.5, 1.0 }) {
                 for (const SpecularVisibility visibility :
                      { SpecularVisibility::Correlated, SpecularVisibility::Uncorrelated }) {
@@ -108,8 +108,8 @@ TEST(Bsdf, TheEngineCouplesTheDiffuseLobeToBothDirectionsOfLightsAndToTheViewUnd
 }
 
 TEST(Bsdf, CoupledWhitePlasticReflectsAllThatArrives) {
-    for (const double cosine : kCosines) {
-        for (const double roughness : kRoughnesses) {
+    for (const double cosine : kViewCosines) {
+        for (const double roughness : kBsdfRoughnesses) {
             const BsdfModel model{ .coupling = CouplingTerm::Always };
             const Bsdf bsdf(surfaceOf(roughness, 0, double3(1), directionAt(cosine, 0)), model, false);
             const double3 albedo =
@@ -155,7 +155,7 @@ TEST(Bsdf, DiffuseAndSpecularAloneAddUpToBoth) {
 TEST(Bsdf, EverySampleHasTheWeightThatTheDensityPromises) {
     // The mean of value over density is the albedo; with visible normals single weights stay small.
     for (const SpecularVisibility visibility : kVisibilities) {
-        for (const double cosine : kCosines) {
+        for (const double cosine : kViewCosines) {
             const Bsdf bsdf(surfaceOf(0.4, 1, double3(1), directionAt(cosine, 0)),
                             { .visibility = visibility, .energy = EnergyTerm::SingleScatter }, false);
             const double exact =

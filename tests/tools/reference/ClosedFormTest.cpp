@@ -22,12 +22,12 @@ ReferenceSettings diffuseOnly(Integrator integrator, uint32_t samples) {
 
 const std::array kIntegrators{ Integrator::Path, Integrator::Unoccluded };
 
-ReferenceScene sceneOf(assets::PrimitiveData primitive, assets::MaterialData material) {
+ReferenceScene sceneOfOne(assets::PrimitiveData primitive, assets::MaterialData material) {
     return { .models = { { makeModel(std::move(primitive), std::move(material)) } } };
 }
 
 TEST(ClosedForm, AWhiteDielectricVanishesInAWhiteFurnace) {
-    ReferenceScene scene = sceneOf(floorPrimitive(), lambert(1));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(1));
     scene.environment = uniformSky();
     // The diffuse lobe gets what the specular lobe leaves: together they reflect everything.
     for (const Integrator integrator : kIntegrators) {
@@ -41,7 +41,7 @@ TEST(ClosedForm, AWhiteDielectricVanishesInAWhiteFurnace) {
 
 TEST(ClosedForm, AWhiteMetalVanishesInAWhiteFurnaceAtEveryRoughness) {
     for (const float roughness : { 0.1f, 0.4f, 0.7f, 1.0f }) {
-        ReferenceScene scene = sceneOf(floorPrimitive(), metal(roughness));
+        ReferenceScene scene = sceneOfOne(floorPrimitive(), metal(roughness));
         scene.environment = uniformSky();
         for (const Integrator integrator : kIntegrators) {
             const Estimate estimate = estimated(scene, viewFrom({ 2, 1, 0 }, { 0, 0, 0 }), settingsOf(integrator, 256));
@@ -53,7 +53,7 @@ TEST(ClosedForm, AWhiteMetalVanishesInAWhiteFurnaceAtEveryRoughness) {
 // The fraction that one bounce keeps, from quadrature over half vectors in another file.
 TEST(ClosedForm, ASingleScatteringMetalLosesOneMinusItsDirectionalAlbedo) {
     for (const float roughness : { 0.3f, 0.6f, 1.0f }) {
-        ReferenceScene scene = sceneOf(floorPrimitive(), metal(roughness));
+        ReferenceScene scene = sceneOfOne(floorPrimitive(), metal(roughness));
         scene.environment = uniformSky();
         ReferenceSettings settings = settingsOf(Integrator::Unoccluded, 256);
         settings.bsdf.energy = EnergyTerm::SingleScatter;
@@ -65,7 +65,7 @@ TEST(ClosedForm, ASingleScatteringMetalLosesOneMinusItsDirectionalAlbedo) {
 }
 
 TEST(ClosedForm, ALambertFloorUnderASunShowsAlbedoOverPiTimesTheIlluminanceTimesTheCosine) {
-    ReferenceScene scene = sceneOf(floorPrimitive(), lambert(0.5f));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(0.5f));
     for (const float tilt : { 0.0f, 0.5f, 1.2f, 1.56f }) {
         scene.suns = { { .directionWorld = { std::sin(tilt), -std::cos(tilt), 0 }, .illuminance = Lux{ 3 } } };
         for (const Integrator integrator : kIntegrators) {
@@ -83,7 +83,7 @@ double albedoOfRoughDielectric(double cosine) {
 }
 
 TEST(ClosedForm, ARoughDielectricUnderASunShowsBothLobes) {
-    ReferenceScene scene = sceneOf(floorPrimitive(), lambert(0.5f));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(0.5f));
     double average = 0; // weighted by the cosine: evenly in its square
     for (int i = 0; i < 256; ++i) average += albedoOfRoughDielectric(std::sqrt((i + 0.5) / 256)) / 256;
     for (const float tilt : { 0.0f, 0.5f, 1.2f }) {
@@ -104,7 +104,7 @@ TEST(ClosedForm, ARoughDielectricUnderASunShowsBothLobes) {
 
 // The irradiance of half of the sky, x > 0, on a floor is pi / 2; the bilinear edge at x = 0 is symmetric.
 TEST(ClosedForm, HalfASkyGivesALambertFloorHalfItsLight) {
-    ReferenceScene scene = sceneOf(floorPrimitive(), lambert(0.8f));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(0.8f));
     scene.environment = { .image = makeSky(64, [](double3 d) { return float3(d.x > 0 ? 1.0f : 0.0f); }),
                           .illuminance = Lux{ 2 } };
     for (const Integrator integrator : kIntegrators) {
@@ -115,7 +115,7 @@ TEST(ClosedForm, HalfASkyGivesALambertFloorHalfItsLight) {
 
 // L = cos theta: the irradiance of a floor is the integral of cos^2, 2 pi / 3.
 TEST(ClosedForm, ASkyThatBrightensTowardsTheZenithGivesTwoThirdsOfPi) {
-    ReferenceScene scene = sceneOf(floorPrimitive(), lambert(1));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(1));
     scene.environment = { .image = makeSky(256,
                                            [](double3 d) { return float3(static_cast<float>(std::max(d.y, 0.0))); }),
                           .illuminance = Lux{ 1 } };
@@ -126,7 +126,7 @@ TEST(ClosedForm, ASkyThatBrightensTowardsTheZenithGivesTwoThirdsOfPi) {
 }
 
 TEST(ClosedForm, APointLightFallsOffWithTheSquareOfItsDistance) {
-    ReferenceScene scene = sceneOf(floorPrimitive(), lambert(0.5f));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(0.5f));
     for (const double height : { 0.5, 1.0, 3.0 }) {
         scene.points = { { .positionWorld = { 0, height, 0 }, .intensity = Candela{ 7 } } };
         const Estimate estimate = estimated(scene, viewFrom({ 0, 4, 4 }, { 0, 0, 0 }, { 8, 8 }, 0.02f),
@@ -138,7 +138,7 @@ TEST(ClosedForm, APointLightFallsOffWithTheSquareOfItsDistance) {
 
 // Each is chosen now and then; the mean is the sum.
 TEST(ClosedForm, ManyLightsAddUp) {
-    ReferenceScene scene = sceneOf(floorPrimitive(), lambert(0.5f));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(0.5f));
     scene.suns = { { .directionWorld = { 0, -1, 0 }, .illuminance = Lux{ 2 }, .color = { 1, 0, 0 } } };
     scene.points = { { .positionWorld = { 0, 1, 0 }, .intensity = Candela{ 3 }, .color = { 0, 1, 0 } },
                      { .positionWorld = { 0, 2, 0 }, .intensity = Candela{ 4 }, .color = { 0, 0, 1 } } };
@@ -149,7 +149,7 @@ TEST(ClosedForm, ManyLightsAddUp) {
 }
 
 TEST(ClosedForm, ASpotIsDarkOutsideOfItsConeAndFullInside) {
-    ReferenceScene scene = sceneOf(floorPrimitive(), lambert(0.5f));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(0.5f));
     const ReferenceSettings settings = diffuseOnly(Integrator::Path, 16);
     const ReferenceView view = viewFrom({ 0, 4, 4 }, { 0, 0, 0 }, { 8, 8 }, 0.02f);
     const double full = 0.5 / kPiExact * 7;
@@ -175,7 +175,7 @@ TEST(ClosedForm, EmissionIsAddedAsItIsWhateverTheExposure) {
     assets::MaterialData material = lambert(0);
     material.emissiveFactor = { 0.25f, 0.5f, 1.0f };
     material.emissiveStrength = 8;
-    const ReferenceScene scene = sceneOf(floorPrimitive(), material);
+    const ReferenceScene scene = sceneOfOne(floorPrimitive(), material);
     ReferenceView view = viewFrom({ 0, 4, 4 }, { 0, 0, 0 });
     for (const float shutter : { 1.2f, 0.001f }) {
         view.camera.exposure.shutterSeconds = shutter;
@@ -191,7 +191,7 @@ TEST(ClosedForm, InsideOfAGlowingRoomAllBouncesSumUpToTheGeometricSeries) {
         for (const auto& primitive : { roomPrimitive(), spherePrimitive(16, true) }) {
             assets::MaterialData material = lambert(albedo);
             material.emissiveFactor = float3(0.5f);
-            const Estimate estimate = estimated(sceneOf(primitive, material), viewFrom({ 0, 0, 0 }, { 0.3, 1, 0.2 }),
+            const Estimate estimate = estimated(sceneOfOne(primitive, material), viewFrom({ 0, 0, 0 }, { 0.3, 1, 0.2 }),
                                                 diffuseOnly(Integrator::Path, 512));
             const double expected = 0.5 / (1 - double(albedo));
             // Losses due to the safety distance at corners, or to normals that differ from those of the facets.
@@ -203,7 +203,7 @@ TEST(ClosedForm, InsideOfAGlowingRoomAllBouncesSumUpToTheGeometricSeries) {
 TEST(ClosedForm, TheBounceLimitCutsTheSeriesAfterThatManyTerms) {
     assets::MaterialData material = lambert(0.5f);
     material.emissiveFactor = float3(1);
-    const ReferenceScene scene = sceneOf(roomPrimitive(), material);
+    const ReferenceScene scene = sceneOfOne(roomPrimitive(), material);
     ReferenceSettings settings = diffuseOnly(Integrator::Path, 64);
     for (const uint32_t bounces : { 1u, 2u, 3u }) {
         settings.maxBounces = bounces;
@@ -254,7 +254,7 @@ TEST(ClosedForm, ALitFloorLightsTheCeilingByItsFormFactor) {
 TEST(ClosedForm, ASmoothMetalShowsTheSkyInTheMirrorDirection) {
     // A sky that changes slowly, so that a lobe of half a degree sees its central value.
     const auto value = [](double3 d) { return 1.5 + d.x + 0.3 * d.z; };
-    ReferenceScene scene = sceneOf(floorPrimitive(), metal(0));
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), metal(0));
     scene.environment = { .image = makeSky(256, [&](double3 d) { return float3(static_cast<float>(value(d))); }),
                           .illuminance = Lux{ 1 } };
     const double3 eye(-3, 3, 1);

@@ -9,7 +9,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-std::shared_ptr<assets::HdrImage> lampSky() {
+std::shared_ptr<assets::HdrImage> skyWithLamp() {
     return makeSky(32, [](double3 d) {
         const double3 lamp = glm::normalize(double3(0.3, 0.7, 0.5));
         return float3(double3(0.2, 0.3, 0.4) * (1.5 + d.y) + double3(glm::dot(d, lamp) > 0.97 ? 30.0 : 0.0));
@@ -26,7 +26,7 @@ ReferenceScene busyScene(float roughness = 0.4f) {
     model->nodes[0].worldFromNode[3] = double4(0, 0.5, 0, 1);
     model->nodes.push_back({ .name = "floor", .mesh = 1 });
     ReferenceScene scene{ .models = { { model } } };
-    scene.environment = { .image = lampSky(), .illuminance = Lux{ 1 } };
+    scene.environment = { .image = skyWithLamp(), .illuminance = Lux{ 1 } };
     scene.suns = { { .directionWorld = { -1, -2, 0 }, .illuminance = Lux{ 2 } } };
     scene.points = { { .positionWorld = { 1, 1, 1 }, .intensity = Candela{ 0.5f } } };
     return scene;

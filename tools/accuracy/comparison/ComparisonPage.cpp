@@ -21,9 +21,9 @@ using tools::escapedHtml;
 
 constexpr double kFullColor = 0.25; // relative difference at which the maps are saturated
 constexpr size_t kMapsOfSteps = 3;  // of the largest steps
-constexpr const char* kCommand = "build/release/bin/filament-accuracy --compare";
+constexpr const char* kCompareCommand = "build/release/bin/filament-accuracy --compare";
 
-std::string percent(double value) { return fmt::format("{:.2f} %", value * 100); }
+std::string fixedPercent(double value) { return fmt::format("{:.2f} %", value * 100); }
 std::string signedPercent(double value) { return fmt::format("{:+.2f} %", value * 100); }
 
 Json jsonOf(StepResult const& step) {
@@ -34,7 +34,7 @@ Json jsonOf(StepResult const& step) {
              { "bias", step.bias } };
 }
 
-constexpr const char* kHowToAdd =
+constexpr const char* kHowToAddRow =
         R"(<p class="small">A row is an object in <code>tools/accuracy/comparison/rows.json</code>:
 <code>{ "name": "metals-sun", "title": "Metals under a sun", "scene": "metals/sun", "samples": 256, "unexplained": 0.01 }</code>;
 scenes are files of <code>comparison/scenes</code> as in <a href="conformance.md">conformance.md</a>; a material's values are
@@ -114,11 +114,11 @@ Result<std::string> figuresOf(RowResult const& result, Pictures const& pictures)
     };
     std::vector<Wanted> wanted{ { "engine", "engine", tonemapped(engine) },
                                 { "traced", "path tracer", tonemapped(truth) },
-                                { "difference", fmt::format("difference, {}", percent(result.rms)),
+                                { "difference", fmt::format("difference, {}", fixedPercent(result.rms)),
                                   differenceMap(engine, truth, scale, kFullColor) } };
     const auto addStep = [&](size_t i) {
         StepResult const& step = result.steps[i];
-        wanted.push_back({ step.name, fmt::format("{}, {}", step.title, percent(step.own)),
+        wanted.push_back({ step.name, fmt::format("{}, {}", step.title, fixedPercent(step.own)),
                            differenceMap(result.pictures[i], result.pictures[i + 1], scale, kFullColor) });
     };
     for (const size_t i : largestSteps(result)) addStep(i);
@@ -139,12 +139,12 @@ std::string tableOf(RowResult const& result) {
             "<table><tr><th>made exact</th><th>changes, RMS</th><th>mean</th><th>share</th><th>left, RMS</th>"
             "</tr>";
     html += fmt::format("<tr class=\"standard\"><td>the engine's frame</td><td></td><td></td><td></td><td>{}</td></tr>",
-                        percent(result.rms));
+                        fixedPercent(result.rms));
     for (StepResult const& step : result.steps) {
         html += fmt::format(
                 "<tr><td title=\"{}; exact: {}\">{}</td><td>{}</td><td>{}</td><td>{:.1f} %</td><td>{}</td></tr>",
-                escapedHtml(step.approximate), escapedHtml(step.exact), escapedHtml(step.title), percent(step.own),
-                signedPercent(step.bias), step.share * 100, percent(step.left));
+                escapedHtml(step.approximate), escapedHtml(step.exact), escapedHtml(step.title), fixedPercent(step.own),
+                signedPercent(step.bias), step.share * 100, fixedPercent(step.left));
     }
     return html + "</table>";
 }
@@ -156,17 +156,18 @@ std::string notesOf(RowResult const& result) {
             "allowed. Mean "
             "FLIP {:.4f}. 8 bits per component: {} of white.",
             result.isExplained() ? "" : "<b>More than allowed is unexplained.</b>", escapedHtml(result.row.scene),
-            result.size.x, result.size.y, result.row.samples, percent(result.noise), percent(result.tracedNoise),
-            percent(result.unexplained), percent(result.row.unexplained), result.flip, percent(result.eightBits));
+            result.size.x, result.size.y, result.row.samples, fixedPercent(result.noise),
+            fixedPercent(result.tracedNoise), fixedPercent(result.unexplained), fixedPercent(result.row.unexplained),
+            result.flip, fixedPercent(result.eightBits));
     if (!result.row.step.empty()) {
         html += fmt::format(" This row is about the step <code>{}</code>: {}, at most {} allowed{}.",
-                            escapedHtml(result.row.step), percent(result.stepError()), percent(result.row.limit),
-                            result.isWithinLimit() ? "" : ": <b>too much</b>");
+                            escapedHtml(result.row.step), fixedPercent(result.stepError()),
+                            fixedPercent(result.row.limit), result.isWithinLimit() ? "" : ": <b>too much</b>");
     }
     for (StepResult const& other : result.alternatives)
-        html += fmt::format(" {}: {} RMS, {} mean ({}).", escapedHtml(other.title), percent(other.own),
+        html += fmt::format(" {}: {} RMS, {} mean ({}).", escapedHtml(other.title), fixedPercent(other.own),
                             signedPercent(other.bias), escapedHtml(other.approximate));
-    return html + fmt::format("<br><code>{} {}</code></p>", kCommand, escapedHtml(result.row.name));
+    return html + fmt::format("<br><code>{} {}</code></p>", kCompareCommand, escapedHtml(result.row.name));
 }
 
 constexpr const char* kIntroduction =
@@ -197,7 +198,8 @@ std::string closedFormTable(ComparisonResults const& results) {
 Result<std::string> fragmentOf(ComparisonResults const& results, Pictures const& pictures) {
     std::string html = kIntroduction;
     html += fmt::format("<p class=\"small\">Commit {}, {}, on {}. All of it: <code>{}</code></p>",
-                        escapedHtml(results.commit), escapedHtml(results.date), escapedHtml(results.machine), kCommand);
+                        escapedHtml(results.commit), escapedHtml(results.date), escapedHtml(results.machine),
+                        kCompareCommand);
     html += closedFormTable(results);
     for (RowResult const& row : results.rows) {
         const Result<std::string> figures = figuresOf(row, pictures);
@@ -208,10 +210,10 @@ Result<std::string> fragmentOf(ComparisonResults const& results, Pictures const&
     for (Skipped const& one : results.skipped)
         html += fmt::format("<p class=\"small\">{}: not compared, no {}</p>", escapedHtml(one.name),
                             escapedHtml(one.reason));
-    return html + kHowToAdd + "</section>\n";
+    return html + kHowToAddRow + "</section>\n";
 }
 
-Result<void> writeText(fs::path const& path, std::string const& text) {
+Result<void> writeComparisonText(fs::path const& path, std::string const& text) {
     return assets::replaceFile(path, std::as_bytes(std::span(text)));
 }
 
@@ -230,8 +232,8 @@ Result<void> writeComparison(ComparisonResults const& results, fs::path const& o
     const Result<std::string> fragment = fragmentOf(results, Pictures(out / "comparison"));
     if (!fragment) return fragment.error();
     const std::string json = jsonOf(results).dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
-    if (const Result<void> written = writeText(out / "comparison.json", json); !written) return written;
-    return writeText(out / "comparison.fragment.html", *fragment);
+    if (const Result<void> written = writeComparisonText(out / "comparison.json", json); !written) return written;
+    return writeComparisonText(out / "comparison.fragment.html", *fragment);
 }
 
 std::string textOf(ComparisonResults const& results) {
@@ -242,15 +244,17 @@ std::string textOf(ComparisonResults const& results) {
     }
     for (RowResult const& row : results.rows) {
         text += fmt::format("{}: RMS {}, mean {}, noise {}, unexplained {} of at most {}{}\n", row.row.name,
-                            percent(row.rms), signedPercent(row.bias), percent(row.noise), percent(row.unexplained),
-                            percent(row.row.unexplained), row.isExplained() ? "" : "  TOO MUCH");
+                            fixedPercent(row.rms), signedPercent(row.bias), fixedPercent(row.noise),
+                            fixedPercent(row.unexplained), fixedPercent(row.row.unexplained),
+                            row.isExplained() ? "" : "  TOO MUCH");
         if (!row.row.step.empty()) {
-            text += fmt::format("    {}: {} of at most {}{}\n", row.row.step, percent(row.stepError()),
-                                percent(row.row.limit), row.isWithinLimit() ? "" : "  TOO MUCH");
+            text += fmt::format("    {}: {} of at most {}{}\n", row.row.step, fixedPercent(row.stepError()),
+                                fixedPercent(row.row.limit), row.isWithinLimit() ? "" : "  TOO MUCH");
         }
         for (StepResult const& step : row.steps) {
             text += fmt::format("    {:<18} changes {:>8}  mean {:>8}  share {:>6.1f} %  left {:>8}\n", step.name,
-                                percent(step.own), signedPercent(step.bias), step.share * 100, percent(step.left));
+                                fixedPercent(step.own), signedPercent(step.bias), step.share * 100,
+                                fixedPercent(step.left));
         }
     }
     return text;

@@ -10,7 +10,7 @@
 namespace filament::accuracy {
 namespace {
 
-constexpr double kFloorOfMean = 0.01;
+constexpr double kDifferenceFloorOfMean = 0.01;
 constexpr int kMapSteps = 24; // colours on each side of white: few, so that maps compress well
 
 bool isBlack(float3 const& pixel) { return pixel == float3(0.0f); }
@@ -55,7 +55,7 @@ DifferenceScale::DifferenceScale(Picture const& truth, Picture const& engine) : 
         mean += glm::length(double3(pixel));
         lit += !isBlack(pixel);
     }
-    const double floor = std::max(kFloorOfMean * mean / std::max<double>(static_cast<double>(lit), 1), 1e-30);
+    const double floor = std::max(kDifferenceFloorOfMean * mean / std::max<double>(static_cast<double>(lit), 1), 1e-30);
     for (uint32_t y = 0; y < truth.height; ++y) {
         for (uint32_t x = 0; x < truth.width; ++x) {
             if (touchesBlack(truth, x, y) || touchesBlack(engine, x, y)) continue;

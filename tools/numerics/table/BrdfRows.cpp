@@ -5,8 +5,6 @@
 namespace filament::shader::numerics {
 namespace {
 
-/// The ranges of clampPerceptualRoughness() and its medium variant, squared.
-Argument alpha() { return inHalf(number("alpha", 0.002025, 1), 0.007921, 1); }
 Argument cosine(std::string_view name) { return unit(name); }
 
 Limits eightRoundings() { return relative(1e-6, 1e-2, "eight roundings at most, none of a difference that cancels"); }

@@ -4,8 +4,6 @@
 namespace filament::shader::numerics {
 namespace {
 
-Argument fraction(std::string_view name) { return { .name = name, .high = 1, .open = true }; }
-
 /// One axis of tangentFrame().
 Row frameRow(std::string_view part, Call call) {
     return { .file = "tangent",

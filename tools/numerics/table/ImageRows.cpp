@@ -21,7 +21,7 @@ Row irradianceRow(std::string_view part, Call call) {
                          .why = "a signed sum: the error is relative to the largest coefficient" } };
 }
 
-std::vector<Row> occlusionRows() {
+std::vector<Row> antiAliasingRows() {
     return {
         { .file = "aa",
           .function = "filteredPerceptualRoughness(float, vec3, vec3, float, float)",
@@ -63,7 +63,7 @@ std::vector<Row> occlusionRows() {
 
 std::vector<Row> imageRows() {
     const Argument levels = number("levelOfRoughnessOne", 1, 14);
-    std::vector<Row> rows = occlusionRows();
+    std::vector<Row> rows = antiAliasingRows();
     const std::vector<Row> ibl{
         { .file = "ibl",
           .function = "levelFromPerceptualRoughness(float, float)",

@@ -4,12 +4,6 @@
 namespace filament::shader::numerics {
 namespace {
 
-/// The ranges of clampPerceptualRoughness() and its medium variant, squared.
-Argument alpha(std::string_view name = "alpha", double high = 1) {
-    return inHalf(number(name, 0.002025, high), 0.007921, high);
-}
-Argument fraction(std::string_view name) { return { .name = name, .high = 1, .open = true }; }
-
 std::vector<Row> anisotropicRows() {
     const std::array<Argument, 4> alphas{ alpha("alpha.x", 2), alpha("alpha.y", 2) };
     return {

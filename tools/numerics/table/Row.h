@@ -120,6 +120,11 @@ inline Argument inHalf(Argument argument, double low, double high) {
     return argument;
 }
 inline Argument unit(std::string_view name) { return number(name, 0, 1); }
+inline Argument fraction(std::string_view name) { return { .name = name, .high = 1, .open = true }; }
+/// The ranges of clampPerceptualRoughness() and its medium variant, squared.
+inline Argument alpha(std::string_view name = "alpha", double high = 1) {
+    return inHalf(number(name, 0.002025, high), 0.007921, high);
+}
 inline Argument integer(std::string_view name, double low, double high) { return { name, Kind::Integer, low, high }; }
 inline Argument direction(std::string_view name) { return { name, Kind::Direction, -1, 1 }; }
 inline Argument colour(std::string_view name, double high) { return { name, Kind::Colour, 0, high }; }

@@ -27,7 +27,7 @@ std::string errorOf(TestFile const& file) {
 }
 
 /// Two joints, the second a child of the first; the third vertex is attached to both, with weights that sum to 2.
-TestFile skinnedTriangle() {
+TestFile namedSkin() {
     TestFile file = TestFile::triangle();
     file.normals({ 0, 0, 1, 0, 0, 1, 0, 0, 1 });
     file.attribute("JOINTS_0", std::vector<uint8_t>{ 0, 77, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0 }, kUByte, "VEC4", 4);
@@ -53,7 +53,7 @@ std::array<uint8_t, 4> jointsOf(PrimitiveData const& primitive, uint32_t vertex,
 }
 
 TEST(GltfDeformation, KeepsVerticesWhereTheyWereBoundAndWeightsThatSumToOne) {
-    const ModelData model = kept(skinnedTriangle());
+    const ModelData model = kept(namedSkin());
     ASSERT_EQ(model.skins.size(), 1u);
     EXPECT_EQ(model.skins[0].name, "leg");
     ASSERT_EQ(model.skins[0].joints.size(), 2u);
@@ -75,7 +75,7 @@ TEST(GltfDeformation, KeepsVerticesWhereTheyWereBoundAndWeightsThatSumToOne) {
 }
 
 TEST(GltfDeformation, KeepsEightJointsAVertex) {
-    TestFile file = skinnedTriangle();
+    TestFile file = namedSkin();
     file.attribute("JOINTS_1", std::vector<uint16_t>{ 1, 0, 0, 0, 1, 1, 1, 1, 0, 0, 0, 1 }, kUShort, "VEC4", 4);
     file.attribute("WEIGHTS_1", std::vector<float>{ 0, 0, 0, 0, 1, 1, 1, 0, 2, 0, 0, 0 }, kFloat, "VEC4", 4);
     const PrimitiveData primitive = kept(file).meshes[0].primitives[0];
@@ -86,7 +86,7 @@ TEST(GltfDeformation, KeepsEightJointsAVertex) {
 }
 
 TEST(GltfDeformation, WeightsThatAreExactIntegersStayIntegers) {
-    TestFile file = skinnedTriangle();
+    TestFile file = namedSkin();
     file.attribute("WEIGHTS_0", std::vector<uint8_t>{ 255, 0, 0, 0, 255, 0, 0, 0, 100, 155, 0, 0 }, kUByte, "VEC4", 4,
                    true);
     EXPECT_EQ(formatOf(kept(file).meshes[0].primitives[0], shader::kAttributeWeights), VertexFormat::UByte4N);
@@ -98,13 +98,13 @@ TEST(GltfDeformation, WeightsThatAreExactIntegersStayIntegers) {
 }
 
 TEST(GltfDeformation, JointsThatTheSkinLacksAreRefused) {
-    TestFile file = skinnedTriangle();
+    TestFile file = namedSkin();
     file.attribute("JOINTS_0", std::vector<uint8_t>{ 0, 0, 0, 0, 2, 0, 0, 0, 0, 1, 0, 0 }, kUByte, "VEC4", 4);
     EXPECT_THAT(errorOf(file), HasSubstr("meshes[0].primitives[0]: names a joint that its skin lacks"));
 }
 
 TEST(GltfDeformation, SkinsOfMoreThan256JointsStandStillAndSaySo) {
-    TestFile file = skinnedTriangle();
+    TestFile file = namedSkin();
     for (size_t i = 3; i < 260; ++i) {
         file.root["nodes"].push_back(Json::object());
         file.root["skins"][0]["joints"].push_back(i);
@@ -117,7 +117,7 @@ TEST(GltfDeformation, SkinsOfMoreThan256JointsStandStillAndSaySo) {
 }
 
 TEST(GltfDeformation, JointsOutsideOfTheSceneComeAlongWithoutTheirMeshes) {
-    TestFile file = skinnedTriangle();
+    TestFile file = namedSkin();
     file.root["scenes"][0]["nodes"] = { 0 };
     file.root["nodes"][1]["mesh"] = 0;
     const ModelData model = kept(file);

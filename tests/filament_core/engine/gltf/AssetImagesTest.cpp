@@ -40,14 +40,14 @@ constexpr std::array kEnvironments{ "studio_small_03_1k.hdr", "st_fagans_interio
                                     "spiaggia_di_mondello_1k.hdr" };
 
 /// One engine with all environments, kept for all models: these tests do not measure loading.
-struct Stage {
+struct LitEngine {
     Engine engine;
     std::vector<Environment> environments;
 
-    static std::unique_ptr<Stage> make(Backend backend) {
+    static std::unique_ptr<LitEngine> make(Backend backend) {
         auto engine = test::makeEngine(backend);
         if (!engine) return nullptr;
-        auto stage = std::unique_ptr<Stage>(new Stage{ std::move(*engine), {} });
+        auto stage = std::unique_ptr<LitEngine>(new LitEngine{ std::move(*engine), {} });
         for (const char* name : kEnvironments) {
             auto environment = loadEnvironment(stage->engine, tools::assetDir() / "environments" / name);
             if (!environment) {
@@ -64,15 +64,15 @@ class AssetImagesTest : public test::AssetTest, public testing::WithParamInterfa
 protected:
     static void SetUpTestSuite() {
         if (tools::assetDir().empty()) return;
-        sVulkan = Stage::make(Backend::Vulkan);
-        sGles = Stage::make(Backend::Gles);
+        sVulkan = LitEngine::make(Backend::Vulkan);
+        sGles = LitEngine::make(Backend::Gles);
     }
     static void TearDownTestSuite() {
         sVulkan.reset();
         sGles.reset();
     }
 
-    static Result<std::vector<Image>> render(Stage& stage, std::string const& file) {
+    static Result<std::vector<Image>> render(LitEngine& stage, std::string const& file) {
         auto model = loadGltf(stage.engine, tools::assetDir() / "models" / file);
         if (!model) return model.error();
         Scene scene(stage.engine);
@@ -90,7 +90,7 @@ protected:
         return images;
     }
 
-    inline static std::unique_ptr<Stage> sVulkan, sGles;
+    inline static std::unique_ptr<LitEngine> sVulkan, sGles;
 };
 
 bool isFlat(Image const& image) {

@@ -30,7 +30,7 @@ constexpr const char* kModel = R"({ "asset": { "version": "2.0" }, "scene": 0, "
     "buffers": [ { "byteLength": 36,
         "uri": "data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAA" } ] })";
 
-const float4 kRed(1, 0, 0, 1), kGreen(0, 1, 0, 1), kBlue(0, 0, 1, 1), kWhite(1);
+const float4 kRedPaint(1, 0, 0, 1), kGreenPaint(0, 1, 0, 1), kBluePaint(0, 0, 1, 1), kWhitePaint(1);
 
 class ModelVariantsTest : public testing::TestWithParam<Backend> {
 protected:
@@ -69,13 +69,13 @@ protected:
 TEST_P(ModelVariantsTest, AVariantChangesWhatItNamesAndTheEmptyNameBringsTheFileBack) {
     const Node copy = scene->add(*model);
     EXPECT_EQ(model->variantNames(), (std::vector<std::string>{ "signal red", "green" }));
-    EXPECT_EQ(colors(), std::pair(kBlue, kWhite));
+    EXPECT_EQ(colors(), std::pair(kBluePaint, kWhitePaint));
     ASSERT_TRUE(scene->setVariant(copy, "signal red"));
-    EXPECT_EQ(colors(), std::pair(kRed, kWhite));
+    EXPECT_EQ(colors(), std::pair(kRedPaint, kWhitePaint));
     ASSERT_TRUE(scene->setVariant(copy, "green"));
-    EXPECT_EQ(colors(), std::pair(kGreen, kGreen));
+    EXPECT_EQ(colors(), std::pair(kGreenPaint, kGreenPaint));
     ASSERT_TRUE(scene->setVariant(copy, ""));
-    EXPECT_EQ(colors(), std::pair(kBlue, kWhite));
+    EXPECT_EQ(colors(), std::pair(kBluePaint, kWhitePaint));
 }
 
 TEST_P(ModelVariantsTest, CopiesOfAModelChangeOneByOne) {
@@ -84,18 +84,18 @@ TEST_P(ModelVariantsTest, CopiesOfAModelChangeOneByOne) {
     above[3].y = 5;
     const Node high = scene->add(*model, above);
     ASSERT_TRUE(scene->setVariant(high, "green"));
-    EXPECT_EQ(colors(), std::pair(kBlue, kWhite));
-    EXPECT_EQ(colors(5), std::pair(kGreen, kGreen));
+    EXPECT_EQ(colors(), std::pair(kBluePaint, kWhitePaint));
+    EXPECT_EQ(colors(5), std::pair(kGreenPaint, kGreenPaint));
     scene->remove(high);
     ASSERT_TRUE(scene->setVariant(low, "signal red"));
-    EXPECT_EQ(colors(), std::pair(kRed, kWhite));
+    EXPECT_EQ(colors(), std::pair(kRedPaint, kWhitePaint));
 }
 
 TEST_P(ModelVariantsTest, WhatWasRemovedFromACopyIsLeftAlone) {
     const Node copy = scene->add(*model);
     scene->remove(scene->findNode("left", copy));
     ASSERT_TRUE(scene->setVariant(copy, "green"));
-    EXPECT_EQ(colors().second, kGreen);
+    EXPECT_EQ(colors().second, kGreenPaint);
     EXPECT_EQ(scene->renderableCount(), 1u);
 }
 
@@ -105,7 +105,7 @@ TEST_P(ModelVariantsTest, AnUnknownNameSaysWhatMayHaveBeenMeantAndChangesNothing
     ASSERT_FALSE(done);
     EXPECT_EQ(done.error().code, ErrorCode::InvalidArgument);
     EXPECT_EQ(done.error().message, model->name() + " has no variant 'gren'; did you mean 'green'?");
-    EXPECT_EQ(colors(), std::pair(kBlue, kWhite));
+    EXPECT_EQ(colors(), std::pair(kBluePaint, kWhitePaint));
 }
 
 TEST_P(ModelVariantsTest, ANodeThatIsNoCopyIsRefusedByName) {

@@ -13,7 +13,7 @@ using test::Square;
 
 constexpr float4 kSource{ 0.5f, 0.25f, 0.125f, 0.5f }, kTarget{ 0.25f, 0.5f, 0.75f, 1 };
 
-std::string vertexColored(std::string_view properties) {
+std::string inVertexColor(std::string_view properties) {
     return fmt::format(R"(material {{ name : stage, shadingModel : unlit, requires : [ color ], {} }}
 fragment {{ void material(inout MaterialInputs material) {{
     prepareMaterial(material);
@@ -25,7 +25,7 @@ fragment {{ void material(inout MaterialInputs material) {{
 float4 blended(std::string_view properties) {
     return centerPixel(onBothApis([&](MaterialStage& stage) {
         stage.view.clearColor = kTarget;
-        stage.add(stage.material(vertexColored(properties)), { { .color = kSource } });
+        stage.add(stage.material(inVertexColor(properties)), { { .color = kSource } });
     }));
 }
 
@@ -79,8 +79,8 @@ float4 frontThenBack(std::string_view front, std::string_view back) {
         double4x4 nearer(1.0);
         nearer[3].z = 1;
         // Blended materials are drawn after opaque ones, and the farther one of two blended ones first.
-        stage.add(stage.material(vertexColored(front)), { { .color = float4(1, 0, 0, 1) } }, nearer);
-        stage.add(stage.material(vertexColored(back)), { { .color = float4(0, 1, 0, 1) } });
+        stage.add(stage.material(inVertexColor(front)), { { .color = float4(1, 0, 0, 1) } }, nearer);
+        stage.add(stage.material(inVertexColor(back)), { { .color = float4(0, 1, 0, 1) } });
     }));
 }
 
@@ -98,7 +98,7 @@ TEST(Depth, WritingAndTestingAreWhatTheMaterialSays) {
 TEST(Depth, BlendedMaterialsWriteNoneUnlessTheySaySo) {
     const auto nearBeforeFar = [](std::string_view properties) {
         return centerPixel(onBothApis([&](MaterialStage& stage) {
-            stage.add(stage.material(vertexColored(properties)),
+            stage.add(stage.material(inVertexColor(properties)),
                       { { 1, float4(0.5f, 0, 0, 0.5f) }, { 0, float4(0, 0.5f, 0, 0.5f) } });
         }));
     };

@@ -111,17 +111,19 @@ float4 normalSeen(std::string_view properties, bool facesCamera, std::optional<b
     }));
 }
 
-constexpr float4 kTowards{ 0.5f, 0.5f, 1, 1 }, kAway{ 0.5f, 0.5f, 0, 1 };
+constexpr float4 kTowardsCamera{ 0.5f, 0.5f, 1, 1 }, kAwayFromCamera{ 0.5f, 0.5f, 0, 1 };
 
 TEST(DoubleSided, TurnsTheNormalsOfBackFacesAroundAndCanBeSwitchedAtRunTime) {
-    EXPECT_EQ(normalSeen("doubleSided : true", false), kAway) << "the normal of +z, seen from behind, turned around";
-    EXPECT_EQ(normalSeen("doubleSided : true", true), kTowards);
+    EXPECT_EQ(normalSeen("doubleSided : true", false), kAwayFromCamera)
+            << "the normal of +z, seen from behind, turned around";
+    EXPECT_EQ(normalSeen("doubleSided : true", true), kTowardsCamera);
     EXPECT_EQ(normalSeen("doubleSided : true", false, false), kBlack) << "back faces are culled";
     EXPECT_EQ(normalSeen("doubleSided : false", false), kBlack);
-    EXPECT_EQ(normalSeen("doubleSided : false", false, true), kAway);
-    EXPECT_EQ(normalSeen("doubleSided : false, culling : none", false), kTowards) << "drawn, but not turned around";
-    EXPECT_EQ(normalSeen("doubleSided : true, culling : none", false, false), kTowards);
-    EXPECT_EQ(normalSeen("doubleSided : true, culling : none", false), kAway);
+    EXPECT_EQ(normalSeen("doubleSided : false", false, true), kAwayFromCamera);
+    EXPECT_EQ(normalSeen("doubleSided : false, culling : none", false), kTowardsCamera)
+            << "drawn, but not turned around";
+    EXPECT_EQ(normalSeen("doubleSided : true, culling : none", false, false), kTowardsCamera);
+    EXPECT_EQ(normalSeen("doubleSided : true, culling : none", false), kAwayFromCamera);
 }
 
 TEST(DoubleSided, AMaterialThatDoesNotMentionItSaysHowToAllowIt) {

@@ -23,16 +23,16 @@ const std::array kColors{ float3(0),
                           float3(7, 7, 0.01f),
                           float3(0.2f, 5, 0.2f) };
 
-using Bytes = std::array<uint8_t, 4>;
+using Rgba8 = std::array<uint8_t, 4>;
 
 /// Each of kColors as sent to the display.
-std::vector<Bytes> shown(Engine& engine, ToneMapper mapper, ToneMapping mapping, uint8_t samples = 1) {
+std::vector<Rgba8> shown(Engine& engine, ToneMapper mapper, ToneMapping mapping, uint8_t samples = 1) {
     Scene scene(engine);
     Renderer renderer(engine);
     View view{ .size = { 4, 4 }, .samples = samples };
     view.colorGrading.toneMapper = mapper;
     view.quality.toneMapping = mapping;
-    std::vector<Bytes> all;
+    std::vector<Rgba8> all;
     for (float3 const& color : kColors) {
         view.clearColor = float4(color, 1);
         auto image = renderer.renderToImage(scene, view);
@@ -40,7 +40,7 @@ std::vector<Bytes> shown(Engine& engine, ToneMapper mapper, ToneMapping mapping,
             ADD_FAILURE() << image.error().message;
             return {};
         }
-        std::memcpy(all.emplace_back().data(), image->pixels.data(), sizeof(Bytes));
+        std::memcpy(all.emplace_back().data(), image->pixels.data(), sizeof(Rgba8));
     }
     test::expectNoErrors(engine);
     return all;
@@ -77,7 +77,7 @@ class QualityToneTest : public testing::TestWithParam<Backend> {};
 TEST_P(QualityToneTest, ATableIsInterpolatedTetrahedrally) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
-    const std::vector<Bytes> bytes = shown(*engine, ToneMapper::Aces, ToneMapping::Table16);
+    const std::vector<Rgba8> bytes = shown(*engine, ToneMapper::Aces, ToneMapping::Table16);
     ASSERT_EQ(bytes.size(), kColors.size());
     jobs::JobSystem jobs({ .workers = 0 });
     const assets::Image table = assets::bakeToneTable(jobs, lib::kToneMapAces, 16);
@@ -93,11 +93,11 @@ TEST_P(QualityToneTest, ATableIsInterpolatedTetrahedrally) {
 TEST_P(QualityToneTest, LargerTablesAreNearerToTheFormula) {
     auto engine = test::makeEngine(GetParam());
     ASSERT_TRUE(engine);
-    const std::vector<Bytes> exact = shown(*engine, ToneMapper::Aces, ToneMapping::Analytic);
+    const std::vector<Rgba8> exact = shown(*engine, ToneMapper::Aces, ToneMapping::Analytic);
     int largest[3] = {};
     const ToneMapping sizes[] = { ToneMapping::Table16, ToneMapping::Table32, ToneMapping::Table64 };
     for (size_t size = 0; size < 3; ++size) {
-        const std::vector<Bytes> looked = shown(*engine, ToneMapper::Aces, sizes[size]);
+        const std::vector<Rgba8> looked = shown(*engine, ToneMapper::Aces, sizes[size]);
         ASSERT_EQ(looked.size(), exact.size());
         for (size_t i = 0; i < exact.size(); ++i) {
             for (size_t c = 0; c < 3; ++c)
