@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/reference/TracedScene.h"
 
-#include "base/math/Box.h"
+#include "filament_core/assets/gltf/ModelBounds.h"
 #include "tools/reference/Material.h"
 
 #include <algorithm>
@@ -36,14 +36,6 @@ bool isFinite(double4x4 const& m) {
         for (int row = 0; row < 4; ++row) finite = finite && std::isfinite(m[column][row]);
     }
     return finite;
-}
-
-void grow(Box& box, PrimitiveData const& primitive, double4x4 const& worldFromObject) {
-    const CenteredBox bounds = boxFromMinMax(primitive.boundsMin, primitive.boundsMax);
-    const double3 center(worldFromObject * double4(double3(bounds.center), 1.0));
-    const double3 half(transformedHalfExtent(worldFromObject, bounds.halfExtent));
-    box.min = glm::min(box.min, center - half);
-    box.max = glm::max(box.max, center + half);
 }
 
 assets::MaterialData const& materialOf(ModelData const& model, PrimitiveData const& primitive) {
@@ -142,7 +134,7 @@ private:
                     if (!isSurface || primitive.indexCount < 3) continue;
                     placements.push_back({ &model, &primitive, world, &finish, scaleOf(node.worldFromNode),
                                            scaleOf(worldFromModel) });
-                    grow(bounds, primitive, world);
+                    assets::growBounds(bounds, primitive, world);
                 }
             }
             addLights(model, node, world, lights);
@@ -183,15 +175,7 @@ void moveLights(ReferenceScene& lights, double3 origin) {
 
 } // namespace
 
-Box modelBounds(ModelData const& model) {
-    Box box;
-    for (NodeData const& node : model.nodes) {
-        if (node.mesh == kNone) continue;
-        for (PrimitiveData const& primitive : model.meshes[node.mesh].primitives)
-            grow(box, primitive, node.worldFromNode);
-    }
-    return box;
-}
+Box modelBounds(ModelData const& model) { return assets::boundsOf(model); }
 
 Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::JobSystem& jobs) {
     if (const Result<void> checked = checkScene(scene); !checked) return checked.error();

@@ -72,9 +72,9 @@ void keepSkin(size_t jointCount, std::string const& path, GltfGeometry& geometry
 /// By joint: bounds of the vertices that it moves.
 std::vector<BoundsData> boundsOfBones(GltfGeometry const& geometry);
 
-/// Bounds in the rest pose, including morphing and skinning left to the device.
-BoundsData boundsAtRest(GltfGeometry const& geometry, std::span<const float> weights,
-                        std::span<const float4x4> worldFromBind);
+/// Positions in the rest pose, including morphing and skinning left to the device.
+std::vector<float3> positionsAtRest(GltfGeometry const& geometry, std::span<const float> weights,
+                                    std::span<const float4x4> worldFromBind);
 
 /// Checks the indices and turns strips, fans and loops into lists (section 3.7.2.1).
 void makeList(GltfMode mode, std::string const& path, GltfGeometry& geometry, Diagnostics& diagnostics);

@@ -128,8 +128,8 @@ std::vector<BoundsData> boundsOfBones(GltfGeometry const& geometry) {
     return bounds;
 }
 
-BoundsData boundsAtRest(GltfGeometry const& geometry, std::span<const float> weights,
-                        std::span<const float4x4> worldFromBind) {
+std::vector<float3> positionsAtRest(GltfGeometry const& geometry, std::span<const float> weights,
+                                    std::span<const float4x4> worldFromBind) {
     GltfGeometry posed;
     posed.positions = geometry.positions;
     for (size_t t = 0; t < std::min(weights.size(), geometry.targets.size()); ++t) {
@@ -143,9 +143,7 @@ BoundsData boundsAtRest(GltfGeometry const& geometry, std::span<const float> wei
         applySkin(worldFromBind, "", posed, ignored);
     }
     replaceNonFinite({ &posed.positions[0].x, posed.positions.size() * 3 });
-    BoundsData bounds;
-    for (float3 const& position : posed.positions) bounds.add(position);
-    return bounds;
+    return std::move(posed.positions);
 }
 
 } // namespace filament::assets

@@ -60,9 +60,11 @@ PrimitiveData build(GltfDocument const& document, GltfMeshRequest const& request
     replaceOverflow(path, geometry, diagnostics);
     addFlatNormals(geometry);
     if (const uint32_t uvSet = tangentUvSet(document, primitive); uvSet != kNone) addTangents(geometry, uvSet);
-    const BoundsData restBounds = boundsAtRest(geometry, request.weights, request.worldFromBind);
+    std::vector<float3> atRest = positionsAtRest(geometry, request.weights, request.worldFromBind);
+    const bool isDeformed = geometry.isSkinned || !geometry.targets.empty();
     PrimitiveData packed = packGeometry(std::move(geometry), storage);
-    packed.restBounds = restBounds;
+    for (float3 const& position : atRest) packed.restBounds.add(position);
+    if (isDeformed) packed.restPositions = std::move(atRest);
     return packed;
 }
 

@@ -72,6 +72,7 @@ struct PrimitiveData {
     std::vector<BoundsData> boneBounds{}; ///< by joint, of the vertices that it moves; ends with the last such joint
     std::vector<MorphTargetData> morphTargets{};
     BoundsData restBounds{}; ///< in the final space of positions, with the weights and joints of the rest pose
+    std::vector<float3> restPositions{}; ///< the vertices of that box, if the device deforms them; else empty
 };
 
 struct MeshData {

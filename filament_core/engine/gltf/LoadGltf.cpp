@@ -4,6 +4,7 @@
 #include "base/OutOfMemory.h"
 #include "base/Suggest.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
+#include "filament_core/assets/gltf/ModelBounds.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
 
@@ -45,7 +46,6 @@ private:
         double4x4 meshFromPositions{ 1.0 };
         bool isScaled = false;
         bool isSkinned = false;
-        Box restBounds{}; ///< in the space of the mesh, or of its skin
     };
 
     void uploadImages() {
@@ -67,12 +67,9 @@ private:
                 // In the order of the meshes, which determines the order of draws.
                 if (!materialOf(primitive.material).transmission.isSolid())
                     instanceFor(primitive.material, primitive.hasColor, double4x4(1.0));
-                parts.push_back({ upload(primitive, mesh.name),
-                                  &primitive,
-                                  meshFromPositions(primitive),
+                parts.push_back({ upload(primitive, mesh.name), &primitive, meshFromPositions(primitive),
                                   primitive.positionScale != 1 || primitive.positionOffset != float3(0),
-                                  primitive.isSkinned,
-                                  { double3(primitive.restBounds.min), double3(primitive.restBounds.max) } });
+                                  primitive.isSkinned });
             }
         }
     }
@@ -149,7 +146,7 @@ private:
 
     /// Positions scaled to a unit cube get a node of their own that restores their size.
     void placePart(Part const& part, uint32_t node, double4x4 const& worldFromNode) {
-        growBounds(part.restBounds, worldFromNode);
+        assets::growBounds(mModel->bounds, *part.primitive, worldFromNode);
         uint32_t at = node;
         if (part.isScaled) {
             at = static_cast<uint32_t>(mData.nodes.size() + mScalingNodes.size());
@@ -191,14 +188,6 @@ private:
         double4x4 matrix(static_cast<double>(primitive.positionScale));
         matrix[3] = double4(double3(primitive.positionOffset), 1);
         return matrix;
-    }
-
-    void growBounds(Box const& part, double4x4 const& modelFromPart) {
-        const CenteredBox box = boxFromMinMax(float3(part.min), float3(part.max));
-        const double3 center(modelFromPart * double4(double3(box.center), 1.0));
-        const double3 half(transformedHalfExtent(modelFromPart, box.halfExtent));
-        mModel->bounds.min = glm::min(mModel->bounds.min, center - half);
-        mModel->bounds.max = glm::max(mModel->bounds.max, center + half);
     }
 
     // KHR_lights_punctual: at the origin of its node, shining along -Z.
