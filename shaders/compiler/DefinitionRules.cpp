@@ -10,6 +10,8 @@ namespace filament::shader {
 namespace {
 
 bool blends(Blending blending) { return blending != Blending::Opaque && blending != Blending::Masked; }
+/// Fading scales all light, so alpha can say how much of a refracting surface is there.
+bool blendsRefraction(Blending blending) { return blends(blending) && blending != Blending::Fade; }
 bool isUnlit(MaterialDefinition const& definition) { return definition.package.shading == ShadingModel::Unlit; }
 bool refracts(MaterialDefinition const& definition) {
     return definition.package.refractionMode != RefractionMode::None;
@@ -71,8 +73,9 @@ constexpr Contradiction kContradictions[] = {
       "refractionMode",
       "a subsurface material scatters light, and its thickness is a fraction; to refract, use shadingModel : "
       "lit" },
-    { [](MaterialDefinition const& d) { return refracts(d) && blends(d.package.blending); }, "refractionMode",
-      "a refracting material shows the background itself and is drawn opaque; leave out blending" },
+    { [](MaterialDefinition const& d) { return refracts(d) && blendsRefraction(d.package.blending); }, "refractionMode",
+      "a refracting material shows the background itself; leave out blending, or set blending : fade where alpha is "
+      "coverage" },
     { [](MaterialDefinition const& d) { return d.package.shadowMultiplier && !isUnlit(d); }, "shadowMultiplier",
       "shadowMultiplier is for shadingModel : unlit; lit materials receive shadows anyway" },
     { [](MaterialDefinition const& d) { return d.customSurfaceShading && d.package.shading != ShadingModel::Lit; },

@@ -36,7 +36,6 @@ void evaluateMaps(MaterialPoint const& point, SurfaceSample& surface) {
     }
     surface.emitted = double3(material.emissiveFactor * material.emissiveStrength);
     if (has(material.emissive)) surface.emitted *= double3(point.fetch(material.emissive));
-    surface.emitted *= surface.opacity;
 }
 
 void evaluateMetallicRoughness(MaterialPoint const& point, double3 baseColor, SurfaceSample& surface) {
@@ -95,10 +94,7 @@ SurfaceSample surfaceAt(Part const& part, TrianglePoint const& point, double3 vi
     surface.selfAvoidance = 0x1p-20 * (std::max({ size.x, size.y, size.z }) + varyings.longestEdge);
 
     double4 color = baseColorOf(at);
-    if (part.material->alphaMode == AlphaMode::Blend) {
-        surface.opacity = std::clamp(color.w, 0.0, 1.0);
-        color *= double4(double3(surface.opacity), 1.0); // glTF's colours are not pre-multiplied
-    }
+    if (part.material->alphaMode == AlphaMode::Blend) surface.opacity = std::clamp(color.w, 0.0, 1.0);
     if (part.material->unlit) {
         surface.scatters = false;
         surface.emitted = double3(color);

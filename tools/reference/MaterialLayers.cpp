@@ -100,7 +100,7 @@ void addDiffuseTransmission(MaterialPoint const& point, double transmitted, Surf
     const double4 maps = point.fetchColorAndScalar(data.maps);
     const double part = lib::saturate(data.factor * maps.w);
     const double3 albedo = lib::saturate(double3(data.color) * double3(maps)) * (1 - surface.metallic);
-    surface.diffuseTransmission.color = albedo * (surface.opacity * part * (1 - transmitted));
+    surface.diffuseTransmission.color = albedo * (part * (1 - transmitted));
     surface.diffuse *= 1 - part;
 }
 

@@ -11,7 +11,7 @@
 namespace filament::reference {
 
 /// In: normal, tangent, opacity, metallic, diffuse, f0, f90 and perceptualRoughness without extensions.
-/// `baseColor`: times opacity if the material blends. `roughness`: perceptual, [0, 1], not yet clamped.
+/// `roughness`: perceptual, [0, 1], not yet clamped.
 void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, SurfaceSample& surface);
 
 } // namespace filament::reference

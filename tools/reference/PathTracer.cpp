@@ -95,7 +95,7 @@ Bsdf PathTracer::bsdfAt(SurfaceSample const& surface) const {
     return Bsdf(surface, mSettings.bsdf, mUseOcclusion, mSettings.integrator == Integrator::Unoccluded);
 }
 
-// The next surface on the path. Blended surfaces are chosen at random: even one of low opacity may reflect much.
+// The next surface on the path. Blended surfaces are chosen at random; a lamp's reflection may outshine a low opacity.
 std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
     path.ray.passed = path.passed.count > 0 ? &path.passed : nullptr;
     while (true) {
@@ -108,7 +108,7 @@ std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
 
         const double chance = 0.1 + 0.9 * surface.opacity;
         if (path.numbers.pair(kFirstLayer + path.layers++).x < chance || path.passed.isFull()) {
-            path.throughput /= chance;
+            path.throughput *= surface.opacity / chance;
             return surface;
         }
         path.throughput *= (1 - surface.opacity) / (1 - chance);

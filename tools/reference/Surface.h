@@ -62,7 +62,7 @@ struct SurfaceSample {
     std::optional<double3> unmappedNormal; ///< the normal before a normal map tilted it; none: there is no map
     double3 view{ 0, 0, 1 };               ///< towards the ray's origin
 
-    double3 diffuse{ 0.0 }; ///< albedo of the diffuse lobe, times opacity if the material blends
+    double3 diffuse{ 0.0 }; ///< albedo of the diffuse lobe
     double3 f0{ 0.04 };
     double f90 = 1;
     double metallic = 0; ///< edge tint of the exact Fresnel term
@@ -80,7 +80,7 @@ struct SurfaceSample {
     TransmissionSample transmission{};
     DiffuseTransmissionSample diffuseTransmission{};
 
-    double opacity = 1;          ///< 1 - straight transmission
+    double opacity = 1;          ///< covered fraction: all that this struct says is of that fraction
     double3 emitted{ 0.0 };      ///< radiance as added to the picture: not exposed, see gltf/lit.glsl
     bool scatters = true;        ///< false: unlit; emits its colour and reflects nothing
     double selfAvoidance = 1e-6; ///< metres along the geometric normal that keep a new ray from hitting this surface

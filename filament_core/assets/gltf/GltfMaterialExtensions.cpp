@@ -109,11 +109,6 @@ void parseTransmission(Extensions const& extensions, GltfMaterial& material) {
     const JsonNode node = extensions.at("KHR_materials_transmission");
     material.values.transmission.factor = node["transmissionFactor"].numberInRange(0, 0, 1);
     material.transmission.first = extensions.texture(node, "transmissionTexture");
-    if (material.values.transmission.isUsed() && material.values.alphaMode == AlphaMode::Blend) {
-        node.diagnostics().warn("{}: refraction already shows the background, so alphaMode BLEND is drawn as OPAQUE",
-                                node.path());
-        material.values.alphaMode = AlphaMode::Opaque;
-    }
     parseVolume(extensions, material);
     const JsonNode dispersion = extensions.at("KHR_materials_dispersion");
     if (dispersion.exists() && !extensions.at("KHR_materials_volume").exists()) {

@@ -14,7 +14,7 @@ vec4 gltfBaseColor() {
                 materialParams.baseColorUvMatrix);
         color *= texture(materialParams_baseColorMap, uv);
     }
-#if defined(BLEND_MODE_TRANSPARENT)
+#if defined(BLEND_MODE_TRANSPARENT) || defined(BLEND_MODE_FADE)
     color.rgb *= color.a; // glTF's colours are not pre-multiplied
 #endif
     return color;

@@ -18,11 +18,12 @@ constexpr float kBackground = 0.25f; // exact in half floats
 /// A sphere in a white environment.
 class Furnace {
 public:
-    explicit Furnace(Engine& engine)
+    explicit Furnace(Engine& engine, const char* package = "gltf_lit_opaque")
             : mEngine(engine), mEnvironment(engine), mSphere(engine, scenes::makeSphere()), mScene(engine) {
         mEnvironment.light(mScene, mView.camera);
-        mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial("gltf_lit_opaque") }));
+        mMaterial = engine.own(*engine.create(MaterialDesc{ .package = shader::engineMaterial(package) }));
         mInstance = engine.own(engine.createInstance(mMaterial, "white"));
+        EXPECT_TRUE(engine.setDoubleSided(mInstance, false)); // else the far half shows through the near one
         mScene.add(mSphere.renderable(mInstance));
         mView.camera = Camera::lookAt({ 0, 0, kDistance }, { 0, 0, 0 }, { .verticalFovDegrees = kFovDegrees });
         mView.size = { kPixels, kPixels };
@@ -113,6 +114,23 @@ TEST_P(FurnaceTest, ABlackDielectricShowsItsFresnelReflectanceOnly) {
     const Image image = furnace.render(float4(0, 0, 0, 1), 0, 0.0f);
     // Facing the camera: Schlick at normal incidence is F0 = 4 %.
     EXPECT_NEAR(test::halfPixel(image, 48, 48).x, 0.04f, 0.004f);
+}
+
+// glTF 2.0, 3.9.4: alpha is the covered fraction of the surface. What is not there does not reflect.
+TEST_P(FurnaceTest, ABlendedSphereHidesAsMuchAsItsAlpha) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    for (const char* package : { "gltf_lit_blended", "gltf_layered_blended", "gltf_transmissive_thin_blended",
+                                 "gltf_transmissive_solid_blended" }) {
+        Furnace furnace(*engine, package);
+        for (const float metallic : { 0.0f, 1.0f }) {
+            const Image absent = furnace.render(float4(1, 1, 1, 0), metallic, 0.5f);
+            EXPECT_EQ(test::halfPixel(absent, 48, 48).x, kBackground) << package << ", metallic " << metallic;
+            const Image half = furnace.render(float4(1, 1, 1, 0.5f), metallic, 0.5f);
+            EXPECT_NEAR(test::halfPixel(half, 48, 48).x, 0.5f + 0.5f * kBackground, 0.003f) << package;
+        }
+    }
+    test::expectNoErrors(*engine);
 }
 
 INSTANTIATE_TEST_SUITE_P(BothApis, FurnaceTest, testing::ValuesIn(test::kBothApis),

@@ -86,8 +86,9 @@ constexpr Broken kContradictions[] = {
       "a.mat:2: a full-screen triangle has no instances; leave out instanced" },
     { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.roughness = float(getInstanceIndex());"),
       "a.mat:2: this block calls getInstanceIndex(); that needs the property instanced : true" },
-    { "material {\n blending : fade,\n refractionMode : cubemap }" GOOD_FRAGMENT,
-      "a.mat:3: a refracting material shows the background itself and is drawn opaque; leave out blending" },
+    { "material {\n blending : transparent,\n refractionMode : cubemap }" GOOD_FRAGMENT,
+      "a.mat:3: a refracting material shows the background itself; leave out blending, or set blending : fade where "
+      "alpha is coverage" },
     { "material {\n shadingModel : unlit,\n refractionMode : cubemap }" GOOD_FRAGMENT,
       "a.mat:3: an unlit material cannot refract; use shadingModel : lit" },
     { "material {\n shadowMultiplier : true }" GOOD_FRAGMENT,

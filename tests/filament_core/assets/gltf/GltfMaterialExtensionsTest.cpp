@@ -226,12 +226,13 @@ TEST(GltfMaterialExtensions, TransmissionAndThicknessArePackedAndDiffuseTransmis
     EXPECT_THAT(model.warnings, ElementsAre(AllOf(HasSubstr("materials[0]"), HasSubstr("diffuse_transmission"))));
 }
 
-TEST(GltfMaterialExtensions, WhatTransmitsIsNotBlended) {
+TEST(GltfMaterialExtensions, CoverageAndTransmissionCombine) {
     TestFile file = triangleWith(Json::parse(R"({ "KHR_materials_transmission": { "transmissionFactor": 1 } })"));
     file.root["materials"][0]["alphaMode"] = "BLEND";
     const ModelData model = loaded(file);
-    EXPECT_EQ(model.materials[0].alphaMode, AlphaMode::Opaque);
-    EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("alphaMode BLEND")));
+    EXPECT_EQ(model.materials[0].alphaMode, AlphaMode::Blend);
+    EXPECT_EQ(model.materials[0].transmission.factor, 1);
+    EXPECT_THAT(model.warnings, IsEmpty());
 }
 
 TEST(GltfMaterialExtensions, OneMapOfAPairStandsAlone) {
