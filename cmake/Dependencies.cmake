@@ -4,6 +4,7 @@ find_package(fmt REQUIRED)
 find_package(glm REQUIRED)
 find_package(Vulkan REQUIRED)
 find_package(PNG REQUIRED)
+find_package(JPEG REQUIRED) # libjpeg-turbo
 find_package(ZLIB REQUIRED)
 find_package(glslang REQUIRED)
 find_package(SPIRV-Tools-opt REQUIRED)
@@ -45,7 +46,7 @@ target_link_libraries(shader_tools INTERFACE
 
 add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE
-    nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG
+    nlohmann_json::nlohmann_json meshoptimizer::meshoptimizer tinyexr::tinyexr draco::draco PNG::PNG JPEG::JPEG
     ZLIB::ZLIB)
 
 # The reference renderer's ray tracer. Its CMake package requires TBB's headers, which are not needed here.

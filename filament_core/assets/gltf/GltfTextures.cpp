@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/assets/gltf/GltfTextures.h"
 
+#include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/MipMaps.h"
-#include "filament_core/assets/image/StbImage.h"
 
 #include <exception>
 #include <map>

@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+/// decodeImage: a PNG or JPEG file in memory as RGBA8 pixels.
+///   In      the file's bytes; `name` is used in error messages.
+///   Out     one level, format RGBA8 (the caller knows whether it is sRGB); missing alpha is 255, grey is copied to all
+///           colours. Colour profiles and gamma are ignored, as glTF 2.0, 3.8.3 demands.
+///           PNG: the pixels of the specification (ISO/IEC 15948); 16-bit channels are rounded to 8 (13.12).
+///           JPEG: the accurate integer DCT and triangle-filtered chroma of libjpeg-turbo, whose bits do not depend on
+///           the processor; baseline and progressive; CMYK as Adobe's programs write it, inverted.
+///   Thread  any; no shared state.
+///   Memory  at most 1 GiB of pixels (16384 x 16384), and of progressive JPEGs twice that while decoding; the size is
+///           checked before anything is allocated.
+///   Limits  a JPEG has at most 500 scans: each costs a pass over the whole picture, and some bytes in the file.
+///   Fails   Corrupt or Unsupported with the reason and the byte at which the decoder stopped; never crashes, for any
+///           bytes. Data that is damaged or ends early is an error.
+#pragma once
+
+#include "base/Result.h"
+#include "filament_core/assets/image/Image.h"
+
+#include <span>
+#include <string_view>
+
+namespace filament::assets {
+
+inline constexpr uint32_t kMaxImageSide = 16384;
+
+Result<Image> decodeImage(std::span<const std::byte> bytes, std::string_view name);
+
+/// What decodeImage() calls when the first bytes of the file say so.
+Result<Image> decodePng(std::span<const std::byte> bytes, std::string_view name);
+Result<Image> decodeJpeg(std::span<const std::byte> bytes, std::string_view name);
+
+} // namespace filament::assets
