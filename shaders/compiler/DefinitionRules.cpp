@@ -119,7 +119,9 @@ Result<void> checkSamplers(MaterialDefinition const& definition) {
     uint32_t count = 0;
     for (size_t i = 0; i < package.parameters.size(); ++i) {
         Parameter const& parameter = package.parameters[i];
-        if (!isTexture(parameter.type) || ++count <= budget) continue;
+        if (!isTexture(parameter.type)) continue;
+        count += definition.parameterSources[i].isExternal ? 2 : 1;
+        if (count <= budget) continue;
         const std::string why =
                 package.featureLevel < 3
                         ? fmt::format("every device has {} a stage, of which {}; featureLevel : 3 allows more, where a "

@@ -125,6 +125,29 @@ void declareVariables(StageText& out, MaterialDefinition const& definition) {
     }
 }
 
+// 15 vectors are what OpenGL ES 3.1 has everywhere (MAX_VARYING_VECTORS).
+std::vector<uint32_t> customLocations(MaterialDefinition const& definition, MaterialNeeds const& needs) {
+    constexpr uint32_t kInstanceIndex = 9, kEnd = 15;
+    std::vector<uint32_t> locations;
+    for (uint32_t i = kFirstVariableLocation + static_cast<uint32_t>(definition.variables.size()); i < kEnd; ++i) {
+        if (i != kInstanceIndex || !needs.instanceIndex) locations.push_back(i);
+    }
+    return locations;
+}
+
+void declareCustomVaryings(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs) {
+    const std::vector<uint32_t> locations = customLocations(definition, needs);
+    std::string write;
+    size_t next = 0;
+    for (uint32_t i = 0; i < 8; ++i) {
+        if ((needs.fragmentCustoms >> i & 1) == 0) continue;
+        out.line(
+                fmt::format("layout(location = {}) INTERPOLATION VARYING vec4 vertex_custom{};", locations[next++], i));
+        write += fmt::format("vertex_custom{0} = mesh_custom{0}; ", i);
+    }
+    out.define("MATERIAL_WRITE_CUSTOMS", write);
+}
+
 void defineVariableMacros(StageText& out, MaterialDefinition const& definition) {
     std::string members, clear, write;
     for (Variable const& variable : definition.variables) {

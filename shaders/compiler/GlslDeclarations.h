@@ -3,6 +3,7 @@
 ///   Thread  any. Fails: never.
 #pragma once
 
+#include "shaders/compiler/GlslGenerator.h"
 #include "shaders/compiler/MaterialDefinition.h"
 #include "shaders/compiler/StageText.h"
 
@@ -18,6 +19,11 @@ bool isSubpassInput(Parameter const& parameter, uint16_t variantKey);
 
 /// `VARYING vec4 variable_name` from location 5 on; `VARYING` is defined by the stage.
 void declareVariables(StageText& out, MaterialDefinition const& definition);
+
+/// Free locations for custom attributes on their way to the fragment stage.
+std::vector<uint32_t> customLocations(MaterialDefinition const& definition, MaterialNeeds const& needs);
+/// `VARYING vec4 vertex_customN`, and the macro with which surface/vertex_main.glsl writes them.
+void declareCustomVaryings(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs);
 
 /// The macros with which surface/vertex_main.glsl clears and writes the variables.
 void defineVariableMacros(StageText& out, MaterialDefinition const& definition);

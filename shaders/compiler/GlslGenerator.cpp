@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/GlslGenerator.h"
 
-#include "shaders/compiler/CodeScan.h"
 #include "shaders/compiler/GlslDeclarations.h"
 #include "shaders/compiler/MaterialAnalysis.h"
 #include "shaders/compiler/MaterialMembers.h"
@@ -71,6 +70,28 @@ Result<void> includeAll(StageText& out, std::initializer_list<std::string_view> 
     return {};
 }
 
+StageText stageOf(MaterialNeeds const& needs, IncludeResolver const& includes) {
+    return StageText(includes, &needs.prefixed);
+}
+
+/// Functions of AMD_shader_trinary_minmax, which glslang declares always and lets no one declare again.
+constexpr std::string_view kUndeclarable[] = { "max3", "mid3", "min3" };
+
+/// After the helpers that the author's names have hidden.
+Result<void> authorsBlock(StageText& out, GlslBlock const& block, MaterialNeeds const& needs, bool isFragment) {
+    const auto& own = isFragment ? needs.fragmentDeclarations : needs.vertexDeclarations;
+    std::string end;
+    for (const std::string_view name : kUndeclarable) {
+        if (std::ranges::count(own, name, &GlslDeclaration::name) == 0) continue;
+        out.asItIs(fmt::format("#define {0} author_{0}\n", name));
+        end += fmt::format("#undef {}\n", name);
+    }
+    out.asItIs(restoredHelpers(needs.prefixed, own, isFragment && needs.colors));
+    Result<void> done = out.block(block);
+    out.asItIs(end);
+    return done;
+}
+
 void beginStage(StageText& out, std::string_view varying) {
     out.line("#version 450");
     out.line("#extension GL_GOOGLE_cpp_style_line_directive : require");
@@ -100,6 +121,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     const auto members = materialMembers();
     for (size_t i = 0; i < members.size(); ++i) defineIf(out, (needs.terms & termBit(i)) != 0, members[i].term);
     defineIf(out, needs.clipSpaceTransform, "HAS_CLIP_SPACE_TRANSFORM");
+    defineIf(out, !needs.callsPrepare && package.shading != ShadingModel::Unlit, "PREPARE_AFTER_MATERIAL");
 }
 
 void defineFragment(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
@@ -146,7 +168,7 @@ void defineDeformation(StageText& out, MaterialDefinition const& definition) {
 Result<std::string> surfaceVertex(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
                                   IncludeResolver const& includes) {
     const bool deforms = (variantKey & kVariantSkinning) != 0;
-    StageText out(includes);
+    StageText out = stageOf(needs, includes);
     beginStage(out, "out");
     defineSurface(out, definition, needs);
     if (deforms) defineDeformation(out, definition);
@@ -158,11 +180,12 @@ Result<std::string> surfaceVertex(MaterialDefinition const& definition, Material
     if (!done) return done.error();
     declareInterface(out, definition);
     declareVariables(out, definition);
+    declareCustomVaryings(out, definition, needs);
     declareCustomAttributes(out, definition);
     if (deforms)
         done = includeAll(out, { "shaders/interface/deformation.glsl", "shaders/material/surface/deform.glsl" });
     if (done) done = out.include("shaders/material/surface/vertex_api.glsl");
-    if (done && definition.vertex) done = out.block(*definition.vertex);
+    if (done && definition.vertex) done = authorsBlock(out, *definition.vertex, needs, false);
     if (done) done = out.include("shaders/material/surface/vertex_main.glsl");
     if (!done) return done.error();
     return std::move(out).take();
@@ -218,6 +241,11 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     if (!done) return done;
     declareInterface(out, definition);
     declareVariables(out, definition);
+    declareCustomVaryings(out, definition, needs);
+    for (uint32_t i = 0; i < 8; ++i) {
+        if ((needs.fragmentCustoms >> i & 1) != 0)
+            out.line(fmt::format("vec4 getCustom{0}() {{ return vertex_custom{0}; }}", i));
+    }
     declareMaterialInputs(out, definition);
     if (needs.colors) done = out.include("shaders/lib/color.glsl");
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_api.glsl");
@@ -228,9 +256,9 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
 Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                     uint16_t variantKey, IncludeResolver const& includes) {
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
-    StageText out(includes);
+    StageText out = stageOf(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
-    if (done) done = out.block(definition.fragment);
+    if (done) done = authorsBlock(out, definition.fragment, needs, true);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
     if (done && !isLit)
         done = includeAll(out, { "shaders/material/surface/output.glsl", "shaders/material/surface/unlit_main.glsl" });
@@ -238,16 +266,16 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     return std::move(out).take();
 }
 
-Result<std::string> postVertex(IncludeResolver const& includes) {
-    StageText out(includes);
+Result<std::string> postVertex(MaterialNeeds const& needs, IncludeResolver const& includes) {
+    StageText out = stageOf(needs, includes);
     beginStage(out, "out");
     if (Result<void> done = out.include("shaders/post/post_vertex_main.glsl"); !done) return done.error();
     return std::move(out).take();
 }
 
-Result<std::string> postFragment(MaterialDefinition const& definition, uint16_t variantKey,
+Result<std::string> postFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
                                  IncludeResolver const& includes) {
-    StageText out(includes);
+    StageText out = stageOf(needs, includes);
     beginStage(out, "in");
     const auto inputs = std::ranges::count_if(definition.package.parameters, [&](Parameter const& parameter) {
         return isSubpassInput(parameter, variantKey);
@@ -259,88 +287,13 @@ Result<std::string> postFragment(MaterialDefinition const& definition, uint16_t 
     if (!done) return done.error();
     declareInterface(out, definition, variantKey);
     done = out.include("shaders/post/post_fragment_api.glsl");
-    if (done) done = out.block(definition.fragment);
+    if (done) done = authorsBlock(out, definition.fragment, needs, true);
     if (done) done = out.include("shaders/post/post_fragment_main.glsl");
     if (!done) return done.error();
     return std::move(out).take();
 }
 
-/// The author's code with its includes, as input of CodeScan.
-Result<std::string> expanded(std::optional<GlslBlock> const& block, IncludeResolver const& includes) {
-    StageText text(includes);
-    if (block) {
-        if (Result<void> done = text.block(*block); !done) return done.error();
-    }
-    return std::move(text).take();
-}
-
-Result<void> expectFunction(CodeScan const& code, std::string_view function, GlslBlock const& block,
-                            std::string_view signature) {
-    if (code.mentions(function)) return {};
-    return errorAt(block.at, fmt::format("this block must define {}", signature));
-}
-
-bool mentionsAny(CodeScan const& code, std::initializer_list<std::string_view> words) {
-    return std::ranges::any_of(words, [&](std::string_view word) { return code.mentions(word); });
-}
-
-/// Checked here, because the GLSL compiler's errors would not name the remedy.
-Result<void> checkInstanceIndex(MaterialDefinition const& definition, CodeScan const& fragment,
-                                CodeScan const& vertex) {
-    if (definition.package.instanced) return {};
-    const bool isInVertex = vertex.mentions("getInstanceIndex");
-    if (!isInVertex && !fragment.mentions("getInstanceIndex")) return {};
-    return errorAt(isInVertex ? definition.vertex->at : definition.fragment.at,
-                   "this block calls getInstanceIndex(); that needs the property instanced : true");
-}
-
-Result<void> checkBlocks(MaterialDefinition const& definition, CodeScan const& fragment, CodeScan const& vertex) {
-    if (definition.package.domain == MaterialDomain::PostProcess) {
-        return expectFunction(fragment, "postProcess", definition.fragment,
-                              "void postProcess(inout PostProcessInputs inputs)");
-    }
-    Result<void> done =
-            expectFunction(fragment, "material", definition.fragment, "void material(inout MaterialInputs material)");
-    if (done) done = checkInstanceIndex(definition, fragment, vertex);
-    if (done && definition.package.shading != ShadingModel::Unlit) {
-        done = expectFunction(fragment, "prepareMaterial", definition.fragment,
-                              "material(), which must call prepareMaterial(material)");
-    }
-    if (done && definition.customSurfaceShading) {
-        done = expectFunction(fragment, "surfaceShading", definition.fragment,
-                              "vec3 surfaceShading(const MaterialInputs materialInputs, const ShadingData shadingData, "
-                              "const LightData lightData), as customSurfaceShading : true says");
-    }
-    if (done && definition.vertex) {
-        done = expectFunction(vertex, "materialVertex", *definition.vertex,
-                              "void materialVertex(inout MaterialVertexInputs material)");
-    }
-    return done;
-}
-
 } // namespace
-
-Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes) {
-    Result<std::string> fragmentText = expanded(definition.fragment, includes);
-    if (!fragmentText) return fragmentText.error();
-    Result<std::string> vertexText = expanded(definition.vertex, includes);
-    if (!vertexText) return vertexText.error();
-    const CodeScan fragment(*fragmentText), vertex(*vertexText);
-    if (Result<void> complete = checkBlocks(definition, fragment, vertex); !complete) return complete.error();
-
-    const bool isLit = definition.package.shading != ShadingModel::Unlit;
-    MaterialNeeds needs;
-    needs.worldPosition =
-            isLit || mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
-                                             "getWorldReflectedVector", "getNdotV" });
-    needs.normal = isLit || needsAttribute(definition, kAttributeTangents);
-    needs.tangent = needs.normal && fragment.mentions("getWorldTangentFrame");
-    needs.clipSpaceTransform =
-            definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");
-    needs.colors = mentionsAny(fragment, { "luminance", "inverseTonemap", "inverseTonemapSRGB", "ycbcrToRgb" });
-    needs.instanceIndex = fragment.mentions("getInstanceIndex");
-    return needs;
-}
 
 bool MaterialNeeds::has(std::string_view term) const {
     const auto members = materialMembers();
@@ -352,22 +305,22 @@ bool MaterialNeeds::has(std::string_view term) const {
 
 Result<std::string> generateProbe(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                   IncludeResolver const& includes) {
-    StageText out(includes);
+    StageText out = stageOf(needs, includes);
     if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
     declareProbe(out, definition);
-    if (Result<void> done = out.block(definition.fragment); !done) return done.error();
+    if (Result<void> done = authorsBlock(out, definition.fragment, needs, true); !done) return done.error();
     defineProbeMain(out, definition);
     return std::move(out).take();
 }
 
 Result<std::string> generateObserver(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                      IncludeResolver const& includes) {
-    if (definition.package.domain == MaterialDomain::PostProcess) return postFragment(definition, 0, includes);
+    if (definition.package.domain == MaterialDomain::PostProcess) return postFragment(definition, needs, 0, includes);
     if (definition.customSurfaceShading)
         return surfaceFragment(definition, needs, kVariantSun | kVariantPunctual, includes);
-    StageText out(includes);
+    StageText out = stageOf(needs, includes);
     if (Result<void> done = beginSurfaceFragment(out, definition, needs, 0); !done) return done.error();
-    if (Result<void> done = out.block(definition.fragment); !done) return done.error();
+    if (Result<void> done = authorsBlock(out, definition.fragment, needs, true); !done) return done.error();
     defineObserverMain(out, definition);
     return std::move(out).take();
 }
@@ -375,18 +328,18 @@ Result<std::string> generateObserver(MaterialDefinition const& definition, Mater
 Result<std::string> generateVertex(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                    uint16_t variantKey, IncludeResolver const& includes) {
     return definition.package.domain == MaterialDomain::PostProcess
-                   ? postVertex(includes)
+                   ? postVertex(needs, includes)
                    : surfaceVertex(definition, needs, variantKey, includes);
 }
 
 Result<std::string> generateFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                      uint16_t variantKey, IncludeResolver const& includes) {
     return definition.package.domain == MaterialDomain::PostProcess
-                   ? postFragment(definition, variantKey, includes)
+                   ? postFragment(definition, needs, variantKey, includes)
                    : surfaceFragment(definition, needs, variantKey, includes);
 }
 
-backend::ProgramLayout materialLayout(MaterialDefinition const& definition) {
+backend::ProgramLayout materialLayout(MaterialDefinition const& definition, MaterialNeeds const& needs) {
     using backend::BindingType;
     using backend::ShaderStage;
     backend::ProgramLayout layout{};
@@ -399,10 +352,10 @@ backend::ProgramLayout materialLayout(MaterialDefinition const& definition) {
     for (Parameter const& parameter : definition.package.parameters) {
         if (!isTexture(parameter.type)) continue;
         const bool isInput = parameter.type == ParameterType::SubpassInput;
-        const bool inVertex = definition.vertex && definition.vertex->text.find("materialParams_") != std::string::npos;
         group.bindings[group.count++] = { .binding = parameter.binding,
                                           .type = isInput ? BindingType::InputAttachment : BindingType::SampledTexture,
-                                          .stages = inVertex && !isInput ? ShaderStage::Both : ShaderStage::Fragment,
+                                          .stages = needs.vertexTextures && !isInput ? ShaderStage::Both
+                                                                                     : ShaderStage::Fragment,
                                           .inputAttachment = isInput ? attachment++ : uint8_t{ 0 } };
     }
     return layout;

@@ -5,9 +5,11 @@
 ///   Fails   InvalidArgument: an include that cannot be found, a block that lacks its function.
 #pragma once
 
+#include "shaders/compiler/EngineNames.h"
 #include "shaders/compiler/MaterialDefinition.h"
 
 #include <string>
+#include <vector>
 
 namespace filament::shader {
 
@@ -15,14 +17,20 @@ namespace filament::shader {
 struct MaterialNeeds {
     bool worldPosition = false, normal = false, tangent = false;
     bool clipSpaceTransform = false;
-    bool instanceIndex = false; ///< getInstanceIndex() in the fragment stage
-    bool colors = false;        ///< calls a function of the colour library (materials guide, 4.5.7)
-    uint64_t terms = 0;         ///< bit n: the term of materialMembers()[n] (findTerms())
+    bool instanceIndex = false;  ///< getInstanceIndex() in the fragment stage
+    bool colors = false;         ///< calls a function of the colour library (materials guide, 4.5.7)
+    bool vertexTextures = false; ///< the vertex block reads textures
+    bool callsPrepare = true;    ///< otherwise main() calls prepareMaterial() after material()
+    uint8_t fragmentCustoms = 0; ///< bit n: the fragment block calls getCustomn()
+    uint64_t terms = 0;          ///< bit n: the term of materialMembers()[n] (findTerms())
+    std::vector<GlslDeclaration> vertexDeclarations, fragmentDeclarations; ///< by the author
+    NameSet prefixed;                                                      ///< names of the engine among them
 
     bool has(std::string_view term) const;
 };
 
 /// Derived from the names in the code: getters and required functions. The terms come from findTerms().
+///   Fails   also for functions with other parameters than the engine passes, and for names that are taken.
 Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes);
 
 /// The bits of a variant that change the text of its vertex stage; the others change the fragment stage.
@@ -44,6 +52,6 @@ Result<std::string> generateObserver(MaterialDefinition const& definition, Mater
                                      IncludeResolver const& includes);
 
 /// The bind group layout that all variants share: the engine's View and Pass groups, and the material's own.
-backend::ProgramLayout materialLayout(MaterialDefinition const& definition);
+backend::ProgramLayout materialLayout(MaterialDefinition const& definition, MaterialNeeds const& needs);
 
 } // namespace filament::shader

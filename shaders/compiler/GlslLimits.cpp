@@ -2,9 +2,7 @@
 #include "shaders/compiler/GlslLimits.h"
 
 #include "shaders/compiler/GlslMacros.h"
-
-#include <charconv>
-#include <optional>
+#include "shaders/compiler/GlslOutline.h"
 
 namespace filament::shader {
 namespace {
@@ -149,14 +147,11 @@ struct Located {
 
 /// `#line NUMBER "file"`
 void readLine(std::string_view rest, GlslTokens& tokens, Located& text) {
-    const size_t digit = rest.find_first_of("0123456789");
-    uint32_t line = 0;
-    if (digit == std::string_view::npos) return;
-    std::from_chars(rest.data() + digit, rest.data() + rest.size(), line);
+    uint32_t line = tokens.line() + 1;
+    std::string_view file;
+    readLineDirective(rest, line, file);
     tokens.setLine(line - 1); // the next line has this number
-    const size_t open = rest.find('"'), close = rest.rfind('"');
-    if (open < close && close != std::string_view::npos)
-        text.files.emplace_back(text.tokens.size(), rest.substr(open + 1, close - open - 1));
+    if (!file.empty()) text.files.emplace_back(text.tokens.size(), file);
 }
 
 Located tokensOf(std::string_view glsl, std::string_view name, GlslMacros& macros) {

@@ -169,6 +169,7 @@ void defineProbeMain(StageText& out, MaterialDefinition const& definition) {
     }
     out.line("void main() { MaterialInputs probe_inputs; initMaterial(probe_inputs); computeShadingGeometry();");
     out.line(begin + "material(probe_inputs);");
+    out.line("#if defined(PREPARE_AFTER_MATERIAL)\nprepareMaterial(probe_inputs);\n#endif");
     out.line(end + "}");
 }
 

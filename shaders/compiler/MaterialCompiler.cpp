@@ -50,13 +50,13 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     prepared.definition = std::move(*definition);
     Result<MaterialNeeds> needs = findNeeds(prepared.definition, prepared.includes);
     if (!needs) return needs.error();
-    prepared.needs = *needs;
+    prepared.needs = std::move(*needs);
     Result<void> terms = findTerms(prepared.definition, prepared.includes, prepared.needs);
     if (!terms) return withSuggestion(terms.error(), prepared.definition);
     Result<void> conditions = checkTextureConditions(prepared.definition, prepared.needs, prepared.includes);
     if (!conditions) return withSuggestion(conditions.error(), prepared.definition);
     MaterialPackage& package = prepared.definition.package;
-    package.layout = materialLayout(prepared.definition);
+    package.layout = materialLayout(prepared.definition, prepared.needs);
     package.filteredVariants |= options.filteredVariants;
     prepared.keys = variantKeys(selectableBits(prepared.definition), package.filteredVariants);
     return prepared;

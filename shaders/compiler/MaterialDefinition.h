@@ -23,6 +23,7 @@ struct NamedAt {
 struct ParameterSource {
     SourcePosition at;
     std::vector<NamedAt> usedIf{}; ///< names of constants: Parameter::usedIf has their ids
+    bool isExternal = false;       ///< written as samplerExternal: counts as two samplers
 };
 
 struct Variable {

@@ -21,6 +21,14 @@
 const float PI = kPi;
 const float HALF_PI = 0.5 * kPi;
 
+vec2 saturate(vec2 x) { return clamp(x, 0.0, 1.0); }
+vec4 saturate(vec4 x) { return clamp(x, 0.0, 1.0); }
+vec2 sq(vec2 x) { return x * x; }
+vec3 sq(vec3 x) { return x * x; }
+vec4 sq(vec4 x) { return x * x; }
+vec2 pow5(vec2 x) { return x * sq(x * x); }
+vec3 pow5(vec3 x) { return x * sq(x * x); }
+vec4 pow5(vec4 x) { return x * sq(x * x); }
 float max3(vec3 v) { return max(v.x, max(v.y, v.z)); }
 vec4 mulMat4x4Float3(mat4 m, vec3 v) { return m * vec4(v, 1.0); }
 vec3 mulMat3x3Float3(mat4 m, vec3 v) { return mat3(m) * v; }

@@ -6,6 +6,9 @@ void main() {
     initMaterial(inputs);
     computeShadingGeometry();
     material(inputs);
+#if defined(PREPARE_AFTER_MATERIAL)
+    prepareMaterial(inputs); // the author did not
+#endif
     applyMask(inputs.baseColor);
 
     Surface surface = surfaceOf(inputs);

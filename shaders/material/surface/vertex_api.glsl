@@ -37,6 +37,9 @@ int getEyeIndex() { return 0; }
 #if defined(INSTANCED)
 // The index that the application gave the renderable; it does not reveal which renderables share a draw call.
 int getInstanceIndex() { return int(objectUniforms.objects[mesh_instance].flags.y); }
+int filament_instanceId() { return getInstanceIndex(); } // what OpenGL calls it in authors' code
+#else
+int filament_instanceId() { return 0; }
 #endif
 
 #if defined(VERTEX_DOMAIN_OBJECT)
@@ -104,6 +107,8 @@ vec3 normalToWorld(vec3 n) { return directionToWorld(n); }
 float bitangentSign() { return 1.0; }
 
 #endif
+
+vec3 getUserWorldPosition() { return worldPositionOfVertex().xyz + frameUniforms.cameraPosition.xyz; }
 
 struct MaterialVertexInputs {
 #if defined(HAS_COLOR)

@@ -60,6 +60,7 @@ void main() {
     vertex_instanceIndex = getInstanceIndex();
 #endif
     MATERIAL_WRITE_VARIABLES(inputs)
+    MATERIAL_WRITE_CUSTOMS
 
 #if defined(HAS_CLIP_SPACE_TRANSFORM)
     gl_Position = inputs.clipSpaceTransform * getPosition();

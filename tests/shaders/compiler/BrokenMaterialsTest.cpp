@@ -165,8 +165,16 @@ constexpr Broken kMisspelt[] = {
 
 constexpr Broken kCode[] = {
     { "material {}\nfragment {\n}", "a.mat:2: this block must define void material(inout MaterialInputs material)" },
-    { "material {}\n" FRAGMENT(""), "a.mat:2: this block must define material(), which must call "
-                                    "prepareMaterial(material)" },
+    { "material {}\nfragment {\n\nvoid material(MaterialInputs a, float b) {} }",
+      "a.mat:4: material() must be void material(inout MaterialInputs material)" },
+    { "material { customSurfaceShading : true }\nfragment {\nvoid material(inout MaterialInputs m) {}\n"
+      "float3 surfaceShading(const ShadingData d) { return float3(0.0); } }",
+      "a.mat:4: surfaceShading() must be vec3 surfaceShading(const MaterialInputs materialInputs, const ShadingData "
+      "shadingData, const LightData lightData), as customSurfaceShading : true says" },
+    { "material {}\nfragment {\nvoid main() {}\nvoid material(inout MaterialInputs m) {} }",
+      "a.mat:3: the engine itself defines 'main'; choose another name" },
+    { "material {}\nfragment {\nfloat filament_x;\nvoid material(inout MaterialInputs m) {} }",
+      "a.mat:3: names that begin with filament_ are the engine's; choose another name" },
     { "material {}\n" FRAGMENT("\n #include \"gone.glsl\""),
       "a.mat:5: cannot find the file \"gone.glsl\" of this #include" },
     { "material {}\n" FRAGMENT("prepareMaterial(material);\nwhile (true) material.roughness += 0.1;"),

@@ -84,8 +84,6 @@ struct KnownMistake {
 constexpr KnownMistake kMistakes[] = {
     { "material.roughness = texture(materialParams_roughness, getUV0());", "cannot convert from",
       "a texture gives four numbers and roughness is one: .r is missing" },
-    { "material.baseColor.rgb *= getCustom0().rgb;", "'getCustom0'",
-      "custom attributes are read in the vertex block (4.3.2, 4.5.6), and this is a fragment block" },
     { "name : \"Double sided material\"", "'materialParams'",
       "reads materialParams.albedo, which it does not declare" },
     { "name : \"Alpha to coverage\"", "'materialParams'", "reads materialParams.albedo, which it does not declare" },

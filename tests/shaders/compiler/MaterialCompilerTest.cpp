@@ -208,9 +208,6 @@ TEST(MaterialCompiler, ReportsGlslErrorsOfIncludedFilesThere) {
 TEST(MaterialCompiler, SaysWhichFunctionABlockMustDefine) {
     EXPECT_THAT(failureOf("material {}\nfragment { void main2() {} }").message,
                 HasSubstr("void material(inout MaterialInputs material)"));
-    EXPECT_THAT(
-            failureOf("material { shadingModel : lit }\nfragment { void material(inout MaterialInputs m) {} }").message,
-            HasSubstr("must call prepareMaterial(material)"));
     EXPECT_THAT(failureOf("material {}\nvertex { }" + std::string(kEmptyFragment)).message,
                 HasSubstr("materialVertex"));
     EXPECT_THAT(failureOf("material {}").message, HasSubstr("there is no fragment block"));
