@@ -65,6 +65,9 @@ set(FILAMENT_PRECOMPILED_TESTS ${FILAMENT_PRECOMPILED}
 # eight files. Therefore ./run and ./check use them and a preset by itself does not; there, too, each file shows whether it
 # includes what it needs. Names in anonymous namespaces are unique in their target.
 option(FILAMENT_UNITY "Compile the files of a target in batches of eight: for those who build everything once" OFF)
+if(FILAMENT_UNITY) # gcc takes a file of a batch for a header, whose classes must not have members of local types
+    target_compile_options(filament_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-subobject-linkage>)
+endif()
 
 function(filament_unity target)
     if(FILAMENT_UNITY)

@@ -45,6 +45,10 @@ class SlowestUnits(unittest.TestCase):
             ["0.2", "s", "link", "libbase.a"],
         ])
 
+    def test_a_unity_batch_has_the_name_of_its_target(self):
+        output = run(LOG + "0\t700\t7\ttests/CMakeFiles/scene_tests.dir/Unity/unity_2_cxx.cxx.o\tee\n")[1]
+        self.assertIn("0.7 s  compile  tests/scene_tests batch 2", output)
+
     def test_totals_are_by_folder(self):
         self.assertIn("     3.0 s     1 units  compile base\n", run(LOG)[1])
 

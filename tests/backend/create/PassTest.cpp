@@ -198,38 +198,38 @@ void drawSlope(Gpu& gpu, DepthScene const& scene, double right) {
 }
 
 DRIVER_TEST(Pass, ResolvedDepthIsThatOfTheFirstSampleOfTheStandardPattern) {
-    constexpr uint32_t kSize = 8;
+    constexpr uint32_t kSide = 8;
     constexpr double kSampleX = 0.375, kSampleY = 0.125; // of sample 0
     for (const Format format : { Format::D32F, Format::D16 }) {
         SCOPED_TRACE(formatInfo(format).name);
         for (const double right : { 8.0, 4.25, 4.5 }) { // in pixel 4, sample 0 lies between the two edges
-            const DepthScene scene = multisampledDepth(gpu, format, kSize);
+            const DepthScene scene = multisampledDepth(gpu, format, kSide);
             drawSlope(gpu, scene, right);
-            const auto depths = gpu.readAs<float>(scene.resolved, { 0, 0, kSize, kSize });
+            const auto depths = gpu.readAs<float>(scene.resolved, { 0, 0, kSide, kSide });
             for (uint32_t i = 0; i < depths.size(); ++i) {
-                const double x = i % kSize + kSampleX, y = i / kSize + kSampleY;
+                const double x = i % kSide + kSampleX, y = i / kSide + kSampleY;
                 EXPECT_NEAR(depths[i], x < right ? slopingDepth(x, y) : 0, format == Format::D16 ? 1e-5 : 1e-6)
-                        << "edge at " << right << ", pixel " << i % kSize << ", " << i / kSize;
+                        << "edge at " << right << ", pixel " << i % kSide << ", " << i / kSide;
             }
         }
     }
 }
 
 DRIVER_TEST(Pass, ThePassAfterADepthResolveSamplesTheTarget) {
-    constexpr uint32_t kSize = 8;
-    const DepthScene scene = multisampledDepth(gpu, Format::D32F, kSize);
+    constexpr uint32_t kSide = 8;
+    const DepthScene scene = multisampledDepth(gpu, Format::D32F, kSide);
     drawSlope(gpu, scene, 8);
     const Program show =
             gpu.program(kFullScreenVertex, fragmentOf("layout(set = 1, binding = 0) uniform highp sampler2D depth;",
                                                       "result = texelFetch(depth, ivec2(gl_FragCoord.xy), 0);"));
     const TextureHandle shown = gpu.paint(
-            show, { .width = kSize, .height = kSize, .group = gpu.imageGroup(show, scene.resolved, gpu.sampler()) });
+            show, { .width = kSide, .height = kSide, .group = gpu.imageGroup(show, scene.resolved, gpu.sampler()) });
     drawSlope(gpu, scene, 4); // the target may be written again after it was read
-    const auto sampled = gpu.readAs<Rgba>(shown, { 0, 0, kSize, kSize });
-    const auto again = gpu.readAs<float>(scene.resolved, { 0, 0, kSize, kSize });
+    const auto sampled = gpu.readAs<Rgba>(shown, { 0, 0, kSide, kSide });
+    const auto again = gpu.readAs<float>(scene.resolved, { 0, 0, kSide, kSide });
     for (uint32_t i = 0; i < sampled.size(); ++i) {
-        EXPECT_NEAR(sampled[i][0], slopingDepth(i % kSize + 0.375, i / kSize + 0.125), 1e-6) << i;
-        EXPECT_EQ(again[i], i % kSize < 4 ? sampled[i][0] : 0) << i;
+        EXPECT_NEAR(sampled[i][0], slopingDepth(i % kSide + 0.375, i / kSide + 0.125), 1e-6) << i;
+        EXPECT_EQ(again[i], i % kSide < 4 ? sampled[i][0] : 0) << i;
     }
 }
 

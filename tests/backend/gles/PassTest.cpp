@@ -43,8 +43,8 @@ TEST_F(GlesTest, AMergedPassReadsWhatTheSubpassBeforeWrote) {
     commands.record(CmdBindPipeline{ second });
     commands.record(CmdDraw{ .vertexCount = 3 });
     commands.record(CmdEndPass{});
-    using Float4 = std::array<float, 4>;
-    EXPECT_EQ(read<Float4>(display, { 0, 0, 2, 2 }), std::vector<Float4>(4, Float4{ 1, 0.5f, 0.25f, 2 }));
+    using Texel = std::array<float, 4>;
+    EXPECT_EQ(read<Texel>(display, { 0, 0, 2, 2 }), std::vector<Texel>(4, Texel{ 1, 0.5f, 0.25f, 2 }));
     // The mask of the second subpass protected the first attachment: half 0x3800 is 0.5.
     EXPECT_EQ(read<uint16_t>(light, { 0, 0, 1, 1 }), (std::vector<uint16_t>{ 0x3800, 0x3400, 0x3000, 0x3C00 }));
 }
