@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Evaluates the engine's glTF materials (shaders/material/gltf) at a point: textures and factors in, a SurfaceSample
-/// out, with all KHR_materials extensions except iridescence.
+/// out, with all KHR_materials extensions.
 ///   Normals  as in MikkTSpace: the interpolated frame is not normalised, but the result of the normal map is. Seen
 ///            from behind, a surface's whole frame is reversed.
 ///   Thread   pure functions.

@@ -24,6 +24,34 @@ void weighReflectance(MaterialPoint const& point, double3 baseColor, SurfaceSamp
                                      weight);
 }
 
+/// The base without its metallic share.
+MixtureSample mixtureOf(MaterialPoint const& point, double3 baseColor, double transmitted) {
+    assets::MaterialData const& material = point.material();
+    MixtureSample mixture{ .color = baseColor, .dielectricF0 = double3(lib::f0FromIor(double(material.ior))) };
+    mixture.dielectricF90 = f90Of(mixture.dielectricF0);
+    mixture.transmitted = transmitted;
+    if (!material.specular.isUsed()) return mixture;
+    const double4 maps = point.fetchColorAndScalar(material.specular.maps);
+    const double weight = lib::saturate(material.specular.factor * maps.w);
+    const double3 tint = double3(material.specular.color) * double3(maps);
+    mixture.dielectricF0 = lib::f0FromSpecular(baseColor, 0.0, mixture.dielectricF0.x, tint, weight);
+    mixture.dielectricF90 *= lib::f90FromSpecular(weight, 0.0);
+    return mixture;
+}
+
+/// KHR_materials_iridescence.
+void addFilm(MaterialPoint const& point, SurfaceSample& surface) {
+    assets::IridescenceData const& data = point.material().iridescence;
+    if (!data.isUsed()) return;
+    const double2 maps = point.fetchScalars(data.maps);
+    surface.film = { .strength = lib::saturate(data.factor * maps.x),
+                     .ior = std::max(double(data.ior), 1.0),
+                     .thickness = data.maps.hasSecond ? glm::mix(double(data.thicknessMinNanometers),
+                                                                 double(data.thicknessMaxNanometers), maps.y)
+                                                      : double(data.thicknessMaxNanometers),
+                     .outsideIor = glm::mix(1.0, lib::kCoatIor, surface.coat.strength) };
+}
+
 /// KHR_materials_anisotropy: rougher along its direction, unchanged across it.
 void addAnisotropy(MaterialPoint const& point, double roughness, SurfaceSample& surface) {
     assets::AnisotropyData const& data = point.material().anisotropy;
@@ -80,7 +108,7 @@ void addVolume(MaterialPoint const& point, double thickness, TransmissionSample&
 }
 
 /// KHR_materials_transmission takes its share of the diffuse lobe. Returns that share.
-double addTransmission(MaterialPoint const& point, SurfaceSample& surface) {
+double addTransmission(MaterialPoint const& point, double3 baseColor, SurfaceSample& surface) {
     assets::TransmissionData const& data = point.material().transmission;
     if (!data.isUsed()) return 0;
     const double2 maps = point.fetchScalars(data.maps);
@@ -90,6 +118,7 @@ double addTransmission(MaterialPoint const& point, SurfaceSample& surface) {
     surface.transmission.ior = point.material().ior;
     if (data.isSolid()) addVolume(point, data.thicknessMeters * maps.y, surface.transmission);
     surface.diffuse *= 1 - part;
+    surface.mixture = mixtureOf(point, baseColor, part);
     return part;
 }
 
@@ -111,7 +140,8 @@ void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, 
     addAnisotropy(point, roughness, surface);
     addClearCoat(point, surface);
     addSheen(point, surface);
-    const double transmitted = addTransmission(point, surface);
+    addFilm(point, surface);
+    const double transmitted = addTransmission(point, baseColor, surface);
     addDiffuseTransmission(point, transmitted, surface);
 }
 

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Adds the KHR_materials extensions to a metallic-roughness surface, as gltf/layers.glsl and gltf/transmission.glsl of
 /// shaders/material pass them to the engine's shading.
-///   Not here  iridescence: TracedScene warns.
 ///   Thread    pure functions.
 #pragma once
 

@@ -2,6 +2,7 @@
 #include "tools/reference/Microfacets.h"
 
 #include "shaders/lib/LibCppDouble.h"
+#include "tools/reference/Mixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -77,8 +78,11 @@ double3 Interface::single(double cosine) const {
         if (sine2 >= 1) return double3(1.0);
         outside = std::sqrt(1 - sine2);
     }
-    if (mTerm == FresnelTerm::Schlick) return lib::fresnelSchlick(mF0, mF90, outside);
-    return lib::fresnelExact(mF0, mMetallic, outside) * mF90; // like shaders/material/surface/quality.glsl
+    const double3 f0 = mFilm.strength > 0 ? mFilm.bareF0 : mF0;
+    const double3 bare = mTerm == FresnelTerm::Schlick
+                                 ? lib::fresnelSchlick(f0, mF90, outside)
+                                 : lib::fresnelExact(f0, mMetallic, outside) * mF90; // as in surface/quality.glsl
+    return mFilm.strength > 0 ? glm::mix(bare, filmReflectance(mFilm, outside), mFilm.strength) : bare;
 }
 
 double3 Interface::throughSheet(double cosine) const {

@@ -40,7 +40,7 @@ class Interface {
 public:
     Interface(SurfaceSample const& surface, FresnelTerm term)
             : mF0(surface.f0), mF90(surface.f90), mMetallic(surface.metallic), mTerm(term),
-              mBelow(surface.transmission) {}
+              mBelow(surface.transmission), mFilm(surface.film) {}
 
     double3 f0() const { return mF0; }
     double f90() const { return mF90; }
@@ -58,6 +58,7 @@ private:
     double mF90, mMetallic;
     FresnelTerm mTerm;
     TransmissionSample mBelow;
+    FilmSample mFilm;
 };
 
 } // namespace filament::reference

@@ -3,6 +3,7 @@
 
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/Material.h"
+#include "tools/reference/Mixture.h"
 
 #include <algorithm>
 
@@ -14,7 +15,7 @@ namespace {
 
 // Pairs of dimensions of the sample's numbers: pair 0 is the pixel's, then five per bounce; layers have their own.
 enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kPerBounce };
-constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21;
+constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21, kMixture = 1u << 22;
 
 constexpr uint32_t kRouletteFrom = 4;      // before this event, no path ends by roulette
 constexpr uint32_t kMostEvents = 1u << 16; // limit of the dimensions of a path
@@ -64,6 +65,8 @@ double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64
     double3 sum(0.0);
     while (std::optional<SurfaceSample> surface = nextSurface(path)) {
         if (surface->transmits()) enterSurface(path, *surface);
+        if (surface->mixture) meetPart(*surface, path.numbers.pair(kMixture + path.events).x);
+        coverWithFilm(*surface);
         sum += path.throughput * surface->emitted * emissionWeight(path);
         if (!surface->scatters || path.bounce >= mSettings.maxBounces) return sum;
         const Bsdf bsdf = bsdfAt(*surface);

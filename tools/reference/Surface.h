@@ -55,6 +55,24 @@ struct DiffuseTransmissionSample {
     }; ///< albedo of the lobe behind the surface; black: none. Already removed from SurfaceSample::diffuse
 };
 
+/// A thin film on the base (KHR_materials_iridescence, shaders/lib/iridescence.glsl).
+struct FilmSample {
+    double strength = 0; ///< covered fraction, [0, 1]; 0: none
+    double ior = 1.3;
+    double thickness = 0;   ///< nanometres
+    double outsideIor = 1;  ///< of the medium above: air, or a coat
+    double3 bareF0{ 0.04 }; ///< of the base without it; SurfaceSample::f0 is that of base and film towards the view
+};
+
+/// What a glTF material mixes that transmits: a metal, a dielectric that transmits, and one that does not (glTF 2.0,
+/// appendix B.2; KHR_materials_transmission). A path meets one of them, chosen by its share.
+struct MixtureSample {
+    double3 color{ 1.0 }; ///< of metal and dielectric
+    double3 dielectricF0{ 0.04 };
+    double dielectricF90 = 1;
+    double transmitted = 1; ///< share of the dielectric that transmits
+};
+
 struct SurfaceSample {
     double3 position{ 0.0 };
     double3 geometricNormal{ 0, 0, 1 };    ///< of the triangle, on the side of the ray's origin
@@ -79,6 +97,8 @@ struct SurfaceSample {
     ClothSample cloth{};
     TransmissionSample transmission{};
     DiffuseTransmissionSample diffuseTransmission{};
+    FilmSample film{};
+    std::optional<MixtureSample> mixture; ///< none: the members above are all there is
 
     double opacity = 1;          ///< covered fraction: all that this struct says is of that fraction
     double3 emitted{ 0.0 };      ///< radiance as added to the picture: not exposed, see gltf/lit.glsl

@@ -143,10 +143,6 @@ private:
             mWarnings.push_back(fmt::format("{}: {} primitives of lines or points have no surface and are left out",
                                             model.name, skipped));
         }
-        const auto films = std::ranges::count_if(
-                model.materials, [](assets::MaterialData const& material) { return material.iridescence.isUsed(); });
-        if (films > 0)
-            mWarnings.push_back(fmt::format("{}: the iridescence of {} material(s) is left out", model.name, films));
     }
 
     std::vector<std::string>& mWarnings;

@@ -16,13 +16,22 @@ highp vec3 reflectedOf(Surface surface) {
     return reflected;
 }
 
+// The share of ambient light that reaches what is below the specular lobe.
+vec3 leftBySpecular(Surface surface) {
+#if defined(REFRACTION)
+    return 1.0 - surface.boundary;
+#else
+    return 1.0 - surface.specularAlbedo;
+#endif
+}
+
 highp vec3 baseOfEnvironment(Surface surface) {
     vec3 irradiance = environmentIrradiance(openNormal(surface.normal));
-    vec3 diffuse = surface.diffuse * irradiance * (1.0 - surface.specularAlbedo);
+    vec3 diffuse = surface.diffuse * irradiance * leftBySpecular(surface);
     diffuse = seenDiffuse(diffuse, surface.visibility, surface.diffuse);
 #if defined(HAS_DIFFUSE_TRANSMISSION)
     vec3 behind = surface.transmitted * environmentIrradiance(-openNormal(surface.normal));
-    diffuse += seenDiffuse(behind * (1.0 - surface.specularAlbedo), surface.visibility, surface.transmitted);
+    diffuse += seenDiffuse(behind * leftBySpecular(surface), surface.visibility, surface.transmitted);
 #endif
 #if defined(REFRACTION)
     if (surface.refraction.transmission > 0.0) diffuse += surface.through * environmentBehind(surface.refraction);

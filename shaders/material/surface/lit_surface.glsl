@@ -31,6 +31,7 @@ struct Surface {
 #endif
 #if defined(REFRACTION)
     Refraction refraction;
+    vec3 boundary;            // specularAlbedo of the dielectric alone: what it leaves enters the matter
     vec3 through;             // transmitted share of the light behind
 #endif
 #if defined(HAS_DIFFUSE_TRANSMISSION)
@@ -154,13 +155,49 @@ void setTransmission(MaterialInputs material, inout Surface surface) {
 
 #if defined(REFRACTION)
 
+// What transmitted light is tinted with: the colour of the dielectric, not its share of the surface.
+vec3 dielectricColor(vec3 baseColor, Surface surface) {
+#if defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
+    return surface.diffuse;
+#else
+    return baseColor;
+#endif
+}
+
+// The albedo of one of the two materials that a partly metallic surface mixes.
+vec3 albedoOfPart(MaterialInputs material, vec3 baseColor, float metallic, Surface surface, vec2 dfg) {
+    MaterialInputs inputs = material;
+    inputs.metallic = metallic;
+    Surface part = surface;
+    setReflectances(inputs, baseColor, part);
+    part.f90 = f90Of(part.f0);
+    weighReflectances(inputs, baseColor, part);
+    coverReflectances(part);
+    return specularAlbedoTerm(part.f0, part.f90, dfg);
+}
+
+// A partly metallic surface is a metal and a dielectric side by side (glTF 2.0, appendix B.2), and only the dielectric
+// transmits. With one f0 between both, the light that the metal reflects would be taken from it a second time.
+void setBoundary(MaterialInputs material, vec3 baseColor, highp float roughness, inout Surface surface) {
+    surface.boundary = surface.specularAlbedo;
+#if !defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
+    if (surface.metallic > 0.0 && surface.metallic < 1.0) {
+        vec2 dfg = splitSumTerm(shading_NoV, roughness);
+        surface.boundary = albedoOfPart(material, baseColor, 0.0, surface, dfg);
+        vec3 metal = albedoOfPart(material, baseColor, 1.0, surface, dfg);
+        surface.specularAlbedo = mix(surface.boundary, metal, surface.metallic);
+    }
+#endif
+}
+
 // Both interfaces: light reflected by the far side of a thin layer leaves together with the light reflected by the near
 // side.
 void setThrough(inout Surface surface) {
     surface.through = vec3(0.0);
     if (surface.refraction.transmission > 0.0) {
-        surface.through = transmittedShare(surface.refraction, surface.specularAlbedo);
-        vec3 far = farReflectedShare(surface.refraction, surface.specularAlbedo);
+        float dielectric = 1.0 - surface.metallic;
+        surface.through = transmittedShare(surface.refraction, surface.boundary) * dielectric;
+        vec3 far = farReflectedShare(surface.refraction, surface.boundary) * dielectric;
         surface.energyCompensation *= 1.0 + far / max(surface.specularAlbedo, vec3(1e-4));
         surface.specularAlbedo += far;
     }
@@ -168,9 +205,10 @@ void setThrough(inout Surface surface) {
 
 #endif
 
-void setLayers(MaterialInputs material, inout Surface surface) {
+void setLayers(MaterialInputs material, vec3 baseColor, inout Surface surface) {
 #if defined(REFRACTION)
-    surface.refraction = refractionOf(material, surface.diffuse, roughnessOf(material), iorOf(material));
+    surface.refraction = refractionOf(
+            material, dielectricColor(baseColor, surface), roughnessOf(material), iorOf(material));
     surface.diffuse *= 1.0 - surface.refraction.transmission; // this share passes through instead
 #endif
 #if defined(HAS_IRIDESCENCE)
@@ -208,10 +246,11 @@ Surface surfaceOf(MaterialInputs material) {
     highp float roughness = shadedRoughness(roughnessOf(material));
     surface.perceptualRoughness = roughness;
     surface.alpha = alphaFromPerceptual(surface.perceptualRoughness);
-    setLayers(material, surface);
+    setLayers(material, baseColor, surface);
     coverReflectances(surface);
     setSpecularAlbedo(surface, roughness);
 #if defined(REFRACTION)
+    setBoundary(material, baseColor, roughness, surface);
     setThrough(surface);
 #endif
     surface.diffuseExit = diffuseExitOf(surface);

@@ -25,7 +25,7 @@ vec3 absorbedOnTheWay(MaterialInputs material, float ior) {
     return remains;
 }
 
-// color: of the diffuse lobe, which transmitted light replaces.
+// color: of the diffuse lobe of the dielectric, which transmitted light replaces.
 Refraction refractionOf(MaterialInputs material, vec3 color, float perceptualRoughness, float ior) {
     Refraction refraction;
     refraction.transmission = saturate(material.transmission);
