@@ -181,7 +181,8 @@ Cpu const& CoreRegistry::leastUsed(Topology const& topology, std::span<const Cpu
 
 // ---------------------------------------------------------------------------------------------- placement
 
-WorkerPlacement::WorkerPlacement(AffinityPolicy const& policy, uint32_t workers, std::string_view owner) {
+WorkerPlacement::WorkerPlacement(AffinityPolicy const& policy, uint32_t workers, std::string_view owner)
+        : mRepins(policy.repinsAfterWaits) {
     if (policy.isNone()) return;
     const Topology topology = readTopology();
     reportIgnored(policy, topology, owner);
@@ -193,12 +194,17 @@ WorkerPlacement::WorkerPlacement(AffinityPolicy const& policy, uint32_t workers,
     mUnpinnedCores = indicesOf(allowedCpus(AffinityPolicy{ .avoidedCores = policy.avoidedCores }, topology));
 }
 
+std::span<const int> WorkerPlacement::coresOf(uint32_t worker) const {
+    return worker < mPins.cores().size() ? mPins.cores().subspan(worker, 1) : std::span(mWorkerCores);
+}
+
 void WorkerPlacement::placeWorker(uint32_t worker) const {
-    if (worker < mPins.cores().size()) {
-        pinThisThread(mPins.cores()[worker]);
-    } else if (!mWorkerCores.empty()) {
-        bindThisThread(mWorkerCores);
-    }
+    if (const std::span<const int> cores = coresOf(worker); !cores.empty()) bindThisThread(cores);
+}
+
+void WorkerPlacement::placeWorkerAfterWait(uint32_t worker) const {
+    if (!mRepins) return;
+    if (const std::span<const int> cores = coresOf(worker); !cores.empty()) bindToMask(cores);
 }
 
 void WorkerPlacement::placeBackgroundThread() const {

@@ -98,10 +98,15 @@ public:
     WorkerPlacement(AffinityPolicy const& policy, uint32_t workers, std::string_view owner);
 
     void placeWorker(uint32_t worker) const;
+    /// Again, without a warning, if the policy asks for it.
+    void placeWorkerAfterWait(uint32_t worker) const;
     /// For background threads: anywhere except on the avoided cores.
     void placeBackgroundThread() const;
 
 private:
+    std::span<const int> coresOf(uint32_t worker) const;
+
+    bool mRepins = false;
     CorePins mPins;                  // for Pin, by worker
     std::vector<int> mWorkerCores;   // for BigCores and avoided cores; empty: no restriction
     std::vector<int> mUnpinnedCores; // for threads started by a pinned thread; empty: they inherit its mask

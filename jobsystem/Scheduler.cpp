@@ -97,6 +97,7 @@ void Scheduler::runWorker(uint32_t index, std::string const& name) {
             return;
         } else {
             sleepUntilWork(hunt);
+            mPlacement.placeWorkerAfterWait(index);
         }
     }
 }

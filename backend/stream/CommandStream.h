@@ -56,10 +56,11 @@ struct LatencyStatistics {
 };
 
 struct CommandStreamOptions {
-    uint32_t maxFramesAhead = 2; ///< submitted but not yet replayed
-    int driverCore = -1;         ///< pin the driver thread to this core; -1: no pinning
-    bool ownThread = true;       ///< false: replay inside submit(), on the caller (single-threaded platforms, tests)
-    bool hashStreams = false;    ///< FrameTiming::hash; the driver thread reads every stream once more
+    uint32_t maxFramesAhead = 2;  ///< submitted but not yet replayed
+    int driverCore = -1;          ///< pin the driver thread to this core; -1: no pinning
+    bool repinAfterWaits = false; ///< pin it again each time it wakes up: see jobs::AffinityPolicy::repinsAfterWaits
+    bool ownThread = true;        ///< false: replay inside submit(), on the caller (single-threaded platforms, tests)
+    bool hashStreams = false;     ///< FrameTiming::hash; the driver thread reads every stream once more
     /// If the driver thread stays in one command for this long, the waiting thread reports it in the log, once. 0:
     /// never.
     std::chrono::milliseconds stallWarning = std::chrono::seconds(10);

@@ -23,19 +23,26 @@ int64_t now() {
     return std::chrono::duration_cast<std::chrono::nanoseconds>(time).count();
 }
 
-void nameAndPlaceThisThread(int core) {
+// False if the process may not run there.
+bool pinThisThread(int core) {
 #if defined(__linux__)
-    pthread_setname_np(pthread_self(), "driver");
-    if (core < 0) return;
     cpu_set_t cores;
     CPU_ZERO(&cores);
     if (core < CPU_SETSIZE) CPU_SET(static_cast<size_t>(core), &cores);
-    if (pthread_setaffinity_np(pthread_self(), sizeof(cores), &cores) != 0) {
-        log(Severity::Warning, "driver thread: core {} is not available to this process, running unpinned", core);
-    }
+    return pthread_setaffinity_np(pthread_self(), sizeof(cores), &cores) == 0;
 #else
     static_cast<void>(core);
+    return true;
 #endif
+}
+
+void nameAndPlaceThisThread(int core) {
+#if defined(__linux__)
+    pthread_setname_np(pthread_self(), "driver");
+#endif
+    if (core >= 0 && !pinThisThread(core)) {
+        log(Severity::Warning, "driver thread: core {} is not available to this process, running unpinned", core);
+    }
 }
 
 // The frame number that the app assigned. It is at the start of the stream, so only the first chunk is searched.
@@ -141,7 +148,11 @@ void DriverThread::run(DriverFactory factory, Result<void>& outcome) {
 void DriverThread::serve() {
     std::unique_lock lock(mMutex);
     while (true) {
-        mWork.wait(lock, [&] { return mStopping || mReplayed < mSubmitted || mIdleReached < mIdleWanted; });
+        const auto hasWork = [&] { return mStopping || mReplayed < mSubmitted || mIdleReached < mIdleWanted; };
+        if (!hasWork()) {
+            mWork.wait(lock, hasWork);
+            if (mOptions.repinAfterWaits && mOptions.driverCore >= 0) pinThisThread(mOptions.driverCore);
+        }
         // Requests for an idle device go before new frames; otherwise a busy app could starve them.
         if (mIdleReached < mIdleWanted && mIdleWanted <= mReplayed) {
             const uint64_t reached = mReplayed;

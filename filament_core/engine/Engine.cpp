@@ -98,6 +98,7 @@ jobs::AffinityPolicy affinityPolicy(EngineOptions const& options) {
     for (int core : { options.driverCore, options.avoidCore }) {
         if (core != -1) policy = policy.avoiding(core);
     }
+    policy.repinsAfterWaits = options.repinAfterWaits;
     return policy;
 }
 
@@ -220,8 +221,9 @@ double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {
 Result<Engine> Engine::create(EngineOptions const& options) {
     return orOutOfMemory("engine on", toString(options.backend), [&]() -> Result<Engine> {
         if (Result<void> cores = checkCores(options); !cores) return cores.error();
-        auto stream = CommandStream::start(driverFactory(options),
-                                           { .driverCore = options.driverCore, .hashStreams = options.hashFrames });
+        auto stream = CommandStream::start(driverFactory(options), { .driverCore = options.driverCore,
+                                                                     .repinAfterWaits = options.repinAfterWaits,
+                                                                     .hashStreams = options.hashFrames });
         if (!stream) return stream.error();
         return Engine(std::make_unique<Impl>(options, std::move(*stream)));
     });

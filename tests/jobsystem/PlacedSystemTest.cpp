@@ -10,6 +10,9 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <pthread.h>
+#include <sched.h>
+
 #include <algorithm>
 #include <atomic>
 #include <functional>
@@ -87,6 +90,51 @@ TEST(PlacedSystem, PinsEveryWorkerToOneCoreOfItsMaker) {
     EXPECT_THAT(cores, Each(SizeIs(1)));
     EXPECT_EQ(std::set(cores.begin(), cores.end()).size(), std::min<size_t>(3, coresOfThisThread().size()));
     for (std::vector<int> const& one : cores) EXPECT_THAT(one, IsSubsetOf(coresOfThisThread()));
+}
+
+// The handles of a system's workers, for a change of their cores from outside.
+std::vector<pthread_t> threadsOfWorkers(JobSystem& jobs) {
+    std::vector<pthread_t> threads;
+    std::mutex mutex;
+    std::atomic<uint32_t> arrived = 0;
+    JobGroup group(jobs);
+    for (uint32_t i = 0; i < jobs.workerCount(); ++i) {
+        group.run([&] {
+            {
+                const std::lock_guard lock(mutex);
+                threads.push_back(pthread_self());
+            }
+            ++arrived;
+            while (arrived < jobs.workerCount()) std::this_thread::yield();
+        });
+    }
+    while (arrived < jobs.workerCount()) std::this_thread::yield();
+    group.wait();
+    return threads;
+}
+
+TEST(PlacedSystem, WorkersTakeTheirCoresAgainAfterAWaitIfThePolicySaysSo) {
+    if (coresOfThisThread().size() < 2) GTEST_SKIP() << "needs two cores";
+    for (const bool repins : { false, true }) {
+        AffinityPolicy policy = AffinityPolicy::pin();
+        policy.repinsAfterWaits = repins;
+        JobSystem jobs({ .workers = 1, .affinity = policy });
+        const std::vector<int> own = coresOfWorkers(jobs).front();
+        const pthread_t worker = threadsOfWorkers(jobs).front();
+        cpu_set_t all;
+        CPU_ZERO(&all);
+        for (int core : coresOfThisThread()) CPU_SET(static_cast<size_t>(core), &all);
+        ASSERT_EQ(pthread_setaffinity_np(worker, sizeof(all), &all), 0);
+        std::vector<int> after;
+        for (int round = 0; round < 100 && (round == 0 || (repins && after != own)); ++round) {
+            std::this_thread::sleep_for(std::chrono::milliseconds(20)); // longer than a worker searches before it waits
+            after = coresOfWorkers(jobs).front();
+        }
+        if (repins)
+            EXPECT_EQ(after, own);
+        else
+            EXPECT_EQ(after, coresOfThisThread());
+    }
 }
 
 TEST(PlacedSystem, PinsTwoSystemsToDifferentCoresAndGivesThemBack) {

@@ -56,6 +56,8 @@ Result<Engine> createEngine(Options const& options, Backend backend) {
     EngineOptions engineOptions{ .backend = backend, .requireDevice = options.requireDevice };
     engineOptions.workers = options.workers;
     engineOptions.affinity = options.affinity;
+    engineOptions.driverCore = options.driverCore;
+    engineOptions.repinAfterWaits = options.repinAfterWaits;
     engineOptions.exactShaders = options.exactShaders;
     engineOptions.traceJobs = !options.traceJobs.empty();
     if (options.trace) engineOptions.traceFile = options.out / fmt::format("{}.trace", fileStem(backend));

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/filament-render/Options.h"
 
+#include "jobsystem/Topology.h"
 #include "tools/common/CommandLine.h"
 
 #include <CLI/CLI.hpp>
@@ -15,7 +16,7 @@ constexpr uint32_t kMaxFrames = 1'000'000, kMaxCopies = 100'000, kMaxWorkers = 2
 /// The options that only this program has.
 struct Words {
     std::string backend = "both", frames = "1", copies = "1", tolerance = "0", format = "png", traceJobs, workers,
-                affinity = "none", requireDevice, budget, costs, measureCosts, time, animation;
+                affinity = "none", driverCore = "none", requireDevice, budget, costs, measureCosts, time, animation;
     std::vector<std::string> values;
 };
 
@@ -49,6 +50,19 @@ Result<void> convertCounts(Words const& words, Options& options) {
     return {};
 }
 
+/// "last" is the core that the operating system numbers last: on telephones one of the fast ones.
+Result<void> convertDriverCore(Words const& words, Options& options) {
+    if (words.driverCore == "none") return {};
+    if (words.driverCore == "last") {
+        options.driverCore = jobs::coresOfThisThread().back();
+        return {};
+    }
+    const auto core = wholeNumber(words.driverCore, 0, 8191);
+    if (!core) return invalidOption("--driver-core", words.driverCore, "none, last or the number of a core");
+    options.driverCore = static_cast<int>(*core);
+    return {};
+}
+
 Result<void> convertThreads(Words const& words, Options& options) {
     if (!words.workers.empty()) {
         const auto workers = wholeNumber(words.workers, 0, kMaxWorkers);
@@ -61,7 +75,7 @@ Result<void> convertThreads(Words const& words, Options& options) {
         options.affinity = ThreadAffinity::BigCores;
     else if (words.affinity != "none")
         return invalidOption("--affinity", words.affinity, "none, pin or big-cores");
-    return {};
+    return convertDriverCore(words, options);
 }
 
 Result<void> convertBudget(Words const& words, Options& options) {
@@ -110,6 +124,10 @@ void declare(CLI::App& app, Words& words, Options& options) {
                    "FILE: the timeline of every thread, for chrome://tracing or tools/plot/plot.py jobs");
     app.add_option("--workers", words.workers, "job threads besides the app thread (one per remaining core)");
     app.add_option("--affinity", words.affinity, "none, pin or big-cores: where the job threads run (none)");
+    app.add_option("--driver-core", words.driverCore,
+                   "none, last or a number: the core of the driver thread, which job threads avoid (none)");
+    app.add_flag("--repin", options.repinAfterWaits,
+                 "threads with cores of their own take them again after every wait");
     app.add_option(
             "--budget", words.budget,
             "MS: device time per frame; chooses the quality with the least error within it, and explains the choice");

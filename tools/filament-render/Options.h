@@ -31,6 +31,8 @@ struct Options : SceneOptions {
     std::filesystem::path traceJobs; ///< empty: none
     int workers = -1;                ///< as EngineOptions::workers
     ThreadAffinity affinity = ThreadAffinity::None;
+    int driverCore = -1; ///< -1: the driver thread is not pinned
+    bool repinAfterWaits = false;
     bool listDevices = false;
     std::optional<double> budgetMilliseconds; ///< device time of a frame: the quality is chosen to fit
     std::filesystem::path costs;              ///< its cost table; empty: the library's

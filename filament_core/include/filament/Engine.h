@@ -57,8 +57,11 @@ struct EngineOptions {
     std::string requireDevice{}; ///< case-insensitive part of the device's name; empty: the first usable device
     int workers = -1;            ///< job threads besides the app thread; -1: one per remaining core; 0: none
     ThreadAffinity affinity = ThreadAffinity::None;
-    int driverCore = -1;     ///< pin the driver thread to this core and keep job threads off it
-    int avoidCore = -1;      ///< also keep job threads off this core; -1: none
+    int driverCore = -1; ///< pin the driver thread to this core and keep job threads off it
+    int avoidCore = -1;  ///< also keep job threads off this core; -1: none
+    /// Threads with cores of their own take them again each time they wake up: for systems that move processes between
+    /// groups of cores, as Android does. One system call per wake-up.
+    bool repinAfterWaits = false;
     bool validation = false; ///< check every stream, and enable the Vulkan validation layers or KHR_debug
     /// The engine's own shaders write their arithmetic out, so that both APIs draw the same bits. Off: the drivers
     /// choose, as in other engines. Materials that you compile yourself follow the options given to matc.

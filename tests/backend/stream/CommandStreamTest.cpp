@@ -33,6 +33,42 @@ TEST_P(BothThreadModes, TheDriverLivesAndDiesOnOneThread) {
     EXPECT_EQ(script.threadName == "driver", GetParam());
 }
 
+int coresOf(pthread_t thread) {
+    cpu_set_t cores;
+    CPU_ZERO(&cores);
+    EXPECT_EQ(pthread_getaffinity_np(thread, sizeof(cores), &cores), 0);
+    return CPU_COUNT(&cores);
+}
+
+TEST(CommandStream, TheDriverThreadTakesItsCoreAgainAfterAWaitIfTheOptionsSaySo) {
+    cpu_set_t all;
+    CPU_ZERO(&all);
+    ASSERT_EQ(pthread_getaffinity_np(pthread_self(), sizeof(all), &all), 0);
+    if (CPU_COUNT(&all) < 2) GTEST_SKIP() << "needs two cores";
+    int core = 0;
+    while (!CPU_ISSET(static_cast<size_t>(core), &all)) ++core;
+    for (const bool repins : { false, true }) {
+        Script script;
+        pthread_t driver{};
+        int cores = 0;
+        script.onExecute = [&](ResultSink&) {
+            driver = pthread_self();
+            cores = coresOf(driver);
+        };
+        auto stream = startScripted(script, { .driverCore = core, .repinAfterWaits = repins });
+        submitFrame(*stream, 1);
+        stream->waitIdle();
+        EXPECT_EQ(cores, 1);
+        ASSERT_EQ(pthread_setaffinity_np(driver, sizeof(all), &all), 0); // as a system does that moves processes
+        for (uint64_t frame = 2; frame < 100 && (frame == 2 || (repins && cores != 1)); ++frame) {
+            std::this_thread::sleep_for(10ms); // the thread waits again
+            submitFrame(*stream, frame);
+            stream->waitIdle();
+        }
+        EXPECT_EQ(cores, repins ? 1 : CPU_COUNT(&all));
+    }
+}
+
 TEST_P(BothThreadModes, AFailingFactoryIsAnErrorWithItsOwnText) {
     auto stream = CommandStream::start(
             [](ResultSink&) -> Result<std::unique_ptr<Driver>> {

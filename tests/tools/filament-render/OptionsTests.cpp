@@ -154,6 +154,9 @@ TEST(Options, AllReachTheirFields) {
                                      "3",
                                      "--affinity",
                                      "big-cores",
+                                     "--driver-core",
+                                     "0",
+                                     "--repin",
                                      "--require-device",
                                      "llvm" });
     EXPECT_EQ(options.model, "a b.glb");
@@ -181,6 +184,8 @@ TEST(Options, AllReachTheirFields) {
     EXPECT_EQ(options.traceJobs, "jobs.json");
     EXPECT_EQ(options.workers, 3);
     EXPECT_EQ(options.affinity, ThreadAffinity::BigCores);
+    EXPECT_EQ(options.driverCore, 0);
+    EXPECT_TRUE(options.repinAfterWaits);
     EXPECT_EQ(options.requireDevice, "llvm");
 }
 
@@ -208,6 +213,8 @@ TEST(Options, EveryRefusalNamesTheOptionTheValueAndTheCure) {
         { { "--workers", "-2" }, "--workers", "-2", "0 to 256" },
         { { "--workers", "257" }, "--workers", "257", "0 to 256" },
         { { "--affinity", "all" }, "--affinity", "all", "big-cores" },
+        { { "--driver-core", "first" }, "--driver-core", "first", "none, last or the number" },
+        { { "--driver-core", "-1" }, "--driver-core", "-1", "none, last or the number" },
         { { "--eye", "nan", "0", "0" }, "--eye", "nan 0 0", "finite" },
         { { "--eye", "0", "inf", "0" }, "--eye", "inf", "finite" },
         { { "--at", "0", "1e999", "0" }, "--at", "1e999", "finite" },
