@@ -74,7 +74,7 @@ Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const&
         parts->irradiance = uploadCube(impl, data->irradiance, name + " irradiance");
         parts->indirectLight = orBadAlloc(engine.create(IndirectLightDesc{ .specular = parts->specular,
                                                                            .specularLevels = data->specular.levels,
-                                                                           .mapping = options.roughnessMapping,
+                                                                           .mapping = data->mapping,
                                                                            .irradiance = parts->irradiance,
                                                                            .irradianceSh = data->irradianceSh,
                                                                            .name = name }));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// cmgen: bakes an environment and shows what the engine will look up: cube faces per mip level, spherical harmonics,
-// the DFG table. Exit status 0: done, 1: it failed (one line on standard error), 2: wrong arguments.
+// cmgen: bakes an environment into NAME.fenv, which loadEnvironment() takes in place of the picture, and shows what the
+// engine will look up: cube faces per mip level, spherical harmonics, the DFG table. Exit status 0: done, 1: it failed (one line on standard error), 2: wrong arguments.
 #include "base/math/Half.h"
 #include "base/math/Rgbm.h"
 #include "base/math/SharedExponent.h"
@@ -150,6 +150,7 @@ Result<void> run(Arguments const& arguments) {
     if (done) done = writeCube(arguments, data->sky, "sky");
     if (done) done = writeCube(arguments, data->irradiance, "irradiance");
     if (done) done = writeSh(arguments.out / "sh.txt", data->irradianceSh);
+    if (done) done = writeBakedEnvironment(*data, arguments.out / (arguments.environment.stem().string() + ".fenv"));
     if (done) done = writeDfg(arguments.out / "dfg.exr", bakeDfgTable(jobs, arguments.dfgSize));
     if (!done) return done;
     std::printf("%u x %u -> %u levels from %u texels a face, baked in %.0f ms\n", data->statistics.sourceWidth,
@@ -163,7 +164,9 @@ Result<void> run(Arguments const& arguments) {
 
 int main(int argc, char** argv) {
     Arguments arguments;
-    CLI::App app("Bakes an equirectangular .hdr or .exr: specular-N.exr, sky.exr, irradiance.exr, sh.txt, dfg.exr");
+    CLI::App app(
+            "Bakes an equirectangular .hdr or .exr: NAME.fenv for the engine, and to look at specular-N.exr, sky.exr, "
+            "irradiance.exr, sh.txt, dfg.exr");
     app.add_option("environment", arguments.environment, "the picture")->required();
     app.add_option("--size", arguments.size, "texels of a cube face, power of two in [16, 2048]")
             ->capture_default_str();

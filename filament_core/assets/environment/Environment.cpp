@@ -7,6 +7,7 @@
 #include "filament_core/assets/image/HdrReader.h"
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cstdlib>
 #include <new>
@@ -59,10 +60,24 @@ Result<EnvironmentData> bakePicture(std::span<const std::byte> picture, std::fil
     return bakeEnvironment(*image, jobs, options);
 }
 
+Result<EnvironmentData> readBaked(std::span<const std::byte> bytes, std::filesystem::path const& path) {
+    constexpr std::array kMappings{ RoughnessMapping::Quadratic, RoughnessMapping::Logarithmic,
+                                    RoughnessMapping::Linear };
+    for (const RoughnessMapping mapping : kMappings) {
+        Result<EnvironmentData> data = decodeEnvironment(bytes, bakedEnvironmentKey(mapping));
+        if (data) data->mapping = mapping;
+        if (data) return data;
+    }
+    return fail(ErrorCode::Corrupt,
+                "'{}' is a damaged baked environment, or one of another version; bake it again with cmgen",
+                path.string());
+}
+
 Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs::JobSystem& jobs,
                                          EnvironmentOptions const& options) {
     const Result<std::vector<std::byte>> picture = readFileBytes(path);
     if (!picture) return picture.error();
+    if (isBakedEnvironment(*picture)) return readBaked(*picture, path);
     const std::filesystem::path directory =
             options.useCache ? environmentCacheDirectory(options) : std::filesystem::path();
     if (directory.empty()) return bakePicture(*picture, path, jobs, options);
@@ -70,6 +85,7 @@ Result<EnvironmentData> loadThroughCache(std::filesystem::path const& path, jobs
     const uint64_t key = environmentKey(*picture, options);
     const std::filesystem::path file = cacheFile(directory, key);
     Result<EnvironmentData> cached = readCached(file, key);
+    if (cached) cached->mapping = options.mapping;
     if (cached) return cached;
     if (cached.error().code == ErrorCode::Corrupt) {
         log(Severity::Warning, "'{}': {}; baking again", file.string(), cached.error().message);
@@ -91,6 +107,10 @@ Image irradianceOf(IblCube const& cube, jobs::JobSystem& jobs) {
 }
 
 } // namespace
+
+Result<void> writeBakedEnvironment(EnvironmentData const& data, std::filesystem::path const& path) {
+    return replaceFile(path, encodeEnvironment(data, bakedEnvironmentKey(data.mapping)));
+}
 
 uint32_t skyFaceSize(uint32_t sourceWidth) { return std::clamp(std::bit_ceil((sourceWidth + 3) / 4), 16u, 512u); }
 
@@ -127,6 +147,7 @@ Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& 
             cube, options.faceSize, options.samples, jobs,
             [&](size_t done, size_t total) { report(options, "prefilter", done, total); }, options.mapping);
     data.levelOfRoughnessOne = static_cast<float>(levels.size() - 1);
+    data.mapping = options.mapping;
     EncodedCube specular = encodeCube(levels, options.format, jobs);
     const size_t skyLevel = std::bit_width(cube.front().size() / skySize) - 1u;
     EncodedCube sky = encodeCube(std::span(cube).subspan(skyLevel, 1), options.format, jobs);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// loadEnvironment: turns an equirectangular .hdr or .exr into the cubes and coefficients that light a scene.
-///   In      a picture (HdrReader.h); world direction d sees it at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
+///   In      a picture (HdrReader.h), or a file of writeBakedEnvironment(), whose sizes, format and mapping then count; world direction d sees it at u = 0.5 - atan2(d.x, d.z) / 2pi, v = acos(d.y) / pi.
 ///   Out     EnvironmentData, with the same bits from the cache and from the baker, for any number of workers.
 ///   Cache   one file per content of the picture, options and baker version, in `cacheDirectory`. Damaged files are
 ///           detected by their checksum and baked again; a directory that cannot be written causes a warning, not an
@@ -48,11 +48,12 @@ struct EnvironmentStatistics {
 inline constexpr uint32_t kIrradianceFaceSize = 16;
 
 struct EnvironmentData {
-    Image specular;   ///< cube; `mapping` in the options gives the roughness of each level
+    Image specular;   ///< cube
     Image sky;        ///< cube, one level: the picture itself at its own pixel density
     Image irradiance; ///< cube, one level of kIrradianceFaceSize texels: irradiance / pi, always RGBA16F
     std::array<float4, 9> irradianceSh{}; ///< see shaders/lib/ibl.glsl
     float levelOfRoughnessOne = 0;
+    RoughnessMapping mapping = RoughnessMapping::Quadratic; ///< the roughness of each level of `specular`
     EnvironmentStatistics statistics;
 };
 
@@ -62,6 +63,10 @@ Result<EnvironmentData> loadEnvironment(std::filesystem::path const& path, jobs:
 /// For generated skies, without file and cache.
 Result<EnvironmentData> bakeEnvironment(HdrImage const& image, jobs::JobSystem& jobs,
                                         EnvironmentOptions const& options = {});
+
+/// A file that loadEnvironment() reads without baking, on any machine, with the same bits. It belongs to this version of
+/// the baker: others refuse it and say so.
+Result<void> writeBakedEnvironment(EnvironmentData const& data, std::filesystem::path const& path);
 
 /// Texels per side of a sky face for a picture of this width, a power of two in [16, 512]: at least a quarter of the
 /// horizon.

@@ -68,6 +68,15 @@ uint64_t environmentKey(std::span<const std::byte> picture, EnvironmentOptions c
     return hashCombine(hashBytes(picture), hashValue(choices));
 }
 
+uint64_t bakedEnvironmentKey(RoughnessMapping mapping) { return environmentKey({}, { .mapping = mapping }); }
+
+bool isBakedEnvironment(std::span<const std::byte> bytes) {
+    uint64_t magic = 0;
+    if (bytes.size() < sizeof(magic)) return false;
+    std::memcpy(&magic, bytes.data(), sizeof(magic));
+    return magic == kMagic;
+}
+
 std::vector<std::byte> encodeEnvironment(EnvironmentData const& data, uint64_t key) {
     EnvironmentStatistics const& statistics = data.statistics;
     FileHeader header{ kMagic,

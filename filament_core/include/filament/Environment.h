@@ -39,6 +39,8 @@ private:
     std::unique_ptr<Impl> mImpl;
 };
 
+/// `path`: an equirectangular .hdr or .exr, or a .fenv that cmgen baked from one; sizes, format and mapping are then
+/// those of the file.
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
                                     EnvironmentLoadOptions const& options = {});
 

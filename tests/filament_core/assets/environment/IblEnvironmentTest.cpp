@@ -177,6 +177,46 @@ TEST_F(IblEnvironmentTest, ErrorsNameTheFileOrTheOption) {
     EXPECT_EQ(load().error().code, ErrorCode::InvalidArgument);
 }
 
+TEST_F(IblEnvironmentTest, ABakedFileTakesThePlaceOfThePictureWithTheSameBits) {
+    for (const RoughnessMapping mapping : { RoughnessMapping::Quadratic, RoughnessMapping::Linear }) {
+        mOptions.mapping = mapping;
+        mOptions.format = backend::Format::RGB9E5;
+        const auto baked = load();
+        ASSERT_TRUE(baked);
+        EXPECT_EQ(baked->mapping, mapping);
+        const std::filesystem::path file = mFolder / "sky.fenv";
+        ASSERT_TRUE(writeBakedEnvironment(*baked, file));
+        // options of the call do not count: what is in the file does
+        const auto loaded = loadEnvironment(file, mJobs, { .cacheDirectory = mFolder / "unused", .faceSize = 64 });
+        ASSERT_TRUE(loaded) << loaded.error().message;
+        expectSameBits(*loaded, *baked);
+        EXPECT_EQ(loaded->mapping, mapping);
+        EXPECT_FALSE(std::filesystem::exists(mFolder / "unused"));
+    }
+}
+
+TEST_F(IblEnvironmentTest, ADamagedBakedFileIsAnErrorWithItsCure) {
+    const auto baked = load();
+    ASSERT_TRUE(baked);
+    const std::filesystem::path file = mFolder / "sky.fenv";
+    ASSERT_TRUE(writeBakedEnvironment(*baked, file));
+    std::vector<std::byte> bytes = *readFileBytes(file);
+    const auto expectRefused = [&](std::vector<std::byte> const& damaged) {
+        ASSERT_TRUE(replaceFile(file, damaged));
+        const auto loaded = loadEnvironment(file, mJobs, mOptions);
+        ASSERT_FALSE(loaded);
+        EXPECT_NE(loaded.error().message.find("bake it again with cmgen"), std::string::npos) << loaded.error().message;
+        EXPECT_NE(loaded.error().message.find(file.string()), std::string::npos);
+    };
+    for (size_t at = 8; at < bytes.size(); at += bytes.size() / 97) { // behind the magic number
+        std::vector<std::byte> damaged = bytes;
+        damaged[at] ^= std::byte{ 1 };
+        expectRefused(damaged);
+    }
+    for (size_t left : { size_t{ 8 }, size_t{ 100 }, bytes.size() - 1 })
+        expectRefused(std::vector(bytes.begin(), bytes.begin() + static_cast<std::ptrdiff_t>(left)));
+}
+
 TEST_F(IblEnvironmentTest, ProgressNamesEachStageOnce) {
     std::vector<std::string> stages;
     mOptions.progress = [&](std::string_view stage, size_t done, size_t total) {
