@@ -18,8 +18,10 @@ SheenLayer::SheenLayer(SurfaceSample const& surface, BsdfModel const& model)
                                                 : sheenAlbedo(mView.z, mRoughness)) {
     if (mTerm == SheenTerm::Exact) mMean = averageLimitedSheenAlbedo(mRoughness);
     if (model.specularLight != SpecularLight::SplitSum) return;
-    mLobe.emplace(mRoughness, model.splitSumLevels);
-    mLobeFrame = Frame(glm::normalize(double3(-mView.x, -mView.y, mView.z)));
+    const double2 mean = lib::sheenMeanDirection(mView.z, mRoughness);
+    mLobe.emplace(std::max(lib::sheenLookUpRoughness(mean, mView.z), lib::kMinPerceptualRoughness),
+                  model.splitSumLevels);
+    mLobeFrame = Frame(glm::normalize(double3(mView.x * mean.x, mView.y * mean.x, mean.y)));
 }
 
 double3 SheenLayer::albedo() const { return mColor * std::min(mViewAlbedo, 1.0); }

@@ -49,6 +49,18 @@ Surface surfaceOf(MaterialInputs material) {
     return surface;
 }
 
+// The direction of the fibres' look-up, and its perceptual roughness in w.
+highp vec4 clothLookUp(Surface surface) {
+#if defined(CLOTH_ASHIKHMIN)
+    highp vec3 direction = dominantSpecularDirection(surface.normal, shading_reflected, surface.alpha);
+    return vec4(direction, surface.perceptualRoughness);
+#else
+    highp vec2 mean = sheenMeanDirection(shading_NoV, surface.perceptualRoughness);
+    highp vec3 direction = (shading_view - shading_normal * shading_NoV) * mean.x + shading_normal * mean.y;
+    return vec4(normalizeOrZero(direction), sheenLookUpRoughness(mean, shading_NoV));
+#endif
+}
+
 highp vec3 shadeEnvironment(Surface surface) {
     vec3 diffuse = surface.diffuse * environmentIrradiance(openNormal(surface.normal)) *
             sheenAlbedoScaling(surface.sheenColor, surface.sheenAlbedo);
@@ -56,10 +68,10 @@ highp vec3 shadeEnvironment(Surface surface) {
     diffuse *= clothScatterAlbedo(surface.subsurfaceColor);
 #endif
     diffuse = seenDiffuse(diffuse, surface.visibility, surface.diffuse);
-    highp vec3 direction = dominantSpecularDirection(surface.normal, shading_reflected, surface.alpha);
+    highp vec4 lookUp = clothLookUp(surface);
     vec3 specular = surface.sheenColor * (surface.sheenAlbedo * sheenLimit(surface.sheenAlbedo)) *
-            environmentRadiance(direction, surface.perceptualRoughness);
-    specular = seenReflection(specular, surface.visibility, surface.nov, shading_reflected, surface.alpha,
+            environmentRadiance(lookUp.xyz, lookUp.w);
+    specular = seenReflection(specular, surface.visibility, surface.nov, lookUp.xyz, surface.alpha,
             surface.perceptualRoughness, surface.sheenColor);
     return diffuse + specular;
 }

@@ -52,11 +52,12 @@ highp vec3 baseOfEnvironment(Surface surface) {
 
 highp vec3 addSheenOfEnvironment(Surface surface, highp vec3 below) {
     Sheen sheen = surface.sheen;
-    vec3 radiance = environmentRadiance(shading_reflected, sheen.perceptualRoughness);
-    radiance = seenReflection(radiance, surface.visibility, surface.nov, shading_reflected, sheen.alpha,
+    highp vec4 lookUp = sheenLookUp(sheen);
+    vec3 radiance = environmentRadiance(lookUp.xyz, lookUp.w);
+    radiance = seenReflection(radiance, surface.visibility, surface.nov, lookUp.xyz, sheen.alpha,
             sheen.perceptualRoughness, sheen.color);
 #if defined(HAS_NORMAL)
-    radiance = aboveHorizon(radiance, shading_isBumped, shading_reflected);
+    radiance = aboveHorizon(radiance, shading_isBumped, lookUp.xyz);
 #endif
     return below * sheenLeaves(sheen) + sheenOfEnvironment(sheen, radiance);
 }

@@ -27,6 +27,13 @@ Sheen sheenOf(MaterialInputs material) {
     return sheen;
 }
 
+// The direction for looking up the environment, unit, and its perceptual roughness in w.
+highp vec4 sheenLookUp(Sheen sheen) {
+    highp vec2 mean = sheenMeanDirection(shading_NoV, sheen.perceptualRoughness);
+    highp vec3 direction = (shading_view - shading_normal * shading_NoV) * mean.x + shading_normal * mean.y;
+    return vec4(normalizeOrZero(direction), sheenLookUpRoughness(mean, shading_NoV));
+}
+
 // Reflection of the environment, given its radiance over the lobe.
 vec3 sheenOfEnvironment(Sheen sheen, vec3 radiance) {
     return sheen.color * radiance * (sheen.albedo * sheenLimit(sheen.albedo));
