@@ -3,6 +3,7 @@
 
 #include "base/Assert.h"
 #include "shaders/compiler/CanonicalOrder.h"
+#include "shaders/compiler/ClampIndices.h"
 #include "shaders/compiler/DefineValues.h"
 #include "shaders/compiler/ExactLowering.h"
 #include "shaders/compiler/ForbidReordering.h"
@@ -34,10 +35,9 @@ Result<Words> lowerStage(std::string_view glsl, backend::ShaderStage stage, std:
                          ProgramCompileOptions const& options) {
     Result<Words> spirv = spirvFromGlsl(glsl, stage, name);
     if (spirv && options.exact && !isHalf(stage, options)) spirv = fullPrecision(*spirv);
-    if (spirv && options.exact) spirv = initializeVariables(*spirv);
+    if (spirv && options.exact) spirv = clampIndices(initializeVariables(*spirv));
     const Optimization goal = goalOf(stage, options);
     if (spirv && goal != Optimization::None) spirv = optimizeSpirv(*spirv, goal);
-    if (spirv && options.exact && hasDynamicIndices(*spirv)) spirv = clampIndices(*spirv);
     if (spirv) spirv = canonicalOrder(*spirv);
     if (spirv && options.exact) // last, so that no pass rearranges the result
         spirv = forbidReordering(hideConstantOutputs(lowerExactly(*spirv)));

@@ -2,11 +2,8 @@
 #include "shaders/compiler/DefineValues.h"
 
 #include "shaders/compiler/SpirvWords.h"
-#include "shaders/interface/ShaderInterface.h"
 
-#include <algorithm>
 #include <map>
-#include <set>
 
 namespace filament::shader {
 namespace {
@@ -69,23 +66,5 @@ private:
 } // namespace
 
 std::vector<uint32_t> initializeVariables(std::span<const uint32_t> spirv) { return Initializer(spirv).run(); }
-
-bool hasDynamicIndices(std::span<const uint32_t> spirv) {
-    std::set<uint32_t> constants, engineBlocks;
-    std::map<uint32_t, uint32_t> bases; // of pointers made by access chains
-    bool found = false;
-    forEachInstruction(spirv, [&](spv::Op op, std::span<const uint32_t> words) {
-        const bool isGroup = op == spv::OpDecorate && words[2] == spv::DecorationDescriptorSet;
-        if (isGroup && words[3] != kGroupMaterial) engineBlocks.insert(words[1]);
-        if (op >= spv::OpConstantTrue && op <= spv::OpConstantNull) constants.insert(words[2]);
-        if (op != spv::OpAccessChain && op != spv::OpInBoundsAccessChain) return;
-        const auto base = bases.find(words[3]);
-        bases[words[2]] = base == bases.end() ? words[3] : base->second;
-        const bool isDynamic =
-                !std::ranges::all_of(words.subspan(4), [&](uint32_t id) { return constants.contains(id); });
-        found = found || (isDynamic && !engineBlocks.contains(bases[words[2]]));
-    });
-    return found;
-}
 
 } // namespace filament::shader

@@ -4,6 +4,8 @@
 #include "shaders/compiler/ExactFormulas.h"
 #include "shaders/compiler/SpirvEditor.h"
 
+#include <array>
+#include <bit>
 #include <numbers>
 
 namespace filament::shader {
@@ -23,6 +25,9 @@ public:
         if (mAt.op == spv::OpSMod) return lowerSignedModulo();
         if (mAt.op == spv::OpConvertFToS) return convertClamped(-2147483648.0f, 2147483520.0f);
         if (mAt.op == spv::OpConvertFToU) return convertClamped(0.0f, 4294967040.0f);
+        if (mAt.op == spv::OpBitcast) return castNumber();
+        if (mAt.op == spv::OpExtInst && mEditor.isExtended(mAt) && mAt.operands[1] == GLSLstd450PackHalf2x16)
+            return packHalves();
         if (!mEditor.isFloat32(mAt.type)) return 0;
         if (mAt.op == spv::OpExtInst) return mEditor.isExtended(mAt) ? lowerExtended().id : 0;
         return lowerCore().id;
@@ -69,6 +74,36 @@ private:
         return mEditor.emit(mAt.op, mAt.type, { clamped.id });
     }
 
+    /// Sign and payload of a NaN depend on the order of operands, which each driver chooses; only bit casts see them.
+    Id oneNan(Value x) const { return unlessNan(x, x.like(std::bit_cast<float>(0x7FC00000u))); }
+
+    Id unlessNan(Value x, Value otherwise) const {
+        const Id isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(x.type()), { x.id });
+        return mEditor.emit(spv::OpSelect, x.type(), { isNan, otherwise.id, x.id });
+    }
+
+    Id castNumber() const {
+        const Value x = operand(0);
+        if (!mEditor.isFloat32(x.type()) || mEditor.isFloat32(mAt.type)) return 0;
+        return mEditor.emit(spv::OpBitcast, mAt.type, { oneNan(x) });
+    }
+
+    Id whole(uint32_t value) const { return mEditor.constant(std::array{ std::bit_cast<float>(value) }, mAt.type); }
+
+    /// Drivers pack a NaN as 7E00 or 7FFF, so numbers are packed, and NaNs added to them.
+    Id packHalves() const {
+        const Value both = argument(0);
+        const Value clean = { &mEditor, unlessNan(both, both.like(0)) };
+        Id packed = mEditor.emit(spv::OpExtInst, mAt.type, { mAt.operands[0], mAt.operands[1], clean.id });
+        for (uint32_t i = 0; i < 2; ++i) {
+            const Value half = both[i];
+            const Id isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(half.type()), { half.id });
+            const Id nan = mEditor.emit(spv::OpSelect, mAt.type, { isNan, whole(0x7E00u << (16 * i)), whole(0) });
+            packed = mEditor.emit(spv::OpBitwiseOr, mAt.type, { packed, nan });
+        }
+        return packed;
+    }
+
     Value lowerDivision() const {
         const Value divisor = operand(1);
         return mEditor.isConstantExpression(divisor.id) ? exactDivide(operand(0), divisor) : Value{};
@@ -92,6 +127,8 @@ private:
             return exactFaceForward(argument(0), argument(1), argument(2));
         case GLSLstd450FMix:
             return exactMix(argument(0), argument(1), argument(2));
+        case GLSLstd450Step: // NaN: 1, as GLSL 4.50, 8.3 says; drivers compare the other way round
+            return selectLess(argument(1), argument(0), argument(1).like(0), argument(1).like(1));
         case GLSLstd450SmoothStep:
             return exactSmoothStep(argument(0), argument(1), argument(2));
         case GLSLstd450Pow:

@@ -174,12 +174,6 @@ Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Opt
     return small && small->size() < fast->size() ? small : fast;
 }
 
-Result<std::vector<uint32_t>> clampIndices(std::span<const uint32_t> spirv) {
-    return runPasses(spirv, [](spvtools::Optimizer& optimizer) {
-        optimizer.RegisterPass(spvtools::CreateGraphicsRobustAccessPass());
-    });
-}
-
 // A constant without SpecId can no longer be chosen.
 Result<std::vector<uint32_t>> optimizeWithFalse(std::span<const uint32_t> spirv, std::span<const uint32_t> constants) {
     std::vector<uint32_t> fixed(spirv.begin(), spirv.begin() + kModuleHeaderWords);

@@ -24,9 +24,6 @@ Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::Shad
 Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv,
                                             Optimization goal = Optimization::Performance);
 
-/// Clamps every index that is not constant to the range of what it selects from.
-Result<std::vector<uint32_t>> clampIndices(std::span<const uint32_t> spirv);
-
 /// The same as if the bool specialisation constants with these ids were false.
 Result<std::vector<uint32_t>> optimizeWithFalse(std::span<const uint32_t> spirv, std::span<const uint32_t> constants);
 

@@ -122,6 +122,20 @@ INSTANTIATE_TEST_SUITE_P(
                 Corner{ "indexNegative", "vec4(list[-1 - int(p.x * 100.0)])", "vec4(a.x)", kList },
                 Corner{ "indexOfVector", "vec4(a[4 + int(p.x * 100.0)])", "vec4(a.w)" },
                 Corner{ "indexOfVectorNegative", "vec4(a[-1 - int(p.x * 100.0)])", "vec4(a.x)" },
+                Corner{ "stepOfNan",
+                        "step(vec4(0.5), vec4(nan, b.x, nan, c.x)) + step(vec4(nan, nan, a.xy), vec4(0.5))",
+                        "vec4(2.0, b.x < 0.5 ? 1.0 : 2.0, 0.5 < a.x ? 1.0 : 2.0, "
+                        "(c.x < 0.5 ? 0.0 : 1.0) + (0.5 < a.y ? 0.0 : 1.0))",
+                        "float nan = sqrt(-p.x) * exp(b.x);" },
+                Corner{ "bitsOfNan",
+                        "vec4(float(floatBitsToInt(nan) >> 16), float(floatBitsToUint(-nan) >> 16u), "
+                        "float(packHalf2x16(vec2(nan, -nan)) >> 16u), float(packHalf2x16(vec2(nan, -nan)) & 0xFFFFu))",
+                        "vec4(32704.0, 32704.0, 32256.0, 32256.0)",
+                        "float nan = sqrt(-p.x) * exp(b.x) + intBitsToFloat(-1);" },
+                Corner{ "indexFoldedToAConstant", "vec4((a + b)[five], list[five], square[five].x, (a + b)[-five])",
+                        "vec4(a.w + b.w, a.w, p.x, a.x + b.x)",
+                        "int five = 5; mat4 square = mat4(a, b, c, p); float list[4]; list[0] = a.x; list[1] = a.y; "
+                        "list[2] = a.z; list[3] = a.w;" },
                 Corner{ "indexOfMatrix", "square[4 + int(p.x * 100.0)]", "p", "mat4 square = mat4(a, b, c, p);" },
                 Corner{ "storeTooLarge", "vec4(list[0], list[1], list[2], list[3])", "vec4(a.xyz, b.x)",
                         "float list[4]; list[0] = a.x; list[1] = a.y; list[2] = a.z; list[4 + int(p.x * 9.0)] = b.x;" },
