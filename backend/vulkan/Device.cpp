@@ -19,6 +19,9 @@ VkResult createHandle(InstanceFunctions const& fn, PhysicalDevice const& physica
     auto half = make<VkPhysicalDeviceShaderFloat16Int8Features>(
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
     half.shaderFloat16 = VK_TRUE;
+    auto lines = make<VkPhysicalDeviceLineRasterizationFeaturesEXT>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_LINE_RASTERIZATION_FEATURES_EXT);
+    lines.bresenhamLines = VK_TRUE;
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     features.features.samplerAnisotropy = physical.features.samplerAnisotropy;
     features.features.depthClamp = physical.features.depthClamp;
@@ -35,6 +38,11 @@ VkResult createHandle(InstanceFunctions const& fn, PhysicalDevice const& physica
     if (physical.depthResolve) {
         extensions.push_back(VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME);
         extensions.push_back(VK_KHR_DEPTH_STENCIL_RESOLVE_EXTENSION_NAME);
+    }
+    if (physical.bresenhamLines) {
+        extensions.push_back(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME);
+        lines.pNext = features.pNext;
+        features.pNext = &lines;
     }
     if (physical.halfFloatShaders) {
         extensions.push_back(VK_KHR_SHADER_FLOAT16_INT8_EXTENSION_NAME);

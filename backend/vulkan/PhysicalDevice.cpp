@@ -79,6 +79,8 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_PROVOKING_VERTEX_FEATURES_EXT);
     auto half = make<VkPhysicalDeviceShaderFloat16Int8Features>(
             VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_SHADER_FLOAT16_INT8_FEATURES);
+    auto lines = make<VkPhysicalDeviceLineRasterizationFeaturesEXT>(
+            VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_LINE_RASTERIZATION_FEATURES_EXT);
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     device.creationFeedback = extensions.has(VK_EXT_PIPELINE_CREATION_FEEDBACK_EXTENSION_NAME);
     device.depthResolve = extensions.has(VK_KHR_CREATE_RENDERPASS_2_EXTENSION_NAME) &&
@@ -91,11 +93,16 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
         half.pNext = features.pNext;
         features.pNext = &half;
     }
+    if (extensions.has(VK_EXT_LINE_RASTERIZATION_EXTENSION_NAME)) {
+        lines.pNext = features.pNext;
+        features.pNext = &lines;
+    }
     instance.fn().vkGetPhysicalDeviceFeatures2(device.handle, &features);
 
     device.features = features.features;
     device.provokingVertexLast = provoking.provokingVertexLast;
     device.halfFloatShaders = half.shaderFloat16;
+    device.bresenhamLines = lines.bresenhamLines;
     DeviceInfo& info = device.info;
     info.features.mergedPasses = true; // subpasses are core
     info.features.depthResolve = device.depthResolve;

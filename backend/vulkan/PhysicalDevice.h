@@ -26,6 +26,7 @@ struct PhysicalDevice {
     uint32_t timestampBits = 0;       ///< 0: no timestamps on that queue
     float timestampNanoseconds = 1;   ///< of one tick
     uint64_t copyOffsetAlignment = 4; ///< of bytes in a staging buffer
+    bool bresenhamLines = false;      ///< VK_EXT_line_rasterization: lines as OpenGL ES draws them
     bool provokingVertexLast = false;
     bool halfFloatShaders = false;
     bool depthResolve = false;

@@ -55,6 +55,10 @@ VkPipelineRasterizationStateCreateInfo rasterInfo(Device const& device, RasterSt
     return info;
 }
 
+bool isLines(PrimitiveType topology) {
+    return topology == PrimitiveType::Lines || topology == PrimitiveType::LineStrip;
+}
+
 VkStencilOpState stencilFace(StencilFace const& face) {
     return { native(face.fail),
              native(face.pass),
@@ -173,6 +177,14 @@ Result<std::unique_ptr<Pipeline>> Pipeline::create(Device& device, VkPipelineCac
             VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_PROVOKING_VERTEX_STATE_CREATE_INFO_EXT);
     provoking.provokingVertexMode = VK_PROVOKING_VERTEX_MODE_LAST_VERTEX_EXT;
     if (device.physical().provokingVertexLast) raster.pNext = &provoking;
+    // OpenGL ES 3.2, 13.5.1 draws lines of one sample by Bresenham's rule (diamond exit) and those of several as
+    // rectangles, which is Vulkan's default for both.
+    auto lines = make<VkPipelineRasterizationLineStateCreateInfoEXT>(
+            VK_STRUCTURE_TYPE_PIPELINE_RASTERIZATION_LINE_STATE_CREATE_INFO_EXT);
+    lines.lineRasterizationMode = VK_LINE_RASTERIZATION_MODE_BRESENHAM_EXT;
+    lines.pNext = raster.pNext;
+    if (device.physical().bresenhamLines && isLines(desc.raster.topology) && desc.pass.samples == 1)
+        raster.pNext = &lines;
     const VkPipelineMultisampleStateCreateInfo multisample = multisampleInfo(desc);
     const VkPipelineDepthStencilStateCreateInfo depth = depthInfo(desc);
     BlendInfo blend;

@@ -5,6 +5,8 @@
 #include <gmock/gmock.h>
 
 #include <cmath>
+#include <map>
+#include <type_traits>
 
 namespace filament::backend {
 namespace {
@@ -237,6 +239,28 @@ DRIVER_TEST(Draw, TopologiesConnectVerticesAsTheirNamesSay) {
         uint32_t covered = 0;
         for (Rgba const& texel : endAndRead(gpu, setup)) covered += texel == kRed;
         EXPECT_EQ(covered, one.expected);
+    }
+}
+
+DRIVER_TEST(Draw, LinesCoverTheSamePixelsOnEveryApi) {
+    constexpr uint32_t kSize = 64;
+    std::vector<ColorVertex> vertices;
+    for (int i = 0; i < 48; ++i) { // a star whose rays begin and end anywhere in a pixel
+        const double angle = 0.131 * i, inner = 3 + 0.37 * (i % 5), outer = 20 + 0.71 * (i % 13);
+        for (const double radius : { inner, outer }) {
+            const double x = 32 + radius * std::cos(angle), y = 32 + radius * std::sin(angle);
+            vertices.push_back({ at(x, y, kSize, kSize), kRed });
+        }
+    }
+    for (const PrimitiveType topology : { PrimitiveType::Lines, PrimitiveType::LineStrip }) {
+        const Setup setup = setUp(gpu, kSize, kSize, [&](PipelineDesc& desc) { desc.raster.topology = topology; });
+        beginWith(gpu, setup, gpu.buffer(BufferUsage::Vertex, vertices));
+        gpu.record(CmdDraw{ .vertexCount = static_cast<uint32_t>(vertices.size()) });
+        const auto pixels = endAndRead(gpu, setup);
+        EXPECT_THAT(pixels, ::testing::Contains(kRed));
+        static std::map<PrimitiveType, std::remove_const_t<decltype(pixels)>> ofFirstApi;
+        const auto [first, isFirst] = ofFirstApi.try_emplace(topology, pixels);
+        EXPECT_TRUE(isFirst || first->second == pixels) << static_cast<int>(topology);
     }
 }
 
