@@ -7,9 +7,9 @@
 ///   Knows   KHR_draco_mesh_compression, EXT_ and KHR_meshopt_compression, KHR_mesh_quantization,
 ///           KHR_texture_transform, KHR_lights_punctual, EXT_mesh_gpu_instancing, KHR_materials_anisotropy, clearcoat,
 ///           diffuse_transmission, dispersion, emissive_strength, ior, iridescence, pbrSpecularGlossiness, sheen,
-///           specular, transmission, unlit, variants, volume. Other extensions are named in ModelData::warnings, once
-///           each, and the material without them is drawn.
-///   Does not  read KTX2 or WebP.
+///           specular, transmission, unlit, variants, volume. Another one is an error if the file requires it;
+///           otherwise it is named in ModelData::warnings, once, and the material without it is drawn.
+///   Does not  read KTX2 or WebP: a texture in use that has nothing else is an error.
 ///   Thread  any; images and primitives are decoded as jobs, and this thread takes part. The result does not depend on
 ///           the number of workers.
 ///   Memory  the file, and about twice the result while loading.

@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/files/JsonTree.h"
 
+#include <cmath>
 #include <cstring>
 
 namespace filament::assets {
@@ -19,10 +20,12 @@ struct Counts {
               nodes(root["nodes"].elementCount()), skins(root["skins"].elementCount()),
               materials(root["materials"].elementCount()), textures(root["textures"].elementCount()),
               samplers(root["samplers"].elementCount()), images(root["images"].elementCount()),
+              cameras(root["cameras"].elementCount()),
               lights(root.extension("KHR_lights_punctual")["lights"].elementCount()),
               variants(root.extension("KHR_materials_variants")["variants"].elementCount()) {}
 
-    size_t buffers, views, accessors, meshes, nodes, skins, materials, textures, samplers, images, lights, variants;
+    size_t buffers, views, accessors, meshes, nodes, skins, materials, textures, samplers, images, cameras, lights,
+            variants;
 };
 
 template <class Enum, size_t N>
@@ -197,6 +200,8 @@ void parseTransform(JsonNode const& node, GltfNode& parsed) {
     if (!(length2 > 1e-12)) {
         node.diagnostics().warn("{}.rotation: has no length and was ignored", node.path());
         r = { 0, 0, 0, 1 };
+    } else if (std::abs(length2 - 1) > 1e-3) {
+        node.diagnostics().warn("{}.rotation: its length is not 1; it was normalised", node.path());
     }
     parsed.pose = { { t[0], t[1], t[2] }, { r[0], r[1], r[2], r[3] }, { s[0], s[1], s[2] } };
     parsed.parentFromNode = matrixFrom(parsed.pose);
@@ -210,6 +215,7 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
                      .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
                      .weights = node["weights"].numberList(),
                      .instancing = {} };
+    node["camera"].index(counts.cameras, "cameras"); // checked, although cameras are not read
     parseTransform(node, parsed);
     for (JsonNode const& child : node["children"].elements()) {
         parsed.children.push_back(child.requiredIndex(counts.nodes, "nodes"));
@@ -225,6 +231,7 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
 
 GltfSkin parseSkin(JsonNode const& node, Counts const& counts) {
     GltfSkin skin{ node["name"].text(), node["inverseBindMatrices"].index(counts.accessors, "accessors"), {} };
+    node["skeleton"].index(counts.nodes, "nodes"); // only a hint for editors
     for (JsonNode const& joint : node["joints"].elements()) {
         skin.joints.push_back(joint.requiredIndex(counts.nodes, "nodes"));
     }
@@ -293,8 +300,8 @@ void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
 std::vector<uint32_t> parseRoots(JsonNode const& root, std::vector<GltfNode> const& nodes) {
     const std::vector<JsonNode> scenes = root["scenes"].elements();
     std::vector<uint32_t> roots;
+    const uint32_t scene = root["scene"].index(scenes.size(), "scenes");
     if (!scenes.empty()) {
-        const uint32_t scene = root["scene"].index(scenes.size(), "scenes");
         for (JsonNode const& node : scenes[scene == kNone ? 0 : scene]["nodes"].elements()) {
             roots.push_back(node.requiredIndex(nodes.size(), "nodes"));
         }
@@ -318,10 +325,26 @@ std::vector<uint32_t> parseRoots(JsonNode const& root, std::vector<GltfNode> con
     return roots;
 }
 
+/// Section 3.2: later minor versions may be read as 2.0 unless minVersion forbids it.
 void checkVersion(JsonNode const& root) {
-    const std::string version = root["asset"]["version"].text();
-    if (version.starts_with("2.")) return;
-    root.diagnostics().refuse(ErrorCode::Unsupported, "asset.version: '{}', this loader reads glTF 2.x", version);
+    const std::string version = root["asset"]["version"].text(), least = root["asset"]["minVersion"].text();
+    if (!version.starts_with("2."))
+        root.diagnostics().refuse(ErrorCode::Unsupported, "asset.version: '{}', this loader reads glTF 2.x", version);
+    else if (!least.empty() && least != "2.0")
+        root.diagnostics().refuse(ErrorCode::Unsupported, "asset.minVersion: '{}', this loader reads glTF 2.0", least);
+}
+
+/// Section 3.7.2.2: as many weights as morph targets; missing ones are 0.
+void checkWeights(std::vector<GltfMesh> const& meshes, std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
+    const auto check = [&](const char* array, uint32_t index, std::vector<float> const& weights, GltfMesh const& mesh) {
+        const size_t targets = mesh.primitives.empty() ? 0 : mesh.primitives.front().targets.size();
+        if (!weights.empty() && weights.size() != targets)
+            diagnostics.warn("{}[{}].weights: {} weights for {} morph targets", array, index, weights.size(), targets);
+    };
+    for (uint32_t i = 0; i < meshes.size(); ++i) check("meshes", i, meshes[i].weights, meshes[i]);
+    for (uint32_t i = 0; i < nodes.size(); ++i) {
+        if (nodes[i].mesh != kNone) check("nodes", i, nodes[i].weights, meshes[nodes[i].mesh]);
+    }
 }
 
 template <class T, class Parse>
@@ -367,9 +390,10 @@ GltfDocument parseGltf(std::span<const std::byte> json, Diagnostics& diagnostics
     if (!diagnostics.ok()) return document;
     const JsonNode root = tree.root(diagnostics);
     checkVersion(root);
-    warnAboutExtensions(root, diagnostics);
+    checkExtensions(root, diagnostics);
     parseElements(root, document);
     if (diagnostics.ok()) checkForest(document.nodes, diagnostics);
+    if (diagnostics.ok()) checkWeights(document.meshes, document.nodes, diagnostics);
     if (diagnostics.ok()) document.roots = parseRoots(root, document.nodes);
     return document;
 }

@@ -26,6 +26,6 @@ std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, si
                                                    size_t variantCount);
 backend::SamplerDesc parseGltfSampler(JsonNode const& node);
 LightData parseGltfLight(JsonNode const& node);
-void warnAboutExtensions(JsonNode const& root, Diagnostics& diagnostics);
+void checkExtensions(JsonNode const& root, Diagnostics& diagnostics);
 
 } // namespace filament::assets

@@ -173,7 +173,7 @@ LightData parseGltfLight(JsonNode const& node) {
     return light;
 }
 
-void warnAboutExtensions(JsonNode const& root, Diagnostics& diagnostics) {
+void checkExtensions(JsonNode const& root, Diagnostics& diagnostics) {
     const auto isSupported = [](std::string_view name) {
         return std::find(kSupportedExtensions.begin(), kSupportedExtensions.end(), name) != kSupportedExtensions.end();
     };
@@ -181,8 +181,9 @@ void warnAboutExtensions(JsonNode const& root, Diagnostics& diagnostics) {
     for (JsonNode const& node : root["extensionsRequired"].elements()) {
         required.push_back(node.text());
         if (isSupported(required.back())) continue;
-        diagnostics.warn("extension {} is required by the file but not supported: what it adds is missing",
-                         required.back());
+        diagnostics.refuse(ErrorCode::Unsupported,
+                           "extension {} is required by the file but not supported; export the model without it",
+                           required.back());
     }
     for (JsonNode const& node : root["extensionsUsed"].elements()) {
         const std::string name = node.text();

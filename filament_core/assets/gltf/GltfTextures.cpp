@@ -111,7 +111,8 @@ private:
         if (info.texture == kNone) return reference;
         GltfTexture const& texture = mDocument.textures[info.texture];
         if (texture.image == kNone) {
-            mDiagnostics.warn("textures[{}]: has no PNG or JPEG image and is left out", info.texture);
+            mDiagnostics.refuse(ErrorCode::Unsupported, "textures[{}]: has no PNG or JPEG image; export it as one",
+                                info.texture);
             return reference;
         }
         reference.image = mFirstOfSame[texture.image];

@@ -179,19 +179,26 @@ TEST(GltfMaterial, FactorsOutsideTheirRangeAreClampedWithAWarning) {
 
 TEST(GltfMaterial, UnknownExtensionsAreNamedOnceAndTheBaseMaterialIsLoaded) {
     TestFile file = texturedTriangle(Json::parse(R"({ "name": "car", "extensions": { "EXT_wax": {} } })"));
-    file.root["extensionsUsed"] = { "EXT_wax", "KHR_materials_unlit", "EXT_must" };
-    file.root["extensionsRequired"] = { "EXT_must" };
+    file.root["extensionsUsed"] = { "EXT_wax", "KHR_materials_unlit" };
     const ModelData model = loaded(file);
     EXPECT_EQ(model.materials[0].name, "car");
-    EXPECT_THAT(model.warnings, ElementsAre(AllOf(HasSubstr("EXT_must"), HasSubstr("required")), HasSubstr("EXT_wax")));
+    EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("EXT_wax")));
 }
 
-TEST(GltfMaterial, TexturesInFormatsThatAreNotReadAreLeftOut) {
+TEST(GltfMaterial, AnUnknownExtensionThatTheFileRequiresIsAnError) {
+    TestFile file = texturedTriangle(Json::parse("{}"));
+    file.root["extensionsUsed"] = file.root["extensionsRequired"] = { "KHR_materials_unlit", "EXT_must" };
+    const Result<ModelData> model = file.load();
+    ASSERT_FALSE(model);
+    EXPECT_THAT(model.error().message, HasSubstr("extension EXT_must is required by the file but not supported"));
+}
+
+TEST(GltfMaterial, ATextureInAFormatThatIsNotReadIsAnError) {
     TestFile file = texturedTriangle(Json::parse(R"({ "emissiveTexture": { "index": 0 } })"));
     file.root["textures"][0] = Json::parse(R"({ "extensions": { "KHR_texture_basisu": { "source": 0 } } })");
-    const ModelData model = loaded(file);
-    EXPECT_EQ(model.materials[0].emissive.image, kNone);
-    EXPECT_THAT(model.warnings, ElementsAre(HasSubstr("textures[0]")));
+    const Result<ModelData> model = file.load();
+    ASSERT_FALSE(model);
+    EXPECT_THAT(model.error().message, HasSubstr("textures[0]: has no PNG or JPEG image"));
 }
 
 TEST(GltfMaterial, ImagesComeFromDataUrisAndFilesWithEncodedNames) {
