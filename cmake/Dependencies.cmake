@@ -7,6 +7,7 @@ find_package(PNG REQUIRED)
 find_package(JPEG REQUIRED) # libjpeg-turbo
 find_package(ZLIB REQUIRED)
 find_package(glslang REQUIRED)
+find_package(SPIRV-Tools REQUIRED)
 find_package(SPIRV-Tools-opt REQUIRED)
 find_package(spirv_cross_core REQUIRED HINTS /usr/share/spirv_cross_core/cmake)
 find_package(spirv_cross_glsl REQUIRED HINTS /usr/share/spirv_cross_glsl/cmake)
@@ -43,6 +44,10 @@ add_library(shader_tools INTERFACE)
 target_link_libraries(shader_tools INTERFACE
     glslang::glslang glslang::SPIRV glslang::glslang-default-resource-limits SPIRV-Tools-opt
     spirv-cross-glsl spirv-cross-core)
+
+# Checks packages that are not part of the program.
+add_library(spirv_validator INTERFACE)
+target_link_libraries(spirv_validator INTERFACE SPIRV-Tools-static)
 
 add_library(asset_codecs INTERFACE)
 target_link_libraries(asset_codecs INTERFACE

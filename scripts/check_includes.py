@@ -75,7 +75,7 @@ TABLE_BEGIN, TABLE_END = "<!-- scripts/check_includes.py --write -->\n```\n", "`
 LIBRARIES = {
     r"vulkan/|volk\.h": ["backend/vulkan"],
     r"EGL/|GLES\d?/|GLES2/|KHR/": ["backend/gles"],
-    r"glslang/|SPIRV/|spirv-tools/|spirv_cross/|spirv_\w+\.hpp|spirv/": ["shaders/compiler", "tests"],
+    r"glslang/|SPIRV/|spirv-tools/|spirv_cross/|spirv_\w+\.hpp|spirv/": ["shaders/compiler", "filament_core/engine", "tests"],
     r"draco/|meshoptimizer\.h": ["filament_core/assets/gltf"],
     r"stb_?image|stb/|tinyexr|png\.h|jpeglib\.h": ["filament_core/assets/image", "filament_core/assets/gltf"],
     r"zlib\.h": ["shaders/package", "filament_core/assets/image", "filament_core/assets/gltf"],

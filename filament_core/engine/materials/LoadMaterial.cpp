@@ -2,6 +2,7 @@
 #include "filament_core/engine/materials/LoadMaterial.h"
 
 #include "base/Suggest.h"
+#include "filament_core/engine/materials/CheckSpirv.h"
 #include "filament_core/engine/materials/ConstantBits.h"
 #include "filament_core/engine/materials/DescribeMaterial.h"
 #include "shaders/interface/ShaderInterface.h"
@@ -51,6 +52,11 @@ Result<scene::Material> loadMaterial(MaterialDesc const& desc) {
     auto package = shader::readPackage(desc.package);
     if (!package) {
         return fail(package.error().code, "material package '{}': {}", desc.name, package.error().message);
+    }
+    if (!isTrusted(desc.package)) {
+        if (Result<void> checked = checkSpirv(*package); !checked) {
+            return fail(checked.error().code, "material package '{}': {}", desc.name, checked.error().message);
+        }
     }
     auto constants = resolveConstants(*package, desc.constants);
     if (!constants) return constants.error();

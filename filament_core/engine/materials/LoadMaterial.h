@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// loadMaterial: turns the bytes of a package and the app's constants into a material without device objects.
 ///   Thread  pure.   Memory: the material, and the text of an error.
-///   Fails   as readPackage(); NotFound, with the nearest name, for a constant that the material lacks; InvalidArgument
+///   Fails   as readPackage() and, for packages that are not part of this program, checkSpirv(); NotFound, with the nearest name, for a constant that the material lacks; InvalidArgument
 ///           for a constant of another type.
 #pragma once
 

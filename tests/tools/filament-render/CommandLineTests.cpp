@@ -192,6 +192,23 @@ TEST_F(CommandLine, NotANumberInsideAModelIsNoCrash) {
     EXPECT_NE(outcome.errors, "");
 }
 
+TEST_F(CommandLine, AModelThatCannotBeDrawnAsItSaysEndsWithAStatus) {
+    const auto expectStatus = [](const char* added, const char* reason) {
+        std::string text = triangleGltf();
+        text.insert(text.find(R"("attributes")"), R"("material":0,)");
+        text.insert(text.find('{') + 1, added);
+        writeText(sFolder / "lacking.gltf", text);
+        const Outcome outcome = run("lacking.gltf --backend gles --size 32x32 --out lacking");
+        EXPECT_EQ(outcome.status, 1) << added;
+        EXPECT_NE(outcome.errors.find(reason), std::string::npos) << outcome.errors;
+    };
+    expectStatus(R"("extensionsRequired": [ "EXT_wax" ], "extensionsUsed": [ "EXT_wax" ], "materials": [ {} ],)",
+                 "EXT_wax is required");
+    expectStatus(R"("images": [ { "uri": "none.png" } ], "textures": [ { "source": 0 } ],
+                    "materials": [ { "emissiveTexture": { "index": 0 } } ],)",
+                 "none.png");
+}
+
 TEST_F(CommandLine, AZeroSizeIsRefused) { expectRefused("triangle.gltf --size 0x0", { "--size", "0x0" }); }
 
 TEST_F(CommandLine, AnUnknownBackendIsRefused) {

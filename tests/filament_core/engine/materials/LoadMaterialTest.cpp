@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/engine/materials/LoadMaterial.h"
 
+#include "filament_core/engine/materials/CheckSpirv.h"
 #include "shaders/package/EngineMaterials.h"
 
 #include <gtest/gtest.h>
+
+#include <ctime>
+#include <random>
 
 namespace filament::engine {
 namespace {
@@ -43,6 +47,73 @@ TEST(LoadMaterial, SaysHowManyTexturesAMaterialSamplesAndHowManyThereMayBe) {
             "leave some out, or load it with constants that switch them off (usedIf)");
     constants.pop_back();
     EXPECT_TRUE(checkSamplers(load(constants), 14, "a device"));
+}
+
+std::vector<std::byte> copyOf(const char* name) {
+    const auto bytes = shader::engineMaterial(name);
+    return { bytes.begin(), bytes.end() };
+}
+
+TEST(LoadMaterial, TrustsOnlyThePackagesOfThisProgram) {
+    EXPECT_TRUE(isTrusted(shader::engineMaterial("gltf_lit_opaque")));
+    EXPECT_FALSE(isTrusted(copyOf("gltf_lit_opaque")));
+    const std::vector<std::byte> copy = copyOf("gltf_lit_opaque");
+    EXPECT_TRUE(loadMaterial({ .package = copy })) << "what the compiler wrote is valid, wherever it comes from";
+}
+
+/// The package with one word of one variant's SPIR-V changed and a right checksum.
+std::vector<std::byte> changedSpirv(shader::MaterialPackage package, std::mt19937& random) {
+    shader::Variant& variant = package.variants[random() % package.variants.size()];
+    std::vector<uint32_t>& words = random() % 2 == 0 ? variant.vertexSpirv : variant.fragmentSpirv;
+    words[random() % words.size()] ^= 1u << random() % 32;
+    return shader::writePackage(package);
+}
+
+TEST(LoadMaterial, RefusesChangedSpirvThatIsNotValid) {
+    const auto package = shader::readPackage(shader::engineMaterial("gltf_unlit_opaque"));
+    ASSERT_TRUE(package);
+    std::mt19937 random(7);
+    uint32_t refused = 0;
+    for (int i = 0; i < 100; ++i) {
+        const auto material = loadMaterial({ .package = changedSpirv(*package, random), .name = "changed" });
+        if (material) continue; // another constant, for example
+        EXPECT_TRUE(material.error().message.starts_with("material package 'changed': variant "))
+                << material.error().message;
+        ++refused;
+    }
+    EXPECT_GT(refused, 50u);
+}
+
+// Valid for SPIRV-Tools, and yet nothing for a driver.
+TEST(LoadMaterial, RefusesSpirvThatReachesBeyondItsPackage) {
+    auto package = shader::readPackage(shader::engineMaterial("gltf_unlit_opaque"));
+    ASSERT_TRUE(package);
+    std::vector<uint32_t>& words = package->variants[0].fragmentSpirv;
+    bool changed = false;
+    for (size_t at = 5; at < words.size() && !changed; at += words[at] >> 16) {
+        if ((words[at] & 0xFFFF) != 71 || words[at + 2] != 33) continue; // OpDecorate Binding
+        words[at + 3] += 77;
+        changed = true;
+    }
+    ASSERT_TRUE(changed);
+    const std::vector<std::byte> bytes = shader::writePackage(*package);
+    const auto material = loadMaterial({ .package = bytes });
+    ASSERT_FALSE(material);
+    EXPECT_NE(material.error().message.find("which the package does not have"), std::string::npos)
+            << material.error().message;
+    std::swap(package->variants[0].vertexSpirv, package->variants[0].fragmentSpirv);
+    EXPECT_FALSE(loadMaterial({ .package = shader::writePackage(*package) }));
+}
+
+TEST(LoadMaterial, ChecksAPackageInATimeThatIsSmallBesideCompilingIt) {
+    const std::vector<std::byte> copy = copyOf("gltf_lit_opaque");
+    const auto package = shader::readPackage(copy);
+    ASSERT_TRUE(package);
+    const std::clock_t start = std::clock(); // of the processor: other programs may run, too
+    EXPECT_TRUE(checkSpirv(*package));
+    const double seconds = static_cast<double>(std::clock() - start) / CLOCKS_PER_SEC;
+    RecordProperty("milliseconds", std::to_string(1000 * seconds));
+    EXPECT_LT(seconds, 0.05 * static_cast<double>(package->variants.size())) << "compiling takes 0.05 s per variant";
 }
 
 } // namespace
