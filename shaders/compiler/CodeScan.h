@@ -17,6 +17,7 @@ class CodeScan {
 public:
     explicit CodeScan(std::string_view glsl);
 
+    std::set<std::string, std::less<>> const& words() const { return mWords; }
     bool mentions(std::string_view identifier) const { return mWords.contains(identifier); }
     /// Lines, from 0, to the first call of a function that the text does not declare; nothing if there is none.
     std::optional<uint32_t> lineOfCall(std::string_view function) const;

@@ -2,6 +2,7 @@
 #include "shaders/compiler/DefinitionRules.h"
 
 #include "shaders/compiler/FeatureLevels.h"
+#include "shaders/compiler/GlslSuggestions.h"
 #include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
@@ -141,11 +142,16 @@ Result<void> checkSamplers(MaterialDefinition const& definition) {
 uint32_t samplerBudget(MaterialDefinition const& definition) { return budgetOfLevel(definition.package); }
 
 Result<void> checkRules(MaterialDefinition const& definition) {
+    std::vector<Error> errors;
     for (Contradiction const& contradiction : kContradictions) {
-        if (contradiction.isSo(definition)) return definition.errorAbout(contradiction.property, contradiction.message);
+        if (contradiction.isSo(definition))
+            errors.push_back(definition.errorAbout(contradiction.property, contradiction.message));
     }
-    if (Result<void> samplers = checkSamplers(definition); !samplers) return samplers;
-    return checkFeatureLevel(definition);
+    for (Result<void> const& checked : { checkSamplers(definition), checkFeatureLevel(definition) }) {
+        if (!checked) errors.push_back(checked.error());
+    }
+    if (!errors.empty()) return joined(errors);
+    return {};
 }
 
 } // namespace filament::shader

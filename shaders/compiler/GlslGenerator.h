@@ -24,6 +24,7 @@ struct MaterialNeeds {
     uint8_t fragmentCustoms = 0; ///< bit n: the fragment block calls getCustomn()
     uint64_t terms = 0;          ///< bit n: the term of materialMembers()[n] (findTerms())
     std::vector<GlslDeclaration> vertexDeclarations, fragmentDeclarations; ///< by the author
+    NameSet words;                                                         ///< of the author's code
     NameSet prefixed;                                                      ///< names of the engine among them
 
     bool has(std::string_view term) const;

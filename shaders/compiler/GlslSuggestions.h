@@ -1,13 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
-/// GlslSuggestions: "did you mean" for errors of the GLSL compiler, which does not know the names of materials.
-///   Thread  any. Fails: never; other errors are not changed.
+/// Makes the GLSL compiler's errors ones that authors can act on.
+///   Out     one line for each line of the author's text that is wrong, in the order of the text: "file:line: reason",
+///           with what was probably meant. Errors in the engine's text, which follow from the author's, disappear behind
+///           those, or point to the author's block.
+///   Limits  50 lines. Thread: any.
 #pragma once
 
+#include "base/Result.h"
 #include "shaders/compiler/MaterialDefinition.h"
+
+#include <span>
 
 namespace filament::shader {
 
-/// For misspelt members of MaterialInputs, parameters, constants and variables.
-Error withSuggestion(Error error, MaterialDefinition const& definition);
+/// `error` may have several lines.
+Error withSuggestion(Error const& error, MaterialDefinition const& definition);
+
+/// All of them as one, without repetitions. There is at least one.
+Error joined(std::span<const Error> errors);
 
 } // namespace filament::shader

@@ -3,6 +3,7 @@
 
 #include "shaders/compiler/EndlessLoops.h"
 #include "shaders/compiler/GlslLimits.h"
+#include "shaders/compiler/GlslOutline.h"
 #include "shaders/compiler/SpirvWords.h"
 
 #include <glslang/Public/ResourceLimits.h>
@@ -26,15 +27,18 @@ struct GlslangProcess {
     ~GlslangProcess() { glslang::FinalizeProcess(); }
 };
 
-struct LogSummary {
-    std::string firstError;
-    size_t errors = 0;
-};
+/// "file:12", of a line of the log; empty if it has no place.
+std::string_view placeIn(std::string_view line) {
+    const size_t end = line.find(": ");
+    return end == std::string_view::npos ? std::string_view{} : line.substr(0, end);
+}
 
-/// glslang's log consists of lines like "ERROR: file:12: 'x' : undeclared identifier", and a count at the end.
-LogSummary summarize(std::string_view logText) {
+/// glslang's log consists of lines like "ERROR: file:12: 'x' : undeclared identifier", and a count at the end. Of several
+/// errors in a line of the source, all but the first mostly follow from it.
+std::vector<std::string_view> errorsIn(std::string_view logText) {
     constexpr std::string_view kPrefix = "ERROR: ";
-    LogSummary summary;
+    std::vector<std::string_view> errors;
+    std::set<std::string_view> places;
     while (!logText.empty()) {
         const size_t end = logText.find('\n');
         std::string_view line = logText.substr(0, end);
@@ -45,16 +49,53 @@ LogSummary summarize(std::string_view logText) {
         const bool isEcho = line.find("compilation terminated") != std::string_view::npos;
         if (isCount || isEcho) continue;
         line.remove_suffix(line.size() - 1 - line.find_last_not_of(' ')); // glslang pads the line
-        if (summary.errors++ == 0) summary.firstError = line;
+        const std::string_view place = placeIn(line);
+        if (place.empty() || places.insert(place).second) errors.push_back(line);
     }
-    return summary;
+    return errors;
 }
 
 Error compileError(const char* log, std::string_view name) {
-    const LogSummary summary = summarize(log);
-    if (summary.errors == 0) return fail(ErrorCode::InvalidArgument, "{}: the shader does not compile: {}", name, log);
-    if (summary.errors == 1) return fail(ErrorCode::InvalidArgument, "{}", summary.firstError);
-    return fail(ErrorCode::InvalidArgument, "{} (and {} more)", summary.firstError, summary.errors - 1);
+    std::string message;
+    for (const std::string_view error : errorsIn(log)) {
+        if (!message.empty()) message += '\n';
+        message += error;
+    }
+    if (message.empty()) return fail(ErrorCode::InvalidArgument, "{}: the shader does not compile: {}", name, log);
+    return { ErrorCode::InvalidArgument, std::move(message) };
+}
+
+/// "file:12" of a function of the text; the file alone if the text has none of this name.
+std::string placeOfFunction(std::vector<GlslDeclaration> const& outline, std::string_view function,
+                            std::string_view name) {
+    GlslDeclaration const* found = nullptr;
+    for (GlslDeclaration const& each : outline) {
+        if (each.name == function && (!found || each.isDefinition)) found = &each;
+    }
+    return found ? fmt::format("{}:{}", found->file, found->line) : std::string(name);
+}
+
+/// The linker's errors name functions and no lines: "Recursion detected:", then "    f(f1; calling g(f1;" in the next.
+Error linkError(std::string_view log, std::string_view glsl, std::string_view name) {
+    const std::vector<GlslDeclaration> outline = outlineOf(glsl, name);
+    std::string message;
+    std::string_view header;
+    for (size_t end = 0; !log.empty(); log.remove_prefix(std::min(end + 1, log.size()))) {
+        end = std::min(log.find('\n'), log.size());
+        const std::string_view line = log.substr(0, end);
+        if (line.starts_with("ERROR:")) header = line;
+        const size_t begin = line.find_first_not_of(' ');
+        if (begin == 0 || begin == std::string_view::npos) continue;
+        const std::string_view function = line.substr(begin, line.find('(') - begin);
+        const bool isRecursion = header.find("Recursion") != std::string_view::npos;
+        if (!message.empty()) message += '\n';
+        message +=
+                fmt::format("{}: {}() {}", placeOfFunction(outline, function, name), function,
+                            isRecursion ? "calls itself, directly or through others; GLSL has no recursion, use a loop"
+                                        : "is declared and called but not defined");
+    }
+    if (message.empty()) return compileError(header.data() ? std::string(header).c_str() : "", name);
+    return { ErrorCode::InvalidArgument, std::move(message) };
 }
 
 Error endlessLoopError(EndlessLoop const& loop, std::string_view name) {
@@ -89,36 +130,49 @@ static EShLanguage languageOf(backend::ShaderStage stage) {
     return stage == backend::ShaderStage::Vertex ? EShLangVertex : EShLangFragment;
 }
 
-Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name) {
-    if (const Result<void> within = checkGlslLimits(glsl, name); !within) return within.error();
-    static const GlslangProcess process;
-    const EShLanguage language = languageOf(stage);
+static constexpr auto kRules = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
+
+static bool parse(glslang::TShader& shader, std::string_view glsl, EShLanguage language, std::string_view name,
+                  EShMessages messages) {
     const std::string nameText(name);
     const char* text = glsl.data();
     const char* textName = nameText.c_str();
     const int length = static_cast<int>(glsl.size());
-
-    glslang::TShader shader(language);
     shader.setStringsWithLengthsAndNames(&text, &length, &textName, 1);
     shader.setEnvInput(glslang::EShSourceGlsl, language, glslang::EShClientVulkan, 100);
     shader.setEnvClient(glslang::EShClientVulkan, glslang::EShTargetVulkan_1_1);
     shader.setEnvTarget(glslang::EShTargetSpv, glslang::EShTargetSpv_1_3);
-    const auto messages = static_cast<EShMessages>(EShMsgSpvRules | EShMsgVulkanRules);
-    if (!shader.parse(GetDefaultResources(), 450, false, messages)) return compileError(shader.getInfoLog(), name);
+    return shader.parse(GetDefaultResources(), 450, false, messages);
+}
+
+Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
+                                            bool withLines) {
+    if (const Result<void> within = checkGlslLimits(glsl, name); !within) return within.error();
+    static const GlslangProcess process;
+    const EShLanguage language = languageOf(stage);
+    glslang::TShader shader(language);
+    if (!parse(shader, glsl, language, name, kRules)) {
+        glslang::TShader again(
+                language); // cascading costs nothing here, and lists what is wrong behind the first error
+        parse(again, glsl, language, name, static_cast<EShMessages>(kRules | EShMsgCascadingErrors));
+        return compileError(again.getInfoLog(), name);
+    }
 
     glslang::TProgram program;
     program.addShader(&shader);
-    if (!program.link(messages)) return compileError(program.getInfoLog(), name);
+    if (!program.link(kRules)) return linkError(program.getInfoLog(), glsl, name);
 
     std::vector<uint32_t> spirv;
     glslang::SpvOptions options;
     options.disableOptimizer = true; // optimizeSpirv() is a separate step
     glslang::GlslangToSpv(*program.getIntermediate(language), spirv, &options);
-    if (!findEndlessLoop(spirv)) return spirv;
-    std::vector<uint32_t> withLines;
+    const bool isEndless = findEndlessLoop(spirv).has_value();
+    if (!isEndless && !withLines) return spirv;
+    std::vector<uint32_t> lined;
     options.generateDebugInfo = true;
-    glslang::GlslangToSpv(*program.getIntermediate(language), withLines, &options);
-    return endlessLoopError(findEndlessLoop(withLines).value_or(EndlessLoop{}), name);
+    glslang::GlslangToSpv(*program.getIntermediate(language), lined, &options);
+    if (!isEndless) return lined;
+    return endlessLoopError(findEndlessLoop(lined).value_or(EndlessLoop{}), name);
 }
 
 namespace {
@@ -169,9 +223,16 @@ Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv, Opt
     Result<std::vector<uint32_t>> fast =
             runPasses(spirv, [](spvtools::Optimizer& optimizer) { optimizer.RegisterPerformancePasses(); });
     if (!fast || goal != Optimization::Size) return fast;
-    // Inlined code may still become shorter: constants meet and fold.
-    Result<std::vector<uint32_t>> small = runPasses(spirv, registerSizePasses);
-    return small && small->size() < fast->size() ? small : fast;
+    // Constants of inlined code meet and fold; a function that is called once is always better inlined. So several lists
+    // compete, and none is the best for all materials.
+    Result<std::vector<uint32_t>> best = fast;
+    const auto compete = [&](std::span<const uint32_t> from) {
+        Result<std::vector<uint32_t>> small = runPasses(from, registerSizePasses);
+        if (small && small->size() < best->size()) best = std::move(small);
+    };
+    compete(spirv);
+    compete(*fast);
+    return best;
 }
 
 // A constant without SpecId can no longer be chosen.

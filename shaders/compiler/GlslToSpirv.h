@@ -16,9 +16,11 @@ namespace filament::shader {
 
 /// GLSL 450 with Vulkan semantics -> SPIR-V 1.3 with names. `#line n "file"` is understood and `name` is the file until
 /// then.
-///   Fails   InvalidArgument, "file:line: reason" of the first error and how many more there are; also for a loop
+///   Fails   InvalidArgument, "file:line: reason": a line for each line of the source that is wrong; also for a loop
 ///           without an exit (EndlessLoops.h).
-Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name);
+///   `withLines`: with OpLine and variables as in the source, for messages.
+Result<std::vector<uint32_t>> spirvFromGlsl(std::string_view glsl, backend::ShaderStage stage, std::string_view name,
+                                            bool withLines = false);
 
 /// SPIRV-Tools' passes for `goal`, which is not None. Fails: Internal if the module is not valid.
 Result<std::vector<uint32_t>> optimizeSpirv(std::span<const uint32_t> spirv,

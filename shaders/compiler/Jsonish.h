@@ -54,8 +54,9 @@ struct JsonMember {
 const char* toString(JsonValue::Kind kind);
 
 struct GlslBlock {
-    std::string text;  ///< without the outer braces
-    SourcePosition at; ///< of its first line
+    std::string text;      ///< without the outer braces
+    SourcePosition at;     ///< of its first line
+    std::string defines{}; ///< whole lines in front of it, from the command line
 };
 
 struct MaterialText {

@@ -70,11 +70,18 @@ std::string JsonishLexer::include() {
     if (path.kind != TokenKind::Quoted) return "#include needs a path in quotes";
     if (mInputs.size() >= kMaxIncludeDepth)
         return fmt::format("\"{}\" is included too deeply; does it include itself?", path.text);
-    std::optional<std::string> text = mIncludes ? mIncludes(path.text) : std::nullopt;
+    std::string name = path.text;
+    const size_t folder = mInputs.size() > 1 ? input().file->rfind('/') : std::string::npos;
+    if (folder != std::string::npos) name.insert(0, input().file->substr(0, folder + 1)); // beside the including file
+    std::optional<std::string> text = mIncludes ? mIncludes(name) : std::nullopt;
+    if (!text && name != path.text) {
+        name = path.text;
+        text = mIncludes ? mIncludes(name) : std::nullopt;
+    }
     if (!text) return fmt::format("cannot find the file \"{}\" of this #include", path.text);
     mTotalBytes += text->size();
     if (mTotalBytes > kMaxTotalBytes) return "the material with its includes is larger than 1 MiB";
-    mInputs.push_back({ std::move(*text), std::make_shared<std::string>(path.text) });
+    mInputs.push_back({ std::move(*text), std::make_shared<std::string>(name) });
     return {};
 }
 

@@ -5,8 +5,10 @@
 #include "shaders/compiler/EmbeddedSources.h"
 #include "shaders/compiler/GlslGenerator.h"
 #include "shaders/compiler/GlslSuggestions.h"
+#include "shaders/compiler/GlslToSpirv.h"
 #include "shaders/compiler/MaterialAnalysis.h"
 #include "shaders/compiler/MaterialMembers.h"
+#include "shaders/compiler/MaterialWarnings.h"
 #include "shaders/compiler/Reflection.h"
 #include "shaders/compiler/TextureConditions.h"
 #include "shaders/compiler/Variants.h"
@@ -41,6 +43,26 @@ Result<MaterialDefinition> define(std::string_view text, std::string_view fileNa
     return defineMaterial(std::move(*parsed), fileName);
 }
 
+void defineMacros(CompileOptions const& options, MaterialDefinition& definition) {
+    std::string defines;
+    for (auto const& [name, value] : options.defines) defines += fmt::format("#define {} {}\n", name, value);
+    definition.fragment.defines = defines;
+    if (definition.vertex) definition.vertex->defines = defines;
+}
+
+/// The fragment block is compiled first; the vertex block may be wrong, too.
+Error withVertexErrors(Error const& fragment, Prepared const& prepared) {
+    MaterialDefinition const& definition = prepared.definition;
+    const Error first = withSuggestion(fragment, definition);
+    if (!definition.vertex) return first;
+    const Result<std::string> text = generateVertex(definition, prepared.needs, 0, prepared.includes);
+    if (!text) return first;
+    const auto vertex = spirvFromGlsl(*text, backend::ShaderStage::Vertex, definition.fileName);
+    if (vertex) return first;
+    const Error both[] = { withSuggestion(vertex.error(), definition), first };
+    return joined(both);
+}
+
 Result<Prepared> prepare(std::string_view text, std::string_view fileName, CompileOptions const& options) {
     Prepared prepared;
     prepared.includes = withEngineFiles(options.includes);
@@ -48,11 +70,12 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     if (!definition) return definition.error();
     usePlatformDefaults(options.platform, *definition);
     prepared.definition = std::move(*definition);
+    defineMacros(options, prepared.definition);
     Result<MaterialNeeds> needs = findNeeds(prepared.definition, prepared.includes);
     if (!needs) return needs.error();
     prepared.needs = std::move(*needs);
     Result<void> terms = findTerms(prepared.definition, prepared.includes, prepared.needs);
-    if (!terms) return withSuggestion(terms.error(), prepared.definition);
+    if (!terms) return withVertexErrors(terms.error(), prepared);
     Result<void> conditions = checkTextureConditions(prepared.definition, prepared.needs, prepared.includes);
     if (!conditions) return withSuggestion(conditions.error(), prepared.definition);
     MaterialPackage& package = prepared.definition.package;
@@ -143,14 +166,19 @@ Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view 
     for (size_t i = 0; i < members.size(); ++i) {
         if ((prepared->needs.terms & termBit(i)) != 0) package.terms.emplace_back(members[i].name);
     }
-    for (const uint16_t key : prepared->keys) { // reports the error of the lowest key, whichever job failed first
-        Result<StageShader> const& vertex = *stageOf(stages, backend::ShaderStage::Vertex, key).compiled;
-        if (!vertex) return withSuggestion(vertex.error(), prepared->definition);
-        Result<StageShader> const& fragment = *stageOf(stages, backend::ShaderStage::Fragment, key).compiled;
-        if (!fragment) return withSuggestion(fragment.error(), prepared->definition);
-        if ((key & kVariantSkinning) == 0) package.requiredAttributes |= vertex->vertexInputs;
-        package.variants.push_back({ key, vertex->spirv, fragment->spirv, vertex->essl, fragment->essl });
+    std::vector<Error> errors;
+    for (Stage const& stage : stages) {
+        if (!*stage.compiled) errors.push_back(withSuggestion(stage.compiled->error(), prepared->definition));
     }
+    if (!errors.empty()) return joined(errors);
+    for (const uint16_t key : prepared->keys) {
+        StageShader const& vertex = **stageOf(stages, backend::ShaderStage::Vertex, key).compiled;
+        StageShader const& fragment = **stageOf(stages, backend::ShaderStage::Fragment, key).compiled;
+        if ((key & kVariantSkinning) == 0) package.requiredAttributes |= vertex.vertexInputs;
+        package.variants.push_back({ key, vertex.spirv, fragment.spirv, vertex.essl, fragment.essl });
+    }
+    if (options.warnings)
+        *options.warnings = materialWarnings(prepared->definition, prepared->needs, prepared->includes);
     package.requiredAttributes &= ~(1u << kAttributeInstance); // provided by the engine, not by the geometry
     return package;
 }

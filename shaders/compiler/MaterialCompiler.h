@@ -4,7 +4,8 @@
 ///           -> generate GLSL per variant (GlslGenerator) -> compile (CompileProgram) -> package.
 ///   Thread  any; with `jobs` the variants are compiled in parallel. The bytes do not depend on it.
 ///   Memory  the contents of the package, and some megabytes per thread while compiling.
-///   Fails   InvalidArgument or Unsupported, "file:line: reason" in the author's file, also for errors of the GLSL.
+///   Fails   InvalidArgument or Unsupported, "file:line: reason" in the author's file, also for errors of the GLSL; a line
+///           for each mistake, as far as one does not hide the next.
 ///   Cost    about 50 ms per variant.
 #pragma once
 
@@ -16,6 +17,8 @@
 
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 namespace filament::jobs {
 class JobSystem;
@@ -33,6 +36,10 @@ struct CompileOptions {
     /// Files besides the engine's own (which are asked first): usually those beside the .mat.
     IncludeResolver includes{};
     jobs::JobSystem* jobs = nullptr; ///< null: compile on the calling thread only
+    /// Macros in front of both blocks: name, value.
+    std::vector<std::pair<std::string, std::string>> defines{};
+    /// Receives "file:line: what is odd", in the order of the text (MaterialWarnings.h). Null: nobody looks for it.
+    std::vector<std::string>* warnings = nullptr;
 };
 
 Result<MaterialPackage> compileMaterial(std::string_view text, std::string_view fileName,

@@ -2,6 +2,7 @@
 #include "shaders/compiler/MaterialDefinition.h"
 
 #include "shaders/compiler/DefinitionRules.h"
+#include "shaders/compiler/GlslSuggestions.h"
 #include "shaders/compiler/ParameterProperties.h"
 #include "shaders/compiler/PropertyReader.h"
 #include "shaders/compiler/StateProperties.h"
@@ -40,11 +41,15 @@ Result<void> readProperty(std::string const& name, JsonValue const& value, Mater
 }
 
 Result<void> readProperties(JsonValue const& material, MaterialDefinition& out) {
+    std::vector<Error> errors;
     for (auto const& [name, value] : material.members) {
-        if (out.find(name)) return errorAt(value.at, fmt::format("the property '{}' is given twice", name));
-        if (Result<void> done = readProperty(name, value, out); !done) return done;
+        Result<void> done;
+        if (out.find(name)) done = errorAt(value.at, fmt::format("the property '{}' is given twice", name));
+        if (done) done = readProperty(name, value, out);
+        if (!done) errors.push_back(done.error());
         out.given.push_back({ name, value.at });
     }
+    if (!errors.empty()) return joined(errors);
     return {};
 }
 

@@ -61,7 +61,8 @@ struct MaterialDefinition {
     bool customSurfaceShading = false;
     ClothDistribution clothDistribution = ClothDistribution::Charlie;
     SpecularAntiAliasing specularAntiAliasing;
-    std::vector<GivenProperty> given; ///< in the order of the file
+    std::vector<std::string> warnings{}; ///< "file:line: what is odd" of the material block
+    std::vector<GivenProperty> given;    ///< in the order of the file
     std::optional<GlslBlock> vertex;
     GlslBlock fragment;
     std::string fileName;

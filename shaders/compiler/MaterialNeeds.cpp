@@ -26,6 +26,18 @@ Result<std::string> expanded(std::optional<GlslBlock> const& block, IncludeResol
     return std::move(text).take();
 }
 
+/// The words of #line are none of the author's.
+std::string withoutFileNames(std::string text) {
+    for (size_t at = 0; at < text.size();) {
+        const size_t end = std::min(text.find('\n', at), text.size());
+        if (std::string_view(text).substr(at).starts_with("#line "))
+            std::fill(text.begin() + static_cast<std::ptrdiff_t>(at), text.begin() + static_cast<std::ptrdiff_t>(end),
+                      ' ');
+        at = end + 1;
+    }
+    return text;
+}
+
 using Declarations = std::span<const GlslDeclaration>;
 
 /// A function that the engine calls.
@@ -131,6 +143,24 @@ uint8_t customsIn(MaterialDefinition const& definition, CodeScan const& fragment
     return static_cast<uint8_t>(read);
 }
 
+/// They are members of MaterialVertexInputs, beside what the engine keeps there.
+Result<void> checkVariableNames(MaterialDefinition const& definition, MaterialNeeds const& needs) {
+    const std::pair<std::string_view, bool> taken[] = {
+        { "color", needsAttribute(definition, kAttributeColor) }, { "uv0", needsAttribute(definition, kAttributeUv0) },
+        { "uv1", needsAttribute(definition, kAttributeUv1) },     { "worldNormal", needs.normal },
+        { "clipSpaceTransform", needs.clipSpaceTransform },       { "worldPosition", true },
+    };
+    for (Variable const& variable : definition.variables) {
+        for (auto const& [name, isTaken] : taken) {
+            if (!isTaken || variable.name != name) continue;
+            return errorAt(variable.at, fmt::format("MaterialVertexInputs of this material has a member '{}' already; "
+                                                    "choose another name for the variable",
+                                                    name));
+        }
+    }
+    return {};
+}
+
 /// The custom attributes of the fragment block take the places that variables leave.
 Result<void> checkCustoms(MaterialDefinition const& definition, MaterialNeeds const& needs) {
     const auto read = static_cast<size_t>(std::popcount(needs.fragmentCustoms));
@@ -149,7 +179,7 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     if (!fragmentText) return fragmentText.error();
     Result<std::string> vertexText = expanded(definition.vertex, includes);
     if (!vertexText) return vertexText.error();
-    const CodeScan fragment(*fragmentText), vertex(*vertexText);
+    const CodeScan fragment(withoutFileNames(*fragmentText)), vertex(withoutFileNames(*vertexText));
     MaterialNeeds needs;
     if (Result<void> free = findNames(*fragmentText, *vertexText, definition, needs); !free) return free.error();
     if (Result<void> complete = checkBlocks(definition, needs, fragment, vertex); !complete) return complete.error();
@@ -166,9 +196,12 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     needs.instanceIndex = definition.package.instanced && fragment.mentions("getInstanceIndex");
     needs.vertexTextures = vertexText->find("materialParams_") != std::string::npos;
     needs.callsPrepare = fragment.mentions("prepareMaterial");
+    needs.words = fragment.words();
+    needs.words.insert(vertex.words().begin(), vertex.words().end());
     needs.fragmentCustoms = customsIn(definition, fragment);
     Result<void> done = checkVertexTextures(definition, vertex);
     if (done) done = checkCustoms(definition, needs);
+    if (done) done = checkVariableNames(definition, needs);
     if (!done) return done.error();
     return needs;
 }

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "shaders/compiler/ParameterProperties.h"
 
+#include "shaders/compiler/GlslKeywords.h"
+#include "shaders/compiler/GlslSuggestions.h"
 #include "shaders/compiler/PropertyReader.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/ParameterLayout.h"
@@ -12,8 +14,9 @@
 namespace filament::shader {
 namespace {
 
-constexpr uint32_t kMaxBlockBytes = 16384; // every device offers this much
-constexpr size_t kMaxParameterCount = 256;
+constexpr uint32_t kMaxBlockBytes = 16384;  // every device offers this much
+constexpr size_t kMaxParameterCount = 1024; // of a package (docs/package-format.md)
+constexpr size_t kMaxConstantCount = 256;
 
 using TypeName = std::pair<std::string_view, ParameterType>;
 // clang-format off
@@ -28,6 +31,18 @@ constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", Para
     { "samplerCubemap", ParameterType::SamplerCube }, { "samplerExternal", ParameterType::Sampler2D },
     { "subpassInput", ParameterType::SubpassInput } };
 // clang-format on
+
+/// The guide's name for a vector type of GLSL: float3 for vec3. Empty for other names.
+std::string guideType(std::string_view glsl) {
+    static constexpr std::pair<std::string_view, std::string_view> kPrefixes[] = {
+        { "vec", "float" }, { "ivec", "int" }, { "uvec", "uint" }, { "bvec", "bool" }
+    };
+    for (auto const& [prefix, guides] : kPrefixes) {
+        const bool isVector = glsl.size() == prefix.size() + 1 && glsl.starts_with(prefix);
+        if (isVector) return std::string(guides) + glsl.back();
+    }
+    return {};
+}
 
 /// "float[9]" -> float, 9. The size stays 0 if it is no array.
 Result<void> readType(JsonValue const& value, Parameter& out) {
@@ -51,6 +66,8 @@ Result<void> readType(JsonValue const& value, Parameter& out) {
         return errorAt(value.at, fmt::format("the type {} is known but not supported by this version", later),
                        ErrorCode::Unsupported);
     }
+    if (const std::string guides = guideType(base.text); !guides.empty())
+        return errorAt(value.at, fmt::format("'type' cannot be '{}'; did you mean '{}'?", base.text, guides));
     if (Result<void> known = readEnum(base, "type", kTypes, out.type); !known) return known;
     if (out.arraySize > 0 && isTexture(out.type))
         return errorAt(value.at, "samplers cannot be arrays; use sampler2dArray");
@@ -118,6 +135,12 @@ Result<NamedEntry> readEntry(JsonValue const& item, std::span<const std::string_
     return entry;
 }
 
+/// Members of blocks and structures have this name without a prefix.
+Result<void> checkKeyword(JsonValue const& item, std::string_view what, std::string const& name) {
+    if (!isGlslKeyword(name)) return {};
+    return errorAt(item.at, fmt::format("{} \"{}\" is a word that GLSL reserves; choose another name", what, name));
+}
+
 /// Frames of a camera or a video: a 2D texture that the application fills. Drivers may keep one in two planes, and the
 /// guide's budget counts it as two.
 bool isExternal(JsonValue const& type) { return equalIgnoringCase(type.text, "samplerExternal"); }
@@ -138,6 +161,7 @@ Result<void> readParameter(JsonValue const& item, MaterialDefinition& out) {
     ParameterSource source{ .at = item.at, .isExternal = isExternal(*entry->type) };
     if (JsonValue const* conditions = findMember(item, "usedIf"); done && conditions)
         done = readUsedIf(*conditions, parameter, source);
+    if (done && !isTexture(parameter.type)) done = checkKeyword(item, "parameter", parameter.name);
     if (!done) return done;
     out.package.parameters.push_back(std::move(parameter));
     out.parameterSources.push_back(std::move(source));
@@ -201,6 +225,7 @@ Result<void> readVariable(JsonValue const& item, MaterialDefinition& out) {
     } else {
         done = readIdentifier(item, "variable", variable.name);
     }
+    if (done) done = checkKeyword(item, "variable", variable.name);
     if (!done) return done;
     if (out.variables.size() == kMaxVariables)
         return errorAt(item.at, fmt::format("a material has at most {} variables", kMaxVariables));
@@ -217,30 +242,35 @@ Result<void> readEach(JsonValue const& value, std::string_view what, size_t limi
                       MaterialDefinition& out) {
     if (Result<void> isArray = expectKind(value, JsonValue::Kind::Array, what); !isArray) return isArray;
     if (value.items.size() > limit) return errorAt(value.at, fmt::format("'{}' has more than {} entries", what, limit));
+    std::vector<Error> errors;
     for (JsonValue const& item : value.items) {
-        if (Result<void> done = read(item, out); !done) return done;
+        if (Result<void> done = read(item, out); !done) errors.push_back(done.error());
     }
+    if (!errors.empty()) return joined(errors);
     return {};
 }
 
+constexpr std::pair<std::string_view, uint32_t> kAttributes[] = {
+    { "position", kAttributePosition },
+    { "tangents", kAttributeTangents },
+    { "color", kAttributeColor },
+    { "uv0", kAttributeUv0 },
+    { "uv1", kAttributeUv1 },
+    { "custom0", 7 },
+    { "custom1", 8 },
+    { "custom2", 9 },
+    { "custom3", 10 },
+    { "custom4", 11 },
+    { "custom5", 12 },
+    { "custom6", 13 },
+    { "custom7", 14 },
+};
+
 Result<void> readRequirement(JsonValue const& item, MaterialDefinition& out) {
-    static constexpr std::pair<std::string_view, uint32_t> kAttributes[] = {
-        { "position", kAttributePosition },
-        { "tangents", kAttributeTangents },
-        { "color", kAttributeColor },
-        { "uv0", kAttributeUv0 },
-        { "uv1", kAttributeUv1 },
-        { "custom0", 7 },
-        { "custom1", 8 },
-        { "custom2", 9 },
-        { "custom3", 10 },
-        { "custom4", 11 },
-        { "custom5", 12 },
-        { "custom6", 13 },
-        { "custom7", 14 },
-    };
     uint32_t location = 0;
     if (Result<void> done = readEnum(item, "requires", kAttributes, location); !done) return done;
+    if ((out.requiredAttributes >> location & 1) != 0)
+        out.warnings.push_back(errorAt(item.at, fmt::format("'{}' is required twice", item.text)).message);
     out.requiredAttributes |= 1u << location;
     return {};
 }
@@ -298,7 +328,7 @@ Result<void> readParameters(JsonValue const& value, MaterialDefinition& out) {
 }
 
 Result<void> readConstants(JsonValue const& value, MaterialDefinition& out) {
-    return readEach(value, "constants", kMaxParameterCount, readConstant, out);
+    return readEach(value, "constants", kMaxConstantCount, readConstant, out);
 }
 
 Result<void> readVariables(JsonValue const& value, MaterialDefinition& out) {
@@ -311,6 +341,18 @@ Result<void> readRequires(JsonValue const& value, MaterialDefinition& out) {
 
 Result<void> readVariantFilter(JsonValue const& value, MaterialDefinition& out) {
     return readEach(value, "variantFilter", kMaxParameterCount, readFilter, out);
+}
+
+std::vector<std::string_view> parameterTypeNames() {
+    std::vector<std::string_view> names;
+    for (auto const& [name, type] : kTypes) names.push_back(name);
+    return names;
+}
+
+std::vector<std::string_view> attributeNames() {
+    std::vector<std::string_view> names;
+    for (auto const& [name, location] : kAttributes) names.push_back(name);
+    return names;
 }
 
 std::optional<uint16_t> variantBitsOfFilter(std::string_view name) {

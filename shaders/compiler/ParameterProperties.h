@@ -5,6 +5,9 @@
 
 #include "shaders/compiler/MaterialDefinition.h"
 
+#include <string_view>
+#include <vector>
+
 namespace filament::shader {
 
 Result<void> readParameters(JsonValue const& value, MaterialDefinition& out);
@@ -15,6 +18,10 @@ Result<void> readVariantFilter(JsonValue const& value, MaterialDefinition& out);
 
 /// Assigns bindings and std140 offsets once all parameters are known and there are not too many (DefinitionRules.h).
 /// Fails: too many bytes.
+/// What the lists may hold, for documents and editors.
+std::vector<std::string_view> parameterTypeNames();
+std::vector<std::string_view> attributeNames();
+
 Result<void> layOutParameters(MaterialDefinition& definition);
 
 } // namespace filament::shader

@@ -192,7 +192,9 @@ Result<void> StageText::include(std::string_view path) {
 Result<void> StageText::block(GlslBlock const& block) {
     mConditions = 0;
     mMacros.clear();
-    Result<void> done = lines(block.text, { {}, block.at.file ? *block.at.file : "material" }, block.at.line);
+    Result<void> done;
+    if (!block.defines.empty()) done = lines(block.defines, { {}, "command line" }, 1);
+    if (done) done = lines(block.text, { {}, block.at.file ? *block.at.file : "material" }, block.at.line);
     for (std::string const& macro : mMacros) mText += fmt::format("#undef {}\n", macro);
     return done;
 }

@@ -144,6 +144,35 @@ Result<void> readValue(JsonValue const& value, std::string_view name, T& out) {
     }
 }
 
+template <class E, size_t N>
+std::string listOf(Word<E> const (&words)[N]) {
+    std::string list;
+    for (auto const& [word, value] : words) {
+        if (!list.empty()) list += ", ";
+        list += word;
+    }
+    return list;
+}
+
+template <class T>
+std::string valuesOf() {
+    if constexpr (std::is_same_v<T, bool>) {
+        return "true, false";
+    } else if constexpr (std::is_same_v<T, float>) {
+        return "a number in [0, 1]";
+    } else {
+        return listOf(Words<T>::kList);
+    }
+}
+
+template <class Owner, class T>
+T typeOf(T Owner::*);
+
+template <auto Member>
+std::string valuesOfMember() {
+    return valuesOf<decltype(typeOf(Member))>();
+}
+
 template <auto Member>
 Result<void> readState(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
     return readValue(value, name, out.package.*Member);
@@ -195,14 +224,16 @@ Result<void> readBlendFunction(JsonValue const& value, std::string_view name, Ma
     return {};
 }
 
+constexpr Word<SpecularAmbientOcclusion> kOcclusionWords[] = {
+    { "none", SpecularAmbientOcclusion::None },
+    { "simple", SpecularAmbientOcclusion::Simple },
+    { "bentNormals", SpecularAmbientOcclusion::BentNormals },
+};
+
 /// Accepts true and false besides the words: they mean simple and none.
 Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name, MaterialDefinition& out) {
-    static constexpr Word<SpecularAmbientOcclusion> kWords[] = {
-        { "none", SpecularAmbientOcclusion::None },
-        { "simple", SpecularAmbientOcclusion::Simple },
-        { "bentNormals", SpecularAmbientOcclusion::BentNormals },
-    };
-    if (value.kind != JsonValue::Kind::Bool) return readEnum(value, name, kWords, out.specularAmbientOcclusion);
+    if (value.kind != JsonValue::Kind::Bool)
+        return readEnum(value, name, kOcclusionWords, out.specularAmbientOcclusion);
     out.specularAmbientOcclusion = value.boolean ? SpecularAmbientOcclusion::Simple : SpecularAmbientOcclusion::None;
     return {};
 }
@@ -210,42 +241,68 @@ Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name
 // In the order of the guide; domain, fullScreenTriangle, halfPrecision and clothDistribution are additions of this
 // engine.
 constexpr std::array kProperties{
-    StateProperty{ "name", readName },
-    StateProperty{ "domain", readState<&MaterialPackage::domain> },
-    StateProperty{ "featureLevel", readFeatureLevel },
-    StateProperty{ "shadingModel", readState<&MaterialPackage::shading> },
-    StateProperty{ "flipUV", readSetting<&MaterialDefinition::flipUv> },
-    StateProperty{ "quality", readState<&MaterialPackage::quality> },
-    StateProperty{ "instanced", readState<&MaterialPackage::instanced> },
-    StateProperty{ "vertexDomainDeviceJittered", readState<&MaterialPackage::vertexDomainDeviceJittered> },
-    StateProperty{ "vertexDomain", readState<&MaterialPackage::vertexDomain> },
-    StateProperty{ "interpolation", readState<&MaterialPackage::interpolation> },
-    StateProperty{ "fullScreenTriangle", readSetting<&MaterialDefinition::fullScreenTriangle> },
-    StateProperty{ "halfPrecision", readSetting<&MaterialDefinition::halfPrecision> },
-    StateProperty{ "blending", readState<&MaterialPackage::blending> },
-    StateProperty{ "blendFunction", readBlendFunction },
-    StateProperty{ "postLightingBlending", readState<&MaterialPackage::postLightingBlending> },
-    StateProperty{ "transparency", readState<&MaterialPackage::transparency> },
-    StateProperty{ "maskThreshold", readState<&MaterialPackage::maskThreshold> },
-    StateProperty{ "refractionMode", readState<&MaterialPackage::refractionMode> },
-    StateProperty{ "refractionType", readState<&MaterialPackage::refractionType> },
-    StateProperty{ "culling", readState<&MaterialPackage::culling> },
-    StateProperty{ "colorWrite", readState<&MaterialPackage::colorWrite> },
-    StateProperty{ "depthWrite", readState<&MaterialPackage::depthWrite> },
-    StateProperty{ "depthCulling", readState<&MaterialPackage::depthCulling> },
-    StateProperty{ "doubleSided", readState<&MaterialPackage::doubleSided> },
-    StateProperty{ "alphaToCoverage", readState<&MaterialPackage::alphaToCoverage> },
-    StateProperty{ "reflections", readState<&MaterialPackage::reflections> },
-    StateProperty{ "shadowMultiplier", readState<&MaterialPackage::shadowMultiplier> },
-    StateProperty{ "transparentShadow", readState<&MaterialPackage::transparentShadow> },
-    StateProperty{ "clearCoatIorChange", readSetting<&MaterialDefinition::clearCoatIorChange> },
-    StateProperty{ "multiBounceAmbientOcclusion", readSetting<&MaterialDefinition::multiBounceAmbientOcclusion> },
-    StateProperty{ "specularAmbientOcclusion", readSpecularOcclusion },
-    StateProperty{ "specularAntiAliasing", readFilter<&SpecularAntiAliasing::enabled> },
-    StateProperty{ "specularAntiAliasingVariance", readFilter<&SpecularAntiAliasing::variance> },
-    StateProperty{ "specularAntiAliasingThreshold", readFilter<&SpecularAntiAliasing::threshold> },
-    StateProperty{ "customSurfaceShading", readSetting<&MaterialDefinition::customSurfaceShading> },
-    StateProperty{ "clothDistribution", readSetting<&MaterialDefinition::clothDistribution> },
+    StateProperty{ "name", readName, [] { return std::string("any text"); } },
+    StateProperty{ "domain", readState<&MaterialPackage::domain>, valuesOfMember<&MaterialPackage::domain> },
+    StateProperty{ "featureLevel", readFeatureLevel, [] { return std::string("0, 1, 2, 3"); } },
+    StateProperty{ "shadingModel", readState<&MaterialPackage::shading>, valuesOfMember<&MaterialPackage::shading> },
+    StateProperty{ "flipUV", readSetting<&MaterialDefinition::flipUv>, valuesOfMember<&MaterialDefinition::flipUv> },
+    StateProperty{ "quality", readState<&MaterialPackage::quality>, valuesOfMember<&MaterialPackage::quality> },
+    StateProperty{ "instanced", readState<&MaterialPackage::instanced>, valuesOfMember<&MaterialPackage::instanced> },
+    StateProperty{ "vertexDomainDeviceJittered", readState<&MaterialPackage::vertexDomainDeviceJittered>,
+                   valuesOfMember<&MaterialPackage::vertexDomainDeviceJittered> },
+    StateProperty{ "vertexDomain", readState<&MaterialPackage::vertexDomain>,
+                   valuesOfMember<&MaterialPackage::vertexDomain> },
+    StateProperty{ "interpolation", readState<&MaterialPackage::interpolation>,
+                   valuesOfMember<&MaterialPackage::interpolation> },
+    StateProperty{ "fullScreenTriangle", readSetting<&MaterialDefinition::fullScreenTriangle>,
+                   valuesOfMember<&MaterialDefinition::fullScreenTriangle> },
+    StateProperty{ "halfPrecision", readSetting<&MaterialDefinition::halfPrecision>,
+                   valuesOfMember<&MaterialDefinition::halfPrecision> },
+    StateProperty{ "blending", readState<&MaterialPackage::blending>, valuesOfMember<&MaterialPackage::blending> },
+    StateProperty{ "blendFunction", readBlendFunction,
+                   [] { return "srcRGB, srcA, dstRGB, dstA, each: " + valuesOf<backend::BlendFactor>(); } },
+    StateProperty{ "postLightingBlending", readState<&MaterialPackage::postLightingBlending>,
+                   valuesOfMember<&MaterialPackage::postLightingBlending> },
+    StateProperty{ "transparency", readState<&MaterialPackage::transparency>,
+                   valuesOfMember<&MaterialPackage::transparency> },
+    StateProperty{ "maskThreshold", readState<&MaterialPackage::maskThreshold>,
+                   valuesOfMember<&MaterialPackage::maskThreshold> },
+    StateProperty{ "refractionMode", readState<&MaterialPackage::refractionMode>,
+                   valuesOfMember<&MaterialPackage::refractionMode> },
+    StateProperty{ "refractionType", readState<&MaterialPackage::refractionType>,
+                   valuesOfMember<&MaterialPackage::refractionType> },
+    StateProperty{ "culling", readState<&MaterialPackage::culling>, valuesOfMember<&MaterialPackage::culling> },
+    StateProperty{ "colorWrite", readState<&MaterialPackage::colorWrite>,
+                   valuesOfMember<&MaterialPackage::colorWrite> },
+    StateProperty{ "depthWrite", readState<&MaterialPackage::depthWrite>,
+                   valuesOfMember<&MaterialPackage::depthWrite> },
+    StateProperty{ "depthCulling", readState<&MaterialPackage::depthCulling>,
+                   valuesOfMember<&MaterialPackage::depthCulling> },
+    StateProperty{ "doubleSided", readState<&MaterialPackage::doubleSided>,
+                   valuesOfMember<&MaterialPackage::doubleSided> },
+    StateProperty{ "alphaToCoverage", readState<&MaterialPackage::alphaToCoverage>,
+                   valuesOfMember<&MaterialPackage::alphaToCoverage> },
+    StateProperty{ "reflections", readState<&MaterialPackage::reflections>,
+                   valuesOfMember<&MaterialPackage::reflections> },
+    StateProperty{ "shadowMultiplier", readState<&MaterialPackage::shadowMultiplier>,
+                   valuesOfMember<&MaterialPackage::shadowMultiplier> },
+    StateProperty{ "transparentShadow", readState<&MaterialPackage::transparentShadow>,
+                   valuesOfMember<&MaterialPackage::transparentShadow> },
+    StateProperty{ "clearCoatIorChange", readSetting<&MaterialDefinition::clearCoatIorChange>,
+                   valuesOfMember<&MaterialDefinition::clearCoatIorChange> },
+    StateProperty{ "multiBounceAmbientOcclusion", readSetting<&MaterialDefinition::multiBounceAmbientOcclusion>,
+                   valuesOfMember<&MaterialDefinition::multiBounceAmbientOcclusion> },
+    StateProperty{ "specularAmbientOcclusion", readSpecularOcclusion, [] { return listOf(kOcclusionWords); } },
+    StateProperty{ "specularAntiAliasing", readFilter<&SpecularAntiAliasing::enabled>,
+                   valuesOfMember<&SpecularAntiAliasing::enabled> },
+    StateProperty{ "specularAntiAliasingVariance", readFilter<&SpecularAntiAliasing::variance>,
+                   valuesOfMember<&SpecularAntiAliasing::variance> },
+    StateProperty{ "specularAntiAliasingThreshold", readFilter<&SpecularAntiAliasing::threshold>,
+                   valuesOfMember<&SpecularAntiAliasing::threshold> },
+    StateProperty{ "customSurfaceShading", readSetting<&MaterialDefinition::customSurfaceShading>,
+                   valuesOfMember<&MaterialDefinition::customSurfaceShading> },
+    StateProperty{ "clothDistribution", readSetting<&MaterialDefinition::clothDistribution>,
+                   valuesOfMember<&MaterialDefinition::clothDistribution> },
 };
 
 } // namespace

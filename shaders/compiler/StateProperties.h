@@ -7,6 +7,7 @@
 #include "shaders/compiler/MaterialDefinition.h"
 
 #include <span>
+#include <string>
 #include <string_view>
 
 namespace filament::shader {
@@ -14,6 +15,7 @@ namespace filament::shader {
 struct StateProperty {
     std::string_view name;
     Result<void> (*read)(JsonValue const& value, std::string_view name, MaterialDefinition& out);
+    std::string (*values)() = nullptr; ///< what it may be, for documents: "opaque, masked, add"
 };
 
 std::span<const StateProperty> stateProperties();

@@ -78,7 +78,8 @@ constexpr Broken kContradictions[] = {
     { "material {\n transparency : twoPassesOneSide }" GOOD_FRAGMENT,
       "a.mat:2: two passes need a blended material; set a blending, for instance transparent" },
     { "material {\n blending : fade,\n transparency : twoPassesOneSide,\n refractionMode : cubemap }" GOOD_FRAGMENT,
-      "a.mat:3: two passes are for materials that do not refract; leave out transparency or refractionMode" },
+      "a.mat:3: two passes are for materials that do not refract; leave out transparency or refractionMode\n"
+      "a.mat:4: a refracting material shows the background itself and is drawn opaque; leave out blending" },
     { "material {\n blending : fade, transparency : twoPassesOneSide,\n depthCulling : false }" GOOD_FRAGMENT,
       "a.mat:2: twoPassesOneSide needs the depth test to find the nearest surface; leave out depthCulling : false" },
     { "material { shadingModel : unlit, vertexDomain : device, fullScreenTriangle : true,\n instanced : true "
@@ -149,7 +150,7 @@ constexpr Broken kMisspelt[] = {
       "a.mat:5: 'metalic' : no such field in structure 'material'; did you mean 'metallic'?" },
     { "material { parameters : [ { name : albedo, type : float4 } ] }\n" FRAGMENT(
               "prepareMaterial(material);\nmaterial.baseColor = materialParams.albdo;"),
-      "a.mat:5: 'albdo' : no such field in structure 'materialParams' (and 1 more); did you mean 'albedo'?" },
+      "a.mat:5: 'albdo' : no such field in structure 'materialParams'; did you mean 'albedo'?" },
     { "material { parameters : [ { name : albedo, type : sampler2d } ], requires : [ uv0 ] }\n" FRAGMENT(
               "prepareMaterial(material);\nmaterial.baseColor = texture(materialParams_albdo, getUV0());"),
       "a.mat:5: 'materialParams_albdo' : undeclared identifier; did you mean 'materialParams_albedo'?" },
@@ -159,8 +160,54 @@ constexpr Broken kMisspelt[] = {
     { "material { domain : postprocess, parameters : [ { name : x, type : sampler2d, currentPixel : true } ] }\n"
       "fragment {\n void postProcess(inout PostProcessInputs inputs) {\n"
       "inputs.color = texture(materialParams_x, vec2(0.5)); } }",
-      "a.mat:4: 'texture' : no matching overloaded function found (and 1 more); only "
+      "a.mat:4: 'texture' : no matching overloaded function found; only "
       "getCurrentPixel(materialParams_x) can read a currentPixel parameter" },
+};
+
+// Names from other places.
+constexpr Broken kForeign[] = {
+    { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.baseColor.xy = getUV0();"),
+      "a.mat:5: 'getUV0' : no matching overloaded function found; add requires : [ uv0 ]" },
+    { "material { shadingModel : cloth }\n" FRAGMENT("prepareMaterial(material);\nmaterial.metallic = 1.0;"),
+      "a.mat:5: 'metallic' : no such field in structure 'material'; shadingModel : cloth has no metallic, which is for "
+      "lit, subsurface" },
+    { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.absorption = vec3(1.0);"),
+      "a.mat:5: 'absorption' : no such field in structure 'material'; shadingModel : lit has no absorption, which is "
+      "for "
+      "materials with a refractionMode" },
+    { "material { parameters : [ { name : albedo, type : float4 }, { name : map, type : sampler2d } ] }\n" FRAGMENT(
+              "prepareMaterial(material);\nmaterial.baseColor = albedo;\nmaterial.baseColor *= texture(map, "
+              "vec2(0.0));"),
+      "a.mat:5: 'albedo' : undeclared identifier; the parameter is materialParams.albedo\n"
+      "a.mat:6: 'map' : undeclared identifier; the parameter is materialParams_map" },
+    { "material { parameters : [ { name : map, type : sampler2d } ] }\n" FRAGMENT(
+              "prepareMaterial(material);\nmaterial.baseColor = texture2D(materialParams_map, vec2(0.0));"),
+      "a.mat:5: 'texture2D' : this and textureCube are older GLSL; use texture" },
+    { "material {\n parameters : [ { name : tint, type : vec3 } ] }" GOOD_FRAGMENT,
+      "a.mat:2: 'type' cannot be 'vec3'; did you mean 'float3'?" },
+    { "material {\n parameters : [ { name : half, type : float } ] }" GOOD_FRAGMENT,
+      "a.mat:2: parameter \"half\" is a word that GLSL reserves; choose another name" },
+    { "material {\n variables : [ output ] }" GOOD_FRAGMENT,
+      "a.mat:2: variable \"output\" is a word that GLSL reserves; choose another name" },
+    { "material {\n variables : [ worldNormal ] }" GOOD_FRAGMENT,
+      "a.mat:2: MaterialVertexInputs of this material has a member 'worldNormal' already; choose another name for the "
+      "variable" },
+};
+
+// Several mistakes: a line for each.
+constexpr Broken kSeveral[] = {
+    { "material {\n blendMode : add,\n shadingModel : litt,\n requires : [ uv7,\n uv8 ] }" GOOD_FRAGMENT,
+      "a.mat:2: there is no property 'blendMode'\na.mat:3: 'shadingModel' cannot be 'litt'; did you mean 'lit'?\n"
+      "a.mat:4: 'requires' cannot be 'uv7'; did you mean 'uv0'?\n"
+      "a.mat:5: 'requires' cannot be 'uv8'; did you mean 'uv0'?" },
+    { "material {}\nvertex {\nvoid materialVertex(inout MaterialVertexInputs m) {\nm.x = 1.0; } }\n" FRAGMENT(
+              "prepareMaterial(material);\nmaterial.a = 1.0;\nmaterial.roughness = 0.5;\nmaterial.b = 1.0;"),
+      "a.mat:4: 'x' : no such field in structure 'm'\na.mat:8: 'a' : no such field in structure 'material'\n"
+      "a.mat:10: 'b' : no such field in structure 'material'" },
+    { "material {}\nfragment {\nfloat f(float x) { return f(x - 1.0); }\nfloat g(float x);\n"
+      "void material(inout MaterialInputs m) { prepareMaterial(m); m.roughness = f(1.0) + g(2.0); } }",
+      "a.mat:3: f() calls itself, directly or through others; GLSL has no recursion, use a loop\n"
+      "a.mat:4: g() is declared and called but not defined" },
 };
 
 constexpr Broken kCode[] = {
@@ -209,6 +256,8 @@ TEST(BrokenMaterials, NameTheLineWhereTheTextStopsMakingSense) { expectMessages(
 TEST(BrokenMaterials, NameTheValueAndWhatItMayBe) { expectMessages(kValues); }
 TEST(BrokenMaterials, NameTheContradictionAndItsCure) { expectMessages(kContradictions); }
 TEST(BrokenMaterials, NameWhatWasProbablyMeantInTheCode) { expectMessages(kMisspelt); }
+TEST(BrokenMaterials, NameWhatThisLanguageCallsIt) { expectMessages(kForeign); }
+TEST(BrokenMaterials, NameEveryMistake) { expectMessages(kSeveral); }
 TEST(BrokenMaterials, AreNotThoseWhoseLoopsHaveAnExit) {
     for (const std::string loop : kEndingLoops) {
         const std::string text = "material {}\nfragment { void material(inout MaterialInputs material) { "

@@ -81,6 +81,9 @@ INSTANTIATE_TEST_SUITE_P(Vertex, GuideVertexFunctions,
                                            Call{ "Custom7", "getCustom7()", "float4", ", requires : [ custom7 ]" },
                                            Call{ "WorldFromModel", "getWorldFromModelMatrix()", "float4x4" },
                                            Call{ "NormalMatrix", "getWorldFromModelNormalMatrix()", "float3x3" },
+                                           Call{ "UserPosition", "getUserWorldPosition()", "float3" },
+                                           Call{ "VertexId", "gl_VertexID + gl_InstanceID", "int" },
+                                           Call{ "InstanceId", "gl_InstanceID", "int", ", instanced : true" },
                                            Call{ "VertexIndex", "getVertexIndex()", "int" },
                                            Call{ "EyeIndex", "getEyeIndex()", "int" }),
                          nameOf);
@@ -100,6 +103,9 @@ INSTANTIATE_TEST_SUITE_P(
                           Call{ "Color", "getColor()", "float4", ", requires : [ color ]" },
                           Call{ "Uv0", "getUV0()", "float2", ", requires : [ uv0 ]" },
                           Call{ "Uv1", "getUV1()", "float2", ", requires : [ uv1 ]" },
+                          Call{ "Custom0", "getCustom0()", "float4", ", requires : [ custom0 ]" },
+                          Call{ "Custom7", "getCustom0() + getCustom7()", "float4",
+                                ", requires : [ custom7, custom0 ]" },
                           Call{ "MaskThreshold", "getMaskThreshold()", "float", ", blending : masked" },
                           Call{ "InverseTonemap", "inverseTonemap(float3(0.5))", "float3" },
                           Call{ "InverseTonemapSrgb", "inverseTonemapSRGB(float3(0.5))", "float3" },
@@ -107,6 +113,75 @@ INSTANTIATE_TEST_SUITE_P(
                           Call{ "YcbcrToRgb", "ycbcrToRgb(0.5, float2(0.5))", "float3" },
                           Call{ "RenderTargetUv", "uvToRenderTargetUV(float2(0.5))", "float2" }),
         nameOf);
+
+std::string withParameters(std::string const& head, std::string const& entries) {
+    return "material { " + head + ", parameters : [ " + entries +
+           " ] }\nfragment { void material(inout MaterialInputs material) { prepareMaterial(material); } }";
+}
+
+std::string samplers(size_t count) {
+    std::string entries;
+    for (size_t i = 0; i < count; ++i) entries += "{ name : s" + std::to_string(i) + ", type : sampler2d },";
+    return entries;
+}
+
+std::string messageOf(std::string const& text) {
+    const Result<MaterialPackage> package = compileMaterial(text, "a.mat");
+    return package ? "compiles" : package.error().message;
+}
+
+// Table 14 of the guide.
+TEST(GuideSamplers, CountAnExternalTextureTwice) {
+    const std::string external = "{ name : camera, type : samplerExternal }";
+    EXPECT_EQ(messageOf(withParameters("shadingModel : lit", samplers(7) + external)), "compiles");
+    EXPECT_NE(messageOf(withParameters("shadingModel : lit", samplers(8) + external)).find("one too many"),
+              std::string::npos);
+    const Result<MaterialPackage> package = compileMaterial(withParameters("shadingModel : unlit", external), "a.mat");
+    ASSERT_TRUE(package) << package.error().message;
+    EXPECT_EQ(package->findParameter("camera")->type, ParameterType::Sampler2D);
+}
+
+// Chapter 7 of the guide.
+TEST(GuideSamplers, AreThirteenForUnlitMaterialsWithoutFog) {
+    const std::string noFog = "shadingModel : unlit, variantFilter : [ fog ]";
+    EXPECT_EQ(messageOf(withParameters(noFog, samplers(13))), "compiles");
+    EXPECT_NE(messageOf(withParameters(noFog, samplers(14))), "compiles");
+    EXPECT_NE(messageOf(withParameters("shadingModel : unlit", samplers(13))), "compiles");
+}
+
+TEST(GuideParameters, MayBeMoreThan256) {
+    std::string entries;
+    for (int i = 0; i < 1000; ++i) entries += "{ name : p" + std::to_string(i) + ", type : float },";
+    const Result<MaterialPackage> package = compileMaterial(withParameters("shadingModel : unlit", entries), "a.mat");
+    ASSERT_TRUE(package) << package.error().message;
+    const Result<MaterialPackage> again = readPackage(writePackage(*package));
+    ASSERT_TRUE(again) << again.error().message;
+    EXPECT_EQ(again->parameters, package->parameters);
+}
+
+TEST(GuideCustoms, ReachTheFragmentStageBesideVariables) {
+    const auto text = [](const char* variables, int customs) {
+        std::string required, sum = "float4(0.0)";
+        for (int i = 0; i < customs; ++i) {
+            required += "custom" + std::to_string(i) + ",";
+            sum += " + getCustom" + std::to_string(i) + "()";
+        }
+        return std::string("material { shadingModel : lit, variantFilter : [ skinning ], variables : [ ") + variables +
+               " ], requires : [ " + required +
+               " ] }\nfragment { void material(inout MaterialInputs material) { prepareMaterial(material); "
+               "material.baseColor = " +
+               sum + "; } }";
+    };
+    EXPECT_EQ(messageOf(text("", 8)), "compiles");
+    EXPECT_EQ(messageOf(text("a, b, c", 7)), "compiles");
+    EXPECT_EQ(messageOf(text("a, b, c, d", 7)), "a.mat:2: this block reads 7 custom attributes, and beside 4 variables "
+                                                "there is place for 6; pack them into "
+                                                "variables in a vertex block");
+    EXPECT_NE(messageOf("material {}\nfragment { void material(inout MaterialInputs m) { prepareMaterial(m); "
+                        "m.baseColor = getCustom0(); } }")
+                      .find("add requires : [ custom0 ]"),
+              std::string::npos);
+}
 
 TEST(GuideSpellings, CompileAsTheyAreWritten) {
     const std::string code = " }\nfragment { void material(inout MaterialInputs material) { prepareMaterial(material); "

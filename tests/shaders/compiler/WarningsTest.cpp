@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// Materials that compile and say something odd; and that our own say nothing odd.
+#include "shaders/compiler/MaterialCompiler.h"
+#include "tools/paths/Paths.h"
+
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+#include <string>
+#include <vector>
+
+namespace filament::shader {
+namespace {
+
+using Lines = std::vector<std::string>;
+
+Lines warningsOf(std::string const& text) {
+    Lines warnings;
+    CompileOptions options;
+    options.warnings = &warnings;
+    const Result<MaterialPackage> package = compileMaterial(text, "a.mat", options);
+    EXPECT_TRUE(package) << package.error().message;
+    return warnings;
+}
+
+std::string fragment(std::string const& code) {
+    return "\nfragment {\nvoid material(inout MaterialInputs material) {\n" + code + "\n} }";
+}
+
+TEST(Warnings, NameAParameterThatNothingReads) {
+    EXPECT_EQ(warningsOf("material { parameters : [\n{ name : a, type : float },\n{ name : b, type : sampler2d },\n"
+                         "{ name : c, type : float } ] }" +
+                         fragment("prepareMaterial(material); material.roughness = materialParams.c;")),
+              (Lines{ "a.mat:2: no code reads the parameter 'a'; leave it out",
+                      "a.mat:3: no code reads the parameter 'b'; leave it out" }));
+}
+
+TEST(Warnings, NameAMaterialThatIsNeverPrepared) {
+    for (const char* model : { "lit", "unlit" }) {
+        EXPECT_EQ(warningsOf(std::string("material { shadingModel : ") + model + " }" +
+                             fragment("material.baseColor.r = 0.5;")),
+                  Lines{ "a.mat:3: material() does not call prepareMaterial(material), so normals and reflections are "
+                         "known only after it; call it behind what sets material.normal" });
+    }
+}
+
+// The engine prepares it, with the normal that material() sets.
+TEST(Warnings, LeaveAnUnpreparedMaterialLikeOneThatIsPreparedLast) {
+    const std::string set = "material.normal = vec3(0.6, 0.0, 0.8); material.roughness = 0.3; ";
+    CompileOptions options;
+    const auto unprepared = compileMaterial("material {}" + fragment(set), "a.mat", options);
+    const auto prepared =
+            compileMaterial("material {}" + fragment(set + "prepareMaterial(material);"), "a.mat", options);
+    ASSERT_TRUE(unprepared && prepared);
+    EXPECT_EQ(unprepared->terms, prepared->terms);
+    EXPECT_EQ(unprepared->variants, prepared->variants);
+}
+
+TEST(Warnings, NameTheLineOfAConstantThatIsNoNumber) {
+    EXPECT_EQ(warningsOf("material {}" + fragment("prepareMaterial(material);\nmaterial.roughness = 0.0 / 0.0;")),
+              Lines{ "a.mat:5: this is not a number: zero divided by zero, or a root or logarithm of a negative "
+                     "number" });
+}
+
+TEST(Warnings, NameAnAttributeThatIsRequiredTwice) {
+    EXPECT_EQ(warningsOf("material {\nrequires : [ uv0,\nuv0 ] }" +
+                         fragment("prepareMaterial(material); material.baseColor.rg = getUV0();")),
+              Lines{ "a.mat:3: 'uv0' is required twice" });
+}
+
+TEST(Warnings, AreNotGivenForOurOwnSamples) {
+    size_t count = 0;
+    for (auto const& entry : std::filesystem::directory_iterator(tools::sourceDir() / "samples/materials")) {
+        if (entry.path().extension() != ".mat") continue;
+        std::ifstream file(entry.path());
+        const std::string text{ std::istreambuf_iterator<char>(file), {} };
+        Lines warnings;
+        CompileOptions options;
+        options.essl = options.spirv = false;
+        options.filteredVariants = kAllVariantBits;
+        options.warnings = &warnings;
+        const auto package = compileMaterial(text, entry.path().filename().string(), options);
+        EXPECT_TRUE(package) << package.error().message;
+        EXPECT_EQ(warnings, Lines{});
+        ++count;
+    }
+    EXPECT_GE(count, 60u);
+}
+
+} // namespace
+} // namespace filament::shader
