@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// matc: compiles one material definition (.mat) into a package (.fmat). Flags as in the materials guide, 5.2.
+/// matc: compiles one material definition (.mat) into a package (.fmat). Options.h has the command line.
 ///   Out     the same bytes for any number of threads. If there is an error, also a full disk, nothing is written: an
 ///           old package stays as it was.
-///   In      the material, and #include files of its folder (--allow-outside: of any), 1 MiB together.
-///   Status  0: written; 1: the reason is on standard error, as the guide shows it (5.1): "ERROR: file:line: reason"
-///           with the line of the author's file, and which material was not compiled.
+///   In      the material, and #include files of its folder (--allow-outside: of any), 1 MiB together. A material of the
+///           standard input lies in the current folder.
+///   Status  Options.h. The reason is on standard error, as the guide shows it (5.1): a line "ERROR: file:line: reason"
+///           for each mistake, with the line of the author's file, and which material was not compiled.
 #include "base/Suggest.h"
 #include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/files/PathInside.h"
@@ -12,42 +13,92 @@
 #include "shaders/compiler/Cost.h"
 #include "shaders/compiler/MaterialCompiler.h"
 #include "shaders/compiler/MaterialDefinition.h"
+#include "shaders/compiler/Templates.h"
 #include "tools/common/StandardOutput.h"
-
-#include <CLI/CLI.hpp>
+#include "tools/matc/Options.h"
 
 #include <cstdio>
 #include <exception>
 #include <filesystem>
+#include <mutex>
 #include <optional>
+#include <set>
+#include <span>
 #include <string>
 #include <vector>
 
+namespace filament::matc {
 namespace {
-
-using namespace filament;
-
-struct Arguments {
-    std::string input, output;
-    std::string api = "all";
-    std::string reflect;
-    std::string platform = "all";
-    std::vector<std::string> filters;
-    int threads = 0;
-    bool optimizeSize = false, noOptimization = false, inexact = false, preprocess = false, cost = false;
-    assets::FilesFrom includes = assets::FilesFrom::Folder;
-};
 
 constexpr size_t kMaxTextBytes = 1 << 20; // as the compiler's limit for a material with its includes
 
-/// Files beside the material; see --allow-outside.
-std::optional<std::string> readInclude(Arguments const& arguments, std::string_view path) {
-    const std::filesystem::path folder = std::filesystem::path(arguments.input).parent_path();
-    const Result<std::filesystem::path> file = assets::fileInside(folder, path, arguments.includes);
-    if (!file) return std::nullopt;
-    Result<std::string> text = assets::readText(*file, kMaxTextBytes);
-    return text ? std::optional(std::move(*text)) : std::nullopt;
-}
+/// The files of a material: read for the compiler, expanded, and noted. Any thread.
+class Files {
+public:
+    explicit Files(Options const& options) : mOptions(options) {}
+
+    std::string name() const { return mOptions.readsStandardInput() ? "standard input" : mOptions.input; }
+
+    Result<std::string> material() {
+        Result<std::string> text =
+                assets::readText(mOptions.readsStandardInput() ? "/dev/stdin" : mOptions.input, kMaxTextBytes);
+        if (!text) return text.error();
+        if (!mOptions.readsStandardInput()) mRead.insert(mOptions.input);
+        return expanded(*text, name());
+    }
+
+    /// Files beside the material; see --allow-outside.
+    std::optional<std::string> include(std::string_view path) {
+        const std::filesystem::path folder = std::filesystem::path(mOptions.input).parent_path();
+        const Result<std::filesystem::path> file = assets::fileInside(folder, path, mOptions.includes);
+        if (!file) return std::nullopt;
+        const Result<std::string> text = assets::readText(*file, kMaxTextBytes);
+        if (!text) return std::nullopt;
+        Result<std::string> whole = expanded(*text, path);
+        const std::scoped_lock lock(mMutex);
+        mRead.insert(file->string());
+        if (!whole && !mProblem) mProblem = whole.error();
+        return whole ? std::optional(std::move(*whole)) : std::nullopt;
+    }
+
+    /// What an include lacked: the compiler knows only that there is none.
+    std::optional<Error> const& problem() const { return mProblem; }
+
+    /// "stone.fmat: stone.mat noise.glsl"
+    std::string rule() const {
+        const std::string target = mOptions.output.empty()
+                                           ? std::filesystem::path(name()).replace_extension(".fmat").string()
+                                           : mOptions.output;
+        std::string text = escaped(target) + ":";
+        for (std::string const& file : mRead) {
+            text += ' ';
+            text += escaped(file);
+        }
+        text += '\n';
+        return text;
+    }
+
+private:
+    Result<std::string> expanded(std::string const& text, std::string_view fileName) const {
+        if (mOptions.templates.empty()) return text;
+        return shader::expandTemplates(text, fileName, mOptions.templates);
+    }
+
+    static std::string escaped(std::string const& path) {
+        std::string out;
+        for (const char c : path) {
+            if (c == ' ' || c == '#' || c == '\\') out += '\\';
+            if (c == '$') out += '$';
+            out += c;
+        }
+        return out;
+    }
+
+    Options const& mOptions;
+    std::mutex mMutex;
+    std::set<std::string> mRead;
+    std::optional<Error> mProblem;
+};
 
 Result<uint16_t> filteredBits(std::vector<std::string> const& filters) {
     uint16_t bits = 0;
@@ -74,80 +125,86 @@ Result<void> print(Result<std::string> const& text) {
     return tools::printText(*text);
 }
 
-Result<void> run(Arguments const& arguments) {
-    const Result<std::string> text = assets::readText(arguments.input, kMaxTextBytes);
-    if (!text) return text.error();
-    const Result<uint16_t> filtered = filteredBits(arguments.filters);
+Result<shader::CompileOptions> compileOptions(Options const& options, Files& files, jobs::JobSystem& jobs) {
+    const Result<uint16_t> filtered = filteredBits(options.filters);
     if (!filtered) return filtered.error();
-
-    jobs::JobSystem jobs({ .workers = arguments.threads > 0 ? arguments.threads - 1 : -1 });
-    shader::CompileOptions options{ .exact = !arguments.inexact, .filteredVariants = *filtered, .jobs = &jobs };
-    if (arguments.platform == "mobile") options.platform = shader::Platform::Mobile;
-    if (arguments.platform == "desktop") options.platform = shader::Platform::Desktop;
-    options.spirv = arguments.api != "opengl";
-    options.essl = arguments.api != "vulkan";
-    if (arguments.optimizeSize) options.optimization = shader::Optimization::Size;
-    if (arguments.noOptimization) options.optimization = shader::Optimization::None;
-    options.includes = [&](std::string_view path) { return readInclude(arguments, path); };
-
-    if (arguments.preprocess) return print(shader::preprocessMaterial(*text, arguments.input, options));
-    if (arguments.cost) return print(shader::costReport(*text, arguments.input, options));
-    if (!arguments.reflect.empty()) return print(shader::reflectParameters(*text, arguments.input, options));
-    const Result<shader::MaterialPackage> package = shader::compileMaterial(*text, arguments.input, options);
-    if (!package) return package.error();
-    return write(arguments.output, shader::writePackage(*package));
+    shader::CompileOptions out{ .exact = !options.inexact, .filteredVariants = *filtered, .jobs = &jobs };
+    if (options.platform == "mobile") out.platform = shader::Platform::Mobile;
+    if (options.platform == "desktop") out.platform = shader::Platform::Desktop;
+    out.spirv = options.api != "opengl";
+    out.essl = options.api != "vulkan";
+    if (options.optimizeSize) out.optimization = shader::Optimization::Size;
+    if (options.noOptimization) out.optimization = shader::Optimization::None;
+    out.defines = options.defines;
+    out.includes = [&files](std::string_view path) { return files.include(path); };
+    return out;
 }
 
-Result<void> guarded(Arguments const& arguments) {
-    try {
-        return run(arguments);
-    } catch (std::exception const& error) {
-        return fail(ErrorCode::OutOfMemory, "{}: out of resources ({}); try a smaller material, or -j 1",
-                    arguments.input, error.what());
+Result<void> writeRule(Options const& options, Files const& files) {
+    if (options.dependencyFile.empty()) return {};
+    const std::string rule = files.rule();
+    const auto bytes = std::as_bytes(std::span(rule));
+    return write(options.dependencyFile, { bytes.begin(), bytes.end() });
+}
+
+Result<void> compile(Options const& options, Files& files, std::string const& text, shader::CompileOptions& how) {
+    std::vector<std::string> warnings;
+    if (options.warn) how.warnings = &warnings;
+    const Result<shader::MaterialPackage> package = shader::compileMaterial(text, files.name(), how);
+    if (!package) return package.error();
+    for (std::string const& warning : warnings) std::fprintf(stderr, "WARNING: %s\n", warning.c_str());
+    if (Result<void> written = write(options.output, shader::writePackage(*package)); !written) return written;
+    return writeRule(options, files);
+}
+
+Result<void> run(Options const& options, Files& files) {
+    const Result<std::string> text = files.material();
+    if (!text) return text.error();
+    jobs::JobSystem jobs({ .workers = options.threads > 0 ? options.threads - 1 : -1 });
+    Result<shader::CompileOptions> how = compileOptions(options, files, jobs);
+    if (!how) return how.error();
+    if (options.preprocess) return print(shader::preprocessMaterial(*text, files.name(), *how));
+    if (options.cost) return print(shader::costReport(*text, files.name(), *how));
+    if (!options.reflect.empty()) return print(shader::reflectParameters(*text, files.name(), *how));
+    if (options.printDependencies) {
+        const Result<std::string> all = shader::preprocessMaterial(*text, files.name(), *how); // reads every file
+        return all ? tools::printText(files.rule()) : Result<void>(all.error());
     }
+    return compile(options, files, *text, *how);
+}
+
+Result<void> guarded(Options const& options, Files& files) {
+    try {
+        Result<void> done = run(options, files);
+        return !done && files.problem() ? *files.problem() : done;
+    } catch (std::exception const& error) {
+        return fail(ErrorCode::OutOfMemory, "{}: out of resources ({}); try a smaller material, or -j 1", files.name(),
+                    error.what());
+    }
+}
+
+/// "ERROR: " before each line.
+std::string errorLines(std::string_view message) {
+    std::string text = "ERROR: ";
+    for (const char c : message) {
+        text += c;
+        if (c == '\n') text += "ERROR: ";
+    }
+    return text;
+}
+
+int runProgram(int argc, char** argv) {
+    const Parsed parsed = parseOptions(argc, argv);
+    if (!parsed.options) return parsed.status;
+    Files files(*parsed.options);
+    const Result<void> done = guarded(*parsed.options, files);
+    if (done) return kDone;
+    std::fprintf(stderr, "%s\n\nCould not compile material %s\n", errorLines(done.error().message).c_str(),
+                 files.name().c_str());
+    return kFailed;
 }
 
 } // namespace
+} // namespace filament::matc
 
-int main(int argc, char** argv) {
-    Arguments arguments;
-    CLI::App app{ "Compiles a material definition (.mat) into a material package (.fmat)." };
-    app.add_option("input", arguments.input, "the material definition")->required();
-    auto* const output = app.add_option("-o,--output", arguments.output, "the package to write");
-    app.add_option("-a,--api", arguments.api, "languages in the package")
-            ->check(CLI::IsMember({ "opengl", "vulkan", "all" }));
-    app.add_option("-p,--platform", arguments.platform,
-                   "platform whose defaults for quality and occlusion apply (one package runs on all)")
-            ->check(CLI::IsMember({ "desktop", "mobile", "all" }));
-    app.add_option("-v,--variant-filter", arguments.filters, "variants to leave out, separated by commas")
-            ->delimiter(',');
-    app.add_option("-j,--jobs", arguments.threads, "threads; the output does not depend on it (default: all cores)")
-            ->check(CLI::Range(1, 256));
-    app.add_flag("-S,--optimize-size", arguments.optimizeSize, "small shaders rather than fast ones");
-    app.add_flag("-g,--no-optimization", arguments.noOptimization, "shaders as written, for debugging");
-    app.add_flag("--inexact", arguments.inexact,
-                 "leave dot, normalize, mix, ... to the drivers; the bits may then differ between APIs");
-    app.add_flag_callback(
-            "--allow-outside", [&] { arguments.includes = assets::FilesFrom::Anywhere; },
-            "#include files outside of the material's folder too: absolute paths, \"..\", links that lead out");
-    auto* const preprocess = app.add_flag("--preprocess", arguments.preprocess, "print the generated GLSL and stop");
-    auto* const reflect = app.add_option("-r,--reflect", arguments.reflect, "print what the material declares, as JSON")
-                                  ->check(CLI::IsMember({ "parameters" }));
-    auto* const cost = app.add_flag("--cost", arguments.cost, "print the operations of the fragment stages and stop");
-    try {
-        app.parse(argc, argv);
-    } catch (CLI::ParseError const& problem) {
-        const int status = app.exit(problem);
-        return tools::finishOutput() ? status : 1;
-    }
-    if (output->empty() && preprocess->empty() && reflect->empty() && cost->empty()) {
-        std::fprintf(stderr, "matc: give the package to write with -o\n");
-        return 1;
-    }
-    const Result<void> done = guarded(arguments);
-    if (!done) {
-        std::fprintf(stderr, "ERROR: %s\n\nCould not compile material %s\n", done.error().message.c_str(),
-                     arguments.input.c_str());
-    }
-    return done ? 0 : 1;
-}
+int main(int argc, char** argv) { return filament::matc::runProgram(argc, argv); }

@@ -305,4 +305,107 @@ TEST_F(Matc, SaysWhatIsMissing) {
                 HasSubstr("cannot write"));
 }
 
+// ---------------------------------------------------------------------------------------------- build systems
+
+constexpr const char* kUnlit = "material { shadingModel : unlit }\nfragment {\n#include \"tint.glsl\"\n"
+                               "void material(inout MaterialInputs m) { prepareMaterial(m); m.baseColor = tint(); } }";
+
+TEST_F(Matc, NamesTheFilesOfAMaterialForMake) {
+    const std::string input = file("stone.mat", kUnlit);
+    file("tint.glsl", "vec4 tint() { return vec4(0.5); }");
+    const Outcome printed = matc("-M " + input);
+    EXPECT_EQ(printed.status, 0);
+    EXPECT_EQ(printed.output, path("stone.fmat") + ": " + input + " " + path("tint.glsl") + "\n");
+    ASSERT_EQ(matc("-MD -o " + path("out.fmat") + " " + input).status, 0);
+    EXPECT_EQ(contents(path("out.fmat.d")), path("out.fmat") + ": " + input + " " + path("tint.glsl") + "\n");
+    ASSERT_EQ(matc("-MD -MF " + path("deps") + " -o " + path("out.fmat") + " " + input).status, 0);
+    EXPECT_EQ(contents(path("deps")), contents(path("out.fmat.d")));
+}
+
+TEST_F(Matc, ReadsTheStandardInput) {
+    const std::string input = file("stone.mat", kLit);
+    ASSERT_EQ(matc("-o " + path("a") + " " + input).status, 0);
+    const Outcome piped = shell("cd " + mFolder.string() + " && " + kProgram + "-o b - < stone.mat 2>&1");
+    EXPECT_EQ(piped.status, 0) << piped.output;
+    EXPECT_EQ(contents(path("a")), contents(path("b")));
+    const Outcome broken = shell("echo material | " + kProgram + "-o " + path("c") + " - 2>&1");
+    EXPECT_EQ(broken.status, 1);
+    EXPECT_THAT(broken.output, HasSubstr("ERROR: standard input:2: expected '{'"));
+}
+
+TEST_F(Matc, DefinesMacrosAndFillsTemplates) {
+    const std::string input = file("t.mat", "material { name : ${NAME}, shadingModel : ${MODEL} }\nfragment { void "
+                                            "material(inout MaterialInputs m) { prepareMaterial(m);\n#if LEVEL > 2\n"
+                                            "m.baseColor.r = AMOUNT;\n#else\nmissing();\n#endif\n} }");
+    ASSERT_EQ(matc("-D LEVEL=3 -DAMOUNT=0.25 -T NAME=stone -T MODEL=unlit -o " + path("out") + " " + input).status, 0);
+    EXPECT_EQ(package("out").name, "stone");
+    EXPECT_EQ(package("out").shading, filament::shader::ShadingModel::Unlit);
+    const Outcome without = matc("-T NAME=stone -o " + path("none") + " " + input);
+    EXPECT_EQ(without.status, 1);
+    EXPECT_THAT(without.output, HasSubstr("t.mat:1: the template name 'MODEL' has no value; give -T MODEL=VALUE"));
+    const Outcome low = matc("-D LEVEL -T NAME=a -T MODEL=lit -o " + path("none") + " " + input);
+    EXPECT_THAT(low.output, HasSubstr("t.mat:6: 'missing' : no matching overloaded function found"));
+    EXPECT_EQ(matc("-D 2=3 -o " + path("none") + " " + input).status, 2);
+}
+
+TEST_F(Matc, EndsWithTheStatusThatItsHelpNames) {
+    const std::string input = file("stone.mat", kLit);
+    const Outcome help = matc("--help");
+    EXPECT_EQ(help.status, 0);
+    EXPECT_THAT(help.output, HasSubstr("Exit status: 0 written or printed; 1 the material"));
+    const Outcome version = matc("--version");
+    EXPECT_EQ(version.status, 0);
+    EXPECT_THAT(version.output, HasSubstr("matc of filament_core"));
+    EXPECT_EQ(matc(input).status, 2) << "no -o";
+    EXPECT_EQ(matc("--no-such-option " + input).status, 2);
+    EXPECT_EQ(matc("-a metal -o x " + input).status, 2);
+    EXPECT_EQ(matc("-o " + path("x") + " " + path("gone.mat")).status, 1);
+    EXPECT_EQ(matc("-E " + input).output, matc("--preprocess " + input).output);
+}
+
+TEST_F(Matc, PrintsEachErrorAndEachWarningOnALine) {
+    const std::string input =
+            file("e.mat", "material { parameters : [ { name : unused, type : float } ] }\nfragment {\n"
+                          "void material(inout MaterialInputs m) { prepareMaterial(m);\nm.a = 1.0;\n"
+                          "m.b = 1.0; } }");
+    const Outcome broken = matc("-o " + path("x") + " " + input);
+    EXPECT_THAT(broken.output, HasSubstr("e.mat:4: 'a' :"));
+    EXPECT_THAT(broken.output, HasSubstr("\nERROR: " + input + ":5: 'b' :"));
+    const std::string good = file("g.mat", "material { parameters : [ { name : unused, type : float } ] }\nfragment { "
+                                           "void material(inout MaterialInputs m) { prepareMaterial(m); } }");
+    EXPECT_THAT(matc("-o " + path("x") + " " + good).output, HasSubstr("WARNING: " + good + ":1: no code reads"));
+    EXPECT_EQ(matc("-w -o " + path("x") + " " + good).output, "");
+}
+
+// ---------------------------------------------------------------------------------------------- matinfo
+
+Outcome matinfo(std::string const& arguments) {
+    return shell((filament::tools::buildDir() / "bin/matinfo ").string() + arguments + " 2>&1");
+}
+
+TEST_F(Matc, MatinfoShowsWhatAPackageHolds) {
+    ASSERT_EQ(matc("-o " + path("standard.fmat") + " " + file("standard.mat", kStandard)).status, 0);
+    const Outcome shown = matinfo(path("standard.fmat"));
+    EXPECT_EQ(shown.status, 0);
+    for (const char* text :
+         { "standard", "3 parameters", "sampler2d", "baseColor", "attributes            position tangents uv0",
+           "8 variants", "directionalLighting dynamicLighting skinning", "no lights" }) {
+        EXPECT_THAT(shown.output, HasSubstr(text));
+    }
+    const std::string size = std::to_string(package("standard.fmat").variants[0].fragmentSpirv.size() * 4);
+    EXPECT_THAT(shown.output, HasSubstr(size));
+}
+
+TEST_F(Matc, MatinfoPrintsTheCodeOfEitherApi) {
+    ASSERT_EQ(matc("-o " + path("standard.fmat") + " " + file("standard.mat", kStandard)).status, 0);
+    const std::string of = path("standard.fmat");
+    EXPECT_EQ(matinfo("--code opengl --variant 3 " + of).output, package("standard.fmat").findVariant(3)->fragmentEssl);
+    EXPECT_THAT(matinfo("--code vulkan --stage vertex " + of).output, HasSubstr("OpEntryPoint Vertex"));
+    const Outcome none = matinfo("--code opengl --variant 77 " + of);
+    EXPECT_EQ(none.status, 1);
+    EXPECT_THAT(none.output, HasSubstr("the package has no variant 77"));
+    EXPECT_EQ(matinfo(file("no.fmat", "no package")).status, 1);
+    EXPECT_EQ(matinfo("--code metal " + of).status, 2);
+}
+
 } // namespace

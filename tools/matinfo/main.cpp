@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+/// matinfo: shows what a material package (.fmat) holds.
+///   Out     parameters, constants, sizes of the variants; with --code the code of one stage.
+///   Status  0: printed; 1: the package, or what was asked of it; 2: the command line.
+#include "filament_core/assets/files/FileBytes.h"
+#include "tools/common/StandardOutput.h"
+#include "tools/matinfo/Describe.h"
+
+#include <CLI/CLI.hpp>
+
+#include <cstdio>
+#include <string>
+
+namespace {
+
+using namespace filament;
+
+struct Options {
+    std::string input, code, stage = "fragment";
+    uint32_t variant = 0;
+};
+
+Result<void> run(Options const& options) {
+    const auto bytes = assets::readFileBytes(options.input);
+    if (!bytes) return bytes.error();
+    const Result<shader::MaterialPackage> package = shader::readPackage(*bytes);
+    if (!package) return fail(package.error().code, "{}: {}", options.input, package.error().message);
+    if (options.code.empty()) return tools::printText(matinfo::describe(*package, bytes->size()));
+    const auto stage = options.stage == "vertex" ? matinfo::Stage::Vertex : matinfo::Stage::Fragment;
+    const auto language = options.code == "opengl" ? matinfo::Language::Essl : matinfo::Language::Spirv;
+    const Result<std::string> text = matinfo::codeOf(*package, options.variant, stage, language);
+    if (!text) return fail(text.error().code, "{}: {}", options.input, text.error().message);
+    return tools::printText(*text);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    Options options;
+    CLI::App app{ "Shows what a material package (.fmat) holds." };
+    app.add_option("input", options.input, "the package")->required();
+    app.add_option("--code", options.code, "print the code for this API: GLSL, or SPIR-V as text")
+            ->check(CLI::IsMember({ "opengl", "vulkan" }));
+    app.add_option("--variant", options.variant, "key of the variant whose code is printed (default: 0)");
+    app.add_option("--stage", options.stage, "stage whose code is printed (default: fragment)")
+            ->check(CLI::IsMember({ "vertex", "fragment" }));
+    try {
+        app.parse(argc, argv);
+    } catch (CLI::ParseError const& problem) {
+        const int status = app.exit(problem);
+        if (!tools::finishOutput()) return 1;
+        return status == 0 ? 0 : 2;
+    }
+    const Result<void> done = run(options);
+    if (!done) std::fprintf(stderr, "matinfo: %s\n", done.error().message.c_str());
+    return done ? 0 : 1;
+}
