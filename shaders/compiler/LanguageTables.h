@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The tables of the material language as Markdown, made from the tables that the compiler itself reads: for
+/// docs/material-language.md, where each stands between <!-- begin: NAME --> and <!-- end: NAME -->. Also the words that an
+/// editor should know.
+///   Thread  any.
+#pragma once
+
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace filament::shader {
+
+/// Name and text: properties, types, attributes, filters, members, functions, helpers.
+std::vector<std::pair<std::string, std::string>> languageTables();
+
+/// The document with its tables replaced by the current ones. Marks without a table stay as they are.
+std::string withCurrentTables(std::string_view document);
+
+/// Sorted, each once: properties, their values, types, members, functions of the engine.
+std::vector<std::string> languageWords();
+
+} // namespace filament::shader
