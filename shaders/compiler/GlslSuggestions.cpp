@@ -140,10 +140,14 @@ Complaint complaintOf(std::string_view line) {
 }
 
 std::string hintFor(std::string_view line, MaterialDefinition const& definition) {
+    if (line.find("requires layout(binding=X)") != std::string_view::npos)
+        return "; declare it in the list of parameters, and read materialParams_ and its name";
     const Complaint complaint = complaintOf(line);
     if (!complaint.isOverload && !complaint.isField && !complaint.isIdentifier) return {};
     const std::string_view name = complaint.name;
     if (complaint.isField) {
+        const bool isAttribute = name == "uv0" || name == "uv1" || name == "color"; // of MaterialVertexInputs
+        if (isAttribute) return fmt::format("; add requires : [ {} ]", name);
         if (std::string hint = aboutMember(name, definition); !hint.empty()) return hint;
     } else {
         if (const std::string attribute = missingAttribute(name, definition); !attribute.empty())
@@ -221,7 +225,7 @@ Error withSuggestion(Error const& error, MaterialDefinition const& definition) {
         const Place place = placeOf(text);
         if (lacksInclude && place.reason.find("missing #endif") != std::string_view::npos) continue;
         if (!place.file.empty() && isEngineFile(place.file)) {
-            ofEngine.push_back(fmt::format("{}:{}: the engine's code around this block does not compile with it: {}",
+            ofEngine.push_back(fmt::format("{}:{}: the engine's code behind this block does not compile with it: {}",
                                            definition.fileName, definition.fragment.at.line, place.reason));
             continue;
         }

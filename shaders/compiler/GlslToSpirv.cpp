@@ -269,6 +269,14 @@ Result<std::vector<uint32_t>> halfFromRelaxed(std::span<const uint32_t> spirv) {
     return half;
 }
 
+Result<std::string> disassembleSpirv(std::span<const uint32_t> spirv) {
+    const spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
+    std::string text;
+    constexpr uint32_t kOptions = SPV_BINARY_TO_TEXT_OPTION_INDENT | SPV_BINARY_TO_TEXT_OPTION_FRIENDLY_NAMES;
+    if (tools.Disassemble(spirv.data(), spirv.size(), &text, kOptions)) return text;
+    return fail(ErrorCode::Corrupt, "this SPIR-V cannot be read; compile the material again");
+}
+
 Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv) {
     return runPasses(spirv, [](spvtools::Optimizer& optimizer) {
         optimizer.RegisterPass(spvtools::CreateStripDebugInfoPass());

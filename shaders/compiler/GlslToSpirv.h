@@ -9,6 +9,7 @@
 
 #include <cstdint>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -36,6 +37,9 @@ Result<std::vector<uint32_t>> optimizeWithFalse(std::span<const uint32_t> spirv,
 ///           instruction").
 ///   Fails   Unsupported for operations that SPIRV-Tools cannot convert.
 Result<std::vector<uint32_t>> halfFromRelaxed(std::span<const uint32_t> spirv);
+
+/// As text, for people. Fails: Corrupt for words that are no module.
+Result<std::string> disassembleSpirv(std::span<const uint32_t> spirv);
 
 /// Drops the names, which no driver needs.
 Result<std::vector<uint32_t>> stripSpirv(std::span<const uint32_t> spirv);

@@ -137,7 +137,8 @@ Result<NamedEntry> readEntry(JsonValue const& item, std::span<const std::string_
 
 /// Members of blocks and structures have this name without a prefix.
 Result<void> checkKeyword(JsonValue const& item, std::string_view what, std::string const& name) {
-    if (!isGlslKeyword(name)) return {};
+    const bool isType = std::ranges::count(parameterTypeNames(), name) > 0; // float3 is a macro
+    if (!isGlslKeyword(name) && !isType) return {};
     return errorAt(item.at, fmt::format("{} \"{}\" is a word that GLSL reserves; choose another name", what, name));
 }
 

@@ -195,6 +195,8 @@ Result<void> StageText::block(GlslBlock const& block) {
     Result<void> done;
     if (!block.defines.empty()) done = lines(block.defines, { {}, "command line" }, 1);
     if (done) done = lines(block.text, { {}, block.at.file ? *block.at.file : "material" }, block.at.line);
+    if (done && mConditions > 0) return errorAt(block.at, "this block has an #if without its #endif");
+    lineDirective(1, "generated");
     for (std::string const& macro : mMacros) mText += fmt::format("#undef {}\n", macro);
     return done;
 }

@@ -2,8 +2,7 @@
 #include "tools/matinfo/Describe.h"
 
 #include "shaders/compiler/Cost.h"
-
-#include <spirv-tools/libspirv.hpp>
+#include "shaders/compiler/GlslToSpirv.h"
 
 #include <algorithm>
 #include <array>
@@ -39,13 +38,18 @@ void line(std::string& out, std::string_view name, std::string const& value) {
     fmt::format_to(std::back_inserter(out), "{:<22}{}\n", name, value);
 }
 
+void addWord(std::string& words, std::string_view word) {
+    if (!words.empty()) words += ' ';
+    words += word;
+}
+
 std::string attributes(uint32_t bits) {
     static constexpr std::array kNames{ "position", "tangents", "color",   "uv0",     "uv1",
                                         "joints",   "weights",  "custom0", "custom1", "custom2",
                                         "custom3",  "custom4",  "custom5", "custom6", "custom7" };
     std::string text;
     for (size_t i = 0; i < kNames.size(); ++i) {
-        if ((bits >> i & 1) != 0) text += (text.empty() ? "" : " ") + std::string(kNames[i]);
+        if ((bits >> i & 1) != 0) addWord(text, kNames[i]);
     }
     return text.empty() ? "none" : text;
 }
@@ -67,7 +71,7 @@ void describeHead(std::string& out, MaterialPackage const& package, size_t fileB
     line(out, "attributes", attributes(package.requiredAttributes));
     line(out, "parameter block", fmt::format("{} bytes", package.uniformBytes));
     std::string terms;
-    for (std::string const& term : package.terms) terms += (terms.empty() ? "" : " ") + term;
+    for (std::string const& term : package.terms) addWord(terms, term);
     line(out, "terms", terms.empty() ? "none" : terms);
 }
 
@@ -107,20 +111,12 @@ void describeVariants(std::string& out, MaterialPackage const& package) {
     }
 }
 
-Result<std::string> disassembled(std::vector<uint32_t> const& spirv) {
-    const spvtools::SpirvTools tools(SPV_ENV_VULKAN_1_1);
-    std::string text;
-    constexpr uint32_t kOptions = SPV_BINARY_TO_TEXT_OPTION_INDENT | SPV_BINARY_TO_TEXT_OPTION_FRIENDLY_NAMES;
-    if (tools.Disassemble(spirv, &text, kOptions)) return text;
-    return fail(ErrorCode::Corrupt, "the SPIR-V of this variant cannot be read; compile the material again");
-}
-
 } // namespace
 
 std::string variantName(uint32_t key) {
     std::string names;
     for (auto const& [bit, name] : kBits) {
-        if ((key & bit) != 0) names += (names.empty() ? "" : " ") + std::string(name);
+        if ((key & bit) != 0) addWord(names, name);
     }
     return names.empty() ? "no lights" : names;
 }
@@ -143,7 +139,7 @@ Result<std::string> codeOf(MaterialPackage const& package, uint32_t key, Stage s
     if (isMissing)
         return fail(ErrorCode::NotFound, "the package was compiled without this language; compile it with matc -a all");
     if (language == Language::Essl) return essl;
-    return disassembled(spirv);
+    return shader::disassembleSpirv(spirv);
 }
 
 } // namespace filament::matinfo

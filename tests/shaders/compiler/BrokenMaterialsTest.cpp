@@ -194,6 +194,24 @@ constexpr Broken kForeign[] = {
       "variable" },
 };
 
+// What would otherwise be found in the engine's text.
+constexpr Broken kBehind[] = {
+    { "material {}\n\nfragment { void material(inout MaterialInputs m) { prepareMaterial(m); }\n#if 1\n}",
+      "a.mat:3: this block has an #if without its #endif" },
+    { "material {}\nfragment {\n#define material foo\nvoid material(inout MaterialInputs m) { prepareMaterial(m); } }",
+      "a.mat:2: the engine's code behind this block does not compile with it: 'material' : no matching overloaded "
+      "function found" },
+    { "material {\n variables : [ float3 ] }" GOOD_FRAGMENT,
+      "a.mat:2: variable \"float3\" is a word that GLSL reserves; choose another name" },
+    { "material {}\nvertex {\nvoid materialVertex(inout MaterialVertexInputs m) { m.uv0.x = 1.0; } }\n" GOOD_FRAGMENT,
+      "a.mat:3: 'uv0' : no such field in structure 'm'; add requires : [ uv0 ]" },
+    { "material {}\nfragment {\nuniform sampler2D mine;\nvoid material(inout MaterialInputs m) { prepareMaterial(m); } "
+      "}",
+      "a.mat:3: 'binding' : sampler/texture/image requires layout(binding=X); declare it in the list of parameters, "
+      "and "
+      "read materialParams_ and its name" },
+};
+
 // Several mistakes: a line for each.
 constexpr Broken kSeveral[] = {
     { "material {\n blendMode : add,\n shadingModel : litt,\n requires : [ uv7,\n uv8 ] }" GOOD_FRAGMENT,
@@ -257,6 +275,7 @@ TEST(BrokenMaterials, NameTheValueAndWhatItMayBe) { expectMessages(kValues); }
 TEST(BrokenMaterials, NameTheContradictionAndItsCure) { expectMessages(kContradictions); }
 TEST(BrokenMaterials, NameWhatWasProbablyMeantInTheCode) { expectMessages(kMisspelt); }
 TEST(BrokenMaterials, NameWhatThisLanguageCallsIt) { expectMessages(kForeign); }
+TEST(BrokenMaterials, NameTheBlockThatTheEngineCannotFollow) { expectMessages(kBehind); }
 TEST(BrokenMaterials, NameEveryMistake) { expectMessages(kSeveral); }
 TEST(BrokenMaterials, AreNotThoseWhoseLoopsHaveAnExit) {
     for (const std::string loop : kEndingLoops) {
