@@ -82,7 +82,7 @@ float sheenAlbedoScaling(vec3 sheenColor, float albedo) {
 
 // The mean direction of the light that a sheen reflects, weighted by ndfCharlie() * visibilityNeubelt() * nol. Fibres
 // reflect towards the side that light comes from: the mirror direction says nothing. A fit of the integral for
-// perceptual roughness 0.25 to 1, within 0.03, beyond nov 0.9 within 0.12; smoother sheens take the values of 0.2.
+// perceptual roughness 0.25 to 1, within 0.03, beyond nov 0.9 within 0.13; smoother sheens take the values of 0.2.
 // nov in [0, 1]. Returns the part along the view, as a multiple of view - n nov, and the part along the normal n.
 vec2 sheenMeanDirection(float nov, float perceptualRoughness) {
     float r = max(perceptualRoughness, 0.2f);

@@ -45,7 +45,7 @@ TEST(Sheen, TheMeanDirectionIsThatOfTheLobe) {
             };
             const vec3 mean = integrateUpper([&](vec3 l) { return l * lobe(l); }) / integrateUpper(lobe);
             const vec2 fit = sheenMeanDirection(nov, roughness);
-            const double limit = nov > 0.9 ? 0.12 : 0.03; // in front of smooth fibres the ring hardly has a side
+            const double limit = nov > 0.9 ? 0.13 : 0.03; // in front of smooth fibres the ring hardly has a side
             EXPECT_NEAR(fit.x * v.x, mean.x, limit) << roughness << ' ' << nov;
             EXPECT_NEAR(fit.y, mean.z, 0.03) << roughness << ' ' << nov;
         }
