@@ -23,7 +23,9 @@ std::array<uint32_t, shader::kQualityConstants.size()> choices(Quality const& qu
              static_cast<uint32_t>(irradiance),
              light.isRgbm ? 1u : 0u,
              static_cast<uint32_t>(light.mapping),
-             quality.diffuseCoupling ? 0u : 1u };
+             quality.diffuseCoupling ? 0u : 1u,
+             static_cast<uint32_t>(quality.specularLookUps),
+             static_cast<uint32_t>(quality.anisotropicLookUps) };
 }
 
 } // namespace

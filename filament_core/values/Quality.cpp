@@ -21,6 +21,8 @@ constexpr std::string_view kDiffuseTerms[] = { "lambert", "disney" };
 constexpr std::string_view kBooleans[] = { "off", "on" };
 constexpr std::string_view kSplitSums[] = { "table", "analytic" };
 constexpr std::string_view kTableSizes[] = { "16", "32", "64", "128", "256" };
+constexpr std::string_view kSpecularLookUps[] = { "dominant", "quadratic", "eight", "thirtyTwo" };
+constexpr std::string_view kAnisotropicLookUps[] = { "five", "one", "three", "nine" };
 constexpr std::string_view kIrradiances[] = { "sphericalHarmonics", "lastSpecularLevel", "cube" };
 constexpr std::string_view kRoughnessMappings[] = { "quadratic", "logarithmic", "linear" };
 constexpr std::string_view kBands[] = { "1", "2", "3" };
@@ -87,6 +89,8 @@ constexpr std::array kFields{
     enumField<&Quality::diffuseCoupling>("diffuseCoupling", kBooleans),
     enumField<&Quality::splitSum>("splitSum", kSplitSums),
     numberField<&Quality::dfgTableSize, 16, 256>("dfgTableSize", kTableSizes, "a whole number from 16 to 256"),
+    enumField<&Quality::specularLookUps>("specularLookUps", kSpecularLookUps),
+    enumField<&Quality::anisotropicLookUps>("anisotropicLookUps", kAnisotropicLookUps),
     enumField<&Quality::diffuseIrradiance>("diffuseIrradiance", kIrradiances),
     numberField<&Quality::shBands, 1, 3>("shBands", kBands, "1, 2 or 3"),
     enumField<&Quality::shadingPrecision>("shadingPrecision", kShadingPrecisions),
@@ -116,6 +120,8 @@ Quality lowPreset() {
     quality.energyCompensation = false;
     quality.diffuseCoupling = false;
     quality.splitSum = SplitSum::Analytic;
+    quality.specularLookUps = SpecularLookUps::Quadratic;
+    quality.anisotropicLookUps = AnisotropicLookUps::One;
     quality.shBands = 2;
     quality.textureFilter = TextureFilter::Bilinear;
     return quality;
@@ -125,6 +131,7 @@ Quality mediumPreset() {
     Quality quality;
     quality.specularVisibility = SpecularVisibility::Fast;
     quality.splitSum = SplitSum::Analytic;
+    quality.anisotropicLookUps = AnisotropicLookUps::Three;
     return quality;
 }
 
@@ -132,6 +139,8 @@ Quality referencePreset() {
     Quality quality;
     quality.fresnel = FresnelTerm::Exact;
     quality.dfgTableSize = 256;
+    quality.specularLookUps = SpecularLookUps::ThirtyTwo;
+    quality.anisotropicLookUps = AnisotropicLookUps::Nine;
     quality.textureFilter = TextureFilter::Anisotropic;
     return quality;
 }
@@ -142,6 +151,8 @@ const char* toString(SpecularVisibility value) { return wordOf(kSpecularVisibili
 const char* toString(FresnelTerm value) { return wordOf(kFresnelTerms, value); }
 const char* toString(DiffuseTerm value) { return wordOf(kDiffuseTerms, value); }
 const char* toString(SplitSum value) { return wordOf(kSplitSums, value); }
+const char* toString(SpecularLookUps value) { return wordOf(kSpecularLookUps, value); }
+const char* toString(AnisotropicLookUps value) { return wordOf(kAnisotropicLookUps, value); }
 const char* toString(DiffuseIrradiance value) { return wordOf(kIrradiances, value); }
 const char* toString(RoughnessMapping value) { return wordOf(kRoughnessMappings, value); }
 const char* toString(PositionStorage value) { return wordOf(kPositionStorages, value); }
@@ -162,6 +173,12 @@ std::optional<DiffuseTerm> diffuseTermFromName(std::string_view name) {
     return valueOf<DiffuseTerm>(kDiffuseTerms, name);
 }
 std::optional<SplitSum> splitSumFromName(std::string_view name) { return valueOf<SplitSum>(kSplitSums, name); }
+std::optional<SpecularLookUps> specularLookUpsFromName(std::string_view name) {
+    return valueOf<SpecularLookUps>(kSpecularLookUps, name);
+}
+std::optional<AnisotropicLookUps> anisotropicLookUpsFromName(std::string_view name) {
+    return valueOf<AnisotropicLookUps>(kAnisotropicLookUps, name);
+}
 std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name) {
     return valueOf<DiffuseIrradiance>(kIrradiances, name);
 }

@@ -129,7 +129,7 @@ struct MorphUniforms {
 };
 
 // ---- specialisation constants that the material compiler declares in every lit material, besides the author's own
-/// An int named quality_<name>; 0, its default, is the default of <filament/Quality.h>, whose enumerators it counts.
+/// An int named quality_<name>, 0 by default, that counts the enumerators of <filament/Quality.h>.
 struct QualityConstant {
     const char* name;
     uint32_t id;
@@ -145,6 +145,8 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityEnvironmentEncoding = 1006, ///< 1: RGBM (of the environment, not of the view)
     kQualityRoughnessMapping = 1007,    ///< (of the environment)
     kQualityWithoutDiffuseCoupling = 1008, ///< 1: lights give the diffuse lobe what is reflected, too
+    kQualitySpecularLookUps = 1009,
+    kQualityAnisotropicLookUps = 1010,
 };
 
 inline constexpr std::array kQualityConstants{
@@ -157,6 +159,8 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "environmentEncoding", kQualityEnvironmentEncoding },
     QualityConstant{ "roughnessMapping", kQualityRoughnessMapping },
     QualityConstant{ "withoutDiffuseCoupling", kQualityWithoutDiffuseCoupling },
+    QualityConstant{ "specularLookUps", kQualitySpecularLookUps },
+    QualityConstant{ "anisotropicLookUps", kQualityAnisotropicLookUps },
 };
 
 // clang-format on

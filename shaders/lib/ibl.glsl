@@ -49,9 +49,48 @@ vec3 radianceFromRgbm(vec4 texel) {
 }
 
 // The effective direction of a rough lobe: it turns from the mirror direction r towards the normal n. Lagarde and de
-// Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 4.9.3, with the quadratic weight alpha^2.
+// Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 4.9.3.
 // Not normalised, since a cube map look-up does not need it. n, r unit, alpha in [0, 1].
-vec3 dominantSpecularDirection(vec3 n, vec3 r, float alpha) { return mix(r, n, alpha * alpha); }
+vec3 dominantSpecularDirection(vec3 n, vec3 r, float alpha) {
+    float smoothness = 1.0f - alpha;
+    return mix(n, r, smoothness * (sqrt(smoothness) + alpha));
+}
+
+// The same with the weight alpha^2: no root, but further from the lobe at middle roughness.
+vec3 quadraticSpecularDirection(vec3 n, vec3 r, float alpha) { return mix(r, n, alpha * alpha); }
+
+// One of `count` look-ups that replace the single one of a GGX lobe: the half vector for a point of the unit disc, which
+// a view at cosine nov sees as often as all others. Heitz 2018, "Sampling the GGX Distribution of Visible Normals".
+// x points to the side of the view, z along the normal. nov in (0, 1], alpha in [kMinAlpha, 1]. Returns a unit vector.
+vec3 visibleHalfVector(float nov, float alpha, vec2 disc) {
+    float stretched = alpha * sqrt(max((1.0f - nov) * (1.0f + nov), 0.0f));
+    float inverse = 1.0f / sqrt(stretched * stretched + nov * nov);
+    float sine = stretched * inverse, cosine = nov * inverse;
+    float lift = 0.5f * (1.0f + cosine);
+    float rest = max(1.0f - disc.x * disc.x, 0.0f);
+    float up = (1.0f - lift) * sqrt(rest) + lift * disc.y;
+    float ahead = sqrt(max(rest - up * up, 0.0f));
+    vec3 h = vec3(alpha * (ahead * sine - up * cosine), alpha * disc.x, max(up * sine + ahead * cosine, 0.0f));
+    return h / sqrt(max(dot(h, h), 1e-12f));
+}
+
+// How much of the light of such a half vector's mirror direction is not shadowed, up to a factor of the view. Smith's
+// height-correlated masking and shadowing over masking (Heitz 2014, eq. 99). nov, nol in (0, 1]. Returns [0, 1].
+float visibleLookUpWeight(float nov, float nol, float alpha) {
+    float a2 = alpha * alpha;
+    float view = sqrt(a2 + (1.0f - a2) * nov * nov), light = sqrt(a2 + (1.0f - a2) * nol * nol);
+    return nol * (nov + view) / max(nol * view + nov * light, 1e-6f);
+}
+
+// The roughness to look such a direction up with: its lobe covers the share of the sphere that belongs to the sample.
+// Krivanek and Colbert 2008, "Real-time Shading with Filtered Importance Sampling". Returns (0, 1].
+float visibleLookUpRoughness(float nov, float noh, float alpha, float count) {
+    float a2 = alpha * alpha;
+    float view = sqrt(a2 + (1.0f - a2) * nov * nov);
+    float spread = (noh * noh) * a2 + (1.0f - noh) * (1.0f + noh); // a2 / (pi D) is its square
+    float width2 = (nov + view) * spread * spread / (2.0f * count * a2);
+    return sqrt(sqrt(min(width2, 1.0f)));
+}
 
 // A fit of the split-sum table (DfgTable.h), without a fetch. Karis 2014, "Physically Based Shading on Mobile", after
 // Lazarov 2013, "Getting More Physical in Call of Duty: Black Ops II". Errors up to 0.09 for dielectrics and 0.3 for

@@ -72,6 +72,7 @@ struct BsdfModel {
     CouplingTerm coupling = CouplingTerm::Engine;
     LobeChoice lobes = LobeChoice::Both;
     SpecularLight specularLight = SpecularLight::Integral;
+    AnisotropicLookUps grainLookUps = AnisotropicLookUps::Five; ///< of SplitSum
     uint32_t splitSumLevels = 0; ///< >= 2: number of pre-filtered roughnesses; others are interpolated from two
     DiffuseLight diffuseLight = DiffuseLight::Integral;
     CoatTerm coat = CoatTerm::Engine;

@@ -84,14 +84,36 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     if (model.lobes != LobeChoice::Diffuse) mCompensation = compensationOfGrooves(mCompensation, surface.anisotropy);
 }
 
-// Like shaders/material/surface/anisotropy.glsl for a stretched lobe: looked up along a bent normal.
+constexpr int kGrainLookUps[] = { 5, 1, 3, 9 }; // by AnisotropicLookUps
+
+// Like shaders/material/surface/look_ups.glsl, radianceAlongGrain().
+void StandardLobes::lookUpAlongGrain() {
+    const bool isAlong = mAlpha.x >= mAlpha.y;
+    const double2 alpha = isAlong ? mAlpha : double2(mAlpha.y, mAlpha.x);
+    const double3 view = isAlong ? mView : double3(mView.y, -mView.x, mView.z);
+    const int count = kGrainLookUps[static_cast<size_t>(mModel.grainLookUps)];
+    double sum = 0;
+    for (int i = 0; i < count; ++i) {
+        const double spacing = 1.0 / count, u = (2 * i + 1) * spacing - 1;
+        const double4 light = lib::grainLookUp(view, alpha, u);
+        if (light.w <= 0) continue;
+        const double3 local = isAlong ? double3(light) : double3(-light.y, light.x, light.z);
+        const double roughness = std::max(lib::grainLookUpRoughness(alpha, u, spacing), lib::kMinPerceptualRoughness);
+        mLookUps.push_back({ SplitSumLobe(roughness, mModel.splitSumLevels), Frame(glm::normalize(local)), light.w });
+        sum += light.w;
+    }
+    for (LookUp& lookUp : mLookUps) lookUp.share /= sum;
+}
+
+// One look-up, of a stretched lobe along a bent normal, or several along the grain.
 void StandardLobes::usePrefiltered(SurfaceSample const& surface, double2 dfg) {
-    mLobe.emplace(mRoughness, mModel.splitSumLevels);
     mLobeAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation;
     mLobeAlbedo = (mLobeAlbedo + farReflectedShare(surface, mView.z, mLobeAlbedo)) * mAmbientSpecular;
+    if (surface.anisotropy != 0 && mModel.grainLookUps != AnisotropicLookUps::One) lookUpAlongGrain();
+    if (!mLookUps.empty()) return;
     const double alpha = lib::alphaFromPerceptual(mRoughness);
     const double3 direction = lib::dominantSpecularDirection({ 0, 0, 1 }, mirroredView(surface), alpha);
-    mLobeFrame = Frame(glm::normalize(direction));
+    mLookUps.push_back({ SplitSumLobe(mRoughness, mModel.splitSumLevels), Frame(glm::normalize(direction)), 1 });
 }
 
 double3 StandardLobes::harmonicAlbedo() const {
@@ -127,9 +149,10 @@ LobeValues StandardLobes::evaluate(double3 light, LightSource source) const {
     local.z = std::min(local.z, 1.0);
     LobeValues values;
     if (local.z > 0) values = lobesAt(local, source);
-    if (mLobe && source == LightSource::Ambient) {
-        values.specular += mLobeAlbedo * mLobe->value(mLobeFrame.toLocal(mFrame.toLocal(light)));
-    }
+    if (source != LightSource::Ambient) return values;
+    for (LookUp const& lookUp : mLookUps)
+        values.specular +=
+                mLobeAlbedo * (lookUp.share * lookUp.lobe.value(lookUp.frame.toLocal(mFrame.toLocal(light))));
     return values;
 }
 
@@ -142,7 +165,7 @@ LobeValues StandardLobes::lobesAt(double3 local, LightSource source) const {
     const double3 halfway = sum / length;
     const double voh = lib::saturate(glm::dot(mView, halfway));
     const bool isAmbient = source == LightSource::Ambient;
-    if (!mLobe || !isAmbient) {
+    if (mLookUps.empty() || !isAmbient) {
         values.specular =
                 (ggx(halfway, mAlpha) * visibility(local) * local.z) * mInterface.reflectance(voh) * mCompensation;
     }
@@ -159,26 +182,36 @@ LobeValues StandardLobes::lobesAt(double3 local, LightSource source) const {
 std::optional<double3> StandardLobes::sample(double2 u, double choice) const {
     if (mModel.diffuseLight == DiffuseLight::Harmonics && mModel.lobes == LobeChoice::Diffuse) return {};
     const double3 local = choice < mSpecularChance ? sampleSpecular(u) : lib::hemisphereCosineSample(u);
-    if (local.z <= 0 && !mLobe) return {};
+    if (local.z <= 0 && mLookUps.empty()) return {};
     return glm::normalize(mFrame.toWorld(local));
 }
 
+double3 StandardLobes::sampleLookUps(double2 u) const {
+    size_t chosen = 0;
+    while (chosen + 1 < mLookUps.size() && u.x >= mLookUps[chosen].share) u.x -= mLookUps[chosen++].share;
+    LookUp const& lookUp = mLookUps[chosen];
+    return lookUp.frame.toWorld(lookUp.lobe.sample({ std::clamp(u.x / lookUp.share, 1e-12, 1 - 1e-12), u.y }));
+}
+
 double3 StandardLobes::sampleSpecular(double2 u) const {
-    if (mLobe) return mLobeFrame.toWorld(mLobe->sample(u));
+    if (!mLookUps.empty()) return sampleLookUps(u);
     const double3 halfway = sampleVisibleNormal(mView, mAlpha, u);
     return 2 * glm::dot(mView, halfway) * halfway - mView;
 }
 
 double StandardLobes::pdf(double3 light) const {
     const double3 local = mFrame.toLocal(light);
-    if (local.z <= 0 && !mLobe) return 0;
+    if (local.z <= 0 && mLookUps.empty()) return 0;
     double density = (1 - mSpecularChance) * std::max(local.z, 0.0) * lib::kInversePi;
     if (mSpecularChance > 0) density += mSpecularChance * specularPdf(local);
     return density;
 }
 
 double StandardLobes::specularPdf(double3 light) const {
-    return mLobe ? mLobe->pdf(mLobeFrame.toLocal(light)) : visibleReflectionPdf(mView, light, mAlpha);
+    if (mLookUps.empty()) return visibleReflectionPdf(mView, light, mAlpha);
+    double density = 0;
+    for (LookUp const& lookUp : mLookUps) density += lookUp.share * lookUp.lobe.pdf(lookUp.frame.toLocal(light));
+    return density;
 }
 
 } // namespace filament::reference

@@ -2,7 +2,7 @@
 /// StandardLobes: the base of the standard material: a diffuse lobe and an isotropic or anisotropic GGX lobe.
 ///   Value   f(view, light) * cos, in 1/sr: diffuse lobe, and D V F * energy compensation, from shaders/lib in double.
 ///   Sampler chooses a lobe in proportion to the lobes' albedos: visible half vectors, or cosine.
-///   Thread  a value. Memory: none.
+///   Thread  a value. Memory: none, but for the look-ups of a split sum.
 #pragma once
 
 #include "tools/reference/Coupling.h"
@@ -10,6 +10,7 @@
 #include "tools/reference/Prefiltered.h"
 
 #include <optional>
+#include <vector>
 
 namespace filament::reference {
 
@@ -46,6 +47,8 @@ private:
     double3 sampleSpecular(double2 u) const; ///< local
     double specularPdf(double3 light) const;
     void usePrefiltered(SurfaceSample const& surface, double2 dfg);
+    void lookUpAlongGrain();
+    double3 sampleLookUps(double2 u) const;
 
     BsdfModel mModel;
     Interface mInterface;
@@ -60,8 +63,13 @@ private:
     double mAmbientSpecular = 1;    // occlusion
     double mSpecularChance = 0;
     double3 mAlbedo{ 0.0 }, mSpecularAlbedo{ 0.0 };
-    std::optional<SplitSumLobe> mLobe; // SpecularLight::SplitSum
-    Frame mLobeFrame;                  // in local space
+    /// One of the engine's look-ups: a pre-filtered lobe in local space.
+    struct LookUp {
+        SplitSumLobe lobe;
+        Frame frame;
+        double share; ///< all of them add up to 1
+    };
+    std::vector<LookUp> mLookUps; // SpecularLight::SplitSum; else empty
     double3 mLobeAlbedo{ 0.0 };
 };
 

@@ -43,6 +43,22 @@ enum class SplitSum : uint8_t {
     Analytic, ///< the fit of Karis 2014, without a texture
 };
 
+/// How often the specular lobe looks up the environment, which stores round lobes for a view along the normal.
+enum class SpecularLookUps : uint8_t {
+    Dominant,  ///< once, in the direction of Lagarde and de Rousiers 2014
+    Quadratic, ///< once, in a direction without a root: further off at middle roughness
+    Eight,     ///< at eight visible half vectors (Heitz 2018), each as wide as its share of the lobe
+    ThirtyTwo, ///< the same with 32: a reference
+};
+
+/// How often an anisotropic lobe looks up the environment, along the grain.
+enum class AnisotropicLookUps : uint8_t {
+    Five,
+    One, ///< about a normal bent towards the view (McAuley 2015): a wide round lobe for a narrow long one
+    Three,
+    Nine,
+};
+
 /// Source of the environment's diffuse light.
 enum class DiffuseIrradiance : uint8_t {
     SphericalHarmonics, ///< Quality::shBands bands
@@ -114,6 +130,8 @@ struct Quality {
     bool diffuseCoupling = true;    ///< the diffuse lobe receives only the light that the specular lobe leaves
     SplitSum splitSum = SplitSum::Table;
     uint16_t dfgTableSize = 64; ///< texels per side, [16, 256]
+    SpecularLookUps specularLookUps = SpecularLookUps::Dominant;
+    AnisotropicLookUps anisotropicLookUps = AnisotropicLookUps::Five;
     DiffuseIrradiance diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;
     uint8_t shBands = 3; ///< [1, 3]: 1, 4 or 9 coefficients
     ShadingPrecision shadingPrecision = ShadingPrecision::Full;
@@ -130,6 +148,8 @@ const char* toString(SpecularVisibility value);
 const char* toString(FresnelTerm value);
 const char* toString(DiffuseTerm value);
 const char* toString(SplitSum value);
+const char* toString(SpecularLookUps value);
+const char* toString(AnisotropicLookUps value);
 const char* toString(DiffuseIrradiance value);
 const char* toString(RoughnessMapping value);
 const char* toString(PositionStorage value);
@@ -143,6 +163,8 @@ std::optional<SpecularVisibility> specularVisibilityFromName(std::string_view na
 std::optional<FresnelTerm> fresnelTermFromName(std::string_view name);
 std::optional<DiffuseTerm> diffuseTermFromName(std::string_view name);
 std::optional<SplitSum> splitSumFromName(std::string_view name);
+std::optional<SpecularLookUps> specularLookUpsFromName(std::string_view name);
+std::optional<AnisotropicLookUps> anisotropicLookUpsFromName(std::string_view name);
 std::optional<DiffuseIrradiance> diffuseIrradianceFromName(std::string_view name);
 std::optional<RoughnessMapping> roughnessMappingFromName(std::string_view name);
 std::optional<PositionStorage> positionStorageFromName(std::string_view name);

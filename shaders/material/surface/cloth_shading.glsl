@@ -52,7 +52,7 @@ Surface surfaceOf(MaterialInputs material) {
 // The direction of the fibres' look-up, and its perceptual roughness in w.
 highp vec4 clothLookUp(Surface surface) {
 #if defined(CLOTH_ASHIKHMIN)
-    highp vec3 direction = dominantSpecularDirection(surface.normal, shading_reflected, surface.alpha);
+    highp vec3 direction = lobeDirectionTerm(surface.normal, shading_reflected, surface.alpha);
     return vec4(direction, surface.perceptualRoughness);
 #else
     highp vec2 mean = sheenMeanDirection(shading_NoV, surface.perceptualRoughness);

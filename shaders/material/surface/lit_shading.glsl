@@ -6,6 +6,8 @@
 
 // ---- the environment
 
+#include "shaders/material/surface/look_ups.glsl"
+
 highp vec3 reflectedOf(Surface surface) {
     highp vec3 reflected = shading_reflected;
 #if defined(HAS_ANISOTROPY)
@@ -38,8 +40,7 @@ highp vec3 baseOfEnvironment(Surface surface) {
 #endif
 
     highp vec3 reflected = reflectedOf(surface);
-    highp vec3 direction = dominantSpecularDirection(surface.normal, reflected, surface.alpha);
-    vec3 specular = surface.specularAlbedo * environmentRadiance(direction, surface.perceptualRoughness);
+    vec3 specular = surface.specularAlbedo * radianceOfBase(surface, reflected);
     specular = seenReflection(specular, surface.visibility, surface.nov, reflected, surface.alpha,
             surface.perceptualRoughness, surface.f0);
 #if defined(HAS_NORMAL)
@@ -69,7 +70,7 @@ highp vec3 addSheenOfEnvironment(Surface surface, highp vec3 below) {
 highp vec3 addCoatOfEnvironment(Surface surface, highp vec3 below) {
     Coat coat = surface.coat;
     highp vec3 reflected = reflect(-shading_view, shading_clearCoatNormal);
-    highp vec3 direction = dominantSpecularDirection(coat.normal, reflected, coat.alpha);
+    highp vec3 direction = lobeDirectionTerm(coat.normal, reflected, coat.alpha);
     vec3 radiance = environmentRadiance(direction, coat.perceptualRoughness) * coatAlbedo(coat);
     radiance = seenReflection(radiance, surface.visibility, coat.nov, reflected, coat.alpha, coat.perceptualRoughness,
             vec3(kCoatF0));

@@ -10,6 +10,12 @@ const int kSplitSumAnalytic = 1;
 const int kIrradianceLastSpecularLevel = 1;
 const int kIrradianceCube = 2;
 const int kEncodingRgbm = 1;
+const int kLookUpsQuadratic = 1;
+const int kLookUpsEight = 2;
+const int kLookUpsThirtyTwo = 3;
+const int kGrainLookUpsOne = 1;
+const int kGrainLookUpsThree = 2;
+const int kGrainLookUpsNine = 3;
 
 // Half floats end at 65504, and infinity times the cosine of grazing light would be NaN.
 #if defined(HALF_PRECISION)
@@ -95,6 +101,17 @@ vec3 diffuseExitTerm(vec3 albedo, vec3 averageAlbedo) {
     vec3 share = vec3(1.0);
     if (quality_withoutDiffuseCoupling == 0) share = diffuseExit(albedo, averageAlbedo);
     return share;
+}
+
+// The direction of the one look-up that stands for a rough lobe.
+highp vec3 lobeDirectionTerm(highp vec3 normal, highp vec3 reflected, float alpha) {
+    highp vec3 direction;
+    if (quality_specularLookUps == kLookUpsQuadratic) {
+        direction = quadraticSpecularDirection(normal, reflected, alpha);
+    } else {
+        direction = dominantSpecularDirection(normal, reflected, alpha);
+    }
+    return direction;
 }
 
 vec3 radianceOfTexel(vec4 texel) {

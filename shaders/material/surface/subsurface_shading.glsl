@@ -57,7 +57,7 @@ highp vec3 shadeEnvironment(Surface surface) {
     vec3 inside = (surface.diffuse * irradiance + scattered) * (1.0 - surface.specularAlbedo);
     inside = seenDiffuse(inside, surface.visibility, albedo);
 
-    highp vec3 direction = dominantSpecularDirection(surface.normal, shading_reflected, surface.alpha);
+    highp vec3 direction = lobeDirectionTerm(surface.normal, shading_reflected, surface.alpha);
     vec3 specular = surface.specularAlbedo * environmentRadiance(direction, surface.perceptualRoughness);
     specular = seenReflection(specular, surface.visibility, surface.nov, shading_reflected, surface.alpha,
             surface.perceptualRoughness, surface.f0);

@@ -97,6 +97,36 @@ TEST(Anisotropy, SamplesFollowTheDistribution) {
     }
 }
 
+// The mean direction of the reflected light, by a few look-ups along the grain against the lobe itself.
+TEST(Anisotropy, LookUpsAlongTheGrainHaveTheMeanOfTheLobe) {
+    for (const vec2 alpha : { vec2(0.5, 0.1), vec2(1, 0.25), vec2(0.85, 0.15) }) {
+        for (const vec3 v : { glm::normalize(vec3(0.7, 0, 0.5)), glm::normalize(vec3(0.3, 0.6, 0.6)), viewAt(0.95) }) {
+            const auto lobe = [&](vec3 l, vec3 h) {
+                return ndfGgxAnisotropic(h, alpha) * visibilitySmithGgxAnisotropic(v, l, alpha) * l.z;
+            };
+            const Quadrature fine{ .polar = 600, .azimuth = 360, .polePower = 3 };
+            const vec3 mean = integrateHalf(
+                                      v, [&](vec3 l, vec3 h) { return l * lobe(l, h); }, fine) /
+                              integrateHalf(v, lobe, fine);
+            vec3 sum(0);
+            double weights = 0;
+            for (int i = 0; i < 9; ++i) {
+                const vec4 lookUp = grainLookUp(v, alpha, (2 * i + 1) / 9.0 - 1);
+                sum += vec3(lookUp) * lookUp.w;
+                weights += lookUp.w;
+            }
+            EXPECT_LT(glm::length(sum / weights - mean), alpha.y < 0.2 ? 0.1 : 0.15)
+                    << "the plane has no width" << alpha.x << ' ' << v.x << ' ' << v.y;
+        }
+    }
+}
+
+TEST(Anisotropy, ALookUpAlongTheGrainIsAsWideAsTheLobeAcrossOrAsTheGap) {
+    EXPECT_NEAR(sq(grainLookUpRoughness(vec2(0.5, 0.1), 0.0, 0.01)), 0.1, 1e-9);
+    EXPECT_NEAR(sq(grainLookUpRoughness(vec2(0.5, 0.1), 0.0, 0.5)), kGrainOverlap * 0.25, 1e-9);
+    EXPECT_EQ(grainLookUpRoughness(vec2(2, 2), 0.0, 1.0), 1);
+}
+
 TEST(Anisotropy, ThePositiveSignStretchesTheHighlightAlongTheTangent) {
     const vec2 alpha = anisotropicAlpha(0.2, 0.8, kMinAlpha);
     EXPECT_GT(ndfGgxAnisotropic(viewAt(0.97), alpha), 10 * ndfGgxAnisotropic(vec3(0, viewAt(0.97).x, 0.97), alpha));

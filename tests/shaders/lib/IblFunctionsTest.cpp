@@ -28,7 +28,45 @@ TEST(IblFunctions, TheDominantDirectionLeavesTheMirrorOnlyForRoughSurfaces) {
     const vec3 n(0, 0, 1), r(0.8f, 0, 0.6f);
     EXPECT_EQ(dominantSpecularDirection(n, r, 0.0f), r);
     EXPECT_EQ(dominantSpecularDirection(n, r, 1.0f), n);
-    EXPECT_NEAR(dominantSpecularDirection(n, r, 0.1f).x, 0.8f, 0.01f);
+    EXPECT_NEAR(dominantSpecularDirection(n, r, 0.1f).x, 0.8f, 0.05f);
+    EXPECT_EQ(quadraticSpecularDirection(n, r, 0.0f), r);
+    EXPECT_EQ(quadraticSpecularDirection(n, r, 1.0f), n);
+}
+
+// Look-ups at visible half vectors have the mean direction of the lobe, which a single one can only guess.
+TEST(IblFunctions, VisibleHalfVectorsHaveTheMeanOfTheLobe) {
+    constexpr int kCount = 256;
+    for (const float alpha : { 0.1f, 0.4f, 0.9f }) {
+        for (const float nov : { 0.2f, 0.6f, 0.95f }) {
+            const vec3 v(std::sqrt(1 - nov * nov), 0, nov);
+            glm::dvec3 sum(0), exact(0);
+            double weights = 0, total = 0;
+            for (int i = 0; i < kCount; ++i) {
+                const float radius = std::sqrt((static_cast<float>(i) + 0.5f) / kCount),
+                            phi = 2.3999632f * static_cast<float>(i);
+                const vec3 h = visibleHalfVector(nov, alpha, vec2(radius * std::cos(phi), radius * std::sin(phi)));
+                const vec3 l = h * (2 * dot(v, h)) - v;
+                if (l.z <= 0) continue;
+                const double weight = visibleLookUpWeight(nov, l.z, alpha);
+                sum += glm::dvec3(l) * weight, weights += weight;
+            }
+            total = integrateSphere([&](vec3 l) {
+                const vec3 h = (v + l) / std::max(glm::length(v + l), 1e-6f);
+                if (l.z <= 0) return 0.0;
+                const double value = double(ndfGgx(h.z, alpha) * visibilitySmithGgxCorrelated(nov, l.z, alpha) * l.z);
+                return value;
+            });
+            for (int c = 0; c < 3; ++c) {
+                exact[c] = integrateSphere([&](vec3 l) {
+                    const vec3 h = (v + l) / std::max(glm::length(v + l), 1e-6f);
+                    if (l.z <= 0) return 0.0;
+                    return double(l[c]) *
+                           double(ndfGgx(h.z, alpha) * visibilitySmithGgxCorrelated(nov, l.z, alpha) * l.z);
+                });
+            }
+            EXPECT_LT(glm::length(sum / weights - exact / total), 0.03) << alpha << ' ' << nov;
+        }
+    }
 }
 
 // Coefficients of an environment L(d), by the definition in ibl.glsl: projection on the basis, cosine lobe, 1/pi.

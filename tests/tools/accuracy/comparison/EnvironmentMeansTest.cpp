@@ -59,5 +59,14 @@ TEST_F(EnvironmentMeans, SheenIsAsBrightAsItsLobe) {
         EXPECT_NEAR(meanRatio(scene), 1, 0.1) << scene;
 }
 
+TEST_F(EnvironmentMeans, BrushedMetalIsAsBrightAsItsLobe) {
+    for (const char* scene : { "brushed/studio", "brushed/room" }) EXPECT_NEAR(meanRatio(scene), 1, 0.1) << scene;
+}
+
+TEST_F(EnvironmentMeans, FlatMetalIsAsBrightAsItsLobe) {
+    for (const char* scene : { "tilted/studio", "tilted/beach", "tilted/room" })
+        EXPECT_NEAR(meanRatio(scene), 1, 0.1) << scene;
+}
+
 } // namespace
 } // namespace filament::accuracy
