@@ -43,7 +43,7 @@ struct Words {
     std::string assets = tools::assetDir();
     std::string out = "conformance", shard = "0/1", threads, mutations;
     std::vector<std::string> backends, machines, merge, set;
-    std::string journal;
+    std::string journal, random = "0", seed = "1", reduce;
 };
 
 void declare(CLI::App& app, Words& words, Options& options) {
@@ -77,8 +77,13 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--build", options.build, "name of this build in the results")->type_name("NAME");
     app.add_option("--bisect", options.bisect, "do not run: find the first draw of a case that differs")
             ->type_name("CASE");
-    app.add_option("--mutate", options.mutate, "with --bisect: inject this defect into the first backend")
+    app.add_option("--mutate", options.mutate, "with --bisect or --random: inject this defect into the first backend")
             ->type_name("MUTATION");
+    app.add_option("--random", words.random, "do not run: draw this many generated materials, reduce what differs")
+            ->type_name("N");
+    app.add_option("--reduce", words.reduce, "look for a small material that fails in the same way")
+            ->type_name("on|off");
+    app.add_option("--seed", words.seed, "of the first generated material; the next ones follow")->type_name("S");
     app.add_flag("--list", options.list, "print the cases and the mutations");
 }
 
@@ -130,6 +135,15 @@ Result<void> convertSet(std::vector<std::string> const& words, Options& options)
     return {};
 }
 
+Result<void> convertRandom(Words const& words, Options& options) {
+    const auto count = tools::wholeNumber(words.random, 0, 1'000'000);
+    if (!count) return invalidOption("--random", words.random, "a whole number up to 1000000");
+    const auto seed = tools::wholeNumber(words.seed, 0, 1'000'000'000);
+    if (!seed) return invalidOption("--seed", words.seed, "a whole number up to 1000000000");
+    options.random = *count, options.seed = *seed;
+    return tools::convertSwitch("--reduce", words.reduce, options.reduce);
+}
+
 Result<void> convert(Words const& words, Options& options) {
     options.scenes = words.scenes, options.baselines = words.baselines, options.assets = words.assets;
     if (words.baselines == "none") options.baselines.clear();
@@ -145,6 +159,7 @@ Result<void> convert(Words const& words, Options& options) {
         return invalidOption("--mutate", options.mutate, "one of those that --list prints");
     if (!options.bisect.empty() && options.backends.size() < 2 && options.mutate.empty())
         return fail(ErrorCode::InvalidArgument, "--bisect needs two backends, or one and --mutate");
+    if (auto done = convertRandom(words, options); !done) return done;
     Result<Shard> shard = parseShard(words.shard);
     if (!shard) return shard.error();
     options.shard = *shard;

@@ -34,11 +34,14 @@ struct Options {
     std::filesystem::path journal;     ///< where the run writes down how far it is (Journal.h); empty: nowhere
     bool updateBaselines = false;
     std::string build;                        ///< name of this build in the results
-    std::string mutate;                       ///< with --bisect: the defect of the first backend; empty: none
+    std::string mutate;                       ///< with --bisect, --random: the defect of the first backend; empty: none
     std::string bisect;                       ///< the case to bisect; empty: run
     std::vector<std::filesystem::path> merge; ///< folders of results; empty: run
     bool exact = true;                        ///< --set exact=off: the engine's shaders without it
     std::vector<std::pair<std::string, std::string>> quality; ///< --set NAME=VALUE: overrides every case
+    uint32_t random = 0; ///< generated materials to draw (random/RandomRun.h); 0: run the scenes
+    bool reduce = true;  ///< --random: find a small material that fails like a large one
+    uint64_t seed = 1;   ///< of the first one
     bool list = false;
 };
 

@@ -8,6 +8,7 @@
 #include "tools/conformance/Mutations.h"
 #include "tools/conformance/Report.h"
 #include "tools/conformance/Runner.h"
+#include "tools/conformance/random/RandomRun.h"
 
 #include <cstdio>
 
@@ -58,8 +59,20 @@ int bisectAndPrint(Options const& options, std::vector<SceneSpec> const& cases) 
     return found->empty() ? 0 : 1;
 }
 
+int drawRandom(Options const& options) {
+    const tools::StopOnInterrupt scope;
+    const Result<RandomResults> results = runRandom(options);
+    tools::clearProgress();
+    if (!results) return failed(results.error());
+    std::printf("%u random materials from seed %llu: %zu failed\n", results->drawn,
+                static_cast<unsigned long long>(options.seed), results->findings.size());
+    if (tools::isInterrupted()) return tools::kInterruptedStatus;
+    return results->findings.empty() ? 0 : 1;
+}
+
 int run(Options const& options) {
     if (!options.merge.empty()) return mergeShards(options);
+    if (options.random > 0) return drawRandom(options);
     Result<std::vector<SceneSpec>> scenes = readScenes(options.scenes);
     if (!scenes) return failed(scenes.error());
     overrideQuality(*scenes, options);
