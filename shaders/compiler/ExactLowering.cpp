@@ -26,6 +26,9 @@ public:
         if (mAt.op == spv::OpConvertFToS) return convertClamped(-2147483648.0f, 2147483520.0f);
         if (mAt.op == spv::OpConvertFToU) return convertClamped(0.0f, 4294967040.0f);
         if (mAt.op == spv::OpBitcast) return castNumber();
+        if (mAt.op == spv::OpBitCount) return inHighPrecision(mAt.operands[0]);
+        if (mAt.op == spv::OpExtInst && mEditor.isExtended(mAt) && findsBit(mAt.operands[1]))
+            return inHighPrecision(mAt.operands[2]);
         if (mAt.op == spv::OpExtInst && mEditor.isExtended(mAt) && mAt.operands[1] == GLSLstd450PackHalf2x16)
             return packHalves();
         if (!mEditor.isFloat32(mAt.type)) return 0;
@@ -86,6 +89,19 @@ private:
         const Value x = operand(0);
         if (!mEditor.isFloat32(x.type()) || mEditor.isFloat32(mAt.type)) return 0;
         return mEditor.emit(spv::OpBitcast, mAt.type, { oneNan(x) });
+    }
+
+    static bool findsBit(uint32_t function) {
+        return function == GLSLstd450FindILsb || function == GLSLstd450FindSMsb || function == GLSLstd450FindUMsb;
+    }
+
+    /// ESSL 3.10, 8.8 declares these results lowp, and Mesa then compares them with constants in 16 bits. An operand of
+    /// high precision, which is always 0, makes the expression highp.
+    Id inHighPrecision(Id bits) const {
+        const Id result = mEditor.emit(mAt.op, mAt.type, mAt.operands);
+        Id zero = mEditor.emit(spv::OpBitwiseXor, mEditor.typeOf(bits), { bits, bits });
+        if (mEditor.typeOf(bits) != mAt.type) zero = mEditor.emit(spv::OpBitcast, mAt.type, { zero });
+        return mEditor.emit(spv::OpBitwiseOr, mAt.type, { result, zero });
     }
 
     Id whole(uint32_t value) const { return mEditor.constant(std::array{ std::bit_cast<float>(value) }, mAt.type); }

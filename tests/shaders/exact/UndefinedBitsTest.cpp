@@ -132,6 +132,11 @@ INSTANTIATE_TEST_SUITE_P(
                         "float(packHalf2x16(vec2(nan, -nan)) >> 16u), float(packHalf2x16(vec2(nan, -nan)) & 0xFFFFu))",
                         "vec4(32704.0, 32704.0, 32256.0, 32256.0)",
                         "float nan = sqrt(-p.x) * exp(b.x) + intBitsToFloat(-1);" },
+                Corner{ "bitCountBesideALargeNumber",
+                        "vec4(bitCount(bits) == 0x60000000, findLSB(bits) == 0x10000 + firstBit, "
+                        "findMSB(bits) == 0x7FFF0000 + lastBit, findMSB(int(bits)) != 0x30000 + lastBit)",
+                        "vec4(0.0, 0.0, 0.0, 1.0)",
+                        "uint bits = uint(p.x) * 7u; int firstBit = findLSB(bits), lastBit = findMSB(bits);" },
                 Corner{ "indexFoldedToAConstant", "vec4((a + b)[five], list[five], square[five].x, (a + b)[-five])",
                         "vec4(a.w + b.w, a.w, p.x, a.x + b.x)",
                         "int five = 5; mat4 square = mat4(a, b, c, p); float list[4]; list[0] = a.x; list[1] = a.y; "
