@@ -4,9 +4,11 @@
 #include "shaders/compiler/ExactFormulas.h"
 #include "shaders/compiler/SpirvEditor.h"
 
+#include <algorithm>
 #include <array>
 #include <bit>
 #include <numbers>
+#include <unordered_set>
 
 namespace filament::shader {
 namespace {
@@ -16,6 +18,38 @@ using Instruction = SpirvEditor::Instruction;
 
 constexpr float kRadiansPerDegree = std::numbers::pi_v<float> / 180.0f;
 constexpr float kDegreesPerRadian = 180.0f / std::numbers::pi_v<float>;
+
+/// Mesa folds log2(exp2(x)), sqrt(exp2(x)), log2(pow(x, y)) and the like, but only functions that come from SPIR-V: those
+/// of ESSL are `precise`. The exact sum f(x) + 0.0 between two functions forbids it on both, and changes only -0.
+class FunctionChains {
+public:
+    /// The instruction as it is, but with sums in front of such a function; 0: it is none.
+    Id separate(SpirvEditor& editor, Instruction const& at) {
+        if (isMoved(at)) mResults.insert(at.result);
+        if (at.op != spv::OpExtInst || !editor.isExtended(at) || !isFolded(at.operands[1])) return 0;
+        mResults.insert(at.result);
+        std::vector<uint32_t> operands(at.operands.begin(), at.operands.end());
+        bool isChain = false;
+        for (uint32_t& operand : std::span(operands).subspan(2)) {
+            if (!mResults.contains(operand)) continue;
+            const Value value{ &editor, operand };
+            operand = (value + value.like(0)).id;
+            isChain = true;
+        }
+        return isChain ? editor.emit(at.op, at.type, operands) : 0;
+    }
+
+private:
+    static bool isFolded(uint32_t function) { return (function >= GLSLstd450Pow && function <= GLSLstd450InverseSqrt); }
+
+    bool isMoved(Instruction const& at) const {
+        const bool moves =
+                at.op == spv::OpCompositeExtract || at.op == spv::OpCompositeConstruct || at.op == spv::OpVectorShuffle;
+        return moves && std::ranges::any_of(at.operands, [&](Id id) { return mResults.contains(id); });
+    }
+
+    std::unordered_set<Id> mResults; ///< of functions, and their components
+};
 
 class Lowering {
 public:
@@ -32,6 +66,7 @@ public:
         if (mAt.op == spv::OpExtInst && mEditor.isExtended(mAt) && mAt.operands[1] == GLSLstd450PackHalf2x16)
             return packHalves();
         if (!mEditor.isFloat32(mAt.type)) return 0;
+        if (mAt.op == spv::OpExtInst && mEditor.isExtended(mAt) && unpacksTwo(mAt.operands[1])) return unpackTwo();
         if (mAt.op == spv::OpExtInst) return mEditor.isExtended(mAt) ? lowerExtended().id : 0;
         return lowerCore().id;
     }
@@ -104,7 +139,27 @@ private:
         return mEditor.emit(spv::OpBitwiseOr, mAt.type, { result, zero });
     }
 
-    Id whole(uint32_t value) const { return mEditor.constant(std::array{ std::bit_cast<float>(value) }, mAt.type); }
+    Id whole(uint32_t value) const { return whole(value, mAt.type); }
+    Id whole(uint32_t value, Id type) const {
+        return mEditor.constant(std::array{ std::bit_cast<float>(value) }, type);
+    }
+
+    static bool unpacksTwo(uint32_t function) {
+        return function == GLSLstd450UnpackHalf2x16 || function == GLSLstd450UnpackSnorm2x16 ||
+               function == GLSLstd450UnpackUnorm2x16;
+    }
+
+    /// Where the word is a constant, Mesa 22.3 computes the second component as 0 (nir_opcodes.py, unpack_2x16: << 16).
+    /// So both are first components.
+    Id unpackTwo() const {
+        const Id word = mAt.operands[2], type = mEditor.typeOf(word);
+        const Id upper = mEditor.emit(spv::OpShiftRightLogical, type, { word, whole(16, type) });
+        const auto first = [&](Id of) {
+            return Value{ &mEditor, mEditor.emit(mAt.op, mAt.type, { mAt.operands[0], mAt.operands[1], of }) }[0];
+        };
+        const Value x = first(word), y = first(upper);
+        return compose(mAt.type, std::array{ x, y }).id;
+    }
 
     /// Drivers pack a NaN as 7E00 or 7FFF, so numbers are packed, and NaNs added to them.
     Id packHalves() const {
@@ -201,7 +256,11 @@ private:
 
 std::vector<uint32_t> lowerExactly(std::span<const uint32_t> spirv) {
     SpirvEditor editor(spirv);
-    return editor.rewrite([&](Instruction const& at) { return Lowering(editor, at).run(); });
+    FunctionChains chains;
+    return editor.rewrite([&](Instruction const& at) {
+        const Id lowered = Lowering(editor, at).run();
+        return lowered != 0 ? lowered : chains.separate(editor, at);
+    });
 }
 
 } // namespace filament::shader

@@ -132,6 +132,18 @@ INSTANTIATE_TEST_SUITE_P(
                         "float(packHalf2x16(vec2(nan, -nan)) >> 16u), float(packHalf2x16(vec2(nan, -nan)) & 0xFFFFu))",
                         "vec4(32704.0, 32704.0, 32256.0, 32256.0)",
                         "float nan = sqrt(-p.x) * exp(b.x) + intBitsToFloat(-1);" },
+                Corner{ "functionsOfFunctions",
+                        "log(exp2(b)) + exp2(log2(p)) * sqrt(exp2(a)) + log2(sqrt(p)).x + inversesqrt(exp2(c)).yxzw + "
+                        "log2(pow(p, b)) + exp(log(exp2(c).x))",
+                        "log(exp2(b) + zero) + exp2(log2(p) + zero) * sqrt(exp2(a) + zero) + log2(sqrt(p) + zero).x + "
+                        "inversesqrt(exp2(c) + zero).yxzw + log2(pow(p, b) + zero) + exp(log(exp2(c).x + zero) + zero)",
+                        kZero },
+                Corner{ "unpackedConstants",
+                        "vec4(unpackHalf2x16(uint(three) * 0x14001C00u), unpackUnorm2x16(uint(three) * 0x15555u).y, "
+                        "unpackSnorm2x16(uint(three) * 0x15552AAAu).y)",
+                        "vec4(unpackHalf2x16(0x3C005400u + uint(izero)), unpackUnorm2x16(0x3FFFFu + uint(izero)).y, "
+                        "unpackSnorm2x16(0x3FFF7FFEu + uint(izero)).y)",
+                        "float three = sqrt(9.0); float zero = floor(p.x); int izero = int(zero);" },
                 Corner{ "bitCountBesideALargeNumber",
                         "vec4(bitCount(bits) == 0x60000000, findLSB(bits) == 0x10000 + firstBit, "
                         "findMSB(bits) == 0x7FFF0000 + lastBit, findMSB(int(bits)) != 0x30000 + lastBit)",
