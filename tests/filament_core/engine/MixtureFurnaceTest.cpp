@@ -11,7 +11,7 @@
 namespace filament {
 namespace {
 
-constexpr float kBackground = 0.25f; // exact in half floats
+constexpr float kMixtureBackground = 0.25f; // exact in half floats
 constexpr uint32_t kPixels = 24;
 
 /// A sphere that fills the middle of the picture, in a white environment before a grey background.
@@ -22,7 +22,7 @@ public:
         mEnvironment.light(mScene, mView.camera);
         mView.camera = Camera::lookAt({ 0, 0, 3 }, { 0, 0, 0 }, { .verticalFovDegrees = 45 });
         mView.size = { kPixels, kPixels };
-        mView.clearColor = float4(kBackground);
+        mView.clearColor = float4(kMixtureBackground);
     }
 
     /// Draws the materials, which differ in nothing but parameters, one after another.
@@ -120,7 +120,7 @@ TEST_P(MixtureFurnaceTest, AlphaCoversEveryCombinationAlike) {
             furnace.draw(mixturesOf(base), [](assets::MaterialData const& data, Image const& image) {
                 const float3 mean = meanOfMiddle(image);
                 for (int c = 0; c < 3; ++c)
-                    EXPECT_NEAR(mean[c], 0.25f + 0.75f * kBackground, 0.002f) << describe(data) << ", component " << c;
+                    EXPECT_NEAR(mean[c], 0.25f + 0.75f * kMixtureBackground, 0.002f) << describe(data) << ", component " << c;
             });
         }
     }
