@@ -122,7 +122,6 @@ Quality lowPreset() {
     quality.splitSum = SplitSum::Analytic;
     quality.specularLookUps = SpecularLookUps::Quadratic;
     quality.anisotropicLookUps = AnisotropicLookUps::One;
-    quality.shBands = 2;
     quality.textureFilter = TextureFilter::Bilinear;
     return quality;
 }

@@ -63,6 +63,7 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     if (surface.transmission.isFromInside) specularAlbedo = mInterface.reflectance(mView.z);
     if (useOcclusion) {
         mAmbientDiffuse = double3(surface.occlusion);
+        if (surface.bentNormal) mOpen = Frame(mFrame.toLocal(*surface.bentNormal));
         mAmbientSpecular = specularOcclusionOf(surface);
         if (surface.unmappedNormal) {
             const double3 mirrored = mFrame.toWorld(mirroredView(surface));
@@ -147,8 +148,7 @@ double StandardLobes::diffuseTerm(double nol, double voh) const {
 LobeValues StandardLobes::evaluate(double3 light, LightSource source) const {
     double3 local = mFrame.toLocal(light);
     local.z = std::min(local.z, 1.0);
-    LobeValues values;
-    if (local.z > 0) values = lobesAt(local, source);
+    LobeValues values = lobesAt(local, source);
     if (source != LightSource::Ambient) return values;
     for (LookUp const& lookUp : mLookUps)
         values.specular +=
@@ -156,21 +156,27 @@ LobeValues StandardLobes::evaluate(double3 light, LightSource source) const {
     return values;
 }
 
+// Ambient light arrives about the bent normal, as in shaders/material/surface/incoming.glsl.
+double StandardLobes::diffuseCosine(double3 local, LightSource source) const {
+    return mOpen && source == LightSource::Ambient ? mOpen->toLocal(local).z : local.z;
+}
+
 // Excludes pre-filtered parts.
 LobeValues StandardLobes::lobesAt(double3 local, LightSource source) const {
     const double3 sum = mView + local;
-    const double length = glm::length(sum);
+    const double length = glm::length(sum), cosine = diffuseCosine(local, source);
     LobeValues values;
-    if (length < 1e-12) return values;
+    if (length < 1e-12 || std::max(local.z, cosine) <= 0) return values;
     const double3 halfway = sum / length;
     const double voh = lib::saturate(glm::dot(mView, halfway));
     const bool isAmbient = source == LightSource::Ambient;
-    if (mLookUps.empty() || !isAmbient) {
+    if (local.z > 0 && (mLookUps.empty() || !isAmbient)) {
         values.specular =
                 (ggx(halfway, mAlpha) * visibility(local) * local.z) * mInterface.reflectance(voh) * mCompensation;
     }
-    if (mModel.diffuseLight == DiffuseLight::Integral || !isAmbient) {
-        values.diffuse = mDiffuse * mCoupling.of(local, source) * (diffuseTerm(local.z, voh) * local.z);
+    if (cosine > 0 && (mModel.diffuseLight == DiffuseLight::Integral || !isAmbient)) {
+        const double3 share = mCoupling.of({ local.x, local.y, std::abs(local.z) }, source);
+        values.diffuse = mDiffuse * share * (diffuseTerm(cosine, voh) * cosine);
     }
     if (isAmbient) {
         values.diffuse *= mAmbientDiffuse;
@@ -181,8 +187,10 @@ LobeValues StandardLobes::lobesAt(double3 local, LightSource source) const {
 
 std::optional<double3> StandardLobes::sample(double2 u, double choice) const {
     if (mModel.diffuseLight == DiffuseLight::Harmonics && mModel.lobes == LobeChoice::Diffuse) return {};
-    const double3 local = choice < mSpecularChance ? sampleSpecular(u) : lib::hemisphereCosineSample(u);
-    if (local.z <= 0 && mLookUps.empty()) return {};
+    const bool isSpecular = choice < mSpecularChance;
+    double3 local = isSpecular ? sampleSpecular(u) : lib::hemisphereCosineSample(u);
+    if (!isSpecular && mOpen) local = mOpen->toWorld(local);
+    if (local.z <= 0 && mLookUps.empty() && !mOpen) return {};
     return glm::normalize(mFrame.toWorld(local));
 }
 
@@ -201,9 +209,10 @@ double3 StandardLobes::sampleSpecular(double2 u) const {
 
 double StandardLobes::pdf(double3 light) const {
     const double3 local = mFrame.toLocal(light);
-    if (local.z <= 0 && mLookUps.empty()) return 0;
-    double density = (1 - mSpecularChance) * std::max(local.z, 0.0) * lib::kInversePi;
-    if (mSpecularChance > 0) density += mSpecularChance * specularPdf(local);
+    if (local.z <= 0 && mLookUps.empty() && !mOpen) return 0;
+    const double cosine = diffuseCosine(local, LightSource::Ambient);
+    double density = (1 - mSpecularChance) * std::max(cosine, 0.0) * lib::kInversePi;
+    if (mSpecularChance > 0 && (local.z > 0 || !mLookUps.empty())) density += mSpecularChance * specularPdf(local);
     return density;
 }
 

@@ -43,6 +43,7 @@ private:
     double3 mirroredView(SurfaceSample const& surface) const; ///< local; the engine's look-up direction
     double visibility(double3 light) const;
     double diffuseTerm(double nol, double voh) const;
+    double diffuseCosine(double3 local, LightSource source) const;
     LobeValues lobesAt(double3 local, LightSource source) const;
     double3 sampleSpecular(double2 u) const; ///< local
     double specularPdf(double3 light) const;
@@ -60,6 +61,7 @@ private:
     double3 mCompensation;
     Coupling mCoupling;
     double3 mAmbientDiffuse{ 1.0 }; // occlusion
+    std::optional<Frame> mOpen;     // around the bent normal, in local space; none: the normal's
     double mAmbientSpecular = 1;    // occlusion
     double mSpecularChance = 0;
     double3 mAlbedo{ 0.0 }, mSpecularAlbedo{ 0.0 };

@@ -158,8 +158,10 @@ private:
         std::vector<Setting> settings;
         for (const std::string_view value : choice.values) {
             Setting setting{ std::string(value), mView.quality, qualityPreset(QualityPreset::Reference) };
-            for (Quality* quality : { &setting.timed, &setting.pictured })
+            for (Quality* quality : { &setting.timed, &setting.pictured }) {
+                if (choice.name == "shBands") quality->diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;
                 (void)setQuality(*quality, choice.name, value);
+            }
             settings.push_back(std::move(setting));
         }
         return settings;

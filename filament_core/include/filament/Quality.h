@@ -132,7 +132,7 @@ struct Quality {
     uint16_t dfgTableSize = 64; ///< texels per side, [16, 256]
     SpecularLookUps specularLookUps = SpecularLookUps::Dominant;
     AnisotropicLookUps anisotropicLookUps = AnisotropicLookUps::Five;
-    DiffuseIrradiance diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;
+    DiffuseIrradiance diffuseIrradiance = DiffuseIrradiance::Cube;
     uint8_t shBands = 3; ///< [1, 3]: 1, 4 or 9 coefficients
     ShadingPrecision shadingPrecision = ShadingPrecision::Full;
     TextureFilter textureFilter = TextureFilter::AsAuthored;

@@ -164,6 +164,8 @@ vec3 dielectricColor(vec3 baseColor, Surface surface) {
 #endif
 }
 
+#if !defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
+
 // The albedo of one of the two materials that a partly metallic surface mixes.
 vec3 albedoOfPart(MaterialInputs material, vec3 baseColor, float metallic, Surface surface, vec2 dfg) {
     MaterialInputs inputs = material;
@@ -175,6 +177,8 @@ vec3 albedoOfPart(MaterialInputs material, vec3 baseColor, float metallic, Surfa
     coverReflectances(part);
     return specularAlbedoTerm(part.f0, part.f90, dfg);
 }
+
+#endif
 
 // A partly metallic surface is a metal and a dielectric side by side (glTF 2.0, appendix B.2), and only the dielectric
 // transmits. With one f0 between both, the light that the metal reflects would be taken from it a second time.

@@ -120,7 +120,8 @@ TEST_P(MixtureFurnaceTest, AlphaCoversEveryCombinationAlike) {
             furnace.draw(mixturesOf(base), [](assets::MaterialData const& data, Image const& image) {
                 const float3 mean = meanOfMiddle(image);
                 for (int c = 0; c < 3; ++c)
-                    EXPECT_NEAR(mean[c], 0.25f + 0.75f * kMixtureBackground, 0.002f) << describe(data) << ", component " << c;
+                    EXPECT_NEAR(mean[c], 0.25f + 0.75f * kMixtureBackground, 0.002f)
+                            << describe(data) << ", component " << c;
             });
         }
     }

@@ -191,8 +191,12 @@ TEST(PipelineCache, EveryRasterStateOfAnInstanceHasAPipelineOfItsOwn) {
     for (size_t i = 0; i < states.size(); ++i) {
         const bool isVisible = states[i].culling != shader::Culling::FrontAndBack || states[i].cullingDisabled;
         EXPECT_EQ(descs[i].blend[0].writeMask != 0, states[i].colorWrite && isVisible) << i;
-        EXPECT_EQ(descs[i].depthStencil.depthCompare != CompareOp::None, states[i].depthCulling) << i;
-        EXPECT_EQ(descs[i].depthStencil.depthWrite, states[i].depthCulling && states[i].depthWrite && isVisible) << i;
+        const bool writesDepth = states[i].depthWrite && isVisible;
+        const CompareOp compare = states[i].depthCulling ? CompareOp::GreaterEqual
+                                  : writesDepth          ? CompareOp::Always
+                                                         : CompareOp::None;
+        EXPECT_EQ(descs[i].depthStencil.depthCompare, compare) << i;
+        EXPECT_EQ(descs[i].depthStencil.depthWrite, writesDepth) << i;
     }
 }
 

@@ -52,7 +52,8 @@ TEST(ShadingKey, AnIrradianceCubeIsReadOnlyWhereThereIsOne) {
     EXPECT_EQ(shadingKey(cube, { .hasIrradianceCube = false }), shadingKey({}));
     EXPECT_EQ(bitsOf(shadingKey(cube, { .hasIrradianceCube = true }), shader::kQualityDiffuseIrradiance),
               static_cast<uint32_t>(DiffuseIrradiance::Cube));
-    EXPECT_EQ(shadingKey({}, { .hasIrradianceCube = true }), shadingKey({})) << "nobody asked for it";
+    const Quality harmonics{ .diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics };
+    EXPECT_EQ(shadingKey(harmonics, { .hasIrradianceCube = true }), shadingKey({})) << "nobody asked for it";
 }
 
 } // namespace

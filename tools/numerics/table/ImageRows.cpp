@@ -59,11 +59,52 @@ std::vector<Row> antiAliasingRows() {
     };
 }
 
+/// Where and how wide the specular lobe looks up the environment.
+std::vector<Row> lookUpRows() {
+    return {
+        { .file = "ibl",
+          .function = "dominantSpecularDirection(vec3, vec3, float)",
+          .call = NUMERICS_CALL(dominantSpecularDirection(u, v, s.x)),
+          .s = { unit("alpha") },
+          .u = direction("n"),
+          .v = direction("r"),
+          .range = { -1.001, 1.001 },
+          .limits = absolute(3e-7, 2e-3, "two directions mixed: the error is relative to their length"),
+          .openOutside = "the root of 1 - alpha for alpha above 1" },
+        { .file = "ibl",
+          .function = "quadraticSpecularDirection(vec3, vec3, float)",
+          .call = NUMERICS_CALL(quadraticSpecularDirection(u, v, s.x)),
+          .s = { unit("alpha") },
+          .u = direction("n"),
+          .v = direction("r"),
+          .range = { -1.001, 1.001 },
+          .limits = absolute(3e-7, 2e-3, "two directions mixed: the error is relative to their length") },
+        { .file = "ibl",
+          .function = "visibleHalfVector(float, float, vec2)",
+          .call = NUMERICS_CALL(visibleHalfVector(s.x, s.y, vec2(s.z, s.w))),
+          .s = { inHalf(number("nov", 1e-4, 1), 0.01, 1), alpha(), number("disc.x", -0.6875, 0.6875),
+                 number("disc.y", -0.6875, 0.6875) },
+          .range = { -1.001, 1.001 },
+          .limits = absolute(1e-4, 0.1, "a unit vector from parts that cancel where the view grazes") },
+        { .file = "ibl",
+          .function = "visibleLookUpWeight(float, float, float)",
+          .call = NUMERICS_CALL(visibleLookUpWeight(s.x, s.y, s.z)),
+          .s = { inHalf(number("nov", 1e-4, 1), 0.01, 1), inHalf(unit("nol"), 0.01, 1), alpha() },
+          .range = { 0, 1.01 },
+          .limits = absolute(1e-6, 1e-2, "absolute: a weight of up to 1") },
+        { .file = "ibl",
+          .function = "visibleLookUpRoughness(float, float, float, float)",
+          .call = NUMERICS_CALL(visibleLookUpRoughness(s.x, s.y, s.z, s.w)),
+          .s = { inHalf(number("nov", 1e-4, 1), 0.01, 1), unit("noh"), alpha(), integer("count", 1, 64) },
+          .range = { 0, 1 },
+          .limits = absolute(1e-4, 0.1, "absolute: the fourth root of what cancels at the peak of the lobe") },
+    };
+}
+
 } // namespace
 
 std::vector<Row> imageRows() {
     const Argument levels = number("levelOfRoughnessOne", 1, 14);
-    std::vector<Row> rows = antiAliasingRows();
     const std::vector<Row> ibl{
         { .file = "ibl",
           .function = "levelFromPerceptualRoughness(float, float)",
@@ -107,42 +148,6 @@ std::vector<Row> imageRows() {
           .monotone = Monotone::Rising,
           .limits = relative(5e-7, 5e-3, "four products") },
         { .file = "ibl",
-          .function = "dominantSpecularDirection(vec3, vec3, float)",
-          .call = NUMERICS_CALL(dominantSpecularDirection(u, v, s.x)),
-          .s = { unit("alpha") },
-          .u = direction("n"),
-          .v = direction("r"),
-          .range = { -1.001, 1.001 },
-          .limits = absolute(3e-7, 2e-3, "two directions mixed: the error is relative to their length"),
-          .openOutside = "the root of 1 - alpha for alpha above 1" },
-        { .file = "ibl",
-          .function = "quadraticSpecularDirection(vec3, vec3, float)",
-          .call = NUMERICS_CALL(quadraticSpecularDirection(u, v, s.x)),
-          .s = { unit("alpha") },
-          .u = direction("n"),
-          .v = direction("r"),
-          .range = { -1.001, 1.001 },
-          .limits = absolute(3e-7, 2e-3, "two directions mixed: the error is relative to their length") },
-        { .file = "ibl",
-          .function = "visibleHalfVector(float, float, vec2)",
-          .call = NUMERICS_CALL(visibleHalfVector(s.x, s.y, vec2(s.z, s.w))),
-          .s = { inHalf(number("nov", 1e-4, 1), 0.01, 1), alpha(), number("disc.x", -0.6875, 0.6875),
-                 number("disc.y", -0.6875, 0.6875) },
-          .range = { -1.001, 1.001 },
-          .limits = absolute(1e-4, 0.1, "a unit vector from parts that cancel where the view grazes") },
-        { .file = "ibl",
-          .function = "visibleLookUpWeight(float, float, float)",
-          .call = NUMERICS_CALL(visibleLookUpWeight(s.x, s.y, s.z)),
-          .s = { inHalf(number("nov", 1e-4, 1), 0.01, 1), inHalf(unit("nol"), 0.01, 1), alpha() },
-          .range = { 0, 1.01 },
-          .limits = absolute(1e-6, 1e-2, "absolute: a weight of up to 1") },
-        { .file = "ibl",
-          .function = "visibleLookUpRoughness(float, float, float, float)",
-          .call = NUMERICS_CALL(visibleLookUpRoughness(s.x, s.y, s.z, s.w)),
-          .s = { inHalf(number("nov", 1e-4, 1), 0.01, 1), unit("noh"), alpha(), integer("count", 1, 64) },
-          .range = { 0, 1 },
-          .limits = absolute(1e-4, 0.1, "absolute: the fourth root of what cancels at the peak of the lobe") },
-        { .file = "ibl",
           .function = "dfgAnalytic(float, float)",
           .call = NUMERICS_CALL(dfgAnalytic(s.x, s.y)),
           .s = { unit("nov"), unit("perceptualRoughness") },
@@ -157,7 +162,8 @@ std::vector<Row> imageRows() {
         irradianceRow("2 bands", NUMERICS_CALL(irradianceShOf(s, u, 2))),
         irradianceRow("3 bands", NUMERICS_CALL(irradianceShOf(s, u, 3))),
     };
-    rows.insert(rows.end(), ibl.begin(), ibl.end());
+    std::vector<Row> rows = antiAliasingRows();
+    for (std::vector<Row> const& more : { ibl, lookUpRows() }) rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }
 

@@ -316,7 +316,10 @@ TEST_P(InstanceState, DecidesWhoIsInFront) {
     mEngine->setDepthCulling(farGreen, false); // drawn behind red in the list of opaque things, over whatever is there
     EXPECT_EQ(pixel(), float4(0, 1, 0, 1));
     mEngine->setDepthCulling(farGreen, true);
-    mEngine->setDepthWrite(nearRed, false); // leaves no depth for green to fail against
+    mEngine->setDepthWrite(nearRed, false); // drawn after what writes depth: neither green nor a sky erases it
+    EXPECT_EQ(pixel(), float4(1, 0, 0, 1));
+    mEngine->setDepthWrite(farGreen, false); // both late: the one that is drawn last
+    mEngine->setDepthCulling(farGreen, false);
     EXPECT_EQ(pixel(), float4(0, 1, 0, 1));
     EXPECT_THAT(mEngine->setMaskThreshold(nearRed, 0.5f).error().message, HasSubstr("only blending : masked cuts out"));
     test::expectNoErrors(*mEngine);

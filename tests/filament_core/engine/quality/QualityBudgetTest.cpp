@@ -26,11 +26,12 @@ QualityCosts tableOf(std::vector<QualityEffect> effects) {
 
 QualityBudget budgetOf(double milliseconds) { return { .gpuMilliseconds = milliseconds, .size = { 100, 100 } }; }
 
-/// Three choices with clear prices: bands are cheap and save much, filters are expensive.
+/// Three choices with clear prices: look-ups are cheap and save much, filters are expensive.
 QualityCosts smallTable() {
-    return tableOf({ { "energyCompensation", { cost("off", 0.5, 7), cost("on", 0, kFrame) } },
-                     { "shBands", { cost("1", 0.25, 7), cost("2", 0.125, 7.5), cost("3", 0, kFrame) } },
-                     { "textureFilter", { cost("asAuthored", 0.75, kFrame), cost("anisotropic", 0, 16) } } });
+    return tableOf(
+            { { "energyCompensation", { cost("off", 0.5, 7), cost("on", 0, kFrame) } },
+              { "anisotropicLookUps", { cost("one", 0.25, 7), cost("three", 0.125, 7.5), cost("five", 0, kFrame) } },
+              { "textureFilter", { cost("asAuthored", 0.75, kFrame), cost("anisotropic", 0, 16) } } });
 }
 
 /// Random prices and errors that are exact in binary, often equal, with defaults where they belong.
@@ -163,12 +164,12 @@ TEST(QualityBudget, StepsLeadFromTheCheapestToTheChosenSettingAndThenToTheNext) 
     EXPECT_EQ(toString(decision->quality), "default");
     EXPECT_EQ(decision->predicted.milliseconds, 8);
     EXPECT_EQ(decision->predicted.error, 0.75);
-    ASSERT_EQ(decision->steps.size(), 2u) << "from off and one band";
+    ASSERT_EQ(decision->steps.size(), 2u) << "from off and one look-up";
     EXPECT_EQ(decision->steps[0].name, "energyCompensation") << "0.25 for 1 ms comes before 0.0625 for 1 ms";
     EXPECT_EQ(decision->steps[0].from, "off");
     EXPECT_EQ(decision->steps[0].to, "on");
     EXPECT_EQ(decision->steps[0].milliseconds, 1);
-    EXPECT_EQ(decision->steps[1].name, "shBands");
+    EXPECT_EQ(decision->steps[1].name, "anisotropicLookUps");
     EXPECT_EQ(decision->steps[1].errorBefore, decision->steps[0].errorAfter);
     EXPECT_EQ(decision->steps[1].errorAfter, 0.75);
     ASSERT_EQ(decision->nextSteps.size(), 3u) << "the filter for 8 ms, and 2 ms sold: less error for 6 ms";
@@ -182,9 +183,10 @@ TEST(QualityBudget, StepsLeadFromTheCheapestToTheChosenSettingAndThenToTheNext) 
 TEST(QualityBudget, TheExplanationNamesWhatWasBoughtAndWhatTheNextStepCosts) {
     const Result<QualityDecision> decision = chooseQuality(budgetOf(7), smallTable());
     ASSERT_TRUE(decision);
-    for (const char* text : { "budget 7.000 ms for 100 x 100 on ", "predicted 7.000 ms", "setting: shBands=1",
-                              "cheapest setting: 6.000 ms", "+1.000 ms  energyCompensation off -> on",
-                              "next better setting: 7.500 ms", "+0.500 ms  shBands 1 -> 2" }) {
+    for (const char* text :
+         { "budget 7.000 ms for 100 x 100 on ", "predicted 7.000 ms", "setting: anisotropicLookUps=one",
+           "cheapest setting: 6.000 ms", "+1.000 ms  energyCompensation off -> on", "next better setting: 7.500 ms",
+           "+0.500 ms  anisotropicLookUps one -> three" }) {
         EXPECT_NE(decision->explanation.find(text), std::string::npos) << text << " in\n" << decision->explanation;
     }
     const Result<QualityDecision> rich = chooseQuality(budgetOf(1000), smallTable());
@@ -197,7 +199,7 @@ TEST(QualityBudget, TooSmallABudgetGivesTheCheapestSettingAndSaysSo) {
     const Result<QualityDecision> decision = chooseQuality(budgetOf(5), smallTable());
     ASSERT_TRUE(decision);
     EXPECT_FALSE(decision->fits);
-    EXPECT_EQ(toString(decision->quality), "energyCompensation=off shBands=1");
+    EXPECT_EQ(toString(decision->quality), "energyCompensation=off anisotropicLookUps=one");
     EXPECT_NE(decision->explanation.find("over the budget"), std::string::npos) << decision->explanation;
 }
 

@@ -98,7 +98,15 @@ double errorOf(Image const& image, Image const& exact) {
     return std::sqrt(sum / count);
 }
 
-/// The choices in which presets differ.
+/// The preset with the default's look-ups: on a slanted metal, one look-up gives too much light where missing compensation
+/// gives too little, and a sum of squares does not know what cancels.
+Quality presetOf(QualityPreset preset) {
+    Quality quality = qualityPreset(preset);
+    quality.specularLookUps = Quality{}.specularLookUps;
+    return quality;
+}
+
+/// The other choices in which presets differ.
 const CostMeasurement kMeasurement{ .rounds = 31,
                                     .choices = { "specularVisibility", "fresnel", "energyCompensation", "splitSum",
                                                  "dfgTableSize", "diffuseIrradiance", "shBands", "textureFilter" } };
@@ -140,7 +148,7 @@ TEST_P(QualityMeasurementTest, AnUnknownChoiceOrTooFewRoundsAreRefused) {
 /// Uses the cost of a preset as the budget.
 QualityDecision buyFor(QualityPreset preset, Backend backend, QualityCosts const& costs, double& milliseconds) {
     QualityBudget budget{ .gpuMilliseconds = 1, .size = costs.size, .backend = backend };
-    const Result<QualityPrediction> predicted = predictQuality(qualityPreset(preset), budget, costs);
+    const Result<QualityPrediction> predicted = predictQuality(presetOf(preset), budget, costs);
     EXPECT_TRUE(predicted) << predicted.error().message;
     milliseconds = budget.gpuMilliseconds = predicted->milliseconds;
     return *chooseQuality(budget, costs);
@@ -154,7 +162,7 @@ TEST_P(QualityMeasurementTest, WhatABudgetBuysTakesItWithinTenPercentAndIsNoWors
         floor.view().quality = quality;
         return test::renderLinear(*engine, floor.scene(), floor.view());
     };
-    const Image exact = pictureOf(qualityPreset(QualityPreset::Reference));
+    const Image exact = pictureOf(presetOf(QualityPreset::Reference));
     std::string missed = "never measured";
     for (int attempt = 0; attempt < kAttempts && !missed.empty(); ++attempt) {
         missed.clear();
@@ -165,7 +173,7 @@ TEST_P(QualityMeasurementTest, WhatABudgetBuysTakesItWithinTenPercentAndIsNoWors
             double budget = 0;
             const QualityDecision bought = buyFor(preset, GetParam(), *costs, budget);
             const double error = errorOf(pictureOf(bought.quality), exact);
-            const double presetError = errorOf(pictureOf(qualityPreset(preset)), exact);
+            const double presetError = errorOf(pictureOf(presetOf(preset)), exact);
             const double measured =
                     ratioToDefault(*engine, floor, bought.quality) * costs->frameMilliseconds(GetParam());
             const bool keepsBudget =

@@ -44,7 +44,7 @@ TEST(Comparison, UnderASkyTheStepsAddUpToTheWholeAndTheRestIsSmall) {
     EXPECT_NEAR(shares, 1, 1e-6);
     EXPECT_EQ(row.steps.back().left, 0) << "the last step ends at the path tracer's picture";
     EXPECT_EQ(row.pictures.size(), row.steps.size() + 1);
-    for (const char* name : { "oneSample", "tables", "levels", "splitSum", "harmonics", "occlusion" })
+    for (const char* name : { "oneSample", "tables", "levels", "splitSum", "occlusion" })
         EXPECT_GT(stepOf(row, name).own, 0) << name;
     EXPECT_LT(row.eightBits, 0.5 / 255) << "rounding, and no more";
     EXPECT_GT(row.eightBits, 0.2 / 255);
