@@ -22,7 +22,7 @@ inline constexpr uint32_t kMaxSubpasses = 4;
 inline constexpr uint32_t kMaxVertexAttributes = 16;
 inline constexpr uint32_t kMaxVertexBuffers = 4;
 inline constexpr uint32_t kMaxBindGroups = 4;     ///< what every Vulkan device can bind at a time
-inline constexpr uint32_t kMaxBindings = 16;      ///< of one group
+inline constexpr uint32_t kMaxBindings = 17;      ///< of one group: a block and 16 textures
 inline constexpr uint32_t kMaxDynamicOffsets = 4; ///< of one group
 
 struct Rect {
@@ -60,7 +60,8 @@ struct BufferDesc {
 
 // ---------------------------------------------------------------------------------------------- textures
 
-enum class TextureType : uint8_t { Texture2D, Texture2DArray, Cube };
+enum class TextureType : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray };
+constexpr bool isCube(TextureType type) { return type == TextureType::Cube || type == TextureType::CubeArray; }
 
 enum class TextureUsage : uint8_t {
     Sampled = 1,
@@ -84,7 +85,7 @@ struct DeviceTextureDesc {
     TextureUsage usage = TextureUsage::Sampled;
     uint8_t samples = 1; ///< 1 or 4; > 1 only for 2D attachments with one level
     uint8_t levels = 1;  ///< 1..fullMipCount
-    uint16_t layers = 1; ///< array layers; 6 for a cube (+x -x +y -y +z -z, the order of both APIs)
+    uint16_t layers = 1; ///< array layers; a cube has 6 (+x -x +y -y +z -z, the order of both APIs)
     uint32_t width = 1, height = 1;
     std::string_view debugName;
 };

@@ -48,6 +48,7 @@ struct DeviceFeatures {
     bool lastVertexProvokes = false; ///< a flat input has the value of the primitive's last vertex; else of its first
     bool depthResolve = false;       ///< PassLayout::resolvesDepth
     bool textureViews = false;       ///< bind groups may show a part of a texture (BindGroupEntry::range)
+    bool cubeArrays = false;         ///< TextureType::CubeArray
     bool halfFloatShaders = false; ///< 16-bit floats in fragment shaders: float16_t in SPIR-V; ESSL has mediump always
 };
 

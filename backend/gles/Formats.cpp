@@ -79,7 +79,8 @@ GLenum glVertexType(VertexFormat format) { return kVertexTypes[static_cast<size_
 
 GLenum glTextureTarget(DeviceTextureDesc const& desc) {
     if (desc.samples > 1) return GL_TEXTURE_2D_MULTISAMPLE;
-    static constexpr GLenum kTargets[] = { GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_CUBE_MAP };
+    static constexpr GLenum kTargets[] = { GL_TEXTURE_2D, GL_TEXTURE_2D_ARRAY, GL_TEXTURE_CUBE_MAP,
+                                           GL_TEXTURE_CUBE_MAP_ARRAY };
     return lookUp(kTargets, desc.type);
 }
 

@@ -78,6 +78,7 @@ Result<Quirks> Quirks::probe(Api const& gl) {
     quirks.textureViews = gl.TextureView && hasAny(names, { "GL_EXT_texture_view", "GL_OES_texture_view" });
     quirks.timers = names.contains("GL_EXT_disjoint_timer_query") && gl.QueryCounter && gl.GetQueryObjectui64v;
     quirks.blockCompression = hasBlockCompression(names);
+    quirks.cubeArrays = es32 || hasAny(names, { "GL_EXT_texture_cube_map_array", "GL_OES_texture_cube_map_array" });
     quirks.depthClamp = names.contains("GL_EXT_depth_clamp");
     quirks.anisotropy = names.contains("GL_EXT_texture_filter_anisotropic");
     quirks.debugMessages = gl.DebugMessageCallback && gl.ObjectLabel && gl.PushDebugGroup && gl.PopDebugGroup &&
@@ -120,6 +121,7 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
         .lastVertexProvokes = true, // the only convention of OpenGL ES
         .depthResolve = true,       // ES 3.1 samples multisampled depth
         .textureViews = quirks.textureViews,
+        .cubeArrays = quirks.cubeArrays,
         .halfFloatShaders = true,
     };
     return info;

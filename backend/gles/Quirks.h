@@ -18,10 +18,11 @@ struct Quirks {
     bool textureViews = false;     ///< else a bind group shows whole textures only
     bool timers = false;           ///< else a timer answers 0
     bool blockCompression = false; ///< BC1..BC7 complete, or not offered
-    bool depthClamp = false;       ///< else geometry in front of the near plane is clipped
-    bool anisotropy = false;       ///< else samplers are isotropic
-    bool debugMessages = false;    ///< KHR_debug or ES 3.2
-    bool resetStatus = false;      ///< else a lost context shows as GL_CONTEXT_LOST from glGetError only
+    bool cubeArrays = false;
+    bool depthClamp = false;    ///< else geometry in front of the near plane is clipped
+    bool anisotropy = false;    ///< else samplers are isotropic
+    bool debugMessages = false; ///< KHR_debug or ES 3.2
+    bool resetStatus = false;   ///< else a lost context shows as GL_CONTEXT_LOST from glGetError only
 
     /// Queries the current context. Unsupported names what this driver is missing.
     static Result<Quirks> probe(Api const& gl);

@@ -29,14 +29,15 @@ void uploadImage(Api const& gl, GLenum target, GLint level, Area area, GlFormat 
     }
 }
 
-void uploadLayers(Api const& gl, GLint level, Area area, GLint layer, GLsizei layers, GlFormat const& format,
-                  std::span<const std::byte> bytes) {
-    constexpr GLenum kTarget = GL_TEXTURE_2D_ARRAY;
+bool isLayered(GLenum target) { return target == GL_TEXTURE_2D_ARRAY || target == GL_TEXTURE_CUBE_MAP_ARRAY; }
+
+void uploadLayers(Api const& gl, GLenum target, GLint level, Area area, GLint layer, GLsizei layers,
+                  GlFormat const& format, std::span<const std::byte> bytes) {
     if (format.format == 0) {
-        gl.CompressedTexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers,
+        gl.CompressedTexSubImage3D(target, level, area.x, area.y, layer, area.width, area.height, layers,
                                    format.internalFormat, static_cast<GLsizei>(bytes.size()), bytes.data());
     } else {
-        gl.TexSubImage3D(kTarget, level, area.x, area.y, layer, area.width, area.height, layers, format.format,
+        gl.TexSubImage3D(target, level, area.x, area.y, layer, area.width, area.height, layers, format.format,
                          format.type, bytes.data());
     }
 }
@@ -65,7 +66,7 @@ void Textures::allocate(Texture const& texture) {
         gl.TexStorage2DMultisample(texture.target, desc.samples, format, width, height, GL_TRUE);
         return;
     }
-    if (desc.type == TextureType::Texture2DArray) {
+    if (isLayered(texture.target)) {
         gl.TexStorage3D(texture.target, desc.levels, format, width, height, desc.layers);
     } else {
         gl.TexStorage2D(texture.target, desc.levels, format, width, height);
@@ -120,8 +121,9 @@ void Textures::upload(CmdUploadTexture const& command) {
     GlFormat const& format = glFormat(texture->desc.format);
     const Area area = areaOf(command.rect);
     mDevice.state.bindTexture(kEditUnit, texture->target, texture->name);
-    if (texture->target == GL_TEXTURE_2D_ARRAY) {
-        uploadLayers(mDevice.gl, command.level, area, command.layer, command.layerCount, format, command.bytes);
+    if (isLayered(texture->target)) {
+        uploadLayers(mDevice.gl, texture->target, command.level, area, command.layer, command.layerCount, format,
+                     command.bytes);
         return;
     }
     const GLenum first = texture->target == GL_TEXTURE_CUBE_MAP ? GL_TEXTURE_CUBE_MAP_POSITIVE_X : texture->target;

@@ -90,6 +90,13 @@ void Validator::checkTextureShape(DeviceTextureDesc const& desc) {
         require(desc.layers == 6 && desc.width == desc.height, Harm::Crash,
                 "a cube has 6 square layers, not {} of {} x {}", desc.layers, desc.width, desc.height);
     }
+    if (desc.type == TextureType::CubeArray) {
+        require(mInfo.features.cubeArrays, Harm::Crash,
+                "an array of cubes needs DeviceFeatures::cubeArrays, which this device lacks");
+        require(desc.layers % 6 == 0 && desc.width == desc.height, Harm::Crash,
+                "an array of cubes has 6 square layers per cube, not {} of {} x {}", desc.layers, desc.width,
+                desc.height);
+    }
     require(desc.samples == 1 || (desc.samples == 4 && mInfo.limits.maxSamples >= 4), Harm::Crash,
             "{} samples; this device does 1 or 4", desc.samples);
     require(desc.samples == 1 || (is2D && desc.levels == 1 && !has(desc.usage, kOutlivingUsage)), Harm::Crash,
@@ -345,6 +352,9 @@ void Validator::checkEntryRange(BindingDesc const& binding, BindGroupEntry const
             texture.name);
     require(desc.type != TextureType::Cube || range.layerCount == 6, Harm::Crash,
             "binding {}: cube '{}' shows all of its 6 layers, not {}", entry.binding, texture.name, range.layerCount);
+    require(desc.type != TextureType::CubeArray || (range.layer % 6 == 0 && range.layerCount % 6 == 0), Harm::Crash,
+            "binding {}: array of cubes '{}' shows whole cubes, not {} layers from {}", entry.binding, texture.name,
+            range.layerCount, range.layer);
 }
 
 void Validator::checkTextureEntry(BindingDesc const& binding, BindGroupEntry const& entry) {

@@ -49,6 +49,7 @@ DeviceInfo describeNullDevice() {
                       .lastVertexProvokes = true,
                       .depthResolve = true,
                       .textureViews = true,
+                      .cubeArrays = true,
                       .halfFloatShaders = true };
     return info;
 }

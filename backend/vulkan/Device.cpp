@@ -25,6 +25,7 @@ VkResult createHandle(InstanceFunctions const& fn, PhysicalDevice const& physica
     auto features = make<VkPhysicalDeviceFeatures2>(VK_STRUCTURE_TYPE_PHYSICAL_DEVICE_FEATURES_2);
     features.features.samplerAnisotropy = physical.features.samplerAnisotropy;
     features.features.depthClamp = physical.features.depthClamp;
+    features.features.imageCubeArray = physical.features.imageCubeArray;
     features.features.textureCompressionBC = physical.features.textureCompressionBC;
     features.features.independentBlend = physical.features.independentBlend;
 

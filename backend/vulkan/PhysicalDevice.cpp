@@ -107,6 +107,7 @@ void readFeatures(Instance const& instance, ExtensionList const& extensions, Phy
     info.features.mergedPasses = true; // subpasses are core
     info.features.depthResolve = device.depthResolve;
     info.features.textureViews = true; // so are image views
+    info.features.cubeArrays = features.features.imageCubeArray;
     info.features.blockCompression = features.features.textureCompressionBC;
     info.features.halfFloatShaders = device.halfFloatShaders;
     info.features.lastVertexProvokes = device.provokingVertexLast;

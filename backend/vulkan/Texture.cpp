@@ -27,7 +27,7 @@ VkImageUsageFlags usageFlags(TextureUsage usage) {
 
 VkImageCreateInfo imageInfo(DeviceTextureDesc const& desc) {
     auto info = make<VkImageCreateInfo>(VK_STRUCTURE_TYPE_IMAGE_CREATE_INFO);
-    info.flags = desc.type == TextureType::Cube ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
+    info.flags = isCube(desc.type) ? VK_IMAGE_CREATE_CUBE_COMPATIBLE_BIT : 0;
     info.imageType = VK_IMAGE_TYPE_2D;
     info.format = native(desc.format);
     info.extent = { desc.width, desc.height, 1 };
@@ -44,6 +44,8 @@ VkImageViewType viewType(TextureType type) {
         return VK_IMAGE_VIEW_TYPE_2D_ARRAY;
     case TextureType::Cube:
         return VK_IMAGE_VIEW_TYPE_CUBE;
+    case TextureType::CubeArray:
+        return VK_IMAGE_VIEW_TYPE_CUBE_ARRAY;
     case TextureType::Texture2D:
         break;
     }

@@ -65,10 +65,12 @@ Texture Engine::Impl::unsetTexture(shader::Parameter const& parameter) {
     const bool isFloat = parameter.format == SamplerFormat::Float;
     std::array<uint8_t, 4 * 6> texels;
     texels.fill(isFloat ? 255 : 1);
-    const uint32_t layers = parameter.type == SamplerCube ? 6 : 1;
-    texture = createTexture({ .kind = parameter.type == SamplerCube      ? TextureKind::Cube
-                                      : parameter.type == Sampler2DArray ? TextureKind::Texture2DArray
-                                                                         : TextureKind::Texture2D,
+    const bool isCube = parameter.type == SamplerCube || parameter.type == SamplerCubeArray;
+    const uint32_t layers = isCube ? 6 : 1;
+    texture = createTexture({ .kind = parameter.type == SamplerCube        ? TextureKind::Cube
+                                      : parameter.type == SamplerCubeArray ? TextureKind::CubeArray
+                                      : parameter.type == Sampler2DArray   ? TextureKind::Texture2DArray
+                                                                           : TextureKind::Texture2D,
                               .format = isFloat                                  ? Format::RGBA8
                                         : parameter.format == SamplerFormat::Int ? Format::RGBA8I
                                                                                  : Format::RGBA8UI,

@@ -20,6 +20,8 @@ TextureType textureType(TextureKind kind) {
         return TextureType::Texture2DArray;
     case TextureKind::Cube:
         return TextureType::Cube;
+    case TextureKind::CubeArray:
+        return TextureType::CubeArray;
     }
     return TextureType::Texture2D;
 }
@@ -29,6 +31,8 @@ backend::DeviceTextureDesc backendDesc(filament::TextureDesc const& desc) {
                     "a texture has at least one texel, layer and level");
     FILAMENT_ASSERT(desc.kind != TextureKind::Cube || (desc.layers == 6 && desc.width == desc.height),
                     "a cube has six square layers");
+    FILAMENT_ASSERT(desc.kind != TextureKind::CubeArray || (desc.layers % 6 == 0 && desc.width == desc.height),
+                    "an array of cubes has six square layers per cube");
     const uint32_t full = fullMipCount(desc.width, desc.height);
     FILAMENT_ASSERT(desc.levels <= full, "a texture has at most floor(log2(size)) + 1 levels");
     FILAMENT_ASSERT(!desc.renderable || isWritable(desc.format),

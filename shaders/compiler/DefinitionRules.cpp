@@ -96,7 +96,7 @@ bool hasFog(MaterialPackage const& package) { return (package.filteredVariants &
 
 /// Chapter 7 of the guide. The first binding of a group is the block of parameters.
 uint32_t budgetOfLevel(MaterialPackage const& package) {
-    if (package.featureLevel == 3) return std::min(16u, uint32_t{ backend::kMaxBindings } - 1);
+    if (package.featureLevel == 3) return uint32_t{ backend::kMaxBindings } - 1;
     const uint32_t guaranteed = package.shading == ShadingModel::Unlit ? 12u : readsScreen(package) ? 8u : 9u;
     return guaranteed + (hasFog(package) ? 0 : 1);
 }

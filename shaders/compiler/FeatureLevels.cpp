@@ -32,6 +32,11 @@ Result<void> checkBlock(GlslBlock const& block, uint32_t level) {
 Result<void> checkFeatureLevel(MaterialDefinition const& definition) {
     const uint32_t level = definition.package.featureLevel;
     if (level >= 2) return {};
+    for (size_t i = 0; i < definition.package.parameters.size(); ++i) {
+        if (definition.package.parameters[i].type == ParameterType::SamplerCubeArray)
+            return errorAt(definition.parameterSources[i].at,
+                           "a samplerCubemapArray needs featureLevel : 2 (table 13 of the guide)");
+    }
     if (Result<void> fragment = checkBlock(definition.fragment, level); !fragment) return fragment;
     return definition.vertex ? checkBlock(*definition.vertex, level) : Result<void>{};
 }

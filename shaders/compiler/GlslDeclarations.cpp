@@ -14,11 +14,13 @@ namespace {
 constexpr uint32_t kFirstVariableLocation = 5; // after those of shaders/material/varyings.glsl
 
 const char* glslType(ParameterType type) {
-    static constexpr const char* kNames[] = { "bool",        "bvec2",       "bvec3", "bvec4",     "float",
-                                              "vec2",        "vec3",        "vec4",  "int",       "ivec2",
-                                              "ivec3",       "ivec4",       "uint",  "uvec2",     "uvec3",
-                                              "uvec4",       "mat3",        "mat4",  "sampler2D", "sampler2DArray",
-                                              "samplerCube", "subpassInput" };
+    // clang-format off
+    static constexpr const char* kNames[] = {
+        "bool", "bvec2", "bvec3", "bvec4", "float", "vec2", "vec3", "vec4", "int", "ivec2", "ivec3", "ivec4", "uint",
+        "uvec2", "uvec3", "uvec4", "mat3", "mat4", "sampler2D", "sampler2DArray", "samplerCube", "subpassInput",
+        "samplerCubeArray"
+    };
+    // clang-format on
     return kNames[static_cast<size_t>(type)];
 }
 

@@ -29,7 +29,7 @@ constexpr TypeName kTypes[] = { { "bool", ParameterType::Bool }, { "bool2", Para
     { "mat3", ParameterType::Float3x3 }, { "float4x4", ParameterType::Float4x4 }, { "mat4", ParameterType::Float4x4 },
     { "sampler2d", ParameterType::Sampler2D }, { "sampler2dArray", ParameterType::Sampler2DArray },
     { "samplerCubemap", ParameterType::SamplerCube }, { "samplerExternal", ParameterType::Sampler2D },
-    { "subpassInput", ParameterType::SubpassInput } };
+    { "samplerCubemapArray", ParameterType::SamplerCubeArray }, { "subpassInput", ParameterType::SubpassInput } };
 // clang-format on
 
 /// The guide's name for a vector type of GLSL: float3 for vec3. Empty for other names.
@@ -61,11 +61,9 @@ Result<void> readType(JsonValue const& value, Parameter& out) {
         }
         base.text.resize(base.text.find_last_not_of(' ', bracket - 1) + 1); // "float [2]" is "float[2]"
     }
-    for (const std::string_view later : { "sampler3d", "samplerCubemapArray" }) {
-        if (!equalIgnoringCase(base.text, later)) continue;
-        return errorAt(value.at, fmt::format("the type {} is known but not supported by this version", later),
+    if (equalIgnoringCase(base.text, "sampler3d"))
+        return errorAt(value.at, "the type sampler3d is known but not supported by this version",
                        ErrorCode::Unsupported);
-    }
     if (const std::string guides = guideType(base.text); !guides.empty())
         return errorAt(value.at, fmt::format("'type' cannot be '{}'; did you mean '{}'?", base.text, guides));
     if (Result<void> known = readEnum(base, "type", kTypes, out.type); !known) return known;

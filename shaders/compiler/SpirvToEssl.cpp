@@ -70,6 +70,16 @@ void renumberAll(CompilerGLSL& compiler, backend::ProgramLayout const& layout) {
     }
 }
 
+/// ESSL 3.20 has arrays of cubes; 3.10 has them with an extension, of which SPIRV-Cross does not know.
+void requireCubeArrays(CompilerGLSL& compiler) {
+    for (auto const& image : compiler.get_shader_resources(compiler.get_active_interface_variables()).sampled_images) {
+        const auto type = compiler.get_type(image.type_id).image;
+        if (type.dim != spv::DimCube || !type.arrayed) continue;
+        compiler.add_header_line("#extension GL_EXT_texture_cube_map_array : require");
+        return;
+    }
+}
+
 } // namespace
 
 Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::ProgramLayout const& layout) {
@@ -78,6 +88,7 @@ Result<std::string> esslFromSpirv(std::span<const uint32_t> spirv, backend::Prog
         setOptions(compiler);
         dropUnread(compiler);
         renumberAll(compiler, layout);
+        requireCubeArrays(compiler);
         return compiler.compile();
     } catch (std::exception const& error) {
         return fail(ErrorCode::Unsupported, "the shader cannot be expressed in ESSL 3.10: {}", error.what());

@@ -8,7 +8,7 @@
 ///     lit, screen space      8        8   reflects or refracts the picture
 ///     unlit                 12        3
 ///     without fog           +1       -1
-///     featureLevel 3        15        as above; using all 15 needs a device with more than 16
+///     featureLevel 3        16        as above; using all 16 needs a device with more than 16
 ///
 ///   The engine's textures are in the Pass group; the View group has none. kEngineTextures is the only list of them:
 ///   bind group layouts, the rules of the material compiler and the tests are derived from it. A new effect gives its row

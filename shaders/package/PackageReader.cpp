@@ -120,7 +120,7 @@ bool readParameters(ByteReader in, std::vector<Parameter>& out) {
     for (uint32_t i = 0; i < count && !in.failed(); ++i) {
         Parameter parameter;
         parameter.name = in.text();
-        if (!readEnum(in, parameter.type, ParameterType::SubpassInput)) return false;
+        if (!readEnum(in, parameter.type, ParameterType::SamplerCubeArray)) return false;
         parameter.arraySize = in.u32();
         parameter.offset = in.u32();
         parameter.binding = in.u8();

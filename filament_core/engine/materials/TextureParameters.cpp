@@ -18,12 +18,15 @@ const char* kindName(TextureType type) {
         return "an array";
     case TextureType::Cube:
         return "a cube";
+    case TextureType::CubeArray:
+        return "an array of cubes";
     }
     return "a texture";
 }
 
 TextureType kindOf(ParameterType sampler) {
     if (sampler == ParameterType::SamplerCube) return TextureType::Cube;
+    if (sampler == ParameterType::SamplerCubeArray) return TextureType::CubeArray;
     return sampler == ParameterType::Sampler2DArray ? TextureType::Texture2DArray : TextureType::Texture2D;
 }
 

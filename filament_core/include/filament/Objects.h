@@ -44,7 +44,7 @@ using Light = Handle<struct LightObject>;           ///< of one Scene
 using Skin = Handle<struct SkinObject>;             ///< of one Scene
 using Node = Handle<struct NodeObject>;             ///< of one Scene
 
-enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube };
+enum class TextureKind : uint8_t { Texture2D, Texture2DArray, Cube, CubeArray };
 
 /// `pixels`: level 0, then level 1, ...; each level holds all layers, with tightly packed rows and row 0 at the top. If
 /// it is empty, the contents are undefined. Copied before the call returns.

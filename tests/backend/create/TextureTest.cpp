@@ -269,6 +269,38 @@ DRIVER_TEST(Texture, CubeFacesAndTheirAxesFollowTheOrderOfBothApis) {
     EXPECT_EQ(firsts(seen), (std::vector<float>{ 0, 11, 23, 31, 41, 50, 3, 43 }));
 }
 
+DRIVER_TEST(Texture, AnArrayOfCubesIsSelectedByTheFourthCoordinate) {
+    using enum TextureUsage;
+    if (!gpu.info().features.cubeArrays) GTEST_SKIP() << "the device has no arrays of cubes";
+    const TextureHandle texture = gpu.texture({ .type = TextureType::CubeArray,
+                                                .format = Format::R32F,
+                                                .usage = Sampled | TransferTarget,
+                                                .levels = 2,
+                                                .layers = 18,
+                                                .width = 2,
+                                                .height = 2 });
+    const auto upload = [&](uint32_t level, size_t texelsOfFace) {
+        std::vector<float> texels; // level * 100 + layer
+        for (size_t i = 0; i < 18 * texelsOfFace; ++i)
+            texels.push_back(static_cast<float>(level * 100 + i / texelsOfFace));
+        const uint32_t size = 2 >> level;
+        gpu.upload(texture, { 0, 0, size, size }, bytesOf(texels), static_cast<uint8_t>(level), 0, 18);
+    };
+    upload(0, 4);
+    upload(1, 1);
+    gpu.upload(texture, { 0, 0, 2, 2 }, bytesOf(std::vector<float>(4, 42)), 0, 7, 1); // -x of the second cube
+    const std::vector<Rgba> seen =
+            paintRow(gpu, 6, "layout(set = 1, binding = 0) uniform highp samplerCubeArray image;",
+                     R"(vec4 d = vec4(1.0, 0.1, 0.1, 0.0);
+               if (i == 1.0) d = vec4(0.1, 0.1, -1.0, 0.0);
+               if (i == 2.0) d = vec4(1.0, 0.1, 0.1, 1.0);
+               if (i == 3.0) d = vec4(-1.0, 0.1, 0.1, 1.0);
+               if (i == 4.0) d = vec4(0.1, 1.0, 0.1, 2.0);
+               result = i == 5.0 ? textureLod(image, vec4(0.1, 1.0, 0.1, 2.0), 1.0) : textureLod(image, d, 0.0);)",
+                     texture, gpu.sampler({ .mipFilter = MipFilter::Nearest }));
+    EXPECT_EQ(firsts(seen), (std::vector<float>{ 0, 5, 6, 42, 14, 114 }));
+}
+
 // ---------------------------------------------------------------------------------------------- samplers
 
 int wrapped(int texel, int size, WrapMode mode) {

@@ -248,6 +248,9 @@ std::vector<Case> objectCases() {
         { "LayersOf2D", [](C& to) { to.record(textureWith([](auto& d) { d.layers = 2; })); }, "use Texture2DArray" },
         { "CubeOf5", [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::Cube, d.layers = 5; })); },
           "6 square layers" },
+        { "CubesOf8",
+          [](C& to) { to.record(textureWith([](auto& d) { d.type = TextureType::CubeArray, d.layers = 8; })); },
+          "6 square layers per cube" },
         { "TwoSamples",
           [](C& to) {
               to.record(textureWith([](auto& d) { d.samples = 2, d.usage = TextureUsage::ColorAttachment; }));
@@ -353,6 +356,15 @@ std::vector<Case> groupCases() {
               });
           },
           "shows all of its 6 layers, not 5" },
+        { "ACubeAndAHalf",
+          [](C& to) {
+              to.record(
+                      textureWith([](auto& d) { d.type = TextureType::CubeArray, d.layers = 12, d.height = d.width; }));
+              recordGroupWith(to, [](auto& e) {
+                  e[1].texture = TextureHandle::make(20, 1), e[1].range = { 0, 1, 0, 9 };
+              });
+          },
+          "shows whole cubes, not 9 layers from 0" },
         { "MissingSampler", [](C& to) { recordGroupWith(to, [](auto& e) { e[1].sampler = {}; }); },
           "the sampler is none" },
     };
@@ -736,7 +748,7 @@ std::vector<Case> computeCases() {
                   }
               }));
           },
-          "32 storage buffers; this device has 16 blocks" },
+          "34 storage buffers; this device has 16 blocks" },
         { "StorageWithoutUsage", [](C& to) { recordCountGroupWith(to, [](auto& e) { e.buffer = kUniforms; }); },
           "'uniforms' lacks BufferUsage::Storage" },
         { "UnalignedStorage", [](C& to) { recordCountGroupWith(to, [](auto& e) { e.offset = 16; }); },

@@ -54,6 +54,8 @@ constexpr Broken kValues[] = {
     { "material {\n parameters : [ { name : x } ] }" GOOD_FRAGMENT, "a.mat:2: a parameter needs the field 'type'" },
     { "material {\n parameters : [ { name : x, type : sampler2d[2] } ] }" GOOD_FRAGMENT,
       "a.mat:2: samplers cannot be arrays; use sampler2dArray" },
+    { "material {\n parameters : [ { name : a, type : samplerCubemapArray } ] }" GOOD_FRAGMENT,
+      "a.mat:2: a samplerCubemapArray needs featureLevel : 2 (table 13 of the guide)" },
     { "material {\n parameters : [ { name : x, type : float, format : int } ] }" GOOD_FRAGMENT,
       "a.mat:2: only samplers have a format, and 'x' is not a sampler" },
     { "material {\n constants : [ { name : x, type : float2 } ] }" GOOD_FRAGMENT,

@@ -2,6 +2,7 @@
 // Parameters and constants of every type arrive in the shaders of both APIs, and mismatches are refused with a message.
 #include "tests/filament_core/engine/materials/MaterialFixture.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 
 namespace filament {
@@ -116,19 +117,64 @@ TEST_P(MaterialParameters, OfEveryTypeArriveInTheShader) {
 
 TEST_P(MaterialParameters, SamplersOfEveryKindAreOpaqueWhiteUntilTheyAreSet) {
     const Owned<Material> material = test::loadMaterial(*mEngine, R"(material {
-    shadingModel : unlit,
-    parameters : [ { type : sampler2d, name : a }, { type : sampler2dArray, name : b }, { type : samplerCubemap, name : c } ]
+    shadingModel : unlit, featureLevel : 2,
+    parameters : [ { type : sampler2d, name : a }, { type : sampler2dArray, name : b }, { type : samplerCubemap, name : c },
+                   { type : samplerCubemapArray, name : d } ]
 }
 fragment {
     void material(inout MaterialInputs material) {
         prepareMaterial(material);
         vec4 all = texture(materialParams_a, vec2(0.5)) + texture(materialParams_b, vec3(0.5, 0.5, 0.0));
-        material.baseColor = vec4((all + texture(materialParams_c, vec3(1.0, 0.0, 0.0))).rgb, 1.0);
+        all += texture(materialParams_c, vec3(1.0, 0.0, 0.0)) + texture(materialParams_d, vec4(1.0, 0.0, 0.0, 0.0));
+        material.baseColor = vec4(all.rgb, 1.0);
     }
 }
 )");
     const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
-    EXPECT_EQ(test::shownBy(*mEngine, instance), float4(3, 3, 3, 1));
+    EXPECT_EQ(test::shownBy(*mEngine, instance), float4(4, 4, 4, 1));
+}
+
+TEST_P(MaterialParameters, OfLevelTwoHaveArraysOfCubesWhoseFourthCoordinateChoosesTheCube) {
+    const Owned<Material> material = test::loadMaterial(*mEngine, R"(material {
+    name : cubes, shadingModel : unlit, featureLevel : 2, parameters : [ { type : samplerCubemapArray, name : cubes } ]
+}
+fragment {
+    void material(inout MaterialInputs material) {
+        prepareMaterial(material);
+        vec3 right = texture(materialParams_cubes, vec4(1.0, 0.0, 0.0, 1.0)).rgb;
+        material.baseColor = vec4(right.r, texture(materialParams_cubes, vec4(0.0, 0.0, -1.0, 0.0)).g, right.b, 1.0);
+    }
+}
+)");
+    const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
+    std::array<uint8_t, 12 * 4> texels{};
+    texels[6 * 4] = 255;     // red: +x of the second cube
+    texels[5 * 4 + 1] = 255; // green: -z of the first
+    const Owned<Texture> cubes = mEngine->own(mEngine->create(TextureDesc{ .kind = TextureKind::CubeArray,
+                                                                           .layers = 12,
+                                                                           .pixels = std::as_bytes(std::span(texels)),
+                                                                           .name = "cubes" }));
+    EXPECT_TRUE(mEngine->set(instance, "cubes", cubes));
+    EXPECT_EQ(test::shownBy(*mEngine, instance), float4(1, 1, 0, 1));
+    const Owned<Texture> flat = mEngine->own(mEngine->create(TextureDesc{ .name = "flat" }));
+    EXPECT_EQ(refusal(instance, "cubes", flat.get()),
+              "parameter 'cubes' of material 'cubes' is samplerCubemapArray, but texture 'flat' is a 2D texture");
+}
+
+TEST_P(MaterialParameters, OfLevelThreeHaveSixteenSamplersEvenIfTheyAreLit) {
+    std::string declared, sum;
+    for (int i = 0; i < 16; ++i) {
+        declared += fmt::format("{{ type : sampler2d, name : t{} }},", i);
+        sum += fmt::format(" + texture(materialParams_t{}, vec2(0.5))", i);
+    }
+    const Owned<Material> material = test::loadMaterial(
+            *mEngine, "material { featureLevel : 3, parameters : [" + declared +
+                              "] }\nfragment { void material(inout MaterialInputs material) {\n    "
+                              "prepareMaterial(material); material.baseColor = vec4(0.0, 0.0, 0.0, 1.0);\n    "
+                              "material.emissive = vec4((vec4(0.0)" +
+                              sum + ").rgb, 0.0); } }\n");
+    const Owned<MaterialInstance> instance = mEngine->own(mEngine->createInstance(material));
+    EXPECT_EQ(test::shownBy(*mEngine, instance).x, 16);
 }
 
 TEST_P(MaterialParameters, SayWhatTheyAreWhenTheyAreGivenSomethingElse) {

@@ -75,10 +75,13 @@ public:
     Renderable add(MaterialInstance instance, std::vector<StageVertex> const& vertices,
                    std::vector<uint16_t> const& indices, double4x4 const& world, uint32_t instanceIndex = 0) {
         using enum Attribute;
+        constexpr auto kCustom5 = static_cast<Attribute>(static_cast<int>(Custom0) + 5);
         mVertices.push_back(engine.own(engine.create(
                 VertexBufferDesc{ .vertexCount = static_cast<uint32_t>(vertices.size()),
                                   .stride = sizeof(StageVertex),
-                                  .attributes = { { Position, VertexFormat::Float3, offsetof(StageVertex, position) },
+                                  .attributes = { { Custom0, VertexFormat::Float4, offsetof(StageVertex, color) },
+                                                  { kCustom5, VertexFormat::Float2, offsetof(StageVertex, uv) },
+                                                  { Position, VertexFormat::Float3, offsetof(StageVertex, position) },
                                                   { Tangents, VertexFormat::Float4, offsetof(StageVertex, tangents) },
                                                   { Color, VertexFormat::Float4, offsetof(StageVertex, color) },
                                                   { Uv0, VertexFormat::Float2, offsetof(StageVertex, uv) } },

@@ -276,6 +276,43 @@ fragment {{ void material(inout MaterialInputs material) {{
     }
 }
 
+// ------------------------------------------------------------------------------------------ attributes and numbers
+
+TEST(CustomAttributes, AreReadInBothStagesWithTheGuidesRequires) {
+    const Image picture = onBothApis([](MaterialStage& stage) {
+        const MaterialInstance instance = stage.material(R"(material {
+    shadingModel : unlit, requires : [ custom0, custom5 ], variables : [ twice ] }
+vertex { void materialVertex(inout MaterialVertexInputs material) { material.twice = 2.0 * getCustom0(); } }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor = vec4(getCustom0().r, variable_twice.g, getCustom5().x, 1.0);
+} })");
+        stage.add(instance, { { .color = { 0.25f, 0.5f, 0.75f, 1 } } });
+    });
+    EXPECT_EQ(float2(centerPixel(picture)), float2(0.25f, 1));
+    const auto ramp = [&](uint32_t x) { return halfPixel(picture, x, 4).z; };
+    EXPECT_GT(ramp(5), ramp(3));
+    EXPECT_NEAR(ramp(3) + ramp(4), 1, 2e-3) << "around the middle of the square";
+}
+
+TEST(VertexNumbers, AreTheSameInGlslAndInTheEnginesFunction) {
+    const Image picture = onBothApis([](MaterialStage& stage) {
+        const MaterialInstance instance = stage.material(R"(material { shadingModel : unlit, variables : [ numbers ] }
+vertex { void materialVertex(inout MaterialVertexInputs material) {
+    material.numbers = vec4(float(gl_VertexID), float(getVertexIndex()), float(gl_InstanceID), 1.0);
+} }
+fragment { void material(inout MaterialInputs material) {
+    prepareMaterial(material);
+    material.baseColor = variable_numbers;
+} })");
+        stage.add(instance, { { .z = -1 }, { .z = 0 } }); // the second square has the vertices 4 to 7
+    });
+    const float4 center = halfPixel(picture, 4, 4); // on the diagonal between vertices 4 and 6, but for half a pixel
+    EXPECT_NEAR(center.x, 5, 0.1);
+    EXPECT_EQ(center.x, center.y);
+    EXPECT_EQ(float2(center.z, center.w), float2(0, 1));
+}
+
 // ------------------------------------------------------------------------------------------ shadows and the screen
 
 TEST(ShadowMultiplier, WithoutAShadowThePlaneIsInvisible) {
