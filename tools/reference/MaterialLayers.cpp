@@ -108,7 +108,7 @@ void addVolume(MaterialPoint const& point, double thickness, TransmissionSample&
 }
 
 /// KHR_materials_transmission takes its share of the diffuse lobe. Returns that share.
-double addTransmission(MaterialPoint const& point, double3 baseColor, SurfaceSample& surface) {
+double addTransmission(MaterialPoint const& point, SurfaceSample& surface) {
     assets::TransmissionData const& data = point.material().transmission;
     if (!data.isUsed()) return 0;
     const double2 maps = point.fetchScalars(data.maps);
@@ -118,7 +118,6 @@ double addTransmission(MaterialPoint const& point, double3 baseColor, SurfaceSam
     surface.transmission.ior = point.material().ior;
     if (data.isSolid()) addVolume(point, data.thicknessMeters * maps.y, surface.transmission);
     surface.diffuse *= 1 - part;
-    surface.mixture = mixtureOf(point, baseColor, part);
     return part;
 }
 
@@ -141,7 +140,9 @@ void addLayers(MaterialPoint const& point, double3 baseColor, double roughness, 
     addClearCoat(point, surface);
     addSheen(point, surface);
     addFilm(point, surface);
-    const double transmitted = addTransmission(point, baseColor, surface);
+    const double transmitted = addTransmission(point, surface);
+    const bool isMixed = surface.metallic > 0 && surface.metallic < 1;
+    if (isMixed || point.material().transmission.isUsed()) surface.mixture = mixtureOf(point, baseColor, transmitted);
     addDiffuseTransmission(point, transmitted, surface);
 }
 

@@ -65,6 +65,7 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
         mAmbientDiffuse = double3(surface.occlusion);
         if (surface.bentNormal) mOpen = Frame(mFrame.toLocal(*surface.bentNormal));
         mAmbientSpecular = specularOcclusionOf(surface);
+        mUnmappedNormal = surface.unmappedNormal;
         if (surface.unmappedNormal) {
             const double3 mirrored = mFrame.toWorld(mirroredView(surface));
             mAmbientSpecular *= lib::horizonOcclusion(mirrored, *surface.unmappedNormal);
@@ -178,6 +179,8 @@ LobeValues StandardLobes::lobesAt(double3 local, LightSource source) const {
         const double3 share = mCoupling.of({ local.x, local.y, std::abs(local.z) }, source);
         values.diffuse = mDiffuse * share * (diffuseTerm(cosine, voh) * cosine);
     }
+    if (!isAmbient && mUnmappedNormal)
+        values.specular *= lib::horizonOcclusion(mFrame.toWorld(local), *mUnmappedNormal);
     if (isAmbient) {
         values.diffuse *= mAmbientDiffuse;
         values.specular *= mAmbientSpecular;

@@ -60,9 +60,10 @@ private:
     double3 mDiffuse;
     double3 mCompensation;
     Coupling mCoupling;
-    double3 mAmbientDiffuse{ 1.0 }; // occlusion
-    std::optional<Frame> mOpen;     // around the bent normal, in local space; none: the normal's
-    double mAmbientSpecular = 1;    // occlusion
+    double3 mAmbientDiffuse{ 1.0 };         // occlusion
+    std::optional<Frame> mOpen;             // around the bent normal, in local space; none: the normal's
+    double mAmbientSpecular = 1;            // occlusion
+    std::optional<double3> mUnmappedNormal; // hides lamps below it, as in the engine; none: nothing does
     double mSpecularChance = 0;
     double3 mAlbedo{ 0.0 }, mSpecularAlbedo{ 0.0 };
     /// One of the engine's look-ups: a pre-filtered lobe in local space.

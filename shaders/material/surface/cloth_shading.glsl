@@ -73,6 +73,9 @@ highp vec3 shadeEnvironment(Surface surface) {
             environmentRadiance(lookUp.xyz, lookUp.w);
     specular = seenReflection(specular, surface.visibility, surface.nov, lookUp.xyz, surface.alpha,
             surface.perceptualRoughness, surface.sheenColor);
+#if defined(HAS_NORMAL)
+    specular = aboveHorizon(specular, shading_isBumped, lookUp.xyz);
+#endif
     return diffuse + specular;
 }
 
@@ -113,6 +116,9 @@ highp vec3 shadeLight(Surface surface, Light light) {
                 sheenAlbedoScaling(surface.sheenColor, lightAlbedo));
         vec3 sheen = surface.sheenColor *
                 (finite(clothDistribution(noh, surface.alpha) * visibilityNeubelt(surface.nov, nol)) * limit * nol);
+#if defined(HAS_NORMAL)
+        sheen = aboveHorizon(sheen, shading_isBumped, light.direction);
+#endif
         vec3 diffuse = surface.diffuse * scaling * clothDiffuse(surface, cosine, nol, voh);
         reflected = (diffuse + sheen) * light.illuminance;
     }

@@ -5,7 +5,7 @@
 
 // Total reflectance from the split-sum terms, whatever the roughness they were looked up with.
 vec3 reflectedShare(Surface surface, vec3 f0, vec2 dfg) {
-    vec3 albedo = specularAlbedoTerm(f0, surface.f90, dfg);
+    vec3 albedo = specularAlbedoTerm(f0, surface.matterF90, dfg);
 #if defined(REFRACTION)
     albedo += farReflectedShare(surface.refraction, albedo);
 #endif
@@ -14,10 +14,10 @@ vec3 reflectedShare(Surface surface, vec3 f0, vec2 dfg) {
 
 // direction: unit, its cosine in [0, 1].
 vec3 reflectedTowards(Surface surface, vec3 direction, float cosine) {
-    vec3 f0 = surface.f0;
+    vec3 f0 = surface.matterF0;
     highp float roughness = surface.perceptualRoughness;
 #if defined(HAS_IRIDESCENCE)
-    if (surface.film.strength > 0.0) f0 = mix(surface.film.bareF0, filmF0(surface.film, cosine), surface.film.strength);
+    if (surface.film.strength > 0.0) f0 = mix(f0, filmF0(surface.film, cosine), surface.film.strength);
 #endif
 #if defined(HAS_ANISOTROPY)
     if (surface.grooves.amount != 0.0) roughness = groovesRoughness(surface.grooves, direction);
@@ -27,11 +27,11 @@ vec3 reflectedTowards(Surface surface, vec3 direction, float cosine) {
 
 // Computed once for all lights.
 vec3 diffuseExitOf(Surface surface) {
-    vec3 albedo = surface.specularAlbedo;
-    vec3 f0 = surface.f0;
+    vec3 albedo = surface.boundary;
     float alpha = surface.alpha;
 #if defined(HAS_IRIDESCENCE)
-    f0 = surface.film.bareF0;
+    bool isMixed = surface.metallic > 0.0 && surface.metallic < 1.0;
+    if (surface.film.strength > 0.0 && isMixed) albedo = reflectedTowards(surface, surface.view, surface.nov);
 #endif
 #if defined(HAS_ANISOTROPY)
     if (surface.grooves.amount != 0.0) { // the larger roughness has the smaller average: a bound
@@ -39,7 +39,7 @@ vec3 diffuseExitOf(Surface surface) {
         alpha = min(max(surface.grooves.alpha.x, surface.grooves.alpha.y), 1.0);
     }
 #endif
-    vec3 average = reflectedShare(surface, f0, dfgAverage(alpha));
+    vec3 average = reflectedShare(surface, surface.matterF0, dfgAverage(alpha));
 #if defined(HAS_IRIDESCENCE)
     average *= 1.0 - surface.film.strength; // the average of an angle-dependent film is unknown: some light is lost
 #endif

@@ -19,13 +19,7 @@ highp vec3 reflectedOf(Surface surface) {
 }
 
 // The share of ambient light that reaches what is below the specular lobe.
-vec3 leftBySpecular(Surface surface) {
-#if defined(REFRACTION)
-    return 1.0 - surface.boundary;
-#else
-    return 1.0 - surface.specularAlbedo;
-#endif
-}
+vec3 leftBySpecular(Surface surface) { return 1.0 - surface.boundary; }
 
 highp vec3 baseOfEnvironment(Surface surface) {
     vec3 irradiance = environmentIrradiance(openNormal(surface.normal));
@@ -135,7 +129,11 @@ highp vec3 addCoatOfLight(Surface surface, Light light, highp vec3 below) {
         vec3 halfway = normalizeOrZero(surface.view + light.direction);
         float voh = saturate(dot(surface.view, halfway));
         float nol = saturate(cosine);
-        reflected += coatOfLight(coat, halfway, nol, voh) * light.illuminance * nol;
+        vec3 specular = vec3(coatOfLight(coat, halfway, nol, voh));
+#if defined(HAS_CLEAR_COAT_NORMAL)
+        specular = aboveHorizon(specular, true, light.direction);
+#endif
+        reflected += specular * light.illuminance * nol;
     }
     return reflected;
 }
@@ -153,11 +151,17 @@ highp vec3 shadeLight(Surface surface, Light light) {
         float voh = saturate(dot(surface.view, halfway));
         float dv = specularOfLight(surface, halfway, light.direction, nol);
         vec3 specular = dv * fresnelOfLight(surface, voh) * surface.energyCompensation;
+#if defined(HAS_NORMAL)
+        specular = aboveHorizon(specular, shading_isBumped, light.direction);
+#endif
         float diffuse = diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness);
         vec3 lobes = surface.diffuse * diffuseLeft(surface, light.direction, nol) * diffuse + specular;
 #if defined(HAS_SHEEN)
         if (hasSheen(surface.sheen)) {
             vec4 sheen = sheenOfLight(surface.sheen, surface.nov, nol, saturate(dot(surface.normal, halfway)));
+#if defined(HAS_NORMAL)
+            sheen.rgb = aboveHorizon(sheen.rgb, shading_isBumped, light.direction);
+#endif
             lobes = lobes * sheen.w + sheen.rgb;
         }
 #endif

@@ -19,6 +19,10 @@ struct Surface {
     float alpha;              // of the distribution: perceptualRoughness^2
     vec3 energyCompensation;
     vec3 specularAlbedo;      // over the whole hemisphere, with all bounces
+    // The matter below the interface, which scatters or transmits: the dielectric part of a partly metallic surface.
+    vec3 matterF0;            // without a film
+    float matterF90;
+    vec3 boundary;            // its specularAlbedo: what this leaves enters the matter
     vec3 diffuseExit;         // view-dependent factor of the diffuse lobe under lights
     float visibility;         // ambient occlusion
     vec3 normal, view;        // from prepareMaterial(), in the precision of the lighting
@@ -31,7 +35,6 @@ struct Surface {
 #endif
 #if defined(REFRACTION)
     Refraction refraction;
-    vec3 boundary;            // specularAlbedo of the dielectric alone: what it leaves enters the matter
     vec3 through;             // transmitted share of the light behind
 #endif
 #if defined(HAS_DIFFUSE_TRANSMISSION)
@@ -128,10 +131,54 @@ void setSpecularAlbedo(inout Surface surface, highp float roughness) {
     vec2 dfg = splitSumTerm(shading_NoV, roughness);
     surface.energyCompensation = energyCompensationTerm(surface.f0, dfg);
     surface.specularAlbedo = specularDfg(surface.f0, surface.f90, dfg) * surface.energyCompensation;
-#if defined(HAS_ANISOTROPY)
-    surface.energyCompensation = groovesCompensation(surface.grooves, surface.energyCompensation);
-#endif
 }
+
+void setMatter(Surface part, inout Surface surface) {
+#if defined(HAS_IRIDESCENCE)
+    surface.matterF0 = part.film.bareF0;
+#else
+    surface.matterF0 = part.f0;
+#endif
+    surface.matterF90 = part.f90;
+}
+
+#if !defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
+
+// One of the two materials that a partly metallic surface mixes: its reflectances.
+Surface partOf(Surface surface, MaterialInputs material, vec3 baseColor, float metallic) {
+    MaterialInputs inputs = material;
+    inputs.metallic = metallic;
+    Surface part = surface;
+    setReflectances(inputs, baseColor, part);
+    part.f90 = f90Of(part.f0);
+    weighReflectances(inputs, baseColor, part);
+    coverReflectances(part);
+    return part;
+}
+
+// A partly metallic surface is a metal and a dielectric side by side (glTF 2.0, appendix B.2), and only the dielectric
+// scatters and transmits. With one f0 between both, the light that the metal reflects would be taken from it a second
+// time, and bounces between facets would be compensated for neither.
+void mixParts(MaterialInputs material, vec3 baseColor, highp float roughness, inout Surface surface) {
+    if (surface.metallic > 0.0 && surface.metallic < 1.0) {
+        vec2 dfg = splitSumTerm(shading_NoV, roughness);
+        Surface matter = partOf(surface, material, baseColor, 0.0);
+        Surface metal = partOf(surface, material, baseColor, 1.0);
+#if defined(HAS_IRIDESCENCE)
+        if (surface.film.strength == 0.0) // under lights, a film is evaluated over the mixture
+#endif
+        {
+            setMatter(matter, surface);
+        }
+        surface.boundary = specularAlbedoTerm(matter.f0, matter.f90, dfg);
+        vec3 once = mix(specularDfg(matter.f0, matter.f90, dfg), specularDfg(metal.f0, metal.f90, dfg), surface.metallic);
+        surface.specularAlbedo =
+                mix(surface.boundary, specularAlbedoTerm(metal.f0, metal.f90, dfg), surface.metallic);
+        surface.energyCompensation = surface.specularAlbedo / max(once, vec3(1e-4));
+    }
+}
+
+#endif
 
 #include "shaders/material/surface/lit_coupling.glsl"
 
@@ -161,36 +208,6 @@ vec3 dielectricColor(vec3 baseColor, Surface surface) {
     return surface.diffuse;
 #else
     return baseColor;
-#endif
-}
-
-#if !defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
-
-// The albedo of one of the two materials that a partly metallic surface mixes.
-vec3 albedoOfPart(MaterialInputs material, vec3 baseColor, float metallic, Surface surface, vec2 dfg) {
-    MaterialInputs inputs = material;
-    inputs.metallic = metallic;
-    Surface part = surface;
-    setReflectances(inputs, baseColor, part);
-    part.f90 = f90Of(part.f0);
-    weighReflectances(inputs, baseColor, part);
-    coverReflectances(part);
-    return specularAlbedoTerm(part.f0, part.f90, dfg);
-}
-
-#endif
-
-// A partly metallic surface is a metal and a dielectric side by side (glTF 2.0, appendix B.2), and only the dielectric
-// transmits. With one f0 between both, the light that the metal reflects would be taken from it a second time.
-void setBoundary(MaterialInputs material, vec3 baseColor, highp float roughness, inout Surface surface) {
-    surface.boundary = surface.specularAlbedo;
-#if !defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
-    if (surface.metallic > 0.0 && surface.metallic < 1.0) {
-        vec2 dfg = splitSumTerm(shading_NoV, roughness);
-        surface.boundary = albedoOfPart(material, baseColor, 0.0, surface, dfg);
-        vec3 metal = albedoOfPart(material, baseColor, 1.0, surface, dfg);
-        surface.specularAlbedo = mix(surface.boundary, metal, surface.metallic);
-    }
 #endif
 }
 
@@ -253,8 +270,15 @@ Surface surfaceOf(MaterialInputs material) {
     setLayers(material, baseColor, surface);
     coverReflectances(surface);
     setSpecularAlbedo(surface, roughness);
+    setMatter(surface, surface);
+    surface.boundary = surface.specularAlbedo;
+#if !defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
+    mixParts(material, baseColor, roughness, surface);
+#endif
+#if defined(HAS_ANISOTROPY)
+    surface.energyCompensation = groovesCompensation(surface.grooves, surface.energyCompensation);
+#endif
 #if defined(REFRACTION)
-    setBoundary(material, baseColor, roughness, surface);
     setThrough(surface);
 #endif
     surface.diffuseExit = diffuseExitOf(surface);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Affects ambient light only: occlusion by the surroundings (ambientOcclusion, bentNormal), and by the surface itself,
-// for reflections that a normal map turns below it.
+// Occlusion of ambient light by the surroundings (ambientOcclusion, bentNormal), and by the surface itself, of what
+// reaches a normal from a map from below.
 
 float ambientVisibility(MaterialInputs material) {
 #if defined(HAS_AMBIENT_OCCLUSION)
@@ -48,9 +48,10 @@ vec3 seenReflection(vec3 light, float visibility, float nov, highp vec3 reflecte
     return seen;
 }
 
-// Light reflected about a normal from a map: the surface itself hides light from below it.
-vec3 aboveHorizon(vec3 light, bool isBumped, highp vec3 reflected) {
+// A reflection about a normal from a map: the surface itself hides light from below it. `direction`: of the lamp, or of
+// the environment's look-up.
+vec3 aboveHorizon(vec3 light, bool isBumped, highp vec3 direction) {
     vec3 seen = light;
-    if (isBumped) seen *= horizonOcclusion(reflected, shading_geometricNormal);
+    if (isBumped) seen *= horizonOcclusion(direction, shading_geometricNormal);
     return seen;
 }

@@ -7,7 +7,7 @@
 struct Surface {
     vec3 diffuse;             // without the light scattered below; times alpha if the material is transparent
     vec3 scatter;             // albedo of the light scattered below; a metal scatters nothing
-    float thickness;          // [0, 1]: 1 lets nothing through
+    float opacity;            // [0, 1]: 1 lets nothing through
     float power;
     vec3 f0;
     float f90;
@@ -28,11 +28,11 @@ Surface surfaceOf(MaterialInputs material) {
     surface.normal = shading_normal;
     surface.view = shading_view;
     surface.nov = shading_NoV;
-    surface.thickness = saturate(material.thickness);
+    surface.opacity = subsurfaceOpacity(material.thickness);
     surface.power = material.subsurfacePower;
     surface.scatter = saturate(material.subsurfaceColor) * (1.0 - material.metallic);
     surface.diffuse = diffuseColor(baseColor, material.metallic) *
-            subsurfaceDiffuseScaling(surface.scatter, surface.thickness);
+            subsurfaceDiffuseScaling(surface.scatter, surface.opacity);
     surface.metallic = material.metallic;
     surface.f0 = f0FromBaseColor(baseColor, material.metallic, material.reflectance);
     surface.f90 = saturate(dot(surface.f0, vec3(50.0 * 0.33))); // as in the standard model
@@ -52,8 +52,8 @@ Surface surfaceOf(MaterialInputs material) {
 highp vec3 shadeEnvironment(Surface surface) {
     vec3 irradiance = environmentIrradiance(openNormal(surface.normal));
     vec3 through = environmentRadiance(-shading_view, subsurfaceForwardRoughness(surface.power));
-    vec3 scattered = surface.scatter * (0.5 * (1.0 - surface.thickness)) * (irradiance + through);
-    vec3 albedo = surface.diffuse + surface.scatter * (1.0 - surface.thickness);
+    vec3 scattered = surface.scatter * (0.5 * (1.0 - surface.opacity)) * (irradiance + through);
+    vec3 albedo = surface.diffuse + surface.scatter * (1.0 - surface.opacity);
     vec3 inside = (surface.diffuse * irradiance + scattered) * (1.0 - surface.specularAlbedo);
     inside = seenDiffuse(inside, surface.visibility, albedo);
 
@@ -61,6 +61,9 @@ highp vec3 shadeEnvironment(Surface surface) {
     vec3 specular = surface.specularAlbedo * environmentRadiance(direction, surface.perceptualRoughness);
     specular = seenReflection(specular, surface.visibility, surface.nov, shading_reflected, surface.alpha,
             surface.perceptualRoughness, surface.f0);
+#if defined(HAS_NORMAL)
+    specular = aboveHorizon(specular, shading_isBumped, shading_reflected);
+#endif
     return inside + specular;
 }
 
@@ -68,7 +71,7 @@ highp vec3 shadeLight(Surface surface, Light light) {
     float cosine = dot(surface.normal, light.direction);
     float lov = dot(surface.view, light.direction);
     vec3 scatter = surface.scatter * diffuseEntryTerm(surface.specularAlbedo);
-    vec3 reflected = scatter * subsurfaceScatter(cosine, lov, surface.thickness, surface.power);
+    vec3 reflected = scatter * subsurfaceScatter(cosine, lov, surface.opacity, surface.power);
     float nol = saturate(cosine);
     if (nol > 0.0) {
         vec3 halfway = normalizeOrZero(surface.view + light.direction);
@@ -77,6 +80,9 @@ highp vec3 shadeLight(Surface surface, Light light) {
                 visibilityTerm(surface.nov, nol, surface.alpha);
         vec3 f = fresnelTerm(surface.f0, surface.f90, surface.metallic, voh);
         vec3 specular = finite(dv) * f * surface.energyCompensation;
+#if defined(HAS_NORMAL)
+        specular = aboveHorizon(specular, shading_isBumped, light.direction);
+#endif
         float diffuse = diffuseTerm(surface.nov, nol, voh, surface.perceptualRoughness);
         vec2 dfg = splitSumTerm(max(nol, kMinNoV), surface.perceptualRoughness);
         vec3 left = surface.diffuseExit * diffuseEntryTerm(specularAlbedoTerm(surface.f0, surface.f90, dfg));

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// White furnace of glTF materials that transmit, with every combination of layers: white matter that absorbs nothing is
-// invisible, whatever part of its light is reflected, scattered or let through.
+// White furnace of partly metallic glTF materials with every combination of layers, with and without transmission: white
+// matter that absorbs nothing is invisible, whatever part of its light is reflected, scattered or let through.
 #include "filament_core/engine/gltf/GltfMaterialSettings.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
@@ -105,6 +105,29 @@ TEST_P(MixtureFurnaceTest, WhiteMatterIsInvisibleInEveryCombinationOfLayers) {
                 for (int c = 0; c < 3; ++c) EXPECT_NEAR(mean[c], 1, 0.005f) << describe(data) << ", component " << c;
             });
         }
+    }
+    test::expectNoErrors(*engine);
+}
+
+TEST_P(MixtureFurnaceTest, WhiteMatterThatTransmitsNothingIsInvisibleHoweverMetallicAndRough) {
+    auto engine = test::makeEngine(GetParam());
+    ASSERT_TRUE(engine);
+    MixtureFurnace furnace(*engine);
+    for (uint32_t layers = 0; layers < 8; ++layers) {
+        std::vector<assets::MaterialData> materials;
+        for (const float roughness : { 0.2f, 0.5f, 1.0f }) {
+            for (const float metallic : { 0.0f, 0.25f, 0.5f, 0.75f, 1.0f }) {
+                assets::MaterialData& data =
+                        materials.emplace_back(whiteMatter(false, layers, assets::AlphaMode::Opaque));
+                data.roughnessFactor = roughness;
+                data.metallicFactor = metallic;
+            }
+        }
+        furnace.draw(materials, [](assets::MaterialData const& data, Image const& image) {
+            const float3 mean = meanOfMiddle(image);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(mean[c], 1, 0.005f) << describe(data) << " roughness " << data.roughnessFactor;
+        });
     }
     test::expectNoErrors(*engine);
 }

@@ -42,13 +42,21 @@ TEST(Subsurface, TheTransmittedLobeIsNormalisedForEveryPower) {
     EXPECT_NEAR(subsurfaceForward(0.3, 0.0), 1 / (4 * kPiOfTests), 1e-4) << "uniform";
 }
 
-TEST(Subsurface, ScattersWhatTheThicknessLetsThrough) {
+TEST(Subsurface, EveryThicknessLetsLightThroughAndTheDefaultHalfOfIt) {
+    EXPECT_EQ(subsurfaceOpacity(0.0), 0);
+    EXPECT_EQ(subsurfaceOpacity(-1.0), 0);
+    EXPECT_EQ(subsurfaceOpacity(0.5), 0.5);
+    EXPECT_EQ(subsurfaceOpacity(2.0), 1 - 1.0 / 16);
+    EXPECT_LT(subsurfaceOpacity(10.0), 1);
+}
+
+TEST(Subsurface, ScattersWhatTheOpacityLetsThrough) {
     const vec3 view = viewAt(0.6);
-    for (const double thickness : { 0.0, 0.3, 0.8, 1.0 }) {
+    for (const double opacity : { 0.0, 0.3, 0.8, 1.0 }) {
         const double scattered =
-                integrateAll([&](vec3 l) { return subsurfaceScatter(l.z, dot(l, view), thickness, 12.234); });
-        EXPECT_NEAR(scattered, 1 - thickness, 2e-3) << thickness;
-        const double total = scattered + subsurfaceDiffuseScaling(vec3(1.0), thickness);
+                integrateAll([&](vec3 l) { return subsurfaceScatter(l.z, dot(l, view), opacity, 12.234); });
+        EXPECT_NEAR(scattered, 1 - opacity, 2e-3) << opacity;
+        const double total = scattered + subsurfaceDiffuseScaling(vec3(1.0), opacity);
         EXPECT_LT(total, kNoGain);
         EXPECT_GT(total, 0.995);
     }

@@ -192,7 +192,7 @@ std::vector<Row> transmissionRows() {
 }
 
 std::vector<Row> subsurfaceRows() {
-    const Argument power = inHalf(number("power", 0, 1000), 0, 64), thickness = unit("thickness");
+    const Argument power = inHalf(number("power", 0, 1000), 0, 64), opacity = unit("opacity");
     const Argument nol = number("nol", -1, 1), lov = number("lov", -1, 1);
     return {
         { .file = "cloth",
@@ -222,6 +222,13 @@ std::vector<Row> subsurfaceRows() {
           .monotone = Monotone::Rising,
           .limits = absolute(2e-7, 1e-3, "absolute: cancels where light just reaches") },
         { .file = "subsurface",
+          .function = "subsurfaceOpacity(float)",
+          .call = NUMERICS_CALL(subsurfaceOpacity(s.x)),
+          .s = { number("thickness", 0, 100) },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = absolute(1e-6, 2e-3, "absolute: a power of 2 from 1") },
+        { .file = "subsurface",
           .function = "subsurfaceForward(float, float)",
           .call = NUMERICS_CALL(subsurfaceForward(s.x, s.y)),
           .s = { lov, power },
@@ -236,7 +243,7 @@ std::vector<Row> subsurfaceRows() {
         { .file = "subsurface",
           .function = "subsurfaceScatter(float, float, float, float)",
           .call = NUMERICS_CALL(subsurfaceScatter(s.x, s.y, s.z, s.w)),
-          .s = { nol, lov, thickness, power },
+          .s = { nol, lov, opacity, power },
           .range = { 0, 56 },
           .monotone = Monotone::Rising,
           .limits = { .cpp = 1e-4,
@@ -244,11 +251,11 @@ std::vector<Row> subsurfaceRows() {
                       .half = 5e-2,
                       .negligible = 1e-1,
                       .why = "the error of subsurfaceForward()" },
-          .openOutside = "thickness 2 wraps to a division by zero" },
+          .openOutside = "opacity 2 wraps to a division by zero" },
         { .file = "subsurface",
           .function = "subsurfaceDiffuseScaling(vec3, float)",
           .call = NUMERICS_CALL(subsurfaceDiffuseScaling(u, s.x)),
-          .s = { thickness },
+          .s = { opacity },
           .u = colour("subsurfaceColor", 1),
           .range = { 0, 1 },
           .monotone = Monotone::Rising,
