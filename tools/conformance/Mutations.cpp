@@ -243,6 +243,29 @@ public:
     }
 };
 
+/// The condition that hideConstantOutputs() gives constant outputs, as SPIRV-Cross writes it, becomes known.
+std::string withShownConstants(std::string_view essl) {
+    constexpr std::string_view kNeverTrue = "gl_VertexID == 2147483647";
+    std::string text(essl);
+    for (size_t at = 0; (at = text.find(kNeverTrue, at)) != std::string::npos;)
+        text.replace(at, kNeverTrue.size(), "false");
+    return text;
+}
+
+/// Undoes hideConstantOutputs() (shaders/compiler/OpaqueOutputs.h): the linker sees constant outputs again.
+class ConstantOutputsEdit final : public PayloadEdit {
+public:
+    using PayloadEdit::edit;
+    void edit(CmdCreateProgram& command) override {
+        const std::string_view text(reinterpret_cast<const char*>(command.desc.vertex.data()),
+                                    command.desc.vertex.size());
+        const std::string shown = withShownConstants(text);
+        std::span<const std::byte> bytes = std::as_bytes(std::span(shown));
+        copy(bytes);
+        command.desc.vertex = bytes;
+    }
+};
+
 class DepthCompareEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -293,7 +316,7 @@ constexpr Mutation kMutations[] = {
     { "normalY", "normal maps with y flipped", make<NormalYEdit> },
     { "srgb", "sRGB decoding dropped", make<SrgbDroppedEdit> },
     { "lightOff", "one light off", make<LightOffEdit> },
-    { "mipBias", "mip bias + 0.5", make<MipBiasEdit> },
+    { "mipBias", "mip bias + 0.5", make<MipBiasEdit>, Backend::Vulkan },
     { "lastMip", "one code of the smallest mip level one off", lastMip },
     { "depthCompare", "depth test always passes", make<DepthCompareEdit> },
     { "cullFace", "front faces culled instead of back faces", make<CullFaceEdit> },
@@ -303,6 +326,7 @@ constexpr Mutation kMutations[] = {
     { "metallic", "metallic - 2 %", metallic },
     { "emissive", "emission + 2 %", emissive },
     { "cutoff", "alpha cutoff + 5 %", cutoff },
+    { "constantOutputs", "linkers may know constant vertex outputs", make<ConstantOutputsEdit>, Backend::Gles },
 };
 
 } // namespace

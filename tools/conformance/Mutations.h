@@ -2,13 +2,16 @@
 /// Mutations: named defects, injected into the command stream of one engine. A comparison of pictures must detect each
 /// of them; otherwise it proves nothing. The engine has no code for them.
 ///   Identity "none" changes nothing and must not be detected: it shows that the detections are real.
-///   Limits   "mipBias" edits SPIR-V: Vulkan only.
+///   Limits   some edit the code of one API (Mutation::api) and are injected into the engine of that API.
 ///   Fails    an unknown name gives none, and mutationNames() lists the known ones.
 #pragma once
 
 #include "backend/layers/Captured.h"
 
+#include <filament/Backend.h>
+
 #include <memory>
+#include <optional>
 #include <span>
 #include <string_view>
 #include <vector>
@@ -19,6 +22,9 @@ struct Mutation {
     std::string_view name;
     std::string_view what; ///< for the report
     std::unique_ptr<backend::StreamEdit> (*make)();
+    std::optional<Backend> api{}; ///< the one whose shaders it edits; none: it edits what all have
+
+    bool fits(Backend backend) const { return !api || *api == backend; }
 };
 
 std::span<const Mutation> mutations();

@@ -77,7 +77,7 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--build", options.build, "name of this build in the results")->type_name("NAME");
     app.add_option("--bisect", options.bisect, "do not run: find the first draw of a case that differs")
             ->type_name("CASE");
-    app.add_option("--mutate", options.mutate, "with --bisect or --random: inject this defect into the first backend")
+    app.add_option("--mutate", options.mutate, "with --bisect or --random: inject this defect into one backend")
             ->type_name("MUTATION");
     app.add_option("--random", words.random, "do not run: draw this many generated materials, reduce what differs")
             ->type_name("N");

@@ -34,7 +34,7 @@ struct Options {
     std::filesystem::path journal;     ///< where the run writes down how far it is (Journal.h); empty: nowhere
     bool updateBaselines = false;
     std::string build;                        ///< name of this build in the results
-    std::string mutate;                       ///< with --bisect, --random: the defect of the first backend; empty: none
+    std::string mutate;                       ///< with --bisect, --random: the defect of one backend; empty: none
     std::string bisect;                       ///< the case to bisect; empty: run
     std::vector<std::filesystem::path> merge; ///< folders of results; empty: run
     bool exact = true;                        ///< --set exact=off: the engine's shaders without it

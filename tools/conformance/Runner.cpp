@@ -133,7 +133,10 @@ private:
         Mutation const* mutation = findMutation(name);
         if (!mutation) return blame("kills", fmt::format("there is no mutation '{}'", name));
         tools::showProgress(fmt::format("{}: mutant '{}'", mSpec.name, name));
-        auto stage = Stage::open(mActors[0].configuration.stage, mutation->make());
+        const auto actor = std::ranges::find_if(
+                mActors, [&](Actor const& each) { return mutation->fits(each.configuration.stage.backend); });
+        if (actor == mActors.end()) return; // a run without that API
+        auto stage = Stage::open(actor->configuration.stage, mutation->make());
         if (!stage) return blame(name, stage.error().message);
         const std::optional<Shot> shot = draw(**stage, "mutant " + name, false);
         if (!shot) return;
@@ -251,6 +254,28 @@ std::vector<Configuration> configurationsOf(Options const& options) {
     return all;
 }
 
+Result<StagePair> openPair(Options const& options, bool capture) {
+    Options two = options;
+    two.threads = false;
+    std::vector<Configuration> configurations = configurationsOf(two);
+    if (configurations.size() == 1) configurations.push_back(configurations.front());
+    Mutation const* mutation = findMutation(options.mutate);
+    StagePair pair;
+    for (std::unique_ptr<Stage>* made : { &pair.a, &pair.b }) {
+        StageOptions& stage = configurations[made == &pair.b].stage;
+        stage.capture = capture;
+        const bool isMutant = mutation && mutation->fits(stage.backend);
+        auto opened = Stage::open(stage, isMutant ? mutation->make() : nullptr);
+        if (!opened) return opened.error();
+        if (isMutant) mutation = nullptr; // only one of the two
+        *made = std::move(*opened);
+    }
+    if (mutation)
+        return fail(ErrorCode::InvalidArgument, "--mutate {} edits the shaders of {}, which --backends lacks",
+                    mutation->name, toString(*mutation->api));
+    return pair;
+}
+
 void overrideQuality(std::vector<SceneSpec>& cases, Options const& options) {
     for (SceneSpec& spec : cases) {
         for (auto const& [name, value] : options.quality) {
@@ -289,19 +314,12 @@ Result<Results> runCases(Options const& options, std::vector<SceneSpec> const& c
 Result<std::string> bisectCase(Options const& options, std::vector<SceneSpec> const& cases) {
     const Result<SceneSpec> spec = findCase(cases, options.bisect);
     if (!spec) return spec.error();
-    Options two = options;
-    two.threads = false;
-    std::vector<Configuration> configurations = configurationsOf(two);
-    if (configurations.size() == 1) configurations.push_back(configurations.front());
-    Mutation const* mutation = findMutation(options.mutate);
-    auto a = Stage::open(configurations[0].stage, mutation ? mutation->make() : nullptr);
-    if (!a) return a.error();
-    auto b = Stage::open(configurations[1].stage);
-    if (!b) return b.error();
-    for (Stage* stage : { a->get(), b->get() }) {
+    const Result<StagePair> stages = openPair(options, true);
+    if (!stages) return stages.error();
+    for (Stage* stage : { stages->a.get(), stages->b.get() }) {
         if (const Result<void> set = stage->set(*spec); !set) return set.error();
     }
-    auto found = bisect(**a, **b);
+    auto found = bisect(*stages->a, *stages->b);
     if (!found) return found.error();
     return *found ? (*found)->line() : std::string();
 }

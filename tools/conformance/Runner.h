@@ -21,6 +21,12 @@ struct Configuration {
 };
 std::vector<Configuration> configurationsOf(Options const& options);
 
+/// The first two backends, or the only one twice. One of them has the defect of --mutate: the first that it fits.
+struct StagePair {
+    std::unique_ptr<Stage> a, b;
+};
+Result<StagePair> openPair(Options const& options, bool capture);
+
 /// Values of --set override those of the cases.
 void overrideQuality(std::vector<SceneSpec>& cases, Options const& options);
 

@@ -60,6 +60,16 @@ TEST(Mutations, AreEachClaimedByAScene) {
     for (const std::string_view name : mutationNames()) EXPECT_TRUE(claimed.contains(name)) << name;
 }
 
+TEST(Mutations, OfTheShadersOfOneApiNeedThatApi) {
+    Options options = optionsFor("");
+    options.backends = { Backend::Vulkan };
+    options.mutate = "constantOutputs";
+    const auto pair = openPair(options, false);
+    if (!pair && pair.error().code != ErrorCode::InvalidArgument) GTEST_SKIP() << pair.error().message;
+    ASSERT_FALSE(pair.ok());
+    EXPECT_NE(pair.error().message.find("gles"), std::string::npos) << pair.error().message;
+}
+
 TEST(Bisect, NamesPassAndDrawOfABrokenDepthTest) {
     Options options = optionsFor("intersecting");
     options.mutate = "depthCompare";

@@ -5,7 +5,6 @@
 #include "tools/common/Console.h"
 #include "tools/common/Interrupt.h"
 #include "tools/conformance/Compare.h"
-#include "tools/conformance/Mutations.h"
 #include "tools/conformance/Runner.h"
 #include "tools/conformance/random/MaterialGenerator.h"
 #include "tools/conformance/random/MaterialReducer.h"
@@ -162,17 +161,9 @@ private:
 } // namespace
 
 Result<RandomResults> runRandom(Options const& options) {
-    Options two = options;
-    two.threads = false;
-    std::vector<Configuration> configurations = configurationsOf(two);
-    if (configurations.size() == 1) configurations.push_back(configurations.front());
-    for (Configuration& configuration : configurations) configuration.stage.capture = false;
-    Mutation const* mutation = findMutation(options.mutate);
-    auto a = Stage::open(configurations[0].stage, mutation ? mutation->make() : nullptr);
-    if (!a) return a.error();
-    auto b = Stage::open(configurations[1].stage);
-    if (!b) return b.error();
-    return RandomRun(options, std::move(*a), std::move(*b)).run();
+    Result<StagePair> stages = openPair(options, false);
+    if (!stages) return stages.error();
+    return RandomRun(options, std::move(stages->a), std::move(stages->b)).run();
 }
 
 } // namespace filament::conformance
