@@ -51,9 +51,55 @@ private:
     std::unordered_set<Id> mResults; ///< of functions, and their components
 };
 
+/// Values that follow from constants alone, so that a driver may know them: also functions of constants, which
+/// SPIRV-Tools leaves and drivers compute.
+class KnownValues {
+public:
+    explicit KnownValues(SpirvEditor const& editor) : mEditor(editor) {}
+
+    /// In the order of the module.
+    void note(Instruction const& at) {
+        const std::span<const uint32_t> inputs = inputsOf(at);
+        if (!inputs.empty() && std::ranges::all_of(inputs, [&](Id input) { return contains(input); }))
+            mKnown.insert(at.result);
+    }
+
+    bool contains(Id value) const { return mKnown.contains(value) || mEditor.isConstantExpression(value); }
+
+    /// A driver may find out that it is a NaN.
+    bool mayBeNan(Id value) const {
+        const std::span<const float> numbers = mEditor.constantOf(value);
+        return numbers.empty() ? contains(value) : std::ranges::any_of(numbers, [](float x) { return x != x; });
+    }
+
+    void add(Id value) { mKnown.insert(value); }
+
+private:
+    /// Without literals; empty: not a function of its operands alone.
+    static std::span<const uint32_t> inputsOf(Instruction const& at) {
+        switch (at.op) {
+        case spv::OpExtInst:
+            return at.operands.subspan(2);
+        case spv::OpCompositeExtract:
+            return at.operands.first(1);
+        case spv::OpCompositeInsert:
+        case spv::OpVectorShuffle:
+            return at.operands.first(2);
+        case spv::OpCompositeConstruct:
+            return at.operands;
+        default: // the rest of the groups "conversion", "arithmetic", "bit" and "relational and logical"
+            return at.op >= spv::OpConvertFToU && at.op <= spv::OpBitCount ? at.operands : std::span<const uint32_t>{};
+        }
+    }
+
+    SpirvEditor const& mEditor;
+    std::unordered_set<Id> mKnown;
+};
+
 class Lowering {
 public:
-    Lowering(SpirvEditor& editor, Instruction const& at) : mEditor(editor), mAt(at) {}
+    Lowering(SpirvEditor& editor, KnownValues& known, Instruction const& at)
+            : mEditor(editor), mKnown(known), mAt(at) {}
 
     Id run() const {
         if (mAt.op == spv::OpSMod) return lowerSignedModulo();
@@ -88,7 +134,7 @@ private:
         case spv::OpOuterProduct:
             return exactOuterProduct(operand(0), operand(1), mAt.type);
         case spv::OpFMod:
-            return exactMod(operand(0), operand(1));
+            return lowerModulo();
         case spv::OpFDiv:
             return lowerDivision();
         default:
@@ -175,6 +221,42 @@ private:
         return packed;
     }
 
+    bool mayBeNan(uint32_t index) const { return mKnown.mayBeNan(mAt.operands[2 + index]); }
+
+    /// FMin or FMax; the other argument where one is a NaN. Mesa's GLSL compiler computes MIN2(x, NaN) = NaN from
+    /// constants (ir_expression_operation.py), and opt_minmax.cpp drops x from min(x, NaN). Of values that no driver
+    /// knows, all drivers choose the number.
+    Value limit(uint32_t function, Value x, Value y) const {
+        Value result = call(static_cast<GLSLstd450>(function), { x, y });
+        result = ifNan(y, x, ifNan(x, y, result));
+        if (mKnown.contains(x.id) && mKnown.contains(y.id)) mKnown.add(result.id);
+        return result;
+    }
+
+    /// `result`, but `otherwise` where `x` is a NaN and a driver may know it.
+    Value ifNan(Value x, Value otherwise, Value result) const {
+        if (!mKnown.mayBeNan(x.id)) return result;
+        const Id isNan = mEditor.emit(spv::OpIsNan, mEditor.boolTypeLike(x.type()), { x.id });
+        return { &mEditor, mEditor.emit(spv::OpSelect, x.type(), { isNan, otherwise.id, result.id }) };
+    }
+
+    /// min(max(x, low), high), where a driver knows one of them.
+    Value lowerClamp() const {
+        if (!mayBeNan(0) && !mayBeNan(1) && !mayBeNan(2)) return {};
+        return limit(GLSLstd450FMin, limit(GLSLstd450FMax, argument(0), argument(1)), argument(2));
+    }
+
+    /// mod(x, 0) of a 0 that a driver knows is x: Mesa makes 0 * floor(x / 0) to 0 when it writes code (lp_build_mul),
+    /// but to NaN when it computes constants.
+    Value lowerModulo() const {
+        const Value x = operand(0), y = operand(1), result = exactMod(x, y);
+        const std::span<const float> divisor = mEditor.constantOf(y.id);
+        const bool mayBeZero = divisor.empty() ? mKnown.contains(y.id) : std::ranges::count(divisor, 0.0f) > 0;
+        if (!mayBeZero) return result;
+        const Id isZero = mEditor.emit(spv::OpFOrdEqual, mEditor.boolTypeLike(x.type()), { y.id, y.like(0).id });
+        return { &mEditor, mEditor.emit(spv::OpSelect, x.type(), { isZero, x.id, result.id }) };
+    }
+
     Value lowerDivision() const {
         const Value divisor = operand(1);
         return mEditor.isConstantExpression(divisor.id) ? exactDivide(operand(0), divisor) : Value{};
@@ -204,6 +286,11 @@ private:
             return exactSmoothStep(argument(0), argument(1), argument(2));
         case GLSLstd450Pow:
             return exactPow(argument(0), argument(1));
+        case GLSLstd450FMin:
+        case GLSLstd450FMax:
+            return mayBeNan(0) || mayBeNan(1) ? limit(mAt.operands[1], argument(0), argument(1)) : Value{};
+        case GLSLstd450FClamp:
+            return lowerClamp();
         case GLSLstd450Fma:
             return argument(0) * argument(1) + argument(2);
         case GLSLstd450Determinant:
@@ -223,14 +310,15 @@ private:
             return kDegreesPerRadian * argument(0);
         case GLSLstd450Tan:
             return exactTan(argument(0));
-        case GLSLstd450Asin:
-            return exactAsin(argument(0));
+        case GLSLstd450Asin: // the formulas of arcs contain minima and maxima
+            return ifNan(argument(0), argument(0), exactAsin(argument(0)));
         case GLSLstd450Acos:
-            return exactAcos(argument(0));
+            return ifNan(argument(0), argument(0), exactAcos(argument(0)));
         case GLSLstd450Atan:
-            return exactAtan(argument(0));
+            return ifNan(argument(0), argument(0), exactAtan(argument(0)));
         case GLSLstd450Atan2:
-            return exactAtan2(argument(0), argument(1));
+            return ifNan(argument(0), argument(0),
+                         ifNan(argument(1), argument(1), exactAtan2(argument(0), argument(1))));
         case GLSLstd450Sinh:
             return exactSinh(argument(0));
         case GLSLstd450Cosh:
@@ -249,6 +337,7 @@ private:
     }
 
     SpirvEditor& mEditor;
+    KnownValues& mKnown;
     Instruction const& mAt;
 };
 
@@ -257,8 +346,10 @@ private:
 std::vector<uint32_t> lowerExactly(std::span<const uint32_t> spirv) {
     SpirvEditor editor(spirv);
     FunctionChains chains;
+    KnownValues known(editor);
     return editor.rewrite([&](Instruction const& at) {
-        const Id lowered = Lowering(editor, at).run();
+        known.note(at);
+        const Id lowered = Lowering(editor, known, at).run();
         return lowered != 0 ? lowered : chains.separate(editor, at);
     });
 }
