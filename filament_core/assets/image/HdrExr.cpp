@@ -1,11 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // OpenEXR, single-part scan lines. "Technical Introduction to OpenEXR" and "OpenEXR File Layout" (openexr.com).
-// The container and the usual compressions are read here, because libtinyexr leaks memory and asserts on damaged files.
-// PIZ, whose wavelet is worth a library, is left to libtinyexr once the container has been checked.
+// Nothing is left to libtinyexr, which leaks memory and asserts on damaged files.
 #include "base/math/Half.h"
 #include "filament_core/assets/image/HdrDecoders.h"
 
-#include <tinyexr.h>
 #include <zlib.h>
 
 #include <algorithm>
@@ -167,15 +165,22 @@ void undoPredictor(std::span<std::byte> bytes, std::vector<std::byte>& scratch) 
     for (size_t i = 0; i < bytes.size(); ++i) bytes[i] = scratch[(i & 1) ? half + i / 2 : i / 2];
 }
 
+bool unpackPiz(ExrHeader const& header, std::span<const std::byte> packed, std::span<std::byte> out) {
+    std::vector<size_t> wordsPerSample;
+    for (Channel const& channel : header.channels) wordsPerSample.push_back(channel.bytes() / 2);
+    return expandPiz(packed, wordsPerSample, header.width, out);
+}
+
 // A chunk that compression would not make smaller is stored uncompressed.
-bool unpackChunk(Compression compression, std::span<const std::byte> packed, std::span<std::byte> out,
+bool unpackChunk(ExrHeader const& header, std::span<const std::byte> packed, std::span<std::byte> out,
                  std::vector<std::byte>& scratch) {
     if (packed.size() == out.size()) {
         std::ranges::copy(packed, out.begin());
         return true;
     }
-    if (compression == Compression::None || packed.size() > out.size()) return false;
-    const bool expanded = compression == Compression::Rle ? expandRuns(packed, out) : inflateZlib(packed, out);
+    if (header.compression == Compression::None || packed.size() > out.size()) return false;
+    if (header.compression == Compression::Piz) return unpackPiz(header, packed, out);
+    const bool expanded = header.compression == Compression::Rle ? expandRuns(packed, out) : inflateZlib(packed, out);
     if (expanded) undoPredictor(out, scratch);
     return expanded;
 }
@@ -238,52 +243,13 @@ Result<HdrImage> decodeChunks(ExrHeader const& header, std::span<const Chunk> ch
     for (Chunk const& chunk : chunks) {
         const uint32_t rows = std::min(header.rowsPerChunk(), header.height - chunk.firstRow);
         const auto out = std::span(unpacked).first(rowBytes * rows);
-        if (!unpackChunk(header.compression, chunk.packed, out, scratch)) {
+        if (!unpackChunk(header, chunk.packed, out, scratch)) {
             return fail(ErrorCode::Corrupt, "the block of row {} cannot be unpacked", chunk.firstRow);
         }
         for (uint32_t y = 0; y < rows; ++y) {
             readRow(header, out.data() + y * rowBytes, { &image.at(0, chunk.firstRow + y), image.width });
         }
     }
-    return image;
-}
-
-struct TinyExrHeader {
-    EXRHeader value;
-    TinyExrHeader() { InitEXRHeader(&value); }
-    ~TinyExrHeader() { FreeEXRHeader(&value); }
-};
-
-// If the library fails, it frees (or leaks) the planes itself; freeing them here would be a double free.
-Result<HdrImage> decodeWithTinyExr(ExrHeader const& header, std::span<const std::byte> bytes) {
-    const auto* data = reinterpret_cast<const unsigned char*>(bytes.data());
-    EXRVersion version{};
-    TinyExrHeader tiny;
-    const char* reason = nullptr;
-    EXRImage planes;
-    InitEXRImage(&planes);
-    bool ok = ParseEXRVersionFromMemory(&version, data, bytes.size()) == TINYEXR_SUCCESS &&
-              ParseEXRHeaderFromMemory(&tiny.value, &version, data, bytes.size(), &reason) == TINYEXR_SUCCESS &&
-              static_cast<size_t>(tiny.value.num_channels) == header.channels.size();
-    for (int i = 0; ok && i < tiny.value.num_channels; ++i) {
-        if (tiny.value.pixel_types[i] == TINYEXR_PIXELTYPE_HALF) {
-            tiny.value.requested_pixel_types[i] = TINYEXR_PIXELTYPE_FLOAT;
-        }
-    }
-    ok = ok && LoadEXRImageFromMemory(&planes, &tiny.value, data, bytes.size(), &reason) == TINYEXR_SUCCESS;
-    if (!ok) {
-        const std::string text = reason ? reason : "the PIZ decoder gave up";
-        if (reason) FreeEXRErrorMessage(reason);
-        return fail(ErrorCode::Corrupt, "{}", text);
-    }
-    HdrImage image{ .width = header.width, .height = header.height, .pixels = {}, .repairs = {} };
-    image.pixels.resize(size_t(image.width) * image.height);
-    for (int component = 0; component < 3; ++component) {
-        const auto* plane =
-                reinterpret_cast<const float*>(planes.images[header.source[static_cast<size_t>(component)]]);
-        for (size_t i = 0; i < image.pixels.size(); ++i) image.pixels[i][component] = plane[i];
-    }
-    FreeEXRImage(&planes);
     return image;
 }
 
@@ -301,7 +267,6 @@ Result<HdrImage> decodeExr(std::span<const std::byte> bytes) {
     if (!header) return header.error();
     const Result<std::vector<Chunk>> chunks = findChunks(bytes, cursor, *header);
     if (!chunks) return chunks.error();
-    if (header->compression == Compression::Piz) return decodeWithTinyExr(*header, bytes);
     return decodeChunks(*header, *chunks);
 }
 

@@ -1,23 +1,31 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Shared by the fuzzer and the replay test: for any bytes, decoding a picture gives an error with the picture's name,
+/// Shared by the fuzzer and the replay tests: for any bytes, decoding a picture gives an error with the picture's name,
 /// or as many pixels as the header says; and the same twice.
 #pragma once
 
 #include "base/Assert.h"
+#include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageDecoder.h"
 #include "filament_core/assets/image/ImageSize.h"
 
+#include <algorithm>
+#include <cmath>
+#include <cstring>
 #include <span>
 
 namespace filament::assets::test {
 
 inline constexpr uint64_t kMaxFuzzedPixels = 1u << 20;
 
-/// Returns whether it was a picture.
+/// PNG and JPEG. Returns whether it was a picture.
 inline bool fuzzImage(std::span<const std::byte> bytes) {
+    isCutShortPng(bytes);
     const uint2 size = imageSize(bytes);
     if (uint64_t{ size.x } * size.y > kMaxFuzzedPixels) return false; // only slow
     const Result<Image> image = decodeImage(bytes, "fuzzed");
+    // Whatever the first bytes say, the decoders themselves refuse what is not theirs.
+    const bool isPng = decodePng(bytes, "fuzzed").ok(), isJpeg = decodeJpeg(bytes, "fuzzed").ok();
+    FILAMENT_ASSERT(!(isPng && isJpeg) && image.ok() == (isPng || isJpeg), "one decoder reads what is a picture");
     if (!image) {
         FILAMENT_ASSERT(image.error().message.starts_with("image 'fuzzed' "), "an error names its picture");
         return false;
@@ -25,6 +33,26 @@ inline bool fuzzImage(std::span<const std::byte> bytes) {
     FILAMENT_ASSERT(image->data.size() == image->levelBytes(0), "every pixel is there");
     const Result<Image> again = decodeImage(bytes, "fuzzed");
     FILAMENT_ASSERT(again.ok() && again->data == image->data, "decoding twice gives the same pixels");
+    return true;
+}
+
+/// Radiance .hdr and OpenEXR. Returns whether it was a picture.
+inline bool fuzzHdrImage(std::span<const std::byte> bytes) {
+    const Result<HdrImage> image = decodeHdrImage(bytes, "fuzzed");
+    if (!image) {
+        FILAMENT_ASSERT(image.error().message.starts_with("cannot decode 'fuzzed': "), "an error names its picture");
+        FILAMENT_ASSERT(image.error().message.find('\n') == std::string::npos, "an error is one line");
+        return false;
+    }
+    FILAMENT_ASSERT(image->pixels.size() == size_t{ image->width } * image->height, "every pixel is there");
+    for (float3 const& pixel : image->pixels) {
+        for (const float value : { pixel.x, pixel.y, pixel.z })
+            FILAMENT_ASSERT(value >= 0 && std::isfinite(value), "every pixel is sanitised");
+    }
+    const Result<HdrImage> again = decodeHdrImage(bytes, "fuzzed");
+    FILAMENT_ASSERT(again.ok() && std::memcmp(again->pixels.data(), image->pixels.data(),
+                                              image->pixels.size() * sizeof(float3)) == 0,
+                    "decoding twice gives the same pixels");
     return true;
 }
 
