@@ -3,7 +3,9 @@
 
 #include "base/Hash.h"
 
+#include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <type_traits>
@@ -16,7 +18,7 @@ static_assert(std::endian::native == std::endian::little, "cached environments a
 constexpr uint64_t kMagic = 0x31564E454C494600; // "\0FILENV1"
 /// Incremented whenever the baker's results or this layout change.
 constexpr uint32_t kBakerVersion = 3;
-constexpr uint32_t kMaxFaceSize = 2048, kMaxLevels = 16;
+constexpr uint32_t kMaxFaceSize = 2048;
 
 struct CubeHeader {
     uint32_t size, levels, format, reserved;
@@ -42,10 +44,18 @@ CubeHeader headerOf(Image const& cube, EncodeLoss const& loss) {
     return { cube.width, cube.levels, static_cast<uint32_t>(cube.format), 0, loss.clippedTexels, loss.lostEnergy };
 }
 
+// Everyone can write a correct checksum: what passes here becomes a texture.
 bool isPlausible(CubeHeader const& cube) {
     const auto format = static_cast<backend::Format>(cube.format);
-    return cube.size >= 1 && cube.size <= kMaxFaceSize && cube.levels >= 1 && cube.levels <= kMaxLevels &&
-           isEnvironmentFormat(format);
+    return std::has_single_bit(cube.size) && cube.size <= kMaxFaceSize && cube.levels >= 1 &&
+           cube.levels <= backend::fullMipCount(cube.size, cube.size) && isEnvironmentFormat(format);
+}
+
+bool isPlausible(FileHeader const& header) {
+    CubeHeader const& irradiance = header.irradiance;
+    return isPlausible(header.specular) && isPlausible(header.sky) && isPlausible(irradiance) &&
+           static_cast<backend::Format>(irradiance.format) == backend::Format::RGBA16F &&
+           std::ranges::all_of(header.irradianceSh, [](float value) { return std::isfinite(value); });
 }
 
 Image emptyImage(CubeHeader const& cube) {
@@ -107,8 +117,7 @@ Result<EnvironmentData> decodeEnvironment(std::span<const std::byte> bytes, uint
     if (bytes.size() < sizeof(header)) return corrupt("is cut short");
     std::memcpy(&header, bytes.data(), sizeof(header));
     if (header.magic != kMagic || header.key != key) return corrupt("belongs to something else");
-    if (!isPlausible(header.specular) || !isPlausible(header.sky) || !isPlausible(header.irradiance))
-        return corrupt("has an impossible size");
+    if (!isPlausible(header)) return corrupt("has an impossible size");
     EnvironmentData data;
     data.specular = emptyImage(header.specular);
     data.sky = emptyImage(header.sky);

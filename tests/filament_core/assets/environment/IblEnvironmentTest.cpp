@@ -4,11 +4,13 @@
 #include "base/Log.h"
 #include "filament_core/assets/environment/EnvironmentCache.h"
 #include "filament_core/assets/image/ImageWriter.h"
+#include "tests/filament_core/assets/environment/EnvironmentFuzzBody.h"
 #include "tests/filament_core/assets/image/HdrTestSupport.h"
 
 #include <chrono>
 #include <cstdlib>
 #include <cstring>
+#include <limits>
 
 namespace filament::assets {
 namespace {
@@ -132,6 +134,40 @@ TEST_F(IblEnvironmentTest, RandomBytesInTheCacheNeverCrash) {
         const std::vector<std::byte> bad = damaged(good, seed);
         EXPECT_EQ(decodeEnvironment(bad, key).ok(), bad == good);
     }
+}
+
+// Anyone can compute the checksum of a baked environment: what it describes must be a texture that a device can hold.
+TEST_F(IblEnvironmentTest, ChangedHeadersWithARightChecksumAreRefusedOrWhole) {
+    const auto data = load();
+    ASSERT_TRUE(data);
+    const std::vector<std::byte> good = encodeEnvironment(*data, 0);
+    ASSERT_TRUE(test::fuzzEnvironment(good));
+    size_t read = 0;
+    for (uint32_t seed = 0; seed < 400; ++seed) {
+        std::vector<std::byte> changed = damaged({ good.begin(), good.begin() + 296 }, seed, 3);
+        changed.insert(changed.end(), good.begin() + 296, good.end());
+        read += test::fuzzEnvironment(changed);
+    }
+    EXPECT_GT(read, 20u); // statistics and coefficients may have any finite value
+    EXPECT_LT(read, 390u);
+}
+
+TEST_F(IblEnvironmentTest, LevelsBelowOneTexelAreRefused) {
+    EnvironmentData data;
+    const auto cube = [](uint32_t size, uint32_t levels) {
+        Image image{ .width = size, .height = size, .layers = 6, .levels = levels, .format = backend::Format::RGBA16F };
+        image.data.resize(image.levelOffset(levels));
+        return image;
+    };
+    data.specular = cube(4, 3);
+    data.sky = cube(4, 1);
+    data.irradiance = cube(kIrradianceFaceSize, 1);
+    EXPECT_TRUE(decodeEnvironment(encodeEnvironment(data, 1), 1));
+    data.specular = cube(4, 4);
+    EXPECT_FALSE(decodeEnvironment(encodeEnvironment(data, 1), 1));
+    data.specular = cube(4, 3);
+    data.irradianceSh[3].y = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_FALSE(decodeEnvironment(encodeEnvironment(data, 1), 1));
 }
 
 TEST_F(IblEnvironmentTest, ACacheThatCannotBeWrittenCostsAWarningOnly) {
