@@ -55,6 +55,10 @@ Result<GltfContainer> openGltfContainer(std::span<const std::byte> file) {
     if (length > file.size()) {
         return fail(ErrorCode::Corrupt, "the GLB header promises {} bytes, the file has {}", length, file.size());
     }
+    if (length < kHeaderBytes) {
+        return fail(ErrorCode::Corrupt, "the GLB header promises {} bytes, fewer than its own {}", length,
+                    kHeaderBytes);
+    }
     GltfContainer container;
     size_t at = kHeaderBytes;
     for (uint32_t chunk = 0; at + kChunkHeaderBytes <= length; ++chunk) {
@@ -72,6 +76,10 @@ Result<GltfContainer> openGltfContainer(std::span<const std::byte> file) {
             container.hasBinary = true;
         }
         at += bytes;
+    }
+    if (at != length) {
+        return fail(ErrorCode::Corrupt, "the GLB ends {} bytes into a chunk header of 8; export or copy it again",
+                    length - at);
     }
     if (container.json.empty()) return fail(ErrorCode::Corrupt, "the GLB has no JSON chunk");
     return container;

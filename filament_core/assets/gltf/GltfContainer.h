@@ -2,7 +2,8 @@
 /// GltfContainer: the two parts of a glTF file in either form of storage (glTF 2.0, section 4).
 ///   In     a whole .glb or .gltf file in memory; the first four bytes distinguish them.
 ///   Out    spans into it; `hasBinary` is false for .gltf and for a .glb without a BIN chunk.
-///   Fails  Corrupt for a chunk that extends past the file, Unsupported for another container version.
+///          Unknown and repeated chunks, and bytes behind the length, are ignored.
+///   Fails  Corrupt for a chunk that extends past the file or is cut off, Unsupported for another container version.
 #pragma once
 
 #include "base/Result.h"

@@ -225,6 +225,125 @@ std::string nameOf(::testing::TestParamInfo<Case> const& each) {
 
 INSTANTIATE_TEST_SUITE_P(Codes, Validator, ::testing::ValuesIn(kCases), nameOf);
 
+// ---------------------------------------------------------------------------------------------- the container
+
+/// A .glb in pieces, in the order in which they are written.
+struct Container {
+    struct Chunk {
+        uint32_t type = 0;
+        std::string data;
+        int claims = 0; ///< bytes that its header claims beyond those that are there
+    };
+    uint32_t magic = 0x46546C67, version = 2;
+    int claims = 0; ///< the same of the whole
+    std::vector<Chunk> chunks;
+    std::string rest;  ///< behind the last chunk, counted by the length
+    std::string extra; ///< behind that, and not counted
+    size_t cut = ~size_t{ 0 };
+
+    Bytes bytes() const {
+        std::string file(12, '\0');
+        for (Chunk const& chunk : chunks) {
+            append(file, static_cast<uint32_t>(chunk.data.size()) + static_cast<uint32_t>(chunk.claims));
+            append(file, chunk.type);
+            file += chunk.data;
+        }
+        file += rest;
+        const std::array<uint32_t, 3> header{ magic, version,
+                                              static_cast<uint32_t>(file.size()) + static_cast<uint32_t>(claims) };
+        std::memcpy(file.data(), header.data(), sizeof(header));
+        file = (file + extra).substr(0, cut);
+        const auto all = std::as_bytes(std::span(file));
+        return { all.begin(), all.end() };
+    }
+
+    static void append(std::string& file, uint32_t word) {
+        file.append(reinterpret_cast<const char*>(&word), sizeof(word));
+    }
+};
+
+constexpr uint32_t kJson = 0x4E4F534A, kBin = 0x004E4942, kUnknown = 0x21584157;
+
+struct ContainerCase {
+    const char* code;
+    Answer answer;
+    const char* text;
+    void (*damage)(Container&);
+};
+
+const ContainerCase kContainerCases[] = {
+    { "GLB_INVALID_MAGIC", kError, "neither a GLB", [](Container& c) { c.magic ^= 0x20; } },
+    { "GLB_INVALID_VERSION", kError, "GLB version 1 is not 2", [](Container& c) { c.version = 1; } },
+    { "GLB_LENGTH_TOO_SMALL", kError, "no JSON chunk",
+      [](Container& c) { c.claims = 12 - static_cast<int>(c.bytes().size()); } },
+    { "GLB_LENGTH_TOO_SMALL/header", kError, "promises 4 bytes",
+      [](Container& c) { c.claims = 4 - static_cast<int>(c.bytes().size()); } },
+    { "GLB_LENGTH_MISMATCH", kError, "the GLB header promises", [](Container& c) { c.claims = 4; } },
+    { "GLB_EXTRA_DATA", kIgnored, "the length says where the file ends", [](Container& c) { c.extra = "tail"; } },
+    { "GLB_CHUNK_LENGTH_UNALIGNED", kIgnored, "nothing is read in words of four bytes",
+      [](Container& c) { c.chunks[0].data += " "; } },
+    { "GLB_CHUNK_TOO_BIG", kError, "GLB chunk 1 has", [](Container& c) { c.chunks[1].claims = 4; } },
+    { "GLB_CHUNK_TOO_BIG/2^32", kError, "GLB chunk 1 has 4294967295 bytes",
+      [](Container& c) { c.chunks[1].claims = -1 - static_cast<int>(c.chunks[1].data.size()); } },
+    { "GLB_EMPTY_CHUNK", kError, "no JSON chunk", [](Container& c) { c.chunks[0].data.clear(); } },
+    { "GLB_EMPTY_BIN_CHUNK", kError, "buffers[0]", [](Container& c) { c.chunks[1].data.clear(); } },
+    { "GLB_DUPLICATE_CHUNK/json", kIgnored, "the first one counts",
+      [](Container& c) {
+          c.chunks.push_back({ kJson, "{}  " });
+      } },
+    { "GLB_DUPLICATE_CHUNK/bin", kIgnored, "the first one counts",
+      [](Container& c) {
+          c.chunks.push_back({ kBin, "more" });
+      } },
+    { "GLB_UNEXPECTED_FIRST_CHUNK", kError, "the first GLB chunk is not JSON",
+      [](Container& c) { std::swap(c.chunks[0], c.chunks[1]); } },
+    { "GLB_UNEXPECTED_BIN_CHUNK", kError, "buffers[0]",
+      [](Container& c) {
+          c.chunks.insert(c.chunks.begin() + 1, { kUnknown, "wax." });
+      } },
+    { "GLB_UNKNOWN_CHUNK_TYPE", kIgnored, "section 4.4.3: unknown chunks are ignored",
+      [](Container& c) {
+          c.chunks.push_back({ kUnknown, "wax." });
+      } },
+    { "GLB_UNEXPECTED_END_OF_HEADER", kError, "the GLB header is cut off", [](Container& c) { c.cut = 10; } },
+    { "GLB_UNEXPECTED_END_OF_CHUNK_HEADER", kError, "the GLB ends 5 bytes into a chunk header",
+      [](Container& c) { c.rest = "space"; } },
+    { "GLB_UNEXPECTED_END_OF_CHUNK_DATA", kError, "the GLB header promises",
+      [](Container& c) { c.cut = c.bytes().size() - 4; } },
+};
+
+class ContainerValidator : public ::testing::TestWithParam<ContainerCase> {};
+
+TEST_P(ContainerValidator, GetsTheAnswerOfTheTable) {
+    TestFile file = wholeFile();
+    file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
+    std::string text = file.root.dump();
+    text.resize((text.size() + 3) & ~size_t{ 3 }, ' ');
+    Container container{ .chunks = { { kJson, text },
+                                     { kBin,
+                                       { reinterpret_cast<const char*>(file.binary.data()), file.binary.size() } } } };
+    jobs::JobSystem jobs({ .workers = 0 });
+    const auto load = [&] {
+        return loadGltfFromMemory(container.bytes(), ".", jobs, { .deformation = GltfDeformation::Kept });
+    };
+    ASSERT_TRUE(load()) << "whole before it is damaged";
+    GetParam().damage(container);
+    const Result<ModelData> model = load();
+    ASSERT_EQ(model.ok(), GetParam().answer != kError) << (model ? "was loaded" : model.error().message);
+    if (model)
+        EXPECT_THAT(model->warnings, ::testing::IsEmpty()) << "ignored because " << GetParam().text;
+    else
+        EXPECT_THAT(model.error().message, HasSubstr(GetParam().text));
+}
+
+std::string nameOfContainer(::testing::TestParamInfo<ContainerCase> const& each) {
+    std::string name = each.param.code;
+    for (char& c : name) c = std::isalnum(static_cast<unsigned char>(c)) ? c : '_';
+    return name;
+}
+
+INSTANTIATE_TEST_SUITE_P(Codes, ContainerValidator, ::testing::ValuesIn(kContainerCases), nameOfContainer);
+
 TEST(ValidatorTable, StartsFromAFileWithoutAnyOfThem) {
     const Result<ModelData> model = wholeFile().load({ .deformation = GltfDeformation::Kept });
     ASSERT_TRUE(model) << model.error().message;
