@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // Real and generated files, truncated and damaged: nothing may crash, hang or break a promise. The seeds are fixed; the
 // number of rounds depends on the time, which is limited.
+#include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfUri.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
+#include "tests/filament_core/assets/gltf/MeshStreamFuzzBody.h"
 #include "tools/paths/Paths.h"
 
 #include <chrono>
+#include <filesystem>
 #include <random>
 
 namespace filament::assets::test {
@@ -204,6 +207,23 @@ TEST(GltfMutation, ScratchedFilesAreRefusedOrLoadedWhole) {
     }
     EXPECT_GT(loads, runs / 20); // damage that always breaks the JSON would test nothing
     EXPECT_LT(loads, runs);
+}
+
+TEST(MeshStream, OfTheCorpusIsReadAndDamageIsRefusedOrReadWhole) {
+    std::vector<Bytes> streams;
+    for (auto const& entry : std::filesystem::directory_iterator(tools::sourceDir() / "tests/fuzz/corpus/mesh_stream"))
+        streams.push_back(*readFileBytes(entry.path()));
+    ASSERT_GE(streams.size(), 9u);
+    size_t read = 0;
+    for (Bytes const& stream : streams) read += fuzzMeshStream(stream);
+    EXPECT_GE(read, 9u) << "streams that an encoder wrote";
+    std::mt19937 random(3);
+    for (int round = 0; round < 200; ++round) {
+        Bytes stream = streams[random() % streams.size()];
+        for (auto i = 1 + random() % 4; i > 0; --i) stream[random() % stream.size()] = static_cast<std::byte>(random());
+        if (random() % 4 == 0) stream.resize(random() % stream.size());
+        fuzzMeshStream(stream);
+    }
 }
 
 TEST(GltfMutation, FilesCutAnywhereAreRefused) {
