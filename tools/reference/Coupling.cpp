@@ -3,6 +3,7 @@
 
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/DirectionalAlbedo.h"
+#include "tools/reference/Mixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -17,6 +18,10 @@ Coupling::Coupling(SurfaceSample const& surface, BsdfModel const& model, double3
           mIsCompensated(model.energy == EnergyTerm::Compensated && !surface.transmission.isFromInside),
           mTowardsView(1.0), mExit(1.0) {
     if (mTerm == CouplingTerm::Never) return;
+    if (isSum(surface)) { // what is below lies under the dielectric alone
+        mF0 = surface.mixture->dielectricF0;
+        mF90 = surface.mixture->dielectricF90;
+    }
     TransmissionSample const& below = surface.transmission;
     if (below.isThin && below.color != double3(0.0)) {
         const double path = lib::thinPathLength(view.z, below.ior, below.thickness);

@@ -54,7 +54,7 @@ double3 reflectanceBelow(FilmSample const& film, double cosine) {
 } // namespace
 
 void meetPart(SurfaceSample& surface, double u) {
-    if (!surface.mixture) return;
+    if (!surface.mixture || !surface.transmits()) return;
     const MixtureSample mixture = *surface.mixture;
     surface.mixture.reset();
     const double metallic = surface.metallic, dielectric = 1 - metallic;
@@ -68,6 +68,11 @@ void meetPart(SurfaceSample& surface, double u) {
         chooseSheet(surface, mixture.transmitted, (u - metallic) / dielectric);
     }
     surface.coat.bareF0 = surface.f0;
+}
+
+bool isSum(SurfaceSample const& surface) {
+    const bool isPartly = surface.metallic > 0 && surface.metallic < 1;
+    return isPartly && surface.mixture && !surface.transmits() && !(surface.film.strength > 0);
 }
 
 double3 filmReflectance(FilmSample const& film, double cosine) {

@@ -14,6 +14,9 @@ namespace filament::reference {
 /// u in [0, 1), uniform. Surfaces without a mixture stay as they are.
 void meetPart(SurfaceSample& surface, double u);
 
+/// Partly metallic, and opaque: metal and dielectric are summed. Not under a film, which the engine puts over both.
+bool isSum(SurfaceSample const& surface);
+
 void coverWithFilm(SurfaceSample& surface);
 
 /// Reflectance of base and film; cosine in (0, 1] with the facet, in air.

@@ -3,6 +3,7 @@
 
 #include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/DirectionalAlbedo.h"
+#include "tools/reference/Mixture.h"
 
 #include <algorithm>
 #include <cmath>
@@ -51,6 +52,17 @@ double StandardLobes::specularOcclusionOf(SurfaceSample const& surface) const {
     return lib::specularOcclusion(mView.z, surface.occlusion, lib::alphaFromPerceptual(mRoughness));
 }
 
+// The albedo of a sum of lobes is the sum of theirs, and the light that bounces between facets that of each.
+void StandardLobes::sumParts(SurfaceSample const& surface, double2 dfg, double3& albedo) {
+    const double3 metalF0 = surface.mixture->color, f0 = surface.mixture->dielectricF0;
+    const double3 metal = lib::specularDfg(metalF0, f90Of(metalF0), dfg);
+    const double3 dielectric = lib::specularDfg(f0, surface.mixture->dielectricF90, dfg);
+    const bool isCompensated = mModel.energy == EnergyTerm::Compensated;
+    const auto factor = [&](double3 of) { return isCompensated ? lib::energyCompensation(of, dfg) : double3(1.0); };
+    albedo = glm::mix(dielectric * factor(f0), metal * factor(metalF0), surface.metallic);
+    mCompensation = albedo / glm::max(glm::mix(dielectric, metal, surface.metallic), double3(1e-4));
+}
+
 StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& model, bool useOcclusion)
         : mModel(model), mInterface(surface, model.fresnel), mFrame(frameOf(surface)),
           mView(liftedAboveHorizon(mFrame.toLocal(surface.view))), mRoughness(surface.perceptualRoughness),
@@ -60,6 +72,7 @@ StandardLobes::StandardLobes(SurfaceSample const& surface, BsdfModel const& mode
     const bool isCompensated = model.energy == EnergyTerm::Compensated && !surface.transmission.isFromInside;
     mCompensation = isCompensated ? lib::energyCompensation(surface.f0, dfg) : double3(1.0);
     double3 specularAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation;
+    if (isSum(surface)) sumParts(surface, dfg, specularAlbedo);
     if (surface.transmission.isFromInside) specularAlbedo = mInterface.reflectance(mView.z);
     if (useOcclusion) {
         mAmbientDiffuse = double3(surface.occlusion);
@@ -109,7 +122,7 @@ void StandardLobes::lookUpAlongGrain() {
 
 // One look-up, of a stretched lobe along a bent normal, or several along the grain.
 void StandardLobes::usePrefiltered(SurfaceSample const& surface, double2 dfg) {
-    mLobeAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation;
+    mLobeAlbedo = lib::specularDfg(surface.f0, surface.f90, dfg) * mCompensation; // of a sum, too: linear in f0
     mLobeAlbedo = (mLobeAlbedo + farReflectedShare(surface, mView.z, mLobeAlbedo)) * mAmbientSpecular;
     if (surface.anisotropy != 0 && mModel.grainLookUps != AnisotropicLookUps::One) lookUpAlongGrain();
     if (!mLookUps.empty()) return;

@@ -47,6 +47,7 @@ private:
     LobeValues lobesAt(double3 local, LightSource source) const;
     double3 sampleSpecular(double2 u) const; ///< local
     double specularPdf(double3 light) const;
+    void sumParts(SurfaceSample const& surface, double2 dfg, double3& albedo);
     void usePrefiltered(SurfaceSample const& surface, double2 dfg);
     void lookUpAlongGrain();
     double3 sampleLookUps(double2 u) const;
