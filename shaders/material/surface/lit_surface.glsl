@@ -2,6 +2,7 @@
 // What the standard model and specular-glossiness know about a surface, computed once for all light.
 
 #include "shaders/lib/specular.glsl"
+#include "shaders/material/surface/mixture.glsl"
 
 #if defined(HAS_SPECULAR_FACTOR) || defined(HAS_SPECULAR_COLOR_FACTOR)
 #define HAS_SPECULAR_WEIGHTS
@@ -156,9 +157,6 @@ Surface partOf(Surface surface, MaterialInputs material, vec3 baseColor, float m
     return part;
 }
 
-// A partly metallic surface is a metal and a dielectric side by side (glTF 2.0, appendix B.2), and only the dielectric
-// scatters and transmits. With one f0 between both, the light that the metal reflects would be taken from it a second
-// time, and bounces between facets would be compensated for neither.
 void mixParts(MaterialInputs material, vec3 baseColor, highp float roughness, inout Surface surface) {
     if (surface.metallic > 0.0 && surface.metallic < 1.0) {
         vec2 dfg = splitSumTerm(shading_NoV, roughness);
@@ -170,11 +168,10 @@ void mixParts(MaterialInputs material, vec3 baseColor, highp float roughness, in
         {
             setMatter(matter, surface);
         }
-        surface.boundary = specularAlbedoTerm(matter.f0, matter.f90, dfg);
-        vec3 once = mix(specularDfg(matter.f0, matter.f90, dfg), specularDfg(metal.f0, metal.f90, dfg), surface.metallic);
-        surface.specularAlbedo =
-                mix(surface.boundary, specularAlbedoTerm(metal.f0, metal.f90, dfg), surface.metallic);
-        surface.energyCompensation = surface.specularAlbedo / max(once, vec3(1e-4));
+        Mixture mixture = mixtureOf(matter.f0, matter.f90, metal.f0, metal.f90, surface.metallic, dfg);
+        surface.boundary = mixture.matterAlbedo;
+        surface.specularAlbedo = mixture.albedo;
+        surface.energyCompensation = mixture.compensation;
     }
 }
 

@@ -100,7 +100,13 @@ TEST(Composition, NoMaterialGivesMoreThanArrivesFromLights) {
     }
 }
 
-TEST(Composition, NoMaterialIsBrighterThanAWhiteSky) {
+/// Documented in docs/energy.md.
+bool losesSkyLight(std::string const& name) {
+    static const std::set<std::string> kLosing{ "cloth_subsurface", "specular_glossiness" };
+    return kLosing.contains(name);
+}
+
+TEST(Composition, WhiteMaterialsAreAsBrightAsAWhiteSky) {
     std::printf("| material | white sky |\n|---|---|\n");
     for (Composition const& material : compositions()) {
         Extremes sky;
@@ -109,6 +115,7 @@ TEST(Composition, NoMaterialIsBrighterThanAWhiteSky) {
                 for (const vec3 view : viewsOf(material.name, nov)) {
                     const double seen = largest(material.environment(inputs, view));
                     EXPECT_LE(seen, lib64::kNoGain) << textOf(material, inputs, nov);
+                    EXPECT_GE(seen, losesSkyLight(material.name) ? 0.0 : 0.995) << textOf(material, inputs, nov);
                     sky.add(seen);
                 }
             }
