@@ -49,6 +49,11 @@ constexpr Contradiction kContradictions[] = {
       "fullScreenTriangle", "fullScreenTriangle needs vertexDomain : device" },
     { [](MaterialDefinition const& d) { return d.package.instanced && d.fullScreenTriangle; }, "instanced",
       "a full-screen triangle has no instances; leave out instanced" },
+    { [](MaterialDefinition const& d) { return d.wideLines && !d.needsAttribute(kAttributeCustom0); }, "wideLines",
+      "wideLines finds the other end of a segment in custom0; add requires : [ custom0 ], and make the mesh with "
+      "makeLineQuads() of <filament/Lines.h>" },
+    { [](MaterialDefinition const& d) { return d.wideLines && d.package.vertexDomain == VertexDomain::Device; },
+      "wideLines", "wideLines needs positions in space; leave out vertexDomain : device" },
     { [](MaterialDefinition const& d) {
          return d.find("blendFunction") != nullptr && d.package.blending != Blending::Custom;
      },

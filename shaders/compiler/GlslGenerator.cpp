@@ -55,10 +55,6 @@ bool refracts(MaterialDefinition const& definition) {
     return definition.package.refractionMode != RefractionMode::None;
 }
 
-bool needsAttribute(MaterialDefinition const& definition, AttributeLocation location) {
-    return (definition.requiredAttributes >> location & 1) != 0;
-}
-
 void defineIf(StageText& out, bool condition, std::string_view name) {
     if (condition) out.define(name);
 }
@@ -106,15 +102,16 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     out.define(vertexDomainDefine(package.vertexDomain));
     defineIf(out, definition.flipUv, "FLIP_UV");
     defineIf(out, definition.fullScreenTriangle, "FULL_SCREEN_TRIANGLE");
+    defineIf(out, definition.wideLines, "WIDE_LINES");
     const bool isSwitched = package.findParameter(kDoubleSidedParameter) != nullptr;
     defineIf(out, isSwitched, "DOUBLE_SIDED_BY_PARAMETER");
     defineIf(out, package.doubleSided && !isSwitched, "DOUBLE_SIDED");
     defineIf(out, package.instanced, "INSTANCED");
     defineIf(out, needs.instanceIndex, "NEEDS_INSTANCE_INDEX");
     out.define("INTERPOLATION", package.interpolation == Interpolation::Flat ? "flat" : "");
-    defineIf(out, needsAttribute(definition, kAttributeColor), "HAS_COLOR");
-    defineIf(out, needsAttribute(definition, kAttributeUv0), "HAS_UV0");
-    defineIf(out, needsAttribute(definition, kAttributeUv1), "HAS_UV1");
+    defineIf(out, definition.needsAttribute(kAttributeColor), "HAS_COLOR");
+    defineIf(out, definition.needsAttribute(kAttributeUv0), "HAS_UV0");
+    defineIf(out, definition.needsAttribute(kAttributeUv1), "HAS_UV1");
     defineIf(out, needs.worldPosition, "NEEDS_WORLD_POSITION");
     defineIf(out, needs.normal, "NEEDS_NORMAL");
     defineIf(out, needs.tangent, "NEEDS_TANGENT");
@@ -161,7 +158,7 @@ void declareCustomAttributes(StageText& out, MaterialDefinition const& definitio
 void defineDeformation(StageText& out, MaterialDefinition const& definition) {
     out.define("VARIANT_SKINNING");
     const bool placesAreFree =
-            !needsAttribute(definition, kAttributeJoints1) && !needsAttribute(definition, kAttributeWeights1);
+            !definition.needsAttribute(kAttributeJoints1) && !definition.needsAttribute(kAttributeWeights1);
     defineIf(out, placesAreFree, "EIGHT_JOINTS");
 }
 

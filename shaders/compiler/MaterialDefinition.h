@@ -55,6 +55,7 @@ struct MaterialDefinition {
     bool halfPrecision = false;      ///< also variants that are lit in 16 bits: kVariantHalf
     bool flipUv = true;
     bool fullScreenTriangle = false; ///< device domain: positions come from the vertex index, no attribute is read
+    bool wideLines = false; ///< vertices are corners of segments, as makeLineQuads() (<filament/Lines.h>) gives them
     bool clearCoatIorChange = true;
     bool multiBounceAmbientOcclusion = true; ///< the guide's default on desktops
     SpecularAmbientOcclusion specularAmbientOcclusion = SpecularAmbientOcclusion::Simple;
@@ -67,6 +68,7 @@ struct MaterialDefinition {
     GlslBlock fragment;
     std::string fileName;
 
+    bool needsAttribute(uint32_t location) const { return (requiredAttributes >> location & 1) != 0; }
     /// The position of a property in the file; null: it has its default.
     SourcePosition const* find(std::string_view property) const;
     /// An error about a property, at its line; about the file if it has its default.

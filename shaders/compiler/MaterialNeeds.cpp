@@ -13,10 +13,6 @@
 namespace filament::shader {
 namespace {
 
-bool needsAttribute(MaterialDefinition const& definition, uint32_t location) {
-    return (definition.requiredAttributes >> location & 1) != 0;
-}
-
 /// The author's code with its includes, as input of CodeScan.
 Result<std::string> expanded(std::optional<GlslBlock> const& block, IncludeResolver const& includes) {
     StageText text(includes);
@@ -137,7 +133,7 @@ Result<void> findNames(std::string_view fragment, std::string_view vertex, Mater
 uint8_t customsIn(MaterialDefinition const& definition, CodeScan const& fragment) {
     uint32_t read = 0;
     for (uint32_t i = 0; i < 8; ++i) {
-        const bool isRequired = needsAttribute(definition, kAttributeCustom0 + i);
+        const bool isRequired = definition.needsAttribute(kAttributeCustom0 + i);
         if (isRequired && fragment.mentions(fmt::format("getCustom{}", i))) read |= 1u << i;
     }
     return static_cast<uint8_t>(read);
@@ -146,9 +142,14 @@ uint8_t customsIn(MaterialDefinition const& definition, CodeScan const& fragment
 /// They are members of MaterialVertexInputs, beside what the engine keeps there.
 Result<void> checkVariableNames(MaterialDefinition const& definition, MaterialNeeds const& needs) {
     const std::pair<std::string_view, bool> taken[] = {
-        { "color", needsAttribute(definition, kAttributeColor) }, { "uv0", needsAttribute(definition, kAttributeUv0) },
-        { "uv1", needsAttribute(definition, kAttributeUv1) },     { "worldNormal", needs.normal },
-        { "clipSpaceTransform", needs.clipSpaceTransform },       { "worldPosition", true },
+        { "color", definition.needsAttribute(kAttributeColor) },
+        { "uv0", definition.needsAttribute(kAttributeUv0) },
+        { "uv1", definition.needsAttribute(kAttributeUv1) },
+        { "worldNormal", needs.normal },
+        { "clipSpaceTransform", needs.clipSpaceTransform },
+        { "worldPosition", true },
+        { "lineWidth", definition.wideLines },
+        { "lineEnd", definition.wideLines },
     };
     for (Variable const& variable : definition.variables) {
         for (auto const& [name, isTaken] : taken) {
@@ -188,7 +189,7 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     needs.worldPosition =
             isLit || mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
                                              "getWorldReflectedVector", "getNdotV" });
-    needs.normal = isLit || needsAttribute(definition, kAttributeTangents);
+    needs.normal = isLit || definition.needsAttribute(kAttributeTangents);
     needs.tangent = needs.normal && fragment.mentions("getWorldTangentFrame");
     needs.clipSpaceTransform =
             definition.package.vertexDomain == VertexDomain::Device && vertex.mentions("clipSpaceTransform");

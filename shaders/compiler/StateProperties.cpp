@@ -238,8 +238,8 @@ Result<void> readSpecularOcclusion(JsonValue const& value, std::string_view name
     return {};
 }
 
-// In the order of the guide; domain, fullScreenTriangle, halfPrecision and clothDistribution are additions of this
-// engine.
+// In the order of the guide; domain, fullScreenTriangle, wideLines, halfPrecision and clothDistribution are additions of
+// this engine.
 constexpr std::array kProperties{
     StateProperty{ "name", readName, [] { return std::string("any text"); } },
     StateProperty{ "domain", readState<&MaterialPackage::domain>, valuesOfMember<&MaterialPackage::domain> },
@@ -256,6 +256,8 @@ constexpr std::array kProperties{
                    valuesOfMember<&MaterialPackage::interpolation> },
     StateProperty{ "fullScreenTriangle", readSetting<&MaterialDefinition::fullScreenTriangle>,
                    valuesOfMember<&MaterialDefinition::fullScreenTriangle> },
+    StateProperty{ "wideLines", readSetting<&MaterialDefinition::wideLines>,
+                   valuesOfMember<&MaterialDefinition::wideLines> },
     StateProperty{ "halfPrecision", readSetting<&MaterialDefinition::halfPrecision>,
                    valuesOfMember<&MaterialDefinition::halfPrecision> },
     StateProperty{ "blending", readState<&MaterialPackage::blending>, valuesOfMember<&MaterialPackage::blending> },

@@ -266,6 +266,30 @@ public:
     }
 };
 
+/// The pass that draws the scene believes that its target has 3 % fewer pixels each way: its block is the first.
+class TargetSizeEdit final : public PayloadEdit {
+public:
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        replay(commands, *this);
+    }
+    template <class C>
+    void execute(C const&) {}
+    void execute(CmdCreateBuffer const& command) {
+        if (command.desc.debugName == "pass blocks") mBlocks.insert(command.handle);
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUpdateBuffer& command) override {
+        if (!mBlocks.contains(command.buffer)) return;
+        Bytes& bytes = copy(command.bytes);
+        for (const size_t at : { size_t{ 0 }, sizeof(float) }) writeFloat(bytes, at, 0.97f * readFloat(bytes, at));
+    }
+
+private:
+    std::set<BufferHandle> mBlocks;
+};
+
 class DepthCompareEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -326,6 +350,7 @@ constexpr Mutation kMutations[] = {
     { "metallic", "metallic - 2 %", metallic },
     { "emissive", "emission + 2 %", emissive },
     { "cutoff", "alpha cutoff + 5 %", cutoff },
+    { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
     { "constantOutputs", "linkers may know constant vertex outputs", make<ConstantOutputsEdit>, Backend::Gles },
 };
 

@@ -3,6 +3,8 @@
 
 #include "filament_core/assets/gltf/TangentFrame.h"
 
+#include <filament/Lines.h>
+
 #include <cmath>
 
 namespace filament::tools {
@@ -91,6 +93,36 @@ void addBox(MaterialMesh& mesh, float half) {
     }
 }
 
+/// A star in the plane of the picture, in which directions differ, and a helix towards the viewer, in which depth does.
+LineQuads starAndHelix() {
+    std::vector<float3> star, helix;
+    constexpr int kRays = 24, kSteps = 48;
+    for (int i = 0; i < kRays; ++i) {
+        const float angle = 2 * kPi * (static_cast<float>(i) + 0.37f) / kRays;
+        const float3 direction(std::cos(angle), std::sin(angle), 0);
+        star.insert(star.end(), { direction * 0.15f, direction * 0.6f });
+    }
+    for (int i = 0; i <= kSteps; ++i) {
+        const float t = static_cast<float>(i) / kSteps, angle = 4 * kPi * t;
+        helix.emplace_back(0.85f * std::cos(angle), 0.85f * std::sin(angle), 2 * t - 1);
+    }
+    LineQuads quads = makeLineQuads(star, PrimitiveType::Lines);
+    const LineQuads strip = makeLineQuads(helix, PrimitiveType::LineStrip);
+    const auto first = static_cast<uint32_t>(quads.vertices.size());
+    quads.vertices.insert(quads.vertices.end(), strip.vertices.begin(), strip.vertices.end());
+    for (const uint32_t index : strip.indices) quads.indices.push_back(first + index);
+    return quads;
+}
+
+void addLines(MaterialMesh& mesh, LineQuads const& quads) {
+    for (LineVertex const& corner : quads.vertices) {
+        const float2 uv = 0.5f + 0.5f * float2(corner.position);
+        mesh.vertices.push_back(vertexOf({ corner.position, { 0, 0, 1 }, { 1, 0, 0 } }, uv));
+        mesh.vertices.back().custom[0] = corner.otherEnd;
+    }
+    for (const uint32_t index : quads.indices) mesh.indices.push_back(static_cast<uint16_t>(index));
+}
+
 } // namespace
 
 std::optional<MaterialMesh> makeMaterialMesh(std::string_view name) {
@@ -105,6 +137,8 @@ std::optional<MaterialMesh> makeMaterialMesh(std::string_view name) {
         addGrid(mesh, 64, 4, scrollPoint);
     } else if (name == "box") {
         addBox(mesh, 0.7f);
+    } else if (name == "lines") {
+        addLines(mesh, starAndHelix());
     } else if (name == "screen") { // row 0 is the top row: y grows downwards
         addGrid(mesh, 1, 1, [](float u, float v) {
             return SurfacePoint{ { 1.2f * u - 0.6f, 0.6f - 1.2f * v, 0.5f }, { 0, 0, 1 }, { 1, 0, 0 } };

@@ -54,7 +54,7 @@ Result<MaterialStand::Geometry> MaterialStand::makeGeometry(Engine& engine, std:
     const std::optional<MaterialMesh> mesh = makeMaterialMesh(name);
     if (!mesh) {
         return fail(ErrorCode::NotFound,
-                    "there is no mesh '{}': sphere, plane, box, torus, scroll, screen or billboard", name);
+                    "there is no mesh '{}': sphere, plane, box, torus, scroll, lines, screen or billboard", name);
     }
     return Geometry{
         engine.own(engine.create(VertexBufferDesc{ .vertexCount = static_cast<uint32_t>(mesh->vertices.size()),

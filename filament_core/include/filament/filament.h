@@ -12,6 +12,7 @@
 #include <filament/Gltf.h>
 #include <filament/Image.h>
 #include <filament/Light.h>
+#include <filament/Lines.h>
 #include <filament/Material.h>
 #include <filament/Math.h>
 #include <filament/Node.h>

@@ -64,9 +64,8 @@ mat3 getWorldFromModelNormalMatrix() {
     return transpose(mat3(row0, row1, row2)) * object.flags.x;
 }
 
-vec4 worldPositionOfVertex() {
+vec4 worldPositionOf(vec4 p) {
     ObjectRecord object = objectUniforms.objects[mesh_instance];
-    vec4 p = getPosition();
     vec3 position = vec3(dot(object.row0, p), dot(object.row1, p), dot(object.row2, p));
     return vec4(position - objectOrigin(), 1.0);
 }
@@ -84,14 +83,14 @@ float bitangentSign() { return objectUniforms.objects[mesh_instance].flags.x; }
 mat4 getWorldFromModelMatrix() { return mat4(1.0); }
 mat3 getWorldFromModelNormalMatrix() { return mat3(1.0); }
 
-vec4 worldPositionOfVertex() {
+vec4 worldPositionOf(vec4 p) {
 #if defined(VERTEX_DOMAIN_WORLD)
-    return vec4(meshPosition() - frameUniforms.cameraPosition.xyz, 1.0);
+    return vec4(p.xyz - frameUniforms.cameraPosition.xyz, 1.0);
 #elif defined(VERTEX_DOMAIN_VIEW)
-    return getWorldFromViewMatrix() * getPosition();
+    return getWorldFromViewMatrix() * p;
 #else
-    vec4 p = frameUniforms.worldFromClip * getPosition();
-    return p.w != 0.0 ? p / p.w : p; // w = 0: a direction, the far plane is at infinity
+    vec4 world = frameUniforms.worldFromClip * p;
+    return world.w != 0.0 ? world / world.w : world; // w = 0: a direction, the far plane is at infinity
 #endif
 }
 
@@ -108,6 +107,7 @@ float bitangentSign() { return 1.0; }
 
 #endif
 
+vec4 worldPositionOfVertex() { return worldPositionOf(getPosition()); }
 vec3 getUserWorldPosition() { return worldPositionOfVertex().xyz + frameUniforms.cameraPosition.xyz; }
 
 struct MaterialVertexInputs {
@@ -125,6 +125,10 @@ struct MaterialVertexInputs {
 #endif
 #if defined(HAS_CLIP_SPACE_TRANSFORM)
     mat4 clipSpaceTransform;
+#endif
+#if defined(WIDE_LINES)
+    float lineWidth; // pixels
+    vec4 lineEnd;    // the other end of the segment, in the same space as worldPosition
 #endif
     MATERIAL_VARIABLES_AS_MEMBERS
     vec4 worldPosition;

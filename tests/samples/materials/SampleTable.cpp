@@ -79,6 +79,7 @@ std::vector<Sample> samples() {
         { "unlit", { "shadingModel : unlit", "shadingModel : lit" } },
         { "variables", { "height=0.15", "height=0" } },
         { "variant_filter", {}, Effect::Differs, 1, false },
+        { "wide_lines", { "material.lineWidth = materialParams.width;", "" } },
     };
     // clang-format on
 }

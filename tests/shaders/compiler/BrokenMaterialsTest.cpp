@@ -86,6 +86,12 @@ constexpr Broken kContradictions[] = {
     { "material { shadingModel : unlit, vertexDomain : device, fullScreenTriangle : true,\n instanced : true "
       "}" GOOD_FRAGMENT,
       "a.mat:2: a full-screen triangle has no instances; leave out instanced" },
+    { "material {\n wideLines : true }" GOOD_FRAGMENT,
+      "a.mat:2: wideLines finds the other end of a segment in custom0; add requires : [ custom0 ], and make the mesh "
+      "with makeLineQuads() of <filament/Lines.h>" },
+    { "material { shadingModel : unlit, vertexDomain : device, requires : [ custom0 ],\n wideLines : true "
+      "}" GOOD_FRAGMENT,
+      "a.mat:2: wideLines needs positions in space; leave out vertexDomain : device" },
     { "material {}\n" FRAGMENT("prepareMaterial(material);\nmaterial.roughness = float(getInstanceIndex());"),
       "a.mat:2: this block calls getInstanceIndex(); that needs the property instanced : true" },
     { "material {\n blending : transparent,\n refractionMode : cubemap }" GOOD_FRAGMENT,

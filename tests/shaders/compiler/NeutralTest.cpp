@@ -33,6 +33,7 @@ constexpr Default kDefaults[] = {
     { "vertexDomain", "object" },
     { "interpolation", "smooth" },
     { "fullScreenTriangle", "false" },
+    { "wideLines", "false" },
     { "halfPrecision", "false" },
     { "blending", "opaque" },
     { "blendFunction", "" }, // only with blending : custom, and then it must be there
