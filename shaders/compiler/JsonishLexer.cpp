@@ -63,6 +63,19 @@ bool JsonishLexer::skipBlank() {
 
 Token JsonishLexer::token(TokenKind kind, std::string text) { return { kind, std::move(text), position() }; }
 
+/// As in C, there may be blanks behind the '#'.
+bool JsonishLexer::atInclude() {
+    constexpr std::string_view kInclude = "include";
+    if (peek() != '#') return false;
+    size_t at = 1;
+    while (peek(at) == ' ' || peek(at) == '\t') ++at;
+    for (const char letter : kInclude) {
+        if (peek(at++) != letter) return false;
+    }
+    const char next = peek(at);
+    return next == '"' || next == ' ' || next == '\t' || next == '\n' || next == '\0';
+}
+
 /// Returns an empty string, or why the include cannot be followed.
 std::string JsonishLexer::include() {
     while (peek() != '"' && peek() != '\n' && !atEnd()) advance();
@@ -119,7 +132,7 @@ Token JsonishLexer::word() {
 Token JsonishLexer::next() {
     while (skipBlank()) {
     }
-    while (startsWith("#include")) {
+    while (atInclude()) {
         if (std::string problem = include(); !problem.empty()) return error(std::move(problem));
         while (skipBlank()) {
         }

@@ -64,6 +64,7 @@ private:
     Token error(std::string reason) { return token(TokenKind::Error, std::move(reason)); }
     Token quoted();
     Token word();
+    bool atInclude();
     std::string include();
 
     IncludeResolver const& mIncludes;

@@ -81,6 +81,22 @@ TEST(Includes, AreNotReadInInactiveBranches) {
                   "a.mat:3: cannot find the file \"gone.glsl\" of this #include");
 }
 
+TEST(Includes, MayHaveBlanksBehindTheHash) {
+    const std::string material = "material { shadingModel : unlit,\n#\t include \"parameters.inc\"\n }\n";
+    const std::string vertex = "vertex { void materialVertex(inout MaterialVertexInputs material) {\n"
+                               "  #  include \"lift.glsl\"\n} }\n";
+    const std::string fragment =
+            "fragment { void material(inout MaterialInputs material) { prepareMaterial(material);\n"
+            "#\tinclude \"tint.glsl\"\n} }";
+    const Files files{ { "parameters.inc", "# include \"more.inc\"\n" },
+                       { "more.inc", "parameters : [ { name : tint, type : float4 } ]\n" },
+                       { "lift.glsl", "# include \"deep/up.glsl\"\n" },
+                       { "deep/up.glsl", "material.worldPosition.y += 1.0;\n" },
+                       { "tint.glsl", " # include \"deep/color.glsl\"\n" },
+                       { "deep/color.glsl", "material.baseColor = materialParams.tint;\n" } };
+    expectCompiles(material + vertex + fragment, files);
+}
+
 TEST(Includes, MayReadTexturesInTheVertexStage) {
     const std::string text =
             "material { shadingModel : unlit, parameters : [ { name : heights, type : sampler2d } ] }\n"
