@@ -179,20 +179,22 @@ Result<void> writeResults(std::filesystem::path const& folder, Results const& re
 }
 
 Result<Results> readResults(std::filesystem::path const& folder) {
-    const Result<Json> json = readJson(folder / "results.json");
-    if (!json) return json.error();
-    const Result<Json> times = readJson(folder / "times.json");
-    if (!times) return times.error();
+    std::filesystem::path file = folder / "results.json"; // being read
     try {
+        const Result<Json> json = readJson(file);
+        if (!json) return json.error();
         Results results{ .build = json->at("build"), .reference = json->at("reference") };
         results.devices = json->value("devices", std::map<std::string, std::string>());
         const Json machines = json->value("machines", Json::object());
         for (auto const& [name, machine] : machines.items()) results.machines[name] = machine.at("device");
         for (Json const& one : json->at("cases")) results.cases.push_back(caseFromJson(one));
+        file = folder / "times.json";
+        const Result<Json> times = readJson(file);
+        if (!times) return times.error();
         results.seconds = times->get<std::map<std::string, double>>();
         return results;
     } catch (Json::exception const& error) {
-        return fail(ErrorCode::Corrupt, "{}: {}", (folder / "results.json").string(), error.what());
+        return fail(ErrorCode::Corrupt, "{}: {}", file.string(), error.what());
     }
 }
 
