@@ -11,30 +11,57 @@
 #pragma GCC diagnostic pop
 
 #include <algorithm>
+#include <ctime>
 #include <exception>
 
 namespace filament::assets {
+
+namespace {
+
+/// Of this thread: other programs do not make a stream look slow.
+double processorSeconds() {
+    timespec time{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &time);
+    return static_cast<double>(time.tv_sec) + 1e-9 * static_cast<double>(time.tv_nsec);
+}
+
+} // namespace
 
 struct DracoMesh::State {
     std::unique_ptr<draco::Mesh> mesh; // null: decoding failed
 };
 
-DracoMesh::DracoMesh(std::span<const std::byte> stream, std::string_view path, Diagnostics& diagnostics)
+DracoMesh::DracoMesh(std::span<const std::byte> stream, std::string_view path, DracoPatience& patience,
+                     Diagnostics& diagnostics)
         : mState(std::make_unique<State>()) {
-    std::string reason;
+    const std::string reason =
+            patience.isLost ? "another one of this file took too long" : decodeInTime(stream, patience);
+    if (!mState->mesh) diagnostics.refuse(ErrorCode::Corrupt, "{}: the Draco stream is broken: {}", path, reason);
+}
+
+std::string DracoMesh::decode(std::span<const std::byte> stream) {
     try {
         draco::DecoderBuffer buffer;
         buffer.Init(reinterpret_cast<const char*>(stream.data()), stream.size());
         draco::Decoder decoder;
         auto decoded = decoder.DecodeMeshFromBuffer(&buffer);
-        if (decoded.ok())
-            mState->mesh = std::move(decoded).value();
-        else
-            reason = decoded.status().error_msg_string();
+        if (!decoded.ok()) return decoded.status().error_msg_string();
+        mState->mesh = std::move(decoded).value();
+        return {};
     } catch (std::exception const& exception) { // e.g. bad_alloc, length_error: sizes made up by the stream
-        reason = exception.what();
+        return exception.what();
     }
-    if (!mState->mesh) diagnostics.refuse(ErrorCode::Corrupt, "{}: the Draco stream is broken: {}", path, reason);
+}
+
+std::string DracoMesh::decodeInTime(std::span<const std::byte> stream, DracoPatience& patience) {
+    const double begin = processorSeconds();
+    std::string reason = decode(stream);
+    const double seconds = processorSeconds() - begin;
+    if (seconds <= patience.seconds + patience.secondsPerVertex * vertexCount()) return reason;
+    patience.isLost = true;
+    reason = fmt::format("{} vertices took {:.1f} s", vertexCount(), seconds);
+    mState->mesh.reset();
+    return reason;
 }
 
 DracoMesh::~DracoMesh() = default;

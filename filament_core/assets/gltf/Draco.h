@@ -4,16 +4,20 @@
 ///   Out     vertices by attribute id, triangles as indices.
 ///   Thread  one mesh on one thread; different meshes on different threads.
 ///   Memory  the decoded mesh, until destruction.
+///   Limits  a damaged stream of 240 bytes can make the library loop for ten seconds, and nothing can interrupt it. So one
+///           stream of a file may be too slow (DracoPatience); those behind it are refused unread.
 ///   Fails   Corrupt, naming the primitive; the mesh is then empty. Exceptions of the library do not escape.
 ///   Only Draco.cpp includes the library.
 #pragma once
 
 #include "filament_core/assets/files/Diagnostics.h"
+#include "filament_core/assets/gltf/DracoPatience.h"
 
 #include <cstddef>
 #include <cstdint>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -21,7 +25,8 @@ namespace filament::assets {
 
 class DracoMesh {
 public:
-    DracoMesh(std::span<const std::byte> stream, std::string_view path, Diagnostics& diagnostics);
+    DracoMesh(std::span<const std::byte> stream, std::string_view path, DracoPatience& patience,
+              Diagnostics& diagnostics);
     ~DracoMesh();
     DracoMesh(DracoMesh&&) noexcept;
 
@@ -35,6 +40,10 @@ public:
 
 private:
     struct State;
+    /// Returns why there is no mesh; empty if there is one.
+    std::string decode(std::span<const std::byte> stream);
+    std::string decodeInTime(std::span<const std::byte> stream, DracoPatience& patience);
+
     std::unique_ptr<State> mState;
 };
 

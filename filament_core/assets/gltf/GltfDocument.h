@@ -5,12 +5,14 @@
 ///   Section numbers in comments are those of the glTF 2.0.1 specification.
 #pragma once
 
+#include "filament_core/assets/gltf/DracoPatience.h"
 #include "filament_core/assets/gltf/ModelData.h"
 #include "filament_core/assets/gltf/NodePose.h"
 
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <string>
@@ -193,6 +195,8 @@ struct GltfDocument {
     /// Bytes of each view; filled by loadBuffers(). They point into the file or into `ownedBytes`.
     std::vector<std::span<const std::byte>> viewBytes;
     std::vector<std::vector<std::byte>> ownedBytes;
+
+    std::shared_ptr<DracoPatience> dracoPatience = std::make_shared<DracoPatience>(); ///< with the streams of this file
 };
 
 } // namespace filament::assets

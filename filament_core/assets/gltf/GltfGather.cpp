@@ -53,7 +53,7 @@ public:
                     Diagnostics& diagnostics)
             : mDocument(document), mPath(path), mDiagnostics(diagnostics) {
         if (!primitive.draco) return;
-        mDraco.emplace(document.viewBytes[primitive.draco->view], path, diagnostics);
+        mDraco.emplace(document.viewBytes[primitive.draco->view], path, *document.dracoPatience, diagnostics);
     }
 
     DracoMesh const* draco() const { return mDraco ? &*mDraco : nullptr; }

@@ -16,7 +16,8 @@ namespace filament::assets::test {
 
 inline bool fuzzDraco(std::span<const std::byte> stream) {
     Diagnostics diagnostics;
-    const DracoMesh mesh(stream, "fuzzed", diagnostics);
+    DracoPatience patience;
+    const DracoMesh mesh(stream, "fuzzed", patience, diagnostics);
     if (!diagnostics.ok()) {
         FILAMENT_ASSERT(diagnostics.error().message.starts_with("fuzzed: "), "an error names its place");
         FILAMENT_ASSERT(mesh.vertexCount() == 0 && mesh.indices().empty(), "a broken stream gives nothing");
