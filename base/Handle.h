@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// HandleAllocator: allocates and frees handles.
 ///   Thread  any; one short lock per call. Never waits for a driver or a device.
-///   Limits  2^20 live handles; beyond that allocate() asserts and names the type's limit.
-///   Fails   allocate() throws std::bad_alloc and changes nothing; free() never fails.
+///   Limits  2^20 live handles: files, too, decide how many there are, so that more of them is an error.
+///   Fails   allocate() throws std::bad_alloc, or OutOfHandles, and changes nothing; free() never fails.
 #pragma once
 
 #include "base/Assert.h"
@@ -12,9 +12,17 @@
 #include <algorithm>
 #include <cstdint>
 #include <mutex>
+#include <new>
 #include <vector>
 
 namespace filament {
+
+/// As many objects of one type as can have handles. Whoever survives missing memory survives this; OutOfMemory.h tells
+/// them apart.
+class OutOfHandles : public std::bad_alloc {
+public:
+    const char* what() const noexcept override { return "2^20 objects of one type"; }
+};
 
 template <class Tag>
 class HandleAllocator {
@@ -22,7 +30,7 @@ public:
     Handle<Tag> allocate() {
         const std::lock_guard lock(mMutex);
         if (mFree.empty()) {
-            FILAMENT_ASSERT(mGenerations.size() <= Handle<Tag>::kIndexMask, "at most 2^20 handles of one type");
+            if (mGenerations.size() > Handle<Tag>::kIndexMask) throw OutOfHandles();
             reserveFree(mGenerations.size() + 1);
             mGenerations.push_back(1);
             return Handle<Tag>::make(static_cast<uint32_t>(mGenerations.size() - 1), 1);

@@ -16,8 +16,8 @@
 
 namespace filament {
 
-/// "loading 'a.glb': out of memory; free some and try again".
-Error outOfMemory(std::string_view doing, std::string_view object = {}) noexcept;
+/// "loading 'a.glb': out of memory; free some and try again". If `cause` is OutOfHandles, the text says so instead.
+Error outOfMemory(std::string_view doing, std::string_view object = {}, std::bad_alloc const& cause = {}) noexcept;
 
 /// Returns function(), which returns a Result. A size that is too large for any memory (std::length_error) also counts
 /// as out of memory.
@@ -25,8 +25,8 @@ template <class F>
 auto orOutOfMemory(std::string_view doing, std::string_view object, F&& function) -> std::invoke_result_t<F&> {
     try {
         return function();
-    } catch (std::bad_alloc const&) {
-        return outOfMemory(doing, object);
+    } catch (std::bad_alloc const& cause) {
+        return outOfMemory(doing, object, cause);
     } catch (std::length_error const&) {
         return outOfMemory(doing, object);
     }

@@ -209,8 +209,9 @@ void Engine::Impl::report(std::string_view line) noexcept {
     }
 }
 
-void Engine::Impl::reportOutOfMemory(std::string_view doing, std::string_view object) noexcept {
-    report(outOfMemory(doing, object).message);
+void Engine::Impl::reportOutOfMemory(std::string_view doing, std::string_view object,
+                                     std::bad_alloc const& cause) noexcept {
+    report(outOfMemory(doing, object, cause).message);
 }
 
 double Engine::Impl::secondsSinceStart(int64_t steadyNanoseconds) const {

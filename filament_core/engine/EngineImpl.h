@@ -111,7 +111,8 @@ struct Engine::Impl {
     void collectErrors();
     /// Adds a line to takeErrors(), if there is memory for it.
     void report(std::string_view line) noexcept;
-    void reportOutOfMemory(std::string_view doing, std::string_view object = {}) noexcept;
+    void reportOutOfMemory(std::string_view doing, std::string_view object = {},
+                           std::bad_alloc const& cause = {}) noexcept;
     /// Returns what `make` returns; none, and a line for takeErrors(), if memory runs out.
     template <class F>
     auto orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&>;
@@ -199,8 +200,8 @@ template <class F>
 auto Engine::Impl::orNone(std::string_view doing, std::string_view object, F&& make) -> std::invoke_result_t<F&> {
     try {
         return make();
-    } catch (std::bad_alloc const&) {
-        reportOutOfMemory(doing, object);
+    } catch (std::bad_alloc const& cause) {
+        reportOutOfMemory(doing, object, cause);
         return {};
     }
 }

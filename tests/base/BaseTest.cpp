@@ -4,6 +4,7 @@
 #include "base/Handle.h"
 #include "base/Hash.h"
 #include "base/Log.h"
+#include "base/OutOfMemory.h"
 #include "base/Result.h"
 #include "base/Suggest.h"
 
@@ -95,6 +96,26 @@ TEST(HandleAllocator, NeverGivesOutZeroEvenWhenGenerationsWrap) {
         ASSERT_TRUE(handle);
         handles.free(handle);
     }
+}
+
+// Files decide how many objects there are: one too many is an error for whoever loads them.
+TEST(HandleAllocator, RefusesTheHandleAfterTheLastAndGoesOnOnceOneIsFree) {
+    HandleAllocator<struct TestTag> handles;
+    constexpr uint32_t kMost = Handle<struct TestTag>::kIndexMask + 1;
+    for (uint32_t i = 0; i + 1 < kMost; ++i) handles.allocate();
+    const auto last = handles.allocate();
+    EXPECT_THROW(handles.allocate(), OutOfHandles);
+    const Result<int> made = orOutOfMemory("glTF", "a.glb", [&]() -> Result<int> {
+        handles.allocate();
+        return 1;
+    });
+    ASSERT_FALSE(made);
+    EXPECT_EQ(made.error().code, ErrorCode::OutOfMemory);
+    EXPECT_EQ(made.error().message,
+              "glTF 'a.glb': there are 2^20 objects of one type, as many as can be; destroy some");
+    EXPECT_EQ(handles.liveCount(), kMost);
+    handles.free(last);
+    EXPECT_EQ(handles.allocate().index(), last.index());
 }
 
 TEST(HandleAllocatorDeathTest, RefusesToFreeTwice) {

@@ -6,7 +6,9 @@
 
 #include "base/math/Half.h"
 #include "filament_core/assets/gltf/GltfWriter.h"
+#include "filament_core/engine/EngineImpl.h"
 
+#include <array>
 #include <filesystem>
 #include <fstream>
 
@@ -311,6 +313,30 @@ TEST(EnvironmentWithoutMemory, IsLoadedOrRefused) {
 }
 
 // Tests the instrument itself: without a boundary, the exception would arrive here.
+// Files decide how many buffers and textures there are.
+TEST(OutOfHandles, AModelIsRefusedAndLoadedOnceThereAreSome) {
+    Engine engine = *makeEngine({});
+    const std::filesystem::path file = modelFile();
+    backend::CommandStream& stream = *engine.impl().stream;
+    std::vector<backend::BufferHandle> taken;
+    try {
+        for (;;) taken.push_back(stream.allocateBuffer());
+    } catch (OutOfHandles const&) {
+    }
+    const auto refused = loadGltf(engine, file);
+    ASSERT_FALSE(refused.ok());
+    EXPECT_TRUE(contains(refused.error().message, "2^20 objects of one type")) << refused.error().message;
+    const std::array<uint16_t, 3> corners{ 0, 1, 2 };
+    EXPECT_FALSE(engine.create(IndexBufferDesc{ .indexCount = 3, .data = std::as_bytes(std::span(corners)) }));
+    const std::vector<std::string> errors = engine.takeErrors();
+    ASSERT_EQ(errors.size(), 1u);
+    EXPECT_TRUE(contains(errors[0], "2^20 objects of one type")) << errors[0];
+    for (const backend::BufferHandle handle : taken) stream.free(handle);
+    const auto model = loadGltf(engine, file);
+    ASSERT_TRUE(model.ok()) << model.error().message;
+    EXPECT_EQ(model->renderableCount(), 2u);
+}
+
 TEST(FailingAllocator, FailsTheAllocationThatItWasAskedFor) {
     AllocationFailure failure(Whose::App, 2);
     void* first = ::operator new(8); // called by name: pairs of new and delete may be optimised away
