@@ -116,7 +116,7 @@ void destroyDefaultObjects(Engine::Impl& engine) {
     engine.stream->destroy(engine.pending, engine.defaults.instanceIds);
     for (auto const& [key, material] : engine.engineMaterials) {
         engine.pipelines.forget(engine.pending, engine.materials.get(material));
-        engine.materials.remove(material);
+        engine.removeMaterial(material);
     }
     engine.engineMaterials.clear();
 }

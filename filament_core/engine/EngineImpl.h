@@ -10,6 +10,7 @@
 #include "filament_core/engine/HandleTable.h"
 #include "filament_core/engine/SamplerCache.h"
 #include "filament_core/engine/materials/CompileQueue.h"
+#include "filament_core/engine/materials/MaterialNumbers.h"
 #include "filament_core/passes/Pipelines.h"
 #include "filament_core/scene/SceneData.h"
 #include "jobsystem/Affinity.h"
@@ -137,6 +138,7 @@ struct Engine::Impl {
     Texture toneTable(ToneMapper mapper, uint32_t size);
     Result<Compilation> compile(Material material, CompileDesc const& desc);
     Result<Material> createMaterial(MaterialDesc const& desc);
+    void removeMaterial(Material material) noexcept;
     /// The package of an engine material, exact or plain as EngineOptions::exactShaders says.
     std::span<const std::byte> enginePackage(std::string_view name) const;
     /// A post-process or sky material of the engine with an int and a bool constant, made once.
@@ -193,7 +195,8 @@ struct Engine::Impl {
     uint64_t depthStateChanges = 0;                  ///< of instances; they change the order in which scenes draw
     std::vector<MaterialInstance> dirtyInstances;
     std::array<bool, scene::kTextureFilters> filtersInUse{ true }; ///< by TextureFilter: that of any frame so far
-    uint32_t nextMaterialId = 0, nextInstanceId = 0;
+    engine::MaterialNumbers materialNumbers;
+    uint32_t nextInstanceId = 0;
 };
 
 template <class F>

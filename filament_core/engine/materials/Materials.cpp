@@ -39,8 +39,18 @@ Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     const Result<void> fits = engine::checkSamplers(*loaded, stream->info().limits.maxTextureUnits, device.device);
     if (!fits) return fits.error();
     explainScreenSpace(*loaded);
-    loaded->id = nextMaterialId++;
-    return materials.add(std::move(*loaded));
+    loaded->id = materialNumbers.take();
+    try {
+        return materials.add(std::move(*loaded));
+    } catch (...) {
+        materialNumbers.giveBack(loaded->id);
+        throw;
+    }
+}
+
+void Engine::Impl::removeMaterial(Material material) noexcept {
+    materialNumbers.giveBack(materials.get(material).id); // every cache has forgotten it
+    materials.remove(material);
 }
 
 std::span<const std::byte> Engine::Impl::enginePackage(std::string_view name) const {
@@ -56,7 +66,7 @@ Material Engine::Impl::engineMaterial(std::string_view package, std::vector<Mate
     try {
         engineMaterials.emplace(key, *material);
     } catch (...) {
-        materials.remove(*material);
+        removeMaterial(*material);
         throw;
     }
     return *material;
@@ -85,7 +95,7 @@ void Engine::destroy(Material material) {
     FILAMENT_ASSERT(state.instanceCount == 0, "the instances of a material are destroyed before it");
     mImpl->compilations.forget(state);
     mImpl->pipelines.forget(mImpl->pending, state);
-    mImpl->materials.remove(material);
+    mImpl->removeMaterial(material);
 }
 
 } // namespace filament

@@ -135,6 +135,22 @@ TEST(DoubleSided, AMaterialThatDoesNotMentionItSaysHowToAllowIt) {
     EXPECT_THAT(done.error().message, testing::HasSubstr("set doubleSided : true or doubleSided : false"));
 }
 
+// ------------------------------------------------------------------------------------------ destroyed materials
+
+TEST(DestroyedMaterial, LeavesItsPlaceToOneThatDrawsItself) {
+    auto engine = test::makeEngine(Backend::Vulkan);
+    ASSERT_TRUE(engine);
+    for (const float4 color : { kRed, kGreen, kBlue }) {
+        MaterialStage stage(*engine); // takes its material along
+        stage.add(
+                stage.material(vertexColored("", fmt::format("material.baseColor = vec4({:.2f}, {:.2f}, {:.2f}, 1.0);",
+                                                             color.x, color.y, color.z))),
+                { { 0, float4(1) } });
+        EXPECT_EQ(centerPixel(test::renderLinear(*engine, stage.scene, stage.view)), float4(float3(color), 1));
+    }
+    test::expectNoErrors(*engine);
+}
+
 // ------------------------------------------------------------------------------------------ flat
 
 TEST(FlatInterpolation, ATriangleHasTheColorAndTheVariablesOfItsLastVertex) {
