@@ -44,8 +44,8 @@ struct EnvironmentStatistics {
     bool fromCache = false;
 };
 
-/// A cosine lobe is linear to 0.3 % between texels 6 degrees apart.
-inline constexpr uint32_t kIrradianceFaceSize = 16;
+/// Between texels 3 degrees apart a cosine lobe is linear to 0.1 %, but at the horizon of small lamps it bends.
+inline constexpr uint32_t kIrradianceFaceSize = 32;
 
 struct EnvironmentData {
     Image specular;   ///< cube
