@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "framegraph/Explain.h"
 
+#include "framegraph/Memory.h"
+
 #include <fmt/format.h>
 
 #include <iterator>
@@ -104,9 +106,7 @@ void putPasses(Text text, CompiledGraph const& plan) {
     fmt::format_to(text, "passes: {} declared, {} run in {} groups\n", plan.passes.size(), plan.order.size(),
                    plan.groups.size());
     for (size_t i = 0; i < plan.passes.size(); ++i) {
-        PassDecision const& decision = plan.passes[i];
-        fmt::format_to(text, "  {} '{}' {}{}\n", i, plan.graph->passes()[i].name, reasonOf(plan, decision),
-                       mergeOf(decision.merge));
+        fmt::format_to(text, "  {} '{}' {}\n", i, plan.graph->passes()[i].name, describePass(plan, i));
     }
 }
 
@@ -179,6 +179,14 @@ void putTextures(Text text, CompiledGraph const& plan) {
         if (!texture.isImported && texture.history == HistoryRole::None) putSharing(text, plan, i);
         fmt::format_to(text, "\n");
     }
+}
+
+void putMemory(Text text, CompiledGraph const& plan) {
+    const AttachmentMemory memory = attachmentMemory(plan);
+    constexpr double kMegabyte = 1e6;
+    fmt::format_to(text, "memory: {:.2f} MB of textures, {:.2f} MB of them in the tile; sharing saves {:.2f} MB\n",
+                   static_cast<double>(memory.bytes) / kMegabyte, static_cast<double>(memory.inTile) / kMegabyte,
+                   static_cast<double>(memory.saved) / kMegabyte);
 }
 
 const char* nameOf(BufferUse use) {
@@ -277,12 +285,18 @@ void putEdges(Text text, CompiledGraph const& plan) {
 
 } // namespace
 
+std::string describePass(CompiledGraph const& plan, size_t pass) {
+    PassDecision const& decision = plan.passes[pass];
+    return reasonOf(plan, decision) + mergeOf(decision.merge);
+}
+
 std::string toText(CompiledGraph const& plan) {
     std::string result;
     const Text text(result);
     putPasses(text, plan);
     putGroups(text, plan);
     putTextures(text, plan);
+    putMemory(text, plan);
     putBuffers(text, plan);
     return result;
 }

@@ -3,6 +3,9 @@
 
 #include "base/Result.h"
 #include "framegraph/Explain.h"
+#include "framegraph/Memory.h"
+
+#include <algorithm>
 
 namespace filament::engine {
 
@@ -17,14 +20,32 @@ void add(FrameSummary::Totals& totals, prepare::ViewPacket const& view) {
 
 constexpr std::array<const char*, prepare::kViewKinds> kKindNames{ "color", "depth", "shadow" };
 
+/// Timers are of groups: the first pass of a group has its time.
+double millisecondsOf(framegraph::CompiledGraph const& plan, size_t pass, std::span<const PassTiming> times) {
+    framegraph::PassDecision const& decision = plan.passes[pass];
+    if (!decision.runs() || plan.order[plan.groups[decision.group].first] != pass) return 0;
+    const auto found = std::ranges::find(times, plan.groups[decision.group].name, &PassTiming::name);
+    return found == times.end() ? 0 : found->gpuMilliseconds;
+}
+
+std::string table(std::vector<EffectDecision> const& decisions) {
+    std::string text =
+            fmt::format("{:<18}{:<12}{:>10}{:>10}  {}\n", "effect or pass", "state", "device ms", "MB", "why");
+    for (EffectDecision const& one : decisions) {
+        const std::string time = one.gpuMilliseconds > 0 ? fmt::format("{:.2f}", one.gpuMilliseconds) : "";
+        const std::string size =
+                one.attachmentBytes > 0 ? fmt::format("{:.2f}", static_cast<double>(one.attachmentBytes) * 1e-6) : "";
+        text += fmt::format("{:<18}{:<12}{:>10}{:>10}  {}\n", one.name, toString(one.state), time, size, one.reason);
+    }
+    return text;
+}
+
 } // namespace
 
 FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, framegraph::CompiledGraph const& plan) {
-    FrameSummary summary{ .counts = packet.mainView().counts,
-                          .hasSky = static_cast<bool>(packet.environment.sky),
-                          .hasIndirectLight = static_cast<bool>(packet.environment.specular) };
+    FrameSummary summary{ .counts = packet.mainView().counts, .demand = packet.demand };
     add(summary.main, packet.mainView());
-    summary.main.draws += summary.hasSky ? 1 : 0;
+    summary.main.draws += summary.demand.needs(prepare::Effect::Sky) ? 1 : 0;
     FrameSummary::Totals all = summary.main;
     for (prepare::ViewPacket const& view : packet.views.subspan(1)) {
         add(summary.others[static_cast<size_t>(view.kind)], view);
@@ -44,22 +65,35 @@ FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, frame
     return summary;
 }
 
-std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const& plan) {
+std::vector<EffectDecision> decisions(FrameSummary const& summary, framegraph::CompiledGraph const& plan,
+                                      std::span<const PassTiming> times) {
+    std::vector<EffectDecision> all;
+    for (size_t i = 0; i < prepare::kEffects; ++i) {
+        const auto effect = static_cast<prepare::Effect>(i);
+        prepare::EffectDemand const& demand = summary.demand.of(effect);
+        all.push_back({ .name = nameOf(effect),
+                        .state = demand.isNeeded ? EffectDecision::State::Needed : EffectDecision::State::NotNeeded,
+                        .reason = describe(effect, demand) });
+    }
+    for (size_t pass = 0; pass < plan.passes.size(); ++pass) {
+        const bool runs = plan.passes[pass].runs();
+        all.push_back({ .name = std::string(plan.graph->passes()[pass].name),
+                        .state = runs ? EffectDecision::State::Ran : EffectDecision::State::Culled,
+                        .reason = framegraph::describePass(plan, pass),
+                        .gpuMilliseconds = millisecondsOf(plan, pass, times),
+                        .attachmentBytes = framegraph::attachmentBytes(plan, pass) });
+    }
+    return all;
+}
+
+std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const& plan,
+                    std::span<const PassTiming> times) {
     prepare::ViewCounts const& counts = summary.counts;
     std::string text =
             fmt::format("frame {}: {} of {} renderables drawn, {} triangles in {} draws\n", summary.statistics.frame,
                         counts.visible, counts.renderables, counts.triangles, summary.main.draws);
     if (counts.outOfView) text += fmt::format("  {} not drawn: their boxes are out of view\n", counts.outOfView);
     if (counts.nothingToDraw) text += fmt::format("  {} not drawn: they have no indices\n", counts.nothingToDraw);
-    text += counts.suns ? fmt::format("sun: shaded{}\n", counts.suns > 1 ? ", the brightest of several" : "")
-                        : "sun: not in the shaders, the scene has none\n";
-    text += counts.lights ? fmt::format("punctual lights: {} reach the view, {} do not, {} beyond the limit\n",
-                                        counts.lights, counts.lightsOutOfView, counts.lightsOverLimit)
-                          : fmt::format("punctual lights: not in the shaders, none reaches the view ({} do not)\n",
-                                        counts.lightsOutOfView);
-    text += summary.hasIndirectLight ? "indirect light: from the environment\n"
-                                     : "indirect light: none, the scene has no environment\n";
-    text += summary.hasSky ? "sky: drawn where nothing covers it\n" : "sky: not drawn, the scene has none\n";
     for (size_t kind = 0; kind < summary.others.size(); ++kind) {
         FrameSummary::Totals const& others = summary.others[kind];
         if (others.views == 0) continue;
@@ -67,8 +101,18 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
                             kKindNames[kind], others.views > 1 ? "s" : "", others.visible, others.triangles,
                             others.draws);
     }
+    text += table(decisions(summary, plan, times));
     if (plan.graph) text += framegraph::toText(plan);
     return text;
 }
 
 } // namespace filament::engine
+
+namespace filament {
+
+const char* toString(EffectDecision::State state) {
+    static constexpr std::array<const char*, 4> kWords{ "needed", "not needed", "ran", "culled" };
+    return kWords[static_cast<size_t>(state)];
+}
+
+} // namespace filament

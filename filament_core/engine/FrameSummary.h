@@ -10,7 +10,9 @@
 #include <filament/Renderer.h>
 
 #include <array>
+#include <span>
 #include <string>
+#include <vector>
 
 namespace filament::engine {
 
@@ -25,12 +27,15 @@ struct FrameSummary {
     prepare::ViewCounts counts; ///< of the main view
     Totals main;
     std::array<Totals, prepare::kViewKinds> others{}; ///< by ViewKind, without the main view
-    bool hasSky = false, hasIndirectLight = false;
+    prepare::SceneDemand demand;
 };
 
 FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, framegraph::CompiledGraph const& plan);
 
-/// One decision per line. `plan`: of the same frame; ignored if it has no graph.
-std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const& plan);
+/// `plan`: of the same frame; ignored if it has no graph. `times`: of any frame, by name of a group of passes.
+std::vector<EffectDecision> decisions(FrameSummary const& summary, framegraph::CompiledGraph const& plan,
+                                      std::span<const PassTiming> times = {});
+std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const& plan,
+                    std::span<const PassTiming> times = {});
 
 } // namespace filament::engine

@@ -127,4 +127,16 @@ std::vector<FrameTimings> FrameTimingLog::take() {
     return finished;
 }
 
+std::vector<PassTiming> FrameTimingLog::latestPasses() const {
+    Record const* latest = nullptr;
+    for (Record const& record : mRecords) {
+        const bool isTimed = !record.passes.empty() && record.waiting == 0;
+        if (isTimed && (!latest || record.frame > latest->frame)) latest = &record;
+    }
+    std::vector<PassTiming> passes;
+    if (!latest) return passes;
+    for (Pass const& pass : latest->passes) passes.push_back({ pass.name.data(), pass.milliseconds });
+    return passes;
+}
+
 } // namespace filament::engine

@@ -35,6 +35,8 @@ public:
     void add(uint64_t frame, Stamps const& stamps, std::span<const framegraph::PassTimer> timers);
     /// Frames whose replay has finished and whose timers have results.
     std::vector<FrameTimings> take();
+    /// Of the last frame whose timers have all been read, also if take() has returned it; empty: there is none.
+    std::vector<PassTiming> latestPasses() const;
 
 private:
     struct Pass {

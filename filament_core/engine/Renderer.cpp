@@ -215,7 +215,13 @@ Result<Image> Renderer::renderToImage(Scene const& scene, View const& view) {
 FrameStatistics Renderer::statistics() const { return mImpl->summary.statistics; }
 std::vector<FrameTimings> Renderer::takeTimings() { return mImpl->timings.take(); }
 
-std::string Renderer::explain() const { return engine::explain(mImpl->summary, mImpl->plan); }
+std::vector<EffectDecision> Renderer::decisions() const {
+    return engine::decisions(mImpl->summary, mImpl->plan, mImpl->timings.latestPasses());
+}
+
+std::string Renderer::explain() const {
+    return engine::explain(mImpl->summary, mImpl->plan, mImpl->timings.latestPasses());
+}
 
 std::string Renderer::graphviz() const {
     return mImpl->plan.graph ? framegraph::toGraphviz(mImpl->plan) : std::string();

@@ -39,7 +39,7 @@ Chosen choose(PassContext& pass, FrameContext const& context, PassBlock target) 
                           passGroup(pass, context, shader::PassKind::Unlit, target) };
     chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant);
     chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, view.blended, view.variant);
-    if (context.resources.skybox) {
+    if (context.packet.demand.needs(prepare::Effect::Sky)) {
         chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.skybox);
         chosen.skyGroup = skyGroup(pass, context);
     }

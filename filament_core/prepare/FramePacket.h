@@ -8,7 +8,9 @@
 #pragma once
 
 #include "backend/api/Handles.h"
+#include "filament_core/prepare/SceneDemand.h"
 #include "filament_core/prepare/SortKey.h"
+#include "filament_core/prepare/ViewCounts.h"
 #include "filament_core/prepare/ViewInput.h"
 #include "filament_core/scene/SceneData.h"
 #include "shaders/interface/ShaderInterface.h"
@@ -61,20 +63,6 @@ struct DeformationList {
     uint32_t bytes = 0;                       ///< of all blocks; 0: nothing visible is deformed
 };
 
-/// Of one view.
-struct ViewCounts {
-    uint32_t renderables = 0;
-    uint32_t visible = 0;
-    uint32_t outOfView = 0;      ///< their box is outside of the frustum
-    uint32_t nothingToDraw = 0;  ///< no indices, or a transform that collapses them
-    uint32_t blendedLeftOut = 0; ///< in view, but the view draws nothing that blends
-    uint32_t lights = 0;         ///< punctual lights that reach into the view
-    uint32_t lightsOutOfView = 0;
-    uint32_t lightsOverLimit = 0; ///< in view, but beyond kMaxPunctualLights: the dimmest
-    uint32_t suns = 0;
-    uint64_t triangles = 0;
-};
-
 /// What one view sees.
 struct ViewPacket {
     ViewKind kind = ViewKind::Color;
@@ -100,6 +88,7 @@ struct FramePacket {
     std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
     DeformationList deformations;      ///< of what any of the views sees, each once
     EnvironmentPacket environment;
+    SceneDemand demand; ///< of the main view
 
     /// Of the picture that the user asked for.
     ViewPacket const& mainView() const { return views[0]; }

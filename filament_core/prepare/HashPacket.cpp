@@ -39,7 +39,7 @@ uint64_t hashDeformations(DeformationList const& list, uint64_t seed) {
 uint64_t hashCounts(ViewCounts const& counts, uint64_t seed) {
     return hashAll(seed, counts.renderables, counts.visible, counts.outOfView, counts.nothingToDraw,
                    counts.blendedLeftOut, counts.lights, counts.lightsOutOfView, counts.lightsOverLimit, counts.suns,
-                   counts.triangles);
+                   counts.litDraws, counts.blendedDraws, counts.triangles);
 }
 
 uint64_t hashObjects(ObjectList const& objects, uint64_t seed) {

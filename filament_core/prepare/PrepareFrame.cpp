@@ -4,6 +4,8 @@
 #include "filament_core/prepare/DeformationData.h"
 #include "filament_core/prepare/PrepareView.h"
 
+#include <algorithm>
+
 namespace filament::prepare {
 namespace {
 
@@ -13,6 +15,19 @@ EnvironmentPacket environmentOf(scene::SceneData const& scene) {
              .sky = scene.skybox.cube,
              .storage = scene.indirectLight.storage,
              .skyIsRgbm = scene.skybox.isRgbm };
+}
+
+uint32_t countDeformed(DeformationList const& list) {
+    return static_cast<uint32_t>(std::ranges::count_if(list.places, [](DeformationPlace const& place) {
+        return place.bones != kNowhere || place.weights != kNowhere;
+    }));
+}
+
+SceneDemand demandOf(FramePacket const& packet) {
+    return findDemand({ .counts = packet.mainView().counts,
+                        .hasIndirectLight = static_cast<bool>(packet.environment.specular),
+                        .hasSky = static_cast<bool>(packet.environment.sky),
+                        .deformed = countDeformed(packet.deformations) });
 }
 
 } // namespace
@@ -27,7 +42,9 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
         packets[i] = prepared.packet;
         visible[i] = prepared.visible;
     }
-    return { packets, placeDeformations(arena, scene, visible), environmentOf(scene) };
+    FramePacket packet{ packets, placeDeformations(arena, scene, visible), environmentOf(scene), {} };
+    packet.demand = demandOf(packet);
+    return packet;
 }
 
 } // namespace filament::prepare

@@ -6,6 +6,8 @@
 #include "filament_core/prepare/SortItems.h"
 #include "filament_core/prepare/ViewConstants.h"
 
+#include <algorithm>
+
 namespace filament::prepare {
 namespace {
 
@@ -17,7 +19,20 @@ scene::Lights const& lightsFor(ViewKind kind, scene::SceneData const& scene) {
     return isShaded(kind) ? scene.lights : kNone;
 }
 
+uint32_t countLit(std::span<const DrawCall> draws) {
+    return static_cast<uint32_t>(std::ranges::count_if(draws, [](DrawCall const& draw) {
+        return draw.material->material->package.shading != shader::ShadingModel::Unlit;
+    }));
+}
+
+void countDraws(DrawLists const& draws, ViewCounts& counts) {
+    counts.litDraws = countLit(draws.opaque) + countLit(draws.blended);
+    counts.blendedDraws = static_cast<uint32_t>(draws.blended.size());
+}
+
+/// Light that meets no lit surface is in no shader.
 uint8_t variantFor(ViewCounts const& counts) {
+    if (counts.litDraws == 0) return 0;
     return static_cast<uint8_t>((counts.suns ? shader::kVariantSun : 0) |
                                 (counts.lights ? shader::kVariantPunctual : 0));
 }
@@ -55,7 +70,9 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
     besideCulling.wait();
 
+    if (isShaded(view.kind)) countDraws(draws, packet.counts);
     packet.variant = variantFor(packet.counts);
+    if ((packet.variant & shader::kVariantPunctual) == 0) packet.lights = {};
     packet.objects = { order, renderables.placement, view.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;

@@ -295,6 +295,7 @@ Result<BackendRun> runBackend(Options const& options, Backend backend, std::file
     run.timings = stage.renderer().takeTimings();
     run.statistics = stage.renderer().statistics();
     run.explanation = stage.renderer().explain();
+    run.decisions = stage.renderer().decisions();
     if (const Result<void> measured = stage.measureCosts(run); !measured) return measured.error();
     run.errors = engine->takeErrors();
     if (!options.traceJobs.empty()) {

@@ -47,6 +47,7 @@ struct BackendRun {
     FrameStatistics statistics{};      ///< of the last frame
     EngineStatistics afterFirstFrame{}, atEnd{};
     std::string explanation;
+    std::vector<EffectDecision> decisions;   ///< of the last frame
     std::optional<QualityDecision> decision; ///< with --budget
     std::optional<QualityCosts> costs;       ///< with --measure-costs
 };

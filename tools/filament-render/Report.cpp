@@ -139,14 +139,28 @@ Json steadyJson(BackendRun const& run) {
              { "appAndDriverOverlapMs", overlapMilliseconds(frames) } };
 }
 
+Json decisionsJson(BackendRun const& run) {
+    Json decisions = Json::array();
+    for (EffectDecision const& one : run.decisions) {
+        decisions.push_back({ { "name", one.name },
+                              { "state", toString(one.state) },
+                              { "reason", one.reason },
+                              { "gpuMs", one.gpuMilliseconds },
+                              { "attachmentBytes", one.attachmentBytes } });
+    }
+    return decisions;
+}
+
 Json runJson(BackendRun const& run) {
     Json passes = Json::array(), frames = Json::array();
     for (PassTime const& pass : passTimes(run))
         passes.push_back({ { "name", pass.name }, { "gpuMs", toJson(pass.gpu) } });
     for (FrameTimings const& frame : run.timings) frames.push_back(toJson(frame));
-    return { { "device", run.device.device }, { "driver", run.device.driver }, { "start", startJson(run) },
-             { "counts", countsJson(run) },   { "steady", steadyJson(run) },   { "passes", std::move(passes) },
-             { "frames", std::move(frames) }, { "warnings", run.warnings },    { "errors", run.errors } };
+    return { { "device", run.device.device },     { "driver", run.device.driver },
+             { "start", startJson(run) },         { "counts", countsJson(run) },
+             { "steady", steadyJson(run) },       { "passes", std::move(passes) },
+             { "decisions", decisionsJson(run) }, { "frames", std::move(frames) },
+             { "warnings", run.warnings },        { "errors", run.errors } };
 }
 
 } // namespace

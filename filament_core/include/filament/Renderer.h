@@ -56,6 +56,18 @@ struct FrameStatistics {
     uint32_t passesRun = 0, passesCulled = 0;
 };
 
+/// What became of an effect or a pass in a frame.
+struct EffectDecision {
+    enum class State : uint8_t { Needed, NotNeeded, Ran, Culled }; ///< the first two: effects; the others: passes
+
+    std::string name; ///< "punctual lights", "tone map"
+    State state = State::NotNeeded;
+    std::string reason;
+    double gpuMilliseconds = 0;   ///< of a pass, and those merged with it, in the last frame that was timed; 0: unknown
+    uint64_t attachmentBytes = 0; ///< of a pass: what it draws to
+};
+const char* toString(EffectDecision::State state);
+
 struct RendererOptions {
     /// Times every pass on the device (FrameTimings::passes). Costs two flushes per pass on OpenGL ES.
     bool passTimers = false;
@@ -89,7 +101,10 @@ public:
 
     FrameStatistics statistics() const;
     std::vector<FrameTimings> takeTimings(); ///< finished frames, oldest first
-    /// What the last frame ran, what it did not, and why: one decision per line.
+    /// What the last frame needed, what it did not, and why: effects first, then passes in the order of their
+    /// declaration. An effect that is not needed costs nothing: no command, no byte, no code.
+    std::vector<EffectDecision> decisions() const;
+    /// decisions() as a table, followed by the frame graph in words.
     std::string explain() const;
     /// The frame graph of the last frame in graphviz format.
     std::string graphviz() const;

@@ -171,7 +171,16 @@ TEST_P(EngineTest, ExplainsWhatItLeftOut) {
     const std::string text = renderer.explain();
     EXPECT_NE(text.find("0 of 4 renderables"), std::string::npos) << text;
     EXPECT_NE(text.find("4 not drawn: their boxes are out of view"), std::string::npos) << text;
-    EXPECT_NE(text.find("sky: not drawn"), std::string::npos) << text;
+    for (EffectDecision const& one : renderer.decisions()) {
+        const bool isEffect =
+                one.state == EffectDecision::State::Needed || one.state == EffectDecision::State::NotNeeded;
+        if (isEffect)
+            EXPECT_EQ(one.state, EffectDecision::State::NotNeeded) << one.name << ": " << one.reason;
+        else
+            EXPECT_GT(one.attachmentBytes, 0u) << one.name;
+        EXPECT_NE(text.find(one.name), std::string::npos) << text;
+        EXPECT_NE(text.find(one.reason), std::string::npos) << text;
+    }
     EXPECT_EQ(renderer.statistics().culled, 4u);
     EXPECT_NE(renderer.graphviz().find("digraph"), std::string::npos);
 }

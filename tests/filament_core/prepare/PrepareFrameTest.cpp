@@ -132,6 +132,7 @@ TEST_F(PrepareFrameTest, IsTheSameForAnyNumberOfWorkers) {
 }
 
 TEST_F(PrepareFrameTest, PreExposesLightsInFullPrecision) {
+    add({ 0, 0, 0 }, material()); // lit, in view
     addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, -1, 0 }, .intensity = 110'000 });
     const ViewPacket packet = prepare();
     EXPECT_NEAR(packet.uniforms.sunIlluminance.x, 2.86462f, 1e-4f);
@@ -148,6 +149,7 @@ TEST_F(PrepareFrameTest, ShadesWithTheBrightestSun) {
 }
 
 TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {
+    add({ 0, 0, 0 }, material()); // lit, in view
     for (uint32_t i = 0; i < shader::kMaxPunctualLights + 44; ++i) {
         addLight(scene, { .type = LightRecord::Type::Point, .intensity = 1.0f + static_cast<float>(i) });
     }
@@ -159,7 +161,26 @@ TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {
         EXPECT_GE(light.colorIntensity.x, 45.0f * exposure * 0.999f);
 }
 
+TEST_F(PrepareFrameTest, LeavesLightOutWhereNothingLitIsVisible) {
+    scene::MaterialInstance* unlit = material();
+    unlit->material->package.shading = shader::ShadingModel::Unlit;
+    add({ 0, 0, 0 }, unlit);
+    addLight(scene, { .type = LightRecord::Type::Sun, .intensity = 20 });
+    addLight(scene, { .type = LightRecord::Type::Point, .intensity = 1 });
+    ViewPacket packet = prepare();
+    EXPECT_EQ(packet.variant, 0);
+    EXPECT_TRUE(packet.lights.empty());
+    EXPECT_EQ(packet.counts.lights, 1u) << "it reaches the view";
+    add({ 0, 0, 40 }, material()); // behind the camera
+    EXPECT_EQ(prepare().variant, 0);
+    add({ 1, 0, 0 }, material(shader::Blending::Transparent));
+    packet = prepare();
+    EXPECT_EQ(packet.variant, shader::kVariantSun | shader::kVariantPunctual);
+    EXPECT_EQ(packet.lights.size(), 1u);
+}
+
 TEST_F(PrepareFrameTest, DropsALightWhoseRangeEndsBeforeTheView) {
+    add({ 0, 0, 0 }, material()); // lit, in view
     addLight(scene,
              { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 30 }, .intensity = 1, .rangeMeters = 5 });
     addLight(scene,

@@ -101,6 +101,7 @@ TEST_F(PrepareViewsTest, AViewIsPreparedAsIfItWereAlone) {
 }
 
 TEST_F(PrepareViewsTest, LightsAreThoseOfTheViewsOwnCamera) {
+    add({ 0, 0, 0 }, material()), add({ 0, 0, 25 }, material()); // lit, one in each view
     addLight(scene,
              { .type = LightRecord::Type::Point, .positionWorld = { 0, 0, 0 }, .intensity = 1, .rangeMeters = 5 });
     addLight(scene,

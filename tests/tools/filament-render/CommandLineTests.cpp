@@ -127,10 +127,16 @@ TEST_F(CommandLine, SteadyFramesWithASkyTakeNothingFromTheHeap) {
                                     "--timing --explain" +
                                     std::string(more));
         ASSERT_EQ(outcome.status, 0) << outcome.errors;
-        EXPECT_THAT(outcome.output, HasSubstr("sky: drawn where nothing covers it"));
+        EXPECT_THAT(outcome.output, HasSubstr("fills what nothing covers"));
         const auto report = nlohmann::json::parse(textOf(sFolder / "sky" / "report.json"));
         for (const char* backend : { "vulkan", "gles" }) {
             auto const& steady = report["backends"][backend]["steady"];
+            auto const& decisions = report["backends"][backend]["decisions"];
+            ASSERT_GE(decisions.size(), 8u) << "six effects and two passes";
+            EXPECT_EQ(decisions[3]["name"], "sky");
+            EXPECT_EQ(decisions[3]["state"], "needed");
+            EXPECT_EQ(decisions[6]["name"], "color");
+            EXPECT_GT(decisions[6]["gpuMs"], 0.0);
             EXPECT_GE(steady["frames"], 10) << backend;
             EXPECT_EQ(steady["heapAllocations"], 0) << backend << more;
         }

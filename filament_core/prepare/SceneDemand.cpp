@@ -1,0 +1,66 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/SceneDemand.h"
+
+#include "base/Result.h"
+
+namespace filament::prepare {
+namespace {
+
+/// `reaching` lights of a kind reach into the view, `others` do not or are left out.
+EffectDemand demandOfLights(uint32_t reaching, uint32_t others, uint32_t litDraws) {
+    if (reaching == 0) return { false, others ? DemandReason::OutOfView : DemandReason::NotInScene, 0, others };
+    if (litDraws == 0) return { false, DemandReason::NothingLitVisible, reaching, others };
+    return { true, DemandReason::ReachesLitSurfaces, reaching, others };
+}
+
+EffectDemand demandOfDraws(uint32_t draws) {
+    return draws ? EffectDemand{ true, DemandReason::IsVisible, draws } : EffectDemand{};
+}
+
+std::string describeLights(EffectDemand const& demand) {
+    if (demand.others == 0) return fmt::format("{} in the scene", demand.count);
+    return fmt::format("{} of {}", demand.count, demand.count + demand.others);
+}
+
+} // namespace
+
+SceneDemand findDemand(DemandInput const& input) {
+    ViewCounts const& counts = input.counts;
+    SceneDemand demand;
+    const auto set = [&](Effect effect, EffectDemand const& of) { demand.effects[static_cast<size_t>(effect)] = of; };
+    set(Effect::Sun, demandOfLights(counts.suns > 0 ? 1 : 0, counts.suns > 1 ? counts.suns - 1 : 0, counts.litDraws));
+    set(Effect::PunctualLights,
+        demandOfLights(counts.lights, counts.lightsOutOfView + counts.lightsOverLimit, counts.litDraws));
+    set(Effect::IndirectLight, demandOfLights(input.hasIndirectLight ? 1 : 0, 0, counts.litDraws));
+    if (input.hasSky) set(Effect::Sky, { true, DemandReason::FillsBackground });
+    set(Effect::Blending, demandOfDraws(counts.blendedDraws));
+    set(Effect::Deformation, demandOfDraws(input.deformed));
+    return demand;
+}
+
+const char* nameOf(Effect effect) {
+    static constexpr std::array<const char*, kEffects> kNames{ "sun", "punctual lights", "indirect light",
+                                                               "sky", "blending",        "deformation" };
+    return kNames[static_cast<size_t>(effect)];
+}
+
+std::string describe(Effect effect, EffectDemand const& demand) {
+    switch (demand.reason) {
+    case DemandReason::ReachesLitSurfaces:
+        return effect == Effect::IndirectLight ? "the environment lights what is visible"
+                                               : describeLights(demand) + " shine on what is visible";
+    case DemandReason::IsVisible:
+        return fmt::format("{} in view", demand.count);
+    case DemandReason::FillsBackground:
+        return "fills what nothing covers";
+    case DemandReason::NotInScene:
+        return effect == Effect::Blending || effect == Effect::Deformation ? "none in view" : "none in the scene";
+    case DemandReason::OutOfView:
+        return fmt::format("none of {} reaches into the view", demand.others);
+    case DemandReason::NothingLitVisible:
+        return "no lit surface is visible";
+    }
+    return {};
+}
+
+} // namespace filament::prepare

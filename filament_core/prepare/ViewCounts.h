@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ViewCounts: what preparing a view has found and left out. A plain value.
+#pragma once
+
+#include <cstdint>
+
+namespace filament::prepare {
+
+/// Of one view.
+struct ViewCounts {
+    uint32_t renderables = 0;
+    uint32_t visible = 0;
+    uint32_t outOfView = 0;      ///< their box is outside of the frustum
+    uint32_t nothingToDraw = 0;  ///< no indices, or a transform that collapses them
+    uint32_t blendedLeftOut = 0; ///< in view, but the view draws nothing that blends
+    uint32_t lights = 0;         ///< punctual lights that reach into the view
+    uint32_t lightsOutOfView = 0;
+    uint32_t lightsOverLimit = 0; ///< in view, but beyond kMaxPunctualLights: the dimmest
+    uint32_t suns = 0;
+    uint32_t litDraws = 0, blendedDraws = 0; ///< shaded views: draws whose material is lit; those behind the sky
+    uint64_t triangles = 0;
+};
+
+} // namespace filament::prepare

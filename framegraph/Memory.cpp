@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "framegraph/Memory.h"
+
+#include <algorithm>
+
+namespace filament::framegraph {
+
+uint64_t bytesOf(GraphTextureDesc const& desc) {
+    backend::FormatInfo const& format = backend::formatInfo(desc.format);
+    uint64_t texels = 0;
+    for (uint32_t level = 0; level < desc.levels; ++level)
+        texels += uint64_t{ std::max(1u, desc.width >> level) } * std::max(1u, desc.height >> level);
+    return texels * desc.layers * desc.samples * format.bytesPerBlock;
+}
+
+AttachmentMemory attachmentMemory(CompiledGraph const& plan) {
+    AttachmentMemory memory;
+    for (size_t i = 0; i < plan.textures.size(); ++i) {
+        TexturePlan const& texture = plan.textures[i];
+        Texture const& declared = plan.graph->textures()[i];
+        if (declared.isImported || !texture.lifetime.isUsed()) continue;
+        const uint64_t bytes = bytesOf(declared.desc);
+        const auto before = plan.textures.first(i);
+        const bool shares = std::ranges::find(before, texture.handle, &TexturePlan::handle) != before.end();
+        (shares ? memory.saved : memory.bytes) += bytes;
+        if (!shares && has(texture.usage, backend::TextureUsage::Transient)) memory.inTile += bytes;
+    }
+    return memory;
+}
+
+uint64_t attachmentBytes(CompiledGraph const& plan, size_t pass) {
+    if (!plan.passes[pass].runs()) return 0;
+    uint64_t bytes = 0;
+    for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
+        if (isAttachment(access.kind)) bytes += bytesOf(plan.graph->texture(access.texture).desc);
+    }
+    return bytes;
+}
+
+} // namespace filament::framegraph

@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+/// attachmentMemory: what the textures of a plan occupy. For reports.
+///   In      a compiled graph.   Thread: one at a time.   Memory: none.   Fails: never.
+#pragma once
+
+#include "framegraph/CompiledGraph.h"
+
+#include <cstdint>
+
+namespace filament::framegraph {
+
+/// Of all levels, layers and samples.
+uint64_t bytesOf(GraphTextureDesc const& desc);
+
+struct AttachmentMemory {
+    uint64_t bytes = 0;  ///< of the graph's own textures that are used, each once
+    uint64_t inTile = 0; ///< of those, what devices with tile memory need no room for
+    uint64_t saved = 0;  ///< by textures that share memory with others whose lives do not overlap
+};
+AttachmentMemory attachmentMemory(CompiledGraph const& plan);
+
+/// What the attachments of a pass that runs occupy; 0 for one that does not.
+uint64_t attachmentBytes(CompiledGraph const& plan, size_t pass);
+
+} // namespace filament::framegraph
