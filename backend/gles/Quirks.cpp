@@ -104,6 +104,8 @@ DeviceInfo describeDevice(Api const& gl, Quirks const& quirks) {
     limits.maxTextureUnits = static_cast<uint32_t>(integer(gl, GL_MAX_TEXTURE_IMAGE_UNITS));
     limits.maxStorageBuffers = static_cast<uint32_t>(std::min(
             { integer(gl, GL_MAX_COMPUTE_SHADER_STORAGE_BLOCKS), integer(gl, GL_MAX_SHADER_STORAGE_BUFFER_BINDINGS) }));
+    limits.maxFragmentStorageBuffers = std::min(
+            limits.maxStorageBuffers, static_cast<uint32_t>(integer(gl, GL_MAX_FRAGMENT_SHADER_STORAGE_BLOCKS)));
     limits.maxStorageBlockBytes = static_cast<uint32_t>(integer(gl, GL_MAX_SHADER_STORAGE_BLOCK_SIZE));
     limits.storageOffsetAlignment = static_cast<uint32_t>(integer(gl, GL_SHADER_STORAGE_BUFFER_OFFSET_ALIGNMENT));
     limits.maxDispatchGroups = maxDispatchGroups(gl);

@@ -185,8 +185,8 @@ void Validator::execute(CmdCreateProgram const& command) {
             storage += binding.type == BindingType::StorageBuffer;
         }
     }
-    require(storage <= mInfo.limits.maxStorageBuffers, Harm::Crash, "{} storage buffers; this device has {} blocks",
-            storage, mInfo.limits.maxStorageBuffers);
+    const uint32_t mostStorage = isCompute ? mInfo.limits.maxStorageBuffers : mInfo.limits.maxFragmentStorageBuffers;
+    require(storage <= mostStorage, Harm::Crash, "{} storage buffers; this device has {} blocks", storage, mostStorage);
     require(textures <= mInfo.limits.maxTextureUnits, Harm::Crash, "{} sampled textures; this device has {} units",
             textures, mInfo.limits.maxTextureUnits);
     for (size_t i = 0; i < desc.constants.size(); ++i) {

@@ -34,6 +34,7 @@ DeviceInfo describeNullDevice() {
                     .uniformOffsetAlignment = 256,
                     .maxTextureUnits = 32,
                     .maxStorageBuffers = 16,
+                    .maxFragmentStorageBuffers = 16,
                     .maxStorageBlockBytes = 1u << 27,
                     .storageOffsetAlignment = 256,
                     .maxDispatchGroups = 65535,

@@ -62,6 +62,7 @@ void readProperties(Instance const& instance, ExtensionList const& extensions, P
     info.limits.maxTextureUnits =
             std::min(limits.maxPerStageDescriptorSamplers, limits.maxPerStageDescriptorSampledImages);
     info.limits.maxStorageBuffers = limits.maxPerStageDescriptorStorageBuffers;
+    info.limits.maxFragmentStorageBuffers = limits.maxPerStageDescriptorStorageBuffers;
     info.limits.maxStorageBlockBytes = limits.maxStorageBufferRange;
     info.limits.storageOffsetAlignment = static_cast<uint32_t>(limits.minStorageBufferOffsetAlignment);
     info.limits.maxDispatchGroups = std::min({ limits.maxComputeWorkGroupCount[0], limits.maxComputeWorkGroupCount[1],
