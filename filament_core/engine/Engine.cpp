@@ -11,6 +11,7 @@
 #include "base/Result.h"
 #include "filament_core/assets/environment/Environment.h"
 #include "filament_core/engine/DefaultObjects.h"
+#include "filament_core/engine/DeviceNeeds.h"
 #include "filament_core/engine/EngineImpl.h"
 #include "jobsystem/JobTrace.h"
 
@@ -226,6 +227,7 @@ Result<Engine> Engine::create(EngineOptions const& options) {
                                                                      .repinAfterWaits = options.repinAfterWaits,
                                                                      .hashStreams = options.hashFrames });
         if (!stream) return stream.error();
+        if (Result<void> usable = engine::checkDevice((*stream)->info()); !usable) return usable.error();
         return Engine(std::make_unique<Impl>(options, std::move(*stream)));
     });
 }

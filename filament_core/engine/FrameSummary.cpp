@@ -65,6 +65,20 @@ FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, frame
     return summary;
 }
 
+namespace {
+
+std::string explainFroxels(prepare::ViewCounts const& counts) {
+    if (counts.froxels == 0) return {};
+    std::string text = fmt::format("froxels: {} with {} entries, {} lights in the longest list\n", counts.froxels,
+                                   counts.froxelEntries, counts.longestFroxel);
+    if (counts.fullFroxels)
+        text += fmt::format("  {} are full: {} lights left out of them, the dimmest of each\n", counts.fullFroxels,
+                            counts.lightsLeftOut);
+    return text;
+}
+
+} // namespace
+
 std::vector<EffectDecision> decisions(FrameSummary const& summary, framegraph::CompiledGraph const& plan,
                                       std::span<const PassTiming> times) {
     std::vector<EffectDecision> all;
@@ -94,6 +108,7 @@ std::string explain(FrameSummary const& summary, framegraph::CompiledGraph const
                         counts.visible, counts.renderables, counts.triangles, summary.main.draws);
     if (counts.outOfView) text += fmt::format("  {} not drawn: their boxes are out of view\n", counts.outOfView);
     if (counts.nothingToDraw) text += fmt::format("  {} not drawn: they have no indices\n", counts.nothingToDraw);
+    text += explainFroxels(counts);
     for (size_t kind = 0; kind < summary.others.size(); ++kind) {
         FrameSummary::Totals const& others = summary.others[kind];
         if (others.views == 0) continue;

@@ -18,8 +18,9 @@ using shader::kObjectsPerWindow;
 constexpr uint32_t kAlignment = 256;
 constexpr uint32_t kUniformBytes = (sizeof(FrameUniforms) + kAlignment - 1) / kAlignment * kAlignment;
 constexpr uint32_t kWindowBytes = sizeof(shader::ObjectUniforms);
-constexpr uint32_t kLightBytes = sizeof(shader::LightUniforms);
-static_assert(kWindowBytes % kAlignment == 0 && kLightBytes % kAlignment == 0);
+constexpr uint32_t kLightBytes = sizeof(shader::PunctualLight);
+constexpr uint32_t kWordBytes = sizeof(uint32_t);
+static_assert(kWindowBytes % kAlignment == 0);
 
 // At least one, so that there is something to bind.
 uint32_t windowsOf(prepare::ViewPacket const& view) {
@@ -45,14 +46,13 @@ void FrameData::release(CommandBuffer& commands, Blocks& blocks) {
 
 // Each step is remembered as soon as it is recorded: if a frame runs out of memory here, it is left out, and the next
 // one creates the rest.
-void FrameData::reserve(CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, uint32_t blockBytes,
-                        const char* name) {
+void FrameData::reserve(CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, BlockKind const& kind) {
     if (count <= blocks.capacity) return;
     const uint32_t grown = std::max(count, blocks.capacity * 2);
     release(commands, set.view);
     release(commands, blocks);
     NewHandle handle(mStream, mStream.allocateBuffer());
-    commands.record(CmdCreateBuffer{ handle, { uint64_t{ grown } * blockBytes, BufferUsage::Uniform, name } });
+    commands.record(CmdCreateBuffer{ handle, { uint64_t{ grown } * kind.bytes, kind.usage, kind.name } });
     blocks = { handle.keep(), grown };
 }
 
@@ -60,23 +60,30 @@ FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
     Needs needs;
     mViews.clear();
     for (prepare::ViewPacket const& view : packet.views) {
-        // A view without lights reads none, so it can bind any block.
         mViews.push_back({ .uniforms = needs.views * kUniformBytes,
                            .objects = needs.windows * kWindowBytes,
-                           .lights = view.lights.empty() ? 0 : needs.lights * kLightBytes });
+                           .firstLight = needs.lights,
+                           .firstWord = needs.words });
         ++needs.views;
-        needs.lights += view.lights.empty() ? 0 : 1;
+        needs.lights += static_cast<uint32_t>(view.lights.size());
+        needs.words += static_cast<uint32_t>(view.froxels.words.size());
         needs.windows += windowsOf(view);
     }
-    needs.lights = std::max(1u, needs.lights);
+    needs.lights = std::max(1u, needs.lights); // something to bind
+    needs.words = std::max(1u, needs.words);
     return needs;
 }
 
 void FrameData::bindViews(CommandBuffer& commands, Set& set) {
-    const std::array<BindGroupEntry, 3> entries{ {
+    const std::array<BindGroupEntry, 4> entries{ {
             { .binding = shader::kBindingFrame, .buffer = set.uniforms.buffer, .size = sizeof(FrameUniforms) },
             { .binding = shader::kBindingObjects, .buffer = set.objects.buffer, .size = kWindowBytes },
-            { .binding = shader::kBindingLights, .buffer = set.lights.buffer, .size = kLightBytes },
+            { .binding = shader::kBindingLights,
+              .buffer = set.lights.buffer,
+              .size = set.lights.capacity * kLightBytes },
+            { .binding = shader::kBindingFroxels,
+              .buffer = set.froxels.buffer,
+              .size = set.froxels.capacity * kWordBytes },
     } };
     NewHandle view(mStream, mStream.allocateBindGroup());
     commands.record(CmdCreateBindGroup{ view, { shader::viewGroupLayout(), entries, "view" } });
@@ -100,29 +107,40 @@ void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Se
     }
 }
 
+// The only bytes of lights and froxels that a frame uploads are those that it uses.
+void FrameData::uploadView(CommandBuffer& commands, Set const& set, prepare::ViewPacket const& view,
+                           ViewGroup const& group) {
+    FrameUniforms uniforms = view.uniforms;
+    uniforms.froxelPlaces.y = static_cast<float>(group.firstLight);
+    uniforms.froxelPlaces.z = static_cast<float>(group.firstWord);
+    commands.record(CmdUpdateBuffer{ set.uniforms.buffer, group.uniforms, bytesOf(uniforms) });
+    const std::span lights = std::as_bytes(view.lights), words = std::as_bytes(view.froxels.words);
+    if (!lights.empty())
+        commands.record(CmdUpdateBuffer{ set.lights.buffer, uint64_t{ group.firstLight } * kLightBytes, lights });
+    if (!words.empty())
+        commands.record(CmdUpdateBuffer{ set.froxels.buffer, uint64_t{ group.firstWord } * kWordBytes, words });
+}
+
 void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::FramePacket const& packet) {
     mCurrent = (mCurrent + 1) % static_cast<uint32_t>(mSets.size());
     Set& set = mSets[mCurrent];
     const Needs needs = placeViews(packet);
-    reserve(commands, set, set.objects, needs.windows, kWindowBytes, "objects");
-    reserve(commands, set, set.uniforms, needs.views, kUniformBytes, "frame");
-    reserve(commands, set, set.lights, needs.lights, kLightBytes, "lights");
+    reserve(commands, set, set.objects, needs.windows, { kWindowBytes, BufferUsage::Uniform, "objects" });
+    reserve(commands, set, set.uniforms, needs.views, { kUniformBytes, BufferUsage::Uniform, "frame" });
+    reserve(commands, set, set.lights, needs.lights, { kLightBytes, BufferUsage::Storage, "lights" });
+    reserve(commands, set, set.froxels, needs.words, { kWordBytes, BufferUsage::Storage, "froxels" });
     if (!set.view) bindViews(commands, set);
-
     for (size_t i = 0; i < mViews.size(); ++i) {
-        prepare::ViewPacket const& view = packet.views[i];
         mViews[i].handle = set.view;
-        commands.record(CmdUpdateBuffer{ set.uniforms.buffer, mViews[i].uniforms, bytesOf(view.uniforms) });
-        if (view.lights.empty()) continue;
-        commands.record(CmdUpdateBuffer{ set.lights.buffer, mViews[i].lights, std::as_bytes(view.lights) });
+        uploadView(commands, set, packet.views[i], mViews[i]);
     }
     uploadObjects(jobs, commands, set, packet);
     set.deformation.upload(mStream, jobs, commands, packet.deformations);
 }
 
 CmdBindGroup ViewGroup::bind(uint32_t object) const {
-    // In the order of the layout: frame, objects, lights.
-    return { handle, shader::kGroupView, 3, { uniforms, objects + object / kObjectsPerWindow * kWindowBytes, lights } };
+    // In the order of the layout: frame, objects.
+    return { handle, shader::kGroupView, 2, { uniforms, objects + object / kObjectsPerWindow * kWindowBytes } };
 }
 
 void FrameData::destroy(CommandBuffer& commands) {
@@ -130,6 +148,7 @@ void FrameData::destroy(CommandBuffer& commands) {
         release(commands, set.view);
         release(commands, set.uniforms);
         release(commands, set.lights);
+        release(commands, set.froxels);
         release(commands, set.objects);
         set.deformation.destroy(mStream, commands);
         set = {};

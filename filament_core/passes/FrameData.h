@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FrameData: the uniform data of a frame on the device, and the bind group through which shaders see those of a view.
 ///   In      a FramePacket.   Out: a ViewGroup for each of its views, with offsets into buffers that all views share.
-///   Layout  uniforms: an array, a view an element. Objects: windows, those of a view one after the other. Lights: a
-///           block for each view that has any.
+///   Layout  uniforms: an array, a view an element. Objects: windows, those of a view one after the other. Lights and
+///           froxels: storage buffers that hold those of all views, one view after the other; the uniforms of a view
+///           say where its own begin (FrameUniforms::froxelPlaces, written here).
 ///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They
 ///           grow to the largest frame and stay. Objects are written straight into the memory of the command buffer.
 ///   Fails   std::bad_alloc; what is recorded then fits what is remembered.
@@ -23,7 +24,8 @@ namespace filament::passes {
 /// kGroupView of one view: the group of the frame, and where the view's data begin in the buffers behind it.
 struct ViewGroup {
     backend::BindGroupHandle handle;
-    uint32_t uniforms = 0, objects = 0, lights = 0; ///< bytes
+    uint32_t uniforms = 0, objects = 0;     ///< bytes
+    uint32_t firstLight = 0, firstWord = 0; ///< elements of the storage buffers
 
     /// For draws of the window that holds `object` of the view.
     backend::CmdBindGroup bind(uint32_t object) const;
@@ -49,21 +51,27 @@ private:
         uint32_t capacity = 0;
     };
     struct Set {
-        Blocks uniforms, lights, objects;
+        Blocks uniforms, objects, lights, froxels;
         backend::BindGroupHandle view;
         DeformationBuffer deformation;
     };
+    struct BlockKind {
+        uint32_t bytes;
+        backend::BufferUsage usage;
+        const char* name;
+    };
     /// Blocks that a frame needs.
     struct Needs {
-        uint32_t views = 0, lights = 0, windows = 0;
+        uint32_t views = 0, lights = 0, words = 0, windows = 0;
     };
 
     void release(backend::CommandBuffer& commands, backend::BindGroupHandle& group);
     void release(backend::CommandBuffer& commands, Blocks& blocks);
-    void reserve(backend::CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, uint32_t blockBytes,
-                 const char* name);
+    void reserve(backend::CommandBuffer& commands, Set& set, Blocks& blocks, uint32_t count, BlockKind const& kind);
     Needs placeViews(prepare::FramePacket const& packet);
     void bindViews(backend::CommandBuffer& commands, Set& set);
+    void uploadView(backend::CommandBuffer& commands, Set const& set, prepare::ViewPacket const& view,
+                    ViewGroup const& group);
     void uploadObjects(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Set const& set,
                        prepare::FramePacket const& packet);
 

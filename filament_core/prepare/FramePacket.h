@@ -63,12 +63,18 @@ struct DeformationList {
     uint32_t bytes = 0;                       ///< of all blocks; 0: nothing visible is deformed
 };
 
+/// Which lights reach which part of a view (Froxels.h), as the shaders read it; see shader::kFroxelCountBits.
+struct FroxelLists {
+    std::span<const uint32_t> words; ///< one for each froxel, then the lists; none: there is one list for all
+};
+
 /// What one view sees.
 struct ViewPacket {
     ViewKind kind = ViewKind::Color;
     uint8_t variant = 0; ///< shader::VariantBit set that the lights of the view select; 0 where nothing is shaded
     shader::FrameUniforms uniforms{};
     std::span<const shader::PunctualLight> lights; ///< relative to the camera of the view and pre-exposed by it
+    FroxelLists froxels;
     ObjectList objects;
     std::span<const DrawCall> opaque;  ///< opaque and masked, roughly front to back
     std::span<const DrawCall> blended; ///< back to front; none where nothing is shaded

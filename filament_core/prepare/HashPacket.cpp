@@ -38,7 +38,8 @@ uint64_t hashDeformations(DeformationList const& list, uint64_t seed) {
 
 uint64_t hashCounts(ViewCounts const& counts, uint64_t seed) {
     return hashAll(seed, counts.renderables, counts.visible, counts.outOfView, counts.nothingToDraw,
-                   counts.blendedLeftOut, counts.lights, counts.lightsOutOfView, counts.lightsOverLimit, counts.suns,
+                   counts.blendedLeftOut, counts.lights, counts.lightsOutOfView, counts.lightsOverLimit, counts.froxels,
+                   counts.froxelEntries, counts.longestFroxel, counts.fullFroxels, counts.lightsLeftOut, counts.suns,
                    counts.litDraws, counts.blendedDraws, counts.triangles);
 }
 
@@ -55,6 +56,7 @@ uint64_t hashView(ViewPacket const& view, uint64_t seed) {
                   sizeof(shader::PunctualLight) % sizeof(float4) == 0);
     seed = hashBytes(std::as_bytes(std::span(&view.uniforms, 1)), seed);
     seed = hashBytes(std::as_bytes(view.lights), seed);
+    seed = hashBytes(std::as_bytes(view.froxels.words), seed);
     seed = hashObjects(view.objects, seed);
     for (DrawCall const& draw : view.opaque) seed = hashDraw(draw, seed);
     for (DrawCall const& draw : view.blended) seed = hashDraw(draw, seed);

@@ -2,6 +2,7 @@
 #include "filament_core/prepare/PrepareView.h"
 
 #include "filament_core/prepare/DrawList.h"
+#include "filament_core/prepare/Froxels.h"
 #include "filament_core/prepare/SelectLights.h"
 #include "filament_core/prepare/SortItems.h"
 #include "filament_core/prepare/ViewConstants.h"
@@ -73,6 +74,7 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     if (isShaded(view.kind)) countDraws(draws, packet.counts);
     packet.variant = variantFor(packet.counts);
     if ((packet.variant & shader::kVariantPunctual) == 0) packet.lights = {};
+    packet.froxels = assignLights(jobs, arena, space, view.size, packet.lights, packet.uniforms, packet.counts);
     packet.objects = { order, renderables.placement, view.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;

@@ -76,8 +76,11 @@ std::span<const PunctualLight> LightSelector::select(ViewSpace const& space, sha
     const auto isBrighter = [](Candidate const& a, Candidate const& b) {
         return a.importance != b.importance ? a.importance > b.importance : a.index < b.index;
     };
-    if (candidates.size() > mChosen.size()) std::ranges::sort(candidates, isBrighter);
     counts.lights = static_cast<uint32_t>(std::min(candidates.size(), mChosen.size()));
+    if (candidates.size() > mChosen.size()) {
+        std::ranges::nth_element(candidates, candidates.begin() + counts.lights, isBrighter);
+        std::ranges::sort(candidates.first(counts.lights), {}, &Candidate::index); // sums have the order of the scene
+    }
     counts.lightsOverLimit = static_cast<uint32_t>(candidates.size()) - counts.lights;
     for (uint32_t i = 0; i < counts.lights; ++i)
         mChosen[i] = punctualLight(mLights.records[candidates[i].index], space);

@@ -3,6 +3,7 @@
 /// into the frustum.
 ///   Thread  the constructor: the thread that owns the arena. select(): any, once; it runs beside culling.
 ///   Memory  the arena, all in the constructor: 8 B per light, and 64 B per light that can be kept.
+///   Out     in the order of the scene.
 ///   Limits  kMaxPunctualLights; if there are more, those brightest at the camera are kept (ties by order in the
 ///           scene).
 ///   Fails   never. Cost: about 15 ns per light, 60 ns if more reach the view than can be kept (they are sorted).

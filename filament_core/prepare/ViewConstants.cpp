@@ -57,6 +57,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
                             view.quality.depthRange == DepthRange::Ordinary ? 1.0f : 0.0f);
     frame.time = shaderTime(view.timeSeconds);
     frame.materialGlobals = view.materialGlobals;
+    frame.froxelGrid = frame.froxelPlaces = float4(0); // one list of lights, until Froxels.h writes a grid
 
     scene::IndirectLightRecord const& light = scene.indirectLight;
     const float ambient = light.specular ? light.illuminance.value * space.exposure : 0.0f;

@@ -16,6 +16,11 @@ struct ViewCounts {
     uint32_t lights = 0;         ///< punctual lights that reach into the view
     uint32_t lightsOutOfView = 0;
     uint32_t lightsOverLimit = 0; ///< in view, but beyond kMaxPunctualLights: the dimmest
+    uint32_t froxels = 0;         ///< cells of the grid; 0: one list for the whole view
+    uint32_t froxelEntries = 0;   ///< of all lists
+    uint32_t longestFroxel = 0;   ///< lights in one list
+    uint32_t fullFroxels = 0;     ///< those that more than kMaxLightsOfFroxel lights may reach
+    uint32_t lightsLeftOut = 0;   ///< of full froxels, summed up: the dimmest
     uint32_t suns = 0;
     uint32_t litDraws = 0, blendedDraws = 0; ///< shaded views: draws whose material is lit; those behind the sky
     uint64_t triangles = 0;

@@ -121,7 +121,6 @@ Result<std::string> generate(Prepared const& prepared, Stage const& stage) {
 std::vector<SetBinding> dynamicBuffers() {
     return { { kGroupView, kBindingFrame },
              { kGroupView, kBindingObjects },
-             { kGroupView, kBindingLights },
              { kGroupDeformation, kBindingBones },
              { kGroupDeformation, kBindingMorph } };
 }

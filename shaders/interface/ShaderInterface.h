@@ -40,7 +40,8 @@ inline constexpr uint32_t kGroupDeformation = 3; ///< of variants with kVariantS
 enum ViewBinding : uint8_t {
     kBindingFrame = 0,       ///< FrameUniforms, dynamic
     kBindingObjects = 1,     ///< ObjectUniforms, dynamic: windows of kObjectsPerWindow objects
-    kBindingLights = 2,      ///< LightUniforms, dynamic
+    kBindingLights = 2,      ///< LightBuffer, storage: PunctualLight; the lights of a view begin at froxelPlaces.y
+    kBindingFroxels = 3,     ///< FroxelBuffer, storage: words; those of a view begin at froxelPlaces.z
 };
 
 enum PassBinding : uint8_t {
@@ -66,6 +67,8 @@ struct FrameUniforms {
     std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients
     float4x4 worldFromEnvironment;       ///< rotation of the environment
     std::array<float4, 4> materialGlobals; ///< View::materialGlobals
+    float4 froxelGrid;           ///< x: columns, y: rows, z: slices; 0: every point reads all lights; w: first slice, as depth bits >> shift
+    float4 froxelPlaces;         ///< x: shift; y: first light; z: first word of the view; w: unused
 };
 
 // ---- PassUniforms
@@ -86,7 +89,12 @@ struct ObjectUniforms {
     std::array<ObjectData, kObjectsPerWindow> objects; // 16 KiB: the least that every device offers
 };
 
-inline constexpr uint32_t kMaxPunctualLights = 256;
+inline constexpr uint32_t kMaxPunctualLights = 4096; ///< of a view
+inline constexpr uint32_t kMaxLightsOfFroxel = 256;
+
+/// The word of a froxel: bits 0 to 8 count the lights of its list; the others say where it begins, in words from the first
+/// word of the view. An entry of a list is the light's place among those of the view; entries ascend.
+inline constexpr uint32_t kFroxelCountBits = 9;
 
 /// A point or spot light, pre-exposed.
 struct PunctualLight {
@@ -94,10 +102,6 @@ struct PunctualLight {
     float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; w: 1 for spots, 0 for points
     float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
     float4 offset;          ///< x: spot offset -cosOuter * scale; yzw: unused
-};
-
-struct LightUniforms {
-    std::array<PunctualLight, kMaxPunctualLights> lights;
 };
 
 // ---- deformation: skins and morph targets (shaders/interface/deformation.glsl)
@@ -165,7 +169,8 @@ inline constexpr std::array kQualityConstants{
 
 // clang-format on
 static_assert(sizeof(BoneUniforms) == 12288 && sizeof(MorphUniforms) <= 16384);
-static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(LightUniforms) == 16384);
+static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(PunctualLight) == 64);
+static_assert(kMaxLightsOfFroxel < 1u << kFroxelCountBits);
 static_assert(sizeof(FrameUniforms) % 16 == 0);
 
 } // namespace filament::shader

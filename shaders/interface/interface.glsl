@@ -14,7 +14,7 @@ const int kAttributeCustom0 = 7;
 const int kAttributeInstance = 15;
 
 const int kObjectsPerWindow = 256;
-const int kMaxPunctualLights = 256;
+const int kFroxelCountBits = 9;
 
 layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     mat4 clipFromWorld; // the world is relative to the camera
@@ -31,6 +31,8 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     vec4 irradianceSh[9];
     mat4 worldFromEnvironment;
     vec4 materialGlobals[4];
+    vec4 froxelGrid;
+    vec4 froxelPlaces;
 } frameUniforms;
 
 struct ObjectRecord {
@@ -49,9 +51,13 @@ struct PunctualLight {
     vec4 offset;
 };
 
-layout(set = 0, binding = 2, std140) uniform LightUniforms {
-    PunctualLight lights[kMaxPunctualLights];
-} lightUniforms;
+layout(set = 0, binding = 2, std430) readonly buffer LightBuffer {
+    PunctualLight lights[];
+} lightBuffer;
+
+layout(set = 0, binding = 3, std430) readonly buffer FroxelBuffer {
+    uint words[];
+} froxelBuffer;
 
 layout(set = 1, binding = 0, std140) uniform PassUniforms {
     vec4 target;

@@ -37,7 +37,8 @@ backend::BindGroupLayout viewGroupLayout() {
     };
     add(kBindingFrame, BindingType::DynamicUniformBuffer, ShaderStage::Both);
     add(kBindingObjects, BindingType::DynamicUniformBuffer, ShaderStage::Both);
-    add(kBindingLights, BindingType::DynamicUniformBuffer, ShaderStage::Fragment);
+    add(kBindingLights, BindingType::StorageBuffer, ShaderStage::Fragment);
+    add(kBindingFroxels, BindingType::StorageBuffer, ShaderStage::Fragment);
     return layout;
 }
 

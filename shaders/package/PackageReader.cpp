@@ -162,7 +162,7 @@ bool readGroup(ByteReader& in, backend::BindGroupLayout& group) {
     for (uint32_t i = 0; i < group.count; ++i) {
         backend::BindingDesc& at = group.bindings[i];
         at.binding = in.u8();
-        const bool type = readEnum(in, at.type, backend::BindingType::InputAttachment);
+        const bool type = readEnum(in, at.type, backend::BindingType::StorageBuffer);
         const bool stages = readEnum(in, at.stages, backend::ShaderStage::Both) && at.stages != backend::ShaderStage{};
         at.inputAttachment = in.u8();
         const bool ascends = i == 0 || at.binding > group.bindings[i - 1].binding;

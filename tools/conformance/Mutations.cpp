@@ -163,6 +163,7 @@ public:
     void execute(CmdCreateBuffer const& command) {
         if (command.desc.debugName == "frame") mFrames.insert(command.handle);
         if (command.desc.debugName == "lights") mLights.insert(command.handle);
+        if (command.desc.debugName == "froxels") mFroxels.insert(command.handle);
     }
     void execute(CmdUpdateBuffer const& command) { mHasLights = mHasLights || mLights.contains(command.buffer); }
 
@@ -170,15 +171,17 @@ public:
     void edit(CmdUpdateBuffer& command) override {
         if (mFrames.contains(command.buffer)) changeFrame(command);
         if (mLights.contains(command.buffer)) changeLights(command);
+        if (mFroxels.contains(command.buffer)) changeFroxels(command);
     }
 
 protected:
     virtual void changeFrame(CmdUpdateBuffer&) {}
     virtual void changeLights(CmdUpdateBuffer&) {}
+    virtual void changeFroxels(CmdUpdateBuffer&) {}
     bool hasLights() const { return mHasLights; }
 
 private:
-    std::set<BufferHandle> mFrames, mLights;
+    std::set<BufferHandle> mFrames, mLights, mFroxels;
     bool mHasLights = false;
 };
 
@@ -202,6 +205,24 @@ class IrradianceEdit final : public FrameEdit {
         const size_t begin = offsetof(shader::FrameUniforms, irradianceSh);
         for (size_t at = begin; at < begin + sizeof(shader::FrameUniforms::irradianceSh); at += 4)
             writeFloat(bytes, at, 1.01f * readFloat(bytes, at));
+    }
+};
+
+/// Every froxel's list without its last light. The first list begins behind the words of the froxels.
+class FroxelEndEdit final : public FrameEdit {
+    void changeFroxels(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        uint32_t* const words = reinterpret_cast<uint32_t*>(bytes.data());
+        const uint32_t froxels = words[0] >> shader::kFroxelCountBits;
+        for (uint32_t i = 0; i < froxels; ++i) words[i] -= words[i] % (1u << shader::kFroxelCountBits) > 0 ? 1 : 0;
+    }
+};
+
+/// No froxels: every fragment tries every light of the view.
+class OneListEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        for (size_t i = 0; i < 4; ++i) writeFloat(bytes, offsetof(shader::FrameUniforms, froxelGrid) + 4 * i, 0);
     }
 };
 
@@ -336,6 +357,7 @@ std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_
 
 constexpr Mutation kMutations[] = {
     { "none", "nothing: must not be noticed", make<StreamEdit> },
+    { "oneList", "one list of lights instead of froxels: must not be noticed", make<OneListEdit> },
     { "roughness", "roughness + 1 %", roughness },
     { "normalY", "normal maps with y flipped", make<NormalYEdit> },
     { "srgb", "sRGB decoding dropped", make<SrgbDroppedEdit> },
@@ -351,6 +373,7 @@ constexpr Mutation kMutations[] = {
     { "emissive", "emission + 2 %", emissive },
     { "cutoff", "alpha cutoff + 5 %", cutoff },
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
+    { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "constantOutputs", "linkers may know constant vertex outputs", make<ConstantOutputsEdit>, Backend::Gles },
 };
 
@@ -363,6 +386,8 @@ Mutation const* findMutation(std::string_view name) {
                                     [&](Mutation const& mutation) { return mutation.name == name; });
     return found == std::end(kMutations) ? nullptr : found;
 }
+
+bool isControl(std::string_view name) { return name == "none" || name == "oneList"; }
 
 std::vector<std::string_view> mutationNames() {
     std::vector<std::string_view> names;

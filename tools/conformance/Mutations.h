@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Mutations: named defects, injected into the command stream of one engine. A comparison of pictures must detect each
 /// of them; otherwise it proves nothing. The engine has no code for them.
-///   Identity "none" changes nothing and must not be detected: it shows that the detections are real.
+///   Controls "none" changes nothing, and "oneList" nothing that a picture may show; they must not be detected. The
+///            first shows that the detections are real, the second that froxels miss no light.
 ///   Limits   some edit the code of one API (Mutation::api) and are injected into the engine of that API.
 ///   Fails    an unknown name gives none, and mutationNames() lists the known ones.
 #pragma once
@@ -30,6 +31,7 @@ struct Mutation {
 std::span<const Mutation> mutations();
 Mutation const* findMutation(std::string_view name);
 std::vector<std::string_view> mutationNames();
+bool isControl(std::string_view name);
 
 inline constexpr uint32_t kSmallestLevel = ~0u;
 /// Makes the red code of texel `texel` (counted by rows) of mip level `level` one off, in every RGBA8 texture that has it.

@@ -4,6 +4,7 @@
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/common/Html.h"
 #include "tools/conformance/Machines.h"
+#include "tools/conformance/Mutations.h"
 
 #include <algorithm>
 #include <map>
@@ -96,7 +97,7 @@ std::string mutationTable(Results const& results) {
     std::string html = "<h2>Mutants</h2><table><tr><th>defect</th><th>cases</th><th>noticed</th></tr>";
     for (auto const& [name, counts] : rows)
         html += fmt::format("<tr><td>{}</td><td>{}</td><td>{}{}</td></tr>", escaped(name), counts.second, counts.first,
-                            name == "none" ? " (the control: none should be)" : "");
+                            isControl(name) ? " (a control: none should be)" : "");
     return html + "</table>";
 }
 

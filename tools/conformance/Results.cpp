@@ -3,6 +3,7 @@
 
 #include "filament_core/assets/files/FileBytes.h"
 #include "tools/conformance/Machines.h"
+#include "tools/conformance/Mutations.h"
 
 #include <nlohmann/json.hpp>
 
@@ -132,7 +133,7 @@ Summary summaryOf(Results const& results) {
         summary.failed += result.status == Status::Failed;
         summary.skipped += result.status == Status::Skipped;
         for (Kill const& kill : result.kills) {
-            if (kill.mutation == "none") continue; // the control
+            if (isControl(kill.mutation)) continue;
             ++summary.mutants;
             summary.caught += kill.caught;
         }

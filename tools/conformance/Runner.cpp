@@ -126,6 +126,7 @@ private:
     void killMutants() {
         if (mSpec.kills.empty()) return;
         tryMutant("none");
+        if (!mSpec.lights.empty()) tryMutant("oneList");
         for (std::string const& name : mSpec.kills) tryMutant(name);
     }
 
@@ -144,8 +145,8 @@ private:
         if (!compared) return blame(name, compared.error().message);
         const bool caught = !compared->passed;
         mResult.kills.push_back({ name, caught, compared->differing });
-        if (name == "none" && caught) blame("mutations", "a stage without changes draws a different picture");
-        if (name != "none" && !caught)
+        if (isControl(name) && caught) blame("mutations", fmt::format("'{}' draws a different picture", name));
+        if (!isControl(name) && !caught)
             blame("mutations", fmt::format("'{}' ({}) was not noticed", name, mutation->what));
     }
 

@@ -1,6 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Lights, in photometric units. Plain descriptions: Scene::add takes them and returns a handle. For a light attached
 /// to a node, "World" in a field's name means the space of that node.
+///   Limits  of points and spots: 4096 that reach into a view, and 256 that reach any froxel, a cell a sixteenth of the
+///           picture wide and at most half as deep as it is far away. Beyond, the dimmest at the camera are left out;
+///           Renderer::explain() says how many.
+///   Cost    that of the lights whose range includes what is drawn: give lamps a range. An unlimited light shades every
+///           fragment.
 #pragma once
 
 #include <filament/Color.h>

@@ -34,7 +34,7 @@ public:
             for (backend::BindGroupHandle& group : instances[i].groups) group = stream->allocateBindGroup();
         }
         for (uint32_t i = 0; i < geometryCount; ++i) geometries.push_back(makeGeometry(i));
-        context = { { .handle = stream->allocateBindGroup(), .uniforms = 768, .objects = 5 * 16384, .lights = 16384 },
+        context = { { .handle = stream->allocateBindGroup(), .uniforms = 768, .objects = 5 * 16384 },
                     { stream->allocateBindGroup(), stream->allocateBindGroup() },
                     stream->allocateBuffer() };
         slot = pipelines->slot({});

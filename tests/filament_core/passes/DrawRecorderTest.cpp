@@ -53,7 +53,6 @@ void expectDraw(DrawFixture const& fixture, DrawCall const& wanted, PipelineHand
     EXPECT_EQ(state.view.group, view.handle);
     EXPECT_EQ(state.view.dynamicOffsets[0], view.uniforms);
     EXPECT_EQ(state.view.dynamicOffsets[1], view.objects + wanted.firstObject / 256 * sizeof(shader::ObjectUniforms));
-    EXPECT_EQ(state.view.dynamicOffsets[2], view.lights);
     const bool isUnlit = wanted.material->material->package.shading == shader::ShadingModel::Unlit;
     EXPECT_EQ(state.pass.group, fixture.context.passGroups[isUnlit ? 1 : 0]);
     EXPECT_EQ(state.vertices.buffers[0], wanted.geometry->vertices);

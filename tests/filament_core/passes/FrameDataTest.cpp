@@ -55,10 +55,18 @@ struct BufferMemory {
     }
     void execute(auto const&) {}
 
+    /// `bytes` of a storage buffer, from element `first` on.
+    std::span<const std::byte> readStorage(ViewGroup const& group, shader::ViewBinding binding, size_t first,
+                                           size_t bytes) {
+        backend::BindGroupEntry const& entry = groups.at(group.handle.bits).at(binding);
+        EXPECT_LE(first + bytes, entry.size);
+        return std::span(buffers.at(entry.buffer.bits)).subspan(first, bytes);
+    }
+
     /// `bytes` of the range that a binding refers to, at the dynamic offset of the command.
     std::span<const std::byte> read(backend::CmdBindGroup const& bind, shader::ViewBinding binding, size_t bytes) {
         backend::BindGroupEntry const& entry = groups.at(bind.group.bits).at(binding);
-        const uint32_t offset = bind.dynamicOffsets[binding]; // the three buffers come first
+        const uint32_t offset = bind.dynamicOffsets[binding]; // the two buffers come first
         EXPECT_EQ(offset % 256, 0u);
         EXPECT_LE(bytes, entry.size);
         EXPECT_LE(offset + entry.size, buffers.at(entry.buffer.bits).size()) << "the window ends outside of the buffer";
@@ -174,8 +182,8 @@ TEST_F(FrameDataTest, ObjectBuffersGrowByDoublingAndNoFrameOverwritesTheTwoBefor
             EXPECT_NE(targets[frame], targets[frame - before]) << frame;
         }
     }
-    // Three sets, each with a frame and a light buffer and with object buffers of 1, 2, 4, 8 and 16 windows.
-    EXPECT_LE(created.size(), 3u * (2 + 5));
+    // Three sets, each with a frame, a light and a froxel buffer and with object buffers of 1, 2, 4, 8 and 16 windows.
+    EXPECT_LE(created.size(), 3u * (3 + 5));
 }
 
 TEST_F(FrameDataTest, SteadyFramesUseTheMemoryOfTheFrameBefore) {
@@ -199,18 +207,48 @@ TEST_F(FrameDataTest, EveryViewReadsItsOwnUniformsLightsAndObjects) {
     ASSERT_EQ(data.views().size(), views.size());
     EXPECT_GT(packet.views[3].lights.size(), 0u);
     EXPECT_NE(packet.views[3].lights.size(), packet.views[0].lights.size());
+    EXPECT_GT(packet.views[0].froxels.words.size(), 0u);
+    EXPECT_GT(packet.views[3].froxels.words.size(), 0u);
     for (size_t i = 0; i < views.size(); ++i) {
         prepare::ViewPacket const& view = packet.views[i];
         ViewGroup const& group = data.views()[i];
-        EXPECT_TRUE(isEqual(memory.read(group.bind(0), shader::kBindingFrame, sizeof view.uniforms),
-                            std::as_bytes(std::span(&view.uniforms, 1))))
-                << "uniforms of view " << i;
-        EXPECT_TRUE(isEqual(memory.read(group.bind(0), shader::kBindingLights, view.lights.size_bytes()),
+        shader::FrameUniforms uniforms;
+        std::memcpy(&uniforms, memory.read(group.bind(0), shader::kBindingFrame, sizeof uniforms).data(),
+                    sizeof uniforms);
+        const auto lights = static_cast<size_t>(uniforms.froxelPlaces.y) * sizeof(shader::PunctualLight);
+        const auto words = static_cast<size_t>(uniforms.froxelPlaces.z) * sizeof(uint32_t);
+        EXPECT_TRUE(isEqual(memory.readStorage(group, shader::kBindingLights, lights, view.lights.size_bytes()),
                             std::as_bytes(view.lights)))
                 << "lights of view " << i;
+        EXPECT_TRUE(isEqual(memory.readStorage(group, shader::kBindingFroxels, words, view.froxels.words.size_bytes()),
+                            std::as_bytes(view.froxels.words)))
+                << "froxels of view " << i;
+        uniforms.froxelPlaces.y = uniforms.froxelPlaces.z = 0;
+        EXPECT_TRUE(isEqual(std::as_bytes(std::span(&uniforms, 1)), std::as_bytes(std::span(&view.uniforms, 1))))
+                << "uniforms of view " << i;
         expectReadsItsObjects(view.objects, group);
         if (testing::Test::HasFatalFailure()) FAIL() << "view " << i;
     }
+}
+
+TEST_F(FrameDataTest, UploadsOnlyTheBytesOfLightsAndFroxelsThatAFrameUses) {
+    const auto uploaded = [&] {
+        size_t bytes = 0;
+        for (CmdUpdateBuffer const& update : commandsOf<CmdUpdateBuffer>(commands)) bytes += update.bytes.size();
+        return bytes - sizeof(shader::FrameUniforms);
+    };
+    upload();
+    EXPECT_EQ(uploaded(), 0u) << "no lights, no bytes";
+    for (int i = 0; i < 40; ++i) {
+        addLight(boxes.scene, { .type = scene::LightRecord::Type::Point,
+                                .positionWorld = { 0, 0, -i },
+                                .intensity = 1,
+                                .rangeMeters = 3 });
+    }
+    const prepare::FramePacket packet = upload();
+    prepare::ViewPacket const& view = packet.mainView();
+    EXPECT_GT(view.froxels.words.size(), 0u);
+    EXPECT_EQ(uploaded(), view.lights.size_bytes() + view.froxels.words.size_bytes());
 }
 
 TEST_F(FrameDataTest, FramesOfManyAndOfOneViewTakeTurnsWithoutCreatingAnything) {

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <vector>
 
 namespace filament::prepare {
@@ -159,6 +160,8 @@ TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {
     const float exposure = packet.uniforms.exposure.x;
     for (shader::PunctualLight const& light : packet.lights)
         EXPECT_GE(light.colorIntensity.x, 45.0f * exposure * 0.999f);
+    const auto intensity = [](shader::PunctualLight const& light) { return light.colorIntensity.x; };
+    EXPECT_TRUE(std::ranges::is_sorted(packet.lights, {}, intensity)) << "in the order of the scene";
 }
 
 TEST_F(PrepareFrameTest, LeavesLightOutWhereNothingLitIsVisible) {

@@ -35,7 +35,8 @@ protected:
         const Result<std::vector<uint32_t>> spirv = spirvFromGlsl(interfaceText() + R"(
             layout(location = 0) out vec4 color;
             void main() {
-                color = frameUniforms.exposure + objectUniforms.objects[0].row0 + lightUniforms.lights[0].offset
+                color = frameUniforms.exposure + objectUniforms.objects[0].row0 + lightBuffer.lights[0].offset
+                        + vec4(froxelBuffer.words[0])
                         + passUniforms.target + texture(passSpecular, vec3(1.0)) + texture(passDfg, vec2(0.5))
                         + texture(passIrradiance, vec3(1.0));
             })",
@@ -44,13 +45,17 @@ protected:
         return spirv ? *spirv : std::vector<uint32_t>{};
     }
 
+    /// A uniform or storage block.
     spirv_cross::Resource block(uint32_t group, uint32_t binding) {
-        for (auto const& buffer : mCompiler.get_shader_resources().uniform_buffers) {
-            if (mCompiler.get_decoration(buffer.id, spv::DecorationDescriptorSet) == group &&
-                mCompiler.get_decoration(buffer.id, spv::DecorationBinding) == binding)
-                return buffer;
+        const spirv_cross::ShaderResources all = mCompiler.get_shader_resources();
+        for (auto const* buffers : { &all.uniform_buffers, &all.storage_buffers }) {
+            for (auto const& buffer : *buffers) {
+                if (mCompiler.get_decoration(buffer.id, spv::DecorationDescriptorSet) == group &&
+                    mCompiler.get_decoration(buffer.id, spv::DecorationBinding) == binding)
+                    return buffer;
+            }
         }
-        ADD_FAILURE() << "no uniform block at binding " << binding << " of group " << group;
+        ADD_FAILURE() << "no block at binding " << binding << " of group " << group;
         return {};
     }
 
@@ -81,7 +86,8 @@ TEST_F(Interface, FrameUniformsAgree) {
                           MEMBER(FrameUniforms, time), MEMBER(FrameUniforms, sunDirection),
                           MEMBER(FrameUniforms, sunIlluminance), MEMBER(FrameUniforms, ambient),
                           MEMBER(FrameUniforms, skyFactor), MEMBER(FrameUniforms, irradianceSh),
-                          MEMBER(FrameUniforms, worldFromEnvironment), MEMBER(FrameUniforms, materialGlobals) });
+                          MEMBER(FrameUniforms, worldFromEnvironment), MEMBER(FrameUniforms, materialGlobals),
+                          MEMBER(FrameUniforms, froxelGrid), MEMBER(FrameUniforms, froxelPlaces) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));
 }
 
@@ -94,13 +100,18 @@ TEST_F(Interface, ObjectUniformsAgree) {
     EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(ObjectData));
 }
 
-TEST_F(Interface, LightUniformsAgree) {
+TEST_F(Interface, LightBufferAgrees) {
     const auto& type = mCompiler.get_type(block(kGroupView, kBindingLights).base_type_id);
-    expectMembers(type, { MEMBER(LightUniforms, lights) });
-    EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(LightUniforms));
+    expectMembers(type, { { "lights", 0 } });
     expectMembers(record(type), { MEMBER(PunctualLight, positionRange), MEMBER(PunctualLight, colorIntensity),
                                   MEMBER(PunctualLight, directionScale), MEMBER(PunctualLight, offset) });
     EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(PunctualLight));
+}
+
+TEST_F(Interface, FroxelBufferHasWords) {
+    const auto& type = mCompiler.get_type(block(kGroupView, kBindingFroxels).base_type_id);
+    expectMembers(type, { { "words", 0 } });
+    EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 0), sizeof(uint32_t));
 }
 
 TEST_F(Interface, PassUniformsAgree) {
@@ -113,8 +124,8 @@ TEST_F(Interface, EveryResourceIsInTheLayoutOfItsGroup) {
     const std::array groups{ viewGroupLayout(), passGroupLayout(PassKind::Lit) };
     const spirv_cross::ShaderResources resources = mCompiler.get_shader_resources();
     ASSERT_EQ(size_t{ groups[0].count } + groups[1].count,
-              resources.uniform_buffers.size() + resources.sampled_images.size());
-    for (auto const& list : { resources.uniform_buffers, resources.sampled_images }) {
+              resources.uniform_buffers.size() + resources.storage_buffers.size() + resources.sampled_images.size());
+    for (auto const& list : { resources.uniform_buffers, resources.storage_buffers, resources.sampled_images }) {
         for (auto const& resource : list) {
             const uint32_t group = mCompiler.get_decoration(resource.id, spv::DecorationDescriptorSet);
             ASSERT_LT(group, groups.size()) << resource.name;
@@ -227,7 +238,7 @@ TEST(InterfaceLocations, AttributeLocationsAgree) {
 TEST(InterfaceLimits, ArraySizesAgree) {
     const std::string text = interfaceText();
     EXPECT_NE(text.find("kObjectsPerWindow = " + std::to_string(kObjectsPerWindow) + ";"), std::string::npos);
-    EXPECT_NE(text.find("kMaxPunctualLights = " + std::to_string(kMaxPunctualLights) + ";"), std::string::npos);
+    EXPECT_NE(text.find("kFroxelCountBits = " + std::to_string(kFroxelCountBits) + ";"), std::string::npos);
 }
 
 } // namespace

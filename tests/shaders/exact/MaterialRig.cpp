@@ -190,14 +190,19 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
     frame.worldFromClip = glm::inverse(frame.clipFromWorld);
     frame.viewFromWorld = frame.worldFromEnvironment = float4x4(1.0f);
     frame.ambient.w = static_cast<float>(scene.lights.size());
-    LightUniforms lights{};
-    std::copy(scene.lights.begin(), scene.lights.end(), lights.lights.begin());
+    std::vector<PunctualLight> lights(scene.lights.begin(), scene.lights.end());
+    lights.resize(std::max<size_t>(lights.size(), 1)); // something to bind
+    const std::vector<uint32_t> words(1);              // no grid: every point reads all lights
     const BufferHandle frameBuffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&frame, 1)));
-    const BufferHandle lightBuffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&lights, 1)));
+    const BufferHandle lightBuffer = buffer(commands, BufferUsage::Storage, bytesOf(lights));
+    const BufferHandle froxelBuffer = buffer(commands, BufferUsage::Storage, bytesOf(words));
     const std::vector<BindGroupEntry> entries{
         { .binding = kBindingFrame, .buffer = frameBuffer, .size = sizeof(FrameUniforms) },
         { .binding = kBindingObjects, .buffer = mObjects, .size = sizeof(ObjectUniforms) },
-        { .binding = kBindingLights, .buffer = lightBuffer, .size = sizeof(LightUniforms) }
+        { .binding = kBindingLights,
+          .buffer = lightBuffer,
+          .size = static_cast<uint32_t>(lights.size() * sizeof(PunctualLight)) },
+        { .binding = kBindingFroxels, .buffer = froxelBuffer, .size = sizeof(uint32_t) }
     };
     const BindGroupHandle group = mStream->allocateBindGroup();
     commands.record(CmdCreateBindGroup{ group, { viewGroupLayout(), entries, "view" } });

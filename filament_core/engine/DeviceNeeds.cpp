@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/engine/DeviceNeeds.h"
+
+namespace filament::engine {
+
+Result<void> checkDevice(backend::DeviceInfo const& device) {
+    if (device.limits.maxFragmentStorageBuffers >= kFragmentStorageBuffers) return {};
+    return fail(
+            ErrorCode::Unsupported,
+            "{} device '{}' reads {} storage buffers in fragment shaders, lights need {}; choose another device or API",
+            backend::toString(device.backend), device.deviceName, device.limits.maxFragmentStorageBuffers,
+            kFragmentStorageBuffers);
+}
+
+} // namespace filament::engine
