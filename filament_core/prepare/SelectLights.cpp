@@ -19,8 +19,18 @@ bool reachesView(LightRecord const& light, ViewSpace const& space) {
     return intersectsSphere(space.frustum, float3(light.positionWorld - space.cameraWorld), light.rangeMeters);
 }
 
+// The shader treats the direction towards a sun as a place, and does not attenuate.
+PunctualLight furtherSun(LightRecord const& light, float exposure) {
+    PunctualLight data{};
+    data.positionRange = float4(-light.directionWorld, 0);
+    data.colorIntensity = float4(light.color * (light.intensity * exposure), -1);
+    data.directionScale = float4(light.directionWorld, 0);
+    return data;
+}
+
 // The spot's angular falloff as a scale and an offset of the cosine; Lagarde & de Rousiers 2014, section 4.3.
 PunctualLight punctualLight(LightRecord const& light, ViewSpace const& space) {
+    if (light.type == LightRecord::Type::Sun) return furtherSun(light, space.exposure);
     PunctualLight data{};
     const float range = light.rangeMeters;
     data.positionRange = float4(float3(light.positionWorld - space.cameraWorld), range > 0 ? 1 / (range * range) : 0);
@@ -34,7 +44,9 @@ PunctualLight punctualLight(LightRecord const& light, ViewSpace const& space) {
     return data;
 }
 
-void writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float exposure, ViewCounts& counts) {
+/// Returns the sun of the uniforms, the brightest.
+LightRecord const* writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float exposure,
+                            ViewCounts& counts) {
     LightRecord const* brightest = nullptr;
     for (LightRecord const& light : lights.records) {
         if (light.type != LightRecord::Type::Sun) continue;
@@ -43,6 +55,7 @@ void writeSun(shader::FrameUniforms& frame, scene::Lights const& lights, float e
     }
     frame.sunDirection = brightest ? float4(-brightest->directionWorld, 1) : float4(0, 1, 0, 0);
     frame.sunIlluminance = brightest ? float4(brightest->color * (brightest->intensity * exposure), 0) : float4(0);
+    return brightest;
 }
 
 } // namespace
@@ -52,18 +65,19 @@ LightSelector::LightSelector(Arena& arena, scene::Lights const& lights)
           mChosen(arena.arrayForOverwrite<PunctualLight>(
                   std::min<size_t>(lights.records.size(), shader::kMaxPunctualLights))) {}
 
-uint32_t LightSelector::findCandidates(ViewSpace const& space, ViewCounts& counts) const {
+uint32_t LightSelector::findCandidates(ViewSpace const& space, LightRecord const* sun, ViewCounts& counts) const {
     uint32_t count = 0;
     for (uint32_t i = 0; i < mLights.records.size(); ++i) {
         LightRecord const& light = mLights.records[i];
-        if (light.type == LightRecord::Type::Sun || light.intensity <= 0) continue;
-        if (!reachesView(light, space)) {
+        if (&light == sun || light.intensity <= 0) continue;
+        const bool isSun = light.type == LightRecord::Type::Sun;
+        if (!isSun && !reachesView(light, space)) {
             ++counts.lightsOutOfView;
             continue;
         }
         const double3 toLight = light.positionWorld - space.cameraWorld;
         const auto squaredDistance = static_cast<float>(std::max(glm::dot(toLight, toLight), 1e-4));
-        const float importance = weight(light) / squaredDistance;
+        const float importance = isSun ? weight(light) : weight(light) / squaredDistance;
         mCandidates[count++] = { i, importance > 0 ? importance : 0.0f }; // colours may be NaN; sorting needs numbers
     }
     return count;
@@ -71,8 +85,8 @@ uint32_t LightSelector::findCandidates(ViewSpace const& space, ViewCounts& count
 
 std::span<const PunctualLight> LightSelector::select(ViewSpace const& space, shader::FrameUniforms& frame,
                                                      ViewCounts& counts) const {
-    writeSun(frame, mLights, space.exposure, counts);
-    const std::span<Candidate> candidates = mCandidates.first(findCandidates(space, counts));
+    LightRecord const* const sun = writeSun(frame, mLights, space.exposure, counts);
+    const std::span<Candidate> candidates = mCandidates.first(findCandidates(space, sun, counts));
     const auto isBrighter = [](Candidate const& a, Candidate const& b) {
         return a.importance != b.importance ? a.importance > b.importance : a.index < b.index;
     };

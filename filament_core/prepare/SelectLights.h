@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// LightSelector: the lights that a view shades with: the brightest sun, and the punctual lights whose range reaches
-/// into the frustum.
+/// LightSelector: the lights that a view shades with: the brightest sun, which has its place in the uniforms, and a list
+/// of the others: further suns, and the punctual lights whose range reaches into the frustum.
 ///   Thread  the constructor: the thread that owns the arena. select(): any, once; it runs beside culling.
 ///   Memory  the arena, all in the constructor: 8 B per light, and 64 B per light that can be kept.
 ///   Out     in the order of the scene.
@@ -22,7 +22,7 @@ public:
     LightSelector(Arena& arena, scene::Lights const& lights);
 
     /// Writes the sun and the light count into `frame`, and the light counts into `counts`; changes nothing else in
-    /// them. Returns the punctual lights.
+    /// them. Returns the lights of the list.
     std::span<const shader::PunctualLight> select(ViewSpace const& space, shader::FrameUniforms& frame,
                                                   ViewCounts& counts) const;
 
@@ -32,7 +32,7 @@ private:
         float importance = 0; ///< luminance-weighted intensity over squared distance
     };
 
-    uint32_t findCandidates(ViewSpace const& space, ViewCounts& counts) const;
+    uint32_t findCandidates(ViewSpace const& space, scene::LightRecord const* sun, ViewCounts& counts) const;
 
     scene::Lights const& mLights;
     std::span<Candidate> mCandidates;

@@ -96,10 +96,10 @@ inline constexpr uint32_t kMaxLightsOfFroxel = 256;
 /// word of the view. An entry of a list is the light's place among those of the view; entries ascend.
 inline constexpr uint32_t kFroxelCountBits = 9;
 
-/// A point or spot light, pre-exposed.
+/// A point, a spot, or a sun besides the one of FrameUniforms; pre-exposed.
 struct PunctualLight {
-    float4 positionRange;   ///< xyz: relative to the camera; w: 1 / range^2 (0: unlimited)
-    float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; w: 1 for spots, 0 for points
+    float4 positionRange;   ///< xyz: relative to the camera, or towards a sun, unit; w: 1 / range^2 (0: unlimited)
+    float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; x lux for suns; w: 1 for spots, 0 for points, -1 for suns
     float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
     float4 offset;          ///< x: spot offset -cosOuter * scale; yzw: unused
 };

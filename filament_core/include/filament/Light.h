@@ -14,7 +14,9 @@
 
 namespace filament {
 
-/// Parallel light. A scene is lit by its brightest sun only; Renderer::explain() says so if there are more.
+/// Parallel light; a scene has any number. The brightest is the sun of the uniforms and of the directional shader
+/// variant. The others are among the 4096 lights of a view, in the order of the scene: they cost what an unlimited point
+/// costs, and materials compiled without dynamic lighting do not see them.
 struct SunLight {
     float3 directionWorld{ 0, -1, 0 }; ///< the direction in which the light travels; any length except zero
     Lux illuminance{ 110'000 };        ///< on a surface facing it, >= 0

@@ -43,10 +43,11 @@ highp vec3 punctualLights(Surface surface) {
         index += firstLight;
         highp vec4 positionRange = lightBuffer.lights[index].positionRange;
         highp vec4 colorIntensity = lightBuffer.lights[index].colorIntensity;
-        highp vec3 toLight = positionRange.xyz - vertex_worldPosition;
-        highp float attenuation = distanceAttenuation(toLight, positionRange.w);
+        bool isSun = colorIntensity.w < 0.0; // its position is the direction towards it
+        highp vec3 toLight = isSun ? positionRange.xyz : positionRange.xyz - vertex_worldPosition;
+        highp float attenuation = isSun ? 1.0 : distanceAttenuation(toLight, positionRange.w);
         if (attenuation <= 0.0) continue; // out of range
-        highp vec3 direction = normalizeOrZero(toLight);
+        highp vec3 direction = isSun ? toLight : normalizeOrZero(toLight);
         if (colorIntensity.w > 0.0) {
             highp vec4 directionScale = lightBuffer.lights[index].directionScale;
             highp float offset = lightBuffer.lights[index].offset.x;
@@ -59,7 +60,7 @@ highp vec3 punctualLights(Surface surface) {
 #if defined(CUSTOM_SURFACE_SHADING)
         arriving.color = colorIntensity.rgb;
         arriving.attenuation = attenuation;
-        arriving.position = positionRange.xyz;
+        arriving.position = isSun ? vertex_worldPosition + toLight : positionRange.xyz;
 #endif
         sum += shadeLight(surface, arriving);
     }

@@ -149,6 +149,21 @@ TEST_F(PrepareFrameTest, ShadesWithTheBrightestSun) {
     EXPECT_EQ(packet.counts.suns, 2u);
 }
 
+TEST_F(PrepareFrameTest, FurtherSunsAreInTheListOfLightsInTheOrderOfTheScene) {
+    addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 1, 0, 0 }, .intensity = 10 });
+    addLight(scene, { .type = LightRecord::Type::Point, .intensity = 5 });
+    addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, 0, 1 }, .intensity = 20 });
+    addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, -1, 0 }, .intensity = 5 });
+    addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, 1, 0 }, .intensity = 0 });
+    const ViewPacket packet = prepare();
+    EXPECT_EQ(packet.variant, shader::kVariantSun | shader::kVariantPunctual);
+    ASSERT_EQ(packet.lights.size(), 3u);
+    EXPECT_EQ(packet.lights[0].positionRange, float4(-1, 0, 0, 0)) << "towards the sun; unlimited";
+    EXPECT_EQ(packet.lights[0].colorIntensity, float4(float3(10 * packet.uniforms.exposure.x), -1));
+    EXPECT_EQ(packet.lights[1].colorIntensity.w, 0);
+    EXPECT_EQ(packet.lights[2].positionRange, float4(0, 1, 0, 0));
+}
+
 TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {
     add({ 0, 0, 0 }, material()); // lit, in view
     for (uint32_t i = 0; i < shader::kMaxPunctualLights + 44; ++i) {
