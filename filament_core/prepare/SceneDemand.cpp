@@ -17,9 +17,11 @@ EffectDemand demandOfDraws(uint32_t draws) {
     return draws ? EffectDemand{ true, DemandReason::IsVisible, draws } : EffectDemand{};
 }
 
-std::string describeLights(EffectDemand const& demand) {
-    if (demand.others == 0) return fmt::format("{} in the scene", demand.count);
-    return fmt::format("{} of {}", demand.count, demand.count + demand.others);
+std::string describeShining(Effect effect, EffectDemand const& demand) {
+    if (effect == Effect::IndirectLight) return "the environment lights what is visible";
+    if (effect == Effect::Sun && demand.count > 1)
+        return fmt::format("the brightest of {}; the others are in the light list", demand.count);
+    return fmt::format("{} of {} shine on what is visible", demand.count, demand.count + demand.others);
 }
 
 } // namespace
@@ -28,8 +30,8 @@ SceneDemand findDemand(DemandInput const& input) {
     ViewCounts const& counts = input.counts;
     SceneDemand demand;
     const auto set = [&](Effect effect, EffectDemand const& of) { demand.effects[static_cast<size_t>(effect)] = of; };
-    set(Effect::Sun, demandOfLights(counts.suns > 0 ? 1 : 0, counts.suns > 1 ? counts.suns - 1 : 0, counts.litDraws));
-    set(Effect::PunctualLights,
+    set(Effect::Sun, demandOfLights(counts.suns, 0, counts.litDraws));
+    set(Effect::LightList,
         demandOfLights(counts.lights, counts.lightsOutOfView + counts.lightsOverLimit, counts.litDraws));
     set(Effect::IndirectLight, demandOfLights(input.hasIndirectLight ? 1 : 0, 0, counts.litDraws));
     if (input.hasSky) set(Effect::Sky, { true, DemandReason::FillsBackground });
@@ -39,16 +41,15 @@ SceneDemand findDemand(DemandInput const& input) {
 }
 
 const char* nameOf(Effect effect) {
-    static constexpr std::array<const char*, kEffects> kNames{ "sun", "punctual lights", "indirect light",
-                                                               "sky", "blending",        "deformation" };
+    static constexpr std::array<const char*, kEffects> kNames{ "sun", "light list", "indirect light",
+                                                               "sky", "blending",   "deformation" };
     return kNames[static_cast<size_t>(effect)];
 }
 
 std::string describe(Effect effect, EffectDemand const& demand) {
     switch (demand.reason) {
     case DemandReason::ReachesLitSurfaces:
-        return effect == Effect::IndirectLight ? "the environment lights what is visible"
-                                               : describeLights(demand) + " shine on what is visible";
+        return describeShining(effect, demand);
     case DemandReason::IsVisible:
         return fmt::format("{} in view", demand.count);
     case DemandReason::FillsBackground:

@@ -15,7 +15,14 @@
 
 namespace filament::prepare {
 
-enum class Effect : uint8_t { Sun, PunctualLights, IndirectLight, Sky, Blending, Deformation };
+enum class Effect : uint8_t {
+    Sun,       ///< the brightest
+    LightList, ///< points, spots and all other suns
+    IndirectLight,
+    Sky,
+    Blending,
+    Deformation
+};
 inline constexpr size_t kEffects = 6;
 
 /// Why an effect is needed (the first group), or not.
@@ -53,7 +60,7 @@ struct DemandInput {
 
 SceneDemand findDemand(DemandInput const& input);
 
-/// "punctual lights". One name in explain(), reports and documents.
+/// "light list". One name in explain(), reports and documents.
 const char* nameOf(Effect effect);
 /// The reason in words: "3 of 8 reach the view".
 std::string describe(Effect effect, EffectDemand const& demand);

@@ -60,7 +60,7 @@ struct FrameStatistics {
 struct EffectDecision {
     enum class State : uint8_t { Needed, NotNeeded, Ran, Culled }; ///< the first two: effects; the others: passes
 
-    std::string name; ///< "punctual lights", "tone map"
+    std::string name; ///< "light list", "tone map"
     State state = State::NotNeeded;
     std::string reason;
     double gpuMilliseconds = 0;   ///< of a pass, and those merged with it, in the last frame that was timed; 0: unknown

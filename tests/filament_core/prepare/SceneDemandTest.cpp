@@ -18,7 +18,7 @@ TEST(SceneDemand, OfAnEmptySceneIsNothing) {
 
 TEST(SceneDemand, NeedsLightOnlyWhereItMeetsALitSurface) {
     ViewCounts counts{ .lights = 2, .suns = 1, .litDraws = 1 };
-    const Effect lights[] = { Effect::Sun, Effect::PunctualLights, Effect::IndirectLight };
+    const Effect lights[] = { Effect::Sun, Effect::LightList, Effect::IndirectLight };
     SceneDemand demand = findDemand({ .counts = counts, .hasIndirectLight = true });
     for (const Effect effect : lights) EXPECT_TRUE(demand.needs(effect)) << nameOf(effect);
     counts.litDraws = 0;
@@ -30,17 +30,17 @@ TEST(SceneDemand, NeedsLightOnlyWhereItMeetsALitSurface) {
 }
 
 TEST(SceneDemand, TellsLightsOutOfViewFromNone) {
-    EXPECT_EQ(demandOf({ .litDraws = 1 }).of(Effect::PunctualLights).reason, DemandReason::NotInScene);
+    EXPECT_EQ(demandOf({ .litDraws = 1 }).of(Effect::LightList).reason, DemandReason::NotInScene);
     const SceneDemand demand = demandOf({ .lightsOutOfView = 3, .litDraws = 1 });
-    EXPECT_EQ(demand.of(Effect::PunctualLights), (EffectDemand{ false, DemandReason::OutOfView, 0, 3 }));
-    EXPECT_EQ(describe(Effect::PunctualLights, demand.of(Effect::PunctualLights)), "none of 3 reaches into the view");
+    EXPECT_EQ(demand.of(Effect::LightList), (EffectDemand{ false, DemandReason::OutOfView, 0, 3 }));
+    EXPECT_EQ(describe(Effect::LightList, demand.of(Effect::LightList)), "none of 3 reaches into the view");
 }
 
 TEST(SceneDemand, CountsWhatIsLeftOut) {
     const SceneDemand demand =
             demandOf({ .lights = 4, .lightsOutOfView = 1, .lightsOverLimit = 2, .suns = 3, .litDraws = 1 });
-    EXPECT_EQ(describe(Effect::PunctualLights, demand.of(Effect::PunctualLights)), "4 of 7 shine on what is visible");
-    EXPECT_EQ(describe(Effect::Sun, demand.of(Effect::Sun)), "1 of 3 shine on what is visible");
+    EXPECT_EQ(describe(Effect::LightList, demand.of(Effect::LightList)), "4 of 7 shine on what is visible");
+    EXPECT_EQ(describe(Effect::Sun, demand.of(Effect::Sun)), "the brightest of 3; the others are in the light list");
 }
 
 TEST(SceneDemand, OfEachEffectChangesWithItsOwnCauseAlone) {
@@ -54,7 +54,7 @@ TEST(SceneDemand, OfEachEffectChangesWithItsOwnCauseAlone) {
         return effects;
     };
     EXPECT_EQ(changed({ .counts = { .suns = 1, .litDraws = 1 } }), std::vector{ Effect::Sun });
-    EXPECT_EQ(changed({ .counts = { .lights = 1, .litDraws = 1 } }), std::vector{ Effect::PunctualLights });
+    EXPECT_EQ(changed({ .counts = { .lights = 1, .litDraws = 1 } }), std::vector{ Effect::LightList });
     EXPECT_EQ(changed({ .counts = { .litDraws = 1 }, .hasIndirectLight = true }), std::vector{ Effect::IndirectLight });
     EXPECT_EQ(changed({ .counts = { .litDraws = 1 }, .hasSky = true }), std::vector{ Effect::Sky });
     EXPECT_EQ(changed({ .counts = { .litDraws = 1, .blendedDraws = 1 } }), std::vector{ Effect::Blending });
