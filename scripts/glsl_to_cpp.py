@@ -34,7 +34,8 @@ def without_layout(text):
     text = re.sub(r"\b(highp|mediump|lowp|flat|smooth)\s+", "", text)
     text = text.replace("#define VARYING in", "#define VARYING")
     text = re.sub(r"(?m)^(\s*)(in|out)\s+(?=\w+\s+\w+\s*;)", r"\1", text)
-    text = re.sub(r"\buniform\s+(\w+)\s*\{", r"struct \1Block {", text)
+    text = re.sub(r"\b(?:uniform|readonly\s+buffer)\s+(\w+)\s*\{", r"struct \1Block {", text)
+    text = re.sub(r"\[\s*\]\s*;", "[1];", text)  # the last member of a storage buffer
     text = re.sub(r"\buniform\s+", "", text)
     return re.sub(r"\bconst\s+(\w+\s+(?:quality_|materialConstants_)\w+\s*=)", r"\1", text)
 
