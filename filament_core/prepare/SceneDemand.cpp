@@ -21,6 +21,7 @@ std::string describeShining(Effect effect, EffectDemand const& demand) {
     if (effect == Effect::IndirectLight) return "the environment lights what is visible";
     if (effect == Effect::Sun && demand.count > 1)
         return fmt::format("the brightest of {}; the others are in the light list", demand.count);
+    if (demand.count + demand.others == 1) return "shines on what is visible";
     return fmt::format("{} of {} shine on what is visible", demand.count, demand.count + demand.others);
 }
 

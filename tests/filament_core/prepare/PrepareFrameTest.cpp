@@ -150,6 +150,7 @@ TEST_F(PrepareFrameTest, ShadesWithTheBrightestSun) {
 }
 
 TEST_F(PrepareFrameTest, FurtherSunsAreInTheListOfLightsInTheOrderOfTheScene) {
+    add({ 0, 0, 0 }, material()); // lit, in view
     addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 1, 0, 0 }, .intensity = 10 });
     addLight(scene, { .type = LightRecord::Type::Point, .intensity = 5 });
     addLight(scene, { .type = LightRecord::Type::Sun, .directionWorld = { 0, 0, 1 }, .intensity = 20 });
