@@ -7,7 +7,7 @@
 namespace filament::prepare {
 namespace {
 
-constexpr float kSmallest = std::numeric_limits<float>::min();
+constexpr float kSmallestNormal = std::numeric_limits<float>::min();
 
 float3 depthSpace(ViewSpace const& space, float3 v) {
     const float3 view = float3x3(space.viewFromWorld) * v;
@@ -17,7 +17,7 @@ float3 depthSpace(ViewSpace const& space, float3 v) {
 // Devices may flush what is smaller than the smallest normal float: such a light is unlimited.
 float rangeOf(shader::PunctualLight const& light, FroxelMargins margins) {
     const float inverseSquare = light.positionRange.w;
-    const bool isLimited = inverseSquare >= kSmallest && inverseSquare <= std::numeric_limits<float>::max();
+    const bool isLimited = inverseSquare >= kSmallestNormal && inverseSquare <= std::numeric_limits<float>::max();
     return isLimited ? 1 / std::sqrt(inverseSquare) * (1 + margins.range()) : kEverywhere;
 }
 

@@ -5,7 +5,7 @@
 namespace filament {
 namespace {
 
-constexpr const char* kPaint = R"(material { name : paint, shadingModel : lit }
+constexpr const char* kSunPaint = R"(material { name : paint, shadingModel : lit }
 fragment { void material(inout MaterialInputs material) {
     prepareMaterial(material);
     material.baseColor.rgb = vec3(0.5);
@@ -22,7 +22,7 @@ TEST(Suns, SeveralGiveTheSumOfWhatEachGivesOnBothApis) {
     for (const Backend backend : test::kBothApis) {
         auto engine = test::makeEngine(backend);
         ASSERT_TRUE(engine);
-        const Owned<Material> material = test::loadMaterial(*engine, kPaint);
+        const Owned<Material> material = test::loadMaterial(*engine, kSunPaint);
         const Owned<MaterialInstance> paint = engine->own(engine->createInstance(material));
         const test::SquareMesh square(*engine);
         const auto shownUnder = [&](std::span<const SunLight> suns) {
