@@ -239,6 +239,7 @@ TEST_F(FrameDataTest, UploadsOnlyTheBytesOfLightsAndFroxelsThatAFrameUses) {
     };
     upload();
     EXPECT_EQ(uploaded(), 0u) << "no lights, no bytes";
+    boxes.add({ 0, 0, -5 }, boxes.material()); // lit, in view
     for (int i = 0; i < 40; ++i) {
         addLight(boxes.scene, { .type = scene::LightRecord::Type::Point,
                                 .positionWorld = { 0, 0, -i },
@@ -248,7 +249,8 @@ TEST_F(FrameDataTest, UploadsOnlyTheBytesOfLightsAndFroxelsThatAFrameUses) {
     const prepare::FramePacket packet = upload();
     prepare::ViewPacket const& view = packet.mainView();
     EXPECT_GT(view.froxels.words.size(), 0u);
-    EXPECT_EQ(uploaded(), view.lights.size_bytes() + view.froxels.words.size_bytes());
+    const size_t objects = view.objects.size() * sizeof(shader::ObjectData);
+    EXPECT_EQ(uploaded(), objects + view.lights.size_bytes() + view.froxels.words.size_bytes());
 }
 
 TEST_F(FrameDataTest, FramesOfManyAndOfOneViewTakeTurnsWithoutCreatingAnything) {
