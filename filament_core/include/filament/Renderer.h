@@ -102,7 +102,7 @@ public:
     FrameStatistics statistics() const;
     std::vector<FrameTimings> takeTimings(); ///< finished frames, oldest first
     /// What the last frame needed, what it did not, and why: effects first, then passes in the order of their
-    /// declaration. An effect that is not needed costs nothing: no command, no byte, no code.
+    /// declaration. docs/demand.md says what an effect that is not needed leaves out.
     std::vector<EffectDecision> decisions() const;
     /// decisions() as a table, followed by the frame graph in words.
     std::string explain() const;
