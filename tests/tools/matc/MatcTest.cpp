@@ -5,13 +5,13 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
+#include <sys/resource.h>
 #include <unistd.h>
 
 namespace {
@@ -97,18 +97,28 @@ TEST_F(Matc, WritesTheSameBytesWithAnyNumberOfThreads) {
     EXPECT_EQ(contents(path("1")), contents(path("7")));
 }
 
+/// Of those that have ended: unlike the clock, it does not count the work of other programs.
+double processorSecondsOfChildren() {
+    rusage usage{};
+    getrusage(RUSAGE_CHILDREN, &usage);
+    const auto seconds = [](timeval time) {
+        return static_cast<double>(time.tv_sec) + 1e-6 * static_cast<double>(time.tv_usec);
+    };
+    return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+}
+
 TEST_F(Matc, CompilesTheStandardMaterialQuicklyIntoASmallPackage) {
     const std::string input = file("standard.mat", kStandard);
-    const auto begin = std::chrono::steady_clock::now();
+    const double before = processorSecondsOfChildren();
     ASSERT_EQ(matc("-j 1 -o " + path("standard.fmat") + " " + input).status, 0);
-    const std::chrono::duration<double> seconds = std::chrono::steady_clock::now() - begin;
+    const double seconds = processorSecondsOfChildren() - before;
     const size_t bytes = contents(path("standard.fmat")).size();
-    std::printf("standard lit material, both APIs, all variants, one thread: %.2f s, %.0f KB\n", seconds.count(),
+    std::printf("standard lit material, both APIs, all variants, one thread: %.2f s, %.0f KB\n", seconds,
                 static_cast<double>(bytes) / 1000);
     RecordProperty("bytes", static_cast<int>(bytes));
-    EXPECT_LT(bytes, 250'000u);
+    EXPECT_LT(bytes, 400'000u) << "shadows and area lights are most of it";
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
-    EXPECT_LT(seconds.count(), 3 * 1.5) << "1.5 s on a quiet machine";
+    EXPECT_LT(seconds, 3 * 1.5) << "1.5 s on a quiet machine";
 #endif
 }
 
@@ -126,8 +136,8 @@ TEST_F(Matc, LeavesOutFilteredVariantsAndOtherApis) {
     ASSERT_EQ(matc("-o " + path("all") + " " + input).status, 0);
     ASSERT_EQ(matc("-v directionalLighting,dynamicLighting -o " + path("one") + " " + input).status, 0);
     ASSERT_EQ(matc("-a vulkan -o " + path("vulkan") + " " + input).status, 0);
-    EXPECT_EQ(package("all").variants.size(), 8u);
-    EXPECT_EQ(package("one").variants.size(), 2u);
+    EXPECT_EQ(package("all").variants.size(), 16u);
+    EXPECT_EQ(package("one").variants.size(), 4u) << "skinned or not; colour or depth";
     EXPECT_THAT(package("all").variants[0].fragmentEssl, HasSubstr("#version 310 es"));
     EXPECT_EQ(package("vulkan").variants[0].fragmentEssl, "");
     EXPECT_EQ(package("vulkan").variants[0].fragmentSpirv, package("all").variants[0].fragmentSpirv);
@@ -389,7 +399,7 @@ TEST_F(Matc, MatinfoShowsWhatAPackageHolds) {
     EXPECT_EQ(shown.status, 0);
     for (const char* text :
          { "standard", "3 parameters", "sampler2d", "baseColor", "attributes            position tangents uv0",
-           "8 variants", "directionalLighting dynamicLighting skinning", "no lights" }) {
+           "16 variants", "directionalLighting dynamicLighting shadowReceiver skinning", "no lights" }) {
         EXPECT_THAT(shown.output, HasSubstr(text));
     }
     const std::string size = std::to_string(package("standard.fmat").variants[0].fragmentSpirv.size() * 4);
