@@ -72,6 +72,7 @@ public:
     virtual void edit(CmdCreatePipeline&) {}
     virtual void edit(CmdUploadTexture&) {}
     virtual void edit(CmdUpdateBuffer&) {}
+    virtual void edit(CmdSetViewport&) {}
 };
 
 /// The tool's interface to the layer: EngineOptions::debug.capture. One per engine.

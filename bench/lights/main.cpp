@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // lights_bench: what a frame costs with 1, 10, 50, 200, ... lamps of half a metre's range above a floor that fills the
-// picture, on both APIs.
+// picture, on both APIs. --shapes point rect disc tube profile compares areas, and points with a
+//   profile, with points: --lamps 1 --range 0.
 //   Method  one engine per API; every round draws every number of lamps on each, so that all see the same machine.
 //           Milliseconds of a frame from render() until the device is idle; medians of the ratios within rounds.
 //   Status  0: measured, table on standard output; 1: the reason in one line.
@@ -10,6 +11,7 @@
 #include <filament/filament.h>
 
 #include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <chrono>
@@ -25,7 +27,64 @@ struct Options {
     uint2 size{ 1280, 720 };
     double range = 0.5;
     std::vector<int> lamps{ 0, 1, 10, 50, 200, 1000, 4000 };
+    std::vector<std::string> shapes{ "point" };
 };
+
+/// What one frame shows.
+struct Case {
+    std::string shape;
+    int lamps = 0;
+};
+
+std::vector<Case> casesOf(Options const& options) {
+    std::vector<Case> cases;
+    for (std::string const& shape : options.shapes) {
+        for (const int lamps : options.lamps) cases.push_back({ shape, lamps });
+    }
+    return cases;
+}
+
+/// Areas are as bright on the floor as points, from 0.4 metres above it.
+void addLamp(Scene& scene, std::string const& shape, LightProfile profile, double3 at, float range) {
+    const Nits nits{ 40'000 };
+    const float3 down{ 0, 0, -1 };
+    if (shape == "rect")
+        scene.add(RectLight{ .positionWorld = at,
+                             .directionWorld = down,
+                             .widthMeters = 0.5f,
+                             .heightMeters = 0.5f,
+                             .luminance = nits,
+                             .rangeMeters = range });
+    else if (shape == "disc")
+        scene.add(DiscLight{ .positionWorld = at,
+                             .directionWorld = down,
+                             .radiusMeters = 0.28f,
+                             .luminance = nits,
+                             .rangeMeters = range });
+    else if (shape == "tube")
+        scene.add(TubeLight{ .positionWorld = at,
+                             .lengthMeters = 1,
+                             .radiusMeters = 0.12f,
+                             .luminance = nits,
+                             .rangeMeters = range });
+    else
+        scene.add(PointLight{ .positionWorld = at,
+                              .intensity = Candela{ 10'000 },
+                              .rangeMeters = range,
+                              .profile = shape == "profile" ? profile : LightProfile{},
+                              .directionWorld = down });
+}
+
+/// As bright everywhere, in steps of 5 by 15 degrees.
+std::string luminaire() {
+    constexpr int kVertical = 37, kHorizontal = 25;
+    std::string text =
+            fmt::format("IES:LM-63-2019\nTILT=NONE\n1 -1 1 {} {} 1 2 0 0 0\n1 1 9\n", kVertical, kHorizontal);
+    for (int i = 0; i < kVertical; ++i) text += fmt::format("{}\n", i * 5);
+    for (int i = 0; i < kHorizontal; ++i) text += fmt::format("{}\n", i * 15);
+    for (int i = 0; i < kVertical * kHorizontal; ++i) text += "100\n";
+    return text;
+}
 
 double median(std::vector<double> values) {
     std::ranges::sort(values);
@@ -43,7 +102,11 @@ public:
         Result<tools::MaterialStand> floor = tools::MaterialStand::make(*engine, **file);
         if (!floor) return floor.error();
         std::unique_ptr<Device> device(new Device(std::move(*engine), std::move(*floor), options));
-        for (const int lamps : options.lamps) device->addScene(lamps);
+        const std::string text = luminaire();
+        const Result<LightProfile> profile = device->mEngine.create(LightProfileDesc{ std::as_bytes(std::span(text)) });
+        if (!profile) return profile.error();
+        device->mProfile = device->mEngine.own(*profile);
+        for (Case const& one : casesOf(options)) device->addScene(one);
         return device;
     }
 
@@ -69,19 +132,17 @@ private:
     }
 
     // Lamps all over what the camera sees of the floor; the first one in the middle.
-    void addScene(int lamps) {
+    void addScene(Case const& one) {
         mScenes.push_back(std::make_unique<Scene>(mEngine));
         Scene& scene = *mScenes.back();
         mFloor.addTo(scene,
                      double4x4(double4(80, 0, 0, 0), double4(0, 80, 0, 0), double4(0, 0, 80, 0), double4(0, 0, 0, 1)));
         std::mt19937 random(1);
         const auto next = [&] { return static_cast<double>(random()) / 4294967296.0; };
-        for (int i = 0; i < lamps; ++i) {
+        for (int i = 0; i < one.lamps; ++i) {
             const double y = i ? -5 + 17 * next() : 0.5, width = 6 + 0.55 * (y + 5);
             const double x = i ? (2 * next() - 1) * width : 0;
-            scene.add(PointLight{ .positionWorld = { x, y, 0.1 + 0.3 * next() },
-                                  .intensity = Candela{ 10'000 },
-                                  .rangeMeters = static_cast<float>(mOptions.range) });
+            addLamp(scene, one.shape, mProfile, { x, y, 0.1 + 0.3 * next() }, static_cast<float>(mOptions.range));
         }
         mRenderer.render(scene, mView, mTarget);
         mEngine.waitIdle();
@@ -91,18 +152,20 @@ private:
     Engine mEngine;
     tools::MaterialStand mFloor;
     std::vector<std::unique_ptr<Scene>> mScenes; // destroyed before the objects that they show
+    Owned<LightProfile> mProfile;
     Owned<SwapChain> mTarget;
     Renderer mRenderer;
     View mView;
 };
 
 void print(Device const& device, Options const& options, std::vector<std::vector<double>> const& times) {
-    const auto one = std::ranges::find(options.lamps, 1);
-    for (size_t i = 0; i < options.lamps.size(); ++i) {
+    const std::vector<Case> cases = casesOf(options);
+    const auto one = std::ranges::find(cases, 1, &Case::lamps); // of the first shape
+    for (size_t i = 0; i < cases.size(); ++i) {
         std::vector<double> ratios;
-        for (size_t round = 0; one != options.lamps.end() && round < times[i].size(); ++round)
-            ratios.push_back(times[i][round] / times[static_cast<size_t>(one - options.lamps.begin())][round]);
-        std::printf("| %s | %d | %.1f | %.1f | %.2f |\n", device.name(), options.lamps[i],
+        for (size_t round = 0; one != cases.end() && round < times[i].size(); ++round)
+            ratios.push_back(times[i][round] / times[static_cast<size_t>(one - cases.begin())][round]);
+        std::printf("| %s | %s | %d | %.1f | %.1f | %.2f |\n", device.name(), cases[i].shape.c_str(), cases[i].lamps,
                     *std::ranges::min_element(times[i]), median(times[i]), ratios.empty() ? 0 : median(ratios));
     }
 }
@@ -114,13 +177,13 @@ Result<void> run(Options const& options) {
         if (!device) return device.error();
         devices.push_back(std::move(*device));
     }
-    std::vector times(devices.size(), std::vector<std::vector<double>>(options.lamps.size()));
+    std::vector times(devices.size(), std::vector<std::vector<double>>(casesOf(options).size()));
     for (int round = 0; round < options.rounds; ++round) {
         for (size_t d = 0; d < devices.size(); ++d) {
-            for (size_t i = 0; i < options.lamps.size(); ++i) times[d][i].push_back(devices[d]->measure(i));
+            for (size_t i = 0; i < times[d].size(); ++i) times[d][i].push_back(devices[d]->measure(i));
         }
     }
-    std::printf("| API | lamps | minimum ms | median ms | x one lamp |\n|---|---|---|---|---|\n");
+    std::printf("| API | shape | lamps | minimum ms | median ms | x one lamp |\n|---|---|---|---|---|---|\n");
     for (size_t d = 0; d < devices.size(); ++d) print(*devices[d], options, times[d]);
     return {};
 }
@@ -135,6 +198,8 @@ int main(int argc, char** argv) {
     app.add_option("--rounds", options.rounds, "rounds; each draws every number of lamps")->check(CLI::Range(1, 1000));
     app.add_option("--frames", options.frames, "frames a measurement")->check(CLI::Range(1, 1000));
     app.add_option("--lamps", options.lamps, "numbers of lamps")->check(CLI::Range(0, 100'000));
+    app.add_option("--shapes", options.shapes, "shapes of lamps")
+            ->check(CLI::IsMember({ "point", "rect", "disc", "tube", "profile" }));
     app.add_option("--range", options.range, "metres; 0: unlimited")->check(CLI::Range(0.0, 1e6));
     CLI11_PARSE(app, argc, argv);
     const Result<void> done = bench::run(options);

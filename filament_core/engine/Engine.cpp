@@ -148,6 +148,7 @@ Engine::Impl::~Impl() {
     reportLeaks(renderTargets, "render target");
     reportLeaks(indirectLights, "indirect light");
     reportLeaks(skyboxes, "skybox");
+    reportLeaks(lightProfiles, "light profile");
     reportLeaks(instances, "material instance");
     reportLeaks(materials, "material");
     reportLeaks(morphTargets, "morph targets");

@@ -28,6 +28,9 @@
 #include <type_traits>
 #include <vector>
 
+namespace filament::assets {
+struct IesFile;
+}
 namespace filament::passes {
 struct FullScreenInterface;
 }
@@ -69,6 +72,13 @@ struct IndirectLightState {
 struct SkyboxState {
     backend::TextureHandle cube;
     bool isRgbm = false;
+    float3x3 worldFromCube{ 1.0f };
+    std::string name;
+};
+
+struct LightProfileState {
+    std::shared_ptr<const std::vector<uint32_t>> words; ///< see shader::kProfileHeaderWords; lights share them
+    LightProfileDescription description{};
     std::string name;
 };
 
@@ -124,6 +134,7 @@ struct Engine::Impl {
     IndexBuffer createIndexBuffer(IndexBufferDesc const& desc);
     MorphTargets createMorphTargets(MorphTargetsDesc const& desc);
     SwapChain createSwapChain(SwapChainDesc const& desc);
+    LightProfile createLightProfile(assets::IesFile const& file, std::string name);
     MaterialInstance createInstance(Material material, std::string name);
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterArray const& values,
@@ -187,6 +198,7 @@ struct Engine::Impl {
     engine::HandleTable<MaterialInstanceObject, scene::MaterialInstance> instances;
     engine::HandleTable<IndirectLightObject, engine::IndirectLightState> indirectLights;
     engine::HandleTable<SkyboxObject, engine::SkyboxState> skyboxes;
+    engine::HandleTable<LightProfileObject, engine::LightProfileState> lightProfiles;
     engine::HandleTable<RenderTargetObject, engine::RenderTargetState> renderTargets;
     engine::HandleTable<SwapChainObject, engine::SwapChainState> swapChains;
 

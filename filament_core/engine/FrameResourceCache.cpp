@@ -16,8 +16,9 @@ uint32_t toneTableSize(ToneMapping mapping) {
 
 } // namespace
 
-FrameResources FrameResourceCache::find(View const& view, prepare::EnvironmentPacket const& environment,
+FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket const& packet,
                                         passes::PipelineSource pipelines, bool isToneMapped) {
+    prepare::EnvironmentPacket const& environment = packet.environment;
     FrameResources resources;
     resources.pipelines = pipelines;
     resources.lighting = lighting(view, environment);
@@ -25,8 +26,13 @@ FrameResources FrameResourceCache::find(View const& view, prepare::EnvironmentPa
     resources.effects = &mEffects;
     resources.white = mEngine.textureHandle(mEngine.unsetTexture({ .type = ParameterType::Sampler2D }));
     resources.instanceIds = mEngine.defaults.instanceIds;
+    if (packet.shadows.keepsAtlas && packet.shadows.drawn > 0) resources.farDepth = farDepth();
     if (environment.sky) resources.skybox = skybox(environment.skyIsRgbm);
-    if (isToneMapped) resources.toneTable = toneTable(view);
+    if (!packet.discs.empty()) resources.sunDisc = sunDisc();
+    if (packet.demand.needs(prepare::Effect::DebugView))
+        resources.debugView = debugView(view.debugView, isToneMapped);
+    else if (isToneMapped)
+        resources.toneTable = toneTable(view);
     resources.hasHalfFloats = mEngine.stream->info().features.halfFloatShaders;
     return resources;
 }
@@ -49,6 +55,25 @@ passes::LightingTextures FrameResourceCache::lighting(View const& view, prepare:
 scene::Material const* FrameResourceCache::skybox(bool isRgbm) {
     scene::Material const*& known = mSkyboxes[isRgbm];
     if (!known) known = &mEngine.materials.get(mEngine.engineMaterial("skybox", { { "isRgbm", isRgbm } }));
+    return known;
+}
+
+scene::Material const* FrameResourceCache::farDepth() {
+    if (!mFarDepth) mFarDepth = &mEngine.materials.get(mEngine.engineMaterial("far_depth", {}));
+    return mFarDepth;
+}
+
+scene::Material const* FrameResourceCache::sunDisc() {
+    if (!mSunDisc) mSunDisc = &mEngine.materials.get(mEngine.engineMaterial("sun_disc", {}));
+    return mSunDisc;
+}
+
+scene::Material const* FrameResourceCache::debugView(DebugView debugView, bool isEncoded) {
+    scene::Material const*& known = mDebugViews[static_cast<size_t>(debugView) * 2 + (isEncoded ? 1 : 0)];
+    if (!known) {
+        known = &mEngine.materials.get(mEngine.engineMaterial(
+                "debug_view", { { "view", static_cast<int32_t>(debugView) }, { "isEncoded", isEncoded } }));
+    }
     return known;
 }
 

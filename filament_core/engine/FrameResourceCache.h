@@ -18,17 +18,23 @@ public:
     explicit FrameResourceCache(Engine::Impl& engine) : mEngine(engine), mEffects(engine) {}
 
     /// `isToneMapped`: the picture goes through the view's tone mapper.
-    passes::FrameResources find(View const& view, prepare::EnvironmentPacket const& environment,
-                                passes::PipelineSource pipelines, bool isToneMapped);
+    passes::FrameResources find(View const& view, prepare::FramePacket const& packet, passes::PipelineSource pipelines,
+                                bool isToneMapped);
 
 private:
     passes::FrameSamplers samplers();
     passes::LightingTextures lighting(View const& view, prepare::EnvironmentPacket const& environment);
     backend::TextureHandle toneTable(View const& view);
     scene::Material const* skybox(bool isRgbm);
+    scene::Material const* farDepth();
+    scene::Material const* sunDisc();
+    scene::Material const* debugView(DebugView debugView, bool isEncoded);
 
     Engine::Impl& mEngine;
     std::array<scene::Material const*, 2> mSkyboxes{}; // by isRgbm
+    scene::Material const* mFarDepth = nullptr;
+    scene::Material const* mSunDisc = nullptr;
+    std::array<scene::Material const*, 10> mDebugViews{}; // by DebugView and whether the target is encoded
     EffectMaterialCache mEffects;
 };
 

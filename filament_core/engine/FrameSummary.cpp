@@ -46,6 +46,7 @@ FrameSummary summarize(uint64_t frame, prepare::FramePacket const& packet, frame
     FrameSummary summary{ .counts = packet.mainView().counts, .demand = packet.demand };
     add(summary.main, packet.mainView());
     summary.main.draws += summary.demand.needs(prepare::Effect::Sky) ? 1 : 0;
+    summary.main.draws += static_cast<uint32_t>(packet.discs.size());
     FrameSummary::Totals all = summary.main;
     for (prepare::ViewPacket const& view : packet.views.subspan(1)) {
         add(summary.others[static_cast<size_t>(view.kind)], view);
@@ -85,6 +86,7 @@ std::vector<EffectDecision> decisions(FrameSummary const& summary, framegraph::C
     for (size_t i = 0; i < prepare::kEffects; ++i) {
         const auto effect = static_cast<prepare::Effect>(i);
         prepare::EffectDemand const& demand = summary.demand.of(effect);
+        if (effect == prepare::Effect::DebugView && !demand.isNeeded) continue; // a tool's: no news
         all.push_back({ .name = nameOf(effect),
                         .state = demand.isNeeded ? EffectDecision::State::Needed : EffectDecision::State::NotNeeded,
                         .reason = describe(effect, demand) });

@@ -1,29 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
-#include <filament/Environment.h>
-
 #include "base/OutOfMemory.h"
-#include "filament_core/assets/environment/Environment.h"
-#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/engine/EnvironmentImpl.h"
 
 #include <new>
 
 namespace filament {
-
-struct Environment::Impl {
-    Engine::Impl& engine;
-    Texture specular{}, sky{}, irradiance{};
-    IndirectLight indirectLight{};
-    Skybox skybox{};
-
-    ~Impl() {
-        Engine& owner = Engine::of(engine);
-        if (skybox) owner.destroy(skybox); // null: memory ran out while the environment was loaded
-        if (indirectLight) owner.destroy(indirectLight);
-        if (irradiance) engine.destroy(irradiance);
-        if (sky) engine.destroy(sky);
-        if (specular) engine.destroy(specular);
-    }
-};
 
 namespace {
 
@@ -45,6 +26,33 @@ Texture uploadCube(Engine::Impl& engine, assets::Image const& image, std::string
 
 } // namespace
 
+Environment::Impl::~Impl() {
+    Engine& owner = Engine::of(engine);
+    if (skybox) owner.destroy(skybox); // null: memory ran out while the environment was loaded
+    if (indirectLight) owner.destroy(indirectLight);
+    if (irradiance) engine.destroy(irradiance);
+    if (sky) engine.destroy(sky);
+    if (specular) engine.destroy(specular);
+}
+
+Environment engine::uploadEnvironment(Engine& engine, assets::EnvironmentData const& data, std::string const& name) {
+    Engine::Impl& impl = engine.impl();
+    std::unique_ptr<Environment::Impl> parts(new Environment::Impl{ impl });
+    parts->specular = uploadCube(impl, data.specular, name);
+    parts->sky = uploadCube(impl, data.sky, name + " sky");
+    if (!data.irradiance.data.empty()) parts->irradiance = uploadCube(impl, data.irradiance, name + " irradiance");
+    parts->indirectLight = orBadAlloc(engine.create(IndirectLightDesc{ .specular = parts->specular,
+                                                                       .specularLevels = data.specular.levels,
+                                                                       .mapping = data.mapping,
+                                                                       .irradiance = parts->irradiance,
+                                                                       .irradianceSh = data.irradianceSh,
+                                                                       .worldFromCube = data.worldFromCube,
+                                                                       .name = name }));
+    parts->skybox = orBadAlloc(
+            engine.create(SkyboxDesc{ .cube = parts->sky, .worldFromCube = data.worldFromCube, .name = name }));
+    return Environment(std::move(parts));
+}
+
 Environment::Environment(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
 Environment::Environment(Environment&&) noexcept = default;
 Environment& Environment::operator=(Environment&&) noexcept = default;
@@ -55,8 +63,7 @@ Skybox Environment::skybox() const { return mImpl->skybox; }
 
 Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const& path,
                                     EnvironmentLoadOptions const& options) {
-    using Made = Result<std::unique_ptr<Environment::Impl>>;
-    auto made = orOutOfMemory("environment", path.native(), [&]() -> Made {
+    return orOutOfMemory("environment", path.native(), [&]() -> Result<Environment> {
         Engine::Impl& impl = engine.impl();
         auto data = assets::loadEnvironment(path, impl.jobs,
                                             { .cacheDirectory = impl.options.cacheDirectory,
@@ -66,24 +73,10 @@ Result<Environment> loadEnvironment(Engine& engine, std::filesystem::path const&
                                               .mapping = options.roughnessMapping,
                                               .progress = options.progress });
         if (!data) return data.error();
-
-        const std::string name = path.filename().string();
-        std::unique_ptr<Environment::Impl> parts(new Environment::Impl{ impl });
-        parts->specular = uploadCube(impl, data->specular, name);
-        parts->sky = uploadCube(impl, data->sky, name + " sky");
-        parts->irradiance = uploadCube(impl, data->irradiance, name + " irradiance");
-        parts->indirectLight = orBadAlloc(engine.create(IndirectLightDesc{ .specular = parts->specular,
-                                                                           .specularLevels = data->specular.levels,
-                                                                           .mapping = data->mapping,
-                                                                           .irradiance = parts->irradiance,
-                                                                           .irradianceSh = data->irradianceSh,
-                                                                           .name = name }));
-        parts->skybox = orBadAlloc(engine.create(SkyboxDesc{ .cube = parts->sky, .name = name }));
+        Environment environment = engine::uploadEnvironment(engine, *data, path.filename().string());
         impl.flush(); // the driver thread uploads while the caller continues
-        return parts;
+        return environment;
     });
-    if (!made) return made.error();
-    return Environment(std::move(*made));
 }
 
 } // namespace filament

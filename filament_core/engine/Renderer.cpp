@@ -9,7 +9,9 @@
 #include "filament_core/engine/ImageTarget.h"
 #include "filament_core/engine/PixelReads.h"
 #include "filament_core/engine/SceneImpl.h"
+#include "filament_core/engine/ShadowTexture.h"
 #include "filament_core/passes/Frame.h"
+#include "filament_core/passes/ShadowPass.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
@@ -30,7 +32,8 @@ prepare::ViewInput inputOf(View const& view) {
              .size = view.size,
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
-             .quality = view.quality };
+             .quality = view.quality,
+             .debugView = view.debugView };
 }
 
 FrameOutput outputOf(engine::TextureState const& target) {
@@ -42,12 +45,13 @@ FrameOutput outputOf(engine::TextureState const& target) {
 struct Renderer::Impl {
     Impl(Engine::Impl& owner, RendererOptions const& rendererOptions)
             : engine(owner), options(rendererOptions), resources(owner), data(*owner.stream), blocks(*owner.stream),
-              graph(arena), transients(*owner.stream), ranges(owner.jobs), timings(owner), pixels(owner),
-              imageTarget(owner) {}
+              shadows(owner), graph(arena), transients(*owner.stream), ranges(owner.jobs), timings(owner),
+              pixels(owner), imageTarget(owner) {}
 
     ~Impl() {
         data.destroy(engine.pending);
         blocks.destroy(engine.pending);
+        shadows.destroy();
         transients.destroyAll(engine.pending);
     }
 
@@ -59,9 +63,13 @@ struct Renderer::Impl {
         graph.reset();
         plan = {};
         const std::array views{ inputOf(view) };
-        const prepare::FramePacket packet = prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views);
+        const prepare::FramePacket packet =
+                prepare::prepareFrame(engine.jobs, arena, scene.impl().upToDate(), views, shadows.held());
         FrameContext& context = *passes::makeFrameContext(
-                arena, packet, resources.find(view, packet.environment, pipelines, !output.isSceneLinear()), view);
+                arena, packet, resources.find(view, packet, pipelines, !output.isSceneLinear()), view);
+        shadows.use(packet.shadows);
+        context.resources.shadowAtlas = shadows.depths();
+        context.resources.shadowMoments = shadows.moments();
         blocks.begin();
         context.blocks = &blocks;
         passes::describeFrame(graph, context, output);
@@ -82,7 +90,9 @@ struct Renderer::Impl {
         blocks.upload(*commands);
         context.views = data.views();
         context.deformations = data.deformations();
+        shadows.forget(context.packet.shadows);
         framegraph::record(*commands, plan, options.passTimers ? &timers : nullptr, &ranges);
+        shadows.keep(context.packet.shadows);
     }
 
     /// The six lines of docs/architecture.md, with their measurements: plan, then record.
@@ -134,6 +144,7 @@ struct Renderer::Impl {
             std::vector<passes::FullScreenWish> wishes;
             planFrame(scene, view, outputOf(target), PipelineSource(engine.pipelines, &wishes));
             framegraph::rehearse(plan);
+            if (view.quality.shadows != ShadowFilter::Off) engine.pipelines.slot(passes::shadowSlot(view.quality));
             for (passes::FullScreenWish const& wish : wishes) {
                 engine.compilations.add(
                         { .material = wish.material, .wishes = { { .slot = wish.slot, .isFullScreen = true } } },
@@ -153,6 +164,7 @@ struct Renderer::Impl {
     Arena arena;
     passes::FrameData data;
     passes::PassBlocks blocks;
+    engine::ShadowTexture shadows;
     framegraph::FrameGraph graph;
     framegraph::TransientPool transients;
     framegraph::RangeRecorder ranges;

@@ -9,6 +9,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 namespace filament {
 namespace {
@@ -55,6 +56,55 @@ float3 unitDirection(float3 direction) {
     return float3(double3(direction) / exact);
 }
 
+constexpr float kWidestSunDegrees = 20, kWidestHalo = 1000, kSteepestHalo = 10'000,
+                kLargestFloat = std::numeric_limits<float>::max();
+
+// Negative values and NaN become 0.
+float clampedOr0(float value, float most) { return value > 0 ? std::min(value, most) : 0.0f; }
+
+void checkLight(LinearColor color, float rangeMeters, double3 const& positionWorld) {
+    const auto isFinite = [](auto const& v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); };
+    FILAMENT_ASSERT(isFinite(color) && color.x >= 0 && color.y >= 0 && color.z >= 0,
+                    "a light's color is finite and >= 0");
+    FILAMENT_ASSERT(rangeMeters >= 0 && std::isfinite(rangeMeters), "a light's range is finite and >= 0");
+    FILAMENT_ASSERT(isFinite(positionWorld), "a light's position is finite");
+}
+
+// Across a direction, nearest to `side`; any if that is along the direction or not finite. All unit but `side`.
+float3 acrossDirection(float3 direction, float3 side) {
+    const double3 axis(direction), other = std::abs(direction.x) < 0.7f ? double3(1, 0, 0) : double3(0, 1, 0);
+    const double length = glm::length(double3(side));
+    const double3 wanted = length > 0 && std::isfinite(length) ? double3(side) / length : other;
+    const double3 across = wanted - axis * glm::dot(wanted, axis);
+    if (glm::dot(across, across) > 1e-12) return float3(glm::normalize(across));
+    return float3(glm::normalize(other - axis * glm::dot(other, axis)));
+}
+
+/// To a record that has a direction; `up` as of PointLight::upWorld.
+void setProfile(Engine::Impl const& engine, LightProfile profile, float3 up, LightRecord& record) {
+    record.sideWorld = glm::cross(record.directionWorld, acrossDirection(record.directionWorld, up));
+    record.profile = engine.lightProfiles.get(profile).words;
+}
+
+/// What the areas have in common; the record lacks its shape.
+template <class AreaLight>
+LightRecord areaRecord(LightRecord::Type type, AreaLight const& light) {
+    checkLight(light.color, light.rangeMeters, light.positionWorld);
+    const float nits = light.luminance.value;
+    return { .type = type,
+             .positionWorld = light.positionWorld,
+             .color = light.color,
+             .intensity = nits > 0 && std::isfinite(nits) ? nits : 0.0f,
+             .rangeMeters = light.rangeMeters,
+             .castsShadows = false };
+}
+
+float2 halfExtentOf(float x, float y) {
+    FILAMENT_ASSERT(x >= 0 && y >= 0 && std::isfinite(x) && std::isfinite(y),
+                    "the sizes of a light are finite and not negative");
+    return { x, y };
+}
+
 // Adds a light whose record is in world space, or in the space of its node.
 Light addLight(scene::SceneData& data, LightRecord const& record, Node node) {
     const Light light = scene::addLight(data, record);
@@ -82,14 +132,17 @@ Renderable Scene::add(RenderableDesc const& desc) {
                                     indices.format };
     FILAMENT_ASSERT(!desc.node || desc.worldFromObject == double4x4(1.0),
                     "a renderable of a node stands where the node stands: its worldFromObject stays the identity");
-    const scene::RenderableInput input{ geometry,
-                                        &engine.instances.get(desc.material),
-                                        desc.boundsMin,
-                                        desc.boundsMax,
-                                        desc.worldFromObject,
-                                        desc.culled,
-                                        desc.name,
-                                        desc.instanceIndex };
+    const scene::RenderableInput input{ .geometry = geometry,
+                                        .material = &engine.instances.get(desc.material),
+                                        .boundsMin = desc.boundsMin,
+                                        .boundsMax = desc.boundsMax,
+                                        .worldFromObject = desc.worldFromObject,
+                                        .culled = desc.culled,
+                                        .name = desc.name,
+                                        .instanceIndex = desc.instanceIndex,
+                                        .castsShadows = desc.castsShadows,
+                                        .receivesShadows = desc.receivesShadows,
+                                        .lightChannels = desc.lightChannels };
     // Vertices outside object space cannot have bones in it.
     const bool isDeformed = (desc.skin || desc.morphTargets) &&
                             input.material->material->package.vertexDomain == shader::VertexDomain::Object;
@@ -100,38 +153,82 @@ Renderable Scene::add(RenderableDesc const& desc) {
 }
 
 Light Scene::add(SunLight const& light, Node node) {
+    checkLight(light.color, 0, double3(0.0));
     return addLight(mImpl->data,
                     { .type = LightRecord::Type::Sun,
                       .directionWorld = unitDirection(light.directionWorld),
                       .color = light.color,
-                      .intensity = light.illuminance.value },
+                      .intensity = light.illuminance.value,
+                      .sourceRadius = std::tan(glm::radians(clampedOr0(light.angularRadiusDegrees, kWidestSunDegrees))),
+                      .castsShadows = light.castsShadows,
+                      .channels = light.lightChannels,
+                      .showsDisc = light.showsDisc,
+                      .haloSize = std::max(1.0f, clampedOr0(light.haloSize, kWidestHalo)),
+                      .haloFalloff = clampedOr0(light.haloFalloff, kSteepestHalo) },
                     node);
 }
 
 Light Scene::add(PointLight const& light, Node node) {
-    return addLight(mImpl->data,
-                    { .type = LightRecord::Type::Point,
-                      .positionWorld = light.positionWorld,
-                      .color = light.color,
-                      .intensity = light.intensity.value,
-                      .rangeMeters = light.rangeMeters },
-                    node);
+    checkLight(light.color, light.rangeMeters, light.positionWorld);
+    LightRecord record{ .type = LightRecord::Type::Point,
+                        .positionWorld = light.positionWorld,
+                        .color = light.color,
+                        .intensity = light.intensity.value,
+                        .rangeMeters = light.rangeMeters,
+                        .sourceRadius = clampedOr0(light.sourceRadiusMeters, kLargestFloat),
+                        .castsShadows = light.castsShadows,
+                        .channels = light.lightChannels };
+    if (light.profile) {
+        record.directionWorld = unitDirection(light.directionWorld);
+        setProfile(mImpl->engine, light.profile, light.upWorld, record);
+    }
+    return addLight(mImpl->data, record, node);
 }
 
 Light Scene::add(SpotLight const& light, Node node) {
+    checkLight(light.color, light.rangeMeters, light.positionWorld);
     FILAMENT_ASSERT(light.innerConeRadians >= 0 && light.innerConeRadians < light.outerConeRadians &&
                             light.outerConeRadians <= 1.5707964f,
                     "a spot has 0 <= inner < outer <= pi/2");
-    return addLight(mImpl->data,
-                    { .type = LightRecord::Type::Spot,
-                      .positionWorld = light.positionWorld,
-                      .directionWorld = unitDirection(light.directionWorld),
-                      .color = light.color,
-                      .intensity = light.intensity.value,
-                      .rangeMeters = light.rangeMeters,
-                      .innerConeRadians = light.innerConeRadians,
-                      .outerConeRadians = light.outerConeRadians },
-                    node);
+    LightRecord record{ .type = LightRecord::Type::Spot,
+                        .positionWorld = light.positionWorld,
+                        .directionWorld = unitDirection(light.directionWorld),
+                        .color = light.color,
+                        .intensity = light.intensity.value,
+                        .rangeMeters = light.rangeMeters,
+                        .innerConeRadians = light.innerConeRadians,
+                        .outerConeRadians = light.outerConeRadians,
+                        .sourceRadius = clampedOr0(light.sourceRadiusMeters, kLargestFloat),
+                        .castsShadows = light.castsShadows,
+                        .channels = light.lightChannels };
+    if (light.profile) setProfile(mImpl->engine, light.profile, light.upWorld, record);
+    return addLight(mImpl->data, record, node);
+}
+
+Light Scene::add(RectLight const& light, Node node) {
+    LightRecord record = areaRecord(LightRecord::Type::Rect, light);
+    record.directionWorld = unitDirection(light.directionWorld);
+    const float3 up = acrossDirection(record.directionWorld, light.upWorld);
+    record.sideWorld = glm::cross(record.directionWorld, up);
+    record.halfExtent = halfExtentOf(light.widthMeters / 2, light.heightMeters / 2);
+    record.isTwoSided = light.isTwoSided;
+    return addLight(mImpl->data, record, node);
+}
+
+Light Scene::add(DiscLight const& light, Node node) {
+    LightRecord record = areaRecord(LightRecord::Type::Disc, light);
+    record.directionWorld = unitDirection(light.directionWorld);
+    record.sideWorld = acrossDirection(record.directionWorld, {});
+    record.halfExtent = halfExtentOf(light.radiusMeters, light.radiusMeters);
+    record.isTwoSided = light.isTwoSided;
+    return addLight(mImpl->data, record, node);
+}
+
+Light Scene::add(TubeLight const& light, Node node) {
+    LightRecord record = areaRecord(LightRecord::Type::Tube, light);
+    record.sideWorld = unitDirection(light.axisWorld);
+    record.halfExtent = halfExtentOf(light.lengthMeters / 2, light.radiusMeters);
+    return addLight(mImpl->data, record, node);
 }
 
 Skin Scene::add(SkinDesc const& desc) {
@@ -157,6 +254,19 @@ void Scene::setMorphWeights(Renderable renderable, std::span<const float> weight
 void Scene::remove(Renderable renderable) { scene::removeRenderable(mImpl->data, renderable); }
 void Scene::remove(Light light) { scene::removeLight(mImpl->data, light); }
 
+void Scene::setLightChannels(Renderable renderable, LightChannels channels) {
+    scene::setLightChannels(mImpl->data.renderables, renderable, channels);
+}
+
+void Scene::setLightChannels(Light light, LightChannels channels) {
+    scene::Lights& lights = mImpl->data.lights;
+    lights.records[lights.index.at(light)].channels = channels;
+}
+
+void Scene::setLightChannels(Node node, LightChannels channels) {
+    scene::setLightChannels(mImpl->data, node, channels);
+}
+
 void Scene::setTransform(Renderable renderable, double4x4 const& worldFromObject) {
     scene::setTransform(mImpl->data, renderable, worldFromObject);
 }
@@ -180,6 +290,7 @@ void Scene::setSkybox(Skybox skybox, Lux illuminance, float rotationRadians) {
         engine::SkyboxState const& made = mImpl->engine.skyboxes.get(skybox);
         state.cube = made.cube;
         state.isRgbm = made.isRgbm;
+        state.worldFromCube = made.worldFromCube;
     }
     mImpl->data.skybox = state;
 }

@@ -224,6 +224,7 @@ IndirectLight Engine::create(IndirectLightDesc const& desc) {
                                 .mapping = desc.mapping };
         state.light.levelOfRoughnessOne = static_cast<float>(desc.specularLevels - 1);
         state.light.irradianceSh = desc.irradianceSh;
+        state.light.worldFromCube = desc.worldFromCube;
         state.name = desc.name;
         return draft.keep();
     });
@@ -233,7 +234,7 @@ Skybox Engine::create(SkyboxDesc const& desc) {
     return mImpl->orNone("skybox", desc.name, [&] {
         engine::Draft draft(mImpl->skyboxes);
         engine::TextureState const& cube = mImpl->textures.get(desc.cube);
-        draft.state() = { cube.handle, cube.desc.format == Format::RGBA8, desc.name };
+        draft.state() = { cube.handle, cube.desc.format == Format::RGBA8, desc.worldFromCube, desc.name };
         return draft.keep();
     });
 }

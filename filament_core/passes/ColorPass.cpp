@@ -2,6 +2,7 @@
 #include "filament_core/passes/ColorPass.h"
 
 #include "filament_core/passes/DrawRecorder.h"
+#include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -17,9 +18,38 @@ using framegraph::TextureId;
 struct Chosen {
     std::array<BindGroupHandle, 2> passGroups; // by PassKind
     std::span<const PipelineHandle> opaque, blended;
-    PipelineHandle sky;
+    PipelineHandle sky, disc;
     BindGroupHandle skyGroup;
+    std::span<const BindGroupHandle> discGroups;
 };
+
+/// What the pass declares besides its targets.
+struct ColorBlocks {
+    PassBlock target;
+    PassShadows shadows;
+    std::span<const PassBlock> discs; ///< parameters of the discs of suns
+};
+
+std::span<const PassBlock> declareDiscs(FrameContext const& context) {
+    const std::span<PassBlock> blocks = context.arena->array<PassBlock>(context.packet.discs.size());
+    for (size_t i = 0; i < blocks.size(); ++i)
+        blocks[i] = context.blocks->add(std::as_bytes(context.packet.discs.subspan(i, 1)));
+    return blocks;
+}
+
+std::span<const BindGroupHandle> discGroups(PassContext& pass, FrameContext const& context,
+                                            std::span<const PassBlock> blocks) {
+    shader::MaterialPackage const& package = context.resources.sunDisc->package;
+    FILAMENT_ASSERT(package.uniformBytes == sizeof(prepare::SunDisc) &&
+                            package.findParameter("halo")->offset == offsetof(prepare::SunDisc, halo),
+                    "sun_disc.mat has the parameters of SunDisc");
+    const std::span<BindGroupHandle> groups = context.arena->array<BindGroupHandle>(blocks.size());
+    for (size_t i = 0; i < blocks.size(); ++i) {
+        const BindGroupEntry entry = context.blocks->entry(0, blocks[i]);
+        groups[i] = pass.bindGroup(package.layout[shader::kGroupMaterial], std::span(&entry, 1), package.name);
+    }
+    return groups;
+}
 
 BindGroupHandle skyGroup(PassContext& pass, FrameContext const& context) {
     shader::MaterialPackage const& package = context.resources.skybox->package;
@@ -29,38 +59,39 @@ BindGroupHandle skyGroup(PassContext& pass, FrameContext const& context) {
     return pass.bindGroup(package.layout[shader::kGroupMaterial], std::span(&entry, 1), "sky");
 }
 
-Chosen choose(PassContext& pass, FrameContext const& context, PassBlock target) {
+Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks) {
     PipelineSource const& pipelines = context.resources.pipelines;
     prepare::ViewPacket const& view = context.packet.mainView();
     PassSettings const& settings = context.settings;
     const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
     Chosen chosen;
-    chosen.passGroups = { passGroup(pass, context, shader::PassKind::Lit, target),
-                          passGroup(pass, context, shader::PassKind::Unlit, target) };
-    chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant);
-    chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, view.blended, view.variant);
+    chosen.passGroups = { passGroup(pass, context, shader::PassKind::Lit, blocks.target, blocks.shadows),
+                          passGroup(pass, context, shader::PassKind::Unlit, blocks.target, blocks.shadows) };
+    chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant, view.channels);
+    chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, view.blended, view.variant, view.channels);
     if (context.packet.demand.needs(prepare::Effect::Sky)) {
         chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.skybox);
         chosen.skyGroup = skyGroup(pass, context);
     }
+    if (context.packet.demand.needs(prepare::Effect::SunDisc)) {
+        chosen.disc = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.sunDisc);
+        chosen.discGroups = discGroups(pass, context, blocks.discs);
+    }
     return chosen;
-}
-
-void recordSky(CommandBuffer& commands, ViewGroup const& view, Chosen const& chosen) {
-    commands.record(CmdBindPipeline{ chosen.sky });
-    commands.record(view.bind(0));
-    commands.record(
-            CmdBindGroup{ chosen.passGroups[static_cast<size_t>(shader::PassKind::Unlit)], shader::kGroupPass });
-    commands.record(CmdBindGroup{ chosen.skyGroup, shader::kGroupMaterial });
-    commands.record(CmdDraw{ 3 });
 }
 
 void recordScene(PassContext& pass, FrameContext const& context, Chosen const& chosen) {
     const FrameView view = viewOf(context, 0);
-    const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
-                             context.settings.textureFilter };
+    const DrawContext draws{ view.group,
+                             chosen.passGroups,
+                             context.resources.instanceIds,
+                             context.deformations,
+                             context.settings.textureFilter,
+                             view.packet.channels };
     recordDrawRanges(pass, draws, view.packet.opaque, chosen.opaque);
-    if (chosen.sky) recordSky(pass.commands(), view.group, chosen);
+    const BindGroupHandle unlit = chosen.passGroups[static_cast<size_t>(shader::PassKind::Unlit)];
+    if (chosen.sky) recordFullScreen(pass.commands(), chosen.sky, view.group, unlit, std::span(&chosen.skyGroup, 1));
+    if (chosen.disc) recordFullScreen(pass.commands(), chosen.disc, view.group, unlit, chosen.discGroups);
     recordDrawRanges(pass, draws, view.packet.blended, chosen.blended);
 }
 
@@ -70,7 +101,9 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     PassSettings const& settings = context.settings;
     const TextureId color = targets.color;
     const framegraph::GraphTextureDesc like = graph.texture(color).desc;
-    const PassBlock target = declareTarget(context, like, 0, settings.samples);
+    PassShadows shadows = declareShadows(context, targets.shadows);
+    shadows.hasMoments = context.packet.shadows.moments != prepare::ShadowMoments::None;
+    const ColorBlocks blocks{ declareTarget(context, like, 0, settings.samples), shadows, declareDiscs(context) };
     const TextureId depth = graph.createTexture({ .width = like.width,
                                                   .height = like.height,
                                                   .format = Format::D32F,
@@ -90,9 +123,10 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
                 pass.writeColor(0, samples,
                                 { .clear = std::array{ clear.x, clear.y, clear.z, clear.w },
                                   .resolve = settings.samples == 1 ? TextureId{} : color });
+                if (blocks.shadows.maps) pass.readSampled(blocks.shadows.maps);
                 pass.writeDepth(depth, { .clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
             },
-            [of = &context, target](PassContext& pass) { return choose(pass, *of, target); },
+            [of = &context, blocks](PassContext& pass) { return choose(pass, *of, blocks); },
             [of = &context](PassContext& pass, Chosen const& chosen) { recordScene(pass, *of, chosen); });
 }
 

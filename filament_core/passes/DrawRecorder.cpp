@@ -26,9 +26,12 @@ public:
             bindPass(draw.material->material->package);
         }
         const uint32_t window = draw.firstObject / shader::kObjectsPerWindow;
-        if (window != mWindow) {
-            mCommands.record(mContext.view.bind(draw.firstObject));
+        const uint32_t list = mContext.channels.of(draw.lightChannels);
+        if (window != mWindow || list != mList) {
+            ViewGroup const& view = list == 0 ? mContext.view : mContext.view.lists[list - 1];
+            mCommands.record(view.bind(draw.firstObject));
             mWindow = window;
+            mList = list;
         }
         const BindGroupHandle material = draw.material->group(mContext.textureFilter);
         if (material != mMaterial) {
@@ -66,7 +69,7 @@ private:
     CommandBuffer& mCommands;
     DrawContext const& mContext;
     PipelineHandle mPipeline;
-    uint32_t mWindow = ~0u;
+    uint32_t mWindow = ~0u, mList = 0;
     BindGroupHandle mPass, mMaterial;
     uint32_t mDeformation = scene::kNotDeformed;
     BufferHandle mVertices, mIndices;
@@ -78,24 +81,32 @@ constexpr PipelineHandle kMissing{ ~0u };
 
 bool isDrawnAlike(DrawCall const& a, DrawCall const& b) {
     return a.material == b.material && a.geometry->layout == b.geometry->layout && a.mirrored == b.mirrored &&
-           a.pass == b.pass && (a.deformation == scene::kNotDeformed) == (b.deformation == scene::kNotDeformed);
+           a.receivesShadows == b.receivesShadows && a.lightChannels == b.lightChannels && a.pass == b.pass &&
+           (a.deformation == scene::kNotDeformed) == (b.deformation == scene::kNotDeformed);
 }
 
-/// `variant`: selected by the scene; the geometry adds its own part.
-PipelineUse useOf(DrawCall const& draw, uint8_t variant) {
+/// What the scene selects for a draw; the geometry adds its own part.
+struct DrawVariants {
+    uint8_t ofView = 0;
+    prepare::ChannelLists const& channels;
+};
+
+PipelineUse useOf(DrawCall const& draw, DrawVariants const& variants) {
     const uint8_t own = draw.deformation == scene::kNotDeformed ? 0 : shader::kVariantSkinning;
-    return { *draw.material, draw.geometry->layout, static_cast<uint8_t>(variant | own), draw.mirrored, draw.pass };
+    const uint8_t variant = variants.channels.variantOf(draw, variants.ofView);
+    const int ofView = draw.receivesShadows ? variant : variant & ~shader::kVariantShadowReceiver;
+    return { *draw.material, draw.geometry->layout, static_cast<uint8_t>(ofView | own), draw.mirrored, draw.pass };
 }
 
 /// Looks pipelines up without changing the cache. Returns false if some are missing.
 bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, uint32_t slot,
-            std::span<const DrawCall> draws, uint8_t variant) {
+            std::span<const DrawCall> draws, DrawVariants const& variants) {
     bool hasAll = true;
     for (size_t i = 0; i < draws.size(); ++i) {
         DrawCall const& draw = draws[i];
         chosen[i] = i > 0 && isDrawnAlike(draw, draws[i - 1])
                             ? chosen[i - 1]
-                            : pipelines.find(slot, useOf(draw, variant)).value_or(kMissing);
+                            : pipelines.find(slot, useOf(draw, variants)).value_or(kMissing);
         hasAll = hasAll && chosen[i] != kMissing;
     }
     return hasAll;
@@ -103,26 +114,28 @@ bool lookUp(std::span<PipelineHandle> chosen, PipelineSource const& pipelines, u
 
 /// Creates what lookUp() did not find, in drawing order.
 void make(std::span<PipelineHandle> chosen, CommandBuffer& setup, PipelineSource const& pipelines, uint32_t slot,
-          std::span<const DrawCall> draws, uint8_t variant) {
+          std::span<const DrawCall> draws, DrawVariants const& variants) {
     for (size_t i = 0; i < draws.size(); ++i) {
         if (chosen[i] != kMissing) continue;
-        chosen[i] = pipelines.pipelineFor(setup, slot, useOf(draws[i], variant));
+        chosen[i] = pipelines.pipelineFor(setup, slot, useOf(draws[i], variants));
     }
 }
 
 } // namespace
 
 std::span<const PipelineHandle> choosePipelines(PassContext& pass, Arena& arena, PipelineSource const& pipelines,
-                                                uint32_t slot, std::span<const DrawCall> draws, uint8_t variant) {
+                                                uint32_t slot, std::span<const DrawCall> draws, uint8_t variant,
+                                                prepare::ChannelLists const& channels) {
+    const DrawVariants variants{ variant, channels };
     const std::span<PipelineHandle> chosen = arena.array<PipelineHandle>(draws.size());
     if (pipelines.isWishing()) return chosen;
     std::atomic<bool> someAreMissing{ false };
     pass.forEachRange(draws.size(), kDrawsPerRange, [&](size_t begin, size_t end) {
         const std::span<PipelineHandle> range = chosen.subspan(begin, end - begin);
-        if (!lookUp(range, pipelines, slot, draws.subspan(begin, end - begin), variant))
+        if (!lookUp(range, pipelines, slot, draws.subspan(begin, end - begin), variants))
             someAreMissing.store(true, std::memory_order_relaxed);
     });
-    if (someAreMissing.load(std::memory_order_relaxed)) make(chosen, pass.commands(), pipelines, slot, draws, variant);
+    if (someAreMissing.load(std::memory_order_relaxed)) make(chosen, pass.commands(), pipelines, slot, draws, variants);
     return chosen;
 }
 

@@ -26,7 +26,8 @@ inline constexpr size_t kDrawsPerRange = 1024;
 /// there is one.
 std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext& pass, Arena& arena,
                                                          PipelineSource const& pipelines, uint32_t slot,
-                                                         std::span<const prepare::DrawCall> draws, uint8_t variant);
+                                                         std::span<const prepare::DrawCall> draws, uint8_t variant,
+                                                         prepare::ChannelLists const& channels = {});
 
 /// Shared by all draws of a pass.
 struct DrawContext {
@@ -35,6 +36,7 @@ struct DrawContext {
     backend::BufferHandle instanceIds;
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
     TextureFilter textureFilter = TextureFilter::AsAuthored;
+    prepare::ChannelLists channels{}; ///< of the view; its lists are in `view`
 };
 
 /// One range, starting with nothing bound. Draws without a pipeline are skipped.

@@ -2,6 +2,8 @@
 #include "filament_core/passes/Frame.h"
 
 #include "filament_core/passes/ColorPass.h"
+#include "filament_core/passes/DebugViewPass.h"
+#include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/ToneMapPass.h"
 
 namespace filament::passes {
@@ -10,29 +12,34 @@ namespace {
 using backend::Format;
 using framegraph::FrameGraph;
 
-PassSettings settingsOf(View const& view, FrameResources const& resources,
-                        prepare::EnvironmentPacket const& environment) {
+PassSettings settingsOf(View const& view, FrameResources const& resources, prepare::FramePacket const& packet) {
     FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
     return { .size = view.size,
-             .samples = view.samples,
+             .samples = view.debugView == DebugView::None ? view.samples : uint8_t{ 1 }, // its depths are read
              .clearColor = view.clearColor,
-             .shading = shadingKey(view.quality, environment.storage),
+             .shading = shadingKey(view.quality, packet.environment.storage,
+                                   { .hasAreas = packet.mainView().hasAreaLights,
+                                     .hasProfiles = !packet.mainView().profiles.empty(),
+                                     .hasColoredShadows = packet.demand.needs(prepare::Effect::ColoredShadows) }),
              .depthRange = view.quality.depthRange,
              .precision = resources.hasHalfFloats ? view.quality.shadingPrecision : ShadingPrecision::Full,
              .textureFilter = view.quality.textureFilter };
 }
 
-FrameTargets beginFrame(FrameGraph& graph, PassSettings const& settings, FrameOutput const& output) {
+bool showsDecisions(FrameContext const& context) { return context.packet.demand.needs(prepare::Effect::DebugView); }
+
+FrameTargets beginFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
+    const uint2 size = context.settings.size;
     FrameTargets targets;
     targets.output = graph.importTexture(
             output.texture,
             { .width = output.width, .height = output.height, .format = output.format, .name = "output" },
             framegraph::InitialContents::Undefined);
-    targets.color = output.isSceneLinear() ? targets.output
-                                           : graph.createTexture({ .width = settings.size.x,
-                                                                   .height = settings.size.y,
-                                                                   .format = Format::RGBA16F,
-                                                                   .name = "color" });
+    targets.color =
+            output.isSceneLinear() && !showsDecisions(context)
+                    ? targets.output
+                    : graph.createTexture(
+                              { .width = size.x, .height = size.y, .format = Format::RGBA16F, .name = "color" });
     return targets;
 }
 
@@ -43,16 +50,20 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
     FrameContext* context = arena.make<FrameContext>();
     context->packet = packet;
     context->resources = resources;
-    context->settings = settingsOf(view, resources, packet.environment);
+    context->settings = settingsOf(view, resources, packet);
     context->view = &view;
     context->arena = &arena;
     return context;
 }
 
 FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
-    FrameTargets targets = beginFrame(graph, context.settings, output);
+    FrameTargets targets = beginFrame(graph, context, output);
+    addShadowPass(graph, context, targets);
     addColorPass(graph, context, targets);
-    if (targets.color != targets.output) addToneMapPass(graph, context, targets);
+    if (showsDecisions(context))
+        addDebugViewPass(graph, context, targets);
+    else if (targets.color != targets.output)
+        addToneMapPass(graph, context, targets);
     return targets;
 }
 

@@ -2,6 +2,7 @@
 #include "filament_core/passes/FrameData.h"
 
 #include "filament_core/prepare/ObjectData.h"
+#include "shaders/interface/LtcTable.h"
 #include "shaders/package/GroupLayouts.h"
 
 #include <algorithm>
@@ -59,15 +60,32 @@ void FrameData::reserve(CommandBuffer& commands, Set& set, Blocks& blocks, uint3
 FrameData::Needs FrameData::placeViews(prepare::FramePacket const& packet) {
     Needs needs;
     mViews.clear();
-    for (prepare::ViewPacket const& view : packet.views) {
-        mViews.push_back({ .uniforms = needs.views * kUniformBytes,
-                           .objects = needs.windows * kWindowBytes,
-                           .firstLight = needs.lights,
-                           .firstWord = needs.words });
+    mLists.clear();
+    const auto place = [&](size_t lights, size_t words) {
+        const ViewGroup group{ .uniforms = needs.views * kUniformBytes,
+                               .objects = needs.windows * kWindowBytes,
+                               .firstLight = needs.lights,
+                               .firstWord = needs.words };
         ++needs.views;
-        needs.lights += static_cast<uint32_t>(view.lights.size());
-        needs.words += static_cast<uint32_t>(view.froxels.words.size());
+        needs.lights += static_cast<uint32_t>(lights);
+        needs.words += static_cast<uint32_t>(words);
+        return group;
+    };
+    for (prepare::ViewPacket const& view : packet.views) {
+        mViews.push_back(place(view.lights.size(), view.froxels.words.size()));
+        for (prepare::ChannelLights const& list : view.channels.lists)
+            mLists.push_back(place(list.lights.size(), list.froxels.words.size()));
         needs.windows += windowsOf(view);
+        needs.hasTable = needs.hasTable || view.hasAreaLights;
+    }
+    needs.table = needs.words;
+    if (needs.hasTable) needs.words += static_cast<uint32_t>(shader::kLtcTable.size());
+    for (size_t i = 0; i < mViews.size(); ++i) {
+        prepare::ProfileLists const& profiles = packet.views[i].profiles;
+        if (profiles.empty()) continue;
+        mViews[i].firstProfileWord = needs.words;
+        needs.words += static_cast<uint32_t>(profiles.lights.size());
+        for (auto const& table : profiles.tables) needs.words += static_cast<uint32_t>(table.size());
     }
     needs.lights = std::max(1u, needs.lights); // something to bind
     needs.words = std::max(1u, needs.words);
@@ -108,17 +126,42 @@ void FrameData::uploadObjects(jobs::JobSystem& jobs, CommandBuffer& commands, Se
 }
 
 // The only bytes of lights and froxels that a frame uploads are those that it uses.
-void FrameData::uploadView(CommandBuffer& commands, Set const& set, prepare::ViewPacket const& view,
-                           ViewGroup const& group) {
-    FrameUniforms uniforms = view.uniforms;
+void FrameData::uploadLights(CommandBuffer& commands, Set const& set, FrameUniforms uniforms,
+                             std::span<const shader::PunctualLight> lights, std::span<const uint32_t> froxelWords,
+                             ViewGroup const& group) {
     uniforms.froxelPlaces.y = static_cast<float>(group.firstLight);
     uniforms.froxelPlaces.z = static_cast<float>(group.firstWord);
     commands.record(CmdUpdateBuffer{ set.uniforms.buffer, group.uniforms, bytesOf(uniforms) });
-    const std::span lights = std::as_bytes(view.lights), words = std::as_bytes(view.froxels.words);
-    if (!lights.empty())
-        commands.record(CmdUpdateBuffer{ set.lights.buffer, uint64_t{ group.firstLight } * kLightBytes, lights });
+    const std::span lightBytes = std::as_bytes(lights), words = std::as_bytes(froxelWords);
+    if (!lightBytes.empty())
+        commands.record(CmdUpdateBuffer{ set.lights.buffer, uint64_t{ group.firstLight } * kLightBytes, lightBytes });
     if (!words.empty())
         commands.record(CmdUpdateBuffer{ set.froxels.buffer, uint64_t{ group.firstWord } * kWordBytes, words });
+}
+
+void FrameData::uploadView(CommandBuffer& commands, Set const& set, prepare::ViewPacket const& view,
+                           ViewGroup const& group, uint32_t table) {
+    const auto withTable = [&](FrameUniforms uniforms) {
+        if (view.hasAreaLights) uniforms.froxelPlaces.w = static_cast<float>(table);
+        if (!view.profiles.empty()) uniforms.skyFactor.w = static_cast<float>(group.firstProfileWord);
+        return uniforms;
+    };
+    uploadLights(commands, set, withTable(view.uniforms), view.lights, view.froxels.words, group);
+    ViewGroup const* at = group.lists;
+    for (prepare::ChannelLights const& list : view.channels.lists)
+        uploadLights(commands, set, withTable(list.uniforms), list.lights, list.froxels.words, *at++);
+    if (!view.profiles.empty()) uploadProfiles(commands, set, view.profiles, group.firstProfileWord);
+}
+
+void FrameData::uploadProfiles(CommandBuffer& commands, Set const& set, prepare::ProfileLists const& profiles,
+                               uint32_t firstWord) {
+    const auto upload = [&](std::span<const uint32_t> words) {
+        commands.record(
+                CmdUpdateBuffer{ set.froxels.buffer, uint64_t{ firstWord } * kWordBytes, std::as_bytes(words) });
+        firstWord += static_cast<uint32_t>(words.size());
+    };
+    upload(profiles.lights);
+    for (auto const& table : profiles.tables) upload(table);
 }
 
 void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::FramePacket const& packet) {
@@ -130,9 +173,16 @@ void FrameData::upload(jobs::JobSystem& jobs, CommandBuffer& commands, prepare::
     reserve(commands, set, set.lights, needs.lights, { kLightBytes, BufferUsage::Storage, "lights" });
     reserve(commands, set, set.froxels, needs.words, { kWordBytes, BufferUsage::Storage, "froxels" });
     if (!set.view) bindViews(commands, set);
+    for (ViewGroup& list : mLists) list.handle = set.view;
+    ViewGroup const* lists = mLists.data();
     for (size_t i = 0; i < mViews.size(); ++i) {
         mViews[i].handle = set.view;
-        uploadView(commands, set, packet.views[i], mViews[i]);
+        mViews[i].lists = std::exchange(lists, lists + packet.views[i].channels.lists.size());
+        uploadView(commands, set, packet.views[i], mViews[i], needs.table);
+    }
+    if (needs.hasTable) {
+        commands.record(CmdUpdateBuffer{ set.froxels.buffer, uint64_t{ needs.table } * kWordBytes,
+                                         std::as_bytes(std::span(shader::kLtcTable)) });
     }
     uploadObjects(jobs, commands, set, packet);
     set.deformation.upload(mStream, jobs, commands, packet.deformations);

@@ -3,7 +3,8 @@
 ///   In      a FramePacket.   Out: a ViewGroup for each of its views, with offsets into buffers that all views share.
 ///   Layout  uniforms: an array, a view an element. Objects: windows, those of a view one after the other. Lights and
 ///           froxels: storage buffers that hold those of all views, one view after the other; the uniforms of a view
-///           say where its own begin (FrameUniforms::froxelPlaces, written here).
+///           say where its own begin (FrameUniforms::froxelPlaces, written here). Behind the froxels of a frame with
+///           area lights: shader::kLtcTable; then the light profiles of each view that has some.
 ///   Memory  three sets of buffers, used in turn, so that no frame overwrites what an earlier one still reads. They
 ///           grow to the largest frame and stay. Objects are written straight into the memory of the command buffer.
 ///   Fails   std::bad_alloc; what is recorded then fits what is remembered.
@@ -26,6 +27,8 @@ struct ViewGroup {
     backend::BindGroupHandle handle;
     uint32_t uniforms = 0, objects = 0;     ///< bytes
     uint32_t firstLight = 0, firstWord = 0; ///< elements of the storage buffers
+    uint32_t firstProfileWord = 0;          ///< the same; 0: the view has no profiles
+    ViewGroup const* lists = nullptr;       ///< one for each of ViewPacket::channels, with the same objects
 
     /// For draws of the window that holds `object` of the view.
     backend::CmdBindGroup bind(uint32_t object) const;
@@ -63,6 +66,8 @@ private:
     /// Blocks that a frame needs.
     struct Needs {
         uint32_t views = 0, lights = 0, words = 0, windows = 0;
+        uint32_t table = 0;    ///< first word of the table of area lights
+        bool hasTable = false; ///< some view has area lights
     };
 
     void release(backend::CommandBuffer& commands, backend::BindGroupHandle& group);
@@ -71,7 +76,12 @@ private:
     Needs placeViews(prepare::FramePacket const& packet);
     void bindViews(backend::CommandBuffer& commands, Set& set);
     void uploadView(backend::CommandBuffer& commands, Set const& set, prepare::ViewPacket const& view,
-                    ViewGroup const& group);
+                    ViewGroup const& group, uint32_t table);
+    void uploadLights(backend::CommandBuffer& commands, Set const& set, shader::FrameUniforms uniforms,
+                      std::span<const shader::PunctualLight> lights, std::span<const uint32_t> froxelWords,
+                      ViewGroup const& group);
+    void uploadProfiles(backend::CommandBuffer& commands, Set const& set, prepare::ProfileLists const& profiles,
+                        uint32_t firstWord);
     void uploadObjects(jobs::JobSystem& jobs, backend::CommandBuffer& commands, Set const& set,
                        prepare::FramePacket const& packet);
 
@@ -79,6 +89,7 @@ private:
     std::array<Set, 3> mSets{};
     uint32_t mCurrent = 0;
     std::vector<ViewGroup> mViews; // of the frame uploaded last
+    std::vector<ViewGroup> mLists; // of their channels
 };
 
 } // namespace filament::passes

@@ -27,11 +27,16 @@ struct FrameResources {
     LightingTextures lighting{};
     FrameSamplers samplers{};
     EffectMaterials* effects = nullptr;
-    backend::TextureHandle white{};          ///< 2D, of one opaque white texel
-    backend::BufferHandle instanceIds;       ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
-    scene::Material const* skybox = nullptr; ///< full-screen material; null: the scene has no sky
-    backend::TextureHandle toneTable{};      ///< of the view's mapper (ToneTable.h); none: it is computed
-    bool hasHalfFloats = false;              ///< shaders may compute in 16 bits
+    backend::TextureHandle white{};             ///< 2D, of one opaque white texel
+    backend::BufferHandle instanceIds;          ///< vertices: 0, 1, 2, ... kObjectsPerWindow - 1
+    scene::Material const* skybox = nullptr;    ///< full-screen material; null: the scene has no sky
+    scene::Material const* farDepth = nullptr;  ///< full-screen material that empties tiles; null: none is drawn over
+    scene::Material const* sunDisc = nullptr;   ///< full-screen material; null: no disc is in view
+    scene::Material const* debugView = nullptr; ///< full-screen material; null: the picture is shown
+    backend::TextureHandle shadowAtlas{};       ///< of ShadowPacket::atlasSize texels a side; none without shadow maps
+    backend::TextureHandle shadowMoments{};     ///< of the same size; none if the filter reads depths
+    backend::TextureHandle toneTable{};         ///< of the view's mapper (ToneTable.h); none: it is computed
+    bool hasHalfFloats = false;                 ///< shaders may compute in 16 bits
 };
 
 } // namespace filament::passes

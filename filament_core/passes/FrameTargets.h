@@ -9,9 +9,11 @@
 namespace filament::passes {
 
 struct FrameTargets {
-    framegraph::TextureId output; ///< what the user asked for
-    framegraph::TextureId color;  ///< pre-exposed scene-linear light, one sample a pixel; may be `output` itself
-    framegraph::TextureId depth;  ///< of the main view, as many samples as it has; none before the colour pass
+    framegraph::TextureId output;       ///< what the user asked for
+    framegraph::TextureId shadowDepths; ///< the atlas of shadow maps; none: nothing in view is shadowed
+    framegraph::TextureId shadows;      ///< what filters read of it: the same, or its moments
+    framegraph::TextureId color;        ///< pre-exposed scene-linear light, one sample a pixel; may be `output` itself
+    framegraph::TextureId depth;        ///< of the main view, as many samples as it has; none before the colour pass
 };
 
 } // namespace filament::passes

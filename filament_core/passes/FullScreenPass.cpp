@@ -45,17 +45,32 @@ std::span<Input> boundInputs(Arena& arena, FullScreenPass const& pass) {
 // The alternatives of ParameterValue are in the order of ParameterType.
 static_assert(std::variant_size_v<ParameterValue> == static_cast<size_t>(ParameterType::Float4x4) + 1);
 
-PassBlock declareValues(Arena& arena, FrameContext const& context, FullScreenPass const& pass) {
-    MaterialPackage const& package = pass.material.package;
+PassBlock declareValues(Arena& arena, FrameContext const& context, MaterialPackage const& package,
+                        std::span<const FullScreenValue> values) {
     if (package.uniformBytes == 0) return {};
     const std::span<std::byte> bytes = arena.array<std::byte>(package.uniformBytes);
-    for (FullScreenValue const& value : pass.values) {
+    for (FullScreenValue const& value : values) {
         Parameter const* parameter = package.findParameter(value.name);
         FILAMENT_ASSERT(parameter && static_cast<size_t>(parameter->type) == value.value.index(),
                         "the values of a full-screen pass have the names and types that its check named");
         std::visit([&](auto const& v) { shader::storeValue(bytes.data() + parameter->offset, v); }, value.value);
     }
     return context.blocks->add(bytes);
+}
+
+/// What one draw covers, and its values.
+struct Part {
+    Rect rect; ///< without a width: all of the target
+    PassBlock values;
+};
+
+std::span<const Part> declareParts(Arena& arena, FrameContext const& context, FullScreenPass const& pass) {
+    MaterialPackage const& package = pass.material.package;
+    const auto parts = arena.array<Part>(std::max<size_t>(pass.tiles.size(), 1));
+    if (pass.tiles.empty()) parts[0].values = declareValues(arena, context, package, pass.values);
+    for (size_t i = 0; i < pass.tiles.size(); ++i)
+        parts[i] = { pass.tiles[i].rect, declareValues(arena, context, package, pass.tiles[i].values) };
+    return parts;
 }
 
 void declareReads(PassBuilder& builder, std::span<const Input> inputs) {
@@ -68,18 +83,28 @@ void declareReads(PassBuilder& builder, std::span<const Input> inputs) {
     }
 }
 
+framegraph::ColorTarget targetOf(FullScreenPass const& pass) {
+    framegraph::ColorTarget target{ .overwrites = pass.tiles.empty() &&
+                                                  pass.material.package.blending == shader::Blending::Opaque,
+                                    .level = pass.level };
+    if (pass.clears) target.clear = std::array{ 0.0f, 0.0f, 0.0f, 0.0f };
+    return target;
+}
+
 // ---------------------------------------------------------------------------------------------- before drawing
 
 struct ChosenPipeline {
     PipelineHandle pipeline;
-    BindGroupHandle pass, material;
+    BindGroupHandle pass;
+    std::span<const BindGroupHandle> materials; ///< by part
 };
 
 /// What the pass keeps until it is drawn.
 struct Declared {
     scene::Material const* material = nullptr;
     std::span<const Input> inputs;
-    PassBlock values, target;
+    std::span<const Part> parts;
+    PassBlock target;
 };
 
 bool isMerged(PassContext& pass, std::span<const Input> inputs) {
@@ -93,12 +118,13 @@ TextureHandle imageOf(PassContext& pass, FrameContext const& context, FullScreen
     return input.image ? input.image : context.resources.white;
 }
 
-BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, Declared const& declared) {
+BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, Declared const& declared,
+                              PassBlock values) {
     MaterialPackage const& package = declared.material->package;
     const bool merged = isMerged(pass, declared.inputs);
     std::array<BindGroupEntry, kMaxBindings> entries{};
     size_t count = 0;
-    if (declared.values.bytes > 0) entries[count++] = context.blocks->entry(0, declared.values);
+    if (values.bytes > 0) entries[count++] = context.blocks->entry(0, values);
     for (Input const& input : declared.inputs) {
         const SamplerHandle sampler = input.from.sampler ? input.from.sampler : context.resources.samplers.nearest;
         entries[count++] = { .binding = input.parameter->binding,
@@ -114,33 +140,41 @@ BindGroupHandle materialGroup(PassContext& pass, FrameContext const& context, De
 ChosenPipeline choose(PassContext& pass, FrameContext const& context, Declared const& declared) {
     PipelineSource const& pipelines = context.resources.pipelines;
     const uint32_t slot = pipelines.slot(fullScreenSlot(pass.passLayout(), pass.subpass()));
+    const auto materials = context.arena->array<BindGroupHandle>(declared.parts.size());
+    std::ranges::transform(declared.parts, materials.begin(),
+                           [&](Part const& part) { return materialGroup(pass, context, declared, part.values); });
     return { pipelines.fullscreenPipeline(pass.commands(), slot, *declared.material),
-             passGroup(pass, context, PassKind::Picture, declared.target), materialGroup(pass, context, declared) };
+             passGroup(pass, context, PassKind::Picture, declared.target), materials };
 }
 
-void draw(CommandBuffer& commands, FrameContext const& context, ChosenPipeline const& chosen) {
+void draw(CommandBuffer& commands, FrameContext const& context, std::span<const Part> parts,
+          ChosenPipeline const& chosen) {
     commands.record(CmdBindPipeline{ chosen.pipeline });
     commands.record(context.views[0].bind(0));
     commands.record(CmdBindGroup{ chosen.pass, shader::kGroupPass });
-    commands.record(CmdBindGroup{ chosen.material, shader::kGroupMaterial });
-    commands.record(CmdDraw{ 3 });
+    for (size_t i = 0; i < parts.size(); ++i) {
+        if (parts[i].rect.width > 0) commands.record(CmdSetScissor{ parts[i].rect });
+        commands.record(CmdBindGroup{ chosen.materials[i], shader::kGroupMaterial });
+        commands.record(CmdDraw{ 3 });
+    }
 }
 
 } // namespace
 
 framegraph::PassId addFullScreenPass(FrameGraph& graph, FrameContext const& context, FullScreenPass const& pass) {
     const Declared declared{ &pass.material, boundInputs(graph.arena(), pass),
-                             declareValues(graph.arena(), context, pass),
+                             declareParts(graph.arena(), context, pass),
                              declareTarget(context, graph.texture(pass.target).desc, pass.level) };
     return graph.addPass(
             pass.name,
             [&](PassBuilder& builder) {
                 declareReads(builder, declared.inputs);
-                const bool covers = pass.material.package.blending == shader::Blending::Opaque;
-                builder.writeColor(0, pass.target, { .overwrites = covers, .level = pass.level });
+                builder.writeColor(0, pass.target, targetOf(pass));
             },
             [of = &context, declared](PassContext& at) { return choose(at, *of, declared); },
-            [of = &context](PassContext& at, ChosenPipeline const& chosen) { draw(at.commands(), *of, chosen); });
+            [of = &context, parts = declared.parts](PassContext& at, ChosenPipeline const& chosen) {
+                draw(at.commands(), *of, parts, chosen);
+            });
 }
 
 } // namespace filament::passes

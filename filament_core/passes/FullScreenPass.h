@@ -38,13 +38,21 @@ struct FullScreenValue {
     ParameterValue value;
 };
 
+/// A part of the target, with values of its own.
+struct FullScreenTile {
+    backend::Rect rect; ///< pixels of the level that is drawn to
+    std::span<const FullScreenValue> values{};
+};
+
 struct FullScreenPass {
     std::string_view name;
     scene::Material const& material;
     std::span<const FullScreenInput> inputs{};
     std::span<const FullScreenValue> values{};
     framegraph::TextureId target{};
-    uint8_t level = 0; ///< of the target
+    uint8_t level = 0;                       ///< of the target
+    std::span<const FullScreenTile> tiles{}; ///< only these are drawn, with their own values; none: all of the target
+    bool clears = false; ///< what lies outside of the tiles becomes 0; otherwise it keeps its contents
 };
 
 framegraph::PassId addFullScreenPass(framegraph::FrameGraph& graph, FrameContext const& context,

@@ -15,7 +15,18 @@ namespace filament::passes {
 PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level = 0,
                         uint8_t samples = 1);
 
+/// For a shadow map with texels for all colours, or for colour channel 1, 2 or 3 alone.
+PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel);
+
+/// What materials read of shadow maps; none by default.
+struct PassShadows {
+    framegraph::TextureId maps;
+    PassBlock block;         ///< shader::ShadowUniforms
+    bool hasMoments = false; ///< which are filtered; depths are not
+};
+PassShadows declareShadows(FrameContext const& context, framegraph::TextureId maps);
+
 backend::BindGroupHandle passGroup(framegraph::PassContext& pass, FrameContext const& context, shader::PassKind kind,
-                                   PassBlock target);
+                                   PassBlock target, PassShadows const& shadows = {});
 
 } // namespace filament::passes

@@ -2,6 +2,7 @@
 #include "filament_core/passes/Pipelines.h"
 
 #include "base/Result.h"
+#include "filament_core/prepare/ShadowMaps.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/GroupLayouts.h"
 
@@ -25,11 +26,12 @@ uint64_t makeKey(uint32_t material, uint32_t geometryLayout, uint32_t slot, uint
            static_cast<uint64_t>(cullingDisabled) << 1 | static_cast<uint64_t>(mirrored);
 }
 
-// Lights and shading do not affect unlit materials.
-bool isLit(scene::Material const& material) { return material.package.shading != shader::ShadingModel::Unlit; }
-
-uint8_t neededVariant(scene::Material const& material, uint8_t variant) {
-    return isLit(material) ? variant : static_cast<uint8_t>(variant & shader::kVariantSkinning);
+// A material compiled without shadows, or without those of a filter, is drawn without them.
+uint8_t neededVariant(scene::Material const& material, uint8_t variant, ShadowFilter filter) {
+    const bool mayReceive = prepare::receivesShadows(material, filter);
+    const int shadows = mayReceive ? shader::kVariantShadowReceiver : 0;
+    const int others = material.isLit() ? ~shader::kVariantShadowReceiver : shader::kVariantSkinning;
+    return static_cast<uint8_t>(variant & (others | shadows));
 }
 
 // Materials without half-precision variants are lit in full precision.
@@ -44,11 +46,15 @@ uint64_t rasterBits(scene::InstanceRaster const& raster) {
            static_cast<uint64_t>(raster.depthWrite) << 3 | static_cast<uint64_t>(raster.depthCulling) << 4;
 }
 
-uint64_t makeKey(uint32_t slot, PipelineUse const& use) {
+scene::InstanceRaster rasterIn(PassSlot const& slot, scene::InstanceRaster const& raster) {
+    return slot.depthOnly ? scene::inShadowMaps(raster) : raster;
+}
+
+uint64_t makeKey(uint32_t slot, PipelineUse const& use, scene::InstanceRaster const& raster) {
     scene::Material const& material = *use.instance.material;
-    return rasterBits(use.instance.raster) << 56 | static_cast<uint64_t>(use.pass) << 54 |
-           makeKey(material.id, use.geometryLayout, slot, neededVariant(material, use.variant),
-                   use.instance.raster.cullingDisabled, use.mirrored);
+    return rasterBits(raster) << 56 | static_cast<uint64_t>(use.pass) << 54 |
+           makeKey(material.id, use.geometryLayout, slot, neededVariant(material, use.variant, ShadowFilter::Pcf3),
+                   raster.cullingDisabled, use.mirrored);
 }
 
 uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
@@ -58,6 +64,7 @@ uint64_t fullscreenKey(uint32_t slot, scene::Material const& material) {
 // A material that reads only the current pixel is merged if its pass is. The pipeline's key need not contain this,
 // because the slot determines it.
 uint16_t fullscreenVariant(PassSlot const& slot, shader::MaterialPackage const& package) {
+    if (slot.depthOnly) return shader::kVariantDepth;
     const bool isMerged = slot.layout.subpasses[slot.subpass].inputMask != 0;
     return isMerged && package.findVariant(shader::kVariantMerged) ? uint16_t{ shader::kVariantMerged } : uint16_t{ 0 };
 }
@@ -81,6 +88,12 @@ CullMode cullMode(scene::InstanceRaster const& raster) {
 
 bool drawsNothing(scene::InstanceRaster const& raster) {
     return raster.culling == shader::Culling::FrontAndBack && !raster.cullingDisabled;
+}
+
+// The faces that are drawn stop light, so hulls whose far side alone is seen (outlines) do not darken what they enclose.
+PipelineDesc leavingDepth(PipelineDesc desc, scene::InstanceRaster const& raster) {
+    desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
+    return desc;
 }
 
 // Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface. Devices write no depth
@@ -209,8 +222,15 @@ ProgramHandle PipelineCache::programFor(CommandBuffer& setup, scene::Material co
 PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Material const& material,
                                                    uint8_t variant) const {
     PassSlot const& at = mSlots[slot];
-    return { withPrecision(material, neededVariant(material, variant), at.precision),
-             isLit(material) ? at.shading : ShadingKey{ 0 } };
+    if (at.depthOnly) {
+        const auto depth = static_cast<uint16_t>(shader::kVariantDepth | (variant & shader::kVariantSkinning));
+        return { depth, shader::transmitsLight(material.package) ? at.shading : ShadingKey{ 0 } };
+    }
+    const uint8_t needed = neededVariant(material, variant, shadowFilterOf(at.shading));
+    const bool isShadowed = (needed & shader::kVariantShadowReceiver) != 0;
+    ShadingKey shading = material.isLit() || isShadowed ? at.shading : ShadingKey{ 0 };
+    if ((needed & shader::kVariantPunctual) == 0) shading = withoutLightList(shading);
+    return { withPrecision(material, needed, at.precision), isShadowed ? shading : withoutShadows(shading) };
 }
 
 void PipelineCache::prepareProgram(CommandBuffer& setup, uint32_t slot, scene::Material const& material,
@@ -273,6 +293,7 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         desc.vertices = withInstanceIndex(mLayouts[geometryLayout].vertices);
         desc.raster.topology = mLayouts[geometryLayout].topology;
     }
+    if (slot.depthOnly) return leavingDepth(desc, raster);
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
     BlendState blend = blendState(package);
@@ -291,12 +312,14 @@ PipelineHandle PipelineCache::create(CommandBuffer& setup, uint64_t key, Pipelin
 }
 
 std::optional<PipelineHandle> PipelineCache::find(uint32_t slot, PipelineUse const& use) const {
-    PipelineTable::Entry const* entry = mPipelines.find(makeKey(slot, use));
+    const uint64_t key = makeKey(slot, use, rasterIn(mSlots[slot], use.instance.raster));
+    PipelineTable::Entry const* entry = mPipelines.find(key);
     return entry ? std::optional(entry->handle) : std::nullopt;
 }
 
 PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, PipelineUse const& use) {
-    const uint64_t key = makeKey(slot, use);
+    const scene::InstanceRaster raster = rasterIn(mSlots[slot], use.instance.raster);
+    const uint64_t key = makeKey(slot, use, raster);
     if (PipelineTable::Entry const* entry = mPipelines.find(key)) return entry->handle;
 
     scene::Material const& material = *use.instance.material;
@@ -305,7 +328,7 @@ PipelineHandle PipelineCache::pipelineFor(CommandBuffer& setup, uint32_t slot, P
         mPipelines.insert({ key, {}, material.id }); // do not ask again
         return {};
     }
-    PipelineDesc desc = describe(mSlots[slot], material, use.instance.raster, use.geometryLayout, use.mirrored);
+    PipelineDesc desc = describe(mSlots[slot], material, raster, use.geometryLayout, use.mirrored);
     usePass(desc, material.package.transparency, use.pass);
     desc.program = program;
     return create(setup, key, desc, material.id);
@@ -322,6 +345,7 @@ PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t 
     scene::InstanceRaster raster = scene::initialRaster(material.package);
     raster.cullingDisabled = true;
     PipelineDesc desc = describe(mSlots[slot], material, raster, kNoGeometry, false);
+    if (mSlots[slot].depthOnly) desc.depthStencil = depthState(raster, mSlots[slot].depthRange);
     desc.program = programFor(setup, material, fullscreenVariant(mSlots[slot], material.package), 0);
     FILAMENT_ASSERT(desc.program, "a full-screen material has variant 0");
     return create(setup, key, desc, material.id);

@@ -33,6 +33,7 @@ struct PassSlot {
     DepthRange depthRange = DepthRange::Reversed;
     ShadingPrecision precision = ShadingPrecision::Full;
     bool isFullScreen = false; ///< no geometry of the scene is drawn there
+    bool depthOnly = false;    ///< surfaces are drawn by their variants with kVariantDepth
     friend bool operator==(PassSlot const&, PassSlot const&) = default;
 };
 

@@ -17,8 +17,23 @@ namespace filament::passes {
 
 using ShadingKey = uint32_t;
 
+/// Which kinds of light there are in a view.
+struct ShadedLights {
+    bool hasAreas = false;
+    bool hasProfiles = false;
+    bool hasColoredShadows = false; ///< some shadow map has three channels
+};
+
 /// `light`: how the environment of the scene is stored, which selects programs as well.
-ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& light = {});
+ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& light = {}, ShadedLights lights = {});
+/// Of variants that leave depth in shadow maps: whether what transmits light does so there.
+ShadingKey depthShadingKey(bool coloredShadows);
+
+/// Without the choices that only variants with kVariantPunctual have.
+ShadingKey withoutLightList(ShadingKey key);
+/// Without the choices that only shadows have.
+ShadingKey withoutShadows(ShadingKey key);
+ShadowFilter shadowFilterOf(ShadingKey key);
 
 /// Values for shader::kQualityConstants, in their order.
 std::array<backend::ConstantValue, shader::kQualityConstants.size()> shadingConstants(ShadingKey key);

@@ -41,8 +41,9 @@ void extend(uint16_t& shared, uint32_t step) {
 
 class RangeCuller {
 public:
-    RangeCuller(Renderables const& renderables, ViewSpace const& space, std::span<uint16_t> spans)
-            : mRenderables(renderables), mSpace(space), mFrustum(space.frustum), mSpans(spans) {}
+    RangeCuller(Renderables const& renderables, ViewSpace const& space, ViewKind kind, std::span<uint16_t> spans)
+            : mRenderables(renderables), mSpace(space), mFrustum(space.frustum), mSpans(spans),
+              mIsShadow(kind == ViewKind::Shadow) {}
 
     /// Writes the visible renderables of [begin, end) to `slots`.
     Tally cull(size_t begin, size_t end, SortItem* slots) const {
@@ -68,6 +69,9 @@ private:
         std::memcpy(&flags, &mRenderables.flags[i], sizeof flags);
         Seen8 seen;
         seen.nothingToDraw = simd::bitOfEachByte(flags, kNoIndicesBit) | simd::bitOfEachByte(flags, kCollapsedBit);
+        if (mIsShadow)
+            seen.nothingToDraw |=
+                    simd::bitOfEachByte(flags, kCastsNoShadowsBit) | simd::bitOfEachByte(flags, kCannotCastBit);
         seen.visible =
                 (mFrustum.intersects(boxes) | ~simd::bitOfEachByte(flags, kCulledBit)) & ~seen.nothingToDraw & 0xFFu;
         simd::store8(seen.depth, simd::dot(mSpace.forward, boxes.center));
@@ -77,7 +81,7 @@ private:
     Seen8 see1(size_t i) const {
         const uint8_t flags = mRenderables.flags[i];
         const float3 center(mRenderables.bounds.centerAt(i) - mSpace.cameraWorld);
-        const bool nothing = flags & (scene::kNoIndices | scene::kCollapsed);
+        const bool nothing = flags & (scene::kNoIndices | scene::kCollapsed | (mIsShadow ? kNoCaster : 0));
         const bool inView =
                 !(flags & scene::kCulled) || intersects(mSpace.frustum, center, mRenderables.bounds.halfExtentAt(i));
         Seen8 seen;
@@ -104,24 +108,29 @@ private:
     static constexpr uint32_t kCulledBit = std::countr_zero<uint32_t>(scene::kCulled);
     static constexpr uint32_t kNoIndicesBit = std::countr_zero<uint32_t>(scene::kNoIndices);
     static constexpr uint32_t kCollapsedBit = std::countr_zero<uint32_t>(scene::kCollapsed);
+    static constexpr uint32_t kCastsNoShadowsBit = std::countr_zero<uint32_t>(scene::kCastsNoShadows);
+
+    static constexpr uint32_t kCannotCastBit = std::countr_zero<uint32_t>(scene::kCannotCast);
+    static constexpr int kNoCaster = scene::kCastsNoShadows | scene::kCannotCast;
 
     Renderables const& mRenderables;
     ViewSpace const& mSpace;
     Frustum8 mFrustum;
     std::span<uint16_t> mSpans;
+    bool mIsShadow;
 };
 
 } // namespace
 
 VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, Renderables const& renderables,
-                             ViewSpace const& space, ViewCounts& counts) {
+                             ViewSpace const& space, ViewKind kind, ViewCounts& counts) {
     const size_t ranges = (renderables.count() + kCullRange - 1) / kCullRange;
     const auto slots = arena.arrayForOverwrite<SortItem>(renderables.count());
     const auto spans = arena.arrayForOverwrite<uint16_t>(drawOf(renderables.drawables.limit(), false));
     const auto tallies = arena.arrayForOverwrite<Tally>(ranges);
     std::ranges::fill(spans, VisibleItems::kNoSpan);
     jobs::parallelFor<"cull">(jobs, renderables.count(), kCullRange, [&](size_t begin, size_t end) {
-        const RangeCuller culler(renderables, space, spans);
+        const RangeCuller culler(renderables, space, kind, spans);
         tallies[begin / kCullRange] = culler.cull(begin, end, &slots[begin]);
     });
 

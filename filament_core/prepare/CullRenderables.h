@@ -35,6 +35,6 @@ struct VisibleItems {
 };
 
 VisibleItems cullRenderables(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
-                             ViewSpace const& space, ViewCounts& counts);
+                             ViewSpace const& space, ViewKind kind, ViewCounts& counts);
 
 } // namespace filament::prepare

@@ -11,16 +11,21 @@ struct RangeDraws {
     uint64_t triangles = 0;
 };
 
-// Nothing but casters is drawn into shadow maps, all of which leave their depth: there nothing is late.
-uint32_t lateOrders(ViewKind kind) {
+// What drawing order depends on besides state. Nothing but casters is drawn into shadow maps, all of which leave their
+// depth once: there nothing is.
+uint32_t specialOrders(ViewKind kind) {
     using scene::Drawables;
-    return kind == ViewKind::Shadow ? 0 : Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder;
+    if (kind == ViewKind::Shadow) return 0;
+    return Drawables::kBlendedOrder | Drawables::kTwoPassesOrder | Drawables::kNoDepthWriteOrder |
+           Drawables::kNoDepthTestOrder;
 }
 
-uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden, uint32_t late) {
+uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden, uint32_t special) {
+    using scene::Drawables;
     const auto depth = static_cast<uint32_t>(item.key);
-    if (use.order & scene::Drawables::kBlendedOrder) return blendedKey(depth);
-    if (use.order & late) return lateKey(depth, (use.order & scene::Drawables::kNoDepthTestOrder) != 0);
+    if (special & Drawables::kBlendedOrder) return blendedKey(depth);
+    if (special & (Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder))
+        return lateKey(depth, (special & Drawables::kNoDepthTestOrder) != 0);
     return opaqueKey(use.order, item.draw, sliceStart(span, use.users >> hidden, coarseStep(depth)), depth);
 }
 
@@ -41,6 +46,8 @@ DrawCall drawCall(scene::Drawables const& drawables, uint32_t draw, size_t first
              static_cast<uint32_t>(first),
              static_cast<uint32_t>(end - first),
              isMirrored(draw),
+             drawable.receivesShadows,
+             drawable.lightChannels,
              isDrawnTwice(draw) ? DrawPass::First : DrawPass::Only,
              drawable.deformation };
 }
@@ -73,7 +80,7 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
     const auto items = arena.arrayForOverwrite<SortItem>(visible.count());
     // The visible share of the scene as a power of two: the members of a draw are assumed to be visible in the same
     // proportion.
-    const uint32_t late = lateOrders(kind);
+    const uint32_t specials = specialOrders(kind);
     const int hidden = static_cast<int>(std::bit_width(visible.slots.size()) - std::bit_width(items.size()));
     jobs::parallelFor<"sort keys">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
         const size_t range = begin / kCullRange;
@@ -81,8 +88,9 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
         for (size_t i = visible.firsts[range]; i < visible.firsts[range + 1]; ++i, ++from) {
             const scene::Drawables::Use use = drawables.use(drawableOf(from->draw));
             static_assert(scene::Drawables::kTwoPassesOrder << 1 == kDrawnTwice);
-            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden, late), from->renderable,
-                         from->draw | (use.order & scene::Drawables::kTwoPassesOrder) << 1 };
+            const uint32_t special = use.order & specials;
+            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden, special), from->renderable,
+                         from->draw | (special & scene::Drawables::kTwoPassesOrder) << 1 };
         }
     });
     return items;

@@ -9,6 +9,7 @@
 
 #include "backend/api/Handles.h"
 #include "filament_core/prepare/SceneDemand.h"
+#include "filament_core/prepare/ShadowMaps.h"
 #include "filament_core/prepare/SortKey.h"
 #include "filament_core/prepare/ViewCounts.h"
 #include "filament_core/prepare/ViewInput.h"
@@ -42,6 +43,8 @@ struct DrawCall {
     uint32_t firstObject = 0;
     uint32_t instanceCount = 1;
     bool mirrored = false;
+    bool receivesShadows = true;
+    uint8_t lightChannels = 1;
     DrawPass pass = DrawPass::Only;             ///< First and Second of an object follow each other
     uint32_t deformation = scene::kNotDeformed; ///< into DeformationList::places
 };
@@ -68,6 +71,32 @@ struct FroxelLists {
     std::span<const uint32_t> words; ///< one for each froxel, then the lists; none: there is one list for all
 };
 
+/// The lights of draws on certain channels (<filament/Light.h>), where these are not all lights of the view. Shaders do
+/// not know of channels: such a draw binds other uniforms, whose light list is its own.
+struct ChannelLights {
+    bool hasSun = false;
+    shader::FrameUniforms uniforms{};
+    std::span<const shader::PunctualLight> lights;
+    FroxelLists froxels;
+};
+
+/// Empty where every light of the view shines on everything in it.
+struct ChannelLists {
+    std::span<const ChannelLights> lists;
+    std::span<const uint16_t> listOf; ///< by DrawCall::lightChannels; 0: the list of the view; n: lists[n - 1]
+
+    uint32_t of(uint8_t channels) const { return listOf.empty() ? 0 : listOf[channels]; }
+    /// What a draw needs of `variant`, that of the view.
+    uint8_t variantOf(DrawCall const& draw, uint8_t variant) const;
+};
+
+/// The profiles of the lights of a view, as shaders read them (shader::kProfiledLightWords).
+struct ProfileLists {
+    std::span<const uint32_t> lights;                  ///< kProfiledLightWords each
+    std::span<const std::span<const uint32_t>> tables; ///< each once, in the order of their first lights
+    bool empty() const { return lights.empty(); }
+};
+
 /// What one view sees.
 struct ViewPacket {
     ViewKind kind = ViewKind::Color;
@@ -75,6 +104,9 @@ struct ViewPacket {
     shader::FrameUniforms uniforms{};
     std::span<const shader::PunctualLight> lights; ///< relative to the camera of the view and pre-exposed by it
     FroxelLists froxels;
+    ChannelLists channels;
+    bool hasAreaLights = false; ///< among `lights`
+    ProfileLists profiles;      ///< of `lights`
     ObjectList objects;
     std::span<const DrawCall> opaque;  ///< opaque and masked, roughly front to back
     std::span<const DrawCall> blended; ///< back to front; none where nothing is shaded
@@ -90,10 +122,21 @@ struct EnvironmentPacket {
     bool skyIsRgbm = false;
 };
 
+/// The disc of a sun in the sky of the main view, and its halo, as shaders/material/sun_disc.mat reads them.
+struct SunDisc {
+    float4 axisX, axisY; ///< xyz: what a pixel to the right, and one further down, adds to axisZ; w: the pixel of axisZ
+    float4 axisZ; ///< xyz: where the camera looks at that pixel; z towards the sun; w: tangent of the disc's radius
+    float4 light; ///< rgb: pre-exposed luminance of the disc; w: exponent of the halo
+    float4 halo;  ///< x: 1 - cos of the disc's radius; y: 1 / (1 - cos of the halo's - x), 0: no halo
+};
+
 struct FramePacket {
     std::span<const ViewPacket> views; ///< one at least, in the order of the inputs
     DeformationList deformations;      ///< of what any of the views sees, each once
+    ShadowPacket shadows;              ///< of the main view; maps that are drawn name their views
     EnvironmentPacket environment;
+    std::span<const SunDisc> discs; ///< of the main view, in the order of the scene
+    uint32_t discsOutOfView = 0;
     SceneDemand demand; ///< of the main view
 
     /// Of the picture that the user asked for.

@@ -35,11 +35,21 @@ std::span<const LightBounds> findBounds(Arena& arena, std::span<const PunctualLi
     return bounds;
 }
 
+// Square metres of an area; 1 for others.
+float extentOf(PunctualLight const& light) {
+    const float shape = light.colorIntensity.w;
+    if (shape < shader::kShapeRect) return 1;
+    const float3 x(light.directionScale), y(light.directionScale.w, light.offset.x, light.offset.w);
+    const float square = glm::length(x) * glm::length(y);
+    return (shape == shader::kShapeDisc || shape == shader::kShapeDisc + shader::kShapeTwoSided ? 3.14159265f : 4.0f) *
+           square;
+}
+
 // As SelectLights: the luminance that arrives at the camera.
 float importanceOf(PunctualLight const& light) {
     const float3 at(light.positionRange);
     const float luminance = glm::dot(float3(light.colorIntensity), float3(0.2126f, 0.7152f, 0.0722f));
-    const float importance = luminance / std::max(glm::dot(at, at), 1e-4f);
+    const float importance = luminance * extentOf(light) / std::max(glm::dot(at, at), 1e-4f);
     return importance > 0 ? importance : 0.0f;
 }
 

@@ -2,7 +2,10 @@
 #include "filament_core/prepare/PrepareFrame.h"
 
 #include "filament_core/prepare/DeformationData.h"
+#include "filament_core/prepare/LightChannels.h"
+#include "filament_core/prepare/PrepareShadows.h"
 #include "filament_core/prepare/PrepareView.h"
+#include "filament_core/prepare/SunDiscs.h"
 
 #include <algorithm>
 
@@ -23,27 +26,59 @@ uint32_t countDeformed(DeformationList const& list) {
     }));
 }
 
-SceneDemand demandOf(FramePacket const& packet) {
+uint32_t cascadesOf(ShadowPacket const& shadows) {
+    return shadows.uniforms ? static_cast<uint32_t>(shadows.uniforms->sun.y) : 0;
+}
+
+SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, DebugView debugView) {
     return findDemand({ .counts = packet.mainView().counts,
+                        .shadows = shadows,
                         .hasIndirectLight = static_cast<bool>(packet.environment.specular),
                         .hasSky = static_cast<bool>(packet.environment.sky),
-                        .deformed = countDeformed(packet.deformations) });
+                        .deformed = countDeformed(packet.deformations),
+                        .debugView = debugView,
+                        .cascades = cascadesOf(packet.shadows),
+                        .atlasSize = packet.shadows.atlasSize,
+                        .discsInView = static_cast<uint32_t>(packet.discs.size()),
+                        .discsOutOfView = packet.discsOutOfView });
+}
+
+/// The views of the maps follow those that were asked for.
+ShadowPacket behindViews(Arena& arena, ShadowPacket shadows, uint32_t views) {
+    const std::span<ShadowMapPacket> maps = arena.copy(shadows.maps);
+    for (ShadowMapPacket& map : maps) {
+        if (map.view != kKeptMap) map.view += views;
+    }
+    shadows.maps = maps;
+    return shadows;
 }
 
 } // namespace
 
 FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
-                         std::span<const ViewInput> views) {
+                         std::span<const ViewInput> views, ShadowAtlas const& held) {
     FILAMENT_ASSERT(!views.empty(), "a frame has a main view");
-    const auto packets = arena.arrayForOverwrite<ViewPacket>(views.size());
-    const auto visible = arena.arrayForOverwrite<VisibleItems>(views.size());
-    for (size_t i = 0; i < views.size(); ++i) {
-        PreparedView prepared = prepareView(jobs, arena, scene, views[i]);
+    const auto asked = arena.arrayForOverwrite<PreparedView>(views.size());
+    for (size_t i = 0; i < views.size(); ++i) asked[i] = prepareView(jobs, arena, scene, views[i]);
+    const PreparedShadows shadows = prepareShadows(jobs, arena, scene, views[0], asked[0], held);
+
+    for (size_t i = 0; i < views.size(); ++i) separateChannels(jobs, arena, scene.lights, views[i], asked[i]);
+    const size_t count = asked.size() + shadows.views.size();
+    const auto packets = arena.arrayForOverwrite<ViewPacket>(count);
+    const auto visible = arena.arrayForOverwrite<VisibleItems>(count);
+    for (size_t i = 0; i < count; ++i) {
+        PreparedView const& prepared = i < asked.size() ? asked[i] : shadows.views[i - asked.size()];
         packets[i] = prepared.packet;
         visible[i] = prepared.visible;
     }
-    FramePacket packet{ packets, placeDeformations(arena, scene, visible), environmentOf(scene), {} };
-    packet.demand = demandOf(packet);
+    FramePacket packet{ .views = packets,
+                        .deformations = placeDeformations(arena, scene, visible),
+                        .shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size())),
+                        .environment = environmentOf(scene) };
+    const SunDiscs discs = findSunDiscs(arena, scene.lights, views[0]);
+    packet.discs = discs.inView;
+    packet.discsOutOfView = discs.outOfView;
+    packet.demand = demandOf(packet, shadows.counts, views[0].debugView);
     return packet;
 }
 

@@ -3,6 +3,8 @@
 
 #include "filament_core/prepare/DrawList.h"
 #include "filament_core/prepare/Froxels.h"
+#include "filament_core/prepare/LightChannels.h"
+#include "filament_core/prepare/PlaceProfiles.h"
 #include "filament_core/prepare/SelectLights.h"
 #include "filament_core/prepare/SortItems.h"
 #include "filament_core/prepare/ViewConstants.h"
@@ -21,9 +23,8 @@ scene::Lights const& lightsFor(ViewKind kind, scene::SceneData const& scene) {
 }
 
 uint32_t countLit(std::span<const DrawCall> draws) {
-    return static_cast<uint32_t>(std::ranges::count_if(draws, [](DrawCall const& draw) {
-        return draw.material->material->package.shading != shader::ShadingModel::Unlit;
-    }));
+    return static_cast<uint32_t>(
+            std::ranges::count_if(draws, [](DrawCall const& draw) { return draw.material->material->isLit(); }));
 }
 
 void countDraws(DrawLists const& draws, ViewCounts& counts) {
@@ -34,7 +35,7 @@ void countDraws(DrawLists const& draws, ViewCounts& counts) {
 /// Light that meets no lit surface is in no shader.
 uint8_t variantFor(ViewCounts const& counts) {
     if (counts.litDraws == 0) return 0;
-    return static_cast<uint8_t>((counts.suns ? shader::kVariantSun : 0) |
+    return static_cast<uint8_t>((counts.suns > counts.sunsOfOtherChannels ? shader::kVariantSun : 0) |
                                 (counts.lights ? shader::kVariantPunctual : 0));
 }
 
@@ -57,7 +58,14 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     writeFrameUniforms(packet.uniforms, space, view, scene);
     scene::Lights const& lights = lightsFor(view.kind, scene);
     const LightSelector selector(arena, lights);
-    const auto selectLights = [&] { packet.lights = selector.select(space, packet.uniforms, packet.counts); };
+    uint8_t lightsInCommon = 0xFF;
+    const auto selectLights = [&] {
+        const SelectedLights selected = selector.select(space, packet.uniforms, packet.counts);
+        packet.lights = selected.lights;
+        prepared.lightRecords = selected.records;
+        prepared.sunRecord = selected.sun;
+        lightsInCommon = selected.channelsInCommon;
+    };
     jobs::JobGroup besideCulling(jobs);
     if (lights.records.size() < kLightsWorthAJob)
         selectLights();
@@ -65,19 +73,28 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
         besideCulling.run<"lights">(selectLights);
 
     scene::Renderables const& renderables = scene.renderables;
-    prepared.visible = cullRenderables(jobs, arena, renderables, space, packet.counts);
+    prepared.visible = cullRenderables(jobs, arena, renderables, space, view.kind, packet.counts);
     const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, prepared.visible, view.kind);
     const std::span<const SortItem> order = drawnItems(sortItems(jobs, arena, items), view.kind, packet.counts);
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
     besideCulling.wait();
 
-    if (isShaded(view.kind)) countDraws(draws, packet.counts);
-    packet.variant = variantFor(packet.counts);
-    if ((packet.variant & shader::kVariantPunctual) == 0) packet.lights = {};
-    packet.froxels = assignLights(jobs, arena, space, view.size, packet.lights, packet.uniforms, packet.counts);
-    packet.objects = { order, renderables.placement, view.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
+    if (isShaded(view.kind)) countDraws(draws, packet.counts);
+    const DrawnChannels drawn = isShaded(view.kind) ? channelsOf(packet) : DrawnChannels{};
+    prepared.hasChannels = packet.counts.litDraws > 0 && (drawn.inCommon & lightsInCommon) == 0;
+    if (prepared.hasChannels) dropUnseenLights(arena, lights, drawn.any, prepared);
+    packet.variant = variantFor(packet.counts);
+    if ((packet.variant & shader::kVariantPunctual) == 0) {
+        packet.lights = {};
+        prepared.lightRecords = {};
+    }
+    packet.hasAreaLights = !packet.lights.empty() && packet.counts.areaLights > 0;
+    if (!packet.lights.empty() && packet.counts.profiledLights > 0)
+        placeProfiles(arena, lights, prepared.lightRecords, packet);
+    packet.froxels = assignLights(jobs, arena, space, view.size, packet.lights, packet.uniforms, packet.counts);
+    packet.objects = { order, renderables.placement, view.quality.cameraRelative ? space.cameraWorld : double3(0.0) };
     return prepared;
 }
 

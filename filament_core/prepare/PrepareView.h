@@ -14,11 +14,16 @@
 #include "filament_core/prepare/ViewInput.h"
 #include "jobsystem/JobSystem.h"
 
+#include <optional>
+
 namespace filament::prepare {
 
 struct PreparedView {
     ViewPacket packet;
     VisibleItems visible;
+    std::optional<uint32_t> sunRecord;      ///< of scene.lights: the sun of the uniforms
+    std::span<const uint32_t> lightRecords; ///< of scene.lights: those of packet.lights
+    bool hasChannels = false;               ///< some light does not shine on everything: see LightChannels.h
 };
 
 PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view);

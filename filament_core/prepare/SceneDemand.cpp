@@ -6,21 +6,81 @@
 namespace filament::prepare {
 namespace {
 
-/// `reaching` lights of a kind reach into the view, `others` do not or are left out.
-EffectDemand demandOfLights(uint32_t reaching, uint32_t others, uint32_t litDraws) {
+/// `reaching` lights of a kind reach into the view, `others` do not or are left out; some of those for their channels.
+EffectDemand demandOfLights(uint32_t reaching, uint32_t others, uint32_t litDraws, uint32_t ofOtherChannels = 0) {
+    others += ofOtherChannels;
+    if (reaching == 0 && ofOtherChannels) return { false, DemandReason::OtherChannels, 0, others };
     if (reaching == 0) return { false, others ? DemandReason::OutOfView : DemandReason::NotInScene, 0, others };
     if (litDraws == 0) return { false, DemandReason::NothingLitVisible, reaching, others };
     return { true, DemandReason::ReachesLitSurfaces, reaching, others };
+}
+
+EffectDemand demandOfShadows(ShadowCounts const& counts) {
+    if (!counts.isOn) return { .reason = DemandReason::SwitchedOff };
+    if (counts.maps)
+        return { true, DemandReason::DarkensWhatIsVisible, counts.maps, counts.mapsDrawn, counts.mapsOverBudget };
+    if (counts.lights == 0) return { .reason = DemandReason::NotInScene };
+    if (counts.receivers == 0) return { .reason = DemandReason::NothingReceives };
+    return { false, DemandReason::NothingCasts, counts.mapsWithoutCasters };
+}
+
+EffectDemand demandOfColoredShadows(ShadowCounts const& counts) {
+    if (!counts.isOn || !counts.isColorOn) return { .reason = DemandReason::SwitchedOff };
+    if (counts.coloredMaps == 0) return { false, DemandReason::NothingTransmits, counts.maps };
+    return { true, DemandReason::TintsShadows, counts.coloredMaps, counts.maps - counts.coloredMaps };
 }
 
 EffectDemand demandOfDraws(uint32_t draws) {
     return draws ? EffectDemand{ true, DemandReason::IsVisible, draws } : EffectDemand{};
 }
 
+EffectDemand demandOfDiscs(uint32_t inView, uint32_t outOfView) {
+    if (inView) return { true, DemandReason::ShowsInSky, inView, outOfView };
+    return { false, outOfView ? DemandReason::OutOfView : DemandReason::NotInScene, 0, outOfView };
+}
+
+EffectDemand demandOfDebugView(DemandInput const& input) {
+    ViewCounts const& counts = input.counts;
+    const uint32_t lights = counts.litDraws ? counts.lights : 0; // otherwise no list is made
+    switch (input.debugView) {
+    case DebugView::None:
+        return {};
+    case DebugView::Cascades:
+        return { true, DemandReason::ShowsCascades, input.cascades };
+    case DebugView::Atlas:
+        return { true, DemandReason::ShowsAtlas, input.shadows.maps, input.atlasSize };
+    case DebugView::Froxels:
+        return { true, DemandReason::ShowsFroxels, counts.froxels ? counts.longestFroxel : lights, counts.froxels };
+    case DebugView::Lights:
+        return { true, DemandReason::ShowsLights, lights };
+    }
+    return {};
+}
+
+std::string describeDebugView(EffectDemand const& demand) {
+    switch (demand.reason) {
+    case DemandReason::ShowsCascades:
+        return demand.count ? fmt::format("debugView=cascades: {} of the sun", demand.count)
+                            : "debugView=cascades: none, the sun has no shadow map";
+    case DemandReason::ShowsAtlas:
+        return demand.count ? fmt::format("debugView=atlas: {} maps in {} x {} texels", demand.count, demand.others,
+                                          demand.others)
+                            : "debugView=atlas: black, there is no atlas ('shadows' says why)";
+    case DemandReason::ShowsFroxels:
+        return demand.others ? fmt::format("debugView=froxels: at most {} lights", demand.count)
+                             : fmt::format("debugView=froxels: no grid, {} lights everywhere", demand.count);
+    default:
+        return fmt::format("debugView=lights: at most {}", demand.count);
+    }
+}
+
 std::string describeShining(Effect effect, EffectDemand const& demand) {
     if (effect == Effect::IndirectLight) return "the environment lights what is visible";
     if (effect == Effect::Sun && demand.count > 1)
         return fmt::format("the brightest of {}; the others are in the light list", demand.count);
+    if (demand.leftOut)
+        return fmt::format("{} in view; {} of them are dark: their profiles take more than 16 MiB", demand.count,
+                           demand.leftOut);
     if (demand.count + demand.others == 1) return "shines on what is visible";
     return fmt::format("{} of {} shine on what is visible", demand.count, demand.count + demand.others);
 }
@@ -31,19 +91,30 @@ SceneDemand findDemand(DemandInput const& input) {
     ViewCounts const& counts = input.counts;
     SceneDemand demand;
     const auto set = [&](Effect effect, EffectDemand const& of) { demand.effects[static_cast<size_t>(effect)] = of; };
-    set(Effect::Sun, demandOfLights(counts.suns, 0, counts.litDraws));
-    set(Effect::LightList,
-        demandOfLights(counts.lights, counts.lightsOutOfView + counts.lightsOverLimit, counts.litDraws));
+    set(Effect::Sun,
+        demandOfLights(counts.suns - counts.sunsOfOtherChannels, 0, counts.litDraws, counts.sunsOfOtherChannels));
+    set(Effect::LightList, demandOfLights(counts.lights, counts.lightsOutOfView + counts.lightsOverLimit,
+                                          counts.litDraws, counts.lightsOfOtherChannels));
+    set(Effect::AreaLights, demandOfLights(counts.areaLights, counts.areaLightsLeftOut, counts.litDraws));
+    EffectDemand profiles = demandOfLights(counts.profiledLights, counts.profiledLightsLeftOut, counts.litDraws);
+    profiles.leftOut = counts.profilesOverLimit;
+    set(Effect::LightProfiles, profiles);
+    set(Effect::Shadows, demandOfShadows(input.shadows));
+    set(Effect::ColoredShadows, demandOfColoredShadows(input.shadows));
     set(Effect::IndirectLight, demandOfLights(input.hasIndirectLight ? 1 : 0, 0, counts.litDraws));
     if (input.hasSky) set(Effect::Sky, { true, DemandReason::FillsBackground });
+    set(Effect::SunDisc, demandOfDiscs(input.discsInView, input.discsOutOfView));
     set(Effect::Blending, demandOfDraws(counts.blendedDraws));
     set(Effect::Deformation, demandOfDraws(input.deformed));
+    set(Effect::DebugView, demandOfDebugView(input));
     return demand;
 }
 
 const char* nameOf(Effect effect) {
-    static constexpr std::array<const char*, kEffects> kNames{ "sun", "light list", "indirect light",
-                                                               "sky", "blending",   "deformation" };
+    static constexpr std::array<const char*, kEffects> kNames{
+        "sun", "light list", "area lights", "light profiles", "shadows",   "coloured shadows", "indirect light",
+        "sky", "sun disc",   "blending",    "deformation",    "debug view"
+    };
     return kNames[static_cast<size_t>(effect)];
 }
 
@@ -55,9 +126,34 @@ std::string describe(Effect effect, EffectDemand const& demand) {
         return fmt::format("{} in view", demand.count);
     case DemandReason::FillsBackground:
         return "fills what nothing covers";
+    case DemandReason::DarkensWhatIsVisible:
+        return fmt::format("{} map{}, {} of them drawn in this frame{}", demand.count, demand.count == 1 ? "" : "s",
+                           demand.others,
+                           demand.leftOut ? fmt::format("; {} do not fit: shadowAtlasMegabytes", demand.leftOut) : "");
+    case DemandReason::TintsShadows:
+        return fmt::format("light passes through casters in {} of {} maps", demand.count, demand.count + demand.others);
+    case DemandReason::NothingTransmits:
+        return fmt::format("no light passes through what casts ({} maps)", demand.count);
+    case DemandReason::ShowsInSky:
+        return fmt::format("{} of {} in view", demand.count, demand.count + demand.others);
+    case DemandReason::ShowsCascades:
+    case DemandReason::ShowsAtlas:
+    case DemandReason::ShowsFroxels:
+    case DemandReason::ShowsLights:
+        return describeDebugView(demand);
+    case DemandReason::SwitchedOff:
+        return effect == Effect::ColoredShadows ? "switched off: coloredShadows=off" : "switched off: shadows=off";
+    case DemandReason::NothingReceives:
+        return "no surface in view receives shadows";
+    case DemandReason::NothingCasts:
+        return fmt::format("nothing that casts lies in the way of the light ({} maps tried)", demand.count);
     case DemandReason::NotInScene:
+        if (effect == Effect::Shadows) return "no light that reaches what is visible casts shadows";
         return effect == Effect::Blending || effect == Effect::Deformation ? "none in view" : "none in the scene";
+    case DemandReason::OtherChannels:
+        return fmt::format("none of {} is on a channel of what is visible", demand.others);
     case DemandReason::OutOfView:
+        if (effect == Effect::SunDisc) return fmt::format("none of {} is in view", demand.others);
         return fmt::format("none of {} reaches into the view", demand.others);
     case DemandReason::NothingLitVisible:
         return "no lit surface is visible";

@@ -6,7 +6,10 @@
 ///   Thread  any; pure.   Memory: none; the words of describe() are on the heap.   Fails: never.
 #pragma once
 
+#include "filament_core/prepare/ShadowCounts.h"
 #include "filament_core/prepare/ViewCounts.h"
+
+#include <filament/View.h>
 
 #include <array>
 #include <cstddef>
@@ -16,30 +19,49 @@
 namespace filament::prepare {
 
 enum class Effect : uint8_t {
-    Sun,       ///< the brightest
-    LightList, ///< points, spots and all other suns
+    Sun,            ///< the brightest
+    LightList,      ///< points, spots, areas and all other suns
+    AreaLights,     ///< those of the list that are rectangles, discs or tubes
+    LightProfiles,  ///< those of the list whose light a file distributes
+    Shadows,        ///< of the brightest sun, points and spots
+    ColoredShadows, ///< of what transmits light
     IndirectLight,
     Sky,
+    SunDisc, ///< discs of suns, and their halos
     Blending,
-    Deformation
+    Deformation,
+    DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 6;
+inline constexpr size_t kEffects = 12;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
     ReachesLitSurfaces, ///< `count` lights shine on lit surfaces in view; `others` do not
     IsVisible,          ///< `count` draws of it are in view
     FillsBackground,
+    DarkensWhatIsVisible, ///< `count` maps are read; `others` of them are drawn in this frame
+    TintsShadows,         ///< in `count` maps something transmits light, in `others` nothing does
+    ShowsInSky,           ///< `count` discs or halos are in view, `others` are not
+    ShowsCascades,        ///< `count`; 0: the sun has no maps
+    ShowsAtlas,           ///< `count` maps in `others` texels a side; 0: there is no atlas
+    ShowsFroxels,         ///< `others`, the longest list of which has `count` lights; 0: there is one list of `count`
+    ShowsLights,          ///< `count` are in the list
 
     NotInScene,
-    OutOfView,         ///< none of `others` lights reaches into the view
+    OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
+    OutOfView,         ///< none of `others` lights reaches into the view, or none of `others` discs is in it
     NothingLitVisible, ///< there is such light, but no lit surface in view
+    SwitchedOff,       ///< by Quality
+    NothingReceives,   ///< there is such light, but no surface in view on which shadows fall
+    NothingCasts,      ///< nothing that casts lies in any of `count` maps
+    NothingTransmits,  ///< no light passes through what lies in any of `count` maps
 };
 
 struct EffectDemand {
     bool isNeeded = false;
     DemandReason reason = DemandReason::NotInScene;
     uint32_t count = 0, others = 0; ///< see DemandReason
+    uint32_t leftOut = 0;           ///< needed as well, but beyond a limit
     friend bool operator==(EffectDemand const&, EffectDemand const&) = default;
 };
 
@@ -54,8 +76,12 @@ struct SceneDemand {
 /// What findDemand() reads of a frame.
 struct DemandInput {
     ViewCounts counts; ///< of the main view
+    ShadowCounts shadows{};
     bool hasIndirectLight = false, hasSky = false;
     uint32_t deformed = 0; ///< objects in view that skins or morph targets move
+    DebugView debugView = DebugView::None;
+    uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
+    uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs
 };
 
 SceneDemand findDemand(DemandInput const& input);

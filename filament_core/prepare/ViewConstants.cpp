@@ -12,6 +12,12 @@ float4x4 rotationY(float radians) {
     return float4x4(float4(c, 0, -s, 0), float4(0, 1, 0, 0), float4(s, 0, c, 0), float4(0, 0, 0, 1));
 }
 
+/// How the cubes of the environment lie in the world.
+template <class Record>
+float4x4 worldFromEnvironment(Record const& environment) {
+    return rotationY(environment.rotationRadians) * float4x4(environment.worldFromCube);
+}
+
 // z' = w - z: the near plane is at 0, infinity at 1.
 float4x4 withOrdinaryDepth(float4x4 clip) {
     for (int column = 0; column < 4; ++column) clip[column][2] = clip[column][3] - clip[column][2];
@@ -63,7 +69,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     const float ambient = light.specular ? light.illuminance.value * space.exposure : 0.0f;
     frame.ambient = float4(ambient, light.levelOfRoughnessOne, view.quality.shBands, 0);
     frame.irradianceSh = light.irradianceSh;
-    frame.worldFromEnvironment = rotationY(light.specular ? light.rotationRadians : scene.skybox.rotationRadians);
+    frame.worldFromEnvironment = light.specular ? worldFromEnvironment(light) : worldFromEnvironment(scene.skybox);
     frame.skyFactor = float4(float3(scene.skybox.illuminance.value * space.exposure), 0);
 }
 

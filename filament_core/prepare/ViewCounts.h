@@ -14,14 +14,21 @@ struct ViewCounts {
     uint32_t nothingToDraw = 0;  ///< no indices, or a transform that collapses them
     uint32_t blendedLeftOut = 0; ///< in view, but the view draws nothing that blends
     uint32_t lights = 0;         ///< punctual lights that reach into the view
+    uint32_t areaLights = 0;     ///< of these
     uint32_t lightsOutOfView = 0;
-    uint32_t lightsOverLimit = 0; ///< in view, but beyond kMaxPunctualLights: the dimmest
-    uint32_t froxels = 0;         ///< cells of the grid; 0: one list for the whole view
-    uint32_t froxelEntries = 0;   ///< of all lists
-    uint32_t longestFroxel = 0;   ///< lights in one list
-    uint32_t fullFroxels = 0;     ///< those that more than kMaxLightsOfFroxel lights may reach
-    uint32_t lightsLeftOut = 0;   ///< of full froxels, summed up: the dimmest
+    uint32_t areaLightsLeftOut = 0;     ///< of lightsOutOfView and lightsOverLimit
+    uint32_t profiledLights = 0;        ///< of `lights`: those with a profile
+    uint32_t profiledLightsLeftOut = 0; ///< of lightsOutOfView and lightsOverLimit
+    uint32_t profilesOverLimit = 0;     ///< profiled lights that stay dark: their tables are beyond kMaxProfileWords
+    uint32_t lightsOfOtherChannels = 0; ///< in view, but on no channel of a lit surface in view; without the sun
+    uint32_t lightsOverLimit = 0;       ///< in view, but beyond kMaxPunctualLights: the dimmest
+    uint32_t froxels = 0;               ///< cells of the grid; 0: one list for the whole view
+    uint32_t froxelEntries = 0;         ///< of all lists
+    uint32_t longestFroxel = 0;         ///< lights in one list
+    uint32_t fullFroxels = 0;           ///< those that more than kMaxLightsOfFroxel lights may reach
+    uint32_t lightsLeftOut = 0;         ///< of full froxels, summed up: the dimmest
     uint32_t suns = 0;
+    uint32_t sunsOfOtherChannels = 0;        ///< the brightest, if it is on no channel of a lit surface in view
     uint32_t litDraws = 0, blendedDraws = 0; ///< shaded views: draws whose material is lit; those behind the sky
     uint64_t triangles = 0;
 };

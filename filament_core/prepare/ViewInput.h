@@ -5,7 +5,7 @@
 #pragma once
 
 #include <filament/Camera.h>
-#include <filament/Quality.h>
+#include <filament/View.h>
 
 #include <array>
 #include <cstddef>
@@ -34,6 +34,7 @@ struct ViewInput {
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};
+    DebugView debugView = DebugView::None; ///< of the main view
 };
 
 } // namespace filament::prepare

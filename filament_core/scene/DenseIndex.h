@@ -43,6 +43,9 @@ public:
         return position;
     }
 
+    /// The handle of the element at `position`.
+    Handle<Tag> handleAt(uint32_t position) const { return mOwners[position]; }
+
     bool contains(Handle<Tag> handle) const {
         if (!handle || handle.index() >= mDense.size()) return false;
         const uint32_t position = mDense[handle.index()];

@@ -49,6 +49,8 @@ struct Drawable {
     Geometry geometry{};
     MaterialInstance const* material = nullptr;
     uint32_t deformation = kNotDeformed; ///< a slot of Deformations
+    bool receivesShadows = true;
+    uint8_t lightChannels = 1; ///< bit n: lights of channel n shine on it
     friend bool operator==(Drawable const&, Drawable const&) = default;
 };
 

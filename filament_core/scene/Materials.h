@@ -14,6 +14,7 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -27,6 +28,8 @@ struct Material {
     uint32_t instanceCount = 0;
     MaterialDescription description;
 
+    /// Lights and shading do not affect the others.
+    bool isLit() const { return package.shading != shader::ShadingModel::Unlit; }
     bool isBlended() const {
         return package.blending != shader::Blending::Opaque && package.blending != shader::Blending::Masked;
     }
@@ -38,8 +41,17 @@ struct InstanceRaster {
     shader::Culling culling = shader::Culling::Back;
     bool cullingDisabled = false; ///< both faces, whatever `culling` says
     bool colorWrite = true, depthWrite = true, depthCulling = true;
+    std::optional<shader::Culling> shadowCulling{}; ///< in shadow maps; none: as everywhere
     friend bool operator==(InstanceRaster const&, InstanceRaster const&) = default;
 };
+
+/// The same in shadow maps.
+inline InstanceRaster inShadowMaps(InstanceRaster raster) {
+    if (!raster.shadowCulling) return raster;
+    raster.culling = *raster.shadowCulling;
+    raster.cullingDisabled = false;
+    return raster;
+}
 
 /// As the material defines it.
 inline InstanceRaster initialRaster(shader::MaterialPackage const& package) {

@@ -22,6 +22,13 @@ float3 worldHalfExtent(Affine const& world, float3 halfExtent) {
              glm::dot(glm::abs(world.linearRow(2)), half) };
 }
 
+int castingFlag(MaterialInstance const& instance) {
+    Material const& material = *instance.material;
+    const shader::VertexDomain domain = material.package.vertexDomain;
+    const bool isInWorld = domain == shader::VertexDomain::Object || domain == shader::VertexDomain::World;
+    return isInWorld && (!material.isBlended() || material.package.transparentShadow) ? 0 : kCannotCast;
+}
+
 bool isPoint(Placement const& placement) {
     return placement.rows[0] == float3(0) && placement.rows[1] == float3(0) && placement.rows[2] == float3(0);
 }
@@ -46,9 +53,11 @@ void BoundsColumns::remove(uint32_t gap) {
 }
 
 Renderable add(Renderables& renderables, RenderableInput const& input) {
-    const uint32_t drawable = renderables.drawables.acquire({ input.geometry, input.material, input.deformation });
+    const uint32_t drawable = renderables.drawables.acquire(
+            { input.geometry, input.material, input.deformation, input.receivesShadows, input.lightChannels });
     const Renderable handle = renderables.index.add();
-    const int flags = (input.culled ? kCulled : 0) | (input.geometry.indexCount == 0 ? kNoIndices : 0);
+    const int flags = (input.culled ? kCulled : 0) | (input.geometry.indexCount == 0 ? kNoIndices : 0) |
+                      (input.castsShadows ? 0 : kCastsNoShadows) | castingFlag(*input.material);
     renderables.bounds.add();
     renderables.flags.push_back(static_cast<uint8_t>(flags));
     renderables.drawable.push_back(drawable);
@@ -71,13 +80,31 @@ void remove(Renderables& renderables, Renderable renderable) {
     closeGap(renderables.name, gap);
 }
 
-void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material) {
-    uint32_t& drawable = renderables.drawable[renderables.index.at(renderable)];
+namespace {
+
+/// Gives a renderable the drawable that `change` makes of its own.
+template <class Change>
+void changeDrawable(Renderables& renderables, uint32_t at, Change&& change) {
+    uint32_t& drawable = renderables.drawable[at];
     Drawable changed = renderables.drawables[drawable];
-    changed.material = &material;
+    change(changed);
     const uint32_t before = drawable;
     drawable = renderables.drawables.acquire(changed);
     renderables.drawables.release(before);
+}
+
+} // namespace
+
+void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material) {
+    const uint32_t at = renderables.index.at(renderable);
+    changeDrawable(renderables, at, [&](Drawable& changed) { changed.material = &material; });
+    uint8_t& flags = renderables.flags[at];
+    flags = static_cast<uint8_t>((flags & ~kCannotCast) | castingFlag(material));
+}
+
+void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels) {
+    changeDrawable(renderables, renderables.index.at(renderable),
+                   [&](Drawable& changed) { changed.lightChannels = channels; });
 }
 
 void place(Renderables& renderables, uint32_t at, Affine const& worldFromObject) {

@@ -49,6 +49,8 @@ enum RenderableFlag : uint8_t {
     kNoIndices = 4, ///< its geometry is empty
     kCollapsed = 8, ///< the transform collapses it to a point, so there is nothing to draw
     kBonesMirror = 16,
+    kCastsNoShadows = 32, ///< the user says so
+    kCannotCast = 64,     ///< its material blends, or places it in the view of a camera
 };
 
 struct Renderables {
@@ -73,12 +75,15 @@ struct RenderableInput {
     std::string name;
     uint32_t instanceIndex = 0; ///< < 2^24
     uint32_t deformation = kNotDeformed;
+    bool castsShadows = true, receivesShadows = true;
+    uint8_t lightChannels = 1;
 };
 
 Renderable add(Renderables& renderables, RenderableInput const& input);
 void remove(Renderables& renderables, Renderable renderable);
 /// Without memory for it, nothing changes.
 void setMaterial(Renderables& renderables, Renderable renderable, MaterialInstance const& material);
+void setLightChannels(Renderables& renderables, Renderable renderable, uint8_t channels);
 
 /// The slot in Deformations of the renderable at position `at`, or kNotDeformed.
 inline uint32_t deformationAt(Renderables const& renderables, uint32_t at) {

@@ -16,18 +16,32 @@
 #include <filament/Units.h>
 
 #include <array>
+#include <memory>
 #include <vector>
 
 namespace filament::scene {
 
 struct LightRecord {
-    enum class Type : uint8_t { Sun, Point, Spot } type = Type::Sun;
+    enum class Type : uint8_t { Sun, Point, Spot, Rect, Disc, Tube } type = Type::Sun;
     double3 positionWorld{ 0.0 };
     float3 directionWorld{ 0, -1, 0 }; ///< direction in which the light travels, unit
     float3 color{ 1.0f };
-    float intensity = 0; ///< lux (sun) or candela
+    float intensity = 0; ///< lux (sun), candela, or nits of areas
     float rangeMeters = 0;
     float innerConeRadians = 0, outerConeRadians = 0;
+    float sourceRadius = 0; ///< metres; of suns: for each metre of distance
+    bool castsShadows = true;
+    uint8_t channels = 1;        ///< bit n: channel n
+    bool isTwoSided = false;     ///< rectangles and discs
+    float3 sideWorld{ 1, 0, 0 }; ///< of areas: along the first of halfExtent, unit; of tubes the axis
+    float2 halfExtent{ 0.0f };   ///< metres: half sides, radii, half length and radius
+    /// Of points and spots: the words of shader::kProfileHeaderWords. None: as bright in all directions. The light shines
+    /// along directionWorld, and the profile's +X is along sideWorld.
+    std::shared_ptr<const std::vector<uint32_t>> profile{};
+    bool showsDisc = false; ///< suns
+    float haloSize = 1, haloFalloff = 0;
+
+    bool isArea() const { return type >= Type::Rect; }
 };
 
 struct Lights {
@@ -38,7 +52,7 @@ struct Lights {
 /// Of a light attached to a node: in the node's space.
 struct LightPose {
     double3 position{ 0.0 };
-    float3 direction{ 0, -1, 0 };
+    float3 direction{ 0, -1, 0 }, side{ 1, 0, 0 };
 };
 
 /// What is attached to which node; maintained by SceneNodes.h.
@@ -62,6 +76,7 @@ struct IndirectLightRecord {
     EnvironmentStorage storage{};
     float levelOfRoughnessOne = 0;
     std::array<float4, 9> irradianceSh{};
+    float3x3 worldFromCube{ 1.0f }; ///< before `rotationRadians`
     Lux illuminance{};
     float rotationRadians = 0;
 };
@@ -69,6 +84,7 @@ struct IndirectLightRecord {
 struct SkyboxRecord {
     backend::TextureHandle cube;
     bool isRgbm = false; ///< RGBA8 as RGBM
+    float3x3 worldFromCube{ 1.0f };
     Lux illuminance{};
     float rotationRadians = 0;
 };

@@ -32,7 +32,7 @@ void attach(SceneData& scene, Light light, Node node) {
     LightRecord const& record = scene.lights.records[scene.lights.index.at(light)];
     std::vector<LightPose>& poses = scene.atNodes.lightPoses;
     if (light.index() >= poses.size()) poses.resize(light.index() + 1);
-    poses[light.index()] = { record.positionWorld, record.directionWorld };
+    poses[light.index()] = { record.positionWorld, record.directionWorld, record.sideWorld };
     scene.atNodes.lights.attach(light, scene.transforms.slotOf(node));
     scene.transforms.markUnplaced(node);
 }
@@ -45,6 +45,19 @@ Node nodeOf(SceneData const& scene, Renderable renderable) {
 Node nodeOf(SceneData const& scene, Light light) {
     scene.lights.index.at(light);
     return nodeOf(scene, scene.atNodes.lights, light);
+}
+
+void setLightChannels(SceneData& scene, Node node, uint8_t channels) {
+    std::vector<Node> open{ node };
+    while (!open.empty()) {
+        const Node next = open.back();
+        open.pop_back();
+        scene.atNodes.renderables.forEach(scene.transforms.slotOf(next), [&](Renderable renderable) {
+            setLightChannels(scene.renderables, renderable, channels);
+        });
+        for (Node child = scene.transforms.firstChild(next); child; child = scene.transforms.nextSibling(child))
+            open.push_back(child);
+    }
 }
 
 void removeNode(SceneData& scene, Node node) {
@@ -69,6 +82,7 @@ void placeAttached(SceneData& scene, uint32_t slot) {
         LightRecord& record = scene.lights.records[scene.lights.index.at(light)];
         record.positionWorld = transformPoint(world, pose.position);
         record.directionWorld = turned(world, pose.direction);
+        if (record.isArea() || record.profile) record.sideWorld = turned(world, pose.side);
     });
 }
 

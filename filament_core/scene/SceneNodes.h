@@ -19,6 +19,9 @@ void attach(SceneData& scene, Light light, Node node);
 Node nodeOf(SceneData const& scene, Renderable renderable);
 Node nodeOf(SceneData const& scene, Light light);
 
+/// Of all renderables attached to the node or to a node below it.
+void setLightChannels(SceneData& scene, Node node, uint8_t channels);
+
 /// Removes the node, its descendants, and every renderable, light and skin attached to them.
 void removeNode(SceneData& scene, Node node);
 

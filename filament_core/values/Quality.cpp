@@ -31,6 +31,14 @@ constexpr std::string_view kTangentStorages[] = { "snorm16", "snorm8", "float" }
 constexpr std::string_view kShadingPrecisions[] = { "full", "half" };
 constexpr std::string_view kTextureFilters[] = { "asAuthored", "bilinear", "trilinear", "anisotropic" };
 constexpr std::string_view kToneMappings[] = { "analytic", "table16", "table32", "table64" };
+constexpr std::string_view kShadowFilters[] = {
+    "pcf3", "off", "hard", "pcf2", "pcf5", "poisson", "pcss", "vsm", "evsm"
+};
+constexpr std::string_view kMapSizes[] = { "512", "1024", "2048", "4096" };
+constexpr std::string_view kCascades[] = { "1", "2", "3", "4" };
+constexpr std::string_view kAtlasSizes[] = { "16", "64", "256" };
+constexpr std::string_view kBlurs[] = { "0", "2", "4", "8" };
+constexpr std::string_view kAreaLightTerms[] = { "ltc", "representativePoint" };
 constexpr std::string_view kDepthRanges[] = { "reversed", "ordinary" };
 constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" };
 
@@ -96,6 +104,14 @@ constexpr std::array kFields{
     enumField<&Quality::shadingPrecision>("shadingPrecision", kShadingPrecisions),
     enumField<&Quality::textureFilter>("textureFilter", kTextureFilters),
     enumField<&Quality::toneMapping>("toneMapping", kToneMappings),
+    enumField<&Quality::shadows>("shadows", kShadowFilters),
+    numberField<&Quality::shadowMapSize, 64, 8192>("shadowMapSize", kMapSizes, "a whole number from 64 to 8192"),
+    numberField<&Quality::shadowCascades, 1, 4>("shadowCascades", kCascades, "1, 2, 3 or 4"),
+    numberField<&Quality::shadowAtlasMegabytes, 1, 256>("shadowAtlasMegabytes", kAtlasSizes,
+                                                        "a whole number from 1 to 256"),
+    numberField<&Quality::shadowBlurTexels, 0, 16>("shadowBlurTexels", kBlurs, "a whole number from 0 to 16"),
+    enumField<&Quality::coloredShadows>("coloredShadows", kBooleans),
+    enumField<&Quality::areaLights>("areaLights", kAreaLightTerms),
     enumField<&Quality::depthRange>("depthRange", kDepthRanges),
     enumField<&Quality::cameraRelative>("cameraRelative", kBooleans),
 };
@@ -122,7 +138,10 @@ Quality lowPreset() {
     quality.splitSum = SplitSum::Analytic;
     quality.specularLookUps = SpecularLookUps::Quadratic;
     quality.anisotropicLookUps = AnisotropicLookUps::One;
+    quality.areaLights = AreaLightTerm::RepresentativePoint;
     quality.textureFilter = TextureFilter::Bilinear;
+    quality.shadows = ShadowFilter::Pcf2;
+    quality.shadowMapSize = 1024;
     return quality;
 }
 
@@ -131,6 +150,7 @@ Quality mediumPreset() {
     quality.specularVisibility = SpecularVisibility::Fast;
     quality.splitSum = SplitSum::Analytic;
     quality.anisotropicLookUps = AnisotropicLookUps::Three;
+    quality.shadowMapSize = 1024;
     return quality;
 }
 
@@ -141,6 +161,11 @@ Quality referencePreset() {
     quality.specularLookUps = SpecularLookUps::ThirtyTwo;
     quality.anisotropicLookUps = AnisotropicLookUps::Nine;
     quality.textureFilter = TextureFilter::Anisotropic;
+    quality.shadows = ShadowFilter::Pcss;
+    quality.shadowMapSize = 4096;
+    quality.shadowCascades = 4;
+    quality.shadowAtlasMegabytes = 256;
+    quality.coloredShadows = true;
     return quality;
 }
 
@@ -159,6 +184,8 @@ const char* toString(TangentStorage value) { return wordOf(kTangentStorages, val
 const char* toString(ShadingPrecision value) { return wordOf(kShadingPrecisions, value); }
 const char* toString(TextureFilter value) { return wordOf(kTextureFilters, value); }
 const char* toString(ToneMapping value) { return wordOf(kToneMappings, value); }
+const char* toString(ShadowFilter value) { return wordOf(kShadowFilters, value); }
+const char* toString(AreaLightTerm value) { return wordOf(kAreaLightTerms, value); }
 const char* toString(DepthRange value) { return wordOf(kDepthRanges, value); }
 const char* toString(QualityPreset value) { return wordOf(kPresets, value); }
 
@@ -195,6 +222,12 @@ std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name) 
 }
 std::optional<TextureFilter> textureFilterFromName(std::string_view name) {
     return valueOf<TextureFilter>(kTextureFilters, name);
+}
+std::optional<ShadowFilter> shadowFilterFromName(std::string_view name) {
+    return valueOf<ShadowFilter>(kShadowFilters, name);
+}
+std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name) {
+    return valueOf<AreaLightTerm>(kAreaLightTerms, name);
 }
 std::optional<ToneMapping> toneMappingFromName(std::string_view name) {
     return valueOf<ToneMapping>(kToneMappings, name);

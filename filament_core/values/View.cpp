@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include <filament/View.h>
 
+#include <algorithm>
 #include <array>
 #include <utility>
 
@@ -14,6 +15,9 @@ constexpr std::array<std::pair<ToneMapper, std::string_view>, 4> kNames{ {
         { ToneMapper::Mobile, "mobile" },
 } };
 
+// In the order of the enumerators.
+constexpr std::array<std::string_view, 5> kDebugViews{ "none", "cascades", "atlas", "froxels", "lights" };
+
 } // namespace
 
 const char* toString(ToneMapper toneMapper) { return kNames[static_cast<size_t>(toneMapper)].second.data(); }
@@ -23,6 +27,14 @@ std::optional<ToneMapper> toneMapperFromName(std::string_view name) {
         if (known == name) return toneMapper;
     }
     return std::nullopt;
+}
+
+const char* toString(DebugView debugView) { return kDebugViews[static_cast<size_t>(debugView)].data(); }
+
+std::optional<DebugView> debugViewFromName(std::string_view name) {
+    const auto found = std::ranges::find(kDebugViews, name);
+    if (found == kDebugViews.end()) return std::nullopt;
+    return static_cast<DebugView>(found - kDebugViews.begin());
 }
 
 } // namespace filament

@@ -41,11 +41,10 @@ void count(spv::Op op, std::span<const uint32_t> words, InstructionCounts& count
 }
 
 std::string nameOf(uint16_t key) {
-    static constexpr std::pair<uint16_t, const char*> kBits[] = { { kVariantSun, "sun" },
-                                                                  { kVariantPunctual, "punctual" },
-                                                                  { kVariantSkinning, "skinning" },
-                                                                  { kVariantHalf, "half" },
-                                                                  { kVariantMerged, "merged" } };
+    static constexpr std::pair<uint16_t, const char*> kBits[] = {
+        { kVariantSun, "sun" },   { kVariantPunctual, "punctual" }, { kVariantSkinning, "skinning" },
+        { kVariantHalf, "half" }, { kVariantMerged, "merged" },     { kVariantDepth, "depth" }
+    };
     std::string name;
     for (auto const& [bit, word] : kBits) {
         if ((key & bit) != 0) name += fmt::format("{}{}", name.empty() ? "" : "+", word);

@@ -124,6 +124,7 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
 void defineFragment(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
     defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
     defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
+    defineIf(out, (variantKey & kVariantShadowReceiver) != 0, "VARIANT_SHADOW_RECEIVER");
     defineIf(out, (variantKey & kVariantHalf) != 0, "HALF_PRECISION");
     defineIf(out, definition.package.quality == MaterialQuality::Low, "QUALITY_LOW");
     defineIf(out, definition.package.alphaToCoverage, "ALPHA_TO_COVERAGE");
@@ -197,6 +198,25 @@ constexpr Layer kLayers[] = { { "HAS_ANISOTROPY", "shaders/material/surface/anis
                               { "HAS_SHEEN", "shaders/material/surface/sheen.glsl" },
                               { "HAS_CLEAR_COAT", "shaders/material/surface/coat.glsl" } };
 
+Result<void> includeShadows(StageText& out, MaterialPackage const& package) {
+    Result<void> done = out.include("shaders/lib/noise.glsl");
+    if (done && (package.filteredVariants & kVariantVsm) == 0) {
+        out.define("HAS_SHADOW_MOMENTS");
+        done = out.include("shaders/lib/moments.glsl");
+    }
+    return done ? out.include("shaders/material/surface/shadows.glsl") : done;
+}
+
+/// Authors' models, cloth and subsurface have no transformed lobe.
+Result<void> areaLights(StageText& out, MaterialDefinition const& definition) {
+    const ShadingModel shading = definition.package.shading;
+    const bool isStandard = shading == ShadingModel::Lit || shading == ShadingModel::SpecularGlossiness;
+    Result<void> done = out.include("shaders/material/surface/area_lights.glsl");
+    if (!done || !isStandard || definition.customSurfaceShading) return done;
+    out.define("AREA_LIGHTS_BY_LTC");
+    return out.include("shaders/material/surface/lit_area.glsl");
+}
+
 /// Follows the author's code. Everything that is unsafe in 16 bits (distances, f0 near 1, derivatives, nits) precedes
 /// the line after which kVariantHalf computes in 16 bits.
 Result<void> litFragment(StageText& out, MaterialDefinition const& definition, MaterialNeeds const& needs,
@@ -204,6 +224,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     declareQuality(out);
     Result<void> done =
             includeAll(out, { "shaders/lib/light.glsl", "shaders/lib/fresnel.glsl", "shaders/lib/ibl.glsl" });
+    if (done && (variantKey & kVariantPunctual) != 0)
+        done = includeAll(out, { "shaders/lib/ltc.glsl", "shaders/lib/profiles.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
     if (done) done = out.include("shaders/lib/occlusion.glsl");
     if (done && needs.has("HAS_AMBIENT_OCCLUSION")) done = out.include("shaders/lib/ao.glsl");
@@ -212,6 +234,7 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done && refracts(definition))
         done = includeAll(out, { "shaders/lib/specular.glsl", "shaders/lib/refraction.glsl" });
     if (done) done = out.include("shaders/material/surface/output.glsl");
+    if (done && (variantKey & kVariantShadowReceiver) != 0) done = includeShadows(out, definition.package);
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface/half.glsl");
     if (!done) return done;
     done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface/quality.glsl",
@@ -223,6 +246,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done && refracts(definition)) done = out.include("shaders/material/surface/refraction.glsl");
     if (done) done = out.include(shadingText(definition.package.shading));
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_light.glsl");
+    if (done && (variantKey & kVariantPunctual) != 0) done = areaLights(out, definition);
+    if (done && (variantKey & kVariantPunctual) != 0) done = out.include("shaders/material/surface/profiles.glsl");
     if (done) done = includeAll(out, { "shaders/material/surface/lights.glsl", "shaders/material/surface/main.glsl" });
     return done;
 }
@@ -233,6 +258,7 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     beginStage(out, "in");
     defineSurface(out, definition, needs);
     defineFragment(out, definition, variantKey);
+    if ((variantKey & kVariantDepth) != 0) out.define("CUTS_HOLES");
     Result<void> done = includeAll(out, { "shaders/lib/math.glsl", "shaders/interface/interface.glsl",
                                           "shaders/material/api.glsl", "shaders/material/varyings.glsl" });
     if (!done) return done;
@@ -250,13 +276,49 @@ Result<void> beginSurfaceFragment(StageText& out, MaterialDefinition const& defi
     return done;
 }
 
+/// As many texels of a shadow map as the material is opaque.
+bool castsThroughDither(MaterialDefinition const& definition) {
+    const Blending blending = definition.package.blending;
+    return definition.package.transparentShadow && blending != Blending::Opaque && blending != Blending::Masked;
+}
+
+Result<void> includeTransmission(StageText& out) {
+    declareQuality(out);
+    out.define("TRANSMITS_DEPTH");
+    return includeAll(out, { "shaders/lib/brdf.glsl", "shaders/lib/specular.glsl", "shaders/lib/refraction.glsl",
+                             "shaders/material/surface/transmission.glsl" });
+}
+
+Result<std::string> depthFragment(MaterialDefinition const& definition, MaterialNeeds const& needs, uint16_t variantKey,
+                                  IncludeResolver const& includes) {
+    StageText out = stageOf(needs, includes);
+    Result<void> done;
+    if (cutsHoles(definition, needs) || transmitsLight(definition.package)) {
+        done = beginSurfaceFragment(out, definition, needs, variantKey);
+        defineIf(out, castsThroughDither(definition), "DITHERS_DEPTH");
+        if (done) done = out.include("shaders/lib/noise.glsl");
+        if (done) done = authorsBlock(out, definition.fragment, needs, true);
+        if (done && transmitsLight(definition.package)) done = includeTransmission(out);
+    } else {
+        beginStage(out, "in");
+    }
+    if (done) done = out.include("shaders/material/surface/depth_main.glsl");
+    if (!done) return done.error();
+    return std::move(out).take();
+}
+
 Result<std::string> surfaceFragment(MaterialDefinition const& definition, MaterialNeeds const& needs,
                                     uint16_t variantKey, IncludeResolver const& includes) {
+    if ((variantKey & kVariantDepth) != 0) return depthFragment(definition, needs, variantKey, includes);
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
     StageText out = stageOf(needs, includes);
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
     if (done) done = authorsBlock(out, definition.fragment, needs, true);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
+    if (done && (variantKey & kVariantShadowReceiver) != 0 && !isLit) {
+        declareQuality(out);
+        done = includeShadows(out, definition.package);
+    }
     if (done && !isLit)
         done = includeAll(out, { "shaders/material/surface/output.glsl", "shaders/material/surface/unlit_main.glsl" });
     if (!done) return done.error();
@@ -291,6 +353,11 @@ Result<std::string> postFragment(MaterialDefinition const& definition, MaterialN
 }
 
 } // namespace
+
+bool cutsHoles(MaterialDefinition const& definition, MaterialNeeds const& needs) {
+    return definition.package.blending == Blending::Masked || needs.words.contains("discard") ||
+           castsThroughDither(definition);
+}
 
 bool MaterialNeeds::has(std::string_view term) const {
     const auto members = materialMembers();

@@ -34,6 +34,9 @@ struct MaterialNeeds {
 ///   Fails   also for functions with other parameters than the engine passes, and for names that are taken.
 Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeResolver const& includes);
 
+/// What the material draws is not all of the mesh: it is masked, or the author's code discards fragments.
+bool cutsHoles(MaterialDefinition const& definition, MaterialNeeds const& needs);
+
 /// The bits of a variant that change the text of its vertex stage; the others change the fragment stage.
 inline constexpr uint16_t kVertexVariantBits = kVariantSkinning;
 

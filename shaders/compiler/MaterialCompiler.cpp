@@ -63,6 +63,19 @@ Error withVertexErrors(Error const& fragment, Prepared const& prepared) {
     return joined(both);
 }
 
+/// For shadow maps, which are kept while nothing changes what they show.
+void describeDepth(Prepared& prepared) {
+    MaterialPackage& package = prepared.definition.package;
+    package.depthReadsParameters = prepared.definition.vertex || cutsHoles(prepared.definition, prepared.needs);
+    static constexpr std::string_view kOfFrame[] = { "getUserTime",        "getUserTimeMod",     "getMaterialGlobal0",
+                                                     "getMaterialGlobal1", "getMaterialGlobal2", "getMaterialGlobal3",
+                                                     "frameUniforms" };
+    const bool hasCode = package.depthReadsParameters || transmitsLight(package);
+    package.depthReadsFrame = hasCode && std::ranges::any_of(kOfFrame, [&](std::string_view word) {
+                                  return prepared.needs.words.contains(word);
+                              });
+}
+
 Result<Prepared> prepare(std::string_view text, std::string_view fileName, CompileOptions const& options) {
     Prepared prepared;
     prepared.includes = withEngineFiles(options.includes);
@@ -81,6 +94,7 @@ Result<Prepared> prepare(std::string_view text, std::string_view fileName, Compi
     MaterialPackage& package = prepared.definition.package;
     package.layout = materialLayout(prepared.definition, prepared.needs);
     package.filteredVariants |= options.filteredVariants;
+    describeDepth(prepared);
     prepared.keys = variantKeys(selectableBits(prepared.definition), package.filteredVariants);
     return prepared;
 }

@@ -186,9 +186,9 @@ Result<MaterialNeeds> findNeeds(MaterialDefinition const& definition, IncludeRes
     if (Result<void> complete = checkBlocks(definition, needs, fragment, vertex); !complete) return complete.error();
 
     const bool isLit = definition.package.shading != ShadingModel::Unlit;
-    needs.worldPosition =
-            isLit || mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
-                                             "getWorldReflectedVector", "getNdotV" });
+    needs.worldPosition = isLit || definition.package.shadowMultiplier ||
+                          mentionsAny(fragment, { "getWorldPosition", "getUserWorldPosition", "getWorldViewVector",
+                                                  "getWorldReflectedVector", "getNdotV" });
     needs.normal = isLit || definition.needsAttribute(kAttributeTangents);
     needs.tangent = needs.normal && fragment.mentions("getWorldTangentFrame");
     needs.clipSpaceTransform =

@@ -4,6 +4,22 @@
 #include <algorithm>
 
 namespace filament::shader {
+namespace {
+
+/// What blends casts shadows only if its author says so, and backgrounds leave depth only if they write it.
+bool leavesDepth(MaterialDefinition const& definition) {
+    const Blending blending = definition.package.blending;
+    return (!definition.fullScreenTriangle || definition.package.depthWrite) &&
+           (blending == Blending::Opaque || blending == Blending::Masked || definition.package.transparentShadow);
+}
+
+/// Depth alone is not lit, and what light does not reach has no shadows.
+constexpr bool isVariant(uint32_t key, bool isLit) {
+    if ((key & kVariantDepth) != 0) return (key & ~uint32_t{ kVariantDepth | kVariantSkinning }) == 0;
+    return !isLit || (key & kVariantShadowReceiver) == 0 || (key & (kVariantSun | kVariantPunctual)) != 0;
+}
+
+} // namespace
 
 uint16_t selectableBits(MaterialDefinition const& definition) {
     MaterialPackage const& package = definition.package;
@@ -12,17 +28,21 @@ uint16_t selectableBits(MaterialDefinition const& definition) {
         return mayMerge ? uint16_t{ kVariantMerged } : uint16_t{ 0 };
     }
     const bool isDeformable = package.vertexDomain == VertexDomain::Object && !definition.fullScreenTriangle;
-    const int geometry = isDeformable ? kVariantSkinning : 0;
-    if (package.shading == ShadingModel::Unlit) return static_cast<uint16_t>(geometry);
-    const int lighting = kVariantSun | kVariantPunctual | (definition.halfPrecision ? kVariantHalf : 0);
+    const int depth = leavesDepth(definition) ? kVariantDepth : 0;
+    const int geometry = depth | (isDeformable ? kVariantSkinning : 0);
+    if (package.shading == ShadingModel::Unlit)
+        return static_cast<uint16_t>(geometry | (package.shadowMultiplier ? kVariantShadowReceiver : 0));
+    const int lighting =
+            kVariantSun | kVariantPunctual | kVariantShadowReceiver | (definition.halfPrecision ? kVariantHalf : 0);
     return static_cast<uint16_t>(geometry | lighting);
 }
 
 std::vector<uint16_t> variantKeys(uint16_t selectable, uint16_t filteredBits) {
     const uint32_t bits = selectable & ~static_cast<uint32_t>(filteredBits);
+    const bool isLit = (selectable & (kVariantSun | kVariantPunctual)) != 0;
     std::vector<uint16_t> keys;
     for (uint32_t key = 0; key <= bits; ++key) {
-        if ((key & ~bits) == 0) keys.push_back(static_cast<uint16_t>(key));
+        if ((key & ~bits) == 0 && isVariant(key, isLit)) keys.push_back(static_cast<uint16_t>(key));
     }
     return keys;
 }

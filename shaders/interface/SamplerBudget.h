@@ -54,10 +54,10 @@ struct EngineTexture {
 
 // clang-format off
 inline constexpr std::array kEngineTextures{
+    EngineTexture{ "shadow maps",       kReadByLit | kReadByUnlit,               kBindingShadowMaps },
     EngineTexture{ "environment",       kReadByLit,                              kBindingSpecular },
     EngineTexture{ "lighting tables",   kReadByLit,                              kBindingDfg },
     EngineTexture{ "irradiance",        kReadByLit,                              kBindingIrradiance },
-    EngineTexture{ "shadow maps",       kReadByLit | kReadByUnlit,               kNotMadeYet },
     EngineTexture{ "ambient occlusion", kReadByLit,                              kNotMadeYet },
     EngineTexture{ "depth",             kReadByLit | kReadByUnlit,               kNotMadeYet },
     EngineTexture{ "fog",               kReadByLit | kReadByUnlit | kReadForFog, kNotMadeYet },

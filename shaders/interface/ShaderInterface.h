@@ -46,9 +46,11 @@ enum ViewBinding : uint8_t {
 
 enum PassBinding : uint8_t {
     kBindingPass = 0,        ///< PassUniforms
-    kBindingSpecular = 1,    ///< samplerCube: pre-filtered environment, mip = roughness
-    kBindingDfg = 2,         ///< sampler2D: split-sum terms
-    kBindingIrradiance = 3,  ///< samplerCube: irradiance / pi
+    kBindingShadowMaps = 1,  ///< sampler2D: the atlas of shadow maps: depths, or moments of vsm and evsm
+    kBindingShadows = 2,     ///< ShadowUniforms
+    kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
+    kBindingDfg = 4,         ///< sampler2D: split-sum terms
+    kBindingIrradiance = 5,  ///< samplerCube: irradiance / pi
 };
 
 // ---- FrameUniforms
@@ -63,18 +65,34 @@ struct FrameUniforms {
     float4 sunDirection;         ///< xyz: towards the sun, unit; w: 1 if there is a sun
     float4 sunIlluminance;       ///< rgb: pre-exposed linear colour x lux
     float4 ambient;              ///< x: pre-exposed IBL lux; y: level of roughness 1; z: SH bands; w: light count
-    float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: unused
+    float4 skyFactor;            ///< rgb: pre-exposed factor of the sky texture; w: first word of the profiles of the view, if it has some
     std::array<float4, 9> irradianceSh; ///< rgb: pre-convolved, pre-scaled by 1/pi: polynomial coefficients
     float4x4 worldFromEnvironment;       ///< rotation of the environment
     std::array<float4, 4> materialGlobals; ///< View::materialGlobals
     float4 froxelGrid;           ///< x: columns, y: rows, z: slices; 0: every point reads all lights; w: first slice, as depth bits >> shift
-    float4 froxelPlaces;         ///< x: shift; y: first light; z: first word of the view; w: unused
+    float4 froxelPlaces;         ///< x: shift; y: first light; z: first word of the view; w: first word of kLtcTable, if the view has areas
 };
 
 // ---- PassUniforms
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
-    float4 raster; ///< x: samples a pixel; yzw: unused
+    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; zw: unused
+};
+
+inline constexpr uint32_t kMaxShadowMaps = 128; ///< of a view
+
+/// What one light sees in one direction: a square of the atlas.
+struct ShadowMapRecord {
+    float4x4 atlasFromWorld; ///< from positions relative to the camera; xy: texels, z: depth, all times w
+    float4 tile;             ///< texels; xy: first, zw: end; of the first channel
+    float4 texel;            ///< width of a texel is x + y w metres; bias of a depth is z + w times the depth
+    float4 softness;         ///< x: radius of the penumbra for each unit of depth in between, in texels; y: colour channels, 1 or 3: those of green and blue lie to the right of `tile` and below it. Moments: z: see momentDepth(), w: radius of the blur in texels
+};
+
+struct ShadowUniforms {
+    float4 atlas; ///< x: 1 / texels of a side, y: texels; zw: unused
+    float4 sun;   ///< x: first map, y: cascades; zw: unused
+    std::array<ShadowMapRecord, kMaxShadowMaps> maps;
 };
 
 inline constexpr uint32_t kObjectsPerWindow = 256;
@@ -96,13 +114,31 @@ inline constexpr uint32_t kMaxLightsOfFroxel = 256;
 /// word of the view. An entry of a list is the light's place among those of the view; entries ascend.
 inline constexpr uint32_t kFroxelCountBits = 9;
 
-/// A point, a spot, or a sun besides the one of FrameUniforms; pre-exposed.
+/// What colorIntensity.w says of a light of the list. Of areas, positionRange is the centre, colorIntensity rgb the
+/// pre-exposed luminance, and the half edges X = directionScale.xyz and Y = (directionScale.w, offset.x, offset.w): radii
+/// of a disc; of a tube X is half its axis and Y.x its radius. cross(X, Y) is against the direction in which it shines.
+enum LightShape : uint8_t {
+    kShapeSpot = 1,
+    kShapeRect = 2,
+    kShapeDisc = 3,
+    kShapeTube = 4,
+    kShapeTwoSided = 4, ///< added to rectangles and discs
+};
+
+/// A point, a spot, an area, or a sun besides the one of FrameUniforms; pre-exposed.
 struct PunctualLight {
     float4 positionRange;   ///< xyz: relative to the camera, or towards a sun, unit; w: 1 / range^2 (0: unlimited)
-    float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; x lux for suns; w: 1 for spots, 0 for points, -1 for suns
+    float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; x lux for suns; w: 1 for spots, 0 for points, -1 for suns; LightShape of areas
     float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
-    float4 offset;          ///< x: spot offset -cosOuter * scale; yzw: unused
+    float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: set of its maps: bit n: face n; bit 6: a cube's faces; w: its ProfiledLight + 1, 0: none
 };
+
+/// Words of the light profiles of a view, behind the froxels: first what belongs to one light, its x axis, as float bits,
+/// and where its table begins, counted from the first of these words. The frame of the profile: directionScale.xyz is -z.
+inline constexpr uint32_t kProfiledLightWords = 4;
+/// Then the tables: rows, columns, rows a radian as float bits; then LightProfileTable::words.
+inline constexpr uint32_t kProfileHeaderWords = 3;
+inline constexpr uint32_t kMaxProfileWords = 1u << 22; ///< of the tables of a view: 16 MiB
 
 // ---- deformation: skins and morph targets (shaders/interface/deformation.glsl)
 enum DeformationBinding : uint8_t {
@@ -151,6 +187,10 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityWithoutDiffuseCoupling = 1008, ///< 1: lights give the diffuse lobe what is reflected, too
     kQualitySpecularLookUps = 1009,
     kQualityAnisotropicLookUps = 1010,
+    kQualityAreaLights = 1012, ///< 0: no light of the view is an area; else 1 + Quality::areaLights
+    kQualityLightProfiles = 1013, ///< 1: some light of the view has a profile
+    kQualityColoredShadows = 1014, ///< 1: some shadow map of the view has three channels
+    kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
 
 inline constexpr std::array kQualityConstants{
@@ -165,6 +205,10 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "withoutDiffuseCoupling", kQualityWithoutDiffuseCoupling },
     QualityConstant{ "specularLookUps", kQualitySpecularLookUps },
     QualityConstant{ "anisotropicLookUps", kQualityAnisotropicLookUps },
+    QualityConstant{ "areaLights", kQualityAreaLights },
+    QualityConstant{ "lightProfiles", kQualityLightProfiles },
+    QualityConstant{ "coloredShadows", kQualityColoredShadows },
+    QualityConstant{ "shadowFilter", kQualityShadowFilter },
 };
 
 // clang-format on
@@ -172,5 +216,6 @@ static_assert(sizeof(BoneUniforms) == 12288 && sizeof(MorphUniforms) <= 16384);
 static_assert(sizeof(ObjectUniforms) == 16384 && sizeof(PunctualLight) == 64);
 static_assert(kMaxLightsOfFroxel < 1u << kFroxelCountBits);
 static_assert(sizeof(FrameUniforms) % 16 == 0);
+static_assert(sizeof(ShadowUniforms) <= 16384);
 
 } // namespace filament::shader

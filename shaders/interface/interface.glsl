@@ -15,6 +15,9 @@ const int kAttributeInstance = 15;
 
 const int kObjectsPerWindow = 256;
 const int kFroxelCountBits = 9;
+const int kMaxShadowMaps = 128;
+const int kProfiledLightWords = 4;
+const int kProfileHeaderWords = 3;
 
 layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     mat4 clipFromWorld; // the world is relative to the camera
@@ -64,6 +67,21 @@ layout(set = 1, binding = 0, std140) uniform PassUniforms {
     vec4 raster;
 } passUniforms;
 
-layout(set = 1, binding = 1) uniform samplerCube passSpecular;
-layout(set = 1, binding = 2) uniform sampler2D passDfg;
-layout(set = 1, binding = 3) uniform samplerCube passIrradiance;
+layout(set = 1, binding = 1) uniform sampler2D passShadowMaps;
+
+struct ShadowMapRecord {
+    mat4 atlasFromWorld;
+    vec4 tile;
+    vec4 texel;
+    vec4 softness;
+};
+
+layout(set = 1, binding = 2, std140) uniform ShadowUniforms {
+    vec4 atlas;
+    vec4 sun;
+    ShadowMapRecord maps[kMaxShadowMaps];
+} shadowUniforms;
+
+layout(set = 1, binding = 3) uniform samplerCube passSpecular;
+layout(set = 1, binding = 4) uniform sampler2D passDfg;
+layout(set = 1, binding = 5) uniform samplerCube passIrradiance;

@@ -86,13 +86,6 @@ vec3 ycbcrToRgb(float y, vec2 cbcr) {
     return vec3(y + 1.402f * cr, y - 0.344136f * cb - 0.714136f * cr, y + 1.772f * cb);
 }
 
-// Noise that is nearly uniform in every 3x3 block, for dithering and for rotating sample patterns. Jimenez 2014, "Next
-// Generation Post Processing in Call of Duty: Advanced Warfare". pixel: gl_FragCoord.xy. Returns [0, 1). fp32 only: 16
-// bits cannot count the pixels of a line.
-float interleavedGradientNoise(vec2 pixel) {
-    return fract(52.9829189f * fract(dot(pixel, vec2(0.06711056f, 0.00583715f))));
-}
-
 // ---- the axes of a tone-mapping table (ToneTable.h): logarithmic, so that shadows get as many entries as highlights.
 // The offset makes the first cells nearly linear, so that the table includes black. 16 stops, [0, 256); all curves are
 // flat beyond.

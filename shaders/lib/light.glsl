@@ -16,6 +16,13 @@ float distanceAttenuation(vec3 toLight, float inverseSquaredRange) {
     return window * window / max(distanceSquared, kMinLightDistanceSquared);
 }
 
+// The same fade for a light that is an area, toLight its centre. Zero wherever distanceAttenuation() is. Returns [0, 1].
+float rangeWindow(vec3 toLight, float inverseSquaredRange) {
+    float ratio = dot(toLight, toLight) * inverseSquaredRange;
+    float window = saturate(1.0f - ratio * ratio);
+    return window * window;
+}
+
 // Angular fall-off of a spot. KHR_lights_punctual, "Inner and Outer Cone Angles".
 // lightDirection: unit, from the surface to the light; spotDirection: unit, where the spot shines.
 // scale = 1 / (cos(inner) - cos(outer)), offset = -cos(outer) * scale. Returns [0, 1].

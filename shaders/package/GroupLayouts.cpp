@@ -46,12 +46,15 @@ backend::BindGroupLayout passGroupLayout(PassKind kind) {
     using backend::BindingType;
     using backend::ShaderStage;
     backend::BindGroupLayout layout;
-    layout.bindings[layout.count++] = { .binding = kBindingPass, .type = BindingType::UniformBuffer };
+    const auto add = [&](uint8_t binding, BindingType type, ShaderStage stages) {
+        layout.bindings[layout.count++] = { .binding = binding, .type = type, .stages = stages };
+    };
+    add(kBindingPass, BindingType::UniformBuffer, ShaderStage::Both);
     for (EngineTexture const& texture : kEngineTextures) {
         if (texture.binding == kNotMadeYet || !isReadBy(texture, kind)) continue;
-        layout.bindings[layout.count++] = { .binding = texture.binding,
-                                            .type = BindingType::SampledTexture,
-                                            .stages = ShaderStage::Fragment };
+        add(texture.binding, BindingType::SampledTexture, ShaderStage::Fragment);
+        if (texture.binding == kBindingShadowMaps)
+            add(kBindingShadows, BindingType::UniformBuffer, ShaderStage::Fragment);
     }
     return layout;
 }

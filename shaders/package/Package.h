@@ -68,16 +68,17 @@ struct Constant {
 enum VariantBit : uint16_t {
     kVariantSun = 1,            ///< directionalLighting
     kVariantPunctual = 2,       ///< dynamicLighting
-    kVariantShadowReceiver = 4, ///< *
+    kVariantShadowReceiver = 4, ///< shadowReceiver: lights are shadowed
     kVariantSkinning = 8,       ///< skinning: the vertex stage applies skins and morph targets
     kVariantFog = 16,           ///< *
-    kVariantVsm = 32,           ///< *
-    kVariantSsr = 64,           ///< *
-    kVariantStereo = 128,       ///< *
-    kVariantHalf = 256,         ///< lit in 16 bits, for materials with halfPrecision; selected by Quality
-    kVariantMerged = 512,       ///< for materials with currentPixel parameters: they are subpass inputs, not textures
+    kVariantVsm = 32,     ///< vsm: in no key; filtered, nothing falls on the material with the filters vsm and evsm
+    kVariantSsr = 64,     ///< *
+    kVariantStereo = 128, ///< *
+    kVariantHalf = 256,   ///< lit in 16 bits, for materials with halfPrecision; selected by Quality
+    kVariantMerged = 512, ///< for materials with currentPixel parameters: they are subpass inputs, not textures
+    kVariantDepth = 1024, ///< depth alone, for shadow maps: no light, no colour; combined with kVariantSkinning only
 };
-inline constexpr uint16_t kAllVariantBits = 1023;
+inline constexpr uint16_t kAllVariantBits = 2047;
 
 /// For custom blending: the weights of the material's result and of the existing colour.
 struct BlendFunction {
@@ -115,6 +116,8 @@ struct MaterialPackage {
     bool instanced = false;
     bool vertexDomainDeviceJittered = false;
     bool shadowMultiplier = false, transparentShadow = false;
+    bool depthReadsParameters = false; ///< a vertex block, a mask or a discard: depth is not that of the mesh alone
+    bool depthReadsFrame = false; ///< such code, or that of what transmits light, reads the time or globals of the view
     float maskThreshold = 0.4f;
     uint16_t filteredVariants = 0;   ///< VariantBits that the material was compiled without
     uint32_t requiredAttributes = 0; ///< bit n: the material reads AttributeLocation n; skins are not included
@@ -130,6 +133,12 @@ struct MaterialPackage {
     Parameter const* findParameter(std::string_view name) const;
     Constant const* findConstant(std::string_view name) const;
 };
+
+/// Whether light passes through its surfaces: with Quality::coloredShadows its shadows have colours.
+inline bool transmitsLight(MaterialPackage const& package) {
+    const bool isModelled = package.shading == ShadingModel::Lit || package.shading == ShadingModel::SpecularGlossiness;
+    return isModelled && package.refractionMode != RefractionMode::None;
+}
 
 /// Name of the parameter that holds the mask threshold of masked materials; its default is package.maskThreshold.
 inline constexpr std::string_view kMaskThresholdParameter = "_maskThreshold";

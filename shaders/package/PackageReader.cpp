@@ -93,7 +93,8 @@ bool readFlags(ByteReader& in, MaterialPackage& out) {
     return readBool(in, out.doubleSided) && readBool(in, out.colorWrite) && readBool(in, out.depthWrite) &&
            readBool(in, out.depthCulling) && readBool(in, out.alphaToCoverage) && readBool(in, out.instanced) &&
            readBool(in, out.vertexDomainDeviceJittered) && readBool(in, out.shadowMultiplier) &&
-           readBool(in, out.transparentShadow);
+           readBool(in, out.transparentShadow) && readBool(in, out.depthReadsParameters) &&
+           readBool(in, out.depthReadsFrame);
 }
 
 bool readGeneral(ByteReader in, MaterialPackage& out) {

@@ -75,7 +75,8 @@ ByteWriter generalSection(MaterialPackage const& package) {
     out.enumerator(package.interpolation);
     for (const bool flag :
          { package.doubleSided, package.colorWrite, package.depthWrite, package.depthCulling, package.alphaToCoverage,
-           package.instanced, package.vertexDomainDeviceJittered, package.shadowMultiplier, package.transparentShadow })
+           package.instanced, package.vertexDomainDeviceJittered, package.shadowMultiplier, package.transparentShadow,
+           package.depthReadsParameters, package.depthReadsFrame })
         out.u8(flag);
     out.f32(package.maskThreshold);
     out.u16(package.filteredVariants);

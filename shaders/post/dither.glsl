@@ -1,5 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
-// The last step of a tone mapper; included after shaders/lib/color.glsl.
+// The last step of a tone mapper; included after shaders/lib/noise.glsl.
 
 // Noise of one 8-bit step, centred on zero, so that gradients do not band.
 vec3 dithered(vec3 color) {

@@ -128,7 +128,7 @@ private:
 
 // ---------------------------------------------------------------------------------------------- a model
 
-/// Two triangles with a texture, a light and two materials.
+/// Two triangles with a texture, a light, two materials and a sky.
 std::filesystem::path modelFile() {
     const std::filesystem::path path = faultFolder() / "model.glb";
     std::filesystem::create_directories(path.parent_path());
@@ -148,6 +148,10 @@ std::filesystem::path modelFile() {
     }
     scene.lights.push_back({});
     scene.nodes.push_back({ .name = "lamp", .light = 0 });
+    assets::CubeLight sky;
+    sky.levels = { assets::IblCubeLevel(2), assets::IblCubeLevel(1) };
+    sky.worldFromCube[2].z = -1;
+    scene.imageBasedLight = *assets::glbImageBasedLight(sky, scene.images);
     const auto bytes = assets::writeGlb(scene);
     EXPECT_TRUE(bytes.ok());
     std::ofstream(path, std::ios::binary)
@@ -176,6 +180,7 @@ public:
         }
         EXPECT_EQ(mModel->renderableCount(), 2u);
         EXPECT_TRUE(mModel->warnings().empty());
+        EXPECT_TRUE(mModel->environment());
         drawIt();
     }
 
@@ -183,6 +188,7 @@ private:
     void drawIt() {
         Scene scene(*mEngine);
         scene.add(*mModel);
+        scene.setEnvironment(*mModel->environment());
         Renderer renderer(*mEngine);
         View view{ .camera = Camera::lookAt({ 0.4, 0.4, 3 }, { 0.4, 0.4, 0 }), .size = { 32, 32 } };
         const Result<Image> image = renderer.renderToImage(scene, view);

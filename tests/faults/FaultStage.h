@@ -67,6 +67,7 @@ public:
         mScene.add(SunLight{ .directionWorld = { -0.4f, -1, -0.6f } });
         mView.camera = Camera::lookAt({ 0, 0.5, 4 }, { 0, 0, 0 });
         mView.size = { 32, 32 };
+        mView.quality.shadows = ShadowFilter::Off; // whether a map is new depends on the frame before
         mRenderer.emplace(engine);
     }
 

@@ -120,9 +120,11 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     Result<TakeParts> parts = partsOf(**used, spec, settings);
     if (!parts) return parts.error();
     Scene& scene = parts->scene;
-    for (conformance::LightSpec const& light : placedLights(spec))
-        std::visit([&](auto const& placed) { scene.add(placed); }, light);
-    if (parts->environment) scene.setEnvironment(*parts->environment, spec.environmentSettings);
+    if (const Result<void> added = conformance::addLights(engine, scene, spec, mFolders); !added) return added.error();
+    if (parts->environment)
+        scene.setEnvironment(*parts->environment, spec.environmentSettings);
+    else if (parts->model && parts->model->environment())
+        scene.setEnvironment(*parts->model->environment(), spec.environmentSettings);
     View& view = parts->view;
     view = spec.view;
     view.size = size;

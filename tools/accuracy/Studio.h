@@ -36,7 +36,7 @@ struct Loaded {
 struct TakeParts {
     std::shared_ptr<Model> model;                   ///< or
     std::shared_ptr<tools::MaterialStand> material; ///< where the scene's model is a material
-    std::shared_ptr<Environment> environment;       ///< may be none
+    std::shared_ptr<Environment> environment;       ///< none: the model's, if it has one
     Scene scene;                                    ///< ends before model and environment
     View view;
     Owned<SwapChain> target;

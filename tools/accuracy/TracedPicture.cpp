@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/accuracy/TracedPicture.h"
 
+#include "filament_core/assets/files/FileBytes.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "tools/conformance/MaterialModel.h"
@@ -14,18 +15,34 @@ using conformance::LightSpec;
 using conformance::SceneSpec;
 using reference::ReferenceScene;
 
-void add(ReferenceScene& scene, LightSpec const& light) {
+void add(ReferenceScene& scene, LightSpec const& light, reference::ProfilePtr const& profile) {
     std::visit(
             [&](auto const& one) {
                 using L = std::remove_cvref_t<decltype(one)>;
                 if constexpr (std::is_same_v<L, SunLight>)
                     scene.suns.push_back(one);
                 else if constexpr (std::is_same_v<L, PointLight>)
-                    scene.points.push_back(one);
+                    scene.points.push_back(one), scene.pointProfiles.push_back(profile);
+                else if constexpr (std::is_same_v<L, SpotLight>)
+                    scene.spots.push_back(one), scene.spotProfiles.push_back(profile);
+                else if constexpr (std::is_same_v<L, RectLight>)
+                    scene.rects.push_back(one);
+                else if constexpr (std::is_same_v<L, DiscLight>)
+                    scene.discs.push_back(one);
                 else
-                    scene.spots.push_back(one);
+                    scene.tubes.push_back(one);
             },
             light);
+}
+
+/// Null without a file.
+Result<reference::ProfilePtr> profileOf(std::filesystem::path const& file) {
+    if (file.empty()) return reference::ProfilePtr();
+    const Result<std::vector<std::byte>> bytes = assets::readFileBytes(file);
+    if (!bytes) return bytes.error();
+    Result<assets::IesFile> profile = assets::readIes(*bytes, file.filename().string());
+    if (!profile) return profile.error();
+    return std::make_shared<const assets::IesFile>(std::move(*profile));
 }
 
 Result<reference::ReferenceModel> modelOf(SceneSpec const& spec, conformance::SceneFolders const& folders,
@@ -54,14 +71,25 @@ Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, conformance::Scen
         model->worldFromModel = copy;
         scene.models.push_back(*model);
     }
-    for (LightSpec const& light : placedLights(spec)) add(scene, light);
+    const std::vector<LightSpec> lights = placedLights(spec);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        Result<reference::ProfilePtr> profile = profileOf(profileFile(spec, i, folders));
+        if (!profile) return profile.error();
+        add(scene, lights[i], *profile);
+    }
 
     const Result<std::filesystem::path> skyPath = environmentFile(spec, folders);
     if (!skyPath) return skyPath.error();
-    if (skyPath->empty()) return scene;
-    Result<assets::HdrImage> sky = assets::readHdrImage(*skyPath);
-    if (!sky) return sky.error();
-    scene.environment = { .image = std::make_shared<assets::HdrImage>(std::move(*sky)),
+    std::shared_ptr<const assets::HdrImage> picture;
+    if (skyPath->empty()) {
+        picture = reference::pictureOfLight(*model->data, jobs);
+    } else {
+        Result<assets::HdrImage> sky = assets::readHdrImage(*skyPath);
+        if (!sky) return sky.error();
+        picture = std::make_shared<const assets::HdrImage>(std::move(*sky));
+    }
+    if (!picture) return scene;
+    scene.environment = { .image = std::move(picture),
                           .illuminance = spec.environmentSettings.illuminance,
                           .rotationRadians = spec.environmentSettings.rotationRadians,
                           .skybox = spec.environmentSettings.skybox };
@@ -83,7 +111,9 @@ Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint3
     const reference::ReferenceSettings settings{ .integrator = reference::Integrator::Unoccluded,
                                                  .samplesPerPixel = samplesPerPixel,
                                                  .filter = reference::PixelFilter::Center,
-                                                 .bsdf = bsdfOf(view.quality) };
+                                                 .bsdf = bsdfOf(view.quality),
+                                                 .lightsCastShadows = view.quality.shadows != ShadowFilter::Off,
+                                                 .coloredShadows = view.quality.coloredShadows };
     Result<reference::ReferenceImage> image =
             reference::render(scene, { view.camera, view.size, view.clearColor }, settings, jobs);
     if (!image) return image.error();

@@ -89,7 +89,25 @@ Result<void> convertLight(SceneWords const& words, SceneOptions& options) {
     return {};
 }
 
-/// The options outside Quality that matter when an engine is made or a file is loaded. Returns nothing for other names.
+/// --set sun.NAME=VALUE: what --sun has no place for.
+Result<void> convertSun(std::string const& name, std::string const& value, std::optional<SunLight>& sun) {
+    const std::string option = "--set " + name;
+    if (!sun) return invalidOption(option.c_str(), value, "a --sun as well");
+    if (name == "sun.showsDisc") return convertSwitch(option.c_str(), value, sun->showsDisc);
+    const auto number = [&](float& member, double least, double most, const char* cure) -> Result<void> {
+        const auto given = finiteNumber(value);
+        if (!given || *given < least || *given > most) return invalidOption(option.c_str(), value, cure);
+        member = static_cast<float>(*given);
+        return {};
+    };
+    if (name == "sun.angularRadiusDegrees") return number(sun->angularRadiusDegrees, 0, 20, "degrees from 0 to 20");
+    if (name == "sun.haloSize") return number(sun->haloSize, 1, 1000, "a number from 1 to 1000");
+    if (name == "sun.haloFalloff") return number(sun->haloFalloff, 0, 10'000, "a number from 0 to 10000");
+    return invalidOption("--set", name, "sun.showsDisc, sun.angularRadiusDegrees, sun.haloSize or sun.haloFalloff");
+}
+
+/// The options outside Quality: the view's, and those that matter when an engine is made or a file is loaded. Returns
+/// nothing for other names.
 std::optional<Result<void>> convertLoadChoice(std::string const& name, std::string const& value,
                                               SceneOptions& options) {
     const auto choose = [&](auto& member, auto const& known, const char* cure) -> Result<void> {
@@ -97,6 +115,9 @@ std::optional<Result<void>> convertLoadChoice(std::string const& name, std::stri
         member = *known;
         return {};
     };
+    if (name == "debugView")
+        return choose(options.debugView, debugViewFromName(value), "none, cascades, atlas, froxels or lights");
+    if (name.starts_with("sun.")) return convertSun(name, value, options.sun);
     if (name == "exact") return convertSwitch("--set exact", value, options.exactShaders);
     if (name == "environment.format")
         return choose(options.environmentOptions.format, environmentFormatFromName(value),
@@ -146,8 +167,8 @@ void declareSceneOptions(CLI::App& app, SceneWords& words, SceneOptions& options
             ->type_name("");
     app.add_option("--variant", options.variant, "NAME of KHR_materials_variants (the file's own materials)");
     app.add_option("--environment", words.environment,
-                   "equirectangular .hdr or .exr: light and background; or none (the showcase's sky, unless there is a "
-                   "--sun)");
+                   "equirectangular .hdr or .exr: light and background; or none (that of the model's file; else the "
+                   "showcase's sky, unless there is a --sun)");
     app.add_option("--size", words.size, "WIDTHxHEIGHT in pixels (1280x720)");
     app.add_flag("--fit,!--no-fit", options.fit, "centre of the bounding box at the origin, largest dimension 1 (on)");
     app.add_option("--eye", words.eye, "X Y Z of the camera (0.9 0.6 1.5)")->expected(3)->allow_extra_args(false);

@@ -24,9 +24,10 @@ class App;
 namespace filament::tools {
 
 struct SceneOptions {
-    std::filesystem::path model;       ///< empty: the showcase
-    std::string variant;               ///< of KHR_materials_variants; empty: the materials of the file
-    std::filesystem::path environment; ///< empty: none, or the showcase's sky
+    std::filesystem::path model; ///< empty: the showcase
+    std::string variant;         ///< of KHR_materials_variants; empty: the materials of the file
+    /// Empty: the model's own (EXT_lights_image_based), or the showcase's sky without a sun; "none": none.
+    std::filesystem::path environment;
     uint2 size{ 1280, 720 };
     bool fit = true;
     double3 eye{ 0.9, 0.6, 1.5 }, at{ 0.0 };
@@ -37,6 +38,7 @@ struct SceneOptions {
     bool skybox = true; ///< if there is an environment
     ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
     Quality quality{};
+    DebugView debugView = DebugView::None;       ///< --set debugView=froxels; not of traced pictures
     bool exactShaders = true;                    ///< --set exact=off
     EnvironmentLoadOptions environmentOptions{}; ///< --set environment.format=RGBM, environment.roughnessMapping=linear
     GltfLoadOptions modelOptions{};              ///< --set model.positions=half, model.tangents=snorm8

@@ -2,6 +2,7 @@
 #include "tools/conformance/BuiltModel.h"
 
 #include "filament_core/assets/gltf/GltfWriter.h"
+#include "tools/conformance/BuiltLight.h"
 #include "tools/showcase/Shapes.h"
 #include "tools/showcase/Textures.h"
 
@@ -145,7 +146,7 @@ public:
         placeAll(shape, material, place, grid);
     }
 
-    GlbScene const& scene() const { return mScene; }
+    GlbScene& scene() { return mScene; }
 
 private:
     struct Grid {
@@ -180,6 +181,10 @@ private:
         reader.read("cutoff", material.alphaCutoff, 0, 1);
         reader.read("doubleSided", material.doubleSided);
         reader.read("unlit", material.unlit);
+        reader.read("transmission", material.transmission.factor, 0, 1);
+        reader.read("thickness", material.transmission.thicknessMeters, 0, 1e5);
+        reader.read("attenuationColor", material.transmission.attenuationColor);
+        reader.read("attenuationDistance", material.transmission.attenuationDistanceMeters, 1e-6, 1e9);
         reader.object("textures", [&](JsonReader& r) { readTextures(r, material); });
     }
 
@@ -296,6 +301,7 @@ Result<std::vector<std::byte>> buildModel(Json const& model, std::string const& 
     ModelBuilder builder(name);
     JsonReader reader(model, name + ": model");
     reader.objects("objects", [&](JsonReader& object) { builder.add(object); });
+    reader.object("imageBasedLight", [&](JsonReader& light) { addBuiltLight(light, builder.scene()); });
     if (const Result<void> done = reader.finish(); !done) return done.error();
     if (builder.scene().nodes.empty())
         return fail(ErrorCode::InvalidArgument, "{}: model: objects: a model needs at least one", name);

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/Mutations.h"
 
+#include "shaders/interface/LtcTable.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "shaders/package/EngineMaterials.h"
 #include "shaders/package/Package.h"
@@ -8,6 +9,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <cmath>
 #include <cstddef>
 #include <cstring>
 #include <deque>
@@ -124,6 +126,43 @@ private:
     std::map<BufferHandle, uint32_t> mOffsets; // of the parameter, per block created in this stream
 };
 
+/// The discs of suns 1 % wider.
+class DiscWiderEdit final : public PayloadEdit {
+public:
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        mRadii.clear();
+        GroupsOfDiscs finder{ mRadii };
+        replay(commands, finder);
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUpdateBuffer& command) override {
+        for (auto const& [buffer, at] : mRadii) {
+            if (buffer != command.buffer || at + sizeof(float) > command.bytes.size()) continue;
+            Bytes& bytes = copy(command.bytes);
+            writeFloat(bytes, at, 1.01f * readFloat(bytes, at));
+        }
+    }
+
+private:
+    using Places = std::vector<std::pair<BufferHandle, uint64_t>>;
+
+    struct GroupsOfDiscs {
+        Places& radii;
+        template <class C>
+        void execute(C const&) {}
+        void execute(CmdCreateBindGroup const& command) {
+            constexpr uint64_t kTangent = 11 * sizeof(float); // axisZ.w of sun_disc.mat
+            if (command.desc.debugName != "sun_disc") return;
+            for (BindGroupEntry const& entry : command.desc.entries)
+                radii.emplace_back(entry.buffer, entry.offset + kTangent);
+        }
+    };
+
+    Places mRadii; // of blocks that groups of this stream read
+};
+
 /// Inverts green in normal maps: the picture of a loader that assumes DirectX's convention.
 class NormalYEdit final : public PayloadEdit {
 public:
@@ -208,9 +247,78 @@ class IrradianceEdit final : public FrameEdit {
     }
 };
 
+/// What area lights read behind the froxels.
+bool isLtcTable(CmdUpdateBuffer const& command) { return command.bytes.size() == sizeof(shader::kLtcTable); }
+
+/// Axes of unit length: words of froxels are tiny as floats.
+bool isProfiledLights(CmdUpdateBuffer const& command) {
+    if (command.bytes.empty() || command.bytes.size() % (shader::kProfiledLightWords * sizeof(float)) != 0)
+        return false;
+    float3 axis;
+    std::memcpy(&axis, command.bytes.data(), sizeof(axis));
+    return std::abs(glm::length(axis) - 1) < 1e-3f;
+}
+
+bool isProfileTable(CmdUpdateBuffer const& command) {
+    std::array<uint32_t, 2> size{}; // rows, columns
+    if (command.bytes.size() < shader::kProfileHeaderWords * sizeof(uint32_t)) return false;
+    std::memcpy(size.data(), command.bytes.data(), sizeof(size));
+    if (size[0] < 2 || size[0] > 1000 || size[1] < 1 || size[1] > 1000) return false;
+    const size_t words = shader::kProfileHeaderWords + (size_t{ size[0] } * size[1] + 1) / 2;
+    return command.bytes.size() == words * sizeof(uint32_t);
+}
+
+/// The first area of the list, 1 % wider.
+class AreaEdgeEdit final : public FrameEdit {
+    void changeLights(CmdUpdateBuffer& command) override {
+        for (size_t at = 0; at + sizeof(shader::PunctualLight) <= command.bytes.size();
+             at += sizeof(shader::PunctualLight)) {
+            const size_t color = at + offsetof(shader::PunctualLight, colorIntensity);
+            const size_t edge = at + offsetof(shader::PunctualLight, directionScale);
+            Bytes& bytes = copy(command.bytes);
+            if (readFloat(bytes, color + 3 * sizeof(float)) < shader::kShapeRect) continue;
+            for (size_t i = 0; i < 3; ++i) writeFloat(bytes, edge + 4 * i, 1.01f * readFloat(bytes, edge + 4 * i));
+            return;
+        }
+    }
+};
+
+/// Every lobe of area lights 1 % wider.
+class LtcTableEdit final : public FrameEdit {
+    void changeFroxels(CmdUpdateBuffer& command) override {
+        if (!isLtcTable(command)) return;
+        Bytes& bytes = copy(command.bytes);
+        for (size_t at = 2 * sizeof(float); at < bytes.size(); at += 3 * sizeof(float))
+            writeFloat(bytes, at, 1.01f * readFloat(bytes, at));
+    }
+};
+
+/// The profile of the last light that has one, turned by half a degree.
+class ProfileTurnEdit final : public FrameEdit {
+    void changeFroxels(CmdUpdateBuffer& command) override {
+        if (isLtcTable(command) || !isProfiledLights(command)) return;
+        Bytes& bytes = copy(command.bytes);
+        const size_t last = bytes.size() - shader::kProfiledLightWords * sizeof(float);
+        float3 axis;
+        std::memcpy(&axis, bytes.data() + last, sizeof(axis));
+        axis += 0.01f * glm::cross(axis, float3(1, -1, 1));
+        std::memcpy(bytes.data() + last, &axis, sizeof(axis));
+    }
+};
+
+/// Every profile 1 % narrower: more rows a radian.
+class ProfileTableEdit final : public FrameEdit {
+    void changeFroxels(CmdUpdateBuffer& command) override {
+        if (!isProfileTable(command)) return;
+        Bytes& bytes = copy(command.bytes);
+        writeFloat(bytes, 8, 1.01f * readFloat(bytes, 8));
+    }
+};
+
 /// Every froxel's list without its last light. The first list begins behind the words of the froxels.
 class FroxelEndEdit final : public FrameEdit {
     void changeFroxels(CmdUpdateBuffer& command) override {
+        if (isLtcTable(command) || isProfiledLights(command) || isProfileTable(command)) return;
         Bytes& bytes = copy(command.bytes);
         uint32_t* const words = reinterpret_cast<uint32_t*>(bytes.data());
         const uint32_t froxels = words[0] >> shader::kFroxelCountBits;
@@ -224,6 +332,22 @@ class OneListEdit final : public FrameEdit {
         Bytes& bytes = copy(command.bytes);
         for (size_t i = 0; i < 4; ++i) writeFloat(bytes, offsetof(shader::FrameUniforms, froxelGrid) + 4 * i, 0);
     }
+};
+
+/// Draws whose light list is not that of the view read that of the view: its uniforms replace those of the others.
+class ChannelsOffEdit final : public FrameEdit {
+    void inspect(CommandView commands) override {
+        FrameEdit::inspect(commands);
+        mOfView.clear();
+    }
+    void changeFrame(CmdUpdateBuffer& command) override {
+        constexpr size_t kCamera = sizeof(shader::FrameUniforms::clipFromWorld);
+        if (mOfView.empty()) mOfView.assign(command.bytes.begin(), command.bytes.end());
+        if (std::ranges::equal(command.bytes.first(kCamera), std::span(mOfView).first(kCamera)))
+            std::ranges::copy(mOfView, copy(command.bytes).begin());
+    }
+
+    Bytes mOfView;
 };
 
 class SrgbDroppedEdit final : public StreamEdit {
@@ -311,6 +435,12 @@ private:
     std::set<BufferHandle> mBlocks;
 };
 
+class ShadowShiftEdit final : public StreamEdit {
+public:
+    using StreamEdit::edit;
+    void edit(CmdSetViewport& command) override { command.viewport.x += 1; }
+};
+
 class DepthCompareEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -374,6 +504,13 @@ constexpr Mutation kMutations[] = {
     { "cutoff", "alpha cutoff + 5 %", cutoff },
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
+    { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },
+    { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },
+    { "discWider", "the discs of suns 1 % wider", make<DiscWiderEdit> },
+    { "areaEdge", "the first area light 1 % wider", make<AreaEdgeEdit> },
+    { "profileTurn", "the last light profile turned by half a degree", make<ProfileTurnEdit> },
+    { "profileTable", "light profiles 1 % narrower", make<ProfileTableEdit> },
+    { "ltcTable", "the lobes of area lights 1 % wider", make<LtcTableEdit> },
     { "constantOutputs", "linkers may know constant vertex outputs", make<ConstantOutputsEdit>, Backend::Gles },
 };
 

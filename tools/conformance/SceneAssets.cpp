@@ -8,11 +8,13 @@
 #include "tools/conformance/BuiltModel.h"
 #include "tools/showcase/Showcase.h"
 
+#include <filament/LightProfile.h>
 #include <glm/ext/matrix_transform.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <map>
 
 namespace filament::conformance {
 namespace {
@@ -116,6 +118,9 @@ std::string missingFile(SceneSpec const& spec, fs::path const& assets) {
     if (!spec.modelObject && spec.modelPath != kShowcase) {
         if (std::string name = missing(spec.modelPath); !name.empty()) return name;
     }
+    for (std::string const& profile : spec.lightProfiles) {
+        if (std::string name = profile.empty() ? profile : missing(profile); !name.empty()) return name;
+    }
     return isBuiltIn(spec.environment) ? std::string() : missing(spec.environment);
 }
 
@@ -147,6 +152,32 @@ std::vector<LightSpec> placedLights(SceneSpec const& spec) {
                 light);
     }
     return lights;
+}
+
+fs::path profileFile(SceneSpec const& spec, size_t light, SceneFolders const& folders) {
+    const bool hasProfile = light < spec.lightProfiles.size() && !spec.lightProfiles[light].empty();
+    return hasProfile ? resolve(spec.lightProfiles[light], spec, folders.assets) : fs::path();
+}
+
+Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, SceneFolders const& folders) {
+    std::map<fs::path, Owned<LightProfile>> profiles; // lights keep what they need of them
+    std::vector<LightSpec> lights = placedLights(spec);
+    for (size_t i = 0; i < lights.size(); ++i) {
+        const fs::path file = profileFile(spec, i, folders);
+        if (!file.empty() && !profiles.contains(file)) {
+            const Result<LightProfile> loaded = loadLightProfile(engine, file);
+            if (!loaded) return fail(loaded.error().code, "{}: {}", spec.name, loaded.error().message);
+            profiles[file] = engine.own(*loaded);
+        }
+        const auto add = [&](auto& light) {
+            if constexpr (requires { light.profile; }) {
+                if (!file.empty()) light.profile = profiles[file];
+            }
+            scene.add(light);
+        };
+        std::visit(add, lights[i]);
+    }
+    return {};
 }
 
 std::vector<double4x4> placedCopies(SceneSpec const& spec) {

@@ -3,7 +3,8 @@
 /// scenes.
 ///   Model        objects to build, "showcase", "asset:PATH", or a path relative to the scene file.
 ///   Environment  "sky" (analytic, without its sun), "white" (radiance 1 everywhere), "studio" (dim, with four
-///                lamps of up to 300 times its radiance), "showcase", or a path as above.
+///                lamps of up to 300 times its radiance), "showcase", or a path as above. None: the image-based light
+///                that the model's file names, if it does.
 ///   Memory       built files are written once into the folder `work`; several processes may do so at once.
 ///   Thread       any.
 ///   Fails        errors of the builders and the file system. For a missing asset see missingFile().
@@ -24,11 +25,15 @@ struct SceneFolders {
 std::string missingFile(SceneSpec const& spec, std::filesystem::path const& assets);
 
 Result<std::filesystem::path> modelFile(SceneSpec const& spec, SceneFolders const& folders);
-/// Empty: the case has no environment.
+/// Empty: the case names no environment.
 Result<std::filesystem::path> environmentFile(SceneSpec const& spec, SceneFolders const& folders);
 
-/// The lights of the case at their final positions, with its origin added.
+/// The lights of the case at their final positions, with its origin added; none has its profile.
 std::vector<LightSpec> placedLights(SceneSpec const& spec);
+/// The file of the profile of a light; empty: none.
+std::filesystem::path profileFile(SceneSpec const& spec, size_t light, SceneFolders const& folders);
+/// Adds the lights of the case, with their profiles.
+Result<void> addLights(Engine& engine, Scene& scene, SceneSpec const& spec, SceneFolders const& folders);
 /// The transform of each copy of the model.
 std::vector<double4x4> placedCopies(SceneSpec const& spec);
 /// `bounds`: of the whole scene, for a case without a camera.

@@ -2,6 +2,7 @@
 #include "tools/conformance/SceneFile.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "tools/conformance/SceneLights.h"
 
 #include <glm/ext/matrix_transform.hpp>
 #include <nlohmann/json.hpp>
@@ -11,44 +12,7 @@
 namespace filament::conformance {
 namespace {
 
-constexpr double kFar = 1e12, kBright = 1e9;
-
-void readDirection(JsonReader& reader, float3& direction) {
-    reader.read("direction", direction);
-    if (direction == float3(0.0f)) reader.complain("direction", "expected one that is not zero");
-}
-
-void readSun(JsonReader& reader, SceneSpec& spec) {
-    SunLight sun;
-    readDirection(reader, sun.directionWorld);
-    reader.read("lux", sun.illuminance.value, 0, kBright);
-    reader.read("color", sun.color);
-    spec.lights.emplace_back(sun);
-}
-
-void readPoint(JsonReader& reader, SceneSpec& spec) {
-    PointLight light;
-    reader.read("at", light.positionWorld);
-    reader.read("candela", light.intensity.value, 0, kBright);
-    reader.read("color", light.color);
-    reader.read("range", light.rangeMeters, 0, kFar);
-    spec.lights.emplace_back(light);
-}
-
-void readSpot(JsonReader& reader, SceneSpec& spec) {
-    SpotLight light;
-    reader.read("at", light.positionWorld);
-    readDirection(reader, light.directionWorld);
-    reader.read("candela", light.intensity.value, 0, kBright);
-    reader.read("color", light.color);
-    reader.read("range", light.rangeMeters, 0, kFar);
-    double inner = 20, outer = 35;
-    reader.read("innerDegrees", inner, 0, 89);
-    reader.read("outerDegrees", outer, inner + 0.1, 90);
-    light.innerConeRadians = static_cast<float>(glm::radians(inner));
-    light.outerConeRadians = static_cast<float>(glm::radians(outer));
-    spec.lights.emplace_back(light);
-}
+constexpr double kBright = 1e9;
 
 void readCopy(JsonReader& reader, SceneSpec& spec) {
     double3 at(0.0), scale(1.0), degrees(0.0);
@@ -60,6 +24,9 @@ void readCopy(JsonReader& reader, SceneSpec& spec) {
     world = glm::rotate(world, glm::radians(degrees.x), double3(1, 0, 0));
     world = glm::rotate(world, glm::radians(degrees.z), double3(0, 0, 1));
     spec.copies.push_back(glm::scale(world, scale));
+    LightChannels channels = kDefaultLightChannels;
+    readLightChannels(reader, channels);
+    spec.copyChannels.push_back(channels);
 }
 
 void readEnvironment(JsonReader& reader, SceneSpec& spec) {
@@ -115,6 +82,7 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     view.samples = static_cast<uint8_t>(samples);
     reader.choice("toneMapper", view.colorGrading.toneMapper, "linear, aces, filmic or mobile", toneMapperFromName);
     reader.read("dither", view.colorGrading.dither);
+    reader.choice("debugView", view.debugView, "none, cascades, atlas, froxels or lights", debugViewFromName);
     reader.read("clear", view.clearColor);
     reader.read("linear", spec.linear);
     reader.read("frames", spec.frames, 1, 16);
@@ -155,9 +123,26 @@ void readModel(JsonReader& reader, SceneSpec& spec) {
         spec.modelObject = std::make_shared<const Json>(*model);
 }
 
+void readLights(JsonReader& reader, SceneSpec& spec) {
+    reader.objects("suns", [&](JsonReader& r) { spec.lights.emplace_back(readSun(r)); });
+    reader.objects("points", [&](JsonReader& r) {
+        spec.lightProfiles.resize(spec.lights.size() + 1);
+        spec.lights.emplace_back(readPoint(r, spec.lightProfiles.back()));
+    });
+    reader.objects("spots", [&](JsonReader& r) {
+        spec.lightProfiles.resize(spec.lights.size() + 1);
+        spec.lights.emplace_back(readSpot(r, spec.lightProfiles.back()));
+    });
+    reader.objects("rects", [&](JsonReader& r) { spec.lights.emplace_back(readRect(r)); });
+    reader.objects("discs", [&](JsonReader& r) { spec.lights.emplace_back(readDisc(r)); });
+    reader.objects("tubes", [&](JsonReader& r) { spec.lights.emplace_back(readTube(r)); });
+    spec.lightProfiles.resize(spec.lights.size());
+}
+
 Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, std::string name) {
     SceneSpec spec{ .name = std::move(name), .folder = file.parent_path() };
     spec.view.size = { 256, 256 };
+    spec.view.quality.shadows = ShadowFilter::Off; // scenes name what they test
     JsonReader reader(json, fmt::format("{} ({})", file.filename().string(), spec.name));
     reader.raw("description"); // ignored: for readers
     reader.raw("features");
@@ -165,11 +150,12 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.object("environment", [&](JsonReader& r) { readEnvironment(r, spec); });
     reader.object("geometry", [&](JsonReader& r) { readGeometry(r, spec.modelOptions); });
     reader.object("animation", [&](JsonReader& r) { readAnimation(r, spec); });
-    reader.objects("suns", [&](JsonReader& r) { readSun(r, spec); });
-    reader.objects("points", [&](JsonReader& r) { readPoint(r, spec); });
-    reader.objects("spots", [&](JsonReader& r) { readSpot(r, spec); });
+    readLights(reader, spec);
     reader.objects("copies", [&](JsonReader& r) { readCopy(r, spec); });
-    if (spec.copies.empty()) spec.copies.push_back(double4x4(1.0));
+    if (spec.copies.empty()) {
+        spec.copies.push_back(double4x4(1.0));
+        spec.copyChannels.push_back(kDefaultLightChannels);
+    }
     reader.read("origin", spec.origin);
     reader.object("camera", [&](JsonReader& r) { readCamera(r, spec); });
     reader.object("exposure", [&](JsonReader& r) { readExposure(r, spec.exposure); });

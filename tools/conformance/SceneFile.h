@@ -34,23 +34,25 @@ struct Comparator {
     double flipMean = 0.01, flipP99 = 0.1; ///< Flip: upper bounds, [0, 1]
 };
 
-using LightSpec = std::variant<SunLight, PointLight, SpotLight>;
+using LightSpec = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
 
 struct SceneSpec {
     std::string name;                        ///< "spheres" or "spheres/msaa"
     std::string modelPath;                   ///< a path, or "asset:PATH" below the asset folder
     std::shared_ptr<const Json> modelObject; ///< instead of a path: objects to build, or a material
     std::filesystem::path folder;            ///< folder of the scene file: paths are relative to it
-    std::string environment;                 ///< "sky", "asset:...", a path; empty: none
+    std::string environment;                 ///< "sky", "asset:...", a path; empty: that of the model, if it has one
     EnvironmentSettings environmentSettings{};
     EnvironmentLoadOptions environmentOptions{ .faceSize = 64, .samples = 128 };
     GltfLoadOptions modelOptions{};
     std::optional<double> animationSeconds; ///< none: the rest pose
     uint32_t animation = 0;                 ///< index in the file
     std::vector<LightSpec> lights;
-    std::vector<double4x4> copies; ///< transforms of the model; never empty
-    double3 origin{ 0.0 };         ///< of everything: model, lights, camera
-    std::optional<double3> eye;    ///< none: a place from which the whole model is visible
+    std::vector<std::string> lightProfiles;  ///< of each light: a photometric file, named as models are; empty: none
+    std::vector<double4x4> copies;           ///< transforms of the model; never empty
+    std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
+    double3 origin{ 0.0 };                   ///< of everything: model, lights, camera
+    std::optional<double3> eye;              ///< none: a place from which the whole model is visible
     double3 at{ 0.0 };
     Lens lens{ .verticalFovDegrees = 40 };
     Exposure exposure{};

@@ -39,7 +39,8 @@ Result<std::unique_ptr<Stage>> Stage::open(StageOptions const& options, std::uni
 }
 
 Stage::Stage(StageOptions const& options, Engine engine, std::shared_ptr<backend::FrameCapture> capture)
-        : mOptions(options), mEngine(std::move(engine)), mCapture(std::move(capture)), mRenderer(mEngine) {}
+        : mOptions(options), mEngine(std::move(engine)), mCapture(std::move(capture)),
+          mRenderer(std::in_place, mEngine) {}
 
 Result<void> Stage::loadModel(SceneSpec const& spec) {
     mMaterial.reset();
@@ -76,9 +77,12 @@ Result<void> Stage::loadSky(SceneSpec const& spec) {
 
 Result<void> Stage::placeModel(SceneSpec const& spec) {
     uint64_t nodesOfOne = 0;
-    for (double4x4 const& copy : placedCopies(spec)) {
+    const std::vector<double4x4> copies = placedCopies(spec);
+    for (size_t i = 0; i < copies.size(); ++i) {
+        double4x4 const& copy = copies[i];
+        const LightChannels channels = i < spec.copyChannels.size() ? spec.copyChannels[i] : kDefaultLightChannels;
         if (mMaterial) {
-            mMaterial->addTo(*mScene, copy);
+            mMaterial->addTo(*mScene, copy, channels);
             continue;
         }
         const uint64_t nodes = mScene->nodeCount();
@@ -87,6 +91,7 @@ Result<void> Stage::placeModel(SceneSpec const& spec) {
                         spec.name, spec.copies.size(), kMaxObjects);
         }
         const Node root = mScene->add(*mModel, copy);
+        if (channels != kDefaultLightChannels) mScene->setLightChannels(root, channels);
         nodesOfOne = mScene->nodeCount() - nodes;
         if (!spec.animationSeconds) continue;
         if (spec.animation >= mModel->animationCount()) {
@@ -100,13 +105,18 @@ Result<void> Stage::placeModel(SceneSpec const& spec) {
 
 Result<void> Stage::set(SceneSpec const& spec) {
     mScene.reset();
+    // Where maps lie in an atlas depends on the frames before; a picture must not.
+    if (spec.view.quality.shadows != ShadowFilter::Off) mRenderer.emplace(mEngine);
     if (Result<void> loaded = loadModel(spec); !loaded) return loaded;
     if (Result<void> loaded = loadSky(spec); !loaded) return loaded;
     mScene.emplace(mEngine);
     if (Result<void> placed = placeModel(spec); !placed) return placed;
-    for (LightSpec const& light : placedLights(spec))
-        std::visit([&](auto const& placed) { mScene->add(placed); }, light);
-    if (!spec.environment.empty()) mScene->setEnvironment(*mEnvironment, spec.environmentSettings);
+    const SceneFolders folders{ mOptions.work, mOptions.assets };
+    if (Result<void> added = addLights(mEngine, *mScene, spec, folders); !added) return added;
+    if (!spec.environment.empty())
+        mScene->setEnvironment(*mEnvironment, spec.environmentSettings);
+    else if (mModel && !mMaterial && mModel->environment())
+        mScene->setEnvironment(*mModel->environment(), spec.environmentSettings);
     mView = spec.view;
     mView.camera = cameraOf(spec, mScene->bounds());
     mFrames = spec.frames;
@@ -118,13 +128,13 @@ Result<void> Stage::set(SceneSpec const& spec) {
 }
 
 Result<Shot> Stage::shoot(std::optional<backend::CaptureRequest> const& request) {
-    for (uint32_t i = 1; i < mFrames; ++i) mRenderer.render(*mScene, mView, mTarget);
+    for (uint32_t i = 1; i < mFrames; ++i) mRenderer->render(*mScene, mView, mTarget);
     if (request && mCapture) {
         mEngine.waitIdle(); // earlier frames must not be affected by the request
         mCapture->arm(*request);
     }
-    mRenderer.render(*mScene, mView, mTarget);
-    Result<Image> image = mRenderer.waitPixels(mRenderer.readPixels(mTarget));
+    mRenderer->render(*mScene, mView, mTarget);
+    Result<Image> image = mRenderer->waitPixels(mRenderer->readPixels(mTarget));
     if (!image) return image.error();
     Shot shot{ .image = std::move(*image) };
     if (request && mCapture) {

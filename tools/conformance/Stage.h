@@ -15,6 +15,7 @@
 #include <filament/Renderer.h>
 
 #include <memory>
+#include <optional>
 
 namespace filament::conformance {
 
@@ -57,7 +58,7 @@ private:
     const StageOptions mOptions;
     Engine mEngine;
     std::shared_ptr<backend::FrameCapture> mCapture;
-    Renderer mRenderer;
+    std::optional<Renderer> mRenderer;
     std::string mModelKey, mEnvironmentKey;
     std::optional<Model> mModel;
     std::optional<tools::MaterialStand> mMaterial; ///< instead of a model

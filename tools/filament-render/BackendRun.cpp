@@ -49,6 +49,7 @@ View viewOf(Options const& options) {
              .size = options.size,
              .colorGrading = options.colorGrading,
              .quality = options.quality,
+             .debugView = options.debugView,
              .timeSeconds = options.seconds.value_or(0) };
 }
 
@@ -120,6 +121,7 @@ private:
     Options const& mOptions;
     Result<void> loadMaterial(BackendRun& run, std::filesystem::path const& path);
     Result<void> loadModel(BackendRun& run, std::filesystem::path const& path);
+    Result<void> loadSky(BackendRun& run, std::filesystem::path const& path);
 
     std::optional<MaterialStand> mMaterial; ///< instead of a model
     std::optional<Model> mModel;
@@ -164,6 +166,23 @@ Result<void> Stage::loadModel(BackendRun& run, std::filesystem::path const& path
     return {};
 }
 
+Result<void> Stage::loadSky(BackendRun& run, std::filesystem::path const& path) {
+    const EnvironmentSettings settings{ .illuminance = mOptions.iblIntensity, .skybox = mOptions.skybox };
+    Environment const* own = mModel ? mModel->environment() : nullptr;
+    run.usesModelEnvironment = own && mOptions.environment.empty();
+    if (run.usesModelEnvironment) {
+        mScene.setEnvironment(*own, settings);
+    } else if (!path.empty()) {
+        EnvironmentLoadOptions environmentOptions = mOptions.environmentOptions;
+        environmentOptions.progress = progressOf(run.backend, "environment");
+        Result<Environment> sky = loadEnvironment(mEngine, path, environmentOptions);
+        if (!sky) return sky.error();
+        mEnvironment.emplace(std::move(*sky));
+        mScene.setEnvironment(*mEnvironment, settings);
+    }
+    return {};
+}
+
 Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
                          std::filesystem::path const& environment) {
     StopWatch watch;
@@ -171,14 +190,7 @@ Result<void> Stage::load(BackendRun& run, std::filesystem::path const& model,
     if (!shown) return shown;
     run.start.model = watch.lap();
 
-    if (!environment.empty()) {
-        EnvironmentLoadOptions environmentOptions = mOptions.environmentOptions;
-        environmentOptions.progress = progressOf(run.backend, "environment");
-        Result<Environment> sky = loadEnvironment(mEngine, environment, environmentOptions);
-        if (!sky) return sky.error();
-        mEnvironment.emplace(std::move(*sky));
-        mScene.setEnvironment(*mEnvironment, { .illuminance = mOptions.iblIntensity, .skybox = mOptions.skybox });
-    }
+    if (const Result<void> lit = loadSky(run, environment); !lit) return lit;
     run.start.environment = watch.lap();
 
     if (mOptions.sun) mScene.add(*mOptions.sun);

@@ -38,6 +38,7 @@ struct BackendRun {
     DeviceDescription device{};
     Image image{};
     std::string modelName;
+    bool usesModelEnvironment = false; ///< the model's own, instead of a file
     std::vector<std::string> warnings; ///< of the model
     std::vector<std::string> errors;   ///< of the device, one line each
     StartTimes start{};

@@ -163,11 +163,17 @@ Json runJson(BackendRun const& run) {
              { "warnings", run.warnings },        { "errors", run.errors } };
 }
 
+/// The file that lit the pictures.
+std::string environmentOf(ReportInput const& input) {
+    const bool isOwn = std::ranges::any_of(input.runs, &BackendRun::usesModelEnvironment);
+    return isOwn ? input.model.string() + " (EXT_lights_image_based)" : input.environment.string();
+}
+
 } // namespace
 
 Result<void> writeReport(std::filesystem::path const& path, ReportInput const& input) {
     Json report{ { "model", input.model.string() },
-                 { "environment", input.environment.string() },
+                 { "environment", environmentOf(input) },
                  { "size", { input.options.size.x, input.options.size.y } },
                  { "frames", input.options.frames },
                  { "toneMapper", toString(input.options.colorGrading.toneMapper) } };

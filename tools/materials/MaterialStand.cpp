@@ -131,7 +131,7 @@ Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& fi
     return stand;
 }
 
-void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject) const {
+void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject, LightChannels channels) const {
     for (uint32_t i = 0; i < mInstances; ++i) {
         scene.add({ .vertices = mMesh.vertices,
                     .indices = mMesh.indices,
@@ -141,6 +141,7 @@ void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject) const 
                     .worldFromObject = worldFromObject * placeInRow(i, mInstances),
                     .instanceIndex = i,
                     .culled = mIsInObjectSpace,
+                    .lightChannels = channels,
                     .name = mName });
     }
     if (!mSlabMaterial.get()) return;
@@ -150,6 +151,7 @@ void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject) const 
                 .boundsMin = float3(-0.7f),
                 .boundsMax = float3(0.7f),
                 .worldFromObject = worldFromObject * slabPlace(),
+                .lightChannels = channels,
                 .name = "slab" });
 }
 

@@ -25,7 +25,8 @@ public:
 
     /// Changes the values of its parameters; constants cannot change.
     Result<void> set(Engine& engine, MaterialFile const& file, MaterialValues const& values);
-    void addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1.0)) const;
+    void addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1.0),
+               LightChannels channels = kDefaultLightChannels) const;
     Material material() const { return mMaterial; }
     MaterialInstance instance() const { return mInstance; }
 

@@ -24,7 +24,8 @@ constexpr std::pair<uint16_t, const char*> kBits[] = { { shader::kVariantSun, "d
                                                        { shader::kVariantSsr, "ssr" },
                                                        { shader::kVariantStereo, "stereo" },
                                                        { shader::kVariantHalf, "halfPrecision" },
-                                                       { shader::kVariantMerged, "merged" } };
+                                                       { shader::kVariantMerged, "merged" },
+                                                       { shader::kVariantDepth, "depth" } };
 
 template <class E, size_t N>
 const char* wordOf(E value, std::array<const char*, N> const& words) {

@@ -2,9 +2,11 @@
 #include "tools/reference/DirectLights.h"
 
 #include "shaders/lib/LibCppDouble.h"
+#include "tools/reference/Microfacets.h"
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace filament::reference {
 namespace {
@@ -13,22 +15,102 @@ namespace lib = shader::lib64;
 
 double inverseSquare(float range) { return range > 0 ? 1 / (double(range) * range) : 0; }
 
+// Across a unit direction, nearest to `side`.
+double3 across(double3 direction, double3 side) {
+    const double3 part = side - direction * glm::dot(side, direction);
+    if (glm::dot(part, part) > 1e-12 * glm::dot(side, side) && glm::dot(side, side) > 0) return glm::normalize(part);
+    return across(direction, std::abs(direction.x) < 0.7 ? double3(1, 0, 0) : double3(0, 1, 0));
+}
+
 } // namespace
 
-DirectLights::DirectLights(std::vector<SunLight> const& suns, std::vector<PointLight> const& points,
-                           std::vector<SpotLight> const& spots, double factor) {
+double3 DirectSample::towardsPoint(double2 u) const {
+    if (radius <= 0) return direction;
+    const double azimuth = 2 * std::numbers::pi * u.x, away = radius * std::sqrt(u.y);
+    const Frame frame(direction);
+    return glm::normalize(direction + (frame.tangent * std::cos(azimuth) + frame.bitangent * std::sin(azimuth)) * away);
+}
+
+template <class AreaLight>
+DirectLights::Light DirectLights::areaOf(AreaLight const& area, double factor) {
+    return { .position = area.positionWorld,
+             .intensity = double3(area.color) * (double(area.luminance.value) * factor),
+             .inverseSquaredRange = inverseSquare(area.rangeMeters) };
+}
+
+void DirectLights::add(RectLight const& rect, double factor) {
+    Light light = areaOf(rect, factor);
+    light.shape = Light::Shape::Rect;
+    light.axis = glm::normalize(double3(rect.directionWorld));
+    const double3 up = across(light.axis, double3(rect.upWorld));
+    light.halfX = glm::cross(light.axis, up) * (rect.widthMeters * 0.5);
+    light.halfY = up * (rect.heightMeters * 0.5);
+    light.isTwoSided = rect.isTwoSided;
+    light.area = double(rect.widthMeters) * rect.heightMeters;
+    mLights.push_back(light);
+}
+
+void DirectLights::add(DiscLight const& disc, double factor) {
+    Light light = areaOf(disc, factor);
+    light.shape = Light::Shape::Disc;
+    light.axis = glm::normalize(double3(disc.directionWorld));
+    light.halfX = across(light.axis, double3(0.0)) * double(disc.radiusMeters);
+    light.halfY = glm::cross(light.halfX, light.axis);
+    light.isTwoSided = disc.isTwoSided;
+    light.area = lib::kPi * double(disc.radiusMeters) * disc.radiusMeters;
+    mLights.push_back(light);
+}
+
+void DirectLights::add(TubeLight const& tube, double factor) {
+    Light light = areaOf(tube, factor);
+    light.shape = Light::Shape::Tube;
+    light.axis = glm::normalize(double3(tube.axisWorld));
+    light.halfX = light.axis * (tube.lengthMeters * 0.5);
+    light.halfY = across(light.axis, double3(0.0));
+    light.radius = tube.radiusMeters;
+    light.area = lib::kTwoPi * light.radius * tube.lengthMeters;
+    mLights.push_back(light);
+}
+
+void DirectLights::setProfile(Light& light, std::vector<ProfilePtr> const& profiles, size_t index, float3 direction,
+                              float3 up) {
+    if (index >= profiles.size() || !profiles[index]) return;
+    light.profile = profiles[index];
+    light.axis = glm::normalize(double3(direction));
+    light.profileX = glm::cross(light.axis, across(light.axis, double3(up)));
+}
+
+/// Of its intensity, in a unit direction from the light.
+double DirectLights::shareOf(Light const& light, double3 away) {
+    if (!light.profile) return 1;
+    const double3 y = glm::cross(light.profileX, light.axis);
+    const double3 local(glm::dot(away, light.profileX), glm::dot(away, y), -glm::dot(away, light.axis));
+    return light.profile->candelasAt(local) / double{ light.profile->peak };
+}
+
+DirectLights::DirectLights(LightSet const& lights, double factor) {
     const auto scaled = [&](LinearColor color, float value) { return double3(color) * (double(value) * factor); };
-    for (SunLight const& sun : suns) {
+    for (SunLight const& sun : lights.suns) {
         mLights.push_back({ .isSun = true,
                             .axis = glm::normalize(double3(sun.directionWorld)),
-                            .intensity = scaled(sun.color, sun.illuminance.value) });
+                            .intensity = scaled(sun.color, sun.illuminance.value),
+                            .radius = std::tan(glm::radians(double(sun.angularRadiusDegrees))),
+                            .castsShadows = sun.castsShadows,
+                            .showsDisc = sun.showsDisc,
+                            .haloSize = sun.haloSize,
+                            .haloFalloff = sun.haloFalloff });
     }
-    for (PointLight const& point : points) {
+    for (size_t i = 0; i < lights.points.size(); ++i) {
+        PointLight const& point = lights.points[i];
         mLights.push_back({ .position = point.positionWorld,
                             .intensity = scaled(point.color, point.intensity.value),
-                            .inverseSquaredRange = inverseSquare(point.rangeMeters) });
+                            .inverseSquaredRange = inverseSquare(point.rangeMeters),
+                            .radius = point.sourceRadiusMeters,
+                            .castsShadows = point.castsShadows });
+        setProfile(mLights.back(), lights.pointProfiles, i, point.directionWorld, point.upWorld);
     }
-    for (SpotLight const& spot : spots) {
+    for (size_t i = 0; i < lights.spots.size(); ++i) {
+        SpotLight const& spot = lights.spots[i];
         // KHR_lights_punctual, with the engine's minimum difference of the cosines.
         const double cosOuter = std::cos(double(spot.outerConeRadians));
         const double cosInner = std::cos(std::min<double>(spot.innerConeRadians, spot.outerConeRadians));
@@ -39,12 +121,77 @@ DirectLights::DirectLights(std::vector<SunLight> const& suns, std::vector<PointL
                             .intensity = scaled(spot.color, spot.intensity.value),
                             .inverseSquaredRange = inverseSquare(spot.rangeMeters),
                             .spotScale = scale,
-                            .spotOffset = -cosOuter * scale });
+                            .spotOffset = -cosOuter * scale,
+                            .radius = spot.sourceRadiusMeters,
+                            .castsShadows = spot.castsShadows });
+        setProfile(mLights.back(), lights.spotProfiles, i, spot.directionWorld, spot.upWorld);
     }
+    for (RectLight const& rect : lights.rects) add(rect, factor);
+    for (DiscLight const& disc : lights.discs) add(disc, factor);
+    for (TubeLight const& tube : lights.tubes) add(tube, factor);
 }
 
-DirectSample DirectLights::arriving(Light const& light, double3 position) {
-    if (light.isSun) return { -light.axis, light.intensity };
+double3 DirectLights::discsIn(double3 direction) const {
+    constexpr double kSmallestRadius = 1.745329252e-5; // the engine's: 0.001 degrees
+    double3 sum(0.0);
+    for (Light const& light : mLights) {
+        if (!light.showsDisc) continue;
+        const double radius = std::atan(std::max(light.radius, kSmallestRadius));
+        const double outer = std::min(radius * light.haloSize, double{ lib::kPi });
+        const double aside = glm::length(glm::cross(direction, light.axis));
+        const double angle = std::atan2(aside, -glm::dot(direction, light.axis));
+        double share = angle <= radius ? 1 : 0;
+        if (angle > radius && angle < outer)
+            share = std::pow((std::cos(angle) - std::cos(outer)) / (std::cos(radius) - std::cos(outer)),
+                             light.haloFalloff);
+        sum += light.intensity * (share / (lib::kPi * std::sin(radius) * std::sin(radius)));
+    }
+    return sum;
+}
+
+DirectLights::Emitter DirectLights::emitterAt(Light const& light, double2 u) {
+    if (light.shape == Light::Shape::Tube) {
+        const double turn = lib::kTwoPi * u.y;
+        const double3 normal = std::cos(turn) * light.halfY + std::sin(turn) * glm::cross(light.axis, light.halfY);
+        return { light.position + light.halfX * (2 * u.x - 1) + normal * light.radius, normal };
+    }
+    double2 at = u * 2.0 - 1.0;
+    if (light.shape == Light::Shape::Disc)
+        at = std::sqrt(u.x) * double2(std::cos(lib::kTwoPi * u.y), std::sin(lib::kTwoPi * u.y));
+    return { light.position + light.halfX * at.x + light.halfY * at.y, light.axis };
+}
+
+/// The lux of one point of the area that stands for all of it: nits times the cosine over the squared distance, divided by
+/// its density, one over the area.
+DirectSample DirectLights::arrivingFromArea(Light const& light, double3 position, double2 u) {
+    const Emitter emitter = emitterAt(light, u);
+    const double3 toLight = emitter.position - position;
+    const double distance = glm::length(toLight);
+    if (!(distance > 0)) return {};
+    const double3 direction = toLight / distance;
+    const double facing = -glm::dot(direction, emitter.normal);
+    const double cosine = light.isTwoSided ? std::abs(facing) : std::max(facing, 0.0);
+    const double window = lib::rangeWindow(light.position - position, light.inverseSquaredRange);
+    return { direction, light.intensity * (cosine * window * light.area / (distance * distance)), distance };
+}
+
+/// For the choice among lights: more than 0 wherever the light shines.
+double DirectLights::weightOf(Light const& light, double3 position) {
+    if (light.shape == Light::Shape::None) return lib::luminance(arriving(light, position, {}).illuminance);
+    const double3 toLight = light.position - position;
+    const bool isBehind = light.shape != Light::Shape::Tube && !light.isTwoSided && glm::dot(toLight, light.axis) >= 0;
+    if (isBehind) return 0;
+    const double window = lib::rangeWindow(toLight, light.inverseSquaredRange);
+    return lib::luminance(light.intensity) * window * light.area / std::max(glm::dot(toLight, toLight), light.area);
+}
+
+DirectSample DirectLights::arriving(Light const& light, double3 position, double2 onArea) {
+    if (light.shape != Light::Shape::None) return arrivingFromArea(light, position, onArea);
+    if (light.isSun)
+        return { .direction = -light.axis,
+                 .illuminance = light.intensity,
+                 .radius = light.radius,
+                 .castsShadows = light.castsShadows };
     const double3 toLight = light.position - position;
     const double distance = glm::length(toLight);
     if (!(distance > 0)) return {};
@@ -53,20 +200,20 @@ DirectSample DirectLights::arriving(Light const& light, double3 position) {
     if (light.isSpot) {
         attenuation *= lib::spotAttenuation(direction, light.axis, light.spotScale, light.spotOffset);
     }
-    return { direction, light.intensity * attenuation, distance };
+    attenuation *= shareOf(light, -direction);
+    return { direction, light.intensity * attenuation, distance, light.radius / distance, light.castsShadows };
 }
 
-DirectSample DirectLights::sample(double3 position, double u) const {
-    const auto weightOf = [&](Light const& light) { return lib::luminance(arriving(light, position).illuminance); };
-    if (mLights.size() == 1) return arriving(mLights.front(), position);
+DirectSample DirectLights::sample(double3 position, double u, double2 onArea) const {
+    if (mLights.size() == 1) return arriving(mLights.front(), position, onArea);
     double total = 0;
-    for (Light const& light : mLights) total += weightOf(light);
+    for (Light const& light : mLights) total += weightOf(light, position);
     double remaining = u * total;
     DirectSample chosen;
     for (Light const& light : mLights) {
-        const double weight = weightOf(light);
+        const double weight = weightOf(light, position);
         if (weight <= 0) continue;
-        chosen = arriving(light, position);
+        chosen = arriving(light, position, onArea);
         chosen.illuminance *= total / weight;
         remaining -= weight;
         if (remaining < 0) break; // rounding may leave a rest: then the last light that shines

@@ -37,7 +37,8 @@ void refuseWhatIsNotThere(RTCFilterFunctionNArguments const* arguments) {
 }
 
 bool needsFilter(assets::MaterialData const& material) {
-    return !material.doubleSided || material.alphaMode != assets::AlphaMode::Opaque;
+    const bool isPassed = material.alphaMode != assets::AlphaMode::Opaque || material.transmission.isUsed();
+    return !material.doubleSided || isPassed;
 }
 
 // Embree reads 16 bytes at the last vertex, so it gets its own buffers, which it pads.

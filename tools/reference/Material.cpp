@@ -117,4 +117,17 @@ double opacityAt(Part const& part, TrianglePoint const& point) {
     return std::clamp(baseColorAt(part, point).w, 0.0, 1.0);
 }
 
+double3 passedAt(Part const& part, TrianglePoint const& point, double3 direction) {
+    if (!part.material->transmission.isUsed()) return double3(0.0);
+    const SurfaceSample surface = surfaceAt(part, point, -direction);
+    TransmissionSample const& below = surface.transmission;
+    if (below.share <= 0) return double3(0.0);
+    const double cosine = std::abs(glm::dot(surface.normal, direction));
+    const double3 reflected = lib::fresnelSchlick(double3(lib::f0FromIor(below.ior)), 1.0, cosine);
+    const double path = below.isThin ? lib::thinPathLength(cosine, below.ior, below.thickness)
+                                     : lib::solidPathLength(cosine, below.ior, below.thickness);
+    const double3 tint = below.color / below.share * lib::transmittance(below.absorption, path);
+    return below.share * (below.isThin ? lib::thinTransmittance(reflected, tint) : (1.0 - reflected) * tint);
+}
+
 } // namespace filament::reference

@@ -20,4 +20,8 @@ bool isMaskedOut(Part const& part, TrianglePoint const& point);
 /// 1 for opaque and masked materials.
 double opacityAt(Part const& part, TrianglePoint const& point);
 
+/// What of the light that arrives in `direction` passes straight through, in each colour, as into the engine's coloured
+/// shadow maps (shaders/material/surface/depth_main.glsl). 0 if the material transmits none.
+double3 passedAt(Part const& part, TrianglePoint const& point, double3 direction);
+
 } // namespace filament::reference

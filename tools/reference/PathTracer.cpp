@@ -13,9 +13,10 @@ namespace lib = shader::lib64;
 
 namespace {
 
-// Pairs of dimensions of the sample's numbers: pair 0 is the pixel's, then five per bounce; layers have their own.
-enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kPerBounce };
-constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21, kMixture = 1u << 22;
+// Pairs of dimensions of the sample's numbers: pair 0 is the pixel's, then six per bounce; layers have their own.
+enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kSource, kPerBounce };
+constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21, kMixture = 1u << 22,
+                   kAreaPoint = 1u << 23;
 
 constexpr uint32_t kRouletteFrom = 4;      // before this event, no path ends by roulette
 constexpr uint32_t kMostEvents = 1u << 16; // limit of the dimensions of a path
@@ -124,7 +125,8 @@ std::optional<SurfaceSample> PathTracer::nextSurface(Path& path) const {
 double3 PathTracer::missed(Path const& path) const {
     EnvironmentLight const& environment = mScene.environment();
     if (path.isCamera) {
-        return mScene.skybox() ? environment.radiance(path.ray.direction) * mExposure : mBackground;
+        const double3 discs = mScene.directLights().discsIn(path.ray.direction) * mExposure;
+        return discs + (mScene.skybox() ? environment.radiance(path.ray.direction) * mExposure : mBackground);
     }
     if (environment.isBlack()) return double3(0.0);
     const double weight = path.isBehindGlass ? 1 : environmentWeight(path.bsdfPdf, path.ray.direction);
@@ -194,10 +196,15 @@ double3 PathTracer::emissiveSample(Path& path, SurfaceSample const& surface, Bsd
 }
 
 double3 PathTracer::directSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const {
-    const DirectSample sample = mScene.directLights().sample(surface.position, path.pair(kChoices).x);
+    const DirectSample sample = mScene.directLights().sample(surface.position, path.pair(kChoices).x,
+                                                             path.numbers.pair(kAreaPoint + path.events));
     const double3 reflected = bsdf.evaluate(sample.direction, LightSource::Direct) * sample.illuminance;
     if (reflected == double3(0.0)) return reflected;
-    return reflected * visibility(path, surface, sample.direction, sample.distance);
+    const bool isOpen =
+            !sample.castsShadows || (mSettings.integrator == Integrator::Unoccluded && !mSettings.lightsCastShadows);
+    if (isOpen) return reflected;
+    return reflected * tracedVisibility(path, surface, sample.towardsPoint(path.pair(kSource)), sample.distance,
+                                        mSettings.coloredShadows);
 }
 
 double3 PathTracer::unoccludedBsdfSample(Path const& path, Bsdf const& bsdf) const {
@@ -211,10 +218,15 @@ double3 PathTracer::unoccludedBsdfSample(Path const& path, Bsdf const& bsdf) con
 
 double PathTracer::visibility(Path& path, SurfaceSample const& surface, double3 direction, double distance) const {
     if (mSettings.integrator == Integrator::Unoccluded) return 1;
-    if (!isOnOneSide(surface, direction)) return 0;
+    return tracedVisibility(path, surface, direction, distance, false).x;
+}
+
+double3 PathTracer::tracedVisibility(Path& path, SurfaceSample const& surface, double3 direction, double distance,
+                                     bool throughGlass) const {
+    if (!isOnOneSide(surface, direction)) return double3(0.0);
     ++path.rays;
     return mScene.transmittance(
-            { .origin = surface.rayOrigin(direction), .direction = direction, .farthest = distance });
+            { .origin = surface.rayOrigin(direction), .direction = direction, .farthest = distance }, throughGlass);
 }
 
 bool PathTracer::reflect(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const {

@@ -40,6 +40,9 @@ private:
     double3 directSample(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const;
     double3 unoccludedBsdfSample(Path const& path, Bsdf const& bsdf) const;
     double visibility(Path& path, SurfaceSample const& surface, double3 direction, double distance) const;
+    /// `throughGlass`: ReferenceSettings::coloredShadows.
+    double3 tracedVisibility(Path& path, SurfaceSample const& surface, double3 direction, double distance,
+                             bool throughGlass) const;
     double environmentWeight(double bsdfPdf, double3 direction) const;
     bool reflect(Path& path, SurfaceSample const& surface, Bsdf const& bsdf) const;
 

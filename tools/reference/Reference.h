@@ -15,6 +15,7 @@
 #include "filament_core/assets/image/HdrImage.h"
 #include "jobsystem/JobSystem.h"
 #include "tools/reference/BsdfModel.h"
+#include "tools/reference/LightProfiles.h"
 
 #include <filament/Box.h>
 #include <filament/Camera.h>
@@ -52,10 +53,18 @@ struct ReferenceEnvironment {
 struct ReferenceScene {
     std::vector<ReferenceModel> models;
     std::optional<ReferenceEnvironment> environment;
-    std::vector<SunLight> suns; ///< all of them shine; the engine uses only the brightest
+    std::vector<SunLight> suns;
     std::vector<PointLight> points;
     std::vector<SpotLight> spots;
+    std::vector<RectLight> rects; ///< no ray sees them: they are lights, not surfaces
+    std::vector<DiscLight> discs;
+    std::vector<TubeLight> tubes;
+    std::vector<ProfilePtr> pointProfiles, spotProfiles; ///< see LightSet
 };
+
+/// The image-based light of a model's file, for `image` of an environment; null: it names none. The irradiance is that
+/// of the radiance: coefficients in the file are not read.
+std::shared_ptr<const assets::HdrImage> pictureOfLight(assets::ModelData const& model, jobs::JobSystem& jobs);
 
 /// Bounds of all parts, like the engine's Model::bounds(): for fitToUnitCube().
 Box modelBounds(assets::ModelData const& model);
@@ -70,7 +79,8 @@ struct ReferenceView {
 
 enum class Integrator : uint8_t {
     Path,       ///< global illumination: visibility and all bounces
-    Unoccluded, ///< one reflection of unoccluded light: the integral that image-based lighting approximates
+    Unoccluded, ///< one reflection of unoccluded light: the integral that image-based lighting approximates. With
+    ///< ReferenceSettings::lightsCastShadows that of suns, points, spots and areas is occluded, as by shadow maps
 };
 
 /// Which technique finds the environment and glowing surfaces. Both have the same mean as each alone; the others exist
@@ -94,6 +104,9 @@ struct ReferenceSettings {
     PixelFilter filter = PixelFilter::Box;
     Sampling sampling = Sampling::Both;
     BsdfModel bsdf{};
+    bool lightsCastShadows = false; ///< of Unoccluded; Path always does
+    bool coloredShadows =
+            false; ///< of these lights: they pass straight through what transmits light, which else stops them
     Switch occlusionMap = Switch::Auto; ///< Auto: used by Unoccluded, not by Path, which computes the real occlusion
 };
 

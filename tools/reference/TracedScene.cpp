@@ -43,9 +43,18 @@ assets::MaterialData const& materialOf(ModelData const& model, PrimitiveData con
     return primitive.material == kNone ? sDefault : model.materials[primitive.material];
 }
 
-void addLights(ModelData const& model, NodeData const& node, double4x4 const& world, ReferenceScene& lights) {
-    if (node.light == kNone) return;
-    assets::LightData const& light = model.lights[node.light];
+/// EXT_lights_ies: along -Z of the node, the profile's +X along +X.
+void addProfile(PointLight& point, assets::IesFile const& file, float3 direction, double4x4 const& world,
+                ReferenceScene& lights) {
+    point.directionWorld = direction;
+    point.upWorld = float3(glm::cross(double3(world[0]), double3(direction)));
+    lights.pointProfiles.resize(lights.points.size());
+    lights.pointProfiles.back() = std::make_shared<const assets::IesFile>(file);
+}
+
+void addLight(ModelData const& model, uint32_t index, double4x4 const& world, ReferenceScene& lights) {
+    if (index == kNone) return;
+    assets::LightData const& light = model.lights[index];
     const double3 position(world[3]);
     const double3 axis = -double3(world[2]); // KHR_lights_punctual: along -Z of the node
     const float3 direction = glm::length(axis) > 0 ? float3(glm::normalize(axis)) : float3(0, 0, -1);
@@ -55,6 +64,8 @@ void addLights(ModelData const& model, NodeData const& node, double4x4 const& wo
         break;
     case assets::LightType::Point:
         lights.points.push_back({ position, Candela{ light.intensity }, light.color, light.rangeMeters });
+        if (light.profile != kNone)
+            addProfile(lights.points.back(), model.profiles[light.profile].file, direction, world, lights);
         break;
     case assets::LightType::Spot:
         lights.spots.push_back({ position, direction, Candela{ light.intensity }, light.color, light.rangeMeters,
@@ -78,6 +89,12 @@ bool isPosition(double3 position) {
     return std::isfinite(position.x) && std::isfinite(position.y) && std::isfinite(position.z);
 }
 
+template <class AreaLight>
+bool isArea(AreaLight const& light, float x, float y) {
+    return isLight(light.luminance.value, light.color) && isPosition(light.positionWorld) && isPosition({ x, y, 0 }) &&
+           x >= 0 && y >= 0;
+}
+
 Result<void> checkScene(ReferenceScene const& scene) {
     for (ReferenceModel const& model : scene.models) {
         if (!model.data || !isFinite(model.worldFromModel)) {
@@ -99,15 +116,27 @@ Result<void> checkScene(ReferenceScene const& scene) {
         isValid = isValid && isLight(sun.illuminance.value, sun.color) && isDirection(sun.directionWorld);
     }
     for (PointLight const& point : scene.points) {
-        isValid = isValid && isLight(point.intensity.value, point.color) && isPosition(point.positionWorld);
+        isValid = isValid && isLight(point.intensity.value, point.color) && isPosition(point.positionWorld) &&
+                  isDirection(point.directionWorld) && isPosition(double3(point.upWorld));
     }
     for (SpotLight const& spot : scene.spots) {
         isValid = isValid && isLight(spot.intensity.value, spot.color) && isPosition(spot.positionWorld) &&
-                  isDirection(spot.directionWorld);
+                  isDirection(spot.directionWorld) && isPosition(double3(spot.upWorld));
+    }
+    for (RectLight const& rect : scene.rects) {
+        isValid = isValid && isArea(rect, rect.widthMeters, rect.heightMeters) && isDirection(rect.directionWorld) &&
+                  isPosition(double3(rect.upWorld));
+    }
+    for (DiscLight const& disc : scene.discs) {
+        isValid = isValid && isArea(disc, disc.radiusMeters, disc.radiusMeters) && isDirection(disc.directionWorld);
+    }
+    for (TubeLight const& tube : scene.tubes) {
+        isValid = isValid && isArea(tube, tube.lengthMeters, tube.radiusMeters) && isDirection(tube.axisWorld);
     }
     if (isValid) return {};
-    return fail(ErrorCode::InvalidArgument, "a light whose intensity, color, position or direction is not usable: "
-                                            "finite, not negative, directions not zero");
+    return fail(ErrorCode::InvalidArgument,
+                "a light whose intensity, color, size, position or direction is not usable: "
+                "finite, not negative, directions not zero");
 }
 
 /// Walks the nodes once: collects what to trace and what shines, and reports what cannot be traced.
@@ -137,7 +166,8 @@ private:
                     assets::growBounds(bounds, primitive, world);
                 }
             }
-            addLights(model, node, world, lights);
+            addLight(model, node.light, world, lights);
+            addLight(model, node.profiledLight, world, lights);
         }
         if (skipped > 0) {
             mWarnings.push_back(fmt::format("{}: {} primitives of lines or points have no surface and are left out",
@@ -167,11 +197,22 @@ std::vector<Part> makeParts(std::vector<Placement> const& placements, double3 or
 void moveLights(ReferenceScene& lights, double3 origin) {
     for (PointLight& point : lights.points) point.positionWorld -= origin;
     for (SpotLight& spot : lights.spots) spot.positionWorld -= origin;
+    for (RectLight& rect : lights.rects) rect.positionWorld -= origin;
+    for (DiscLight& disc : lights.discs) disc.positionWorld -= origin;
+    for (TubeLight& tube : lights.tubes) tube.positionWorld -= origin;
 }
 
 } // namespace
 
 Box modelBounds(ModelData const& model) { return assets::boundsOf(model); }
+
+std::shared_ptr<const assets::HdrImage> pictureOfLight(ModelData const& model, jobs::JobSystem& jobs) {
+    constexpr uint32_t kPixelsPerTexel = 4, kLeast = 128, kMost = 4096; // the horizon has four texels for one of a face
+    if (!model.imageBasedLight) return nullptr;
+    assets::CubeLight const& light = model.imageBasedLight->light;
+    const uint32_t width = std::clamp(4 * kPixelsPerTexel * light.levels.front().size(), kLeast, kMost);
+    return std::make_shared<const assets::HdrImage>(assets::pictureFromCube(light, width, jobs));
+}
 
 Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::JobSystem& jobs) {
     if (const Result<void> checked = checkScene(scene); !checked) return checked.error();
@@ -199,24 +240,29 @@ Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::Jo
     }
     traced->mSkybox = scene.environment && scene.environment->skybox;
     moveLights(collected.lights, origin);
-    traced->mDirectLights = DirectLights(collected.lights.suns, collected.lights.points, collected.lights.spots, 1.0);
+    traced->mDirectLights = DirectLights({ collected.lights.suns, collected.lights.points, collected.lights.spots,
+                                           collected.lights.rects, collected.lights.discs, collected.lights.tubes,
+                                           collected.lights.pointProfiles, collected.lights.spotProfiles },
+                                         1.0);
     return result;
 }
 
-double TracedScene::transmittance(Ray const& ray) const {
-    if (!mHasBlended) return mIntersector.isOccluded(ray) ? 0.0 : 1.0;
+double3 TracedScene::transmittance(Ray const& ray, bool throughGlass) const {
+    if (!mHasBlended && !throughGlass) return double3(mIntersector.isOccluded(ray) ? 0.0 : 1.0);
     Ray rest = ray;
     PassedTriangles passed;
     rest.passed = &passed;
-    double share = 1;
-    while (share > 0 && !passed.isFull()) {
+    double3 share(1.0);
+    while (share != double3(0.0) && !passed.isFull()) {
         const std::optional<Hit> hit = nearest(rest);
         if (!hit) return share;
-        share *= 1 - opacityAt(part(*hit), hit->point);
+        const double opacity = opacityAt(part(*hit), hit->point);
+        share *= throughGlass ? 1.0 - opacity * (1.0 - passedAt(part(*hit), hit->point, ray.direction))
+                              : double3(1.0 - opacity);
         passed.triangles[passed.count++] = { hit->part, hit->point.triangle };
         rest.nearest = hit->distance;
     }
-    return 0;
+    return double3(0.0);
 }
 
 void TracedSceneDeleter::operator()(TracedScene const* scene) const { delete scene; }

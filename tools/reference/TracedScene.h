@@ -22,7 +22,8 @@ public:
     std::optional<Hit> nearest(Ray const& ray) const { return mIntersector.nearest(ray); }
     Part const& part(Hit const& hit) const { return mParts[hit.part]; }
     /// The fraction of light that passes from the ray's origin to `ray.farthest`: blended surfaces transmit part of it.
-    double transmittance(Ray const& ray) const;
+    /// `throughGlass`: what transmits light lets it pass straight through; otherwise only blended surfaces do.
+    double3 transmittance(Ray const& ray, bool throughGlass) const;
 
     EnvironmentLight const& environment() const { return mEnvironment; }
     DirectLights const& directLights() const { return mDirectLights; }

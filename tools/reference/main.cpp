@@ -21,6 +21,17 @@ namespace {
 using tools::failed;
 using tools::showProgress;
 
+/// Null: none.
+Result<std::shared_ptr<const assets::HdrImage>> skyOf(Options const& options, showcase::Files const& files,
+                                                      assets::ModelData const& model, jobs::JobSystem& jobs) {
+    if (options.environment.empty() && model.imageBasedLight) return pictureOfLight(model, jobs);
+    if (files.environment.empty()) return std::shared_ptr<const assets::HdrImage>();
+    showProgress("loading the environment");
+    Result<assets::HdrImage> image = assets::readHdrImage(files.environment);
+    if (!image) return image.error();
+    return std::make_shared<const assets::HdrImage>(std::move(*image));
+}
+
 Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, std::vector<std::string>& warnings) {
     const Result<showcase::Files> files = tools::chooseFiles(options);
     if (!files) return files.error();
@@ -34,11 +45,10 @@ Result<ReferenceScene> loadScene(Options const& options, jobs::JobSystem& jobs, 
     ReferenceScene scene;
     const double4x4 fit = options.fit ? fitToUnitCube(modelBounds(*model)) : double4x4(1.0);
     scene.models.push_back({ std::make_shared<assets::ModelData>(std::move(*model)), fit });
-    if (!files->environment.empty()) {
-        showProgress("loading the environment");
-        Result<assets::HdrImage> image = assets::readHdrImage(files->environment);
-        if (!image) return image.error();
-        scene.environment = { .image = std::make_shared<assets::HdrImage>(std::move(*image)),
+    const auto image = skyOf(options, *files, *scene.models.back().data, jobs);
+    if (!image) return image.error();
+    if (*image) {
+        scene.environment = { .image = *image,
                               .illuminance = options.iblIntensity,
                               .rotationRadians = static_cast<float>(glm::radians(options.rotationDegrees)),
                               .skybox = options.skybox };

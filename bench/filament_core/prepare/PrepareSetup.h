@@ -27,7 +27,7 @@ struct Setup {
     }
 
     scene::Renderables const& renderables() const { return boxes.scene.renderables; }
-    VisibleItems cull() { return cullRenderables(jobs, arena, renderables(), space, counts); }
+    VisibleItems cull() { return cullRenderables(jobs, arena, renderables(), space, prepare::ViewKind::Color, counts); }
     std::span<SortItem> keys() { return writeKeys(jobs, arena, renderables().drawables, cull(), ViewKind::Color); }
     std::span<const SortItem> order() { return sortItems(jobs, arena, keys()); }
 

@@ -48,12 +48,15 @@ struct EnvironmentStatistics {
 inline constexpr uint32_t kIrradianceFaceSize = 32;
 
 struct EnvironmentData {
-    Image specular;   ///< cube
-    Image sky;        ///< cube, one level: the picture itself at its own pixel density
-    Image irradiance; ///< cube, one level of kIrradianceFaceSize texels: irradiance / pi, always RGBA16F
+    Image specular; ///< cube
+    Image sky;      ///< cube, one level: the picture itself at its own pixel density
+    /// Cube, one level of kIrradianceFaceSize texels: irradiance / pi, always RGBA16F. Without texels for an environment
+    /// of which only the coefficients are known.
+    Image irradiance;
     std::array<float4, 9> irradianceSh{}; ///< see shaders/lib/ibl.glsl
     float levelOfRoughnessOne = 0;
     RoughnessMapping mapping = RoughnessMapping::Quadratic; ///< the roughness of each level of `specular`
+    float3x3 worldFromCube{ 1.0f };                         ///< of a picture: the identity
     EnvironmentStatistics statistics;
 };
 

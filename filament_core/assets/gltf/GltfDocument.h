@@ -111,6 +111,29 @@ struct GltfInstancing {
     uint32_t translation = kNone, rotation = kNone, scale = kNone;
 };
 
+/// EXT_lights_ies: a photometric file. Exactly one of the two is set.
+struct GltfProfile {
+    std::string name, uri;
+    uint32_t view = kNone;
+};
+
+/// EXT_lights_ies: what a node makes of one.
+struct GltfProfiledLight {
+    uint32_t profile = kNone;
+    float multiplier = 1; ///< of the file's candelas
+    float3 color{ 1.0f };
+};
+
+/// EXT_lights_image_based. Faces are in the order of IblDirections.h.
+struct GltfImageBasedLight {
+    std::string name;
+    double4 rotation{ 0, 0, 0, 1 }; ///< quaternion x, y, z, w, of length 1
+    float intensity = 1;
+    std::array<double3, 9> irradiance{};         ///< coefficients of irradiance: l = 0, 1, 2, each with m from -l to l
+    uint32_t size = 0;                           ///< texels per side of the first level: a power of two
+    std::vector<std::array<uint32_t, 6>> levels; ///< images of each level
+};
+
 struct GltfNode {
     std::string name;
     double4x4 parentFromNode{ 1.0 };
@@ -118,8 +141,10 @@ struct GltfNode {
     bool hasMatrix = false; ///< the pose was decomposed from a matrix
     std::vector<uint32_t> children;
     uint32_t mesh = kNone, skin = kNone, light = kNone;
+    bool isVisible = true; ///< KHR_node_visibility: false hides it and its descendants
     std::vector<float> weights;
     std::optional<GltfInstancing> instancing;
+    std::optional<GltfProfiledLight> profiledLight;
 };
 
 struct GltfAnimationSampler {
@@ -188,8 +213,11 @@ struct GltfDocument {
     std::vector<backend::SamplerDesc> samplers;
     std::vector<GltfImage> images;
     std::vector<LightData> lights;
+    std::vector<GltfProfile> profiles;
     std::vector<std::string> variants; ///< KHR_materials_variants: their names
     std::vector<uint32_t> roots;       ///< of the default scene
+    std::vector<GltfImageBasedLight> imageBasedLights;
+    uint32_t imageBasedLight = kNone; ///< of the default scene
     std::vector<GltfAnimation> animations;
 
     /// Bytes of each view; filled by loadBuffers(). They point into the file or into `ownedBytes`.

@@ -5,8 +5,10 @@
 #include "filament_core/assets/gltf/GltfAnimation.h"
 #include "filament_core/assets/gltf/GltfBuffers.h"
 #include "filament_core/assets/gltf/GltfContainer.h"
+#include "filament_core/assets/gltf/GltfEnvironment.h"
 #include "filament_core/assets/gltf/GltfMeshes.h"
 #include "filament_core/assets/gltf/GltfParse.h"
+#include "filament_core/assets/gltf/GltfProfiles.h"
 #include "filament_core/assets/gltf/GltfTextures.h"
 #include "filament_core/assets/gltf/GltfUri.h"
 
@@ -52,10 +54,37 @@ std::vector<bool> usedMaterials(GltfDocument const& document, GltfScene const& s
     return used;
 }
 
+/// What is decoded: the jobs of the default scene.
+struct Content {
+    GltfTextures textures;
+    GltfEnvironment environment;
+    std::vector<GltfPrimitiveJob> primitives;
+
+    size_t jobCount() const {
+        return textures.jobs.size() + textures.packs.size() + environment.faces.size() + primitives.size();
+    }
+
+    void mergeDiagnostics(Diagnostics& diagnostics) {
+        for (GltfPrimitiveJob& job : primitives) diagnostics.merge(std::move(job.diagnostics));
+        for (GltfImageJob& job : textures.jobs) diagnostics.merge(std::move(job.diagnostics));
+        for (GltfPackJob& job : textures.packs) diagnostics.merge(std::move(job.diagnostics));
+        for (GltfFaceJob& job : environment.faces) diagnostics.merge(std::move(job.diagnostics));
+    }
+};
+
+/// The cube of a light, without texels: no job of a face reads another's.
+void makeLevels(GltfDocument const& document, GltfEnvironment& environment) {
+    if (environment.faces.empty()) return;
+    GltfImageBasedLight const& light = document.imageBasedLights[document.imageBasedLight];
+    for (size_t i = 0; i < light.levels.size(); ++i) environment.light.levels.emplace_back(light.size >> i);
+}
+
 /// Images and primitives are independent: they are all jobs of one group.
-void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextures& textures,
-                 std::vector<GltfPrimitiveJob>& primitives, jobs::JobSystem& jobs, GltfOptions const& options) {
-    Progress progress(options, GltfStage::Content, textures.jobs.size() + textures.packs.size() + primitives.size());
+void loadContent(GltfDocument const& document, GltfScene const& scene, Content& content, jobs::JobSystem& jobs,
+                 GltfOptions const& options) {
+    Progress progress(options, GltfStage::Content, content.jobCount());
+    makeLevels(document, content.environment);
+    GltfTextures& textures = content.textures;
     const jobs::AdoptedThread seat(jobs);
     jobs::JobGroup group(jobs);
     for (GltfImageJob& job : textures.jobs) {
@@ -70,7 +99,13 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextu
             progress.step();
         });
     }
-    for (GltfPrimitiveJob& job : primitives) {
+    for (GltfFaceJob& job : content.environment.faces) {
+        group.run<"decode face">([&document, &content, &progress, &job] {
+            decodeFace(document, job, content.environment.light);
+            progress.step();
+        });
+    }
+    for (GltfPrimitiveJob& job : content.primitives) {
         group.run<"build primitive">([&document, &scene, &options, &progress, &job] {
             buildPrimitive(document, scene, options.storage, job);
             progress.step();
@@ -79,24 +114,22 @@ void loadContent(GltfDocument const& document, GltfScene const& scene, GltfTextu
     group.wait();
 }
 
-void readImages(GltfDocument const& document, GltfFolder const& folder, GltfTextures& textures, jobs::JobSystem& jobs,
+void readImages(GltfDocument const& document, GltfFolder const& folder, Content& content, jobs::JobSystem& jobs,
                 Diagnostics& diagnostics) {
-    jobs::parallelFor<"read image">(jobs, textures.sources.size(), 1, [&](size_t begin, size_t end) {
-        for (size_t i = begin; i < end; ++i) readImage(document, folder, textures.sources[i]);
+    std::vector<GltfImageSource*> sources;
+    for (GltfImageSource& source : content.textures.sources) sources.push_back(&source);
+    for (GltfFaceJob& job : content.environment.faces) sources.push_back(&job.source);
+    jobs::parallelFor<"read image">(jobs, sources.size(), 1, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) readImage(document, folder, *sources[i]);
     });
-    for (GltfImageSource& source : textures.sources) diagnostics.merge(std::move(source.diagnostics));
-    if (diagnostics.ok()) checkImageBudget(textures, diagnostics);
+    for (GltfImageSource* source : sources) diagnostics.merge(std::move(source->diagnostics));
+    if (diagnostics.ok()) checkImageBudget(content.textures, diagnostics);
+    if (diagnostics.ok()) checkFaces(document, content.environment, diagnostics);
 }
 
 void warnAboutAnimations(GltfDocument const& document, Diagnostics& diagnostics) {
     if (document.animations.empty()) return;
     diagnostics.warn("animations, also of skins and morph targets, are not played: the model is drawn at rest");
-}
-
-void mergeDiagnostics(GltfTextures& textures, std::vector<GltfPrimitiveJob>& primitives, Diagnostics& diagnostics) {
-    for (GltfPrimitiveJob& job : primitives) diagnostics.merge(std::move(job.diagnostics));
-    for (GltfImageJob& job : textures.jobs) diagnostics.merge(std::move(job.diagnostics));
-    for (GltfPackJob& job : textures.packs) diagnostics.merge(std::move(job.diagnostics));
 }
 
 GltfDocument loadDocument(std::span<const std::byte> file, GltfFolder const& folder, jobs::JobSystem& jobs,
@@ -117,16 +150,20 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     GltfDocument document = loadDocument(file, folder, jobs, diagnostics);
     if (!diagnostics.ok()) return {};
     GltfScene scene = planScene(document, options.deformation, diagnostics);
-    std::vector<GltfPrimitiveJob> primitives = listPrimitives(document, scene, diagnostics);
+    Content content;
+    content.primitives = listPrimitives(document, scene, diagnostics);
     if (!diagnostics.ok()) return {};
     structure.step();
 
     std::vector<uint32_t> newMaterial;
-    GltfTextures textures = planTextures(document, usedMaterials(document, scene), newMaterial, diagnostics);
-    readImages(document, folder, textures, jobs, diagnostics);
+    content.textures = planTextures(document, usedMaterials(document, scene), newMaterial, diagnostics);
+    content.environment = planEnvironment(document);
+    readImages(document, folder, content, jobs, diagnostics);
+    GltfProfiles profiles;
+    if (diagnostics.ok()) profiles = readProfiles(document, folder, scene.profiledLights, diagnostics);
     if (!diagnostics.ok()) return {};
-    loadContent(document, scene, textures, primitives, jobs, options);
-    mergeDiagnostics(textures, primitives, diagnostics);
+    loadContent(document, scene, content, jobs, options);
+    content.mergeDiagnostics(diagnostics);
     ModelData model;
     if (options.deformation == GltfDeformation::Kept)
         model.animations = readAnimations(document, scene, diagnostics);
@@ -135,9 +172,10 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     if (!diagnostics.ok()) return {};
 
     model.name = options.name;
-    model.images = collectImages(textures);
-    model.materials = std::move(textures.materials);
-    model.meshes = collectMeshes(document, scene, primitives);
+    model.images = collectImages(content.textures);
+    model.materials = std::move(content.textures.materials);
+    model.imageBasedLight = finishEnvironment(document, std::move(content.environment));
+    model.meshes = collectMeshes(document, scene, content.primitives);
     for (MeshData& mesh : model.meshes) {
         for (PrimitiveData& primitive : mesh.primitives) {
             if (primitive.material != kNone) primitive.material = newMaterial[primitive.material];
@@ -146,7 +184,7 @@ ModelData load(std::span<const std::byte> file, GltfFolder const& folder, jobs::
     }
     model.nodes = std::move(scene.nodes);
     model.skins = std::move(scene.skins);
-    model.lights = std::move(document.lights);
+    addProfiledLights(std::move(scene.profiledLights), std::move(profiles), document.lights, model);
     model.variants = std::move(document.variants);
     model.warnings = diagnostics.takeWarnings();
     return model;

@@ -22,10 +22,11 @@ struct Counts {
               samplers(root["samplers"].elementCount()), images(root["images"].elementCount()),
               cameras(root["cameras"].elementCount()),
               lights(root.extension("KHR_lights_punctual")["lights"].elementCount()),
+              profiles(root.extension("EXT_lights_ies")["lights"].elementCount()),
               variants(root.extension("KHR_materials_variants")["variants"].elementCount()) {}
 
     size_t buffers, views, accessors, meshes, nodes, skins, materials, textures, samplers, images, cameras, lights,
-            variants;
+            profiles, variants;
 };
 
 template <class Enum, size_t N>
@@ -213,8 +214,10 @@ GltfNode parseNode(JsonNode const& node, Counts const& counts) {
                      .mesh = node["mesh"].index(counts.meshes, "meshes"),
                      .skin = node["skin"].index(counts.skins, "skins"),
                      .light = node.extension("KHR_lights_punctual")["light"].index(counts.lights, "lights"),
+                     .isVisible = node.extension("KHR_node_visibility")["visible"].boolean(true),
                      .weights = node["weights"].numberList(),
-                     .instancing = {} };
+                     .instancing = {},
+                     .profiledLight = parseGltfProfiledLight(node.extension("EXT_lights_ies"), counts.profiles) };
     node["camera"].index(counts.cameras, "cameras"); // checked, although cameras are not read
     parseTransform(node, parsed);
     for (JsonNode const& child : node["children"].elements()) {
@@ -296,13 +299,19 @@ void checkForest(std::vector<GltfNode> const& nodes, Diagnostics& diagnostics) {
     if (reached != nodes.size()) diagnostics.refuse(ErrorCode::Corrupt, "nodes: the children links form a cycle");
 }
 
+/// The index of the default scene: 0 unless the file says otherwise.
+uint32_t parseDefaultScene(JsonNode const& root) {
+    const uint32_t scene = root["scene"].index(root["scenes"].elementCount(), "scenes");
+    return scene == kNone ? 0 : scene;
+}
+
 /// The roots of the default scene; a file without scenes shows all parentless nodes.
 std::vector<uint32_t> parseRoots(JsonNode const& root, std::vector<GltfNode> const& nodes) {
     const std::vector<JsonNode> scenes = root["scenes"].elements();
     std::vector<uint32_t> roots;
-    const uint32_t scene = root["scene"].index(scenes.size(), "scenes");
+    const uint32_t scene = parseDefaultScene(root);
     if (!scenes.empty()) {
-        for (JsonNode const& node : scenes[scene == kNone ? 0 : scene]["nodes"].elements()) {
+        for (JsonNode const& node : scenes[scene]["nodes"].elements()) {
             roots.push_back(node.requiredIndex(nodes.size(), "nodes"));
         }
     }
@@ -377,6 +386,12 @@ void parseElements(JsonNode const& root, GltfDocument& document) {
                             node["source"].index(counts.images, "images") };
     });
     document.lights = parseAll<LightData>(root.extension("KHR_lights_punctual")["lights"], parseGltfLight);
+    document.profiles = parseAll<GltfProfile>(root.extension("EXT_lights_ies")["lights"], [&](JsonNode const& node) {
+        return parseGltfProfile(node, counts.views);
+    });
+    const JsonNode imageBased = root.extension("EXT_lights_image_based");
+    document.imageBasedLights = parseAll<GltfImageBasedLight>(
+            imageBased["lights"], [&](JsonNode const& node) { return parseGltfImageBasedLight(node, counts.images); });
     document.variants = parseAll<std::string>(root.extension("KHR_materials_variants")["variants"],
                                               [](JsonNode const& node) { return node["name"].text(); });
     document.animations = parseAll<GltfAnimation>(root["animations"], with(parseAnimation));
@@ -395,6 +410,10 @@ GltfDocument parseGltf(std::span<const std::byte> json, Diagnostics& diagnostics
     if (diagnostics.ok()) checkForest(document.nodes, diagnostics);
     if (diagnostics.ok()) checkWeights(document.meshes, document.nodes, diagnostics);
     if (diagnostics.ok()) document.roots = parseRoots(root, document.nodes);
+    if (!diagnostics.ok()) return document;
+    const std::vector<uint32_t> lights =
+            parseGltfSceneLights(root["scenes"].elements(), document.imageBasedLights.size());
+    if (diagnostics.ok() && !lights.empty()) document.imageBasedLight = lights[parseDefaultScene(root)];
     return document;
 }
 

@@ -26,6 +26,11 @@ std::vector<VariantMaterial> parseVariantMaterials(JsonNode const& primitive, si
                                                    size_t variantCount);
 backend::SamplerDesc parseGltfSampler(JsonNode const& node);
 LightData parseGltfLight(JsonNode const& node);
+GltfProfile parseGltfProfile(JsonNode const& node, size_t viewCount);
+std::optional<GltfProfiledLight> parseGltfProfiledLight(JsonNode const& node, size_t profileCount); ///< of a node
+GltfImageBasedLight parseGltfImageBasedLight(JsonNode const& node, size_t imageCount);
+/// The light that each scene names, if any.
+std::vector<uint32_t> parseGltfSceneLights(std::vector<JsonNode> const& scenes, size_t lightCount);
 void checkExtensions(JsonNode const& root, Diagnostics& diagnostics);
 
 } // namespace filament::assets

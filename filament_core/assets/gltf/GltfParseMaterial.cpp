@@ -8,13 +8,16 @@ namespace filament::assets {
 namespace {
 
 // The extensions that the loader supports completely. KHR_xmp: metadata, without effect.
-constexpr std::array<std::string_view, 23> kSupportedExtensions{
+constexpr std::array<std::string_view, 26> kSupportedExtensions{
     "KHR_draco_mesh_compression",
     "EXT_meshopt_compression",
     "KHR_meshopt_compression",
     "KHR_mesh_quantization",
     "KHR_texture_transform",
     "KHR_lights_punctual",
+    "EXT_lights_ies",
+    "EXT_lights_image_based",
+    "KHR_node_visibility",
     "EXT_mesh_gpu_instancing",
     "KHR_materials_anisotropy",
     "KHR_materials_clearcoat",
@@ -33,6 +36,8 @@ constexpr std::array<std::string_view, 23> kSupportedExtensions{
     "KHR_xmp",
     "KHR_xmp_json_ld",
 };
+
+constexpr std::string_view kIesMimeType = "application/x-ies-lm-63";
 
 /// KHR_texture_transform: uv' = T * R * S * uv. The extension's GLSL turns the other way than its text and its test
 /// model (TextureTransformTest, the green markers); like every viewer we follow those: a positive angle turns the
@@ -171,6 +176,27 @@ LightData parseGltfLight(JsonNode const& node) {
     light.rangeMeters = node["range"].numberInRange(0, 0, kMaxFloat);
     if (light.type == LightType::Spot) parseCones(node["spot"], light);
     return light;
+}
+
+GltfProfile parseGltfProfile(JsonNode const& node, size_t viewCount) {
+    GltfProfile profile{ node["name"].text(), node["uri"].text(), node["bufferView"].index(viewCount, "bufferViews") };
+    if (profile.uri.empty() == (profile.view == kNone)) {
+        node.diagnostics().refuse(ErrorCode::Corrupt, "{}: needs a uri or a bufferView, and not both", node.path());
+    }
+    const std::string mime = node["mimeType"].text();
+    if ((profile.view != kNone || !mime.empty()) && mime != kIesMimeType) {
+        node.diagnostics().refuse(ErrorCode::Unsupported, "{}.mimeType: '{}' must be '{}'", node.path(), mime,
+                                  kIesMimeType);
+    }
+    return profile;
+}
+
+std::optional<GltfProfiledLight> parseGltfProfiledLight(JsonNode const& node, size_t profileCount) {
+    if (!node.exists()) return std::nullopt;
+    const auto color = parseFactors<3>(node["color"], 1, 0, 1);
+    return GltfProfiledLight{ .profile = node["light"].requiredIndex(profileCount, "EXT_lights_ies.lights"),
+                              .multiplier = node["multiplier"].numberInRange(1, 0, kMaxFloat),
+                              .color = { color[0], color[1], color[2] } };
 }
 
 void checkExtensions(JsonNode const& root, Diagnostics& diagnostics) {

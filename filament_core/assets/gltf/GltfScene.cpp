@@ -182,22 +182,25 @@ public:
 
     /// `requests` is null for nodes that are not shown and only serve as joints.
     void add(std::vector<uint32_t> const& roots, RequestList* requests) {
-        push(roots, kNone);
+        push(roots, kNone, true);
         while (!mOpen.empty() && mDiagnostics.ok()) {
-            const auto [node, parent] = mOpen.back();
+            const auto [node, parent, isAboveVisible] = mOpen.back();
             mOpen.pop_back();
             GltfNode const& source = mDocument.nodes[node];
+            const bool isVisible = isAboveVisible && source.isVisible;
+            const bool isShown = requests && isVisible;
             const auto added = static_cast<uint32_t>(mScene.nodes.size());
             mScene.nodeOf[node] = added;
             mScene.nodes.push_back({ .name = source.name,
                                      .parent = parent,
                                      .parentFromNode = source.parentFromNode,
                                      .worldFromNode = mWorldFromNode[node],
-                                     .light = requests ? source.light : kNone,
+                                     .light = isShown ? source.light : kNone,
                                      .morphWeights = {},
                                      .pose = source.pose });
-            if (requests && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);
-            push(source.children, added);
+            if (isShown && source.profiledLight) addProfiledLight(*source.profiledLight, source.name, added);
+            if (isShown && source.mesh != kNone) placeMesh(mDocument, node, added, *requests, mScene, mDiagnostics);
+            push(source.children, added, isVisible);
             if (mScene.nodes.size() > kMaxNodes)
                 mDiagnostics.refuse(ErrorCode::Unsupported, "the scene has more than {} nodes and instances",
                                     kMaxNodes);
@@ -205,11 +208,18 @@ public:
     }
 
 private:
+    void addProfiledLight(GltfProfiledLight const& light, std::string const& name, uint32_t node) {
+        mScene.nodes[node].profiledLight = static_cast<uint32_t>(mScene.profiledLights.size());
+        mScene.profiledLights.push_back(
+                { .name = name, .color = light.color, .intensity = light.multiplier, .profile = light.profile });
+    }
+
     struct Open {
         uint32_t node, parent; // in the document; in the scene
+        bool isAboveVisible;   // all nodes above
     };
-    void push(std::vector<uint32_t> const& nodes, uint32_t parent) {
-        for (size_t i = nodes.size(); i-- > 0;) mOpen.push_back({ nodes[i], parent });
+    void push(std::vector<uint32_t> const& nodes, uint32_t parent, bool isVisible) {
+        for (size_t i = nodes.size(); i-- > 0;) mOpen.push_back({ nodes[i], parent, isVisible });
     }
 
     GltfDocument const& mDocument;

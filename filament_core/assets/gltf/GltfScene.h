@@ -31,6 +31,8 @@ struct GltfScene {
     std::vector<NodeData> nodes;
     std::vector<GltfMeshRequest> meshes;
     std::vector<SkinData> skins; ///< those that requests keep
+    /// NodeData::profiledLight is an index into these: a profile of the document, and its multiplier as intensity.
+    std::vector<LightData> profiledLights;
 
     std::vector<uint32_t> nodeOf;                 ///< by node of the file: into `nodes`, or kNone
     std::vector<std::vector<uint32_t>> meshNodes; ///< by node of the file: the nodes that carry its mesh

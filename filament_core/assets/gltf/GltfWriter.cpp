@@ -131,6 +131,11 @@ Result<void> checkScene(GlbScene const& scene) {
     for (size_t i = 0; i < scene.materials.size(); ++i) {
         if (auto checked = checkMaterial(scene, i); !checked) return checked;
     }
+    for (auto const& level :
+         scene.imageBasedLight ? scene.imageBasedLight->levels : std::vector<std::array<uint32_t, 6>>()) {
+        if (std::ranges::any_of(level, [&](uint32_t image) { return image >= scene.images.size(); }))
+            return fail(ErrorCode::InvalidArgument, "imageBasedLight: an image is out of range");
+    }
     return checkNodes(scene);
 }
 
@@ -210,13 +215,13 @@ Result<std::vector<std::byte>> writeGlb(GlbScene const& scene) {
     return assembleGlb(root.dump(-1, ' ', false, Json::error_handler_t::replace), buffer.bytes());
 }
 
-Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height,
-                                    std::span<const std::byte> rgba8) {
+Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height, std::span<const std::byte> rgba8,
+                                    GlbAlpha alpha) {
     if (width == 0 || height == 0 || rgba8.size() != size_t{ width } * height * 4) {
         return fail(ErrorCode::InvalidArgument, "image '{}': {} bytes are not {} x {} RGBA pixels", name, rgba8.size(),
                     width, height);
     }
-    bool isOpaque = true;
+    bool isOpaque = alpha == GlbAlpha::IfUsed;
     for (size_t i = 3; i < rgba8.size(); i += 4) isOpaque = isOpaque && rgba8[i] == std::byte{ 255 };
     std::vector<std::byte> pixels(rgba8.begin(), rgba8.end());
     if (isOpaque) { // three bytes per pixel, in place

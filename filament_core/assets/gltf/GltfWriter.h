@@ -3,8 +3,8 @@
 ///   In      triangles with float attributes, MaterialData, LightData, PNG images, a forest of nodes.
 ///   Out     the bytes of a .glb: one buffer, attributes 4-byte aligned, 16-bit indices if they suffice. Materials
 ///           write only values that differ from glTF's defaults, and KHR_materials_unlit,
-///           KHR_materials_emissive_strength, KHR_texture_transform and KHR_lights_punctual if used. The same scene
-///           gives the same bytes.
+///           KHR_materials_emissive_strength, KHR_texture_transform, KHR_lights_punctual and EXT_lights_image_based if
+///           used. The same scene gives the same bytes.
 ///   Thread  any.
 ///   Memory  twice the size of the file.
 ///   Fails   InvalidArgument, naming the element: an index out of range, attributes of different length, a node with
@@ -25,9 +25,14 @@ struct GlbImage {
     std::vector<std::byte> file; ///< PNG or JPEG
 };
 
-/// Encodes 8-bit RGBA pixels, row 0 at the top; omits the alpha channel if it is 255 everywhere.
-Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height,
-                                    std::span<const std::byte> rgba8);
+enum class GlbAlpha : uint8_t {
+    IfUsed, ///< no channel if it is 255 everywhere
+    Always,
+};
+
+/// Encodes 8-bit RGBA pixels, row 0 at the top.
+Result<GlbImage> glbImageFromPixels(std::string name, uint32_t width, uint32_t height, std::span<const std::byte> rgba8,
+                                    GlbAlpha alpha = GlbAlpha::IfUsed);
 
 /// Triangles, counter-clockwise from outside. Empty attributes are omitted.
 struct GlbPrimitive {
@@ -52,6 +57,20 @@ struct GlbNode {
     std::vector<uint32_t> children = {};
 };
 
+/// EXT_lights_image_based, see GltfEnvironment.h.
+struct GlbImageBasedLight {
+    std::string name = {};
+    double4 rotation{ 0, 0, 0, 1 }; ///< quaternion x, y, z, w
+    float intensity = 1;
+    std::array<double3, 9> irradiance{};
+    uint32_t size = 0;                                ///< of the pictures of the first level
+    std::vector<std::array<uint32_t, 6>> levels = {}; ///< indices of images
+};
+
+/// The inverse of the loader, except that RGBD rounds. The pictures are added to `images`. Fails: InvalidArgument if
+/// worldFromCube is not a rotation of the extension's cube.
+Result<GlbImageBasedLight> glbImageBasedLight(CubeLight const& light, std::vector<GlbImage>& images);
+
 struct GlbScene {
     std::string name = {};
     std::string copyright = {}; ///< asset.copyright; empty: none
@@ -59,6 +78,7 @@ struct GlbScene {
     std::vector<MaterialData> materials = {}; ///< TextureRef::image is an index into `images`
     std::vector<GlbMesh> meshes = {};
     std::vector<LightData> lights = {};
+    std::optional<GlbImageBasedLight> imageBasedLight = {};
     std::vector<GlbNode> nodes = {}; ///< nodes without a parent are the scene's roots
 };
 

@@ -104,6 +104,19 @@ void addAlpha(MaterialData const& material, Json& json) {
     addUnlessDefault(json, "alphaCutoff", material.alphaCutoff, 0.5f);
 }
 
+void addTransmission(TransmissionData const& transmission, Json& json, Json& root) {
+    json["extensions"]["KHR_materials_transmission"] = { { "transmissionFactor", transmission.factor } };
+    useExtension("KHR_materials_transmission", root);
+    if (!transmission.isSolid()) return;
+    const float3 color = transmission.attenuationColor;
+    Json volume{ { "thicknessFactor", transmission.thicknessMeters },
+                 { "attenuationColor", { color.x, color.y, color.z } } };
+    if (std::isfinite(transmission.attenuationDistanceMeters))
+        volume["attenuationDistance"] = transmission.attenuationDistanceMeters;
+    json["extensions"]["KHR_materials_volume"] = std::move(volume);
+    useExtension("KHR_materials_volume", root);
+}
+
 void addMaterialExtensions(MaterialData const& material, Json& json, Json& root) {
     if (material.unlit) {
         json["extensions"]["KHR_materials_unlit"] = Json::object();
@@ -113,6 +126,7 @@ void addMaterialExtensions(MaterialData const& material, Json& json, Json& root)
         json["extensions"]["KHR_materials_emissive_strength"] = { { "emissiveStrength", material.emissiveStrength } };
         useExtension("KHR_materials_emissive_strength", root);
     }
+    if (material.transmission.isUsed()) addTransmission(material.transmission, json, root);
 }
 
 Json materialJson(MaterialData const& material, TextureWriter& textures, Json& root) {
@@ -153,6 +167,21 @@ Json lightJson(LightData const& light) {
     return json;
 }
 
+Json imageBasedLightJson(GlbImageBasedLight const& light) {
+    Json irradiance = Json::array(), levels = Json::array();
+    for (double3 const& c : light.irradiance) irradiance.push_back({ c.x, c.y, c.z });
+    for (auto const& level : light.levels) levels.push_back(level);
+    Json json = Json::object();
+    if (!light.name.empty()) json["name"] = light.name;
+    double4 const& r = light.rotation;
+    if (r != double4(0, 0, 0, 1)) json["rotation"] = { r.x, r.y, r.z, r.w };
+    addUnlessDefault(json, "intensity", light.intensity, 1.0f);
+    json["irradianceCoefficients"] = std::move(irradiance);
+    json["specularImageSize"] = light.size;
+    json["specularImages"] = std::move(levels);
+    return json;
+}
+
 Json nodeJson(GlbNode const& node, Json& root) {
     Json json{ { "name", node.name } };
     if (node.parentFromNode != double4x4(1.0)) {
@@ -185,6 +214,7 @@ void addNodes(GlbScene const& scene, Json& root) {
     }
     Json entry{ { "name", scene.name } };
     if (!roots.empty()) entry["nodes"] = std::move(roots);
+    if (scene.imageBasedLight) entry["extensions"]["EXT_lights_image_based"] = { { "light", 0 } };
     root["scene"] = 0;
     root["scenes"] = Json::array({ std::move(entry) });
     if (!nodes.empty()) root["nodes"] = std::move(nodes);
@@ -199,6 +229,11 @@ void addMaterials(GlbScene const& scene, Json& root) {
 }
 
 void addLights(GlbScene const& scene, Json& root) {
+    if (scene.imageBasedLight) {
+        root["extensions"]["EXT_lights_image_based"]["lights"] =
+                Json::array({ imageBasedLightJson(*scene.imageBasedLight) });
+        useExtension("EXT_lights_image_based", root);
+    }
     if (scene.lights.empty()) return;
     Json lights = Json::array();
     for (LightData const& light : scene.lights) lights.push_back(lightJson(light));

@@ -16,7 +16,7 @@ using Json = nlohmann::ordered_json;
 void addNodes(GlbScene const& scene, Json& root);
 /// "materials", "textures", "samplers", and the extensions they use
 void addMaterials(GlbScene const& scene, Json& root);
-/// "extensions.KHR_lights_punctual"
+/// "extensions.KHR_lights_punctual", "extensions.EXT_lights_image_based"
 void addLights(GlbScene const& scene, Json& root);
 
 } // namespace filament::assets

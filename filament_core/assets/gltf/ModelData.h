@@ -7,15 +7,18 @@
 
 #include "backend/api/Descriptions.h"
 #include "base/math/Math.h"
+#include "filament_core/assets/environment/CubeLight.h"
 #include "filament_core/assets/gltf/Animation.h"
 #include "filament_core/assets/gltf/MaterialData.h"
 #include "filament_core/assets/gltf/NodePose.h"
 #include "filament_core/assets/image/Image.h"
+#include "filament_core/assets/tables/IesFile.h"
 
 #include <filament/Quality.h>
 
 #include <array>
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -90,6 +93,20 @@ struct LightData {
     float intensity = 1;   ///< lux (directional) or candela (point, spot)
     float rangeMeters = 0; ///< 0: unlimited
     float innerConeRadians = 0, outerConeRadians = 0.7853982f;
+    uint32_t profile =
+            kNone; ///< EXT_lights_ies, points: into ModelData::profiles; `intensity` is then that of its peak
+};
+
+/// EXT_lights_ies: forward is -Z of the node.
+struct LightProfileData {
+    std::string name;
+    IesFile file;
+};
+
+/// EXT_lights_image_based: the surroundings of the scene.
+struct ImageBasedLightData {
+    std::string name;
+    CubeLight light; ///< with its intensity
 };
 
 struct NodeData {
@@ -99,6 +116,7 @@ struct NodeData {
     double4x4 worldFromNode{ 1.0 }; ///< of the rest pose: the product from the root down
     uint32_t mesh = kNone;
     uint32_t light = kNone;
+    uint32_t profiledLight = kNone;  ///< EXT_lights_ies: another one, also into ModelData::lights
     std::vector<float> morphWeights; ///< of the rest pose; GltfDeformation::AtRest: already applied by the loader
     uint32_t skin = kNone;           ///< into ModelData::skins; moves the skinned primitives of `mesh`
     NodePose pose{};                 ///< parentFromNode decomposed: the start of animations
@@ -117,10 +135,12 @@ struct ModelData {
     std::vector<MeshData> meshes;
     std::vector<NodeData> nodes; ///< of the default scene, parents before children
     std::vector<LightData> lights;
-    std::vector<SkinData> skins;           ///< with GltfDeformation::Kept
-    std::vector<AnimationData> animations; ///< with GltfDeformation::Kept
-    std::vector<std::string> variants;     ///< KHR_materials_variants: their names
-    std::vector<std::string> warnings;     ///< one line each: unsupported extensions, repaired values
+    std::vector<LightProfileData> profiles;
+    std::optional<ImageBasedLightData> imageBasedLight; ///< of the default scene
+    std::vector<SkinData> skins;                        ///< with GltfDeformation::Kept
+    std::vector<AnimationData> animations;              ///< with GltfDeformation::Kept
+    std::vector<std::string> variants;                  ///< KHR_materials_variants: their names
+    std::vector<std::string> warnings;                  ///< one line each: unsupported extensions, repaired values
 };
 
 } // namespace filament::assets

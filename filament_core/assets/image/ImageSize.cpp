@@ -27,7 +27,8 @@ void forEachChunk(Bytes bytes, Visit&& visit) {
     }
 }
 
-constexpr uint32_t kHeaderChunk = 0x49484452, kEndChunk = 0x49454E44; // "IHDR", "IEND"
+constexpr uint32_t kHeaderChunk = 0x49484452, kTransparentChunk = 0x74524E53, kDataChunk = 0x49444154,
+                   kEndChunk = 0x49454E44; // "IHDR", "tRNS", "IDAT", "IEND"
 
 uint2 pngSize(Bytes bytes) {
     uint2 size(0);
@@ -75,6 +76,19 @@ bool isCutShortPng(std::span<const std::byte> bytes) {
         return !hasEnd;
     });
     return !hasEnd;
+}
+
+bool hasAlphaPng(std::span<const std::byte> bytes) {
+    if (!isPng(bytes)) return false;
+    bool hasAlpha = false;
+    forEachChunk(bytes, [&](uint32_t type, size_t at, uint64_t) { // ISO/IEC 15948, 11.2.2 and 11.3.2.1
+        constexpr size_t kColourType = 9;
+        if (type == kHeaderChunk && at + kColourType < bytes.size())
+            hasAlpha = (number(bytes, at + kColourType, 1) & 4u) != 0;
+        if (type == kTransparentChunk) hasAlpha = true;
+        return !hasAlpha && type != kDataChunk;
+    });
+    return hasAlpha;
 }
 
 } // namespace filament::assets

@@ -15,4 +15,7 @@ uint2 imageSize(std::span<const std::byte> bytes);
 /// A PNG whose chunks go on behind its last byte, as after an interrupted download.
 bool isCutShortPng(std::span<const std::byte> bytes);
 
+/// A PNG that has an alpha channel, or a list of transparent colours.
+bool hasAlphaPng(std::span<const std::byte> bytes);
+
 } // namespace filament::assets

@@ -5,6 +5,7 @@
 #include "base/Suggest.h"
 #include "filament_core/assets/gltf/GltfLoader.h"
 #include "filament_core/assets/gltf/ModelBounds.h"
+#include "filament_core/engine/EnvironmentImpl.h"
 #include "filament_core/engine/gltf/GltfMaterials.h"
 #include "filament_core/engine/gltf/ModelImpl.h"
 
@@ -35,6 +36,11 @@ public:
         mModel->variants = mData.variants;
         uploadImages();
         uploadMeshes();
+        for (assets::LightProfileData const& profile : mData.profiles) {
+            mModel->profiles.push_back({});
+            mModel->profiles.back() = mEngine.createLightProfile(profile.file, profile.name);
+        }
+        uploadEnvironment();
         placeNodes();
         return std::move(mModel);
     }
@@ -58,6 +64,14 @@ private:
                                                               .pixels = image.data,
                                                               .name = mData.name });
         }
+    }
+
+    void uploadEnvironment() {
+        if (!mData.imageBasedLight) return;
+        std::string const& name = mData.imageBasedLight->name;
+        mModel->environment = engine::uploadEnvironment(
+                Engine::of(mEngine), assets::environmentFromCube(mData.imageBasedLight->light, mEngine.jobs),
+                name.empty() ? mData.name + " light" : name);
     }
 
     void uploadMeshes() {
@@ -123,7 +137,9 @@ private:
             const uint32_t parent = node.parent == kNone ? Model::Impl::kRoot : node.parent;
             mModel->nodes.push_back({ node.name, parent, node.parentFromNode, node.pose });
             if (node.mesh != kNone) placeMesh(node, i);
-            if (node.light != kNone) mModel->lights.push_back({ lightOf(mData.lights[node.light]), i });
+            for (const uint32_t light : { node.light, node.profiledLight }) {
+                if (light != kNone) mModel->lights.push_back({ lightOf(mData.lights[light]), i });
+            }
         }
         // After the nodes of the file, whose parents are indices.
         for (Model::Impl::PartNode& node : mScalingNodes) mModel->nodes.push_back(std::move(node));
@@ -190,15 +206,19 @@ private:
         return matrix;
     }
 
-    // KHR_lights_punctual: at the origin of its node, shining along -Z.
-    static std::variant<SunLight, PointLight, SpotLight> lightOf(assets::LightData const& light) {
+    // KHR_lights_punctual and EXT_lights_ies: at the origin of its node, shining along -Z, the profile's +X along +X.
+    std::variant<SunLight, PointLight, SpotLight> lightOf(assets::LightData const& light) const {
         const double3 position(0.0);
         const float3 direction(0, 0, -1);
         switch (light.type) {
         case assets::LightType::Directional:
             return SunLight{ direction, Lux{ light.intensity }, light.color };
         case assets::LightType::Point:
-            return PointLight{ position, Candela{ light.intensity }, light.color, light.rangeMeters };
+            return PointLight{ .positionWorld = position,
+                               .intensity = Candela{ light.intensity },
+                               .color = light.color,
+                               .rangeMeters = light.rangeMeters,
+                               .profile = light.profile == kNone ? LightProfile{} : mModel->profiles[light.profile] };
         case assets::LightType::Spot:
             break;
         }
@@ -235,6 +255,7 @@ Model::Impl::~Impl() {
     destroyAll(vertexBuffers);
     destroyAll(indexBuffers);
     destroyAll(textures);
+    destroyAll(profiles);
 }
 
 Model::Model(std::unique_ptr<Impl> impl) : mImpl(std::move(impl)) {}
@@ -244,6 +265,7 @@ Model::~Model() = default;
 
 std::string const& Model::name() const { return mImpl->name; }
 Box Model::bounds() const { return mImpl->bounds; }
+Environment const* Model::environment() const { return mImpl->environment ? &*mImpl->environment : nullptr; }
 size_t Model::renderableCount() const { return mImpl->renderables.size(); }
 std::vector<std::string> const& Model::variantNames() const { return mImpl->variants; }
 std::vector<std::string> const& Model::warnings() const { return mImpl->warnings; }

@@ -6,9 +6,11 @@
 #include "filament_core/assets/gltf/NodePose.h"
 #include "filament_core/engine/EngineImpl.h"
 
+#include <filament/Environment.h>
 #include <filament/Gltf.h>
 #include <filament/Light.h>
 
+#include <optional>
 #include <variant>
 #include <vector>
 
@@ -57,8 +59,10 @@ struct Model::Impl {
     std::vector<PartLight> lights;
     std::vector<std::string> variants, warnings;
     Box bounds;
+    std::optional<Environment> environment;
 
     std::vector<Texture> textures;
+    std::vector<LightProfile> profiles;
     std::vector<MorphTargets> morphTargets;
     std::vector<VertexBuffer> vertexBuffers;
     std::vector<IndexBuffer> indexBuffers;

@@ -23,7 +23,7 @@ Result<std::vector<uint8_t>> variantKeys(scene::Material const& material, Varian
                     passes::missingVariant(material.name, package, bitsOf(wanted)));
     std::vector<uint8_t> keys;
     for (shader::Variant const& variant : package.variants) {
-        const bool isOfScene = (variant.key & shader::kVariantHalf) == 0;
+        const bool isOfScene = (variant.key & (shader::kVariantHalf | shader::kVariantDepth)) == 0;
         if (isOfScene && (variant.key & ~bitsOf(wanted)) == 0) keys.push_back(static_cast<uint8_t>(variant.key));
     }
     return keys;
@@ -89,20 +89,29 @@ void addPipelines(CompileJob& job, Engine::Impl const& engine, Shapes const& sha
     }
 }
 
+/// Whether surfaces are drawn by a variant there.
+bool selects(passes::PassSlot const& slot, shader::MaterialPackage const& package, uint8_t variant) {
+    if (slot.isFullScreen) return false;
+    if (slot.depthOnly)
+        return package.findVariant(shader::kVariantDepth) && (variant & ~bitsOf(VariantSet::Skinning)) == 0;
+    return passes::shadowFilterOf(slot.shading) != ShadowFilter::Off || (variant & shader::kVariantShadowReceiver) == 0;
+}
+
 /// Programs come first, so that the first pipelines wait for nothing else.
 void addWishes(CompileJob& job, Engine::Impl& engine, std::span<const uint8_t> variants, Shapes const& shapes) {
     if (std::ranges::all_of(engine.pipelines.slots(), &passes::PassSlot::isFullScreen))
         engine.pipelines.slot({}); // no pass is known: use the default quality
     const auto slots = engine.pipelines.slots();
+    shader::MaterialPackage const& package = job.material->package;
     for (const uint8_t variant : variants) {
         for (uint32_t slot = 0; slot < slots.size(); ++slot) {
-            if (!slots[slot].isFullScreen) job.wishes.push_back({ .slot = slot, .variant = variant });
+            if (selects(slots[slot], package, variant)) job.wishes.push_back({ .slot = slot, .variant = variant });
         }
     }
     for (const uint8_t variant : variants) {
         for (uint32_t slot = 0; slot < slots.size(); ++slot) {
-            const bool isKnown = slots[slot].layout.colorCount > 0 && !slots[slot].isFullScreen;
-            if (isKnown) addPipelines(job, engine, shapes, slot, variant);
+            const bool isKnown = slots[slot].layout.colorCount > 0 || slots[slot].depthOnly;
+            if (isKnown && selects(slots[slot], package, variant)) addPipelines(job, engine, shapes, slot, variant);
         }
     }
 }

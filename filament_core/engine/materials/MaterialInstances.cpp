@@ -226,6 +226,10 @@ void Engine::setCulling(MaterialInstance handle, Culling culling) {
     raster.cullingDisabled = false;
 }
 
+void Engine::setShadowCulling(MaterialInstance handle, std::optional<Culling> culling) {
+    mImpl->instances.get(handle).raster.shadowCulling = culling;
+}
+
 void Engine::setColorWrite(MaterialInstance handle, bool writes) {
     mImpl->instances.get(handle).raster.colorWrite = writes;
 }

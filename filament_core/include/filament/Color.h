@@ -14,8 +14,13 @@ namespace color {
 LinearColor linearFromSrgb(float3 encoded);
 float3 srgbFromLinear(LinearColor linear);
 
-/// Chromaticity of a black body, luminance 1. `kelvin` in [1000, 15000]. Krystek 1985 (CIE 1960 UCS).
+/// Chromaticity of a black body, luminance 1: lamps. `kelvin` in [1000, 15000], anything else is an assertion. Krystek 1985
+/// (CIE 1960 UCS). Below 1900 K blue is outside of Rec. 709 and becomes 0.
 LinearColor fromTemperature(float kelvin);
+
+/// Chromaticity of a phase of daylight, luminance 1: suns and skies. `kelvin` is the correlated colour temperature, in
+/// [4000, 25000], anything else is an assertion; 6504 is D65, the white of Rec. 709. CIE 15:2004, section 3.1.
+LinearColor fromDaylight(float kelvin);
 
 /// CIE Y of a linear Rec. 709 colour.
 float luminance(LinearColor linear);

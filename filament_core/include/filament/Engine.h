@@ -18,6 +18,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -123,6 +124,9 @@ public:
     MorphTargets create(MorphTargetsDesc const& desc);
     IndirectLight create(IndirectLightDesc const& desc);
     Skybox create(SkyboxDesc const& desc);
+    /// Fails: Corrupt or Unsupported, with the name, the line of the file, and what was expected there. From a path:
+    /// loadLightProfile() of <filament/LightProfile.h>.
+    Result<LightProfile> create(LightProfileDesc const& desc);
     RenderTarget create(RenderTargetDesc const& desc);
     SwapChain create(SwapChainDesc const& desc);
     /// Fails: Corrupt or Unsupported for the package; NotFound with the nearest name for an unknown constant.
@@ -140,6 +144,7 @@ public:
 
     /// What the material declares, and the values it was loaded with. Valid until the material is destroyed.
     MaterialDescription const& describe(Material material) const;
+    LightProfileDescription describe(LightProfile profile) const;
 
     /// NotFound names the nearest parameter; InvalidArgument names the parameter's type and the type given.
     Result<void> set(MaterialInstance instance, std::string_view parameter, ParameterValue const& value);
@@ -157,6 +162,8 @@ public:
     /// These override the material's own state for one instance, from the next frame on. A new combination of states
     /// creates a pipeline, unless an instance had it when compile() was called.
     void setCulling(MaterialInstance instance, Culling culling);
+    /// Of which faces none stop light in shadow maps. None given, the default: of those that are not drawn.
+    void setShadowCulling(MaterialInstance instance, std::optional<Culling> culling);
     void setColorWrite(MaterialInstance instance, bool writes);
     void setDepthWrite(MaterialInstance instance, bool writes);
     void setDepthCulling(MaterialInstance instance, bool tests); ///< false: draws over everything and writes no depth
@@ -171,6 +178,7 @@ public:
     void destroy(MaterialInstance instance);
     void destroy(IndirectLight light);
     void destroy(Skybox skybox);
+    void destroy(LightProfile profile); ///< lights that were added with it keep it
     void destroy(RenderTarget target);
     void destroy(SwapChain swapChain);
 

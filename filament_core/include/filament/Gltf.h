@@ -33,6 +33,8 @@ struct GltfLoadOptions {
     LoadProgress progress{};
 };
 
+class Environment;
+
 class Model {
 public:
     Model(Model&&) noexcept;
@@ -44,6 +46,12 @@ public:
     size_t renderableCount() const;
     /// The names of KHR_materials_variants, for Scene::setVariant().
     std::vector<std::string> const& variantNames() const;
+    /// The image-based light of the file's default scene (EXT_lights_image_based), with its rotation and intensity; null:
+    /// it names none. Scene::add() leaves it alone: a scene has one environment, and the program chooses it. The
+    /// project's programs take this one unless they are told another:
+    ///     if (Environment const* light = model.environment()) scene.setEnvironment(*light, { .illuminance = Lux{ 30'000 } });
+    /// As for every environment, EnvironmentSettings::illuminance says what radiance 1 stands for.
+    Environment const* environment() const;
     std::vector<std::string> const& warnings() const; ///< unsupported extensions, repaired values
 
     // Animations are played by an Animator (<filament/Animator.h>).

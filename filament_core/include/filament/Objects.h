@@ -11,6 +11,7 @@
 #include <filament/Math.h>
 #include <filament/Quality.h>
 #include <filament/Sampler.h>
+#include <filament/Units.h>
 
 #include <array>
 #include <cstddef>
@@ -30,6 +31,7 @@ using Material = Handle<struct MaterialObject>;
 using MaterialInstance = Handle<struct MaterialInstanceObject>;
 using IndirectLight = Handle<struct IndirectLightObject>;
 using MorphTargets = Handle<struct MorphTargetsObject>;
+using LightProfile = Handle<struct LightProfileObject>;
 using Skybox = Handle<struct SkyboxObject>;
 using RenderTarget = Handle<struct RenderTargetObject>;
 using SwapChain = Handle<struct SwapChainObject>;
@@ -177,12 +179,29 @@ struct IndirectLightDesc {
     RoughnessMapping mapping = RoughnessMapping::Quadratic;
     Texture irradiance{};                 ///< cube of irradiance / pi, for DiffuseIrradiance::Cube; optional
     std::array<float4, 9> irradianceSh{}; ///< rgb; see shaders/lib/ibl.glsl, irradianceSh()
+    /// How cubes and coefficients lie in the world before the scene rotates them: three unit vectors at right angles.
+    /// May mirror. A skybox in the same scene lies as the light does.
+    float3x3 worldFromCube{ 1.0f };
     std::string name{};
 };
 
 struct SkyboxDesc {
-    Texture cube{}; ///< RGBA8 is RGBM
+    Texture cube{};                 ///< RGBA8 is RGBM
+    float3x3 worldFromCube{ 1.0f }; ///< as IndirectLightDesc
     std::string name{};
+};
+
+/// How a luminaire spreads its light, for PointLight::profile and SpotLight::profile.
+struct LightProfileDesc {
+    /// A file of ANSI/IES LM-63, of any edition and photometric type, at most 16 MiB. Not needed after the call.
+    std::span<const std::byte> file{};
+    std::string name{}; ///< in messages
+};
+
+/// What the file of a profile says of the luminaire.
+struct LightProfileDescription {
+    Candela peak{}; ///< the brightest direction, > 0
+    Lumen flux{};   ///< of all directions together
 };
 
 struct RenderTargetDesc {

@@ -102,6 +102,33 @@ enum class TextureFilter : uint8_t {
     Anisotropic, ///< trilinear along up to 16 probes
 };
 
+/// How shadow maps are read. All but Vsm and Evsm are sums of comparisons of single texels, each with the depth of the
+/// receiving plane at that texel, so they need next to no bias.
+enum class ShadowFilter : uint8_t {
+    Pcf3, ///< 4 x 4 texels: a tent as wide as three (Castano 2013, "Shadow Mapping Summary")
+    Off,  ///< nothing casts shadows
+    Hard, ///< one texel
+    Pcf2, ///< 2 x 2 texels, as a bilinear sampler with comparison
+    Pcf5, ///< 6 x 6 texels: a tent as wide as five
+    /// 16 texels of a disc as wide as five texels, turned by a pattern of the picture's pixels: noise instead of steps.
+    Poisson,
+    /// As wide as the penumbra that the size of the light makes (SunLight::angularRadiusDegrees, sourceRadiusMeters), from
+    /// 16 look-ups for what casts and 32 of that disc. Fernando 2005, "Percentage-Closer Soft Shadows".
+    Pcss,
+    /// Two moments of each map, blurred and with mip levels: one look-up, smooth at any distance. Light bleeds where casters
+    /// overlap, and contact shadows thin out. Donnelly and Lauritzen 2006, "Variance Shadow Maps".
+    Vsm,
+    /// Four moments of warped depths: bleeds less, and the moments take twice the memory. Lauritzen and McCool 2008, "Layered Variance
+    /// Shadow Maps".
+    Evsm,
+};
+
+/// How rectangles, discs and tubes shine on the standard material. On others they are representative points.
+enum class AreaLightTerm : uint8_t {
+    Ltc,                 ///< linearly transformed cosines, Heitz et al. 2016
+    RepresentativePoint, ///< exact for diffuse surfaces; a point in the mean direction of the light for highlights
+};
+
 enum class DepthRange : uint8_t {
     Reversed, ///< near plane 1, infinity 0: the exponent of floats compensates for the perspective
     Ordinary, ///< near plane 0, infinity 1, with the opposite comparison: z-fighting in the distance
@@ -136,6 +163,17 @@ struct Quality {
     uint8_t shBands = 3; ///< [1, 3]: 1, 4 or 9 coefficients
     ShadingPrecision shadingPrecision = ShadingPrecision::Full;
     TextureFilter textureFilter = TextureFilter::AsAuthored;
+    ShadowFilter shadows = ShadowFilter::Pcf3;
+    uint16_t shadowMapSize = 2048; ///< texels of a side, [64, 8192]: of a cascade; the most for other lights. Rounded
+                                   ///< down to a power of two
+    uint8_t shadowCascades = 1;    ///< of the sun, [1, 4]
+    uint16_t shadowAtlasMegabytes = 64; ///< for all maps, [1, 256]: beyond, maps get smaller and the least important go
+    uint8_t shadowBlurTexels = 2; ///< of Vsm and Evsm: half the width of the blur, [0, 16]. A map's margin limits it:
+                                  ///< a sixteenth of its width
+    /// What transmits light (a material's `transmission` and `absorption`) casts shadows of that colour: three maps instead
+    /// of one where something does. Off: it stops all light.
+    bool coloredShadows = false;
+    AreaLightTerm areaLights = AreaLightTerm::Ltc;
     ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
     /// Shaders receive positions relative to the camera, subtracted in double precision. Off: absolute floats, from
@@ -157,6 +195,8 @@ const char* toString(TangentStorage value);
 const char* toString(ShadingPrecision value);
 const char* toString(TextureFilter value);
 const char* toString(ToneMapping value);
+const char* toString(ShadowFilter value);
+const char* toString(AreaLightTerm value);
 const char* toString(DepthRange value);
 const char* toString(QualityPreset value);
 std::optional<SpecularVisibility> specularVisibilityFromName(std::string_view name);
@@ -172,6 +212,8 @@ std::optional<TangentStorage> tangentStorageFromName(std::string_view name);
 std::optional<ShadingPrecision> shadingPrecisionFromName(std::string_view name);
 std::optional<TextureFilter> textureFilterFromName(std::string_view name);
 std::optional<ToneMapping> toneMappingFromName(std::string_view name);
+std::optional<ShadowFilter> shadowFilterFromName(std::string_view name);
+std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name);
 std::optional<DepthRange> depthRangeFromName(std::string_view name);
 std::optional<QualityPreset> qualityPresetFromName(std::string_view name);
 

@@ -50,6 +50,9 @@ struct RenderableDesc {
     MorphTargets morphTargets{};           ///< with as many vertices as the vertex buffer
     std::vector<float> morphWeights{};     ///< initial weights; missing ones are 0
     bool culled = true;                    ///< false: drawn even when its box is out of view
+    bool castsShadows = true;              ///< if its material is opaque or masked
+    bool receivesShadows = true;
+    LightChannels lightChannels = kDefaultLightChannels; ///< lights of these channels shine on it
     std::string name{};
 };
 
@@ -71,10 +74,18 @@ public:
     Light add(SunLight const& light, Node node = {});
     Light add(PointLight const& light, Node node = {});
     Light add(SpotLight const& light, Node node = {});
+    Light add(RectLight const& light, Node node = {});
+    Light add(DiscLight const& light, Node node = {});
+    Light add(TubeLight const& light, Node node = {});
     void remove(Renderable renderable);
     void remove(Light light);
     /// Takes effect with the next frame.
     void setMaterial(Renderable renderable, MaterialInstance material);
+    /// Takes effect with the next frame. Renderables that differ in their channels share no instanced draw.
+    void setLightChannels(Renderable renderable, LightChannels channels);
+    void setLightChannels(Light light, LightChannels channels);
+    /// For all renderables attached to the node or below it: a copy of a model, for example.
+    void setLightChannels(Node node, LightChannels channels);
     /// For a renderable without a node.
     void setTransform(Renderable renderable, double4x4 const& worldFromObject);
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 /// Photometric units as types, so that a lux value cannot be used as candelas by accident.
-///   Each is a named float: there are no conversions and no arithmetic between units.
+///   Each is a named float: there are no implicit conversions and no arithmetic between units. Photometry.h converts.
 #pragma once
 
 namespace filament {
@@ -17,5 +17,11 @@ struct Candela {
 struct Nits {
     float value = 0;
 }; ///< luminance, cd/m^2: emissive surfaces, skies
+struct Watt {
+    float value = 0;
+}; ///< electrical power: what a lamp draws
+struct LumensPerWatt {
+    float value = 0;
+}; ///< luminous efficacy: how much light a lamp makes of it
 
 } // namespace filament

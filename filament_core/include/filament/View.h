@@ -26,6 +26,19 @@ struct ColorGrading {
     bool dither = false; ///< adds interleaved gradient noise of one least significant bit before rounding to 8 bits
 };
 
+/// What the engine decides for each pixel, instead of the picture: for tools and tests. docs/shadows.md and docs/lights.md
+/// ("Debug views") say what the colours mean. Such a frame has one sample a pixel and no tone mapper.
+enum class DebugView : uint8_t {
+    None,
+    Cascades, ///< the picture in grey, tinted by the cascade of the sun that shades each pixel
+    Atlas,    ///< the atlas of shadow maps: depths, and the outlines of its tiles
+    Froxels,  ///< how many lights the list of each pixel's froxel has
+    Lights,   ///< how many lights of the list reach each pixel: those whose range and cone contain it
+};
+/// "none", "cascades", "atlas", "froxels" and "lights", as in filament-render --set debugView=froxels.
+const char* toString(DebugView debugView);
+std::optional<DebugView> debugViewFromName(std::string_view name);
+
 struct View {
     Camera camera{};
     uint2 size{ 1280, 720 }; ///< pixels, >= 1
@@ -33,7 +46,8 @@ struct View {
     Quality quality{};               ///< the approximations that shading uses
     float4 clearColor{ 0, 0, 0, 1 }; ///< background without a skybox; scene-linear and pre-exposed
     uint8_t samples = 1;             ///< MSAA: 1 or 4
-    double timeSeconds = 0;          ///< passed to the materials; finite. They see it to a microsecond after years
+    DebugView debugView = DebugView::None;
+    double timeSeconds = 0; ///< passed to the materials; finite. They see it to a microsecond after years
     /// What getMaterialGlobal0() to getMaterialGlobal3() give to every material of this view.
     std::array<float4, 4> materialGlobals{ { { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 }, { 0, 0, 0, 1 } } };
 };

@@ -12,11 +12,13 @@
 #include <filament/Gltf.h>
 #include <filament/Image.h>
 #include <filament/Light.h>
+#include <filament/LightProfile.h>
 #include <filament/Lines.h>
 #include <filament/Material.h>
 #include <filament/Math.h>
 #include <filament/Node.h>
 #include <filament/Objects.h>
+#include <filament/Photometry.h>
 #include <filament/Quality.h>
 #include <filament/QualityBudget.h>
 #include <filament/QualityCosts.h>

@@ -9,7 +9,7 @@ highp vec3 shadeLight(Surface surface, Light light) {
     data.NdotL = clamp(dot(shading_normal, light.direction), 0.0, 1.0);
     data.worldPosition = light.position;
     data.attenuation = light.attenuation;
-    data.visibility = 1.0;
+    data.visibility = light.visibility;
     return surfaceShading(surface.inputs,
             ShadingData(surface.diffuse, surface.f0, surface.perceptualRoughness, surface.alpha), data);
 }

@@ -8,6 +8,7 @@ struct Light {
 #if defined(CUSTOM_SURFACE_SHADING)
     highp vec3 color; // the unattenuated light
     highp float attenuation;
+    highp float visibility;
     highp vec3 position;
 #endif
 };

@@ -1,36 +1,47 @@
 // SPDX-License-Identifier: Apache-2.0
 // The sum over all lights that reach a surface: shadeLight() of the shading model for each.
 
+// Authors' models see lights in full shadow, too.
+#if defined(CUSTOM_SURFACE_SHADING)
+#define SKIP_IN_SHADOW(visibility)
+#else
+#define SKIP_IN_SHADOW(visibility) if (max3(visibility) <= 0.0) continue;
+#endif
+
+#if defined(CUSTOM_SURFACE_SHADING)
+
+// LightData::visibility is one number: what a coloured shadow is beyond it goes into the light's colour.
+highp vec3 tintedByShadow(highp vec3 color, highp vec3 visibility) {
+#if defined(VARIANT_SHADOW_RECEIVER)
+    highp float most = max3(visibility);
+    if (quality_coloredShadows != 0 && most > 0.0) color *= visibility / most;
+#endif
+    return color;
+}
+
+#endif
+
 #if defined(VARIANT_PUNCTUAL)
 
-// The lights that may reach a point, ascending by their place among those of the view.
-struct LightList {
-    int first;     // word of froxelBuffer, if it is the list of a froxel
-    int count;
-    bool isFroxel; // otherwise the lights are 0, 1, ..., count - 1: all of the view
-};
+#include "shaders/material/surface/light_list.glsl"
 
-// The froxel is that of the point, not of the pixel: it is the point that lights reach, and a vertex stage may draw it
-// elsewhere. A point outside of the grid has all lights, so lists need not know what is there.
-// filament_core/prepare/Froxels.cpp, froxelAt(), is the twin.
-LightList lightsNear(highp vec3 point) {
-    highp vec4 grid = frameUniforms.froxelGrid;
-    highp vec4 clip = frameUniforms.clipFromWorld * vec4(point, 1.0);
-    highp float depth = -(frameUniforms.viewFromWorld * vec4(point, 1.0)).z;
-    highp vec2 at = (clip.xy / clip.w * 0.5 + 0.5) * grid.xy;
-    LightList list;
-    list.isFroxel = clip.w > 0.0 && depth > 0.0 && at.x >= 0.0 && at.x < grid.x && at.y >= 0.0 && at.y < grid.y;
-    list.first = int(frameUniforms.froxelPlaces.z);
-    list.count = int(frameUniforms.ambient.w);
-    if (list.isFroxel) {
-        int slice = int(floatBitsToUint(depth) >> uint(frameUniforms.froxelPlaces.x)) - int(grid.w);
-        slice = clamp(slice, 0, int(grid.z) - 1);
-        int froxel = (slice * int(grid.y) + int(at.y)) * int(grid.x) + int(at.x);
-        uint word = froxelBuffer.words[list.first + froxel];
-        list.first += int(word >> uint(kFroxelCountBits));
-        list.count = int(word & ((1u << uint(kFroxelCountBits)) - 1u));
+highp vec3 areaLight(Surface surface, int index, highp vec4 positionRange, highp vec4 colorIntensity) {
+    highp vec3 center = positionRange.xyz - vertex_worldPosition;
+    highp float window = rangeWindow(center, positionRange.w);
+    highp vec3 reflected = vec3(0.0);
+    if (window > 0.0) {
+        AreaLight area = areaLightAt(index, center, colorIntensity);
+        area.luminance *= window;
+#if defined(AREA_LIGHTS_BY_LTC)
+        if (quality_areaLights == kAreaLightsLtc) {
+            reflected = shadeAreaByLtc(surface, area);
+        } else
+#endif
+        {
+            reflected = shadeAreaAsPoint(surface, area);
+        }
     }
-    return list;
+    return reflected;
 }
 
 highp vec3 punctualLights(Surface surface) {
@@ -43,6 +54,10 @@ highp vec3 punctualLights(Surface surface) {
         index += firstLight;
         highp vec4 positionRange = lightBuffer.lights[index].positionRange;
         highp vec4 colorIntensity = lightBuffer.lights[index].colorIntensity;
+        if (quality_areaLights != 0 && isArea(colorIntensity.w)) {
+            sum += areaLight(surface, index, positionRange, colorIntensity);
+            continue;
+        }
         bool isSun = colorIntensity.w < 0.0; // its position is the direction towards it
         highp vec3 toLight = isSun ? positionRange.xyz : positionRange.xyz - vertex_worldPosition;
         highp float attenuation = isSun ? 1.0 : distanceAttenuation(toLight, positionRange.w);
@@ -54,12 +69,26 @@ highp vec3 punctualLights(Surface surface) {
             attenuation *= spotAttenuation(direction, directionScale.xyz, directionScale.w, offset);
             if (attenuation <= 0.0) continue; // outside the cone
         }
+        if (quality_lightProfiles != 0) {
+            highp float profiled = lightBuffer.lights[index].offset.w;
+            if (profiled > 0.0) {
+                highp vec3 forward = lightBuffer.lights[index].directionScale.xyz;
+                attenuation *= profileShare(int(profiled) - 1, forward, -direction);
+                if (attenuation <= 0.0) continue; // dark in this direction
+            }
+        }
+        highp vec3 visibility = vec3(1.0);
+#if defined(VARIANT_SHADOW_RECEIVER)
+        visibility = punctualVisibility(lightBuffer.lights[index].offset.yz, toLight);
+        SKIP_IN_SHADOW(visibility)
+#endif
         Light arriving;
         arriving.direction = direction;
-        arriving.illuminance = colorIntensity.rgb * attenuation;
+        arriving.illuminance = colorIntensity.rgb * (visibility * attenuation);
 #if defined(CUSTOM_SURFACE_SHADING)
-        arriving.color = colorIntensity.rgb;
+        arriving.color = tintedByShadow(colorIntensity.rgb, visibility);
         arriving.attenuation = attenuation;
+        arriving.visibility = max3(visibility);
         arriving.position = isSun ? vertex_worldPosition + toLight : positionRange.xyz;
 #endif
         sum += shadeLight(surface, arriving);
@@ -70,13 +99,21 @@ highp vec3 punctualLights(Surface surface) {
 #endif
 
 void addLights(Surface surface, inout highp vec3 sum) {
+#if defined(VARIANT_SHADOW_RECEIVER)
+    computeFacet();
+#endif
 #if defined(VARIANT_SUN)
+    highp vec3 visibility = vec3(1.0);
+#if defined(VARIANT_SHADOW_RECEIVER)
+    visibility = sunVisibility();
+#endif
     Light sun;
     sun.direction = frameUniforms.sunDirection.xyz;
-    sun.illuminance = frameUniforms.sunIlluminance.rgb;
+    sun.illuminance = frameUniforms.sunIlluminance.rgb * visibility;
 #if defined(CUSTOM_SURFACE_SHADING)
-    sun.color = frameUniforms.sunIlluminance.rgb;
+    sun.color = tintedByShadow(frameUniforms.sunIlluminance.rgb, visibility);
     sun.attenuation = 1.0;
+    sun.visibility = max3(visibility);
     sun.position = vertex_worldPosition + sun.direction;
 #endif
     sum += shadeLight(surface, sun);

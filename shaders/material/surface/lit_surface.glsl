@@ -80,19 +80,6 @@ void setReflectances(MaterialInputs material, vec3 baseColor, inout Surface surf
 
 #endif
 
-#if defined(REFRACTION)
-
-// The index that bends light, if both are set.
-float iorOf(MaterialInputs material) {
-#if defined(HAS_REFLECTANCE) && !defined(HAS_IOR)
-    return iorFromReflectance(material.reflectance);
-#else
-    return material.ior;
-#endif
-}
-
-#endif
-
 // No real material reflects less than 2 %; a darker f0 means that the material wants no reflection at all. Lagarde and
 // de Rousiers 2014, "Moving Frostbite to Physically Based Rendering", section 3.1.
 float f90Of(vec3 f0) { return saturate(dot(f0, vec3(50.0 * 0.33))); }

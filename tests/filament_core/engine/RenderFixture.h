@@ -64,6 +64,14 @@ inline float4 bytePixel(Image const& image, uint32_t x, uint32_t y) {
     return float4(p[0], p[1], p[2], p[3]) / 255.0f;
 }
 
+/// Of pictures of half floats, in bits; as many as there are numbers if the sizes differ.
+inline size_t differingPixels(Image const& a, Image const& b) {
+    size_t pixels = 0;
+    for (size_t i = 0; i + 8 <= std::min(a.pixels.size(), b.pixels.size()); i += 8)
+        pixels += std::memcmp(a.pixels.data() + i, b.pixels.data() + i, 8) != 0;
+    return a.pixels.size() == b.pixels.size() ? pixels : ~size_t{ 0 };
+}
+
 struct Extremes {
     float least = 1e9f, most = -1e9f;
 };

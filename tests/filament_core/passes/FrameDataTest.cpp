@@ -3,6 +3,7 @@
 
 #include "backend/null/NullDriver.h"
 #include "filament_core/prepare/ObjectData.h"
+#include "shaders/interface/LtcTable.h"
 #include "shaders/interface/ShaderInterface.h"
 #include "tests/filament_core/prepare/BoxScene.h"
 
@@ -12,6 +13,7 @@
 #include <cstring>
 #include <map>
 #include <memory>
+#include <numeric>
 #include <set>
 #include <vector>
 
@@ -251,6 +253,63 @@ TEST_F(FrameDataTest, UploadsOnlyTheBytesOfLightsAndFroxelsThatAFrameUses) {
     EXPECT_GT(view.froxels.words.size(), 0u);
     const size_t objects = view.objects.size() * sizeof(shader::ObjectData);
     EXPECT_EQ(uploaded(), objects + view.lights.size_bytes() + view.froxels.words.size_bytes());
+}
+
+TEST_F(FrameDataTest, UploadsTheTableOfAreaLightsOnlyIfAViewHasSome) {
+    const auto tables = [&] {
+        return std::ranges::count_if(commandsOf<CmdUpdateBuffer>(commands), [](CmdUpdateBuffer const& update) {
+            return update.bytes.size() == sizeof(shader::kLtcTable);
+        });
+    };
+    const std::vector<prepare::ViewInput> views = manyViews(1);
+    const auto one = std::span(views).first(1);
+    boxes.add({ 0, 0, -5 }, boxes.material()); // lit, in view
+    addLight(boxes.scene, { .type = scene::LightRecord::Type::Point, .intensity = 1 });
+    upload(one);
+    EXPECT_EQ(tables(), 0);
+    addLight(boxes.scene, { .type = scene::LightRecord::Type::Disc, .intensity = 1, .halfExtent = { 1, 1 } });
+    upload(one);
+    EXPECT_EQ(tables(), 1);
+    ViewGroup const& group = data.views()[0];
+    shader::FrameUniforms uniforms;
+    std::memcpy(&uniforms, memory.read(group.bind(0), shader::kBindingFrame, sizeof uniforms).data(), sizeof uniforms);
+    const auto at = static_cast<size_t>(uniforms.froxelPlaces.w) * sizeof(float);
+    EXPECT_TRUE(isEqual(memory.readStorage(group, shader::kBindingFroxels, at, sizeof(shader::kLtcTable)),
+                        std::as_bytes(std::span(shader::kLtcTable))));
+}
+
+TEST_F(FrameDataTest, UploadsTheProfilesOfAView) {
+    std::vector<uint32_t> words(1000);
+    std::iota(words.begin(), words.end(), 17u);
+    const auto profile = std::make_shared<const std::vector<uint32_t>>(words);
+    const auto other = std::make_shared<const std::vector<uint32_t>>(77, 5u);
+    const std::vector<prepare::ViewInput> views = manyViews(1);
+    const auto one = std::span(views).first(1);
+    boxes.add({ 0, 0, -5 }, boxes.material()); // lit, in view
+    using Type = scene::LightRecord::Type;
+    addLight(boxes.scene, { .type = Type::Disc, .intensity = 1, .halfExtent = { 1, 1 } });
+    for (auto const& each : { profile, other, profile })
+        addLight(boxes.scene, { .type = Type::Point, .intensity = 1, .profile = each });
+    upload(one);
+    ViewGroup const& group = data.views()[0];
+    shader::FrameUniforms uniforms;
+    std::memcpy(&uniforms, memory.read(group.bind(0), shader::kBindingFrame, sizeof uniforms).data(), sizeof uniforms);
+    const auto first = static_cast<uint32_t>(uniforms.skyFactor.w);
+    EXPECT_EQ(first, static_cast<uint32_t>(uniforms.froxelPlaces.w) + shader::kLtcTable.size()) << "behind the table";
+    const auto read = [&](uint32_t word, size_t count) {
+        return memory.readStorage(group, shader::kBindingFroxels, size_t{ word } * 4, count * 4);
+    };
+    const std::vector<uint32_t>* const expected[] = { profile.get(), other.get(), profile.get() };
+    for (uint32_t i = 0; i < 3; ++i) {
+        uint32_t place = 0;
+        std::memcpy(&place, read(first + i * shader::kProfiledLightWords + 3, 1).data(), 4);
+        EXPECT_TRUE(isEqual(read(first + place, expected[i]->size()), std::as_bytes(std::span(*expected[i])))) << i;
+    }
+    size_t bytes = 0;
+    for (CmdUpdateBuffer const& update : commandsOf<CmdUpdateBuffer>(commands)) {
+        if (update.bytes.size() == words.size() * 4) ++bytes;
+    }
+    EXPECT_EQ(bytes, 1u) << "two lights share it";
 }
 
 TEST_F(FrameDataTest, FramesOfManyAndOfOneViewTakeTurnsWithoutCreatingAnything) {

@@ -9,6 +9,9 @@
 namespace filament::passes {
 namespace {
 
+constexpr ShadedLights kAreas{ .hasAreas = true }, kProfiles{ .hasProfiles = true };
+constexpr ShadedLights kBoth{ .hasAreas = true, .hasProfiles = true };
+
 uint32_t bitsOf(ShadingKey key, uint32_t id) {
     for (backend::ConstantValue const& constant : shadingConstants(key)) {
         if (constant.id == id) return constant.bits;
@@ -54,6 +57,35 @@ TEST(ShadingKey, AnIrradianceCubeIsReadOnlyWhereThereIsOne) {
               static_cast<uint32_t>(DiffuseIrradiance::Cube));
     const Quality harmonics{ .diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics };
     EXPECT_EQ(shadingKey(harmonics, { .hasIrradianceCube = true }), shadingKey({})) << "nobody asked for it";
+}
+
+TEST(ShadingKey, AreaLightsAreAKeyOnlyWhereThereAreSome) {
+    const Quality points{ .areaLights = AreaLightTerm::RepresentativePoint };
+    EXPECT_EQ(shadingKey(points), shadingKey({})) << "no area light, no program of its own";
+    EXPECT_EQ(bitsOf(shadingKey({}, {}, kAreas), shader::kQualityAreaLights), 1u);
+    EXPECT_EQ(bitsOf(shadingKey(points, {}, kAreas), shader::kQualityAreaLights), 2u);
+    const Quality shadowed{ .shadows = ShadowFilter::Pcf5 };
+    EXPECT_EQ(withoutLightList(shadingKey(shadowed, {}, kAreas)), shadingKey(shadowed));
+    EXPECT_EQ(withoutShadows(shadingKey(shadowed, {}, kAreas)), shadingKey({}, {}, kAreas));
+}
+
+TEST(ShadingKey, LightProfilesAreAKeyOnlyWhereThereAreSome) {
+    EXPECT_EQ(bitsOf(shadingKey({}, {}, kProfiles), shader::kQualityLightProfiles), 1u);
+    EXPECT_EQ(bitsOf(shadingKey({}, {}, kBoth), shader::kQualityAreaLights), 1u);
+    const Quality shadowed{ .shadows = ShadowFilter::Pcf5 };
+    EXPECT_EQ(withoutLightList(shadingKey(shadowed, {}, kBoth)), shadingKey(shadowed));
+    EXPECT_EQ(withoutShadows(shadingKey(shadowed, {}, kProfiles)), shadingKey({}, {}, kProfiles));
+}
+
+TEST(ShadingKey, ColoursOfShadowsAreAKeyOnlyWhereAMapHasThem) {
+    const Quality colored{ .coloredShadows = true };
+    EXPECT_EQ(shadingKey(colored), shadingKey({})) << "no map with colours, no program of its own";
+    const ShadingKey key = shadingKey({}, {}, { .hasColoredShadows = true });
+    EXPECT_EQ(bitsOf(key, shader::kQualityColoredShadows), 1u);
+    EXPECT_EQ(withoutShadows(key), shadingKey({}));
+    EXPECT_EQ(withoutLightList(key), key) << "suns have them, too";
+    EXPECT_EQ(bitsOf(depthShadingKey(true), shader::kQualityColoredShadows), 1u);
+    EXPECT_EQ(depthShadingKey(false), 0u);
 }
 
 } // namespace

@@ -70,11 +70,12 @@ struct BoxScene {
         }
     }
 
-    /// A view that contains all of addCube(count).
+    /// A view that contains all of addCube(count), without shadows.
     static ViewInput cubeView(uint32_t count) {
         const double side = 1.5 * std::cbrt(static_cast<double>(count)) + 2;
         return { .camera = Camera::lookAt({ 0, 0, side }, { 0, 0, 0 }, { .verticalFovDegrees = 60 }),
-                 .size = { 1280, 1280 } };
+                 .size = { 1280, 1280 },
+                 .quality = { .shadows = ShadowFilter::Off } };
     }
 };
 

@@ -24,7 +24,7 @@ struct CullTest : testing::Test, BoxScene {
 
     VisibleItems cull(int workers = 0) {
         jobs::JobSystem jobs({ .workers = workers });
-        return cullRenderables(jobs, arena, renderables(), space, counts);
+        return cullRenderables(jobs, arena, renderables(), space, ViewKind::Color, counts);
     }
 
     /// Some of every kind: boxes in and out of view, mirrored, never culled, without indices, collapsed, NaN.

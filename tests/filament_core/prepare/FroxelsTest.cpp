@@ -48,7 +48,7 @@ struct FroxelsTest : testing::Test {
         arena.reset();
         Assigned result{ .space = makeViewSpace(view) };
         writeFrameUniforms(result.frame, result.space, view, scene);
-        result.lights = LightSelector(arena, scene.lights).select(result.space, result.frame, result.counts);
+        result.lights = LightSelector(arena, scene.lights).select(result.space, result.frame, result.counts).lights;
         result.words =
                 assignLights(jobs, arena, result.space, view.size, result.lights, result.frame, result.counts, options)
                         .words;
@@ -113,6 +113,11 @@ LightRecord randomLight(Random& random, RandomView const& view) {
     light.rangeMeters = random.next() % 20 ? static_cast<float>(logarithmic(random, 1e-3, 3) * view.scale) : 0.0f;
     light.outerConeRadians = static_cast<float>(logarithmic(random, 8.7e-5, 1.562));
     light.innerConeRadians = light.outerConeRadians * static_cast<float>(random.within(0, 1));
+    if (random.next() % 3 == 0) {
+        light.type = static_cast<LightRecord::Type>(3 + random.next() % 3); // areas, maybe larger than their range
+        light.sideWorld = float3(randomDirection(random));
+        light.halfExtent = float2(logarithmic(random, 1e-4, 1), logarithmic(random, 1e-4, 1)) * float(view.scale);
+    }
     return light;
 }
 
@@ -120,6 +125,7 @@ LightRecord randomLight(Random& random, RandomView const& view) {
 float attenuationAt(PunctualLight const& light, float3 point) {
     namespace lib = shader::lib;
     const float3 toLight = float3(light.positionRange) - point;
+    if (light.colorIntensity.w > 1) return lib::rangeWindow(toLight, light.positionRange.w);
     float attenuation = lib::distanceAttenuation(toLight, light.positionRange.w);
     if (light.colorIntensity.w > 0 && attenuation > 0) {
         const float length = glm::length(toLight);
@@ -134,7 +140,7 @@ float attenuationAt(PunctualLight const& light, float3 point) {
 float3 pointNear(Random& random, PunctualLight const& light, double scale) {
     const double range = light.positionRange.w > 0 ? 1 / std::sqrt(double{ light.positionRange.w }) : scale;
     double3 direction = randomDirection(random);
-    if (light.colorIntensity.w > 0) {
+    if (light.colorIntensity.w == 1) {
         const double3 axis(light.directionScale);
         const double cosine = std::clamp(double{ -light.offset.x / light.directionScale.w }, -1.0, 1.0);
         const double angle = std::acos(cosine) * (random.next() % 2 ? random.within(0, 1) : 0.999999);

@@ -7,6 +7,8 @@
 #include <gtest/gtest.h>
 
 #include <algorithm>
+#include <bit>
+#include <memory>
 #include <vector>
 
 namespace filament::prepare {
@@ -17,7 +19,9 @@ using scene::LightRecord;
 struct PrepareFrameTest : testing::Test, BoxScene {
     jobs::JobSystem jobs{ { .workers = 1 } };
     Arena arena;
-    ViewInput view{ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }), .size = { 640, 480 } };
+    ViewInput view{ .camera = Camera::lookAt({ 0, 0, 10 }, { 0, 0, 0 }),
+                    .size = { 640, 480 },
+                    .quality = { .shadows = ShadowFilter::Off } };
 
     ViewPacket prepare() { return prepareFrame(jobs, arena, scene, view).mainView(); }
 
@@ -163,6 +167,110 @@ TEST_F(PrepareFrameTest, FurtherSunsAreInTheListOfLightsInTheOrderOfTheScene) {
     EXPECT_EQ(packet.lights[0].colorIntensity, float4(float3(10 * packet.uniforms.exposure.x), -1));
     EXPECT_EQ(packet.lights[1].colorIntensity.w, 0);
     EXPECT_EQ(packet.lights[2].positionRange, float4(0, 1, 0, 0));
+}
+
+std::shared_ptr<const std::vector<uint32_t>> profileOf(uint32_t words) {
+    return std::make_shared<const std::vector<uint32_t>>(words, 1u);
+}
+
+TEST_F(PrepareFrameTest, ProfilesAreListedOnceAndLightsNameTheirPlace) {
+    add({ 0, 0, 0 }, material()); // lit, in view
+    using Type = scene::LightRecord::Type;
+    const auto street = profileOf(10), lamp = profileOf(7);
+    const auto light = [&](Type type, std::shared_ptr<const std::vector<uint32_t>> profile, float3 side, float range) {
+        addLight(scene, { .type = type,
+                          .positionWorld = { 0, 0, range > 0 ? 1e6 : 0 },
+                          .directionWorld = { 0, 0, -1 },
+                          .intensity = 8,
+                          .rangeMeters = range,
+                          .outerConeRadians = 0.5f,
+                          .sideWorld = side,
+                          .profile = std::move(profile) });
+    };
+    light(Type::Point, street, { 1, 0, 0 }, 0);
+    light(Type::Point, nullptr, { 1, 0, 0 }, 0);
+    light(Type::Spot, lamp, { 0, 3, 1 }, 0);    // a node with unequal scales
+    light(Type::Point, lamp, { 1, 0, 0 }, 2);   // out of view
+    light(Type::Point, street, { 0, 0, 1 }, 0); // any side
+    const ViewPacket packet = prepare();
+    ASSERT_EQ(packet.lights.size(), 4u);
+    EXPECT_EQ(packet.counts.profiledLights, 3u);
+    EXPECT_EQ(packet.counts.profiledLightsLeftOut, 1u);
+    EXPECT_EQ(packet.counts.profilesOverLimit, 0u);
+    const std::array expected{ 1.0f, 0.0f, 2.0f, 3.0f };
+    for (size_t i = 0; i < 4; ++i) EXPECT_EQ(packet.lights[i].offset.w, expected[i]) << i;
+    ASSERT_EQ(packet.profiles.tables.size(), 2u);
+    EXPECT_EQ(packet.profiles.tables[0].data(), street->data());
+    EXPECT_EQ(packet.profiles.tables[1].data(), lamp->data());
+    ASSERT_EQ(packet.profiles.lights.size(), 3u * shader::kProfiledLightWords);
+    const auto own = [&](size_t i) { return packet.profiles.lights.subspan(i * shader::kProfiledLightWords, 4); };
+    const auto sideOf = [&](size_t i) {
+        return float3(std::bit_cast<float>(own(i)[0]), std::bit_cast<float>(own(i)[1]),
+                      std::bit_cast<float>(own(i)[2]));
+    };
+    EXPECT_EQ(sideOf(0), float3(1, 0, 0));
+    EXPECT_EQ(sideOf(1), float3(0, 1, 0)) << "across the direction";
+    EXPECT_EQ(sideOf(2), float3(0, 0, 0));
+    EXPECT_EQ(own(0)[3], 12u) << "behind the words of the lights";
+    EXPECT_EQ(own(1)[3], 22u);
+    EXPECT_EQ(own(2)[3], 12u);
+}
+
+TEST_F(PrepareFrameTest, ViewsWithoutProfilesHaveTheLightsOfTheScene) {
+    add({ 0, 0, 0 }, material());
+    addLight(scene, { .type = scene::LightRecord::Type::Point, .intensity = 5 });
+    const ViewPacket packet = prepare();
+    EXPECT_TRUE(packet.profiles.empty());
+    EXPECT_TRUE(packet.profiles.tables.empty());
+    EXPECT_EQ(packet.lights[0].offset.w, 0);
+}
+
+TEST_F(PrepareFrameTest, LightsWhoseProfilesDoNotFitAreDarkAndCounted) {
+    add({ 0, 0, 0 }, material());
+    const uint32_t half = shader::kMaxProfileWords / 2;
+    for (const uint32_t words : { half, half + 1, half }) {
+        addLight(scene, { .type = scene::LightRecord::Type::Point, .intensity = 5, .profile = profileOf(words) });
+    }
+    const ViewPacket packet = prepare();
+    ASSERT_EQ(packet.lights.size(), 3u);
+    EXPECT_EQ(packet.profiles.tables.size(), 2u);
+    EXPECT_EQ(packet.counts.profilesOverLimit, 1u);
+    EXPECT_GT(packet.lights[0].colorIntensity.x, 0);
+    EXPECT_EQ(packet.lights[1].colorIntensity, float4(0));
+    EXPECT_EQ(packet.lights[1].offset.w, 0);
+    EXPECT_GT(packet.lights[2].colorIntensity.x, 0);
+}
+
+TEST_F(PrepareFrameTest, AreaLightsAreInTheListWithTheirEdges) {
+    add({ 0, 0, 0 }, material()); // lit, in view
+    using Type = scene::LightRecord::Type;
+    const auto area = [&](Type type, bool isTwoSided, float2 halfExtent) {
+        addLight(scene, { .type = type,
+                          .directionWorld = { 0, 0, -1 },
+                          .intensity = 8,
+                          .isTwoSided = isTwoSided,
+                          .sideWorld = { 1, 0, 0 },
+                          .halfExtent = halfExtent });
+    };
+    area(Type::Rect, false, { 2, 3 });
+    area(Type::Disc, true, { 2, 2 });
+    area(Type::Tube, false, { 2, 0.5f });
+    area(Type::Rect, true, { 0, 3 }); // without an area
+    const ViewPacket packet = prepare();
+    ASSERT_EQ(packet.lights.size(), 3u);
+    EXPECT_TRUE(packet.hasAreaLights);
+    EXPECT_EQ(packet.counts.areaLights, 3u);
+    const auto edges = [&](size_t i) {
+        shader::PunctualLight const& light = packet.lights[i];
+        return std::pair(float3(light.directionScale), float3(light.directionScale.w, light.offset.x, light.offset.w));
+    };
+    EXPECT_EQ(packet.lights[0].colorIntensity, float4(float3(8 * packet.uniforms.exposure.x), shader::kShapeRect));
+    EXPECT_EQ(packet.lights[1].colorIntensity.w, shader::kShapeDisc + shader::kShapeTwoSided);
+    EXPECT_EQ(packet.lights[2].colorIntensity.w, shader::kShapeTube);
+    EXPECT_EQ(edges(0), std::pair(float3(2, 0, 0), float3(0, 3, 0)));
+    EXPECT_GT(glm::cross(edges(1).first, edges(1).second).z, 0) << "against the direction";
+    EXPECT_EQ(edges(2), std::pair(float3(2, 0, 0), float3(0.5f, 0, 0)));
+    for (shader::PunctualLight const& light : packet.lights) EXPECT_EQ(light.offset.y, 0) << "no shadow map";
 }
 
 TEST_F(PrepareFrameTest, KeepsTheBrightestPunctualLightsWithinTheLimit) {

@@ -10,10 +10,26 @@ namespace {
 SceneDemand demandOf(ViewCounts const& counts) { return findDemand({ .counts = counts }); }
 
 TEST(SceneDemand, OfAnEmptySceneIsNothing) {
-    for (EffectDemand const& effect : findDemand({}).effects) {
+    const SceneDemand demand = findDemand({});
+    for (EffectDemand const& effect : demand.effects) {
         EXPECT_FALSE(effect.isNeeded);
-        EXPECT_EQ(effect.reason, DemandReason::NotInScene);
+        const bool isOption = &effect == &demand.of(Effect::Shadows) || &effect == &demand.of(Effect::ColoredShadows);
+        EXPECT_EQ(effect.reason, isOption ? DemandReason::SwitchedOff : DemandReason::NotInScene);
     }
+}
+
+TEST(SceneDemand, NeedsColoursOfShadowsOnlyWhereACasterTransmitsLight) {
+    ShadowCounts shadows{ .isOn = true, .lights = 1, .receivers = 1, .maps = 3 };
+    const auto demand = [&] { return findDemand({ .shadows = shadows }).of(Effect::ColoredShadows); };
+    EXPECT_EQ(describe(Effect::ColoredShadows, demand()), "switched off: coloredShadows=off");
+    shadows.isColorOn = true;
+    EXPECT_FALSE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::ColoredShadows, demand()), "no light passes through what casts (3 maps)");
+    shadows.coloredMaps = 2;
+    EXPECT_TRUE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::ColoredShadows, demand()), "light passes through casters in 2 of 3 maps");
+    shadows.isOn = false;
+    EXPECT_FALSE(demand().isNeeded);
 }
 
 TEST(SceneDemand, NeedsLightOnlyWhereItMeetsALitSurface) {
@@ -43,6 +59,12 @@ TEST(SceneDemand, CountsWhatIsLeftOut) {
     EXPECT_EQ(describe(Effect::Sun, demand.of(Effect::Sun)), "the brightest of 3; the others are in the light list");
 }
 
+TEST(SceneDemand, SaysWhichProfilesDoNotFit) {
+    const SceneDemand demand = demandOf({ .lights = 9, .profiledLights = 5, .profilesOverLimit = 2, .litDraws = 1 });
+    EXPECT_EQ(describe(Effect::LightProfiles, demand.of(Effect::LightProfiles)),
+              "5 in view; 2 of them are dark: their profiles take more than 16 MiB");
+}
+
 TEST(SceneDemand, OfEachEffectChangesWithItsOwnCauseAlone) {
     const DemandInput nothing{ .counts = { .litDraws = 1 } };
     const auto changed = [&](DemandInput const& input) {
@@ -55,10 +77,46 @@ TEST(SceneDemand, OfEachEffectChangesWithItsOwnCauseAlone) {
     };
     EXPECT_EQ(changed({ .counts = { .suns = 1, .litDraws = 1 } }), std::vector{ Effect::Sun });
     EXPECT_EQ(changed({ .counts = { .lights = 1, .litDraws = 1 } }), std::vector{ Effect::LightList });
+    EXPECT_EQ(changed({ .counts = { .lights = 1, .areaLights = 1, .litDraws = 1 } }),
+              (std::vector{ Effect::LightList, Effect::AreaLights }));
+    EXPECT_EQ(changed({ .counts = { .lights = 1, .profiledLights = 1, .litDraws = 1 } }),
+              (std::vector{ Effect::LightList, Effect::LightProfiles }));
     EXPECT_EQ(changed({ .counts = { .litDraws = 1 }, .hasIndirectLight = true }), std::vector{ Effect::IndirectLight });
     EXPECT_EQ(changed({ .counts = { .litDraws = 1 }, .hasSky = true }), std::vector{ Effect::Sky });
+    EXPECT_EQ(changed({ .counts = { .litDraws = 1 }, .discsInView = 1 }), std::vector{ Effect::SunDisc });
+    for (const auto view : { DebugView::Cascades, DebugView::Atlas, DebugView::Froxels, DebugView::Lights })
+        EXPECT_EQ(changed({ .counts = { .litDraws = 1 }, .debugView = view }), std::vector{ Effect::DebugView });
     EXPECT_EQ(changed({ .counts = { .litDraws = 1, .blendedDraws = 1 } }), std::vector{ Effect::Blending });
     EXPECT_EQ(changed({ .counts = { .litDraws = 1 }, .deformed = 1 }), std::vector{ Effect::Deformation });
+}
+
+std::string words(Effect effect, DemandInput const& input) { return describe(effect, findDemand(input).of(effect)); }
+
+TEST(SceneDemand, SaysWhatDebugViewsShow) {
+    const ViewCounts lists{ .lights = 40, .froxels = 4096, .longestFroxel = 7, .litDraws = 1 };
+    DemandInput input{ .counts = lists, .debugView = DebugView::Cascades, .cascades = 3 };
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=cascades: 3 of the sun");
+    input.cascades = 0;
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=cascades: none, the sun has no shadow map");
+    input.debugView = DebugView::Atlas;
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=atlas: black, there is no atlas ('shadows' says why)");
+    input.shadows = { .isOn = true, .maps = 5 };
+    input.atlasSize = 2048;
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=atlas: 5 maps in 2048 x 2048 texels");
+    input.debugView = DebugView::Froxels;
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=froxels: at most 7 lights");
+    input.counts.froxels = 0;
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=froxels: no grid, 40 lights everywhere");
+    input.debugView = DebugView::Lights;
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=lights: at most 40");
+    input.counts.litDraws = 0;
+    EXPECT_EQ(words(Effect::DebugView, input), "debugView=lights: at most 0");
+}
+
+TEST(SceneDemand, CountsTheDiscsOfSuns) {
+    EXPECT_EQ(words(Effect::SunDisc, {}), "none in the scene");
+    EXPECT_EQ(words(Effect::SunDisc, { .discsOutOfView = 2 }), "none of 2 is in view");
+    EXPECT_EQ(words(Effect::SunDisc, { .discsInView = 1, .discsOutOfView = 2 }), "1 of 3 in view");
 }
 
 TEST(SceneDemand, HasWordsForEveryReasonOfEveryEffect) {

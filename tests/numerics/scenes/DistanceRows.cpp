@@ -34,6 +34,7 @@ void portrait(Stage& stage, Placed placed, Node node = {}) {
                                     .intensity = Candela{ 60'000 * squared },
                                     .rangeMeters = static_cast<float>(9 * placed.scale) });
     stage.addConstantSky(Lux{ 8'000 });
+    stage.view.quality.shadows = ShadowFilter::Off; // widths of maps are rounded: their texels do not scale
     stage.view.camera =
             Camera::lookAt(placed.origin + double3(0.3, 0.6, 4) * placed.scale, placed.origin,
                            { .verticalFovDegrees = 45, .nearMeters = static_cast<float>(0.01 * placed.scale) });

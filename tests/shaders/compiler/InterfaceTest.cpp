@@ -38,7 +38,8 @@ protected:
                 color = frameUniforms.exposure + objectUniforms.objects[0].row0 + lightBuffer.lights[0].offset
                         + vec4(froxelBuffer.words[0])
                         + passUniforms.target + texture(passSpecular, vec3(1.0)) + texture(passDfg, vec2(0.5))
-                        + texture(passIrradiance, vec3(1.0));
+                        + texture(passIrradiance, vec3(1.0)) + texture(passShadowMaps, vec2(0.5))
+                        + shadowUniforms.maps[0].texel;
             })",
                                                                   backend::ShaderStage::Fragment, "interface");
         EXPECT_TRUE(spirv) << (spirv ? "" : spirv.error().message);
@@ -118,6 +119,16 @@ TEST_F(Interface, PassUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kGroupPass, kBindingPass).base_type_id);
     expectMembers(type, { MEMBER(PassUniforms, target), MEMBER(PassUniforms, raster) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(PassUniforms));
+}
+
+TEST_F(Interface, ShadowUniformsAgree) {
+    const auto& type = mCompiler.get_type(block(kGroupPass, kBindingShadows).base_type_id);
+    expectMembers(type, { MEMBER(ShadowUniforms, atlas), MEMBER(ShadowUniforms, sun), MEMBER(ShadowUniforms, maps) });
+    EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(ShadowUniforms));
+    const auto& map = mCompiler.get_type(mCompiler.get_type(type.member_types[2]).parent_type);
+    expectMembers(map, { MEMBER(ShadowMapRecord, atlasFromWorld), MEMBER(ShadowMapRecord, tile),
+                         MEMBER(ShadowMapRecord, texel), MEMBER(ShadowMapRecord, softness) });
+    EXPECT_EQ(mCompiler.type_struct_member_array_stride(type, 2), sizeof(ShadowMapRecord));
 }
 
 TEST_F(Interface, EveryResourceIsInTheLayoutOfItsGroup) {

@@ -220,14 +220,23 @@ TEST(MaterialCompiler, CompilesEveryVariantThatAStateCanSelectAndNoOther) {
         for (Variant const& variant : package->variants) found.push_back(variant.key);
         return found;
     };
-    EXPECT_EQ(keys("shadingModel : lit"), (std::vector<int>{ 0, 1, 2, 3, 8, 9, 10, 11 }));
-    EXPECT_EQ(keys("shadingModel : unlit"), (std::vector<int>{ 0, kVariantSkinning }));
-    EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : device"), (std::vector<int>{ 0 }))
+    EXPECT_EQ(keys("shadingModel : lit"),
+              (std::vector<int>{ 0, 1, 2, 3, 5, 6, 7, 8, 9, 10, 11, 13, 14, 15, 1024, 1032 }));
+    EXPECT_EQ(keys("shadingModel : unlit"),
+              (std::vector<int>{ 0, kVariantSkinning, kVariantDepth, kVariantDepth | kVariantSkinning }));
+    EXPECT_EQ(keys("shadingModel : unlit, shadowMultiplier : true, blending : transparent"),
+              (std::vector<int>{ 0, kVariantShadowReceiver, kVariantSkinning,
+                                 kVariantShadowReceiver | kVariantSkinning }));
+    EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ shadowReceiver, skinning ]"),
+              (std::vector<int>{ 0, 1, 2, 3, kVariantDepth }));
+    EXPECT_EQ(keys("shadingModel : unlit, blending : fade"), (std::vector<int>{ 0, kVariantSkinning }))
+            << "what blends leaves no depth";
+    EXPECT_EQ(keys("shadingModel : unlit, vertexDomain : device"), (std::vector<int>{ 0, kVariantDepth }))
             << "only what is given in object space can be deformed";
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ dynamicLighting, skinning ]"),
-              (std::vector<int>{ 0, kVariantSun }));
+              (std::vector<int>{ 0, kVariantSun, kVariantSun | kVariantShadowReceiver, kVariantDepth }));
     EXPECT_EQ(keys("shadingModel : lit, variantFilter : [ directionalLighting ]", kVariantPunctual),
-              (std::vector<int>{ 0, kVariantSkinning }));
+              (std::vector<int>{ 0, kVariantSkinning, kVariantDepth, kVariantDepth | kVariantSkinning }));
 }
 
 TEST(MaterialCompiler, DeformsInTheVertexStageAlone) {
@@ -265,9 +274,9 @@ TEST(MaterialCompiler, LightsInHalfPrecisionWhereTheMaterialAsksForItAndKeepsThe
             compile(withProperties("shadingModel : lit, halfPrecision : true, variantFilter : [ skinning ]"));
     ASSERT_TRUE(plain);
     ASSERT_TRUE(both) << both.error().message;
-    ASSERT_EQ(both->variants.size(), 8u);
-    for (size_t i = 0; i < 4; ++i) {
-        Variant const &full = both->variants[i], &half = both->variants[i + 4];
+    ASSERT_EQ(both->variants.size(), 15u) << "depth alone has one precision";
+    for (size_t i = 0; i < 7; ++i) {
+        Variant const &full = both->variants[i], &half = both->variants[i + 7];
         EXPECT_EQ(full, plain->variants[i]);
         EXPECT_EQ(half.key, full.key | kVariantHalf);
         EXPECT_EQ(half.vertexSpirv, full.vertexSpirv) << "positions keep their precision";

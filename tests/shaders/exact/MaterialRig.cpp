@@ -212,10 +212,11 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
 BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage const& package) {
     const PassUniforms pass{ .target = { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide },
                              .raster = { 1, 0, 0, 0 } };
+    const BufferHandle passBuffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&pass, 1)));
     const std::vector<BindGroupEntry> entries{
-        { .binding = kBindingPass,
-          .buffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&pass, 1))),
-          .size = sizeof(PassUniforms) },
+        { .binding = kBindingPass, .buffer = passBuffer, .size = sizeof(PassUniforms) },
+        { .binding = kBindingShadowMaps, .texture = mDfg, .sampler = mSampler },            // read by no
+        { .binding = kBindingShadows, .buffer = passBuffer, .size = sizeof(PassUniforms) }, // variant drawn here
         { .binding = kBindingSpecular, .texture = mWhiteCube, .sampler = mSampler },
         { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler },
         { .binding = kBindingIrradiance, .texture = mWhiteCube, .sampler = mSampler }
@@ -298,10 +299,12 @@ Result<MaterialPackage> MaterialRig::package(MaterialScene const& scene) {
         if (read && scene.removesUnusedTextures) removeUnusedTextures(*read, constantsOf(*read, scene));
         return read;
     }
-    const auto known = mCompiled.find(scene.source);
+    const std::pair key(scene.source, scene.variant);
+    const auto known = mCompiled.find(key);
     if (known != mCompiled.end()) return known->second;
-    Result<MaterialPackage> compiled = compileMaterial(scene.source, "test.mat");
-    if (compiled) mCompiled.emplace(scene.source, *compiled);
+    const auto others = static_cast<uint16_t>(kAllVariantBits & ~scene.variant); // a tenth of all code is drawn
+    Result<MaterialPackage> compiled = compileMaterial(scene.source, "test.mat", { .filteredVariants = others });
+    if (compiled) mCompiled.emplace(key, *compiled);
     return compiled;
 }
 

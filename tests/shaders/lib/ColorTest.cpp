@@ -76,19 +76,5 @@ TEST(Color, LuminanceOfWhiteIsOneAndGreenOutweighsRedOutweighsBlue) {
     EXPECT_GT(luminance(vec3(1, 0, 0)), luminance(vec3(0, 0, 1)));
 }
 
-TEST(Color, GradientNoiseIsUniformAndDiffersBetweenNeighbours) {
-    std::array<int, 10> histogram{};
-    for (int y = 0; y < 100; ++y) {
-        for (int x = 0; x < 100; ++x) {
-            const vec2 pixel(static_cast<float>(x) + 0.5f, static_cast<float>(y) + 0.5f);
-            const float noise = interleavedGradientNoise(pixel);
-            ASSERT_TRUE(noise >= 0 && noise < 1);
-            ++histogram[static_cast<size_t>(noise * 10)];
-            EXPECT_GT(std::fabs(noise - interleavedGradientNoise(pixel + vec2(1, 0))), 0.05f);
-        }
-    }
-    for (const int count : histogram) EXPECT_NEAR(count, 1000, 100);
-}
-
 } // namespace
 } // namespace filament::shader::lib

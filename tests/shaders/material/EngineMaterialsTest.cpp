@@ -26,13 +26,15 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
     for (const std::string_view name : engineMaterialNames()) {
         const MaterialPackage package = read(name);
         EXPECT_EQ(package.name, name);
-        const size_t lit = name.starts_with("gltf_lit_") ? 8 : 4; // sun, punctual lights; half precision
-        const size_t unlit = name == "tonemap" ? 2 : 1;           // merged into the pass before it, or not
-        const size_t lighting = package.shading == ShadingModel::Unlit ? unlit : lit;
-        const bool isDeformable =
-                package.domain == MaterialDomain::Surface && package.vertexDomain == VertexDomain::Object;
-        const size_t expected = isDeformable ? 2 * lighting : lighting;
-        EXPECT_EQ(package.variants.size(), expected) << name;
+        const size_t precisions = name.starts_with("gltf_lit_") ? 2 : 1;
+        const size_t lit = 7 * precisions;              // sun, punctual lights, shadows of either
+        const size_t unlit = name == "tonemap" ? 2 : 1; // merged into the pass before it, or not
+        const size_t color = package.shading == ShadingModel::Unlit ? unlit : lit;
+        const bool isSurface = package.domain == MaterialDomain::Surface;
+        const bool isDeformable = isSurface && package.vertexDomain == VertexDomain::Object;
+        const bool stopsLight = package.blending == Blending::Opaque || package.blending == Blending::Masked;
+        const size_t depth = isSurface && stopsLight && package.depthWrite ? 1 : 0;
+        EXPECT_EQ(package.variants.size(), (color + depth) * (isDeformable ? 2 : 1)) << name;
         for (Variant const& variant : package.variants) {
             EXPECT_EQ(test::validationErrors(variant.vertexSpirv), "") << name << " " << int{ variant.key };
             EXPECT_EQ(test::validationErrors(variant.fragmentSpirv), "") << name << " " << int{ variant.key };

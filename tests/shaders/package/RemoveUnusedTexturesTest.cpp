@@ -64,13 +64,13 @@ MaterialPackage fourTextures() {
         package.parameters.push_back(parameter);
         group.bindings[group.count++] = { .binding = n, .type = BindingType::SampledTexture };
     }
-    // Units: three of the pass, five of the material, then that of the Deformation group.
-    std::string essl = "layout(binding = 3, std140) uniform MaterialParams\n{ vec4 x; };\n" + samplerAt(1, "passDfg");
-    for (int n = 1; n <= 4; ++n) essl += samplerAt(2 + n, names[n - 1]);
-    essl += "layout(binding = 7) uniform highp samplerCube cube;\n";
+    // Units: four of the pass, five of the material, then that of the Deformation group.
+    std::string essl = "layout(binding = 4, std140) uniform MaterialParams\n{ vec4 x; };\n" + samplerAt(2, "passDfg");
+    for (int n = 1; n <= 4; ++n) essl += samplerAt(3 + n, names[n - 1]);
+    essl += "layout(binding = 8) uniform highp samplerCube cube;\n";
     package.variants.push_back({ .key = kVariantSkinning,
                                  .fragmentSpirv = module(5),
-                                 .vertexEssl = samplerAt(8, "morphDeltas"),
+                                 .vertexEssl = samplerAt(9, "morphDeltas"),
                                  .fragmentEssl = essl });
     return package;
 }
@@ -114,15 +114,15 @@ TEST(RemoveUnusedTextures, MovesTheUnitsOfOpenGlUpInEveryGroupBehind) {
     MaterialPackage package = fourTextures();
     removeUnusedTextures(package, std::vector<ConstantValue>{ { 1, 1 } });
     Variant const& variant = package.variants[0];
-    const std::string expected = "layout(binding = 3, std140) uniform MaterialParams\n{ vec4 x; };\n" +
-                                 samplerAt(1, "passDfg") + samplerAt(3, "always") + samplerAt(3, "a") +
-                                 samplerAt(4, "b") + samplerAt(3, "c") +
-                                 "layout(binding = 5) uniform highp samplerCube cube;\n";
+    const std::string expected = "layout(binding = 4, std140) uniform MaterialParams\n{ vec4 x; };\n" +
+                                 samplerAt(2, "passDfg") + samplerAt(4, "always") + samplerAt(4, "a") +
+                                 samplerAt(5, "b") + samplerAt(4, "c") +
+                                 "layout(binding = 6) uniform highp samplerCube cube;\n";
     EXPECT_EQ(variant.fragmentEssl, expected);
-    EXPECT_EQ(variant.vertexEssl, samplerAt(6, "morphDeltas"));
+    EXPECT_EQ(variant.vertexEssl, samplerAt(7, "morphDeltas"));
     const backend::ProgramLayout layout = programLayout(package, kVariantSkinning);
-    EXPECT_EQ(backend::flatBinding(layout, kGroupMaterial, 5), 5);
-    EXPECT_EQ(backend::flatBinding(layout, kGroupDeformation, kBindingMorphDeltas), 6);
+    EXPECT_EQ(backend::flatBinding(layout, kGroupMaterial, 5), 6);
+    EXPECT_EQ(backend::flatBinding(layout, kGroupDeformation, kBindingMorphDeltas), 7);
 }
 
 TEST(RemoveUnusedTextures, KeepsOneOfAKindWhereNoneIsUsed) {

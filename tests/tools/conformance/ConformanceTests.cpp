@@ -7,6 +7,8 @@
 #include "tools/conformance/Runner.h"
 #include "tools/paths/Paths.h"
 
+#include <filament/Photometry.h>
+
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
@@ -113,7 +115,7 @@ TEST(SceneFiles, SayQualityByItsNamesAndAMisspeltOneIsAnError) {
     };
     const auto scene = read(R"({ "specularVisibility": "fast", "shBands": 2 })");
     ASSERT_TRUE(scene.ok()) << scene.error().message;
-    EXPECT_EQ(toString(scene->front().view.quality), "specularVisibility=fast shBands=2");
+    EXPECT_EQ(toString(scene->front().view.quality), "specularVisibility=fast shBands=2 shadows=off");
     const auto misspelt = read(R"({ "shBand": 2 })");
     ASSERT_FALSE(misspelt.ok());
     EXPECT_NE(misspelt.error().message.find("shBands"), std::string::npos) << misspelt.error().message;
@@ -134,9 +136,67 @@ TEST(SceneFiles, SayWhichValuesTheEngineCannotTake) {
     expect(R"("suns": [ { "direction": [ 0, 0, 0 ] } ])", "suns[0]: direction: expected one that is not zero");
     expect(R"("suns": [ { "direction": [ 0, 1e39, 0 ] } ])", "suns[0]: direction: expected 3 numbers from -3.4");
     expect(R"("spots": [ { "direction": [ 1e-60, 0, 0 ] } ])", "spots[0]: direction: expected one that is not zero");
+    expect(R"("points": [ { "candela": -1 } ])", "points[0]: candela: expected a number from 0 to");
+    expect(R"("points": [ { "candela": 1, "lumens": 1 } ])", "a lamp has one intensity");
+    expect(R"("points": [ { "lumensPerWatt": 100 } ])", "lumensPerWatt: belongs to 'watts'");
+    expect(R"("points": [ { "watts": 1, "lumensPerWatt": 700 } ])", "lumensPerWatt: expected a number from 0 to 683");
+    expect(R"("points": [ { "luxAtMeters": 2 } ])", "luxAtMeters: belongs to 'lux'");
+    expect(R"("points": [ { "direction": [ 0, -1, 0 ] } ])", "direction: belongs to 'profile'");
+    expect(R"("points": [ { "up": [ 0, 0, 1 ] } ])", "up: belongs to 'profile'");
+    expect(R"("points": [ { "profile": "a.ies", "direction": [ 0, 0, 0 ] } ])",
+           "direction: expected one that is not zero");
+    expect(R"("points": [ { "kelvin": 900 } ])", "kelvin: expected a number from 1000 to 15000");
+    expect(R"("points": [ { "daylightKelvin": 3000 } ])", "daylightKelvin: expected a number from 4000 to 25000");
+    expect(R"("points": [ { "kelvin": 3000, "daylightKelvin": 6000 } ])", "a light has one temperature");
+    expect(R"("points": [ { "color": [ 1, -1, 1 ] } ])", "color: expected 3 numbers from 0 to 1e9");
+    expect(R"("points": [ { "channels": [ 8 ] } ])", "channels: expected a list of numbers from 0 to 7");
+    expect(R"("points": [ { "channels": 1 } ])", "channels: expected a list of numbers from 0 to 7");
+    expect(R"("spots": [ { "direction": [ 0, 0, 1 ], "focused": true } ])", "focused: belongs to 'lumens' or 'watts'");
+    expect(R"("spots": [ { "direction": [ 0, 0, 1 ], "innerDegrees": 50, "lumens": 1, "focused": true } ])",
+           "innerDegrees: expected less than the 35 of outerDegrees");
     expect(R"("view": { "size": [ -1, 4 ] })", "view: size: expected 2 numbers from 0 to 4294967295");
     expect(R"("origin": [ 1e999, 0, 0 ])", "out_of_range");
     expect(R"("suns": [ { "direction": [ 1.8e19, 1.8e19, 0 ] } ])", "was read");
+}
+
+TEST(SceneFiles, LightsTakeTheUnitsOfLampsAndChannels) {
+    const std::filesystem::path file = tools::buildDir() / "lights-scene.json";
+    std::ofstream(file) << R"({ "model": "a.glb", "copies": [ { "channels": [ 1, 7 ] }, {} ],
+        "suns": [ { "direction": [ 0, -1, 0 ], "daylightKelvin": 5500, "channels": [ 0, 3 ] } ],
+        "points": [ { "watts": 9, "lumensPerWatt": 90, "kelvin": 2700 }, { "lux": 100, "luxAtMeters": 3 } ],
+        "spots": [ { "direction": [ 0, -1, 0 ], "lumens": 100, "channels": [] },
+                   { "direction": [ 0, -1, 0 ], "lumens": 100, "focused": true, "innerDegrees": 5, "outerDegrees": 9 } ] })";
+    const auto scenes = readSceneFile(file);
+    ASSERT_TRUE(scenes.ok()) << scenes.error().message;
+    SceneSpec const& spec = scenes->front();
+    EXPECT_EQ(spec.copyChannels, (std::vector<LightChannels>{ 0b1000'0010, 1 }));
+    ASSERT_EQ(spec.lights.size(), 5u);
+    EXPECT_EQ(std::get<SunLight>(spec.lights[0]).lightChannels, 0b1001);
+    EXPECT_EQ(std::get<SunLight>(spec.lights[0]).color, color::fromDaylight(5500));
+    EXPECT_EQ(std::get<PointLight>(spec.lights[1]).intensity.value, pointIntensity(Lumen{ 810 }).value);
+    EXPECT_EQ(std::get<PointLight>(spec.lights[1]).color, color::fromTemperature(2700));
+    EXPECT_EQ(std::get<PointLight>(spec.lights[2]).intensity.value, 900);
+    EXPECT_EQ(std::get<SpotLight>(spec.lights[3]).intensity.value, spotIntensity(Lumen{ 100 }).value);
+    EXPECT_EQ(std::get<SpotLight>(spec.lights[3]).lightChannels, 0);
+    SpotLight const& focused = std::get<SpotLight>(spec.lights[4]);
+    EXPECT_FLOAT_EQ(spotPower(focused.intensity, focused.innerConeRadians, focused.outerConeRadians).value, 100);
+}
+
+TEST(SceneFiles, LightsNameTheFilesOfTheirProfiles) {
+    const std::filesystem::path file = tools::buildDir() / "profiles-scene.json";
+    std::ofstream(file) << R"({ "model": "a.glb", "suns": [ { "direction": [ 0, -1, 0 ] } ],
+        "points": [ { "profile": "lamps/a.ies", "direction": [ 0, -2, 0 ], "up": [ 0, 0, 1 ] }, {} ],
+        "spots": [ { "profile": "asset:b.ies", "direction": [ 0, -1, 0 ] } ] })";
+    const auto scenes = readSceneFile(file);
+    ASSERT_TRUE(scenes.ok()) << scenes.error().message;
+    SceneSpec const& spec = scenes->front();
+    EXPECT_EQ(spec.lightProfiles, (std::vector<std::string>{ "", "lamps/a.ies", "", "asset:b.ies" }));
+    EXPECT_EQ(std::get<PointLight>(spec.lights[1]).directionWorld, float3(0, -2, 0));
+    EXPECT_EQ(std::get<PointLight>(spec.lights[1]).upWorld, float3(0, 0, 1));
+    const SceneFolders folders{ "work", "assets" };
+    EXPECT_EQ(profileFile(spec, 1, folders), file.parent_path() / "lamps/a.ies");
+    EXPECT_EQ(profileFile(spec, 2, folders), "");
+    EXPECT_EQ(profileFile(spec, 3, folders), "assets/b.ies");
 }
 
 TEST(SceneFiles, GridsOfMoreThan4096ObjectsAreRefusedBeforeAnyIsMade) {
@@ -144,6 +204,30 @@ TEST(SceneFiles, GridsOfMoreThan4096ObjectsAreRefusedBeforeAnyIsMade) {
     const auto built = buildModel(model, "grid");
     ASSERT_FALSE(built.ok());
     EXPECT_NE(built.error().message.find("4096 objects at most"), std::string::npos) << built.error().message;
+}
+
+TEST(SceneFiles, ImageBasedLightsOfModelsSayWhatIsWrongWithThem) {
+    const auto refusal = [](const char* light) {
+        const Json model = Json::parse(fmt::format(R"({{ "objects": [ {{}} ], "imageBasedLight": {} }})", light));
+        const auto built = buildModel(model, "room");
+        return built ? "was built" : built.error().message;
+    };
+    EXPECT_EQ(refusal(R"({ "size": 8, "levels": 1, "intensity": 2, "degrees": [ 1, 2, 3 ] })"), "was built");
+    EXPECT_EQ(refusal(R"({ "size": 12 })"), "room: model imageBasedLight: size: expected a power of two");
+    EXPECT_EQ(refusal(R"({ "size": 64, "levels": 2 })"), "room: model imageBasedLight: levels: expected 1 or all");
+    EXPECT_NE(refusal(R"({ "size": 512 })").find("size"), std::string::npos);
+    EXPECT_NE(refusal(R"({ "sice": 8 })").find("size"), std::string::npos) << "the nearest known one";
+}
+
+TEST(SceneFiles, AnEnvironmentWithoutAFileIsThatOfTheModel) {
+    const Json json = Json::parse(R"({ "model": "a.glb", "environment": { "lux": 5, "degrees": 90 } })");
+    const std::filesystem::path file = tools::buildDir() / "own-environment.json";
+    std::ofstream(file) << json.dump();
+    const auto cases = readSceneFile(file);
+    ASSERT_TRUE(cases.ok()) << cases.error().message;
+    EXPECT_EQ((*cases)[0].environment, "");
+    EXPECT_EQ((*cases)[0].environmentSettings.illuminance.value, 5);
+    EXPECT_EQ(environmentFile((*cases)[0], { "work", "assets" }).value(), "");
 }
 
 TEST(Program, AFullStandardOutputIsAnError) {

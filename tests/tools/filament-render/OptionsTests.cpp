@@ -72,6 +72,30 @@ TEST(Options, WhatIsChosenWhenFilesAreLoadedIsSetByNameAsWell) {
     EXPECT_THAT(refused({ "--set", "model.files=all" }), HasSubstr("folder or anywhere"));
 }
 
+TEST(Options, DebugViewsAreSetByName) {
+    EXPECT_EQ(parsed({}).debugView, DebugView::None);
+    for (const auto view :
+         { DebugView::None, DebugView::Cascades, DebugView::Atlas, DebugView::Froxels, DebugView::Lights }) {
+        const std::string word = std::string("debugView=") + toString(view);
+        EXPECT_EQ(parsed({ "--set", word.c_str() }).debugView, view);
+    }
+    EXPECT_THAT(refused({ "--set", "debugView=depth" }), HasSubstr("none, cascades, atlas, froxels or lights"));
+}
+
+TEST(Options, TheDiscOfTheSunIsSetByName) {
+    const Options options =
+            parsed({ "--sun", "1000", "0", "-1", "0", "--set", "sun.showsDisc=on", "--set", "sun.haloSize=4", "--set",
+                     "sun.haloFalloff=2.5", "--set", "sun.angularRadiusDegrees=1.5" });
+    ASSERT_TRUE(options.sun);
+    EXPECT_TRUE(options.sun->showsDisc);
+    EXPECT_EQ(options.sun->haloSize, 4.0f);
+    EXPECT_EQ(options.sun->haloFalloff, 2.5f);
+    EXPECT_EQ(options.sun->angularRadiusDegrees, 1.5f);
+    EXPECT_THAT(refused({ "--set", "sun.showsDisc=on" }), HasSubstr("a --sun as well"));
+    EXPECT_THAT(refused({ "--sun", "1", "0", "-1", "0", "--set", "sun.haloSize=0" }), HasSubstr("from 1 to 1000"));
+    EXPECT_THAT(refused({ "--sun", "1", "0", "-1", "0", "--set", "sun.size=1" }), HasSubstr("sun.showsDisc"));
+}
+
 TEST(Options, AQualityIsAPresetAndThenItsChangesInTheirOrder) {
     EXPECT_EQ(parsed({}).quality, Quality{});
     EXPECT_EQ(parsed({ "--quality", "low" }).quality, qualityPreset(QualityPreset::Low));

@@ -148,6 +148,31 @@ TEST(ClosedForm, ManyLightsAddUp) {
     expectAgrees(estimate, double3(2, 3, 1) * (0.5 / kPiExact), 1e-5);
 }
 
+// A profile of I cos^2 above a floor: E = I cos^3 / d^2 = I cos^5 / h^2.
+TEST(ClosedForm, AProfileGivesEachDirectionItsShare) {
+    assets::IesFile file{ .type = assets::IesType::C, .horizontal = { 0 }, .peak = 700 };
+    for (int degrees = 0; degrees <= 90; ++degrees) {
+        file.vertical.push_back(degrees);
+        file.candelas.push_back(static_cast<float>(700 * std::pow(std::cos(degrees * kPiExact / 180), 2)));
+    }
+    ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(0.5f));
+    scene.pointProfiles = { std::make_shared<const assets::IesFile>(file) };
+    const ReferenceView view = viewFrom({ 0, 4, 4 }, { 0, 0, 0 }, { 8, 8 }, 0.02f);
+    for (const double away : { 0.0, 1.0, 3.0 }) {
+        scene.points = { { .positionWorld = { away, 2, 0 },
+                           .intensity = Candela{ 8 },
+                           .directionWorld = { 0, -3, 0 },
+                           .upWorld = { 0, 0, 1 } } };
+        const double cosine = 2 / std::sqrt(4 + away * away);
+        const double expected = 0.5 / kPiExact * 8 * std::pow(cosine, 5) / 4;
+        expectAgrees(estimated(scene, view, diffuseOnly(Integrator::Path, 16)), double3(expected),
+                     1e-6 + 2e-3 * expected);
+        scene.points[0].directionWorld = { 0, 1, 0 };
+        EXPECT_EQ(estimated(scene, view, diffuseOnly(Integrator::Path, 4)).mean, double3(0))
+                << "beyond the last angle there is no light";
+    }
+}
+
 TEST(ClosedForm, ASpotIsDarkOutsideOfItsConeAndFullInside) {
     ReferenceScene scene = sceneOfOne(floorPrimitive(), lambert(0.5f));
     const ReferenceSettings settings = diffuseOnly(Integrator::Path, 16);

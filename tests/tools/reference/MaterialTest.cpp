@@ -189,6 +189,32 @@ TEST(Material, BlendedColorsCoverAFractionAndMaskedOnesAreCutAway) {
     EXPECT_FALSE(isMaskedOut(part, { 0, 0.3, 0.3 }));
 }
 
+TEST(Material, WhatTransmitsPassesLightStraightInItsColour) {
+    Triangle triangle;
+    assets::MaterialData& material = triangle.material;
+    material.baseColorFactor = { 0.8f, 0.4f, 0.2f, 1 };
+    material.metallicFactor = 0;
+    const TrianglePoint point{ 0, 0.3, 0.3 };
+    const double3 down = -triangle.at(0.3, 0.3).normal;
+    EXPECT_EQ(passedAt(triangle.part(), point, down), double3(0.0)) << "opaque";
+    material.transmission.factor = 0.75f;
+    const double f = 0.04; // of each interface at index 1.5
+    for (int i = 0; i < 3; ++i) {
+        const double tint = static_cast<double>(material.baseColorFactor[i]);
+        EXPECT_NEAR(passedAt(triangle.part(), point, down)[i],
+                    0.75 * (1 - f) * (1 - f) * tint / (1 - f * f * tint * tint), 1e-6);
+        EXPECT_NEAR(passedAt(triangle.part(), point, -down)[i], passedAt(triangle.part(), point, down)[i], 1e-9);
+    }
+    material.transmission.thicknessMeters = 2;
+    material.transmission.attenuationColor = { 0.5f, 0.25f, 1 };
+    material.transmission.attenuationDistanceMeters = 1;
+    for (int i = 0; i < 3; ++i) {
+        const auto perMeter = static_cast<double>(material.transmission.attenuationColor[i]);
+        const double tint = static_cast<double>(material.baseColorFactor[i]) * perMeter * perMeter;
+        EXPECT_NEAR(passedAt(triangle.part(), point, down)[i], 0.75 * (1 - f) * tint, 1e-5);
+    }
+}
+
 TEST(Material, UnlitShowsItsBaseColorAndReflectsNothing) {
     Triangle triangle;
     triangle.material.baseColorFactor = { 0.2f, 0.4f, 0.6f, 1 };

@@ -3,6 +3,7 @@
 #include "tests/tools/reference/TestScenes.h"
 
 #include "filament_core/assets/files/FileBytes.h"
+#include "filament_core/assets/gltf/GltfWriter.h"
 #include "filament_core/assets/image/HdrReader.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "tools/paths/Paths.h"
@@ -192,6 +193,41 @@ TEST_F(Program, WritesPictureErrorsAndReport) {
     EXPECT_GT(report["relativeStandardError"], 0) << "edges are noisy";
     EXPECT_GT(report["rays"], 16 * 8 * 16 - 1);
     EXPECT_EQ(outcome.text.find('\r'), std::string::npos) << "no progress bar into a pipe";
+}
+
+// A quad that mirrors what is behind the camera, in front of what it does not cover.
+TEST_F(Program, AModelStandsUnderItsOwnSkyUnlessAnotherIsNamed) {
+    assets::CubeLight light;
+    assets::IblCubeLevel& level = light.levels.emplace_back(16);
+    for (uint32_t i = 0; i < 6 * 256; ++i) {
+        const uint32_t face = i / 256;
+        level.at(face, static_cast<int>(i % 16), static_cast<int>(i / 16 % 16)) =
+                assets::Texel{ face == 4 ? 1.0f : 0.0f, face == 5 ? 1.0f : 0.0f, 0.5f, 0 };
+    }
+    light.worldFromCube[2].z = -1; // the cube's +z is the world's -z
+    assets::GlbScene scene;
+    scene.imageBasedLight = *assets::glbImageBasedLight(light, scene.images);
+    scene.imageBasedLight->intensity = 2;
+    scene.materials = { { .name = "mirror", .metallicFactor = 1, .roughnessFactor = 0 } };
+    scene.meshes = { { .name = "quad",
+                       .primitives = { { .positions = { { -1, -1, 0 }, { 1, -1, 0 }, { 1, 1, 0 }, { -1, 1, 0 } },
+                                         .normals = { { 0, 0, 1 }, { 0, 0, 1 }, { 0, 0, 1 }, { 0, 0, 1 } },
+                                         .indices = { 0, 1, 2, 0, 2, 3 },
+                                         .material = 0 } } } };
+    scene.nodes = { { .name = "quad", .mesh = 0 } };
+    const Result<std::vector<std::byte>> file = assets::writeGlb(scene);
+    ASSERT_TRUE(file && assets::replaceFile(mFolder / "mirror.glb", *file).ok());
+    const std::string arguments = "mirror.glb --size 32x16 --eye 0 0 4 --fov 20 --spp 64 --exposure 1 1 100 "
+                                  "--ibl-intensity 1.2 --out out ";
+    Outcome outcome = run(arguments);
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    const auto picture = assets::readHdrImage(mFolder / "out/reference.exr");
+    ASSERT_TRUE(picture.ok());
+    EXPECT_LT(glm::distance(picture->at(0, 8), float3(2, 0, 1)), 0.01f) << "the fifth picture is seen towards -z";
+    EXPECT_LT(glm::distance(picture->at(16, 8), float3(0, 2, 1)), 0.05f) << "the sixth towards +z";
+    outcome = run(arguments + "--environment none");
+    ASSERT_EQ(outcome.status, 0) << outcome.text;
+    EXPECT_EQ(assets::readHdrImage(mFolder / "out/reference.exr")->at(0, 8), float3(0));
 }
 
 TEST_F(Program, SaysInOneLineWhatIsWrongAndFails) {

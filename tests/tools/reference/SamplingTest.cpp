@@ -2,6 +2,7 @@
 // Numbers, choices and directions follow their densities.
 #include "tests/tools/reference/TestScenes.h"
 
+#include "shaders/lib/LibCppDouble.h"
 #include "tools/reference/DirectLights.h"
 #include "tools/reference/EnvironmentLight.h"
 #include "tools/reference/SampleStream.h"
@@ -160,7 +161,7 @@ TEST(DirectLights, ALightThatDoesNotReachAPointIsNeverChosenThere) {
         { .positionWorld = { 0, 1, 0 }, .intensity = Candela{ 1 } },
         { .positionWorld = { 0, 1, 0 }, .intensity = Candela{ 1e6f }, .rangeMeters = 0.5f }
     };
-    const DirectLights lights({}, points, {}, 1);
+    const DirectLights lights({ .points = points }, 1);
     for (int i = 0; i < 100; ++i) {
         const DirectSample sample = lights.sample({ 0, 0, 0 }, (i + 0.5) / 100);
         EXPECT_NEAR(sample.illuminance.x, 1, 1e-12);
@@ -169,12 +170,76 @@ TEST(DirectLights, ALightThatDoesNotReachAPointIsNeverChosenThere) {
 }
 
 TEST(DirectLights, WhereNoLightArrivesThereIsNone) {
-    const DirectLights lights(
-            {},
-            { { .positionWorld = { 0, 9, 0 }, .rangeMeters = 1 }, { .positionWorld = { 0, 8, 0 }, .rangeMeters = 1 } },
-            {}, 1);
+    const DirectLights lights({ .points = { { .positionWorld = { 0, 9, 0 }, .rangeMeters = 1 },
+                                            { .positionWorld = { 0, 8, 0 }, .rangeMeters = 1 } } },
+                              1);
     EXPECT_EQ(lights.sample({ 0, 0, 0 }, 0.5).illuminance, double3(0.0));
     EXPECT_TRUE(DirectLights().empty());
+}
+
+/// The mean irradiance on a plane at the origin over many samples of both choices.
+double3 meanIrradiance(LightSet const& set, double3 normal) {
+    const DirectLights lights(set, 1);
+    constexpr int kSteps = 64, kChoices = 7;
+    double3 sum(0.0);
+    for (int i = 0; i < kSteps * kSteps * kChoices; ++i) {
+        const int x = i % kSteps, y = i / kSteps % kSteps, choice = i / (kSteps * kSteps);
+        const DirectSample sample =
+                lights.sample(double3(0.0), (choice + 0.5) / kChoices, { (x + 0.5) / kSteps, (y + 0.5) / kSteps });
+        sum += sample.illuminance * std::max(glm::dot(sample.direction, normal), 0.0);
+    }
+    return sum / double(kSteps * kSteps * kChoices);
+}
+
+// pi L sin^2 of the angle of its rim.
+TEST(DirectLights, ADiscGivesTheIrradianceOfItsClosedForm) {
+    for (const float radius : { 0.1f, 1.0f, 4.0f }) {
+        const DiscLight disc{
+            .positionWorld = { 0, 2, 0 }, .directionWorld = { 0, -1, 0 }, .radiusMeters = radius, .luminance = Nits{ 3 }
+        };
+        const double expected = 3 * kPiExact * radius * radius / (radius * radius + 4);
+        EXPECT_NEAR(meanIrradiance({ .discs = { disc } }, { 0, 1, 0 }).x, expected, 2e-3 * expected) << radius;
+        DiscLight away = disc;
+        away.directionWorld = { 0, 1, 0 };
+        EXPECT_EQ(meanIrradiance({ .discs = { away } }, { 0, 1, 0 }).x, 0);
+        away.isTwoSided = true;
+        EXPECT_NEAR(meanIrradiance({ .discs = { away } }, { 0, 1, 0 }).x, expected, 2e-3 * expected);
+    }
+}
+
+// The engine's own integral, in double precision.
+TEST(DirectLights, ARectangleGivesTheIrradianceOfItsPolygon) {
+    const RectLight rect{ .positionWorld = { 0.5, 1, -0.2 },
+                          .directionWorld = { -0.3f, -1, 0.2f },
+                          .upWorld = { 1, 0, 0 },
+                          .widthMeters = 1.5f,
+                          .heightMeters = 0.7f,
+                          .luminance = Nits{ 2 } };
+    const double3 axis = glm::normalize(double3(rect.directionWorld));
+    const double3 up = glm::normalize(double3(1, 0, 0) - axis * axis.x), side = glm::cross(axis, up);
+    const auto local = [](double3 v) { return shader::lib64::vec3(v.z, v.x, v.y); }; // y is the normal
+    const shader::lib64::vec3 integral =
+            shader::lib64::areaIntegral(local(rect.positionWorld), local(side * 0.75), local(up * 0.35), false);
+    EXPECT_NEAR(meanIrradiance({ .rects = { rect } }, { 0, 1, 0 }).x, 2 * integral.z, 1e-3);
+}
+
+TEST(DirectLights, ALongTubeGivesTheIrradianceOfItsClosedForm) {
+    const TubeLight tube{ .positionWorld = { 0, 2, 0 },
+                          .axisWorld = { 1, 0, 0 },
+                          .lengthMeters = 24,
+                          .radiusMeters = 0.5f,
+                          .luminance = Nits{ 5 } };
+    // Of an endless strip between two planes at angles -a and a from the normal: pi L sin(a).
+    EXPECT_NEAR(meanIrradiance({ .tubes = { tube } }, { 0, 1, 0 }).x, 5 * kPiExact * 0.25, 0.08);
+}
+
+TEST(DirectLights, AmongSeveralLightsTheMeanIsTheirSum) {
+    const LightSet both{ .points = { { .positionWorld = { 0, 2, 0 }, .intensity = Candela{ 8 } } },
+                         .discs = { { .positionWorld = { 0, 2, 0 },
+                                      .directionWorld = { 0, -1, 0 },
+                                      .radiusMeters = 1,
+                                      .luminance = Nits{ 3 } } } };
+    EXPECT_NEAR(meanIrradiance(both, { 0, 1, 0 }).x, 2 + 3 * kPiExact / 5, 0.15);
 }
 
 } // namespace

@@ -53,6 +53,7 @@ private:
         LadderScene has{ .hasEnvironment = !mScene.environment.empty() };
         Result<reference::ReferenceScene> scene = referenceSceneOf(mScene, mOptions.folders, mJobs, &has.material);
         if (!scene) return scene.error();
+        has.hasLights = !scene->suns.empty() || !scene->points.empty() || !scene->spots.empty();
         mRungs = ladder(has);
         if (const Result<void> known = checkStep(); !known) return known.error();
         Result<reference::TracedScenePtr> prepared = reference::prepare(*scene, mJobs);
@@ -92,8 +93,10 @@ private:
     }
 
     Result<Picture> traced(Rung const& rung) {
-        Result<ReferenceImage> image =
-                render({ .integrator = rung.integrator, .maxBounces = rung.maxBounces, .bsdf = rung.bsdf });
+        Result<ReferenceImage> image = render({ .integrator = rung.integrator,
+                                                .maxBounces = rung.maxBounces,
+                                                .bsdf = rung.bsdf,
+                                                .lightsCastShadows = true });
         if (!image) return image.error();
         // The first traced picture follows the engine's, so the noise of that step is entirely its own.
         if (mNoise.empty()) mNoise = image->standardError;

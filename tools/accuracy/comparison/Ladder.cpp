@@ -2,6 +2,10 @@
 // Size: allRungs() is a table that lists one rung after the other.
 #include "tools/accuracy/comparison/Ladder.h"
 
+#include <filament/Quality.h>
+
+#include <fmt/core.h>
+
 #include <algorithm>
 
 namespace filament::accuracy {
@@ -20,18 +24,37 @@ using reference::SpecularLight;
 constexpr uint32_t kSupersampling = 8;
 constexpr uint32_t kLevels = 6; // of a cube of 512 texels a face: assets::specularLevelCount()
 
+/// Scene files draw none of their own accord.
+std::vector<std::string> defaultShadows() { return { fmt::format("shadows={}", toString(Quality{}.shadows)) }; }
+
+/// What is left is the size of a texel and the noise of the filter.
+std::vector<std::string> finestShadows() {
+    return { "shadows=pcss", "shadowMapSize=4096", "shadowAtlasMegabytes=256" };
+}
+
 /// The largest tables: their remaining error is below that of half floats.
 std::vector<std::string> finestTables() {
-    return { "environment.faceSize=512", "environment.samples=1024", "dfgTableSize=256" };
+    std::vector<std::string> set = finestShadows();
+    set.insert(set.end(), { "environment.faceSize=512", "environment.samples=1024", "dfgTableSize=256" });
+    return set;
 }
 
 std::vector<Rung> allRungs() {
     return {
-        { .name = "oneSample",
+        { .set = defaultShadows(),
+          .name = "oneSample",
           .title = "One sample per pixel",
           .approximate = "the centre of a pixel, textures through mip levels",
           .exact = "64 samples per pixel" },
         { .supersampling = kSupersampling,
+          .set = defaultShadows(),
+          .name = "shadowMaps",
+          .title = "Filter and texels of shadow maps",
+          .approximate = "2048 texels a side for a sun, filtered over 4 x 4 of them",
+          .exact = "4096 texels, filtered as wide as the penumbra",
+          .needs = Needs::Lights },
+        { .supersampling = kSupersampling,
+          .set = finestShadows(),
           .name = "tables",
           .title = "Resolution of look-up tables",
           .approximate =
@@ -64,8 +87,8 @@ std::vector<Rung> allRungs() {
         { .kind = RungKind::Reference,
           .integrator = Integrator::Unoccluded,
           .name = "occlusion",
-          .title = "Missing shadows",
-          .approximate = "nothing blocks light but the material's occlusion map",
+          .title = "Missing ambient occlusion",
+          .approximate = "nothing blocks the light of the environment but the material's occlusion map",
           .exact = "rays find what blocks it",
           .needs = Needs::NoRefraction },
         { .kind = RungKind::Reference,
@@ -130,6 +153,8 @@ bool isMet(Needs needs, LadderScene const& scene) {
         break;
     case Needs::Environment:
         return scene.hasEnvironment;
+    case Needs::Lights:
+        return scene.hasLights;
     case Needs::Coat:
         return scene.material.coat;
     case Needs::Sheen:

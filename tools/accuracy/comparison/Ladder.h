@@ -22,11 +22,11 @@ namespace filament::accuracy {
 enum class RungKind : uint8_t { Engine, Reference };
 
 /// The features that a scene must have for an approximation to matter.
-enum class Needs : uint8_t { Nothing, Environment, Coat, Sheen, Refraction, NoRefraction, Solid };
+enum class Needs : uint8_t { Nothing, Environment, Lights, Coat, Sheen, Refraction, NoRefraction, Solid };
 
 /// The features of a scene.
 struct LadderScene {
-    bool hasEnvironment = true;
+    bool hasEnvironment = true, hasLights = false;
     MaterialFeatures material{};
 };
 

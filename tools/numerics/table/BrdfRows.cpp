@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Size: parameterRows() is a table: one function a row.
 // Size: parameterRows() is a table with one row per function.
 #include "tools/numerics/table/Call.h"
 

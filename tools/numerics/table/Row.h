@@ -99,6 +99,7 @@ std::vector<Row> detailRows();  ///< iridescence, normals, occlusion, parallax
 std::vector<Row> layerRows();   ///< anisotropic GGX, coat, sheen
 std::vector<Row> colorRows();
 std::vector<Row> imageRows();    ///< aa, ao, ibl
+std::vector<Row> areaRows();     ///< ltc, profiles, and the range of areas of light
 std::vector<Row> geometryRows(); ///< light, sampling, tangent
 
 /// An argument that the row does not use has an empty interval.

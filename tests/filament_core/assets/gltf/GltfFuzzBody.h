@@ -111,7 +111,9 @@ inline const char* brokenPromise(ModelData const& model, PrimitiveData const& p)
 
 inline const char* brokenPromise(ModelData const& model, NodeData const& node) {
     if (node.mesh != kNone && node.mesh >= model.meshes.size()) return "mesh index";
-    if (node.light != kNone && node.light >= model.lights.size()) return "light index";
+    for (const uint32_t light : { node.light, node.profiledLight }) {
+        if (light != kNone && light >= model.lights.size()) return "light index";
+    }
     const auto own = static_cast<uint32_t>(&node - model.nodes.data());
     if (node.parent != kNone && node.parent >= own) return "parents before children";
     for (int column = 0; column < 4; ++column) {
@@ -122,6 +124,12 @@ inline const char* brokenPromise(ModelData const& model, NodeData const& node) {
         if (node.parentFromNode[column].w != (column == 3 ? 1 : 0)) return "affine transform";
     }
     return nullptr;
+}
+
+inline const char* brokenPromise(ModelData const& model, LightData const& light) {
+    if (light.profile != kNone && (light.profile >= model.profiles.size() || light.type != LightType::Point))
+        return "light profile";
+    return std::isfinite(light.intensity) && light.intensity >= 0 ? nullptr : "light intensity";
 }
 
 inline const char* brokenPromise(ModelData const& model, SkinData const& skin) {
@@ -143,6 +151,27 @@ inline const char* brokenPromise(ModelData const& model, AnimationData const& an
     return std::isfinite(animation.durationSeconds) ? nullptr : "duration";
 }
 
+inline const char* brokenPromise(ImageBasedLightData const& data) {
+    CubeLight const& light = data.light;
+    if (light.levels.empty()) return "levels of a light";
+    const uint32_t size = light.levels[0].size();
+    for (size_t i = 0; i < light.levels.size(); ++i) {
+        const uint32_t side = light.levels[i].size();
+        if (side == 0 || side != size >> i) return "sizes of a light's levels";
+        for (uint32_t at = 0; at < 6 * side * side; ++at) {
+            const float3 texel = light.levels[i].radiance(at / (side * side), static_cast<int>(at % side),
+                                                          static_cast<int>(at / side % side));
+            for (int c = 0; c < 3; ++c) {
+                if (!(texel[c] >= 0 && texel[c] <= kMaxRadiance)) return "radiance of a light";
+            }
+        }
+    }
+    for (float4 const& c : light.irradianceSh) {
+        if (!std::isfinite(c.x) || !std::isfinite(c.y) || !std::isfinite(c.z)) return "irradiance of a light";
+    }
+    return std::abs(glm::determinant(light.worldFromCube) + 1) < 1e-4f ? nullptr : "rotation of a light";
+}
+
 /// The first promise of ModelData.h that the model breaks; null if it keeps them all.
 inline const char* brokenPromise(ModelData const& model) {
     const char* broken = nullptr;
@@ -154,9 +183,11 @@ inline const char* brokenPromise(ModelData const& model) {
     check(model.images);
     check(model.materials);
     check(model.nodes);
+    check(model.lights);
     check(model.skins);
     check(model.animations);
     for (MeshData const& mesh : model.meshes) check(mesh.primitives);
+    if (!broken && model.imageBasedLight) broken = brokenPromise(*model.imageBasedLight);
     return broken;
 }
 

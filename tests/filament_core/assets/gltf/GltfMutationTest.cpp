@@ -6,6 +6,7 @@
 #include "filament_core/assets/gltf/GltfWriter.h"
 #include "tests/filament_core/assets/gltf/GltfFuzzBody.h"
 #include "tests/filament_core/assets/gltf/GltfTestFile.h"
+#include "tests/filament_core/assets/gltf/ImageBasedLightFile.h"
 #include "tests/filament_core/assets/gltf/MeshStreamFuzzBody.h"
 #include "tools/paths/Paths.h"
 
@@ -80,7 +81,13 @@ Specimen writtenSpecimen() {
     file.primitive()["material"] = 0;
     file.root["skins"] = Json::parse(R"([ { "joints": [ 1 ] } ])");
     file.root["nodes"] = Json::parse(R"([ { "mesh": 0, "skin": 0, "children": [ 1 ] }, { "scale": [ 1, 2, 3 ],
-        "extensions": { "KHR_lights_punctual": { "light": 0 } } } ])");
+        "extensions": { "KHR_lights_punctual": { "light": 0 },
+        "EXT_lights_ies": { "light": 0, "multiplier": 2, "color": [ 1, 0.5, 0.25 ] } } } ])");
+    const std::string_view luminaire = "IES:LM-63-2019\nTILT=NONE\n1 -1 1 3 2 1 2 0 0 0\n1 1 9\n"
+                                       "0 45 90\n0 90\n100 70 5\n100 80 9\n";
+    file.root["extensions"]["EXT_lights_ies"]["lights"] = { { { "bufferView",
+                                                                file.addView(std::as_bytes(std::span(luminaire))) },
+                                                              { "mimeType", "application/x-ies-lm-63" } } };
     file.root["extensions"]["KHR_lights_punctual"]["lights"] = Json::parse(R"([ { "type": "spot", "spot": {} } ])");
     file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
     return specimenFrom(file.root, file.binary);
@@ -101,8 +108,19 @@ Specimen assetSpecimen(std::filesystem::path const& path) {
     return specimenFrom(root, std::move(binary));
 }
 
+/// An image-based light with two levels.
+Specimen lightSpecimen() {
+    TestFile file = fileWithLight(2, 2, [](uint32_t level, uint32_t face, uint32_t x, uint32_t y) {
+        return (face * 50 + level * 3 + x * 20 + y) * 0x010101u | 0x80000000u;
+    });
+    lightOf(file)["rotation"] = { 0.5, 0.5, 0.5, 0.5 };
+    lightOf(file)["intensity"] = 3;
+    file.root["buffers"] = { { { "byteLength", file.binary.size() } } };
+    return specimenFrom(file.root, file.binary);
+}
+
 std::vector<Specimen> allSpecimens() {
-    std::vector<Specimen> specimens{ writtenSpecimen() };
+    std::vector<Specimen> specimens{ writtenSpecimen(), lightSpecimen() };
     if (tools::assetDir().empty()) return specimens;
     for (const char* name :
          { "Box-Draco/Box.gltf", "BoxMeshopt/BoxMeshopt.glb", "BoxInterleaved/BoxInterleaved.gltf",

@@ -42,6 +42,11 @@ GlbScene exampleScene() {
     rich.emissive = { .image = 1, .sampler = kClamped };
     rich.baseColor.uvTransform = { float3(0, -2, 0), float3(3, 0, 0), float3(0.5f, 0.25f, 1) }; // turned by 90 degrees
     rich.baseColor.hasTransform = true;
+    plain.transmission.factor = 0.75f;
+    rich.transmission.factor = 0.5f;
+    rich.transmission.thicknessMeters = 0.25f;
+    rich.transmission.attenuationColor = { 0.5f, 1, 0.25f };
+    rich.transmission.attenuationDistanceMeters = 2;
     unlit.name = "unlit";
     unlit.unlit = true;
     unlit.alphaMode = AlphaMode::Blend;
@@ -102,14 +107,18 @@ void expectEqual(MaterialData const& actual, MaterialData const& expected) {
     EXPECT_EQ(actual.alphaCutoff, expected.alphaCutoff);
     EXPECT_EQ(actual.doubleSided, expected.doubleSided);
     EXPECT_EQ(actual.unlit, expected.unlit);
+    EXPECT_EQ(actual.transmission.factor, expected.transmission.factor);
+    EXPECT_EQ(actual.transmission.thicknessMeters, expected.transmission.thicknessMeters);
+    EXPECT_EQ(actual.transmission.attenuationColor, expected.transmission.attenuationColor);
+    EXPECT_EQ(actual.transmission.attenuationDistanceMeters, expected.transmission.attenuationDistanceMeters);
 }
 
 TEST(GltfWriter, MaterialsSurviveTheRoundTrip) {
     const GlbScene scene = exampleScene();
     const ModelData model = roundTrip(scene);
     EXPECT_TRUE(model.warnings.empty());
-    ASSERT_EQ(model.materials.size(), 3u);
-    for (size_t i = 0; i < 3; ++i) expectEqual(model.materials[i], scene.materials[i]);
+    ASSERT_EQ(model.materials.size(), scene.materials.size());
+    for (size_t i = 0; i < scene.materials.size(); ++i) expectEqual(model.materials[i], scene.materials[i]);
     TextureRef const& texture = model.materials[1].baseColor;
     EXPECT_EQ(texture.sampler, kClamped);
     EXPECT_TRUE(texture.hasTransform);

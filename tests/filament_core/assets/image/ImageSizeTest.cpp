@@ -2,6 +2,7 @@
 #include "filament_core/assets/image/ImageSize.h"
 #include "filament_core/assets/image/ImageWriter.h"
 #include "tests/filament_core/assets/image/HdrTestSupport.h"
+#include "tests/filament_core/assets/image/PictureFiles.h"
 
 namespace filament::assets {
 namespace {
@@ -24,7 +25,19 @@ TEST(ImageSize, OfAPngIsThatOfItsHeader) {
         const std::vector<std::byte> broken = damaged(file, seed);
         imageSize(broken);
         isCutShortPng(broken);
+        hasAlphaPng(broken);
     }
+}
+
+TEST(ImageSize, APngHasAlphaIfItsColoursHaveOrOneIsTransparent) {
+    for (test::PngKind const& kind : test::pngKinds()) {
+        const test::PngFile file = test::makePng(kind, 3, 2);
+        EXPECT_EQ(hasAlphaPng(file.bytes), kind.colorType == 4 || kind.colorType == 6 || kind.transparentColor)
+                << test::pngKindName(kind);
+        for (size_t size = 0; size < file.bytes.size(); ++size) hasAlphaPng(std::span(file.bytes).first(size));
+    }
+    EXPECT_FALSE(hasAlphaPng(test::makeJpeg({}, 8, 8)));
+    EXPECT_FALSE(hasAlphaPng({}));
 }
 
 TEST(ImageSize, OfAJpegIsThatOfItsFrameBehindAnyOtherSegments) {

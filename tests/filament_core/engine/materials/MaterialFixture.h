@@ -6,6 +6,7 @@
 #include "tests/filament_core/engine/RenderFixture.h"
 
 #include <array>
+#include <memory>
 #include <string_view>
 #include <vector>
 
@@ -58,6 +59,10 @@ public:
     Renderable add(Scene& scene, MaterialInstance material, double3 at = {}, double scale = 1) const {
         double4x4 world(scale);
         world[3] = double4(at, 1);
+        return add(scene, material, world);
+    }
+
+    Renderable add(Scene& scene, MaterialInstance material, double4x4 const& world) const {
         return scene.add({ .vertices = mVertices,
                            .indices = mIndices,
                            .material = material,
@@ -67,6 +72,7 @@ public:
     }
 
     VertexBuffer vertices() const { return mVertices; }
+    IndexBuffer indices() const { return mIndices; }
 
     /// The square fills the picture.
     static View view(uint2 size = { 16, 16 }) {
@@ -76,6 +82,27 @@ public:
 private:
     Owned<VertexBuffer> mVertices;
     Owned<IndexBuffer> mIndices;
+};
+
+/// An engine with one material and a square; it must report no errors until it ends.
+struct SquareStage {
+    std::shared_ptr<backend::FrameCapture> capture;
+    Engine engine;
+    SquareMesh square{ engine };
+    Owned<Material> material;
+    Owned<MaterialInstance> instance;
+
+    SquareStage(Backend backend, std::string_view text, std::shared_ptr<backend::FrameCapture> captures = {})
+            : capture(std::move(captures)), engine(open(backend, capture)), material(loadMaterial(engine, text)),
+              instance(engine.own(engine.createInstance(material))) {}
+    ~SquareStage() { expectNoErrors(engine); }
+
+private:
+    static Engine open(Backend backend, std::shared_ptr<backend::FrameCapture> const& capture) {
+        EngineOptions options{ .backend = backend, .workers = 1, .validation = true };
+        options.debug.capture = capture;
+        return std::move(*Engine::create(options));
+    }
 };
 
 /// The pixel in the middle of a picture of the square, scene-linear.

@@ -117,7 +117,7 @@ TEST(QualityBudget, TheChoiceIsTheBestOfAllCombinations) {
 
 TEST(QualityBudget, MoreTimeIsNeverWorse) {
     double last = 1e9;
-    for (double budget = 1; budget < 200; budget *= 1.01) {
+    for (double budget = 1; budget < 1000; budget *= 1.01) {
         const Result<QualityDecision> decision = chooseQuality({ .gpuMilliseconds = budget, .size = { 640, 360 } });
         ASSERT_TRUE(decision);
         EXPECT_LE(decision->predicted.error, last);

@@ -323,10 +323,11 @@ std::vector<Image> renderEveryValue(Backend backend) {
 }
 
 /// Choices without effect on a flat, untextured patch that faces the camera: QualityViewTest.cpp, QualityToneTest.cpp and
-/// the conformance scenes quality and materials-sheen have pictures for them.
+/// the conformance scenes quality, shadows, area-lights and materials-sheen have pictures for them.
 bool isOfTheView(std::string_view name) {
     return name == "textureFilter" || name == "depthRange" || name == "cameraRelative" || name == "toneMapping" ||
-           name == "specularLookUps" || name == "anisotropicLookUps";
+           name == "specularLookUps" || name == "anisotropicLookUps" || name == "areaLights" ||
+           name.starts_with("shadow");
 }
 
 /// Drivers may round half floats differently: a difference of one step at most, not the same bits.

@@ -232,6 +232,7 @@ TEST(Comparison, ARowWithoutItsAssetsIsSkippedWithTheReason) {
 
 TEST(Ladder, EveryStepHasANameAndOneOfThemIsTheUnexplained) {
     const LadderScene scenes[] = { { .hasEnvironment = false },
+                                   { .hasEnvironment = false, .hasLights = true },
                                    { .hasEnvironment = true },
                                    { .material = { .coat = true, .sheen = true } },
                                    { .material = { .refraction = true } },

@@ -1,0 +1,218 @@
+// SPDX-License-Identifier: Apache-2.0
+// effects_bench [--frames N] [--size WxH] [--json FILE]: what effects cost where they are seen, and that they cost nothing
+// where a scene cannot show them. Both frames of a pair are drawn in turns, first one, then the other first, and the ratio
+// is that of each pair: its median, and the interval in which the true median lies with 95 % certainty. What cannot be
+// seen must have the same bits, the same draws and the same passes, or the program fails.
+#include <filament/filament.h>
+
+#include <CLI/CLI.hpp>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <chrono>
+#include <cmath>
+#include <cstdio>
+#include <fstream>
+#include <functional>
+#include <vector>
+
+#include "tools/paths/Paths.h"
+
+namespace {
+
+using namespace filament;
+using Clock = std::chrono::steady_clock;
+
+struct Options {
+    int frames = 48;
+    uint2 size{ 1280, 720 };
+    std::filesystem::path assets;
+};
+
+/// A model under a light, and the two views or scenes that are compared.
+struct Pair {
+    const char* name;
+    const char* file;
+    std::function<void(Scene&, View&)> plain;  ///< the frame to compare with
+    std::function<void(Scene&, View&)> effect; ///< the same with the effect
+    bool isUnseen = false;
+};
+
+constexpr float3 kSunDirection{ -0.4f, -1.0f, -0.6f };
+
+std::function<void(Scene&, View&)> withSun(ShadowFilter filter) {
+    return [filter](Scene& scene, View& view) {
+        scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
+        view.quality.shadows = filter;
+    };
+}
+
+std::vector<Pair> pairs() {
+    constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
+    constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
+    std::vector<Pair> all;
+    for (const char* file : { kHelmet, "ClearCoatTest/ClearCoatTest.glb", "SheenChair/SheenChair.gltf", kTokyo })
+        all.push_back({ "shadows=pcf3", file, withSun(ShadowFilter::Off), withSun(ShadowFilter::Pcf3) });
+    for (const ShadowFilter filter :
+         { ShadowFilter::Hard, ShadowFilter::Pcf2, ShadowFilter::Pcf5, ShadowFilter::Poisson, ShadowFilter::Pcss,
+           ShadowFilter::Vsm, ShadowFilter::Evsm })
+        all.push_back({ toString(filter), kHelmet, withSun(ShadowFilter::Off), withSun(filter) });
+
+    const auto nothing = [](Scene&, View& view) { view.quality.shadows = ShadowFilter::Off; };
+    all.push_back({ "shadows, no light", kHelmet, nothing,
+                    [](Scene&, View& view) { view.quality.shadows = ShadowFilter::Pcss; }, true });
+    const auto castsNone = [](ShadowFilter filter) {
+        return [filter](Scene& scene, View& view) {
+            scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 }, .castsShadows = false });
+            view.quality.shadows = filter;
+        };
+    };
+    all.push_back({ "shadows, a sun that casts none", kHelmet, castsNone(ShadowFilter::Off),
+                    castsNone(ShadowFilter::Evsm), true });
+    all.push_back({ "lamps out of reach", kHelmet, nothing,
+                    [](Scene& scene, View& view) {
+                        view.quality.shadows = ShadowFilter::Off;
+                        for (int i = 0; i < 200; ++i)
+                            scene.add(PointLight{ .positionWorld = { 30 + i, 0, 0 }, .rangeMeters = 2 });
+                    },
+                    true });
+    all.push_back({ "area lights out of reach", kHelmet, nothing,
+                    [](Scene& scene, View& view) {
+                        view.quality.shadows = ShadowFilter::Off;
+                        scene.add(RectLight{ .positionWorld = { 50, 0, 0 }, .rangeMeters = 2 });
+                    },
+                    true });
+    const auto disc = [](bool shown) {
+        return [shown](Scene& scene, View& view) {
+            scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 60'000 }, .showsDisc = shown });
+            view.quality.shadows = ShadowFilter::Off;
+        };
+    };
+    all.push_back({ "a sun's disc behind the camera", kHelmet, disc(false), disc(true), true });
+    return all;
+}
+
+struct Measured {
+    double median = 0, low = 0, high = 0; ///< of the ratio
+    double milliseconds = 0;              ///< of the plain frame
+    bool isSame = false;                  ///< bits, draws and passes
+};
+
+/// One of the two frames.
+class Side {
+public:
+    Side(Engine& engine, Model const& model, Environment const& environment,
+         std::function<void(Scene&, View&)> const& set, uint2 size)
+            : mEngine(engine), mScene(engine), mRenderer(engine) {
+        mScene.add(model, fitToUnitCube(model.bounds()));
+        mScene.setEnvironment(environment);
+        mView.camera = Camera::lookAt({ 0.9, 0.6, 1.5 }, { 0, 0, 0 }, { .verticalFovDegrees = 40 });
+        mView.size = size;
+        set(mScene, mView);
+        mTarget = engine.own(engine.create(SwapChainDesc{ .size = size, .name = "bench" }));
+    }
+    double draw() {
+        const auto begin = Clock::now();
+        mRenderer.render(mScene, mView, mTarget);
+        mEngine.waitIdle();
+        return std::chrono::duration<double>(Clock::now() - begin).count();
+    }
+    Result<Image> picture() { return mRenderer.renderToImage(mScene, mView); }
+    Renderer const& renderer() const { return mRenderer; }
+
+private:
+    Engine& mEngine;
+    Scene mScene;
+    Renderer mRenderer;
+    View mView;
+    Owned<SwapChain> mTarget;
+};
+
+bool haveSameFrames(Side& a, Side& b) {
+    const Result<Image> first = a.picture(), second = b.picture();
+    const auto before = a.renderer().statistics(), after = b.renderer().statistics();
+    return first && second && first->pixels == second->pixels && before.draws == after.draws &&
+           before.passesRun == after.passesRun;
+}
+
+Result<Measured> measure(Backend backend, Pair const& pair, Options const& options) {
+    auto engine = Engine::create({ .backend = backend });
+    if (!engine) return engine.error();
+    auto environment = loadEnvironment(*engine, options.assets / "environments" / "studio_small_03_1k.hdr");
+    if (!environment) return environment.error();
+    auto model = loadGltf(*engine, options.assets / "models" / pair.file);
+    if (!model) return model.error();
+    Side plain(*engine, *model, *environment, pair.plain, options.size);
+    Side effect(*engine, *model, *environment, pair.effect, options.size);
+    Measured measured;
+    measured.isSame = haveSameFrames(plain, effect);
+    std::vector<double> ratios, times;
+    for (int i = -2; i < options.frames; ++i) {
+        const bool isPlainFirst = i % 2 == 0;
+        const double first = (isPlainFirst ? plain : effect).draw(), second = (isPlainFirst ? effect : plain).draw();
+        if (i < 0) continue;
+        times.push_back(1e3 * (isPlainFirst ? first : second));
+        ratios.push_back(isPlainFirst ? second / first : first / second);
+    }
+    std::ranges::sort(ratios);
+    std::ranges::sort(times);
+    const size_t count = ratios.size(), middle = count / 2;
+    const auto reach = static_cast<size_t>(std::ceil(0.98 * std::sqrt(static_cast<double>(count)))); // binomial, 95 %
+    measured.median = ratios[middle];
+    measured.low = ratios[middle > reach ? middle - reach : 0];
+    measured.high = ratios[std::min(middle + reach, count - 1)];
+    measured.milliseconds = times[middle];
+    return measured;
+}
+
+void print(Pair const& pair, Backend backend, Measured const& m) {
+    std::printf("%-32s %-32s %-7s %8.1f   %6.3f  [%.3f, %.3f]%s\n", pair.name, pair.file, toString(backend),
+                m.milliseconds, m.median, m.low, m.high,
+                !pair.isUnseen ? ""
+                : m.isSame     ? "  same"
+                               : "  DIFFERENT");
+    std::fflush(stdout);
+}
+
+} // namespace
+
+int main(int argc, char** argv) {
+    CLI::App app("What effects cost where they are seen, and where they are not");
+    Options options{ .assets = tools::assetDir() };
+    std::string size = "1280x720", json, only;
+    app.add_option("--frames", options.frames, "pairs of frames a measurement")->check(CLI::Range(4, 10'000));
+    app.add_option("--size", size, "WxH in pixels");
+    app.add_option("--assets", options.assets, "directory with models/ and environments/");
+    app.add_option("--only", only, "pairs whose names contain this");
+    app.add_option("--json", json, "also write the figures to this file");
+    CLI11_PARSE(app, argc, argv);
+    if (std::sscanf(size.c_str(), "%ux%u", &options.size.x, &options.size.y) != 2 || options.size.x == 0 ||
+        options.size.y == 0) {
+        std::fprintf(stderr, "effects_bench: error: --size wants WxH, got '%s'\n", size.c_str());
+        return 1;
+    }
+    nlohmann::json report = nlohmann::json::array();
+    bool isGood = true;
+    std::printf("%-32s %-32s %-7s %8s   %s\n", "effect", "model", "api", "plain ms", "ratio");
+    for (Pair const& pair : pairs()) {
+        if (std::string_view(pair.name).find(only) == std::string_view::npos) continue;
+        for (const Backend backend : { Backend::Vulkan, Backend::Gles }) {
+            const Result<Measured> measured = measure(backend, pair, options);
+            if (!measured) {
+                std::fprintf(stderr, "effects_bench: error: %s\n", measured.error().message.c_str());
+                return 1;
+            }
+            print(pair, backend, *measured);
+            isGood = isGood && (!pair.isUnseen || measured->isSame);
+            report.push_back({ { "effect", pair.name },
+                               { "model", pair.file },
+                               { "api", toString(backend) },
+                               { "plainMs", measured->milliseconds },
+                               { "ratio", measured->median },
+                               { "interval", { measured->low, measured->high } } });
+        }
+    }
+    if (!json.empty()) std::ofstream(json) << report.dump(2) << '\n';
+    return isGood ? 0 : 1;
+}

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+/// ShadowTexture: the textures of a renderer's shadow maps, depths and moments, and what they hold.
+///   Use     use() while a frame is planned, with what its packet asks for; forget() before that is recorded, keep()
+///           once it is.
+///   Memory  one D32F texture of the size asked for last, and one of moments if they were asked for. They go when
+///           kIdleFrames frames had no shadows.
+///   Thread  the app thread; creations are recorded into Engine::Impl::pending.
+///   Fails   std::bad_alloc; the texture then holds nothing, and the next frame draws all maps.
+#pragma once
+
+#include "filament_core/engine/EngineImpl.h"
+#include "filament_core/prepare/ShadowMaps.h"
+
+namespace filament::engine {
+
+class ShadowTexture {
+public:
+    explicit ShadowTexture(Engine::Impl& engine) : mEngine(engine) {}
+    void destroy() { release(); }
+
+    /// For prepareFrame().
+    prepare::ShadowAtlas const& held() const { return mHeld; }
+    /// Makes what a packet with maps needs, if it is not there.
+    void use(prepare::ShadowPacket const& shadows);
+    backend::TextureHandle depths() const { return mDepths; }
+    backend::TextureHandle moments() const { return mMoments; }
+    /// From now on the textures' contents are unknown, if the frame draws a map.
+    void forget(prepare::ShadowPacket const& shadows);
+    /// The frame draws what its packet says.
+    void keep(prepare::ShadowPacket const& shadows);
+
+private:
+    static constexpr uint32_t kIdleFrames = 120;
+
+    void release();
+    backend::TextureHandle create(backend::DeviceTextureDesc const& desc);
+
+    Engine::Impl& mEngine;
+    prepare::ShadowAtlas mHeld;
+    backend::TextureHandle mDepths, mMoments;
+    uint32_t mSize = 0;
+    prepare::ShadowMoments mKind = prepare::ShadowMoments::None;
+    uint32_t mIdleFrames = 0;
+};
+
+} // namespace filament::engine

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/DebugViewPass.h"
+
+#include "filament_core/passes/FullScreenDraw.h"
+#include "filament_core/passes/PassGroup.h"
+#include "shaders/interface/ShaderInterface.h"
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using framegraph::FrameGraph;
+using framegraph::PassBuilder;
+using framegraph::PassContext;
+
+/// What the pass keeps until it is drawn.
+struct DebugInputs {
+    FrameTargets targets;
+    PassBlock target;
+    PassShadows shadows;
+};
+
+struct ChosenDebugView {
+    PipelineHandle pipeline;
+    BindGroupHandle pass, material;
+};
+
+/// The program reads the block of shadows, whether there are any or not.
+PassShadows shadowsOrNone(FrameContext const& context, FrameTargets const& targets) {
+    if (targets.shadowDepths) return declareShadows(context, targets.shadowDepths);
+    static constexpr shader::ShadowUniforms kNone{};
+    return { {}, context.blocks->add(std::as_bytes(std::span(&kNone, 1))) };
+}
+
+BindGroupHandle picturesOf(PassContext& pass, FrameContext const& context, FrameTargets const& targets) {
+    shader::MaterialPackage const& package = context.resources.debugView->package;
+    const SamplerHandle nearest = context.resources.samplers.nearest;
+    const std::array<BindGroupEntry, 2> entries{ {
+            { .binding = package.findParameter("picture")->binding,
+              .texture = pass.texture(targets.color),
+              .sampler = nearest },
+            { .binding = package.findParameter("sceneDepth")->binding,
+              .texture = pass.texture(targets.depth),
+              .sampler = nearest },
+    } };
+    return pass.bindGroup(package.layout[shader::kGroupMaterial], entries, package.name);
+}
+
+ChosenDebugView choose(PassContext& pass, FrameContext const& context, DebugInputs const& inputs) {
+    PipelineSource const& pipelines = context.resources.pipelines;
+    const uint32_t slot = pipelines.slot(fullScreenSlot(pass.passLayout(), pass.subpass()));
+    return { pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.debugView),
+             passGroup(pass, context, shader::PassKind::Unlit, inputs.target, inputs.shadows),
+             picturesOf(pass, context, inputs.targets) };
+}
+
+} // namespace
+
+void addDebugViewPass(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
+    const DebugInputs inputs{ targets, declareTarget(context, graph.texture(targets.output).desc),
+                              shadowsOrNone(context, targets) };
+    graph.addPass(
+            "debug view",
+            [&](PassBuilder& pass) {
+                pass.readSampled(targets.color);
+                pass.readSampled(targets.depth);
+                if (targets.shadowDepths) pass.readSampled(targets.shadowDepths);
+                pass.writeColor(0, targets.output, { .overwrites = true });
+            },
+            [of = &context, inputs](PassContext& pass) { return choose(pass, *of, inputs); },
+            [of = &context](PassContext& pass, ChosenDebugView const& chosen) {
+                recordFullScreen(pass.commands(), chosen.pipeline, of->views[0], chosen.pass,
+                                 std::span(&chosen.material, 1));
+            });
+}
+
+} // namespace filament::passes

@@ -1,0 +1,301 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/PrepareShadows.h"
+
+#include "base/Hash.h"
+#include "filament_core/prepare/HashView.h"
+#include "filament_core/prepare/HashWords.h"
+#include "filament_core/prepare/PlaceShadowMaps.h"
+#include "filament_core/prepare/ShadowReceivers.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace filament::prepare {
+namespace {
+
+using scene::LightRecord;
+using shader::kMaxShadowMaps;
+
+constexpr uint32_t kSmallestPunctualMap = 64;
+// Rounding of places and depths, as a part of the map's width and of the depth.
+constexpr float kDepthBias = 1.0f / (1 << 20);
+constexpr uint32_t kSunOfUniforms = ~0u; // for Caster::listed
+constexpr uint32_t kMarginTexels = 16;   // of this many there is one around a map, into which a blur may reach
+
+/// A light that may cast shadows in the view.
+struct Caster {
+    uint32_t record = 0; ///< of scene.lights
+    uint32_t listed = 0; ///< of the lights of the main view, or kSunOfUniforms
+    float pixels = 0;    ///< of the picture that its reach covers, in one direction
+};
+
+/// A map with something in it.
+struct Candidate {
+    FittedShadow fitted;
+    PreparedView prepared;
+    uint32_t caster = 0; ///< of the casters
+    uint32_t part = 0;   ///< cascade or face
+    uint32_t channels = 1;
+};
+
+float3 relative(double3 const& world, ViewSpace const& space) { return float3(world - space.cameraWorld); }
+
+/// Pixels across a sphere of the picture; everything if the camera is inside.
+float pixelsOf(LightRecord const& light, ViewSpace const& space, uint2 size) {
+    const auto all = static_cast<float>(std::max(size.x, size.y));
+    const float range = light.rangeMeters, distance = glm::length(relative(light.positionWorld, space));
+    if (range <= 0 || distance <= range) return all;
+    const float perRadian = std::abs(space.clipFromView[1][1]) * static_cast<float>(size.y);
+    return std::min(all, range / std::sqrt(distance * distance - range * range) * perRadian);
+}
+
+bool reaches(LightRecord const& light, ShadowReceivers const& receivers) {
+    if (light.rangeMeters <= 0) return true;
+    const double3 outside = glm::max(glm::abs(light.positionWorld - receivers.center()) - receivers.halfExtent(), 0.0);
+    return glm::dot(outside, outside) <=
+           static_cast<double>(light.rangeMeters) * static_cast<double>(light.rangeMeters);
+}
+
+uint32_t powerOfTwo(float pixels, uint32_t smallest, uint32_t largest) {
+    const auto whole = static_cast<uint32_t>(std::clamp(pixels, 1.0f, 65536.0f));
+    return std::clamp(std::bit_ceil(whole), smallest, largest);
+}
+
+class ShadowPreparation {
+public:
+    ShadowPreparation(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene, ViewInput const& view,
+                      PreparedView& main, ShadowAtlas const& held)
+            : mJobs(jobs), mArena(arena), mScene(scene), mView(view), mMain(main), mHeld(held),
+              mSpace(makeViewSpace(view)), mCandidates(arena.arrayForOverwrite<Candidate>(kMaxShadowMaps)) {}
+
+    PreparedShadows prepare() {
+        PreparedShadows out;
+        mCounts.isOn = true;
+        mCounts.isColorOn = mView.quality.coloredShadows;
+        mReceivers = findReceivers(mJobs, mArena, mScene, mMain.packet, mSpace, mView.quality.shadows);
+        mCounts.receivers = mReceivers.count;
+        const std::span<const Caster> casters = findCasters();
+        mCounts.lights = static_cast<uint32_t>(casters.size());
+        if (mReceivers.count > 0) {
+            for (uint32_t i = 0; i < casters.size(); ++i) addMaps(casters[i], i);
+        }
+        if (mCount > 0) place(casters, out);
+        out.counts = mCounts;
+        return out;
+    }
+
+private:
+    /// The most important first: the sun, then by the pixels that they light, then in the order of the list.
+    std::span<const Caster> findCasters() {
+        std::span<const uint32_t> listed = mMain.lightRecords;
+        const auto casters = mArena.arrayForOverwrite<Caster>(listed.size() + 1);
+        size_t count = 0;
+        if (mMain.sunRecord && mScene.lights.records[*mMain.sunRecord].castsShadows)
+            casters[count++] = { *mMain.sunRecord, kSunOfUniforms, INFINITY };
+        for (uint32_t i = 0; i < listed.size(); ++i) {
+            LightRecord const& light = mScene.lights.records[listed[i]];
+            if (!light.castsShadows || light.type == LightRecord::Type::Sun) continue;
+            if (mReceivers.count == 0 || !reaches(light, mReceivers)) continue;
+            casters[count++] = { listed[i], i, pixelsOf(light, mSpace, mView.size) };
+        }
+        const std::span<Caster> found = casters.first(count);
+        std::ranges::sort(found, [](Caster const& a, Caster const& b) {
+            return a.pixels != b.pixels ? a.pixels > b.pixels : a.listed < b.listed;
+        });
+        return found;
+    }
+
+    void addMaps(Caster const& caster, uint32_t index) {
+        LightRecord const& light = mScene.lights.records[caster.record];
+        if (light.type == LightRecord::Type::Sun) {
+            addCascades(light, index);
+            return;
+        }
+        const uint32_t faces = takesCube(light) ? kCubeFaces : 1;
+        for (uint32_t face = 0; face < faces; ++face) {
+            if (faces == 1 || shinesThrough(light, face)) add(fitPunctual(light, face), index, face);
+        }
+    }
+
+    void addCascades(LightRecord const& light, uint32_t index) {
+        const double3x3 axes = worldFromLight(double3(light.directionWorld));
+        const LightSpaceBox extent = sceneInLightSpace(mJobs, mArena, mScene.renderables, axes);
+        if (extent.isEmpty()) return;
+        const uint32_t cascades = std::clamp<uint32_t>(mView.quality.shadowCascades, 1, kMaxCascades);
+        const auto slices = splitDepth({ mReceivers.nearest, mReceivers.farthest }, cascades);
+        bool coversScene = false;
+        for (uint32_t i = 0; i < cascades && !coversScene; ++i)
+            add(fitCascade(mSpace, slices[i], axes, extent, coversScene), index, i);
+    }
+
+    void add(FittedShadow const& fitted, uint32_t caster, uint32_t part) {
+        if (mCount == kMaxShadowMaps) {
+            ++mCounts.mapsOverBudget;
+            return;
+        }
+        ViewInput input{ .kind = ViewKind::Shadow,
+                         .camera = fitted.camera,
+                         .clipFromView = fitted.clipFromView,
+                         .timeSeconds = mView.timeSeconds,
+                         .materialGlobals = mView.materialGlobals,
+                         .quality = mView.quality };
+        input.quality.depthRange = DepthRange::Reversed;
+        PreparedView prepared = prepareView(mJobs, mArena, mScene, input);
+        if (prepared.packet.opaque.empty()) {
+            ++mCounts.mapsWithoutCasters;
+            return;
+        }
+        mCandidates[mCount++] = { fitted, prepared, caster, part, channelsOf(prepared.packet) };
+    }
+
+    /// Three if something in a map transmits light.
+    uint32_t channelsOf(ViewPacket const& map) const {
+        const auto transmits = [](DrawCall const& draw) {
+            return shader::transmitsLight(draw.material->material->package);
+        };
+        return mView.quality.coloredShadows && std::ranges::any_of(map.opaque, transmits) ? 3 : 1;
+    }
+
+    uint32_t sizeOf(Caster const& caster) const {
+        const uint32_t largest = std::bit_floor(
+                std::clamp<uint32_t>(mView.quality.shadowMapSize, kSmallestPunctualMap, kLargestShadowMap));
+        LightRecord const& light = mScene.lights.records[caster.record];
+        if (light.type == LightRecord::Type::Sun) return largest;
+        // A face of a cube sees a quarter of the horizon, a spot about as much as its reach covers.
+        return powerOfTwo(takesCube(light) ? caster.pixels / 2 : caster.pixels, kSmallestPunctualMap, largest);
+    }
+
+    uint64_t ownerOf(Caster const& caster, uint32_t part) const {
+        return uint64_t{ mScene.lights.index.handleAt(caster.record).bits } << 8 | part;
+    }
+
+    void place(std::span<const Caster> casters, PreparedShadows& out) {
+        const auto wishes = mArena.arrayForOverwrite<ShadowMapWish>(mCount);
+        for (uint32_t i = 0; i < mCount; ++i) {
+            Caster const& caster = casters[mCandidates[i].caster];
+            const uint32_t side = mCandidates[i].channels > 1 ? 2 * sizeOf(caster) : sizeOf(caster);
+            wishes[i] = { ownerOf(caster, mCandidates[i].part), std::min(side, kLargestShadowMap) };
+        }
+        const uint64_t budget = uint64_t{ mView.quality.shadowAtlasMegabytes } << 20;
+        const ShadowMoments moments = momentsFor(mView.quality.shadows);
+        const PlacedShadowMaps placed = placeShadowMaps(mArena, wishes, mHeld, atlasSizeForBytes(budget, moments));
+        out.packet.atlasSize = placed.atlasSize;
+        out.packet.moments = moments;
+        out.packet.keepsAtlas = placed.atlasSize == mHeld.size && moments == mHeld.moments;
+        const auto isLamps = [](Candidate const& candidate) { return isPerspective(candidate.fitted); };
+        if (moments != ShadowMoments::None && std::ranges::any_of(mCandidates.first(mCount), isLamps))
+            mWorld = sceneInLightSpace(mJobs, mArena, mScene.renderables, double3x3(1.0));
+        mLights = mArena.copy(mMain.packet.lights);
+        mUniforms = mArena.make<shader::ShadowUniforms>();
+        const auto maps = mArena.arrayForOverwrite<ShadowMapPacket>(mCount);
+        const auto views = mArena.arrayForOverwrite<PreparedView>(mCount);
+        uint32_t count = 0;
+        for (uint32_t i = 0; i < mCount; ++i) {
+            if (placed.tiles[i].size == 0) {
+                ++mCounts.mapsOverBudget;
+                continue;
+            }
+            Candidate& candidate = mCandidates[i];
+            ViewPacket& view = candidate.prepared.packet;
+            writeMap(count, casters[candidate.caster], candidate, placed.tiles[i]);
+            maps[count] = { { wishes[i].owner, hashOf(candidate, placed.tiles[i].size, mUniforms->maps[count]),
+                              placed.tiles[i] },
+                            candidate.channels };
+            if (candidate.channels > 1) ++mCounts.coloredMaps;
+            if (!out.packet.keepsAtlas || !isHeld(maps[count].held)) {
+                views[out.packet.drawn] = candidate.prepared;
+                maps[count].view = out.packet.drawn++;
+            }
+            mCounts.casters += view.counts.visible;
+            assign(casters[candidate.caster], candidate.part, count++);
+        }
+        finish(out, maps.first(count), views.first(out.packet.drawn));
+    }
+
+    void finish(PreparedShadows& out, std::span<const ShadowMapPacket> maps, std::span<const PreparedView> views) {
+        out.packet.maps = maps;
+        out.views = views;
+        mCounts.maps = static_cast<uint32_t>(maps.size());
+        mCounts.mapsDrawn = out.packet.drawn;
+        if (maps.empty()) return;
+        mMain.packet.lights = mLights;
+        mMain.packet.variant |= shader::kVariantShadowReceiver;
+        const auto size = static_cast<float>(out.packet.atlasSize);
+        mUniforms->atlas = float4(1 / size, size, 0, 0);
+        out.packet.uniforms = mUniforms;
+    }
+
+    uint64_t hashOf(Candidate const& candidate, uint32_t size, shader::ShadowMapRecord const& map) const {
+        const uint64_t depths = hashShadowView(mScene, candidate.prepared.packet, size, candidate.channels > 1);
+        if (momentsFor(mView.quality.shadows) == ShadowMoments::None) return depths;
+        return hashWords(depths, std::bit_cast<uint32_t>(map.softness.z), std::bit_cast<uint32_t>(map.softness.w));
+    }
+
+    bool isHeld(HeldShadowMap const& map) const {
+        return std::ranges::any_of(mHeld.maps, [&](HeldShadowMap const& held) {
+            return held.owner == map.owner && held.contents == map.contents && held.tile == map.tile;
+        });
+    }
+
+    void writeMap(uint32_t at, Caster const& caster, Candidate const& candidate, ShadowTile whole) const {
+        FittedShadow const& fitted = candidate.fitted;
+        const ShadowTile tile = channelTile(whole, candidate.channels, 0);
+        shader::ShadowMapRecord& map = mUniforms->maps[at];
+        map.atlasFromWorld = atlasFromWorld(fitted, mSpace.cameraWorld, tile.x, tile.y, tile.size);
+        map.tile = float4(tile.x, tile.y, tile.x + tile.size, tile.y + tile.size);
+        const auto texels = static_cast<float>(tile.size);
+        const float ofWidth = fitted.depthMeters > 0 ? fitted.widthMeters / fitted.depthMeters : 0;
+        map.texel =
+                float4(fitted.widthMeters / texels, fitted.widthPerMeter / texels, kDepthBias * ofWidth, kDepthBias);
+        const float penumbra = texels * penumbraOfDepth(fitted, mScene.lights.records[caster.record].sourceRadius);
+        map.softness = float4(penumbra, candidate.channels, nearOverFar(fitted, mWorld), blurOf(tile.size));
+    }
+
+    /// Of moments; must not reach beyond a map's margin.
+    float blurOf(uint32_t size) const {
+        if (momentsFor(mView.quality.shadows) == ShadowMoments::None) return 0;
+        const uint32_t margin = size / kMarginTexels;
+        return static_cast<float>(std::min<uint32_t>(mView.quality.shadowBlurTexels, margin > 2 ? margin - 2 : 0));
+    }
+
+    /// Maps of a light are neighbours; a cube's faces without casters are left out.
+    void assign(Caster const& caster, uint32_t part, uint32_t map) {
+        if (caster.listed == kSunOfUniforms) {
+            if (mUniforms->sun.y == 0) mUniforms->sun.x = static_cast<float>(map);
+            mUniforms->sun.y += 1;
+            return;
+        }
+        float4& light = mLights[caster.listed].offset;
+        if (light.y == 0) {
+            light.y = static_cast<float>(map + 1);
+            light.z = takesCube(mScene.lights.records[caster.record]) ? static_cast<float>(1u << kCubeFaces) : 0.0f;
+        }
+        light.z += static_cast<float>(1u << part);
+    }
+
+    jobs::JobSystem& mJobs;
+    Arena& mArena;
+    scene::SceneData const& mScene;
+    ViewInput const& mView;
+    PreparedView& mMain;
+    ShadowAtlas const& mHeld;
+    const ViewSpace mSpace;
+    ShadowReceivers mReceivers;
+    LightSpaceBox mWorld; ///< everything, in the world; for moments of points and spots only
+    std::span<Candidate> mCandidates;
+    uint32_t mCount = 0;
+    std::span<shader::PunctualLight> mLights;
+    shader::ShadowUniforms* mUniforms = nullptr;
+    ShadowCounts mCounts;
+};
+
+} // namespace
+
+PreparedShadows prepareShadows(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
+                               ViewInput const& view, PreparedView& main, ShadowAtlas const& held) {
+    if (view.quality.shadows == ShadowFilter::Off) return {};
+    return ShadowPreparation(jobs, arena, scene, view, main, held).prepare();
+}
+
+} // namespace filament::prepare

@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/ShadowReceivers.h"
+
+#include <algorithm>
+#include <cmath>
+
+namespace filament::prepare {
+namespace {
+
+constexpr size_t kRange = 4096; // about 20 us
+
+/// Reduces [0, count) by ranges: `add(part, index)`, then `join(whole, part)` in their order.
+template <class T, class Add, class Join>
+T reduce(jobs::JobSystem& jobs, Arena& arena, size_t count, Add&& add, Join&& join) {
+    const auto parts = arena.array<T>((count + kRange - 1) / kRange);
+    jobs::parallelFor<"shadow extent">(jobs, count, kRange, [&](size_t begin, size_t end) {
+        for (size_t i = begin; i < end; ++i) add(parts[begin / kRange], i);
+    });
+    T whole;
+    for (T const& part : parts) join(whole, part);
+    return whole;
+}
+
+double nearPlane(ViewSpace const& space) {
+    const float near = space.clipFromView[3][2]; // of a lens; other projections begin at the camera
+    return std::max(static_cast<double>(std::abs(near)), 1e-6);
+}
+
+void addBox(ShadowReceivers& receivers, double3 const& center, double3 const& half, ViewSpace const& space,
+            double nearMeters) {
+    const double3 forward(space.forward);
+    const double depth = glm::dot(center - space.cameraWorld, forward), reach = glm::dot(glm::abs(forward), half);
+    if (!std::isfinite(depth + reach) || depth + reach < nearMeters) return;
+    ++receivers.count;
+    receivers.min = glm::min(receivers.min, center - half);
+    receivers.max = glm::max(receivers.max, center + half);
+    receivers.nearest = std::min(receivers.nearest, std::max(depth - reach, nearMeters));
+    receivers.farthest = std::max(receivers.farthest, depth + reach);
+}
+
+} // namespace
+
+ShadowReceivers findReceivers(jobs::JobSystem& jobs, Arena& arena, scene::SceneData const& scene,
+                              ViewPacket const& view, ViewSpace const& space, ShadowFilter filter) {
+    scene::Renderables const& renderables = scene.renderables;
+    const double nearMeters = nearPlane(space);
+    return reduce<ShadowReceivers>(
+            jobs, arena, view.objects.size(),
+            [&](ShadowReceivers& part, size_t i) {
+                const uint32_t at = view.objects.order[i].renderable;
+                scene::Drawable const& drawable = renderables.drawables[renderables.drawable[at]];
+                if (!drawable.receivesShadows || !receivesShadows(*drawable.material->material, filter)) return;
+                addBox(part, renderables.bounds.centerAt(at), double3(renderables.bounds.halfExtentAt(at)), space,
+                       nearMeters);
+            },
+            [](ShadowReceivers& whole, ShadowReceivers const& part) {
+                whole.count += part.count;
+                whole.min = glm::min(whole.min, part.min);
+                whole.max = glm::max(whole.max, part.max);
+                whole.nearest = std::min(whole.nearest, part.nearest);
+                whole.farthest = std::max(whole.farthest, part.farthest);
+            });
+}
+
+LightSpaceBox sceneInLightSpace(jobs::JobSystem& jobs, Arena& arena, scene::Renderables const& renderables,
+                                double3x3 const& worldFromLight) {
+    constexpr int kNothing = scene::kNoIndices | scene::kCollapsed;
+    return reduce<LightSpaceBox>(
+            jobs, arena, renderables.count(),
+            [&](LightSpaceBox& part, size_t i) {
+                if ((renderables.flags[i] & kNothing) != 0) return;
+                part.add(inLightSpace(worldFromLight, renderables.bounds.centerAt(i),
+                                      renderables.bounds.halfExtentAt(i)));
+            },
+            [](LightSpaceBox& whole, LightSpaceBox const& part) { whole.add(part); });
+}
+
+} // namespace filament::prepare

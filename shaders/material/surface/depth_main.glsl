@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// Fragment stage of variants that leave depth alone: what it cuts out decides, nothing is lit and no colour is written.
+
+#if defined(DITHERS_DEPTH) || defined(TRANSMITS_DEPTH)
+
+// Eight patterns, of which no two are alike or shifted: one for each of 16 layers of depth an octave, in turns. So two panes
+// in different layers pass the product of what each of them does.
+highp float noiseOfLayer() {
+    uint layer = floatBitsToUint(gl_FragCoord.z) >> 19u;
+    highp vec2 pixel = floor(gl_FragCoord.xy);
+    if ((layer & 1u) != 0u) pixel = pixel.yx;
+    if ((layer & 2u) != 0u) pixel.x = -pixel.x;
+    if ((layer & 4u) != 0u) pixel = vec2(pixel.x + pixel.y, pixel.y - pixel.x);
+    return interleavedGradientNoise(pixel);
+}
+
+#endif
+
+#if defined(TRANSMITS_DEPTH)
+
+// From lights at a point, or parallel.
+highp vec3 towardsLight() {
+    bool isPoint = frameUniforms.clipFromView[2].w != 0.0;
+    highp mat4 view = frameUniforms.viewFromWorld;
+    return isPoint ? normalizeOrZero(-vertex_worldPosition) : vec3(view[0].z, view[1].z, view[2].z);
+}
+
+// Straight through, in the colour channel of this map. Lights bend no more than the pictures behind thin surfaces do.
+highp float sharePassed(MaterialInputs inputs) {
+    float passed = 0.0;
+    int channel = int(passUniforms.raster.y) - 1;
+    if (quality_coloredShadows != 0 && channel >= 0) {
+        shading_NoV = max(abs(dot(shading_normal, shading_view)), kMinNoV);
+#if defined(SHADING_MODEL_SPECULAR_GLOSSINESS)
+        vec3 color = diffuseColorFromSpecularGlossiness(inputs.baseColor.rgb, inputs.specularColor);
+        vec3 f0 = inputs.specularColor;
+        float dielectric = 1.0;
+#else
+        vec3 color = inputs.baseColor.rgb;
+        vec3 f0 = vec3(f0FromIor(iorOf(inputs)));
+        float dielectric = 1.0 - inputs.metallic;
+#endif
+        vec3 reflected = fresnelSchlick(f0, 1.0, shading_NoV);
+        Refraction refraction = refractionOf(inputs, color, 0.0, iorOf(inputs));
+        vec3 shares = transmittedShare(refraction, reflected) * dielectric;
+        passed = channel == 0 ? shares.r : channel == 1 ? shares.g : shares.b;
+    }
+    return passed;
+}
+
+#endif
+
+void main() {
+#if defined(CUTS_HOLES)
+    MaterialInputs inputs;
+    initMaterial(inputs);
+    computeShadingGeometry();
+#if defined(TRANSMITS_DEPTH)
+    shading_view = towardsLight();
+#endif
+    material(inputs);
+#if defined(BLEND_MODE_MASKED)
+    if (inputs.baseColor.a < getMaskThreshold()) discard;
+#endif
+#if defined(DITHERS_DEPTH) || defined(TRANSMITS_DEPTH)
+    highp float stopped = 1.0;
+#if defined(DITHERS_DEPTH)
+    stopped = inputs.baseColor.a;
+#endif
+#if defined(TRANSMITS_DEPTH)
+#if defined(PREPARE_AFTER_MATERIAL)
+    prepareMaterial(inputs);
+#endif
+    stopped *= 1.0 - sharePassed(inputs);
+#endif
+    if (stopped <= noiseOfLayer()) discard;
+#endif
+#endif
+}

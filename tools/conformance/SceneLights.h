@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+/// The lights of a scene file, one JSON object each. docs/conformance.md describes the fields.
+///   Fails   the reader keeps the first error: field, what is valid. Whatever is returned is fit for Scene::add.
+///   Thread  any; pure.
+#pragma once
+
+#include "tools/conformance/JsonReader.h"
+
+#include <filament/Light.h>
+
+#include <string>
+
+namespace filament::conformance {
+
+SunLight readSun(JsonReader& reader);
+/// `profile`: the file of the light's profile, as the scene names it; empty: none.
+PointLight readPoint(JsonReader& reader, std::string& profile);
+SpotLight readSpot(JsonReader& reader, std::string& profile);
+RectLight readRect(JsonReader& reader);
+DiscLight readDisc(JsonReader& reader);
+TubeLight readTube(JsonReader& reader);
+
+/// "channels": a list of numbers from 0 to 7, of a light or a copy.
+void readLightChannels(JsonReader& reader, LightChannels& channels);
+
+} // namespace filament::conformance

@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+/// LightProfiles: photometric files as the reference renderer reads them: without a table, in double precision.
+///   Thread  read-only.
+#pragma once
+
+#include "filament_core/assets/tables/IesFile.h"
+
+#include <memory>
+
+namespace filament::reference {
+
+using ProfilePtr = std::shared_ptr<const assets::IesFile>;
+
+} // namespace filament::reference
