@@ -238,6 +238,30 @@ TEST_F(PrepareShadowsTest, ParametersAndTimeCountForMaterialsWhoseDepthReadsThem
     EXPECT_EQ(frame().shadows.drawn, 1u);
 }
 
+TEST_F(PrepareShadowsTest, MapsInWhichSomethingTransmitsHaveThreeChannelsInATileTwiceAsLarge) {
+    scene::MaterialInstance* glass = material();
+    glass->material->package.refractionMode = shader::RefractionMode::Cubemap;
+    setMaterial(scene.renderables, box, *glass);
+    EXPECT_EQ(frame().shadows.maps[0].channels, 1u) << "switched off";
+
+    view.quality.coloredShadows = true;
+    const FramePacket colored = frame();
+    ASSERT_EQ(colored.shadows.maps.size(), 1u);
+    EXPECT_EQ(colored.shadows.maps[0].channels, 3u);
+    EXPECT_EQ(colored.shadows.maps[0].held.tile.size, 1024);
+    EXPECT_EQ(drawnChannels(colored.shadows), 3u);
+    EXPECT_TRUE(colored.demand.needs(Effect::ColoredShadows));
+    EXPECT_EQ(frame().shadows.drawn, 0u) << "kept as others are";
+
+    glass->parameters.resize(16);
+    EXPECT_EQ(frame().shadows.drawn, 1u) << "its tint may be another";
+    setMaterial(scene.renderables, box, *lit);
+    const FramePacket plain = frame();
+    EXPECT_EQ(plain.shadows.maps[0].channels, 1u) << "nothing transmits";
+    EXPECT_EQ(plain.shadows.maps[0].held.tile.size, 512);
+    EXPECT_EQ(plain.demand.of(Effect::ColoredShadows).reason, DemandReason::NothingTransmits);
+}
+
 TEST_F(PrepareShadowsTest, LampsTakeTheFacesInWhichSomethingCasts) {
     removeLight(scene, sun);
     addLight(scene, lamp({ 0, 8, 0 }, 30));

@@ -327,7 +327,7 @@ std::vector<Image> renderEveryValue(Backend backend) {
 bool isOfTheView(std::string_view name) {
     return name == "textureFilter" || name == "depthRange" || name == "cameraRelative" || name == "toneMapping" ||
            name == "specularLookUps" || name == "anisotropicLookUps" || name == "areaLights" ||
-           name.starts_with("shadow");
+           name == "coloredShadows" || name.starts_with("shadow");
 }
 
 /// Drivers may round half floats differently: a difference of one step at most, not the same bits.
