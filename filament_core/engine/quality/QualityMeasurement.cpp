@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <memory>
 #include <numeric>
 
 #include <time.h>
@@ -104,15 +105,15 @@ struct FrameCost {
 struct Setting {
     std::string value;
     Quality timed, pictured;
+    std::unique_ptr<Renderer> renderer; // of its own: shadow maps are kept from frame to frame, as they are for users
     std::vector<double> device{}, compared{}; // by round
 };
 
 class CostMeter {
 public:
     CostMeter(Engine& engine, Scene const& scene, View const& view)
-            : mEngine(engine), mScene(scene), mView(view), mTimed(engine, { .passTimers = true }), mPictured(engine),
-              mDisplay(target(Format::RGBA8)), mLinear(target(Format::RGBA16F)),
-              mIsCpu(engine.device().device.find("llvmpipe") != std::string::npos) {}
+            : mEngine(engine), mScene(scene), mView(view), mPictured(engine), mDisplay(target(Format::RGBA8)),
+              mLinear(target(Format::RGBA16F)), mIsCpu(engine.device().device.find("llvmpipe") != std::string::npos) {}
 
     Result<QualityEffect> measure(QualityChoice const& choice, uint32_t rounds) {
         std::vector<Setting> settings = settingsOf(choice);
@@ -122,12 +123,12 @@ public:
             const Result<double> error = errorOf(setting.pictured);
             if (!error) return error.error();
             effect.values.back().error = *error;
-            if (const Result<FrameCost> warmUp = time(setting.timed); !warmUp) return warmUp.error();
+            if (const Result<FrameCost> warmUp = time(setting); !warmUp) return warmUp.error();
         }
         for (uint32_t round = 0; round < rounds; ++round) {
             for (size_t i = 0; i < settings.size(); ++i) {
                 Setting& setting = settings[(i + round) % settings.size()];
-                const Result<FrameCost> cost = time(setting.timed);
+                const Result<FrameCost> cost = time(setting);
                 if (!cost) return cost.error();
                 setting.device.push_back(cost->device);
                 setting.compared.push_back(cost->compared);
@@ -157,7 +158,8 @@ private:
     std::vector<Setting> settingsOf(QualityChoice const& choice) const {
         std::vector<Setting> settings;
         for (const std::string_view value : choice.values) {
-            Setting setting{ std::string(value), mView.quality, qualityPreset(QualityPreset::Reference) };
+            Setting setting{ std::string(value), mView.quality, qualityPreset(QualityPreset::Reference),
+                             std::make_unique<Renderer>(mEngine, RendererOptions{ .passTimers = true }) };
             for (Quality* quality : { &setting.timed, &setting.pictured }) {
                 if (choice.name == "shBands") quality->diffuseIrradiance = DiffuseIrradiance::SphericalHarmonics;
                 (void)setQuality(*quality, choice.name, value);
@@ -184,13 +186,13 @@ private:
         return mPictured.waitPixels(mPictured.readPixels(into));
     }
 
-    Result<FrameCost> time(Quality const& quality) {
+    Result<FrameCost> time(Setting& setting) {
         View view = mView;
-        view.quality = quality;
+        view.quality = setting.timed;
         const double before = processorMilliseconds();
-        mTimed.render(mScene, view, mDisplay);
+        setting.renderer->render(mScene, view, mDisplay);
         mEngine.waitIdle();
-        const std::vector<FrameTimings> timings = mTimed.takeTimings();
+        const std::vector<FrameTimings> timings = setting.renderer->takeTimings();
         if (timings.empty() || !(timings.back().gpuMilliseconds > 0)) {
             return fail(ErrorCode::Unsupported, "{} does not time its passes: costs cannot be measured on it",
                         mEngine.device().device);
@@ -214,7 +216,7 @@ private:
     Engine& mEngine;
     Scene const& mScene;
     View mView;
-    Renderer mTimed, mPictured;
+    Renderer mPictured;
     Owned<SwapChain> mDisplay, mLinear;
     Image mExactLinear, mExactDisplay;
     bool mIsCpu; // a CPU driver: its clock goes on while other processes have the cores, processor time does not

@@ -183,7 +183,9 @@ TEST_P(LightProfiles, EveryPixelOfAWallShowsTheShareOfItsDirection) {
                     ASSERT_NEAR(table.shareAt(local), exact, lamp.resampling) << lamp.name;
                 }
             }
-            if (turn == 0) EXPECT_GT(sum, 2) << name << " shines on the wall";
+            if (turn == 0) {
+                EXPECT_GT(sum, 2) << name << " shines on the wall";
+            }
         }
     }
 }
