@@ -8,18 +8,19 @@
 #include <fmt/core.h>
 
 #include <cstddef>
-#include <source_location>
 #include <string>
 
 namespace filament::framegraph {
 
 /// A format string that remembers who passed it.
 struct Rule {
+    // Not std::source_location: clang 14, which builds the fuzzers, lacks it.
     template <size_t N>
-    consteval Rule(const char (&text)[N], std::source_location from = std::source_location::current())
-            : format(text), where(from) {}
+    consteval Rule(const char (&text)[N], const char* callersFile = __builtin_FILE(), int callersLine = __builtin_LINE())
+            : format(text), file(callersFile), line(callersLine) {}
     const char* format;
-    std::source_location where;
+    const char* file;
+    int line;
 };
 
 template <class... Args>
@@ -27,7 +28,7 @@ void require(bool condition, Rule rule, Args const&... args) {
     if (condition) [[likely]]
         return;
     const std::string message = fmt::vformat(rule.format, fmt::make_format_args(args...));
-    assertionFailed(rule.where.file_name(), static_cast<int>(rule.where.line()), "frame graph", message.c_str());
+    assertionFailed(rule.file, rule.line, "frame graph", message.c_str());
 }
 
 } // namespace filament::framegraph
