@@ -33,6 +33,7 @@ prepare::ViewInput inputOf(View const& view) {
              .timeSeconds = view.timeSeconds,
              .materialGlobals = view.materialGlobals,
              .quality = view.quality,
+             .effects = clamped(view.effects),
              .debugView = view.debugView };
 }
 

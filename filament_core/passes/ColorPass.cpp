@@ -16,7 +16,7 @@ using framegraph::PassContext;
 using framegraph::TextureId;
 
 struct Chosen {
-    std::array<BindGroupHandle, 2> passGroups; // by PassKind
+    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups; // by PassKind
     std::span<const PipelineHandle> opaque, blended;
     PipelineHandle sky, disc;
     BindGroupHandle skyGroup;
@@ -26,7 +26,7 @@ struct Chosen {
 /// What the pass declares besides its targets.
 struct ColorBlocks {
     PassBlock target;
-    PassShadows shadows;
+    PassTextures textures;
     std::span<const PassBlock> discs; ///< parameters of the discs of suns
 };
 
@@ -59,16 +59,23 @@ BindGroupHandle skyGroup(PassContext& pass, FrameContext const& context) {
     return pass.bindGroup(package.layout[shader::kGroupMaterial], std::span(&entry, 1), "sky");
 }
 
+/// What the occlusion of the surfaces behind does not apply to.
+uint32_t blendedSlot(PassContext& pass, PassSettings const& settings, PipelineSource const& pipelines) {
+    PassSlot slot = slotOf(settings, pass.passLayout(), pass.subpass());
+    slot.shading = withoutOcclusion(slot.shading);
+    return pipelines.slot(slot);
+}
+
 Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks) {
     PipelineSource const& pipelines = context.resources.pipelines;
     prepare::ViewPacket const& view = context.packet.mainView();
     PassSettings const& settings = context.settings;
     const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
     Chosen chosen;
-    chosen.passGroups = { passGroup(pass, context, shader::PassKind::Lit, blocks.target, blocks.shadows),
-                          passGroup(pass, context, shader::PassKind::Unlit, blocks.target, blocks.shadows) };
+    chosen.passGroups = surfaceGroups(pass, context, blocks.target, blocks.textures);
     chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant, view.channels);
-    chosen.blended = choosePipelines(pass, *context.arena, pipelines, slot, view.blended, view.variant, view.channels);
+    chosen.blended = choosePipelines(pass, *context.arena, pipelines, blendedSlot(pass, settings, pipelines),
+                                     view.blended, view.variant, view.channels);
     if (context.packet.demand.needs(prepare::Effect::Sky)) {
         chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.skybox);
         chosen.skyGroup = skyGroup(pass, context);
@@ -101,14 +108,19 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     PassSettings const& settings = context.settings;
     const TextureId color = targets.color;
     const framegraph::GraphTextureDesc like = graph.texture(color).desc;
-    PassShadows shadows = declareShadows(context, targets.shadows);
-    shadows.hasMoments = context.packet.shadows.moments != prepare::ShadowMoments::None;
-    const ColorBlocks blocks{ declareTarget(context, like, 0, settings.samples), shadows, declareDiscs(context) };
-    const TextureId depth = graph.createTexture({ .width = like.width,
-                                                  .height = like.height,
-                                                  .format = Format::D32F,
-                                                  .samples = settings.samples,
-                                                  .name = "depth" });
+    PassTextures textures{ .shadows = declareShadows(context, targets.shadows),
+                           .occlusion = targets.occlusion,
+                           .sceneDepth = targets.distances };
+    textures.shadows.hasMoments = context.packet.shadows.moments != prepare::ShadowMoments::None;
+    const ColorBlocks blocks{ declareTarget(context, like, 0, settings.samples), textures, declareDiscs(context) };
+    const bool hasDepth = targets.depth && settings.samples == 1 &&
+                          context.view->quality.depthPrepass != DepthPrepass::Off; // the prepass left it
+    const TextureId depth = hasDepth ? targets.depth
+                                     : graph.createTexture({ .width = like.width,
+                                                             .height = like.height,
+                                                             .format = Format::D32F,
+                                                             .samples = settings.samples,
+                                                             .name = "depth" });
     const TextureId samples = settings.samples == 1 ? color
                                                     : graph.createTexture({ .width = like.width,
                                                                             .height = like.height,
@@ -123,8 +135,10 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
                 pass.writeColor(0, samples,
                                 { .clear = std::array{ clear.x, clear.y, clear.z, clear.w },
                                   .resolve = settings.samples == 1 ? TextureId{} : color });
-                if (blocks.shadows.maps) pass.readSampled(blocks.shadows.maps);
-                pass.writeDepth(depth, { .clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
+                declareReads(pass, blocks.textures);
+                framegraph::DepthTarget target;
+                if (!hasDepth) target.clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
+                pass.writeDepth(depth, target);
             },
             [of = &context, blocks](PassContext& pass) { return choose(pass, *of, blocks); },
             [of = &context](PassContext& pass, Chosen const& chosen) { recordScene(pass, *of, chosen); });

@@ -50,7 +50,7 @@ ChosenDebugView choose(PassContext& pass, FrameContext const& context, DebugInpu
     PipelineSource const& pipelines = context.resources.pipelines;
     const uint32_t slot = pipelines.slot(fullScreenSlot(pass.passLayout(), pass.subpass()));
     return { pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.debugView),
-             passGroup(pass, context, shader::PassKind::Unlit, inputs.target, inputs.shadows),
+             passGroup(pass, context, shader::PassKind::Unlit, inputs.target, { .shadows = inputs.shadows }),
              picturesOf(pass, context, inputs.targets) };
 }
 

@@ -47,7 +47,7 @@ public:
 
 private:
     void bindPass(shader::MaterialPackage const& package) {
-        const shader::PassKind kind = shader::passKind(package.domain, package.shading);
+        const shader::PassKind kind = shader::passKind(package);
         const BindGroupHandle group = mContext.passGroups[static_cast<size_t>(kind)];
         if (group == mPass) return;
         mCommands.record(CmdBindGroup{ group, shader::kGroupPass });

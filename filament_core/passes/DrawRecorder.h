@@ -32,7 +32,7 @@ std::span<const backend::PipelineHandle> choosePipelines(framegraph::PassContext
 /// Shared by all draws of a pass.
 struct DrawContext {
     ViewGroup view;
-    std::array<backend::BindGroupHandle, 2> passGroups; ///< of shader::PassKind::Lit and Unlit
+    std::array<backend::BindGroupHandle, shader::kSurfaceKinds> passGroups; ///< by shader::PassKind
     backend::BufferHandle instanceIds;
     std::span<const backend::CmdBindGroup> deformations; ///< by DrawCall::deformation
     TextureFilter textureFilter = TextureFilter::AsAuthored;

@@ -3,6 +3,7 @@
 
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugViewPass.h"
+#include "filament_core/passes/DepthPass.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/ToneMapPass.h"
 
@@ -12,15 +13,29 @@ namespace {
 using backend::Format;
 using framegraph::FrameGraph;
 
+ShadedLights lightsOf(prepare::FramePacket const& packet) {
+    return { .hasAreas = packet.mainView().hasAreaLights,
+             .hasProfiles = !packet.mainView().profiles.empty(),
+             .hasColoredShadows = packet.demand.needs(prepare::Effect::ColoredShadows),
+             .hasContactShadows = packet.demand.needs(prepare::Effect::ContactShadows) };
+}
+
+ShadedScreen screenOf(Quality const& quality, prepare::SceneDemand const& demand) {
+    const bool hasOcclusion = demand.needs(prepare::Effect::AmbientOcclusion);
+    return { .hasOcclusion = hasOcclusion,
+             .hasBentNormals = hasOcclusion && quality.aoBentNormals,
+             .hasRefraction = demand.needs(prepare::Effect::Refraction),
+             .hasReflections = demand.needs(prepare::Effect::Reflections),
+             .hasFog = demand.needs(prepare::Effect::Fog) };
+}
+
 PassSettings settingsOf(View const& view, FrameResources const& resources, prepare::FramePacket const& packet) {
     FILAMENT_ASSERT(view.samples == 1 || view.samples == 4, "a view has 1 or 4 samples a pixel");
     return { .size = view.size,
              .samples = view.debugView == DebugView::None ? view.samples : uint8_t{ 1 }, // its depths are read
              .clearColor = view.clearColor,
-             .shading = shadingKey(view.quality, packet.environment.storage,
-                                   { .hasAreas = packet.mainView().hasAreaLights,
-                                     .hasProfiles = !packet.mainView().profiles.empty(),
-                                     .hasColoredShadows = packet.demand.needs(prepare::Effect::ColoredShadows) }),
+             .shading = shadingKey(view.quality, packet.environment.storage, lightsOf(packet),
+                                   screenOf(view.quality, packet.demand)),
              .depthRange = view.quality.depthRange,
              .precision = resources.hasHalfFloats ? view.quality.shadingPrecision : ShadingPrecision::Full,
              .textureFilter = view.quality.textureFilter };
@@ -59,6 +74,7 @@ FrameContext* makeFrameContext(Arena& arena, prepare::FramePacket const& packet,
 FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, FrameOutput const& output) {
     FrameTargets targets = beginFrame(graph, context, output);
     addShadowPass(graph, context, targets);
+    addDepthPass(graph, context, targets);
     addColorPass(graph, context, targets);
     if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);

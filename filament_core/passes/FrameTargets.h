@@ -13,7 +13,11 @@ struct FrameTargets {
     framegraph::TextureId shadowDepths; ///< the atlas of shadow maps; none: nothing in view is shadowed
     framegraph::TextureId shadows;      ///< what filters read of it: the same, or its moments
     framegraph::TextureId color;        ///< pre-exposed scene-linear light, one sample a pixel; may be `output` itself
-    framegraph::TextureId depth;        ///< of the main view, as many samples as it has; none before the colour pass
+    framegraph::TextureId depth; ///< of the main view; none before the depth prepass, or else the colour pass. That
+                                 ///< of the prepass has one sample a pixel, that of the colour pass as many as the view
+    framegraph::TextureId distances; ///< of what is opaque along the view, in metres, R32F with levels; none: unread
+    framegraph::TextureId occlusion; ///< as kBindingOcclusion says; none: not needed
+    framegraph::TextureId picture;   ///< as kBindingPicture says; none: not needed
 };
 
 } // namespace filament::passes

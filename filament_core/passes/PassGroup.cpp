@@ -32,24 +32,66 @@ PassShadows declareShadows(FrameContext const& context, framegraph::TextureId ma
     return { maps, context.blocks->add(std::as_bytes(std::span(context.packet.shadows.uniforms, 1))) };
 }
 
-BindGroupHandle passGroup(framegraph::PassContext& pass, FrameContext const& context, PassKind kind, PassBlock target,
-                          PassShadows const& shadows) {
+void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures) {
+    for (const framegraph::TextureId read :
+         { textures.shadows.maps, textures.occlusion, textures.sceneDepth, textures.picture })
+        if (read) pass.readSampled(read);
+}
+
+namespace {
+
+/// All that any kind of material reads, in the order of the layouts.
+std::array<BindGroupEntry, 10> allEntries(framegraph::PassContext& pass, FrameContext const& context, PassBlock target,
+                                          PassTextures const& textures) {
     LightingTextures const& light = context.resources.lighting;
     FrameSamplers const& samplers = context.resources.samplers;
-    const TextureHandle maps = shadows.maps ? pass.texture(shadows.maps) : context.resources.white;
-    const std::array<BindGroupEntry, 6> entries{ {
+    PassShadows const& shadows = textures.shadows;
+    const auto orWhite = [&](framegraph::TextureId drawn) {
+        return drawn ? pass.texture(drawn) : context.resources.white;
+    };
+    return { {
             context.blocks->entry(shader::kBindingPass, target),
             { .binding = shader::kBindingShadowMaps,
-              .texture = maps,
+              .texture = orWhite(shadows.maps),
               .sampler = shadows.hasMoments ? samplers.trilinear : samplers.nearest },
             // Without shadows most programs do not read it: any block will do.
             context.blocks->entry(shader::kBindingShadows, shadows.block.bytes > 0 ? shadows.block : target),
             { .binding = shader::kBindingSpecular, .texture = light.specular, .sampler = samplers.trilinear },
             { .binding = shader::kBindingDfg, .texture = light.dfg, .sampler = samplers.bilinear },
             { .binding = shader::kBindingIrradiance, .texture = light.irradiance, .sampler = samplers.bilinear },
+            { .binding = shader::kBindingOcclusion,
+              .texture = orWhite(textures.occlusion),
+              .sampler = samplers.nearest },
+            { .binding = shader::kBindingSceneDepth,
+              .texture = orWhite(textures.sceneDepth),
+              .sampler = samplers.nearest },
+            { .binding = shader::kBindingFog, .texture = light.specular, .sampler = samplers.trilinear },
+            { .binding = shader::kBindingPicture, .texture = orWhite(textures.picture), .sampler = samplers.trilinear },
     } };
+}
+
+} // namespace
+
+BindGroupHandle passGroup(framegraph::PassContext& pass, FrameContext const& context, PassKind kind, PassBlock target,
+                          PassTextures const& textures) {
+    const auto all = allEntries(pass, context, target, textures);
     const BindGroupLayout layout = shader::passGroupLayout(kind);
-    return pass.bindGroup(layout, std::span(entries).first(layout.count), "pass");
+    std::array<BindGroupEntry, all.size()> entries;
+    size_t count = 0;
+    for (BindGroupEntry const& entry : all) {
+        if (count < layout.count && entry.binding == layout.bindings[count].binding) entries[count++] = entry;
+    }
+    FILAMENT_ASSERT(count == layout.count, "entries are in the order of the layouts");
+    return pass.bindGroup(layout, std::span(entries).first(count), "pass");
+}
+
+std::array<BindGroupHandle, shader::kSurfaceKinds> surfaceGroups(framegraph::PassContext& pass,
+                                                                 FrameContext const& context, PassBlock target,
+                                                                 PassTextures const& textures) {
+    std::array<BindGroupHandle, shader::kSurfaceKinds> groups;
+    for (size_t kind = 0; kind < groups.size(); ++kind)
+        groups[kind] = passGroup(pass, context, static_cast<PassKind>(kind), target, textures);
+    return groups;
 }
 
 } // namespace filament::passes

@@ -9,6 +9,8 @@
 #include "framegraph/PassContext.h"
 #include "shaders/package/GroupLayouts.h"
 
+#include <array>
+
 namespace filament::passes {
 
 /// For a pass that draws to `level` of `texture`, or draws `samples` a pixel and resolves them to it.
@@ -26,7 +28,20 @@ struct PassShadows {
 };
 PassShadows declareShadows(FrameContext const& context, framegraph::TextureId maps);
 
+/// What a pass declares to read of what others have drawn; none by default: its materials then have white or black instead.
+struct PassTextures {
+    PassShadows shadows{};
+    framegraph::TextureId occlusion{};  ///< FrameTargets::occlusion
+    framegraph::TextureId sceneDepth{}; ///< FrameTargets::distances
+    framegraph::TextureId picture{};    ///< FrameTargets::picture
+};
+void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures);
+
 backend::BindGroupHandle passGroup(framegraph::PassContext& pass, FrameContext const& context, shader::PassKind kind,
-                                   PassBlock target, PassShadows const& shadows = {});
+                                   PassBlock target, PassTextures const& textures = {});
+/// One for each kind of material that surfaces have.
+std::array<backend::BindGroupHandle, shader::kSurfaceKinds> surfaceGroups(framegraph::PassContext& pass,
+                                                                          FrameContext const& context, PassBlock target,
+                                                                          PassTextures const& textures = {});
 
 } // namespace filament::passes

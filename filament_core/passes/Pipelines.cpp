@@ -47,7 +47,7 @@ uint64_t rasterBits(scene::InstanceRaster const& raster) {
 }
 
 scene::InstanceRaster rasterIn(PassSlot const& slot, scene::InstanceRaster const& raster) {
-    return slot.depthOnly ? scene::inShadowMaps(raster) : raster;
+    return slot.isShadowMap ? scene::inShadowMaps(raster) : raster;
 }
 
 uint64_t makeKey(uint32_t slot, PipelineUse const& use, scene::InstanceRaster const& raster) {
@@ -91,7 +91,7 @@ bool drawsNothing(scene::InstanceRaster const& raster) {
 }
 
 // The faces that are drawn stop light, so hulls whose far side alone is seen (outlines) do not darken what they enclose.
-PipelineDesc leavingDepth(PipelineDesc desc, scene::InstanceRaster const& raster) {
+PipelineDesc leavingShadow(PipelineDesc desc, scene::InstanceRaster const& raster) {
     desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
     return desc;
 }
@@ -228,7 +228,7 @@ PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Materia
     }
     const uint8_t needed = neededVariant(material, variant, shadowFilterOf(at.shading));
     const bool isShadowed = (needed & shader::kVariantShadowReceiver) != 0;
-    ShadingKey shading = material.isLit() || isShadowed ? at.shading : ShadingKey{ 0 };
+    ShadingKey shading = material.isLit() || isShadowed ? at.shading : ofUnlit(at.shading);
     if ((needed & shader::kVariantPunctual) == 0) shading = withoutLightList(shading);
     return { withPrecision(material, needed, at.precision), isShadowed ? shading : withoutShadows(shading) };
 }
@@ -293,9 +293,10 @@ PipelineDesc PipelineCache::describe(PassSlot const& slot, scene::Material const
         desc.vertices = withInstanceIndex(mLayouts[geometryLayout].vertices);
         desc.raster.topology = mLayouts[geometryLayout].topology;
     }
-    if (slot.depthOnly) return leavingDepth(desc, raster);
+    if (slot.isShadowMap) return leavingShadow(desc, raster);
     const bool hasDepth = slot.layout.depthFormat != Format::None && slot.layout.subpasses[slot.subpass].usesDepth;
     if (hasDepth) desc.depthStencil = depthState(raster, slot.depthRange);
+    if (slot.depthOnly) return desc;
     BlendState blend = blendState(package);
     if (desc.raster.alphaToCoverage) keepCoveredAlpha(blend);
     if (!raster.colorWrite || drawsNothing(raster)) blend.writeMask = 0;

@@ -9,20 +9,24 @@ namespace filament::passes {
 namespace {
 
 // In the order of shader::kQualityConstants.
-constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 2, 1, 1, 4 };
-static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= sizeof(ShadingKey) * 8);
+constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 2, 2, 2, 2, 2, 2, 2,
+                                                                        2, 2, 1, 1, 1, 1, 2, 1, 1, 4 };
+static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= 48, "a key and a variant are one number of 64 bits");
 
-// The last of them are those of shadow maps.
-static_assert(shader::kQualityConstants.back().id == shader::kQualityShadowFilter &&
-              shader::kQualityConstants[kBits.size() - 2].id == shader::kQualityColoredShadows);
-constexpr uint32_t kFilterShift = std::accumulate(kBits.begin(), kBits.end() - 1, 0u);
-constexpr uint32_t kColoredShift = kFilterShift - kBits[kBits.size() - 2];
-
-constexpr uint32_t maskOf(size_t choice) { return (1u << kBits[choice]) - 1; }
+constexpr size_t placeOf(uint32_t id) {
+    size_t place = 0;
+    while (shader::kQualityConstants[place].id != id) ++place;
+    return place;
+}
+constexpr uint32_t shiftOf(uint32_t id) {
+    return std::accumulate(kBits.begin(), kBits.begin() + static_cast<std::ptrdiff_t>(placeOf(id)), 0u);
+}
+constexpr ShadingKey largestOf(size_t place) { return (ShadingKey{ 1 } << kBits[place]) - 1; }
+constexpr ShadingKey maskOf(uint32_t id) { return largestOf(placeOf(id)) << shiftOf(id); }
 
 // In the order of shader::kQualityConstants.
 std::array<uint32_t, shader::kQualityConstants.size()>
-choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLights lights) {
+choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLights lights, ShadedScreen screen) {
     const bool lacksCube = quality.diffuseIrradiance == DiffuseIrradiance::Cube && !light.hasIrradianceCube;
     const DiffuseIrradiance irradiance = lacksCube ? DiffuseIrradiance::SphericalHarmonics : quality.diffuseIrradiance;
     return { static_cast<uint32_t>(quality.specularVisibility),
@@ -36,6 +40,13 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
              quality.diffuseCoupling ? 0u : 1u,
              static_cast<uint32_t>(quality.specularLookUps),
              static_cast<uint32_t>(quality.anisotropicLookUps),
+             screen.hasBentNormals ? 2u
+             : screen.hasOcclusion ? 1u
+                                   : 0u,
+             screen.hasRefraction ? 1u : 0u,
+             screen.hasReflections ? 1u : 0u,
+             lights.hasContactShadows ? 1u : 0u,
+             screen.hasFog ? 1u : 0u,
              lights.hasAreas ? 1 + static_cast<uint32_t>(quality.areaLights) : 0u,
              lights.hasProfiles ? 1u : 0u,
              lights.hasColoredShadows ? 1u : 0u,
@@ -44,37 +55,45 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
 
 } // namespace
 
-ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLights lights) {
-    uint32_t key = 0, shift = 0;
-    const auto chosen = choices(quality, light, lights);
+ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLights lights,
+                      ShadedScreen screen) {
+    ShadingKey key = 0;
+    uint32_t shift = 0;
+    const auto chosen = choices(quality, light, lights, screen);
     for (size_t i = 0; i < chosen.size(); ++i) {
-        FILAMENT_ASSERT(chosen[i] <= maskOf(i), "a quality choice is one of its enumerators");
-        key |= chosen[i] << shift;
+        FILAMENT_ASSERT(chosen[i] <= largestOf(i), "a quality choice is one of its enumerators");
+        key |= ShadingKey{ chosen[i] } << shift;
         shift += kBits[i];
     }
-    return static_cast<ShadingKey>(key);
+    return key;
 }
 
-ShadingKey depthShadingKey(bool coloredShadows) { return coloredShadows ? 1u << kColoredShift : 0u; }
+ShadingKey depthShadingKey(bool coloredShadows) {
+    return coloredShadows ? ShadingKey{ 1 } << shiftOf(shader::kQualityColoredShadows) : ShadingKey{ 0 };
+}
 
-ShadingKey withoutShadows(ShadingKey key) { return key & ((1u << kColoredShift) - 1); }
+ShadingKey withoutOcclusion(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenOcclusion); }
 
-ShadowFilter shadowFilterOf(ShadingKey key) { return static_cast<ShadowFilter>(key >> kFilterShift); }
+ShadingKey ofUnlit(ShadingKey key) { return key & maskOf(shader::kQualityFog); }
+
+ShadingKey withoutShadows(ShadingKey key) {
+    return key & ~(maskOf(shader::kQualityColoredShadows) | maskOf(shader::kQualityShadowFilter));
+}
+
+ShadowFilter shadowFilterOf(ShadingKey key) {
+    return static_cast<ShadowFilter>((key & maskOf(shader::kQualityShadowFilter)) >>
+                                     shiftOf(shader::kQualityShadowFilter));
+}
 
 ShadingKey withoutLightList(ShadingKey key) {
-    constexpr size_t kPlace = kBits.size() - 4; // areas, profiles
-    static_assert(shader::kQualityConstants[kPlace].id == shader::kQualityAreaLights);
-    static_assert(shader::kQualityConstants[kPlace + 1].id == shader::kQualityLightProfiles);
-    constexpr uint32_t kShift = std::accumulate(kBits.begin(), kBits.begin() + kPlace, 0u);
-    constexpr uint32_t kMask = (1u << (kBits[kPlace] + kBits[kPlace + 1])) - 1;
-    return key & ~(kMask << kShift);
+    return key & ~(maskOf(shader::kQualityAreaLights) | maskOf(shader::kQualityLightProfiles));
 }
 
 std::array<backend::ConstantValue, shader::kQualityConstants.size()> shadingConstants(ShadingKey key) {
     std::array<backend::ConstantValue, shader::kQualityConstants.size()> values;
     for (size_t i = 0, shift = 0; i < values.size(); shift += kBits[i++]) {
         values[i] = { .id = shader::kQualityConstants[i].id,
-                      .bits = static_cast<uint32_t>(key) >> shift & maskOf(i),
+                      .bits = static_cast<uint32_t>(key >> shift & largestOf(i)),
                       .type = backend::ConstantValue::Type::Int };
     }
     return values;

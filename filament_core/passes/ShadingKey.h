@@ -15,20 +15,33 @@
 
 namespace filament::passes {
 
-using ShadingKey = uint32_t;
+using ShadingKey = uint64_t;
 
 /// Which kinds of light there are in a view.
 struct ShadedLights {
     bool hasAreas = false;
     bool hasProfiles = false;
     bool hasColoredShadows = false; ///< some shadow map has three channels
+    bool hasContactShadows = false;
+};
+
+/// What shading reads of the picture, and what lies between it and the camera.
+struct ShadedScreen {
+    bool hasOcclusion = false, hasBentNormals = false;
+    bool hasRefraction = false, hasReflections = false;
+    bool hasFog = false;
 };
 
 /// `light`: how the environment of the scene is stored, which selects programs as well.
-ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& light = {}, ShadedLights lights = {});
+ShadingKey shadingKey(Quality const& quality, scene::EnvironmentStorage const& light = {}, ShadedLights lights = {},
+                      ShadedScreen screen = {});
 /// Of variants that leave depth in shadow maps: whether what transmits light does so there.
 ShadingKey depthShadingKey(bool coloredShadows);
 
+/// For what leaves no depth: ambient occlusion is that of the surfaces behind it.
+ShadingKey withoutOcclusion(ShadingKey key);
+/// The choices of materials that are not lit.
+ShadingKey ofUnlit(ShadingKey key);
 /// Without the choices that only variants with kVariantPunctual have.
 ShadingKey withoutLightList(ShadingKey key);
 /// Without the choices that only shadows have.

@@ -21,7 +21,7 @@ struct DrawnMap {
     ShadowTile tile;
     uint32_t view = 0; ///< of the packet
     PassBlock target;
-    std::array<BindGroupHandle, 2> passGroups; ///< by PassKind
+    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups; ///< by PassKind
     std::span<const PipelineHandle> pipelines;
 };
 
@@ -51,8 +51,7 @@ Chosen choose(PassContext& pass, FrameContext const& context, std::span<DrawnMap
     FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "shadow maps are a pass of their own");
     const uint32_t slot = pipelines.slot(at);
     for (DrawnMap& map : maps) {
-        map.passGroups = { passGroup(pass, context, shader::PassKind::Lit, map.target),
-                           passGroup(pass, context, shader::PassKind::Unlit, map.target) };
+        map.passGroups = surfaceGroups(pass, context, map.target);
         map.pipelines =
                 choosePipelines(pass, *context.arena, pipelines, slot, context.packet.views[map.view].opaque, 0);
     }
@@ -100,7 +99,8 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, framegraph::Te
 PassSlot shadowSlot(Quality const& quality) {
     PassSlot slot{ .layout = { .depthFormat = Format::D32F },
                    .shading = depthShadingKey(quality.coloredShadows),
-                   .depthOnly = true };
+                   .depthOnly = true,
+                   .isShadowMap = true };
     slot.layout.subpasses[0].colorMask = 0;
     return slot;
 }

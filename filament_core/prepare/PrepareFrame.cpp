@@ -30,13 +30,15 @@ uint32_t cascadesOf(ShadowPacket const& shadows) {
     return shadows.uniforms ? static_cast<uint32_t>(shadows.uniforms->sun.y) : 0;
 }
 
-SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, DebugView debugView) {
+SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, ViewInput const& view) {
     return findDemand({ .counts = packet.mainView().counts,
                         .shadows = shadows,
                         .hasIndirectLight = static_cast<bool>(packet.environment.specular),
                         .hasSky = static_cast<bool>(packet.environment.sky),
                         .deformed = countDeformed(packet.deformations),
-                        .debugView = debugView,
+                        .quality = view.quality,
+                        .fog = view.effects.fog,
+                        .debugView = view.debugView,
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,
                         .discsInView = static_cast<uint32_t>(packet.discs.size()),
@@ -78,7 +80,7 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     const SunDiscs discs = findSunDiscs(arena, scene.lights, views[0]);
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;
-    packet.demand = demandOf(packet, shadows.counts, views[0].debugView);
+    packet.demand = demandOf(packet, shadows.counts, views[0]);
     return packet;
 }
 

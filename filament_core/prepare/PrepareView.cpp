@@ -27,9 +27,24 @@ uint32_t countLit(std::span<const DrawCall> draws) {
             std::ranges::count_if(draws, [](DrawCall const& draw) { return draw.material->material->isLit(); }));
 }
 
+uint32_t countRefractive(std::span<const DrawCall> draws) {
+    return static_cast<uint32_t>(std::ranges::count_if(draws, [](DrawCall const& draw) {
+        return draw.material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
+    }));
+}
+
+uint32_t countReflective(std::span<const DrawCall> draws) {
+    return static_cast<uint32_t>(std::ranges::count_if(draws, [](DrawCall const& draw) {
+        return draw.material->material->package.reflections == shader::Reflections::ScreenSpace;
+    }));
+}
+
 void countDraws(DrawLists const& draws, ViewCounts& counts) {
     counts.litDraws = countLit(draws.opaque) + countLit(draws.blended);
     counts.blendedDraws = static_cast<uint32_t>(draws.blended.size());
+    counts.opaqueDraws = static_cast<uint32_t>(draws.opaque.size());
+    counts.refractiveDraws = countRefractive(draws.opaque) + countRefractive(draws.blended);
+    counts.reflectiveDraws = countReflective(draws.opaque) + countReflective(draws.blended);
 }
 
 /// Light that meets no lit surface is in no shader.

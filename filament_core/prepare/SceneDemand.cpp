@@ -39,7 +39,42 @@ EffectDemand demandOfDiscs(uint32_t inView, uint32_t outOfView) {
     return { false, outOfView ? DemandReason::OutOfView : DemandReason::NotInScene, 0, outOfView };
 }
 
-EffectDemand demandOfDebugView(DemandInput const& input) {
+EffectDemand demandOfOcclusion(DemandInput const& input) {
+    if (input.quality.ao == AmbientOcclusionTerm::Off) return { .reason = DemandReason::SwitchedOff };
+    if (input.counts.opaqueDraws == 0) return { .reason = DemandReason::NothingOpaque };
+    if (!input.hasIndirectLight || input.counts.litDraws == 0) return { .reason = DemandReason::NothingIndirect };
+    return { true, DemandReason::DarkensIndirectLight, input.counts.litDraws };
+}
+
+/// `draws` see the picture, if that is on.
+EffectDemand demandOfPicture(uint32_t draws, bool isOn) {
+    if (draws == 0) return { .reason = DemandReason::NothingAsks };
+    if (!isOn) return { .reason = DemandReason::SwitchedOff };
+    return { true, DemandReason::SeesPicture, draws };
+}
+
+EffectDemand demandOfContactShadows(ViewCounts const& counts) {
+    if (counts.contactLights == 0) return { .reason = DemandReason::NothingAsks };
+    if (counts.litDraws == 0) return { .reason = DemandReason::NothingLitVisible };
+    if (counts.opaqueDraws == 0) return { .reason = DemandReason::NothingOpaque };
+    return { true, DemandReason::LightsAskForIt, counts.contactLights };
+}
+
+EffectDemand demandOfFog(DemandInput const& input) {
+    if (!input.fog.enabled) return { .reason = DemandReason::SwitchedOff };
+    if (input.fog.density == 0 || input.fog.maximumOpacity == 0) return { .reason = DemandReason::HasNoDensity };
+    return { true, DemandReason::LiesInBetween };
+}
+
+/// `readers` of the depths run.
+EffectDemand demandOfPrepass(DemandInput const& input, uint32_t readers) {
+    if (input.counts.opaqueDraws == 0) return { .reason = DemandReason::NothingOpaque };
+    if (readers) return { true, DemandReason::DepthIsRead, readers };
+    if (input.quality.depthPrepass == DepthPrepass::On) return { true, DemandReason::SwitchedOn };
+    return { .reason = DemandReason::DepthIsUnread };
+}
+
+EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& demand) {
     ViewCounts const& counts = input.counts;
     const uint32_t lights = counts.litDraws ? counts.lights : 0; // otherwise no list is made
     switch (input.debugView) {
@@ -53,6 +88,15 @@ EffectDemand demandOfDebugView(DemandInput const& input) {
         return { true, DemandReason::ShowsFroxels, counts.froxels ? counts.longestFroxel : lights, counts.froxels };
     case DebugView::Lights:
         return { true, DemandReason::ShowsLights, lights };
+    case DebugView::Occlusion:
+    case DebugView::BentNormals:
+        return { true, DemandReason::ShowsEffect, demand.needs(Effect::AmbientOcclusion) };
+    case DebugView::Reflections:
+        return { true, DemandReason::ShowsEffect, demand.needs(Effect::Reflections) };
+    case DebugView::Refraction:
+        return { true, DemandReason::ShowsEffect, demand.needs(Effect::Refraction) };
+    case DebugView::Fog:
+        return { true, DemandReason::ShowsEffect, demand.needs(Effect::Fog) };
     }
     return {};
 }
@@ -69,6 +113,8 @@ std::string describeDebugView(EffectDemand const& demand) {
     case DemandReason::ShowsFroxels:
         return demand.others ? fmt::format("debugView=froxels: at most {} lights", demand.count)
                              : fmt::format("debugView=froxels: no grid, {} lights everywhere", demand.count);
+    case DemandReason::ShowsEffect:
+        return demand.count ? "an effect" : "an effect that does not run (its line says why)";
     default:
         return fmt::format("debugView=lights: at most {}", demand.count);
     }
@@ -106,15 +152,71 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::SunDisc, demandOfDiscs(input.discsInView, input.discsOutOfView));
     set(Effect::Blending, demandOfDraws(counts.blendedDraws));
     set(Effect::Deformation, demandOfDraws(input.deformed));
-    set(Effect::DebugView, demandOfDebugView(input));
+    set(Effect::AmbientOcclusion, demandOfOcclusion(input));
+    set(Effect::Refraction,
+        demandOfPicture(counts.refractiveDraws, input.quality.refraction == RefractionSource::Screen));
+    set(Effect::Reflections, demandOfPicture(counts.reflectiveDraws, input.quality.ssr));
+    set(Effect::ContactShadows, demandOfContactShadows(counts));
+    set(Effect::Fog, demandOfFog(input));
+    uint32_t readers = 0;
+    for (const Effect effect : { Effect::AmbientOcclusion, Effect::Reflections, Effect::ContactShadows })
+        readers += demand.needs(effect) ? 1 : 0;
+    set(Effect::DepthPrepass, demandOfPrepass(input, readers));
+    set(Effect::DebugView, demandOfDebugView(input, demand));
     return demand;
 }
 
+namespace {
+
+const char* describeSwitch(Effect effect) {
+    switch (effect) {
+    case Effect::ColoredShadows:
+        return "switched off: coloredShadows=off";
+    case Effect::AmbientOcclusion:
+        return "switched off: ao=off";
+    case Effect::Refraction:
+        return "switched off: refraction=environment";
+    case Effect::Reflections:
+        return "switched off: ssr=off";
+    case Effect::Fog:
+        return "switched off: fog=off";
+    default:
+        return "switched off: shadows=off";
+    }
+}
+
+const char* describeNobody(Effect effect) {
+    switch (effect) {
+    case Effect::Refraction:
+        return "nothing in view refracts the picture";
+    case Effect::Reflections:
+        return "nothing in view reflects the picture";
+    default:
+        return "no light in view asks for them";
+    }
+}
+
+} // namespace
+
 const char* nameOf(Effect effect) {
-    static constexpr std::array<const char*, kEffects> kNames{
-        "sun", "light list", "area lights", "light profiles", "shadows",   "coloured shadows", "indirect light",
-        "sky", "sun disc",   "blending",    "deformation",    "debug view"
-    };
+    static constexpr std::array<const char*, kEffects> kNames{ "sun",
+                                                               "light list",
+                                                               "area lights",
+                                                               "light profiles",
+                                                               "shadows",
+                                                               "coloured shadows",
+                                                               "indirect light",
+                                                               "sky",
+                                                               "sun disc",
+                                                               "blending",
+                                                               "deformation",
+                                                               "depth prepass",
+                                                               "ambient occlusion",
+                                                               "refraction",
+                                                               "reflections",
+                                                               "contact shadows",
+                                                               "fog",
+                                                               "debug view" };
     return kNames[static_cast<size_t>(effect)];
 }
 
@@ -140,9 +242,33 @@ std::string describe(Effect effect, EffectDemand const& demand) {
     case DemandReason::ShowsAtlas:
     case DemandReason::ShowsFroxels:
     case DemandReason::ShowsLights:
+    case DemandReason::ShowsEffect:
         return describeDebugView(demand);
+    case DemandReason::DepthIsRead:
+        return demand.count == 1 ? "an effect reads the depths"
+                                 : fmt::format("{} effects read the depths", demand.count);
+    case DemandReason::SwitchedOn:
+        return "depthPrepass=on";
+    case DemandReason::DarkensIndirectLight:
+        return fmt::format("darkens indirect light of {} draws", demand.count);
+    case DemandReason::SeesPicture:
+        return fmt::format("{} in view see{} the picture", demand.count, demand.count == 1 ? "s" : "");
+    case DemandReason::LightsAskForIt:
+        return fmt::format("{} light{} for them", demand.count, demand.count == 1 ? " asks" : "s ask");
+    case DemandReason::LiesInBetween:
+        return "lies between the camera and what is visible";
+    case DemandReason::DepthIsUnread:
+        return "no effect reads depths";
+    case DemandReason::NothingIndirect:
+        return "no indirect light is seen";
+    case DemandReason::NothingOpaque:
+        return "nothing opaque is visible";
+    case DemandReason::NothingAsks:
+        return describeNobody(effect);
+    case DemandReason::HasNoDensity:
+        return "its density or opacity is 0";
     case DemandReason::SwitchedOff:
-        return effect == Effect::ColoredShadows ? "switched off: coloredShadows=off" : "switched off: shadows=off";
+        return describeSwitch(effect);
     case DemandReason::NothingReceives:
         return "no surface in view receives shadows";
     case DemandReason::NothingCasts:

@@ -30,9 +30,15 @@ enum class Effect : uint8_t {
     SunDisc, ///< discs of suns, and their halos
     Blending,
     Deformation,
+    DepthPrepass, ///< of what is opaque, before anything is shaded
+    AmbientOcclusion,
+    Refraction,  ///< of the picture
+    Reflections, ///< of the picture
+    ContactShadows,
+    Fog,
     DebugView, ///< instead of the picture
 };
-inline constexpr size_t kEffects = 12;
+inline constexpr size_t kEffects = 18;
 
 /// Why an effect is needed (the first group), or not.
 enum class DemandReason : uint8_t {
@@ -46,6 +52,13 @@ enum class DemandReason : uint8_t {
     ShowsAtlas,           ///< `count` maps in `others` texels a side; 0: there is no atlas
     ShowsFroxels,         ///< `others`, the longest list of which has `count` lights; 0: there is one list of `count`
     ShowsLights,          ///< `count` are in the list
+    ShowsEffect,          ///< the effect that this debug view is about runs, or (`count` is 0) does not
+    DepthIsRead,          ///< by `count` effects
+    SwitchedOn,           ///< by Quality
+    DarkensIndirectLight, ///< on `count` lit draws
+    SeesPicture,          ///< `count` draws do
+    LightsAskForIt,       ///< `count` lights
+    LiesInBetween,        ///< between the camera and what is visible
 
     NotInScene,
     OtherChannels,     ///< none of `others` lights is on a channel of a lit surface in view
@@ -55,6 +68,11 @@ enum class DemandReason : uint8_t {
     NothingReceives,   ///< there is such light, but no surface in view on which shadows fall
     NothingCasts,      ///< nothing that casts lies in any of `count` maps
     NothingTransmits,  ///< no light passes through what lies in any of `count` maps
+    DepthIsUnread,     ///< no effect needs it
+    NothingIndirect,   ///< no indirect light is seen
+    NothingOpaque,     ///< in view
+    NothingAsks,       ///< no light in view, or no surface
+    HasNoDensity,      ///< or no opacity
 };
 
 struct EffectDemand {
@@ -79,6 +97,8 @@ struct DemandInput {
     ShadowCounts shadows{};
     bool hasIndirectLight = false, hasSky = false;
     uint32_t deformed = 0; ///< objects in view that skins or morph targets move
+    Quality quality{};
+    Fog fog{}; ///< within its ranges
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs

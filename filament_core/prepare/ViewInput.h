@@ -34,6 +34,7 @@ struct ViewInput {
     double timeSeconds = 0;
     std::array<float4, 4> materialGlobals{}; ///< View::materialGlobals
     Quality quality{};
+    Effects effects{};
     DebugView debugView = DebugView::None; ///< of the main view
 };
 

@@ -39,6 +39,14 @@ constexpr std::string_view kCascades[] = { "1", "2", "3", "4" };
 constexpr std::string_view kAtlasSizes[] = { "16", "64", "256" };
 constexpr std::string_view kBlurs[] = { "0", "2", "4", "8" };
 constexpr std::string_view kAreaLightTerms[] = { "ltc", "representativePoint" };
+constexpr std::string_view kAmbientOcclusionTerms[] = { "off", "sao", "gtao" };
+constexpr std::string_view kAoSamples[] = { "3", "7", "16", "32" };
+constexpr std::string_view kAoSlices[] = { "1", "2", "3" };
+constexpr std::string_view kAmbientOcclusionResolutions[] = { "half", "full", "checkerboard" };
+constexpr std::string_view kRefractionSources[] = { "screen", "environment" };
+constexpr std::string_view kSsrSteps[] = { "16", "48", "128" };
+constexpr std::string_view kContactSteps[] = { "8", "16", "32" };
+constexpr std::string_view kDepthPrepasses[] = { "auto", "on", "off" };
 constexpr std::string_view kDepthRanges[] = { "reversed", "ordinary" };
 constexpr std::string_view kPresets[] = { "low", "medium", "high", "reference" };
 
@@ -112,6 +120,17 @@ constexpr std::array kFields{
     numberField<&Quality::shadowBlurTexels, 0, 16>("shadowBlurTexels", kBlurs, "a whole number from 0 to 16"),
     enumField<&Quality::coloredShadows>("coloredShadows", kBooleans),
     enumField<&Quality::areaLights>("areaLights", kAreaLightTerms),
+    enumField<&Quality::ao>("ao", kAmbientOcclusionTerms),
+    numberField<&Quality::aoSamples, 3, 32>("aoSamples", kAoSamples, "a whole number from 3 to 32"),
+    numberField<&Quality::aoSlices, 1, 3>("aoSlices", kAoSlices, "1, 2 or 3"),
+    enumField<&Quality::aoResolution>("aoResolution", kAmbientOcclusionResolutions),
+    enumField<&Quality::aoBlur>("aoBlur", kBooleans),
+    enumField<&Quality::aoBentNormals>("aoBentNormals", kBooleans),
+    enumField<&Quality::refraction>("refraction", kRefractionSources),
+    enumField<&Quality::ssr>("ssr", kBooleans),
+    numberField<&Quality::ssrSteps, 8, 255>("ssrSteps", kSsrSteps, "a whole number from 8 to 255"),
+    numberField<&Quality::contactSteps, 4, 64>("contactSteps", kContactSteps, "a whole number from 4 to 64"),
+    enumField<&Quality::depthPrepass>("depthPrepass", kDepthPrepasses),
     enumField<&Quality::depthRange>("depthRange", kDepthRanges),
     enumField<&Quality::cameraRelative>("cameraRelative", kBooleans),
 };
@@ -186,6 +205,10 @@ const char* toString(TextureFilter value) { return wordOf(kTextureFilters, value
 const char* toString(ToneMapping value) { return wordOf(kToneMappings, value); }
 const char* toString(ShadowFilter value) { return wordOf(kShadowFilters, value); }
 const char* toString(AreaLightTerm value) { return wordOf(kAreaLightTerms, value); }
+const char* toString(AmbientOcclusionTerm value) { return wordOf(kAmbientOcclusionTerms, value); }
+const char* toString(AmbientOcclusionResolution value) { return wordOf(kAmbientOcclusionResolutions, value); }
+const char* toString(RefractionSource value) { return wordOf(kRefractionSources, value); }
+const char* toString(DepthPrepass value) { return wordOf(kDepthPrepasses, value); }
 const char* toString(DepthRange value) { return wordOf(kDepthRanges, value); }
 const char* toString(QualityPreset value) { return wordOf(kPresets, value); }
 
@@ -231,6 +254,18 @@ std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name) {
 }
 std::optional<ToneMapping> toneMappingFromName(std::string_view name) {
     return valueOf<ToneMapping>(kToneMappings, name);
+}
+std::optional<AmbientOcclusionTerm> ambientOcclusionTermFromName(std::string_view name) {
+    return valueOf<AmbientOcclusionTerm>(kAmbientOcclusionTerms, name);
+}
+std::optional<AmbientOcclusionResolution> ambientOcclusionResolutionFromName(std::string_view name) {
+    return valueOf<AmbientOcclusionResolution>(kAmbientOcclusionResolutions, name);
+}
+std::optional<RefractionSource> refractionSourceFromName(std::string_view name) {
+    return valueOf<RefractionSource>(kRefractionSources, name);
+}
+std::optional<DepthPrepass> depthPrepassFromName(std::string_view name) {
+    return valueOf<DepthPrepass>(kDepthPrepasses, name);
 }
 std::optional<DepthRange> depthRangeFromName(std::string_view name) { return valueOf<DepthRange>(kDepthRanges, name); }
 std::optional<QualityPreset> qualityPresetFromName(std::string_view name) {

@@ -94,9 +94,6 @@ constexpr Contradiction kContradictions[] = {
       "reflections", "an unlit material cannot reflect; use shadingModel : lit" },
 };
 
-bool readsScreen(MaterialPackage const& package) {
-    return package.refractionMode == RefractionMode::ScreenSpace || package.reflections == Reflections::ScreenSpace;
-}
 bool hasFog(MaterialPackage const& package) { return (package.filteredVariants & kVariantFog) == 0; }
 
 /// Chapter 7 of the guide. The first binding of a group is the block of parameters.
@@ -108,12 +105,11 @@ uint32_t budgetOfLevel(MaterialPackage const& package) {
 
 /// "7 are the engine's: environment, lighting tables, ..."
 std::string engineShare(MaterialPackage const& package) {
-    const PassKind kind = passKind(package.domain, package.shading);
-    const uint32_t count = samplersOfEngine(kind, readsScreen(package), hasFog(package));
+    const PassKind kind = passKind(package);
+    const uint32_t count = samplersOfEngine(kind, hasFog(package));
     std::string names;
     for (EngineTexture const& texture : kEngineTextures) {
-        const bool isRead = isReadBy(texture, kind) || (readsScreen(package) && texture.readers == kReadByScreenSpace);
-        if (!isRead || (!hasFog(package) && (texture.readers & kReadForFog) != 0)) continue;
+        if (!isReadBy(texture, kind) || (!hasFog(package) && (texture.readers & kReadForFog) != 0)) continue;
         names += fmt::format("{}{}", names.empty() ? ": " : ", ", texture.name);
     }
     return fmt::format("{} are the engine's{}", count, names);

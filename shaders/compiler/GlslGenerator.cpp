@@ -408,7 +408,7 @@ backend::ProgramLayout materialLayout(MaterialDefinition const& definition, Mate
     using backend::ShaderStage;
     backend::ProgramLayout layout{};
     layout[kGroupView] = viewGroupLayout();
-    layout[kGroupPass] = passGroupLayout(passKind(definition.package.domain, definition.package.shading));
+    layout[kGroupPass] = passGroupLayout(passKind(definition.package));
     backend::BindGroupLayout& group = layout[kGroupMaterial];
     if (definition.package.uniformBytes > 0)
         group.bindings[group.count++] = { .binding = 0, .type = BindingType::UniformBuffer };

@@ -30,11 +30,14 @@ inline constexpr uint32_t kSamplersOfEveryDevice = 16;
 
 /// What the Pass group of a material holds besides PassUniforms.
 enum class PassKind : uint8_t {
-    Lit,     ///< surfaces under lights: the textures of the environment
-    Unlit,   ///< surfaces that light does not reach, the sky among them
-    Picture, ///< the domain postprocess
+    Lit,       ///< surfaces under lights: the textures of the environment
+    LitScreen, ///< those that reflect or refract the picture as well
+    Unlit,     ///< surfaces that light does not reach, the sky among them
+    Picture,   ///< the domain postprocess
 };
-inline constexpr size_t kPassKinds = 3;
+inline constexpr size_t kPassKinds = 4;
+inline constexpr size_t kSurfaceKinds = 3; ///< all but the last: what draws the surfaces of a scene
+constexpr bool isLitKind(PassKind kind) { return kind == PassKind::Lit || kind == PassKind::LitScreen; }
 
 /// Who reads a texture of the engine; a set.
 enum PassReaders : uint8_t {
@@ -44,12 +47,10 @@ enum PassReaders : uint8_t {
     kReadForFog = 8,        ///< but not by materials compiled without fog
 };
 
-inline constexpr uint8_t kNotMadeYet = 0; ///< the binding of PassUniforms: no texture has it
-
 struct EngineTexture {
     const char* name;
     uint8_t readers; ///< PassReaders
-    uint8_t binding; ///< PassBinding, or kNotMadeYet: counted, and not in any layout
+    uint8_t binding; ///< PassBinding
 };
 
 // clang-format off
@@ -58,38 +59,37 @@ inline constexpr std::array kEngineTextures{
     EngineTexture{ "environment",       kReadByLit,                              kBindingSpecular },
     EngineTexture{ "lighting tables",   kReadByLit,                              kBindingDfg },
     EngineTexture{ "irradiance",        kReadByLit,                              kBindingIrradiance },
-    EngineTexture{ "ambient occlusion", kReadByLit,                              kNotMadeYet },
-    EngineTexture{ "depth",             kReadByLit | kReadByUnlit,               kNotMadeYet },
-    EngineTexture{ "fog",               kReadByLit | kReadByUnlit | kReadForFog, kNotMadeYet },
-    EngineTexture{ "picture behind",    kReadByScreenSpace,                      kNotMadeYet },
+    EngineTexture{ "ambient occlusion", kReadByLit,                              kBindingOcclusion },
+    EngineTexture{ "depth",             kReadByLit | kReadByUnlit,               kBindingSceneDepth },
+    EngineTexture{ "fog",               kReadByLit | kReadByUnlit | kReadForFog, kBindingFog },
+    EngineTexture{ "picture behind",    kReadByScreenSpace,                      kBindingPicture },
 };
 // clang-format on
 
 constexpr bool isReadBy(EngineTexture const& texture, PassKind kind) {
     if (kind == PassKind::Picture) return false;
-    return (texture.readers & (kind == PassKind::Lit ? kReadByLit : kReadByUnlit)) != 0;
+    if (kind == PassKind::LitScreen && (texture.readers & kReadByScreenSpace) != 0) return true;
+    return (texture.readers & (isLitKind(kind) ? kReadByLit : kReadByUnlit)) != 0;
 }
 
-/// With every effect on, those to come among them.
-constexpr uint32_t samplersOfEngine(PassKind kind, bool readsScreen = false, bool hasFog = true) {
+/// With every effect on.
+constexpr uint32_t samplersOfEngine(PassKind kind, bool hasFog = true) {
     uint32_t count = 0;
     for (EngineTexture const& texture : kEngineTextures) {
         const bool isFogOnly = (texture.readers & kReadForFog) != 0;
-        const bool isOfScreen = readsScreen && (texture.readers & kReadByScreenSpace) != 0;
-        count += (isReadBy(texture, kind) || isOfScreen) && (hasFog || !isFogOnly);
+        count += isReadBy(texture, kind) && (hasFog || !isFogOnly);
     }
     return count;
 }
 
 /// What is left for a material that every device can draw.
-constexpr uint32_t samplersOfMaterial(PassKind kind, bool readsScreen = false, bool hasFog = true) {
-    return kSamplersOfEveryDevice - samplersOfEngine(kind, readsScreen, hasFog);
+constexpr uint32_t samplersOfMaterial(PassKind kind, bool hasFog = true) {
+    return kSamplersOfEveryDevice - samplersOfEngine(kind, hasFog);
 }
 
-static_assert(samplersOfMaterial(PassKind::Lit) == 9 && samplersOfMaterial(PassKind::Lit, true) == 8 &&
-                      samplersOfMaterial(PassKind::Lit, false, false) == 10 &&
-                      samplersOfMaterial(PassKind::Unlit) >= 12 &&
-                      samplersOfMaterial(PassKind::Unlit, false, false) >= 13,
+static_assert(samplersOfMaterial(PassKind::Lit) == 9 && samplersOfMaterial(PassKind::LitScreen) == 8 &&
+                      samplersOfMaterial(PassKind::Lit, false) == 10 && samplersOfMaterial(PassKind::Unlit) >= 12 &&
+                      samplersOfMaterial(PassKind::Unlit, false) >= 13,
               "chapter 7 of the materials guide promises authors as many");
 
 } // namespace filament::shader

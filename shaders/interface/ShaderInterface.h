@@ -51,6 +51,10 @@ enum PassBinding : uint8_t {
     kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
     kBindingDfg = 4,         ///< sampler2D: split-sum terms
     kBindingIrradiance = 5,  ///< samplerCube: irradiance / pi
+    kBindingOcclusion = 6,   ///< sampler2D: ambient occlusion of what is opaque; r: visibility, or rgb: bent normal, a: visibility
+    kBindingSceneDepth = 7,  ///< sampler2D: distance along the view of what is opaque, in metres, with levels
+    kBindingFog = 8,         ///< samplerCube: the environment, as fog sees it
+    kBindingPicture = 9,     ///< sampler2D: what is opaque in the picture, pre-exposed, with blurred levels
 };
 
 // ---- FrameUniforms
@@ -190,6 +194,11 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityAreaLights = 1012, ///< 0: no light of the view is an area; else 1 + Quality::areaLights
     kQualityLightProfiles = 1013, ///< 1: some light of the view has a profile
     kQualityColoredShadows = 1014, ///< 1: some shadow map of the view has three channels
+    kQualityScreenOcclusion = 1015, ///< 0: none; 1: visibility; 2: with bent normals
+    kQualityScreenRefraction = 1016, ///< 1: the picture is seen through what refracts it
+    kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture
+    kQualityContactShadows = 1018, ///< 1: some light of the view has them
+    kQualityFog = 1019,  ///< 1: there is fog; unlit materials have this one, too
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
 };
 
@@ -205,6 +214,11 @@ inline constexpr std::array kQualityConstants{
     QualityConstant{ "withoutDiffuseCoupling", kQualityWithoutDiffuseCoupling },
     QualityConstant{ "specularLookUps", kQualitySpecularLookUps },
     QualityConstant{ "anisotropicLookUps", kQualityAnisotropicLookUps },
+    QualityConstant{ "screenOcclusion", kQualityScreenOcclusion },
+    QualityConstant{ "screenRefraction", kQualityScreenRefraction },
+    QualityConstant{ "screenReflections", kQualityScreenReflections },
+    QualityConstant{ "contactShadows", kQualityContactShadows },
+    QualityConstant{ "fog", kQualityFog },
     QualityConstant{ "areaLights", kQualityAreaLights },
     QualityConstant{ "lightProfiles", kQualityLightProfiles },
     QualityConstant{ "coloredShadows", kQualityColoredShadows },

@@ -85,3 +85,7 @@ layout(set = 1, binding = 2, std140) uniform ShadowUniforms {
 layout(set = 1, binding = 3) uniform samplerCube passSpecular;
 layout(set = 1, binding = 4) uniform sampler2D passDfg;
 layout(set = 1, binding = 5) uniform samplerCube passIrradiance;
+layout(set = 1, binding = 6) uniform sampler2D passOcclusion;
+layout(set = 1, binding = 7) uniform sampler2D passSceneDepth;
+layout(set = 1, binding = 8) uniform samplerCube passFog;
+layout(set = 1, binding = 9) uniform sampler2D passPicture;

@@ -35,6 +35,7 @@ namespace {
 #include "shaders/lib/cloth.glsl"
 #include "shaders/lib/coat.glsl"
 #include "shaders/lib/color.glsl"
+#include "shaders/lib/distance.glsl"
 #include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/ibl.glsl"
 #include "shaders/lib/iridescence.glsl"

@@ -23,9 +23,14 @@ void mergeInputs(MaterialPackage const& package, backend::BindGroupLayout& group
 
 } // namespace
 
-PassKind passKind(MaterialDomain domain, ShadingModel shading) {
-    if (domain == MaterialDomain::PostProcess) return PassKind::Picture;
-    return shading == ShadingModel::Unlit ? PassKind::Unlit : PassKind::Lit;
+bool readsScreen(MaterialPackage const& package) {
+    return package.refractionMode == RefractionMode::ScreenSpace || package.reflections == Reflections::ScreenSpace;
+}
+
+PassKind passKind(MaterialPackage const& package) {
+    if (package.domain == MaterialDomain::PostProcess) return PassKind::Picture;
+    if (package.shading == ShadingModel::Unlit) return PassKind::Unlit;
+    return readsScreen(package) ? PassKind::LitScreen : PassKind::Lit;
 }
 
 backend::BindGroupLayout viewGroupLayout() {
@@ -51,7 +56,7 @@ backend::BindGroupLayout passGroupLayout(PassKind kind) {
     };
     add(kBindingPass, BindingType::UniformBuffer, ShaderStage::Both);
     for (EngineTexture const& texture : kEngineTextures) {
-        if (texture.binding == kNotMadeYet || !isReadBy(texture, kind)) continue;
+        if (!isReadBy(texture, kind)) continue;
         add(texture.binding, BindingType::SampledTexture, ShaderStage::Fragment);
         if (texture.binding == kBindingShadowMaps)
             add(kBindingShadows, BindingType::UniformBuffer, ShaderStage::Fragment);

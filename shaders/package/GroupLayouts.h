@@ -9,7 +9,9 @@
 
 namespace filament::shader {
 
-PassKind passKind(MaterialDomain domain, ShadingModel shading);
+PassKind passKind(MaterialPackage const& package);
+/// Reflects or refracts what the picture shows.
+bool readsScreen(MaterialPackage const& package);
 
 /// Every ViewBinding.
 backend::BindGroupLayout viewGroupLayout();

@@ -135,6 +135,7 @@ Error unknown(std::string_view name) {
     std::vector<std::string_view> known;
     for (Choice const& choice : kChoices) known.push_back(choice.name);
     for (QualityChoice const& choice : qualityChoices()) known.push_back(choice.name);
+    for (EffectOption const& option : effectOptions()) known.push_back(option.name);
     return fail(ErrorCode::NotFound, "there is no setting '{}'{}", name, suggestion(name, known));
 }
 
@@ -147,6 +148,7 @@ Result<void> change(Settings& settings, std::string_view word) {
     const std::string_view name = word.substr(0, equals);
     const std::string value(word.substr(equals + 1));
     Choice const* choice = findChoice(name);
+    if (!choice && effectValue(settings.effects, name)) return setEffect(settings.effects, name, value);
     if (!choice) {
         Result<void> done = setQuality(settings.quality, name, value);
         return !done && done.error().code == ErrorCode::NotFound ? Result<void>(unknown(name)) : done;

@@ -22,6 +22,7 @@ namespace filament::accuracy {
 
 struct Settings {
     Quality quality{};
+    Effects effects{};
     uint8_t samples = 1;
     ColorGrading colorGrading{};
     EnvironmentLoadOptions environment{};

@@ -21,6 +21,7 @@ double millisecondsSince(std::chrono::steady_clock::time_point begin) {
 Settings settingsOf(SceneSpec const& spec) {
     Settings settings;
     settings.quality = spec.view.quality;
+    settings.effects = spec.view.effects;
     settings.samples = spec.view.samples;
     settings.colorGrading = spec.view.colorGrading;
     return settings;
@@ -129,6 +130,7 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     view = spec.view;
     view.size = size;
     view.quality = settings.quality;
+    view.effects = settings.effects;
     view.samples = settings.samples;
     view.colorGrading = settings.colorGrading;
     view.camera = cameraOf(spec, scene.bounds());

@@ -116,7 +116,8 @@ std::optional<Result<void>> convertLoadChoice(std::string const& name, std::stri
         return {};
     };
     if (name == "debugView")
-        return choose(options.debugView, debugViewFromName(value), "none, cascades, atlas, froxels or lights");
+        return choose(options.debugView, debugViewFromName(value),
+                      "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction or fog");
     if (name.starts_with("sun.")) return convertSun(name, value, options.sun);
     if (name == "exact") return convertSwitch("--set exact", value, options.exactShaders);
     if (name == "environment.format")
@@ -152,7 +153,9 @@ Result<void> convertQuality(SceneWords const& words, SceneOptions& options) {
             if (!*chosen) return *chosen;
             continue;
         }
-        const Result<void> done = setQuality(options.quality, name, value);
+        const bool isEffect = effectValue(options.effects, name).has_value();
+        const Result<void> done =
+                isEffect ? setEffect(options.effects, name, value) : setQuality(options.quality, name, value);
         if (!done) return fail(done.error().code, "--set {}: {}", word, done.error().message);
     }
     return {};

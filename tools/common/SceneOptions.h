@@ -38,6 +38,7 @@ struct SceneOptions {
     bool skybox = true; ///< if there is an environment
     ColorGrading colorGrading{ .toneMapper = ToneMapper::Aces, .dither = false };
     Quality quality{};
+    Effects effects{};                           ///< --set fog=on, fog.density=0.2
     DebugView debugView = DebugView::None;       ///< --set debugView=froxels; not of traced pictures
     bool exactShaders = true;                    ///< --set exact=off
     EnvironmentLoadOptions environmentOptions{}; ///< --set environment.format=RGBM, environment.roughnessMapping=linear

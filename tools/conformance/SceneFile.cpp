@@ -82,7 +82,9 @@ void readView(JsonReader& reader, SceneSpec& spec) {
     view.samples = static_cast<uint8_t>(samples);
     reader.choice("toneMapper", view.colorGrading.toneMapper, "linear, aces, filmic or mobile", toneMapperFromName);
     reader.read("dither", view.colorGrading.dither);
-    reader.choice("debugView", view.debugView, "none, cascades, atlas, froxels or lights", debugViewFromName);
+    reader.choice("debugView", view.debugView,
+                  "none, cascades, atlas, froxels, lights, occlusion, bentNormals, reflections, refraction or fog",
+                  debugViewFromName);
     reader.read("clear", view.clearColor);
     reader.read("linear", spec.linear);
     reader.read("frames", spec.frames, 1, 16);
@@ -95,6 +97,17 @@ void readQuality(JsonReader& reader, Quality& quality) {
         if (!value) continue;
         const std::string word = value->is_string() ? value->get<std::string>() : value->dump();
         if (const Result<void> done = setQuality(quality, choice.name, word); !done)
+            reader.complain(key, done.error().message);
+    }
+}
+
+void readEffects(JsonReader& reader, Effects& effects) {
+    for (EffectOption const& option : effectOptions()) {
+        const char* const key = option.name.data(); // a literal
+        Json const* value = reader.raw(key);
+        if (!value) continue;
+        const std::string word = value->is_string() ? value->get<std::string>() : value->dump();
+        if (const Result<void> done = setEffect(effects, option.name, word); !done)
             reader.complain(key, done.error().message);
     }
 }
@@ -161,6 +174,7 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     reader.object("exposure", [&](JsonReader& r) { readExposure(r, spec.exposure); });
     reader.object("view", [&](JsonReader& r) { readView(r, spec); });
     reader.object("quality", [&](JsonReader& r) { readQuality(r, spec.view.quality); });
+    reader.object("effects", [&](JsonReader& r) { readEffects(r, spec.view.effects); });
     reader.object("comparator", [&](JsonReader& r) { readComparator(r, spec.comparator); });
     reader.read("kills", spec.kills);
     if (const Result<void> done = reader.finish(); !done) return done.error();

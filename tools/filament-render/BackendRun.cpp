@@ -49,6 +49,7 @@ View viewOf(Options const& options) {
              .size = options.size,
              .colorGrading = options.colorGrading,
              .quality = options.quality,
+             .effects = options.effects,
              .debugView = options.debugView,
              .timeSeconds = options.seconds.value_or(0) };
 }

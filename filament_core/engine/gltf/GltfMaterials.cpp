@@ -25,7 +25,7 @@ void require(Result<void> const& result) {
 } // namespace
 
 size_t GltfMaterials::maxMaps() const {
-    const uint32_t ofEngine = shader::samplerCount(shader::passGroupLayout(shader::PassKind::Lit));
+    const uint32_t ofEngine = shader::samplerCount(shader::passGroupLayout(shader::PassKind::LitScreen));
     return mEngine.stream->info().limits.maxTextureUnits - ofEngine; // a device has at least 16 in all
 }
 

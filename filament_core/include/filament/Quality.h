@@ -129,6 +129,36 @@ enum class AreaLightTerm : uint8_t {
     RepresentativePoint, ///< exact for diffuse surfaces; a point in the mean direction of the light for highlights
 };
 
+/// Ambient occlusion by what the depths of the picture show: Effects::ambientOcclusion.
+enum class AmbientOcclusionTerm : uint8_t {
+    Off,
+    /// Scalable ambient obscurance: Quality::aoSamples points of a spiral (McGuire, Mara and Luebke 2012).
+    Sao,
+    /// The visible part of the hemisphere between the horizons of Quality::aoSlices slices (Jimenez et al. 2016, "Practical
+    /// Realtime Strategies for Accurate Indirect Occlusion").
+    Gtao,
+};
+
+/// The pixels for which ambient occlusion is computed; the others take it from neighbours of their depth.
+enum class AmbientOcclusionResolution : uint8_t {
+    Half,         ///< one of four
+    Full,         ///< all
+    Checkerboard, ///< every other one
+};
+
+/// What is seen through materials with `refractionMode : screenspace`.
+enum class RefractionSource : uint8_t {
+    Screen,      ///< what is opaque in the picture, and the environment where a ray leaves it
+    Environment, ///< the environment alone
+};
+
+/// Whether what is opaque leaves its depth before anything is shaded, so that each pixel is shaded once.
+enum class DepthPrepass : uint8_t {
+    Auto, ///< where another effect reads the depths anyway
+    On,
+    Off, ///< not even then: effects draw depths of their own
+};
+
 enum class DepthRange : uint8_t {
     Reversed, ///< near plane 1, infinity 0: the exponent of floats compensates for the perspective
     Ordinary, ///< near plane 0, infinity 1, with the opposite comparison: z-fighting in the distance
@@ -174,6 +204,17 @@ struct Quality {
     /// of one where something does. Off: it stops all light.
     bool coloredShadows = false;
     AreaLightTerm areaLights = AreaLightTerm::Ltc;
+    AmbientOcclusionTerm ao = AmbientOcclusionTerm::Off;
+    uint8_t aoSamples = 7; ///< of Sao, [3, 32]
+    uint8_t aoSlices = 2;  ///< of Gtao, [1, 3]
+    AmbientOcclusionResolution aoResolution = AmbientOcclusionResolution::Half;
+    bool aoBlur = true;         ///< smooths the noise of the samples, along surfaces and not across their edges
+    bool aoBentNormals = false; ///< diffuse light comes from the mean direction that is open, reflections by its cone
+    RefractionSource refraction = RefractionSource::Screen;
+    bool ssr = false;          ///< reflections of the picture, on materials that ask for them
+    uint8_t ssrSteps = 48;     ///< of a reflected ray, [8, 255]
+    uint8_t contactSteps = 16; ///< of a contact shadow's ray, [4, 64]
+    DepthPrepass depthPrepass = DepthPrepass::Auto;
     ToneMapping toneMapping = ToneMapping::Analytic;
     DepthRange depthRange = DepthRange::Reversed;
     /// Shaders receive positions relative to the camera, subtracted in double precision. Off: absolute floats, from
@@ -197,6 +238,10 @@ const char* toString(TextureFilter value);
 const char* toString(ToneMapping value);
 const char* toString(ShadowFilter value);
 const char* toString(AreaLightTerm value);
+const char* toString(AmbientOcclusionTerm value);
+const char* toString(AmbientOcclusionResolution value);
+const char* toString(RefractionSource value);
+const char* toString(DepthPrepass value);
 const char* toString(DepthRange value);
 const char* toString(QualityPreset value);
 std::optional<SpecularVisibility> specularVisibilityFromName(std::string_view name);
@@ -214,6 +259,10 @@ std::optional<TextureFilter> textureFilterFromName(std::string_view name);
 std::optional<ToneMapping> toneMappingFromName(std::string_view name);
 std::optional<ShadowFilter> shadowFilterFromName(std::string_view name);
 std::optional<AreaLightTerm> areaLightTermFromName(std::string_view name);
+std::optional<AmbientOcclusionTerm> ambientOcclusionTermFromName(std::string_view name);
+std::optional<AmbientOcclusionResolution> ambientOcclusionResolutionFromName(std::string_view name);
+std::optional<RefractionSource> refractionSourceFromName(std::string_view name);
+std::optional<DepthPrepass> depthPrepassFromName(std::string_view name);
 std::optional<DepthRange> depthRangeFromName(std::string_view name);
 std::optional<QualityPreset> qualityPresetFromName(std::string_view name);
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filament/Camera.h>
+#include <filament/Effects.h>
 #include <filament/Objects.h>
 #include <filament/Quality.h>
 
@@ -30,12 +31,17 @@ struct ColorGrading {
 /// ("Debug views") say what the colours mean. Such a frame has one sample a pixel and no tone mapper.
 enum class DebugView : uint8_t {
     None,
-    Cascades, ///< the picture in grey, tinted by the cascade of the sun that shades each pixel
-    Atlas,    ///< the atlas of shadow maps: depths, and the outlines of its tiles
-    Froxels,  ///< how many lights the list of each pixel's froxel has
-    Lights,   ///< how many lights of the list reach each pixel: those whose range and cone contain it
+    Cascades,    ///< the picture in grey, tinted by the cascade of the sun that shades each pixel
+    Atlas,       ///< the atlas of shadow maps: depths, and the outlines of its tiles
+    Froxels,     ///< how many lights the list of each pixel's froxel has
+    Lights,      ///< how many lights of the list reach each pixel: those whose range and cone contain it
+    Occlusion,   ///< the visibility that ambient occlusion computes
+    BentNormals, ///< the mean direction that is open, in the world
+    Reflections, ///< how far reflected rays go until they hit something in the picture
+    Refraction,  ///< the blurred level of the picture that is seen through each refracting pixel
+    Fog,         ///< the share of each pixel that is fog
 };
-/// "none", "cascades", "atlas", "froxels" and "lights", as in filament-render --set debugView=froxels.
+/// "none", "cascades", "atlas", "froxels", "lights", "occlusion", "bentNormals", "reflections", "refraction" and "fog", as in filament-render --set debugView=froxels.
 const char* toString(DebugView debugView);
 std::optional<DebugView> debugViewFromName(std::string_view name);
 
@@ -43,7 +49,8 @@ struct View {
     Camera camera{};
     uint2 size{ 1280, 720 }; ///< pixels, >= 1
     ColorGrading colorGrading{};
-    Quality quality{};               ///< the approximations that shading uses
+    Quality quality{}; ///< the approximations that shading uses
+    Effects effects{}; ///< what effects show; which of them are on is a choice of `quality`, but for the fog
     float4 clearColor{ 0, 0, 0, 1 }; ///< background without a skybox; scene-linear and pre-exposed
     uint8_t samples = 1;             ///< MSAA: 1 or 4
     DebugView debugView = DebugView::None;

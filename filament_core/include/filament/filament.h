@@ -7,6 +7,7 @@
 #include <filament/Box.h>
 #include <filament/Camera.h>
 #include <filament/Color.h>
+#include <filament/Effects.h>
 #include <filament/Engine.h>
 #include <filament/Environment.h>
 #include <filament/Gltf.h>

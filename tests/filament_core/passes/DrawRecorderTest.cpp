@@ -53,8 +53,8 @@ void expectDraw(DrawFixture const& fixture, DrawCall const& wanted, PipelineHand
     EXPECT_EQ(state.view.group, view.handle);
     EXPECT_EQ(state.view.dynamicOffsets[0], view.uniforms);
     EXPECT_EQ(state.view.dynamicOffsets[1], view.objects + wanted.firstObject / 256 * sizeof(shader::ObjectUniforms));
-    const bool isUnlit = wanted.material->material->package.shading == shader::ShadingModel::Unlit;
-    EXPECT_EQ(state.pass.group, fixture.context.passGroups[isUnlit ? 1 : 0]);
+    const shader::PassKind kind = shader::passKind(wanted.material->material->package);
+    EXPECT_EQ(state.pass.group, fixture.context.passGroups[static_cast<size_t>(kind)]);
     EXPECT_EQ(state.vertices.buffers[0], wanted.geometry->vertices);
     EXPECT_EQ(state.vertices.buffers[1], fixture.context.instanceIds);
     EXPECT_EQ(state.vertices.count, 2);

@@ -209,6 +209,18 @@ BindGroupHandle MaterialRig::viewGroup(CommandBuffer& commands, MaterialScene co
     return group;
 }
 
+namespace {
+
+/// Those that the layout has, in its order.
+std::vector<BindGroupEntry> entriesOf(BindGroupLayout const& layout, std::span<const BindGroupEntry> entries) {
+    std::vector<BindGroupEntry> found;
+    for (BindingDesc const& binding : std::span(layout.bindings).first(layout.count))
+        found.push_back(*std::ranges::find(entries, binding.binding, &BindGroupEntry::binding));
+    return found;
+}
+
+} // namespace
+
 BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage const& package) {
     const PassUniforms pass{ .target = { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide },
                              .raster = { 1, 0, 0, 0 } };
@@ -219,11 +231,16 @@ BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage 
         { .binding = kBindingShadows, .buffer = passBuffer, .size = sizeof(PassUniforms) }, // variant drawn here
         { .binding = kBindingSpecular, .texture = mWhiteCube, .sampler = mSampler },
         { .binding = kBindingDfg, .texture = mDfg, .sampler = mSampler },
-        { .binding = kBindingIrradiance, .texture = mWhiteCube, .sampler = mSampler }
+        { .binding = kBindingIrradiance, .texture = mWhiteCube, .sampler = mSampler },
+        { .binding = kBindingOcclusion, .texture = mDfg, .sampler = mSampler },  // read by no program:
+        { .binding = kBindingSceneDepth, .texture = mDfg, .sampler = mSampler }, // its constants are 0
+        { .binding = kBindingFog, .texture = mWhiteCube, .sampler = mSampler },
+        { .binding = kBindingPicture, .texture = mDfg, .sampler = mSampler }
     };
-    const BindGroupLayout layout = passGroupLayout(passKind(package.domain, package.shading));
+    const BindGroupLayout layout = passGroupLayout(passKind(package));
     const BindGroupHandle group = mStream->allocateBindGroup();
-    commands.record(CmdCreateBindGroup{ group, { layout, std::span(entries).first(layout.count), "pass" } });
+    const std::vector<BindGroupEntry> bound = entriesOf(layout, entries);
+    commands.record(CmdCreateBindGroup{ group, { layout, bound, "pass" } });
     return group;
 }
 

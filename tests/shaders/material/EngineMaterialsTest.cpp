@@ -42,16 +42,12 @@ TEST(EngineMaterials, HaveEveryVariantValidInBothLanguages) {
             EXPECT_TRUE(variant.fragmentEssl.starts_with("#version 310 es")) << name;
         }
         EXPECT_EQ(package.layout[kGroupView], viewGroupLayout()) << name;
-        EXPECT_EQ(package.layout[kGroupPass], passGroupLayout(passKind(package.domain, package.shading))) << name;
+        EXPECT_EQ(package.layout[kGroupPass], passGroupLayout(passKind(package))) << name;
     }
 }
 
 /// The textures that the engine gives a material of this kind if every effect is on.
-uint32_t engineShare(MaterialPackage const& package) {
-    const bool screen =
-            package.refractionMode == RefractionMode::ScreenSpace || package.reflections == Reflections::ScreenSpace;
-    return samplersOfEngine(passKind(package.domain, package.shading), screen);
-}
+uint32_t engineShare(MaterialPackage const& package) { return samplersOfEngine(passKind(package)); }
 
 uint32_t ownSamplers(MaterialPackage const& package, uint16_t key) {
     return samplerCount(programLayout(package, key)[kGroupMaterial]);

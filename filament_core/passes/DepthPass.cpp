@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/DepthPass.h"
+
+#include "filament_core/passes/DrawRecorder.h"
+#include "filament_core/passes/FullScreenPass.h"
+#include "filament_core/passes/PassGroup.h"
+
+#include <array>
+
+namespace filament::passes {
+namespace {
+
+using namespace backend;
+using framegraph::FrameGraph;
+using framegraph::PassBuilder;
+using framegraph::PassContext;
+using framegraph::TextureId;
+
+struct ChosenDepth {
+    std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups;
+    std::span<const PipelineHandle> pipelines;
+};
+
+ChosenDepth chooseDepth(PassContext& pass, FrameContext const& context, PassBlock target) {
+    const PassSlot at = depthSlot(context.settings.depthRange);
+    FILAMENT_ASSERT(at.layout == pass.passLayout() && pass.subpass() == 0, "the depth prepass is a pass of its own");
+    PipelineSource const& pipelines = context.resources.pipelines;
+    prepare::ViewPacket const& view = context.packet.mainView();
+    return { surfaceGroups(pass, context, target),
+             choosePipelines(pass, *context.arena, pipelines, pipelines.slot(at), view.opaque, 0) };
+}
+
+void recordDepths(PassContext& pass, FrameContext const& context, ChosenDepth const& chosen) {
+    const FrameView view = viewOf(context, 0);
+    const DrawContext draws{ view.group, chosen.passGroups, context.resources.instanceIds, context.deformations,
+                             context.settings.textureFilter };
+    recordDrawRanges(pass, draws, view.packet.opaque, chosen.pipelines);
+}
+
+bool isDepthRead(prepare::SceneDemand const& demand) {
+    return demand.of(prepare::Effect::DepthPrepass).reason == prepare::DemandReason::DepthIsRead;
+}
+
+constexpr std::string_view kDistanceInputs[] = { "depth" };
+constexpr FullScreenInterface kDistance{ .pass = "distances", .inputs = kDistanceInputs };
+
+void addDistances(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    const uint2 size = context.settings.size;
+    targets.distances =
+            graph.createTexture({ .width = size.x, .height = size.y, .format = Format::R32F, .name = "distances" });
+    const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.depth } };
+    addFullScreenPass(graph, context,
+                      { .name = "distances",
+                        .material = context.resources.effects->get("scene_distance", {}, kDistance),
+                        .inputs = inputs,
+                        .target = targets.distances });
+}
+
+} // namespace
+
+PassSlot depthSlot(DepthRange range) {
+    PassSlot slot{ .layout = { .depthFormat = Format::D32F }, .depthRange = range, .depthOnly = true };
+    slot.layout.subpasses[0].colorMask = 0;
+    return slot;
+}
+
+void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (!context.packet.demand.needs(prepare::Effect::DepthPrepass)) return;
+    PassSettings const& settings = context.settings;
+    const framegraph::GraphTextureDesc desc{
+        .width = settings.size.x, .height = settings.size.y, .format = Format::D32F, .name = "depth"
+    };
+    targets.depth = graph.createTexture(desc);
+    graph.addPass(
+            "depth",
+            [&](PassBuilder& pass) {
+                pass.writeDepth(targets.depth, { .clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f });
+            },
+            [of = &context, target = declareTarget(context, desc)](PassContext& pass) {
+                return chooseDepth(pass, *of, target);
+            },
+            [of = &context](PassContext& pass, ChosenDepth const& chosen) { recordDepths(pass, *of, chosen); });
+    if (isDepthRead(context.packet.demand)) addDistances(graph, context, targets);
+}
+
+} // namespace filament::passes

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Depth prepass: the depths of what is opaque or masked, before anything is shaded.
+///   Draws   targets.depth, one sample a pixel: the opaque list of the main view by variants that compute nothing but
+///           positions and what cuts holes. Then targets.distances, if an effect reads depths.
+///   Why     effects that look at the surroundings of a pixel read them; and with one sample a pixel the colour pass goes on
+///           with this depth: its test, which lets equal depths pass, then shades each pixel once.
+///   Skips   all of it, unless the frame's demand needs it.
+#pragma once
+
+#include "filament_core/passes/FrameContext.h"
+#include "filament_core/passes/FrameTargets.h"
+#include "filament_core/passes/Pipelines.h"
+
+namespace filament::passes {
+
+PassSlot depthSlot(DepthRange range);
+
+void addDepthPass(framegraph::FrameGraph& graph, FrameContext const& context, FrameTargets& targets);
+
+} // namespace filament::passes
