@@ -48,6 +48,23 @@ std::function<void(Scene&, View&)> withSun(ShadowFilter filter) {
     };
 }
 
+std::function<void(Scene&, View&)> withFog(Fog const& fog) {
+    return [fog](Scene&, View& view) {
+        view.quality.shadows = ShadowFilter::Off;
+        view.effects.fog = fog;
+    };
+}
+
+void addFogPairs(std::vector<Pair>& all, const char* file) {
+    Fog fog{ .enabled = true, .density = 0.4f, .startMeters = 0.5f, .heightMeters = -0.5f, .heightFalloff = 1 };
+    all.push_back({ "fog", file, withFog({}), withFog(fog) });
+    Fog colored = fog;
+    colored.colorFromEnvironment = true;
+    all.push_back({ "fog, coloured by the environment", file, withFog({}), withFog(colored) });
+    fog.density = 0;
+    all.push_back({ "fog without density", file, withFog({}), withFog(fog), true });
+}
+
 std::vector<Pair> pairs() {
     constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
     constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
@@ -90,6 +107,7 @@ std::vector<Pair> pairs() {
         };
     };
     all.push_back({ "a sun's disc behind the camera", kHelmet, disc(false), disc(true), true });
+    addFogPairs(all, kHelmet);
     return all;
 }
 

@@ -20,13 +20,27 @@ ShadedLights lightsOf(prepare::FramePacket const& packet) {
              .hasContactShadows = packet.demand.needs(prepare::Effect::ContactShadows) };
 }
 
-ShadedScreen screenOf(Quality const& quality, prepare::SceneDemand const& demand) {
+/// What there is to compute: the colour of an environment, and light of a sun, if there is one.
+uint8_t fogTermsOf(Fog const& fog, prepare::FramePacket const& packet) {
+    if (!packet.demand.needs(prepare::Effect::Fog)) return 0;
+    uint32_t terms = shader::kFogOn;
+    if (fog.colorFromEnvironment && packet.environment.specular) {
+        terms |= shader::kFogFromEnvironment;
+        if (packet.environment.storage.isRgbm) terms |= shader::kFogFromRgbm;
+    }
+    if (fog.inScatteringSize > 0 && packet.mainView().counts.suns > 0) terms |= shader::kFogSun;
+    return static_cast<uint8_t>(terms);
+}
+
+ShadedScreen screenOf(View const& view, prepare::FramePacket const& packet) {
+    prepare::SceneDemand const& demand = packet.demand;
+    Quality const& quality = view.quality;
     const bool hasOcclusion = demand.needs(prepare::Effect::AmbientOcclusion);
     return { .hasOcclusion = hasOcclusion,
              .hasBentNormals = hasOcclusion && quality.aoBentNormals,
              .hasRefraction = demand.needs(prepare::Effect::Refraction),
              .hasReflections = demand.needs(prepare::Effect::Reflections),
-             .hasFog = demand.needs(prepare::Effect::Fog) };
+             .fogTerms = fogTermsOf(clamped(view.effects).fog, packet) };
 }
 
 PassSettings settingsOf(View const& view, FrameResources const& resources, prepare::FramePacket const& packet) {
@@ -34,8 +48,7 @@ PassSettings settingsOf(View const& view, FrameResources const& resources, prepa
     return { .size = view.size,
              .samples = view.debugView == DebugView::None ? view.samples : uint8_t{ 1 }, // its depths are read
              .clearColor = view.clearColor,
-             .shading = shadingKey(view.quality, packet.environment.storage, lightsOf(packet),
-                                   screenOf(view.quality, packet.demand)),
+             .shading = shadingKey(view.quality, packet.environment.storage, lightsOf(packet), screenOf(view, packet)),
              .depthRange = view.quality.depthRange,
              .precision = resources.hasHalfFloats ? view.quality.shadingPrecision : ShadingPrecision::Full,
              .textureFilter = view.quality.textureFilter };

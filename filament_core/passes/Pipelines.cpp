@@ -69,6 +69,12 @@ uint16_t fullscreenVariant(PassSlot const& slot, shader::MaterialPackage const& 
     return isMerged && package.findVariant(shader::kVariantMerged) ? uint16_t{ shader::kVariantMerged } : uint16_t{ 0 };
 }
 
+// Skies have fog; what processes pictures has not.
+ShadingKey fullscreenShading(PassSlot const& slot, shader::MaterialPackage const& package) {
+    const bool isSurface = package.domain == shader::MaterialDomain::Surface && !slot.depthOnly;
+    return isSurface ? ofUnlit(slot.shading) : ShadingKey{ 0 };
+}
+
 uint64_t programKey(uint16_t variant, ShadingKey shading) { return uint64_t{ shading } << 16 | variant; }
 
 CullMode cullMode(scene::InstanceRaster const& raster) {
@@ -347,7 +353,8 @@ PipelineHandle PipelineCache::fullscreenPipeline(CommandBuffer& setup, uint32_t 
     raster.cullingDisabled = true;
     PipelineDesc desc = describe(mSlots[slot], material, raster, kNoGeometry, false);
     if (mSlots[slot].depthOnly) desc.depthStencil = depthState(raster, mSlots[slot].depthRange);
-    desc.program = programFor(setup, material, fullscreenVariant(mSlots[slot], material.package), 0);
+    desc.program = programFor(setup, material, fullscreenVariant(mSlots[slot], material.package),
+                              fullscreenShading(mSlots[slot], material.package));
     FILAMENT_ASSERT(desc.program, "a full-screen material has variant 0");
     return create(setup, key, desc, material.id);
 }

@@ -29,7 +29,7 @@ struct ShadedLights {
 struct ShadedScreen {
     bool hasOcclusion = false, hasBentNormals = false;
     bool hasRefraction = false, hasReflections = false;
-    bool hasFog = false;
+    uint8_t fogTerms = 0; ///< shader::FogTerms
 };
 
 /// `light`: how the environment of the scene is stored, which selects programs as well.

@@ -88,6 +88,8 @@ LightRecord const* writeSun(shader::FrameUniforms& frame, scene::Lights const& l
     }
     frame.sunDirection = brightest ? float4(-brightest->directionWorld, 1) : float4(0, 1, 0, 0);
     frame.sunIlluminance = brightest ? float4(brightest->color * (brightest->intensity * exposure), 0) : float4(0);
+    frame.fogSunDirection = float4(float3(frame.sunDirection), frame.fogSunDirection.w);
+    frame.fogSun = float4(float3(frame.fogSun) * float3(frame.sunIlluminance), frame.fogSun.w);
     return brightest;
 }
 

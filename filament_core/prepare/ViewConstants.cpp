@@ -31,6 +31,26 @@ float4 shaderTime(double seconds) {
     return { rounded, static_cast<float>(seconds - rounded), std::min(fraction, std::nextafter(1.0f, 0.0f)), 0 };
 }
 
+// Heights are relative to the camera, so that they are exact wherever it is.
+float logDensityAt(double height, Fog const& fog) {
+    const double logDensity = std::log(static_cast<double>(fog.density)) -
+                              static_cast<double>(fog.heightFalloff) * (height - static_cast<double>(fog.heightMeters));
+    return static_cast<float>(std::clamp(logDensity, -1e20, 1e20)); // without density: minus infinity
+}
+
+/// `hasLight`: of an environment, which the colour is relative to.
+void writeFog(shader::FrameUniforms& frame, Fog const& fog, double cameraHeight, bool hasLight) {
+    constexpr float kTwoPi = 6.28318531f, kNever = 1e30f;
+    frame.fogMedium = frame.fogLight = frame.fogSun = frame.fogSunDirection = float4(0);
+    if (!fog.enabled) return;
+    frame.fogMedium = float4(logDensityAt(cameraHeight, fog), fog.heightFalloff, fog.startMeters,
+                             fog.cutOffMeters > 0 ? fog.cutOffMeters : kNever);
+    frame.fogLight = float4(fog.color * (hasLight ? frame.ambient.x : 1.0f), fog.maximumOpacity);
+    const float glow = fog.inScatteringSize > 0 ? (fog.inScatteringSize + 1) / kTwoPi : 0.0f;
+    frame.fogSun = float4(float3(glow), fog.inScatteringSize); // times the sun: SelectLights.cpp
+    frame.fogSunDirection = float4(0, 1, 0, std::max(fog.startMeters, fog.inScatteringStartMeters));
+}
+
 } // namespace
 
 ViewSpace makeViewSpace(ViewInput const& view) {
@@ -71,6 +91,7 @@ void writeFrameUniforms(shader::FrameUniforms& frame, ViewSpace const& space, Vi
     frame.irradianceSh = light.irradianceSh;
     frame.worldFromEnvironment = light.specular ? worldFromEnvironment(light) : worldFromEnvironment(scene.skybox);
     frame.skyFactor = float4(float3(scene.skybox.illuminance.value * space.exposure), 0);
+    writeFog(frame, view.effects.fog, space.cameraWorld.y, static_cast<bool>(light.specular));
 }
 
 } // namespace filament::prepare

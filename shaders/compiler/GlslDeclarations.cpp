@@ -100,11 +100,19 @@ void declareConstants(StageText& out, MaterialDefinition const& definition) {
     }
 }
 
+void declareConstant(StageText& out, QualityConstant const& constant) {
+    out.line(fmt::format("layout(constant_id = {}) const int quality_{} = 0;", constant.id, constant.name));
+}
+
 } // namespace
 
 void declareQuality(StageText& out) {
-    for (QualityConstant const& constant : kQualityConstants)
-        out.line(fmt::format("layout(constant_id = {}) const int quality_{} = 0;", constant.id, constant.name));
+    for (QualityConstant const& constant : kQualityConstants) declareConstant(out, constant);
+}
+
+void declareFogQuality(StageText& out) {
+    const auto* const fog = std::ranges::find(kQualityConstants, uint32_t{ kQualityFog }, &QualityConstant::id);
+    declareConstant(out, *fog);
 }
 
 void declareInterface(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {

@@ -207,6 +207,43 @@ Result<void> includeShadows(StageText& out, MaterialPackage const& package) {
     return done ? out.include("shaders/material/surface/shadows.glsl") : done;
 }
 
+/// How fog applies to what a material draws: shaders/material/surface/apply_fog.glsl.
+const char* fogDefine(MaterialPackage const& package) {
+    using backend::BlendFactor;
+    BlendFunction const& custom = package.blendFunction;
+    switch (package.blending) {
+    case Blending::Opaque:
+    case Blending::Masked:
+        return "FOG_REPLACES";
+    case Blending::Transparent:
+    case Blending::Fade:
+        return "FOG_COVERS";
+    case Blending::Add:
+    case Blending::Screen:
+        return "FOG_ADDS";
+    case Blending::Multiply:
+        return "FOG_FILTERS";
+    case Blending::Custom:
+        if (custom.sourceColor == BlendFactor::Zero || custom.sourceColor == BlendFactor::DstColor)
+            return "FOG_FILTERS";
+        if (custom.targetColor == BlendFactor::One || custom.targetColor == BlendFactor::OneMinusSrcColor)
+            return "FOG_ADDS";
+        return custom.sourceColor == BlendFactor::SrcAlpha ? "FOG_REPLACES"
+                                                           : "FOG_COVERS"; // SrcAlpha: the device weights
+    }
+    return "FOG_REPLACES";
+}
+
+/// Not in materials compiled without fog.
+Result<void> includeFog(StageText& out, MaterialPackage const& package) {
+    if ((package.filteredVariants & kVariantFog) != 0) return {};
+    out.define("HAS_FOG");
+    out.define(fogDefine(package));
+    defineIf(out, package.shading != ShadingModel::Unlit, "FOG_POINT_IS_KNOWN");
+    return includeAll(out, { "shaders/lib/ibl.glsl", "shaders/material/surface/fog.glsl",
+                             "shaders/material/surface/apply_fog.glsl" });
+}
+
 /// Authors' models, cloth and subsurface have no transformed lobe.
 Result<void> areaLights(StageText& out, MaterialDefinition const& definition) {
     const ShadingModel shading = definition.package.shading;
@@ -234,6 +271,7 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done && refracts(definition))
         done = includeAll(out, { "shaders/lib/specular.glsl", "shaders/lib/refraction.glsl" });
     if (done) done = out.include("shaders/material/surface/output.glsl");
+    if (done) done = includeFog(out, definition.package);
     if (done && (variantKey & kVariantShadowReceiver) != 0) done = includeShadows(out, definition.package);
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface/half.glsl");
     if (!done) return done;
@@ -315,10 +353,13 @@ Result<std::string> surfaceFragment(MaterialDefinition const& definition, Materi
     Result<void> done = beginSurfaceFragment(out, definition, needs, variantKey);
     if (done) done = authorsBlock(out, definition.fragment, needs, true);
     if (done && isLit) done = litFragment(out, definition, needs, variantKey);
-    if (done && (variantKey & kVariantShadowReceiver) != 0 && !isLit) {
+    const bool isShadowed = (variantKey & kVariantShadowReceiver) != 0 && !isLit;
+    if (isShadowed)
         declareQuality(out);
-        done = includeShadows(out, definition.package);
-    }
+    else if (!isLit)
+        declareFogQuality(out);
+    if (done && isShadowed) done = includeShadows(out, definition.package);
+    if (done && !isLit) done = includeFog(out, definition.package);
     if (done && !isLit)
         done = includeAll(out, { "shaders/material/surface/output.glsl", "shaders/material/surface/unlit_main.glsl" });
     if (!done) return done.error();

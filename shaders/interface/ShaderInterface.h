@@ -75,6 +75,10 @@ struct FrameUniforms {
     std::array<float4, 4> materialGlobals; ///< View::materialGlobals
     float4 froxelGrid;           ///< x: columns, y: rows, z: slices; 0: every point reads all lights; w: first slice, as depth bits >> shift
     float4 froxelPlaces;         ///< x: shift; y: first light; z: first word of the view; w: first word of kLtcTable, if the view has areas
+    float4 fogMedium;            ///< x: logarithm of the density at the camera's height; y: fall-off a metre; z: metres where it begins, w: where it ends
+    float4 fogLight;             ///< rgb: pre-exposed radiance of what is all fog; w: largest share of a pixel that is fog
+    float4 fogSun;               ///< the sun's light in the fog, whatever else the sun shines on: rgb: pre-exposed, towards the sun; w: exponent of the cosine
+    float4 fogSunDirection;      ///< xyz: towards the sun, unit; w: metres where its light begins
 };
 
 // ---- PassUniforms
@@ -198,8 +202,16 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityScreenRefraction = 1016, ///< 1: the picture is seen through what refracts it
     kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture
     kQualityContactShadows = 1018, ///< 1: some light of the view has them
-    kQualityFog = 1019,  ///< 1: there is fog; unlit materials have this one, too
+    kQualityFog = 1019,  ///< FogTerms; unlit materials have this one, too
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only
+};
+
+/// What shaders compute of fog; a set.
+enum FogTerms : uint8_t {
+    kFogOn = 1,
+    kFogFromEnvironment = 2, ///< its colour is that of the environment behind
+    kFogFromRgbm = 4,        ///< which is encoded
+    kFogSun = 8,             ///< scatters the light of the sun
 };
 
 inline constexpr std::array kQualityConstants{

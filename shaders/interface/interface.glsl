@@ -36,6 +36,10 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     vec4 materialGlobals[4];
     vec4 froxelGrid;
     vec4 froxelPlaces;
+    vec4 fogMedium;
+    vec4 fogLight;
+    vec4 fogSun;
+    vec4 fogSunDirection;
 } frameUniforms;
 
 struct ObjectRecord {

@@ -36,6 +36,7 @@ namespace {
 #include "shaders/lib/coat.glsl"
 #include "shaders/lib/color.glsl"
 #include "shaders/lib/distance.glsl"
+#include "shaders/lib/fog.glsl"
 #include "shaders/lib/fresnel.glsl"
 #include "shaders/lib/ibl.glsl"
 #include "shaders/lib/iridescence.glsl"

@@ -115,7 +115,7 @@ Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint3
                                                  .lightsCastShadows = view.quality.shadows != ShadowFilter::Off,
                                                  .coloredShadows = view.quality.coloredShadows };
     Result<reference::ReferenceImage> image =
-            reference::render(scene, { view.camera, view.size, view.clearColor }, settings, jobs);
+            reference::render(scene, { view.camera, view.size, view.clearColor, view.effects.fog }, settings, jobs);
     if (!image) return image.error();
     return TracedPicture{ { image->width, image->height, std::move(image->color) }, image->statistics.relativeError };
 }

@@ -247,6 +247,23 @@ class IrradianceEdit final : public FrameEdit {
     }
 };
 
+/// In every block of the frame: channels of lights have blocks of their own.
+class FogDensityEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, fogMedium);
+        writeFloat(bytes, at, readFloat(bytes, at) + 0.00995f); // the logarithm of 1.01
+    }
+};
+
+class FogGlowEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, fogSun) + 3 * sizeof(float);
+        writeFloat(bytes, at, 1.02f * readFloat(bytes, at));
+    }
+};
+
 /// What area lights read behind the froxels.
 bool isLtcTable(CmdUpdateBuffer const& command) { return command.bytes.size() == sizeof(shader::kLtcTable); }
 
@@ -506,6 +523,8 @@ constexpr Mutation kMutations[] = {
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },
     { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },
+    { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
+    { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
     { "discWider", "the discs of suns 1 % wider", make<DiscWiderEdit> },
     { "areaEdge", "the first area light 1 % wider", make<AreaEdgeEdit> },
     { "profileTurn", "the last light profile turned by half a degree", make<ProfileTurnEdit> },

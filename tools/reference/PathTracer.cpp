@@ -56,15 +56,25 @@ struct PathTracer::Path {
     }
 };
 
-PathTracer::PathTracer(TracedScene const& scene, ReferenceSettings const& settings, double exposure, double3 background)
-        : mScene(scene), mSettings(settings), mExposure(exposure), mBackground(background),
+PathTracer::PathTracer(TracedScene const& scene, ReferenceSettings const& settings, double exposure, double3 background,
+                       FogMedium fog)
+        : mScene(scene), mSettings(settings), mExposure(exposure), mBackground(background), mFog(fog),
           mUseOcclusion(settings.occlusionMap == Switch::On ||
                         (settings.occlusionMap == Switch::Auto && settings.integrator == Integrator::Unoccluded)) {}
 
 double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64_t& rays) const {
     Path path{ .ray = ray, .numbers = numbers, .rays = rays };
+    const std::optional<SurfaceSample> first = nextSurface(path);
+    const double3 share = path.throughput;
+    const double distance = first ? path.hit.distance : std::numeric_limits<double>::infinity();
+    const double3 light = follow(path, first);
+    return first || mScene.skybox() ? mFog.inFront(light, share, ray.direction, distance) : light;
+}
+
+/// The light that comes from a surface, or from where none is.
+double3 PathTracer::follow(Path& path, std::optional<SurfaceSample> surface) const {
     double3 sum(0.0);
-    while (std::optional<SurfaceSample> surface = nextSurface(path)) {
+    for (; surface; surface = nextSurface(path)) {
         if (surface->transmits()) enterSurface(path, *surface);
         if (surface->mixture) meetPart(*surface, path.numbers.pair(kMixture + path.events).x);
         coverWithFilm(*surface);

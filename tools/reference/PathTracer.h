@@ -9,11 +9,13 @@
 ///           behaves as if in air. Where a solid disperses light, a path chooses one of three colours.
 ///   Sides   the camera does not see single-sided materials from behind; all other rays hit both sides. Light cannot
 ///           pass through a triangle because of its shading normal. Emissive surfaces light others.
+///   Fog     between the camera and the first surface, or the sky, alone.
 ///   Out     exposed, as in the engine's scene-linear target.
 ///   Thread  radiance(): any, all at once.
 #pragma once
 
 #include "tools/reference/Bsdf.h"
+#include "tools/reference/FogMedium.h"
 #include "tools/reference/SampleStream.h"
 #include "tools/reference/TracedScene.h"
 
@@ -21,13 +23,16 @@ namespace filament::reference {
 
 class PathTracer {
 public:
-    PathTracer(TracedScene const& scene, ReferenceSettings const& settings, double exposure, double3 background);
+    PathTracer(TracedScene const& scene, ReferenceSettings const& settings, double exposure, double3 background,
+               FogMedium fog = {});
 
     /// `ray` is relative to the scene's origin. `rays` counts the rays traced.
     double3 radiance(Ray const& ray, SampleStream const& numbers, uint64_t& rays) const;
 
 private:
     struct Path;
+
+    double3 follow(Path& path, std::optional<SurfaceSample> surface) const;
 
     std::optional<SurfaceSample> nextSurface(Path& path) const;
     void enterSurface(Path& path, SurfaceSample& surface) const;
@@ -50,6 +55,7 @@ private:
     ReferenceSettings const& mSettings;
     double mExposure;
     double3 mBackground;
+    FogMedium mFog;
     bool mUseOcclusion;
 };
 

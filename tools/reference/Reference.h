@@ -19,6 +19,7 @@
 
 #include <filament/Box.h>
 #include <filament/Camera.h>
+#include <filament/Effects.h>
 #include <filament/Light.h>
 
 #include <functional>
@@ -75,6 +76,7 @@ struct ReferenceView {
     Camera camera{};
     uint2 size{ 640, 360 };
     float4 clearColor{ 0, 0, 0, 1 }; ///< as View::clearColor
+    Fog fog{};                       ///< as Effects::fog; FogMedium.h
 };
 
 enum class Integrator : uint8_t {

@@ -83,6 +83,12 @@ private:
     double mNear, mTangent;
 };
 
+FogMedium fogOf(TracedScene const& scene, ReferenceView const& view) {
+    const auto exposure = double(view.camera.exposure.factor());
+    const double lux = scene.environmentLux();
+    return { view.fog, view.camera.position().y, { lux > 0 ? lux * exposure : 1.0, exposure, scene.suns() } };
+}
+
 bool isFinite(double3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }
 
 /// One picture while it is made.
@@ -90,8 +96,8 @@ class Rendering {
 public:
     Rendering(TracedScene const& scene, ReferenceView const& view, ReferenceSettings const& settings)
             : mSettings(settings), mPlan(planOf(settings)), mFilm(view.size.x, view.size.y),
-              mLens(view, scene.origin()),
-              mTracer(scene, settings, double(view.camera.exposure.factor()), double3(view.clearColor)) {}
+              mLens(view, scene.origin()), mTracer(scene, settings, double(view.camera.exposure.factor()),
+                                                   double3(view.clearColor), fogOf(scene, view)) {}
 
     Plan const& plan() const { return mPlan; }
 

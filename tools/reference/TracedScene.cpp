@@ -238,6 +238,8 @@ Result<TracedScenePtr> TracedScene::create(ReferenceScene const& scene, jobs::Jo
         traced->mEnvironment = EnvironmentLight(scene.environment->image, double(scene.environment->illuminance.value),
                                                 double(scene.environment->rotationRadians));
     }
+    if (scene.environment) traced->mEnvironmentLux = double(scene.environment->illuminance.value);
+    traced->mSuns = collected.lights.suns;
     traced->mSkybox = scene.environment && scene.environment->skybox;
     moveLights(collected.lights, origin);
     traced->mDirectLights = DirectLights({ collected.lights.suns, collected.lights.points, collected.lights.spots,

@@ -12,6 +12,8 @@
 #include "tools/reference/Intersector.h"
 #include "tools/reference/Reference.h"
 
+#include <span>
+
 namespace filament::reference {
 
 class TracedScene {
@@ -29,6 +31,8 @@ public:
     DirectLights const& directLights() const { return mDirectLights; }
     EmissiveLights const& emissiveLights() const { return mEmissiveLights; }
     bool skybox() const { return mSkybox; }
+    double environmentLux() const { return mEnvironmentLux; } ///< 0: there is none
+    std::span<const SunLight> suns() const { return mSuns; }
     std::vector<std::string> const& warnings() const { return mWarnings; }
 
 private:
@@ -43,6 +47,8 @@ private:
     DirectLights mDirectLights;
     EmissiveLights mEmissiveLights; // refers to mParts
     bool mSkybox = false;
+    double mEnvironmentLux = 0;
+    std::vector<SunLight> mSuns;
     std::vector<std::string> mWarnings;
 };
 

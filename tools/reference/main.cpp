@@ -82,7 +82,7 @@ int run(Options const& options) {
     if (!traced) return failed(traced.error());
     notes.insert(notes.end(), warnings(**traced).begin(), warnings(**traced).end());
 
-    const ReferenceView view{ .camera = tools::cameraOf(options), .size = options.size };
+    const ReferenceView view{ .camera = tools::cameraOf(options), .size = options.size, .fog = options.effects.fog };
     const tools::StopOnInterrupt scope;
     const Result<ReferenceImage> image =
             render(**traced, view, options.settings, jobs, [&](RenderProgress const& progress) {

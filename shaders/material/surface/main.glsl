@@ -22,5 +22,8 @@ void main() {
     highp vec4 color = vec4(light, outputAlpha(inputs.baseColor.a));
     addEmissive(inputs, color);
     blendPostLighting(inputs, color);
+#if defined(HAS_FOG)
+    if (quality_fog != 0) applyFog(color);
+#endif
     fragment_color = color;
 }

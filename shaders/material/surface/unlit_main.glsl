@@ -19,5 +19,8 @@ void main() {
 #endif
 #endif
     blendPostLighting(inputs, color);
+#if defined(HAS_FOG)
+    if (quality_fog != 0) applyFog(color);
+#endif
     fragment_color = color;
 }

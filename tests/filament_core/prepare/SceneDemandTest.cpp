@@ -32,6 +32,22 @@ TEST(SceneDemand, NeedsColoursOfShadowsOnlyWhereACasterTransmitsLight) {
     EXPECT_FALSE(demand().isNeeded);
 }
 
+TEST(SceneDemand, NeedsFogOnlyWhereItHidesSomething) {
+    Fog fog{ .enabled = true };
+    const auto demand = [&] { return findDemand({ .fog = fog }).of(Effect::Fog); };
+    EXPECT_TRUE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::Fog, demand()), "lies between the camera and what is visible");
+    fog.maximumOpacity = 0;
+    EXPECT_FALSE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::Fog, demand()), "its density or opacity is 0");
+    fog = { .enabled = true, .density = 0 };
+    EXPECT_FALSE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::Fog, demand()), "its density or opacity is 0");
+    fog = {};
+    EXPECT_FALSE(demand().isNeeded);
+    EXPECT_EQ(describe(Effect::Fog, demand()), "switched off: fog=off");
+}
+
 TEST(SceneDemand, NeedsLightOnlyWhereItMeetsALitSurface) {
     ViewCounts counts{ .lights = 2, .suns = 1, .litDraws = 1 };
     const Effect lights[] = { Effect::Sun, Effect::LightList, Effect::IndirectLight };

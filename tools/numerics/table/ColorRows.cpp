@@ -23,6 +23,46 @@ Row toneMapRow(std::string_view part, Call call) {
              .fp32Only = kSceneReferred };
 }
 
+std::vector<Row> fogRows() {
+    constexpr std::string_view kMeters = "metres and optical depths exceed 16 bits";
+    return {
+        { .file = "fog",
+          .function = "fogOpticalDepth(float, float, float, float, float)",
+          .part = "near",
+          .call = NUMERICS_CALL(fogOpticalDepth(s.w, s.y, s.z, 0.0f, s.x)),
+          .s = { number("to", 0, 100), number("falloff", 0, 1), number("rise", -1, 1), number("logDensity", -10, 3) },
+          .range = { 0, 3e37 },
+          .monotone = Monotone::Rising,
+          .limits = { .cpp = 2e-5, .gpu = 2e-5, .negligible = 1e-6, .why = "an exponent up to 100 is rounded" },
+          .fp32Only = kMeters },
+        { .file = "fog",
+          .function = "fogOpticalDepth(float, float, float, float, float)",
+          .part = "far",
+          .call = NUMERICS_CALL(fogOpticalDepth(s.w, s.y, s.z, 1.0f, s.x)),
+          .s = { number("to", 0, 1e15), number("falloff", 0, 1e3), number("rise", -1, 1),
+                 number("logDensity", -1e20, 80) },
+          .range = { 0, 3e37 },
+          .noError = "the rounding of an exponent of millions",
+          .fp32Only = kMeters },
+        { .file = "fog",
+          .function = "fogOpacity(float, float)",
+          .call = NUMERICS_CALL(fogOpacity(s.x, s.y)),
+          .s = { number("opticalDepth", 0, 3e37), unit("largest") },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = relative(1e-6, 0, "oneMinusExp()"),
+          .fp32Only = kMeters },
+        { .file = "fog",
+          .function = "fogGlow(float, float)",
+          .call = NUMERICS_CALL(fogGlow(s.x, s.y)),
+          .s = { number("cosine", -1, 1), number("exponent", 1, 1e3) },
+          .range = { 0, 1 },
+          .monotone = Monotone::Rising,
+          .limits = absolute(2e-4, 0, "absolute: a thousand times the rounding of a logarithm"),
+          .fp32Only = "a thousand times the rounding of a logarithm" },
+    };
+}
+
 std::vector<Row> toneMapRows() {
     return {
         { .file = "color",
@@ -237,7 +277,7 @@ std::vector<Row> colorRows() {
           .fp32Only = "squares of warped depths reach e^80",
           .openOutside = "depths lie in [-1, 1]: momentDepth() clamps them" },
     };
-    for (std::vector<Row> const& more : { toneMapRows(), toneTableRows(), transferRows() })
+    for (std::vector<Row> const& more : { toneMapRows(), toneTableRows(), transferRows(), fogRows() })
         rows.insert(rows.end(), more.begin(), more.end());
     return rows;
 }

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "tools/reference/FogMedium.h"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+namespace filament::reference {
+namespace {
+
+constexpr double kFarthestFog = 1e15; // metres: what lies at infinity
+constexpr int kFogSteps = 512;
+constexpr double kFogFoldings = 40; // e-foldings from the dense end of a ray, beyond which nothing is left
+
+double brightnessOf(SunLight const& sun) {
+    return double(sun.illuminance.value) * glm::dot(double3(sun.color), double3(0.2126, 0.7152, 0.0722));
+}
+
+} // namespace
+
+FogMedium::FogMedium(Fog const& fog, double height, FogLight const& light)
+        : mFog(fog), mHeight(height - double(fog.heightMeters)), mColor(double3(fog.color) * light.ambient) {
+    if (!(fog.inScatteringSize > 0) || light.suns.empty()) return;
+    SunLight const& sun = *std::ranges::max_element(light.suns, {}, brightnessOf);
+    mSun = double3(sun.color) * (double(sun.illuminance.value) * light.exposure * (double(fog.inScatteringSize) + 1) /
+                                 (2 * std::numbers::pi));
+    mTowardsSun = -glm::normalize(double3(sun.directionWorld));
+}
+
+/// By the midpoints of steps from the dense end.
+double FogMedium::opticalDepth(double rise, double from, double to) const {
+    const double length = std::max(to - from, 0.0), rate = double(mFog.heightFalloff) * std::abs(rise);
+    const double lowest = mHeight + std::min(rise * from, rise * to);
+    const double reach = rate * length > kFogFoldings ? kFogFoldings / rate : length;
+    const double logDensity = std::log(double(mFog.density)) - double(mFog.heightFalloff) * lowest;
+    double sum = 0;
+    for (int i = 0; i < kFogSteps; ++i)
+        sum += std::exp(std::min(logDensity - rate * reach * (i + 0.5) / kFogSteps, 300.0));
+    return sum * reach / kFogSteps;
+}
+
+double FogMedium::opacity(double3 direction, double from, double to) const {
+    const double opaque = -std::expm1(-opticalDepth(direction.y, from, to));
+    return std::min(opaque, double(mFog.maximumOpacity));
+}
+
+double3 FogMedium::inFront(double3 color, double3 share, double3 direction, double distance) const {
+    const bool isCutOff = mFog.cutOffMeters > 0 && distance > double(mFog.cutOffMeters);
+    if (!mFog.enabled || mFog.density <= 0 || isCutOff) return color;
+    const double to = std::min(distance, kFarthestFog), start = double(mFog.startMeters);
+    const double3 fogged = glm::mix(color, share * mColor, opacity(direction, start, to));
+    const double cosine = glm::dot(direction, mTowardsSun);
+    if (mSun == double3(0.0) || cosine <= 0) return fogged;
+    const double scattered = opacity(direction, std::max(start, double(mFog.inScatteringStartMeters)), to);
+    return fogged + share * mSun * (std::pow(cosine, double(mFog.inScatteringSize)) * scattered);
+}
+
+} // namespace filament::reference

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+/// FogMedium: the fog between the camera and what a camera ray meets first, by the definition of docs/fog.md: the density
+/// along the ray is summed up, where the engine has a closed form.
+///   Limits  Fog::colorFromEnvironment is not traced: the colour is as it is without it.
+///   Thread  read-only after construction. Memory: none.
+#pragma once
+
+#include "base/math/Math.h"
+
+#include <filament/Effects.h>
+#include <filament/Light.h>
+
+#include <span>
+
+namespace filament::reference {
+
+/// The light that fog scatters, exposed.
+struct FogLight {
+    double ambient = 1; ///< times Fog::color
+    double exposure = 1;
+    std::span<const SunLight> suns{}; ///< the brightest makes the glow
+};
+
+class FogMedium {
+public:
+    FogMedium() = default; ///< none
+    /// `height`: of the camera, in the world.
+    FogMedium(Fog const& fog, double height, FogLight const& light);
+
+    /// `color` as the camera sees it from `distance` (infinite: a sky) in this unit direction, if what it sees there covers
+    /// this share of it, of which `color` is the light.
+    double3 inFront(double3 color, double3 share, double3 direction, double distance) const;
+
+private:
+    double opticalDepth(double rise, double from, double to) const;
+    double opacity(double3 direction, double from, double to) const;
+
+    Fog mFog{};
+    double mHeight = 0;
+    double3 mColor{ 0.0 }, mSun{ 0.0 }, mTowardsSun{ 0, 1, 0 };
+};
+
+} // namespace filament::reference
