@@ -65,6 +65,27 @@ void addFogPairs(std::vector<Pair>& all, const char* file) {
     all.push_back({ "fog without density", file, withFog({}), withFog(fog), true });
 }
 
+std::function<void(Scene&, View&)> withContactSun(bool isAsked, ShadowFilter filter) {
+    return [isAsked, filter](Scene& scene, View& view) {
+        scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 }, .contactShadows = isAsked });
+        view.quality.shadows = filter;
+        view.effects.contactShadows = { .distanceMeters = 0.1f, .thicknessMeters = 0.05f };
+    };
+}
+
+void addContactPairs(std::vector<Pair>& all, const char* file) {
+    for (const ShadowFilter filter : { ShadowFilter::Off, ShadowFilter::Pcf3 })
+        all.push_back({ filter == ShadowFilter::Off ? "contact shadows" : "contact shadows beside pcf3", file,
+                        withContactSun(false, filter), withContactSun(true, filter) });
+    const auto lamp = [](bool isAsked) {
+        return [isAsked](Scene& scene, View& view) {
+            view.quality.shadows = ShadowFilter::Off;
+            scene.add(PointLight{ .positionWorld = { 50, 0, 0 }, .rangeMeters = 2, .contactShadows = isAsked });
+        };
+    };
+    all.push_back({ "contact shadows of a lamp out of reach", file, lamp(false), lamp(true), true });
+}
+
 std::vector<Pair> pairs() {
     constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
     constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
@@ -108,6 +129,7 @@ std::vector<Pair> pairs() {
     };
     all.push_back({ "a sun's disc behind the camera", kHelmet, disc(false), disc(true), true });
     addFogPairs(all, kHelmet);
+    addContactPairs(all, kHelmet);
     return all;
 }
 

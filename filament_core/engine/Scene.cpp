@@ -161,6 +161,7 @@ Light Scene::add(SunLight const& light, Node node) {
                       .intensity = light.illuminance.value,
                       .sourceRadius = std::tan(glm::radians(clampedOr0(light.angularRadiusDegrees, kWidestSunDegrees))),
                       .castsShadows = light.castsShadows,
+                      .contactShadows = light.contactShadows,
                       .channels = light.lightChannels,
                       .showsDisc = light.showsDisc,
                       .haloSize = std::max(1.0f, clampedOr0(light.haloSize, kWidestHalo)),
@@ -177,6 +178,7 @@ Light Scene::add(PointLight const& light, Node node) {
                         .rangeMeters = light.rangeMeters,
                         .sourceRadius = clampedOr0(light.sourceRadiusMeters, kLargestFloat),
                         .castsShadows = light.castsShadows,
+                        .contactShadows = light.contactShadows,
                         .channels = light.lightChannels };
     if (light.profile) {
         record.directionWorld = unitDirection(light.directionWorld);
@@ -200,6 +202,7 @@ Light Scene::add(SpotLight const& light, Node node) {
                         .outerConeRadians = light.outerConeRadians,
                         .sourceRadius = clampedOr0(light.sourceRadiusMeters, kLargestFloat),
                         .castsShadows = light.castsShadows,
+                        .contactShadows = light.contactShadows,
                         .channels = light.lightChannels };
     if (light.profile) setProfile(mImpl->engine, light.profile, light.upWorld, record);
     return addLight(mImpl->data, record, node);

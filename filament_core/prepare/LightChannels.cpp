@@ -134,6 +134,8 @@ void dropUnseenLights(Arena& arena, scene::Lights const& lights, uint8_t seen, P
         view.sunRecord.reset();
         removeSun(packet.uniforms);
         packet.counts.sunsOfOtherChannels = packet.counts.suns;
+        packet.counts.contactLights -= packet.uniforms.contactShadows.w > 0 ? 1 : 0;
+        packet.uniforms.contactShadows.w = 0;
     }
     if (std::ranges::all_of(view.lightRecords, isSeen)) return;
     const auto kept = arena.arrayForOverwrite<shader::PunctualLight>(packet.lights.size());
@@ -144,6 +146,7 @@ void dropUnseenLights(Arena& arena, scene::Lights const& lights, uint8_t seen, P
             scene::LightRecord const& unseen = lights.records[view.lightRecords[i]];
             packet.counts.areaLights -= unseen.isArea() ? 1 : 0;
             packet.counts.profiledLights -= unseen.profile ? 1 : 0;
+            packet.counts.contactLights -= unseen.contactShadows ? 1 : 0;
             continue;
         }
         kept[count] = packet.lights[i];

@@ -269,7 +269,7 @@ private:
         float4& light = mLights[caster.listed].offset;
         if (light.y == 0) {
             light.y = static_cast<float>(map + 1);
-            light.z = takesCube(mScene.lights.records[caster.record]) ? static_cast<float>(1u << kCubeFaces) : 0.0f;
+            light.z += takesCube(mScene.lights.records[caster.record]) ? static_cast<float>(1u << kCubeFaces) : 0.0f;
         }
         light.z += static_cast<float>(1u << part);
     }

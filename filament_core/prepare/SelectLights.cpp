@@ -26,12 +26,17 @@ bool reachesView(LightRecord const& light, ViewSpace const& space) {
     return intersectsSphere(space.frustum, float3(light.positionWorld - space.cameraWorld), light.rangeMeters);
 }
 
+float contactBit(LightRecord const& light) {
+    return light.contactShadows ? static_cast<float>(shader::kContactShadowBit) : 0.0f;
+}
+
 // The shader treats the direction towards a sun as a place, and does not attenuate.
 PunctualLight furtherSun(LightRecord const& light, float exposure) {
     PunctualLight data{};
     data.positionRange = float4(-light.directionWorld, 0);
     data.colorIntensity = float4(light.color * (light.intensity * exposure), -1);
     data.directionScale = float4(light.directionWorld, 0);
+    data.offset = float4(0, 0, contactBit(light), 0);
     return data;
 }
 
@@ -73,7 +78,7 @@ PunctualLight punctualLight(LightRecord const& light, ViewSpace const& space) {
     const float cosInner = std::cos(std::min(light.innerConeRadians, light.outerConeRadians));
     const float scale = 1 / std::max(1e-3f, cosInner - cosOuter);
     data.directionScale = float4(light.directionWorld, scale);
-    data.offset = float4(-cosOuter * scale, 0, 0, 0);
+    data.offset = float4(-cosOuter * scale, 0, contactBit(light), 0);
     return data;
 }
 
@@ -90,6 +95,7 @@ LightRecord const* writeSun(shader::FrameUniforms& frame, scene::Lights const& l
     frame.sunIlluminance = brightest ? float4(brightest->color * (brightest->intensity * exposure), 0) : float4(0);
     frame.fogSunDirection = float4(float3(frame.sunDirection), frame.fogSunDirection.w);
     frame.fogSun = float4(float3(frame.fogSun) * float3(frame.sunIlluminance), frame.fogSun.w);
+    frame.contactShadows.w = brightest && brightest->contactShadows ? 1.0f : 0.0f;
     return brightest;
 }
 
@@ -145,10 +151,12 @@ SelectedLights LightSelector::select(ViewSpace const& space, shader::FrameUnifor
         inCommon &= light.channels;
         counts.areaLights += light.isArea() ? 1 : 0;
         counts.profiledLights += light.profile ? 1 : 0;
+        counts.contactLights += light.contactShadows ? 1 : 0;
     }
     counts.areaLightsLeftOut -= counts.areaLights;
     counts.profiledLightsLeftOut -= counts.profiledLights;
     frame.ambient.w = static_cast<float>(counts.lights);
+    if (sun && sun->contactShadows) ++counts.contactLights;
     SelectedLights selected{ mChosen.first(counts.lights), mRecords.first(counts.lights), {}, inCommon };
     if (sun) selected.sun = static_cast<uint32_t>(sun - mLights.records.data());
     return selected;

@@ -30,7 +30,7 @@ struct LightRecord {
     float rangeMeters = 0;
     float innerConeRadians = 0, outerConeRadians = 0;
     float sourceRadius = 0; ///< metres; of suns: for each metre of distance
-    bool castsShadows = true;
+    bool castsShadows = true, contactShadows = false;
     uint8_t channels = 1;        ///< bit n: channel n
     bool isTwoSided = false;     ///< rectangles and discs
     float3 sideWorld{ 1, 0, 0 }; ///< of areas: along the first of halfExtent, unit; of tubes the axis

@@ -273,6 +273,9 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done) done = out.include("shaders/material/surface/output.glsl");
     if (done) done = includeFog(out, definition.package);
     if (done && (variantKey & kVariantShadowReceiver) != 0) done = includeShadows(out, definition.package);
+    if (done)
+        done = includeAll(out, { "shaders/lib/noise.glsl", "shaders/material/surface/facet.glsl",
+                                 "shaders/material/surface/contact_shadows.glsl" });
     if (done && (variantKey & kVariantHalf) != 0) done = out.include("shaders/material/surface/half.glsl");
     if (!done) return done;
     done = includeAll(out, { "shaders/lib/brdf.glsl", "shaders/material/surface/quality.glsl",

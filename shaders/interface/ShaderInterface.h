@@ -79,6 +79,7 @@ struct FrameUniforms {
     float4 fogLight;             ///< rgb: pre-exposed radiance of what is all fog; w: largest share of a pixel that is fog
     float4 fogSun;               ///< the sun's light in the fog, whatever else the sun shines on: rgb: pre-exposed, towards the sun; w: exponent of the cosine
     float4 fogSunDirection;      ///< xyz: towards the sun, unit; w: metres where its light begins
+    float4 contactShadows;       ///< x: metres towards the light; y: thickness in metres; z: steps; w: 1 if the sun has them
 };
 
 // ---- PassUniforms
@@ -122,6 +123,9 @@ inline constexpr uint32_t kMaxLightsOfFroxel = 256;
 /// word of the view. An entry of a list is the light's place among those of the view; entries ascend.
 inline constexpr uint32_t kFroxelCountBits = 9;
 
+/// Of PunctualLight::offset.z: the light has contact shadows.
+inline constexpr uint32_t kContactShadowBit = 128;
+
 /// What colorIntensity.w says of a light of the list. Of areas, positionRange is the centre, colorIntensity rgb the
 /// pre-exposed luminance, and the half edges X = directionScale.xyz and Y = (directionScale.w, offset.x, offset.w): radii
 /// of a disc; of a tube X is half its axis and Y.x its radius. cross(X, Y) is against the direction in which it shines.
@@ -138,7 +142,7 @@ struct PunctualLight {
     float4 positionRange;   ///< xyz: relative to the camera, or towards a sun, unit; w: 1 / range^2 (0: unlimited)
     float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; x lux for suns; w: 1 for spots, 0 for points, -1 for suns; LightShape of areas
     float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
-    float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: set of its maps: bit n: face n; bit 6: a cube's faces; w: its ProfiledLight + 1, 0: none
+    float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: a set: bit n: face n has a map; bit 6: these are a cube's; bit 7: it has contact shadows; w: its ProfiledLight + 1, 0: none
 };
 
 /// Words of the light profiles of a view, behind the froxels: first what belongs to one light, its x axis, as float bits,

@@ -16,6 +16,7 @@ const int kAttributeInstance = 15;
 const int kObjectsPerWindow = 256;
 const int kFroxelCountBits = 9;
 const int kMaxShadowMaps = 128;
+const int kContactShadowBit = 128;
 const int kProfiledLightWords = 4;
 const int kProfileHeaderWords = 3;
 
@@ -40,6 +41,7 @@ layout(set = 0, binding = 0, std140) uniform FrameUniforms {
     vec4 fogLight;
     vec4 fogSun;
     vec4 fogSunDirection;
+    vec4 contactShadows;
 } frameUniforms;
 
 struct ObjectRecord {

@@ -94,6 +94,7 @@ Result<void> convertSun(std::string const& name, std::string const& value, std::
     const std::string option = "--set " + name;
     if (!sun) return invalidOption(option.c_str(), value, "a --sun as well");
     if (name == "sun.showsDisc") return convertSwitch(option.c_str(), value, sun->showsDisc);
+    if (name == "sun.contactShadows") return convertSwitch(option.c_str(), value, sun->contactShadows);
     const auto number = [&](float& member, double least, double most, const char* cure) -> Result<void> {
         const auto given = finiteNumber(value);
         if (!given || *given < least || *given > most) return invalidOption(option.c_str(), value, cure);
@@ -103,7 +104,9 @@ Result<void> convertSun(std::string const& name, std::string const& value, std::
     if (name == "sun.angularRadiusDegrees") return number(sun->angularRadiusDegrees, 0, 20, "degrees from 0 to 20");
     if (name == "sun.haloSize") return number(sun->haloSize, 1, 1000, "a number from 1 to 1000");
     if (name == "sun.haloFalloff") return number(sun->haloFalloff, 0, 10'000, "a number from 0 to 10000");
-    return invalidOption("--set", name, "sun.showsDisc, sun.angularRadiusDegrees, sun.haloSize or sun.haloFalloff");
+    return invalidOption(
+            "--set", name,
+            "sun.showsDisc, sun.contactShadows, sun.angularRadiusDegrees, sun.haloSize or sun.haloFalloff");
 }
 
 /// The options outside Quality: the view's, and those that matter when an engine is made or a file is loaded. Returns

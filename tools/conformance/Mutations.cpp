@@ -264,6 +264,14 @@ class FogGlowEdit final : public FrameEdit {
     }
 };
 
+class ContactReachEdit final : public FrameEdit {
+    void changeFrame(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t at = offsetof(shader::FrameUniforms, contactShadows);
+        writeFloat(bytes, at, 0.9f * readFloat(bytes, at));
+    }
+};
+
 /// What area lights read behind the froxels.
 bool isLtcTable(CmdUpdateBuffer const& command) { return command.bytes.size() == sizeof(shader::kLtcTable); }
 
@@ -525,6 +533,7 @@ constexpr Mutation kMutations[] = {
     { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
+    { "contactReach", "contact shadows 10 % shorter", make<ContactReachEdit> },
     { "discWider", "the discs of suns 1 % wider", make<DiscWiderEdit> },
     { "areaEdge", "the first area light 1 % wider", make<AreaEdgeEdit> },
     { "profileTurn", "the last light profile turned by half a degree", make<ProfileTurnEdit> },

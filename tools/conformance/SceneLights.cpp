@@ -74,6 +74,7 @@ template <class L>
 void readShared(JsonReader& reader, L& light) {
     readColor(reader, light.color);
     reader.read("castsShadows", light.castsShadows);
+    reader.read("contactShadows", light.contactShadows);
     readLightChannels(reader, light.lightChannels);
 }
 

@@ -40,6 +40,8 @@ struct SunLight {
     float haloSize = 10;      ///< radius of the halo over that of the disc, [1, 1000]; 1: none
     float haloFalloff = 80;   ///< exponent by which it fades, [0, 10'000]
     bool castsShadows = true; ///< in views with Quality::shadows; of several suns only the brightest does
+    /// Finds what is too small for shadow maps in the depths of the picture: Effects::contactShadows. docs/shadows.md.
+    bool contactShadows = false;
     LightChannels lightChannels = kDefaultLightChannels;
 };
 
@@ -53,6 +55,7 @@ struct PointLight {
     /// Of the ball that shines, >= 0: how soft its shadows are with ShadowFilter::Pcss. It is lit as if from the centre.
     float sourceRadiusMeters = 0;
     bool castsShadows = true;
+    bool contactShadows = false; ///< see SunLight
     LightChannels lightChannels = kDefaultLightChannels;
     LightProfile profile{};            ///< none: as bright in every direction, and the following are unused
     float3 directionWorld{ 0, 0, -1 }; ///< where both angles of the profile are zero; any length except zero
@@ -74,6 +77,7 @@ struct SpotLight {
     float outerConeRadians = 0.7853982f; ///< (inner, pi/2]
     float sourceRadiusMeters = 0;
     bool castsShadows = true;
+    bool contactShadows = false; ///< see SunLight
     LightChannels lightChannels = kDefaultLightChannels;
     LightProfile profile{};    ///< aimed along directionWorld; see PointLight
     float3 upWorld{ 0, 1, 0 }; ///< of the profile; see PointLight

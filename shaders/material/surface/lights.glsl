@@ -82,6 +82,12 @@ highp vec3 punctualLights(Surface surface) {
         visibility = punctualVisibility(lightBuffer.lights[index].offset.yz, toLight);
         SKIP_IN_SHADOW(visibility)
 #endif
+        if (quality_contactShadows != 0) {
+            bool isAsked = (int(lightBuffer.lights[index].offset.z) & kContactShadowBit) != 0;
+            highp float reach = isSun ? frameUniforms.contactShadows.x : sqrt(dot(toLight, toLight));
+            visibility *= contactVisibility(isAsked, direction, reach);
+            SKIP_IN_SHADOW(visibility)
+        }
         Light arriving;
         arriving.direction = direction;
         arriving.illuminance = colorIntensity.rgb * (visibility * attenuation);
@@ -101,12 +107,18 @@ highp vec3 punctualLights(Surface surface) {
 void addLights(Surface surface, inout highp vec3 sum) {
 #if defined(VARIANT_SHADOW_RECEIVER)
     computeFacet();
+#else
+    if (quality_contactShadows != 0) computeFacet();
 #endif
 #if defined(VARIANT_SUN)
     highp vec3 visibility = vec3(1.0);
 #if defined(VARIANT_SHADOW_RECEIVER)
     visibility = sunVisibility();
 #endif
+    if (quality_contactShadows != 0) {
+        bool isAsked = frameUniforms.contactShadows.w > 0.0 && max3(visibility) > 0.0;
+        visibility *= contactVisibility(isAsked, frameUniforms.sunDirection.xyz, frameUniforms.contactShadows.x);
+    }
     Light sun;
     sun.direction = frameUniforms.sunDirection.xyz;
     sun.illuminance = frameUniforms.sunIlluminance.rgb * visibility;

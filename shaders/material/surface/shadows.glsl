@@ -12,6 +12,8 @@
 
 #if defined(VARIANT_SHADOW_RECEIVER)
 
+#include "shaders/material/surface/facet.glsl"
+
 const int kShadowPcf3 = 0; // ShadowFilter
 const int kShadowHard = 2;
 const int kShadowPcf2 = 3;
@@ -26,21 +28,6 @@ const highp float kPoissonRadius = 2.16; // texels: a disc that blurs as much as
 const highp float kWidestPenumbra = 0.0625; // in radius, of a map's width: the margin around a cone or a face
 const highp float kLeastPenumbra = 2.0; // texels: narrower ones are a tent's
 const highp float kLastMomentLevel = 4.0;
-
-// The normal of the triangle itself, unit and of any side; zero where it is too small to tell.
-highp vec3 shading_facet;
-// From this pixel to its neighbours.
-highp vec3 shading_right, shading_down;
-
-void computeFacet() {
-    highp vec3 dx = dFdx(vertex_worldPosition), dy = dFdy(vertex_worldPosition);
-    shading_right = dx;
-    shading_down = dy;
-    highp float largestX = max(max(abs(dx.x), abs(dx.y)), abs(dx.z));
-    highp float largestY = max(max(abs(dy.x), abs(dy.y)), abs(dy.z));
-    shading_facet = vec3(0.0);
-    if (largestX > 0.0 && largestY > 0.0) shading_facet = normalizeOrZero(cross(dx / largestX, dy / largestY));
-}
 
 // This fragment in the space of a map.
 struct ShadowReceiver {
@@ -270,7 +257,7 @@ highp vec3 sunVisibility() {
 
 // The map of a point or spot that holds a direction; below 0: nothing casts there. `maps`: PunctualLight::offset.yz.
 int punctualMap(highp vec2 maps, highp vec3 fromLight) {
-    int map = int(maps.x) - 1, bits = int(maps.y);
+    int map = int(maps.x) - 1, bits = int(maps.y) & 127;
     if (map >= 0 && bits >= 64) {
         highp vec3 size = abs(fromLight);
         int face = fromLight.z < 0.0 ? 5 : 4;

@@ -48,6 +48,24 @@ TEST(SceneDemand, NeedsFogOnlyWhereItHidesSomething) {
     EXPECT_EQ(describe(Effect::Fog, demand()), "switched off: fog=off");
 }
 
+TEST(SceneDemand, NeedsContactShadowsOnlyForLightsThatAskOverSurfacesThatReceive) {
+    ViewCounts counts{ .litDraws = 1, .opaqueDraws = 1, .contactLights = 2 };
+    const auto demand = [&](Effect effect) { return demandOf(counts).of(effect); };
+    EXPECT_TRUE(demand(Effect::ContactShadows).isNeeded);
+    EXPECT_EQ(describe(Effect::ContactShadows, demand(Effect::ContactShadows)), "2 lights ask for them");
+    EXPECT_TRUE(demand(Effect::DepthPrepass).isNeeded) << "they read depths";
+    counts.opaqueDraws = 0;
+    EXPECT_FALSE(demand(Effect::ContactShadows).isNeeded);
+    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::NothingOpaque);
+    counts = { .opaqueDraws = 1, .contactLights = 2 };
+    EXPECT_FALSE(demand(Effect::ContactShadows).isNeeded);
+    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::NothingLitVisible);
+    counts = { .litDraws = 1, .opaqueDraws = 1 };
+    EXPECT_FALSE(demand(Effect::ContactShadows).isNeeded);
+    EXPECT_EQ(demand(Effect::ContactShadows).reason, DemandReason::NothingAsks);
+    EXPECT_FALSE(demand(Effect::DepthPrepass).isNeeded);
+}
+
 TEST(SceneDemand, NeedsLightOnlyWhereItMeetsALitSurface) {
     ViewCounts counts{ .lights = 2, .suns = 1, .litDraws = 1 };
     const Effect lights[] = { Effect::Sun, Effect::LightList, Effect::IndirectLight };

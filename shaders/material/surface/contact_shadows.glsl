@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// Shadows of what is too small or too near for shadow maps: a ray from the fragment towards the light through the depths of
+// the picture (docs/shadows.md, "Contact shadows"). All of it is in 32 bits.
+
+const highp float kContactBias = 0.25; // of a pixel's width: what rises less above the plane of the fragment is that plane
+const highp float kContactFade = 0.75; // of the ray: what is farther away fades
+const highp float kDepthUnit = 1.2e-7; // of a depth buffer with floats near 1
+
+// What all rays of a fragment have in common. A pixel at `place`, in [-1, 1], sees a point at the distance d along the view
+// at (axes x place.x + axes y place.y + axes w) d; these are its heights above the fragment's plane, in metres.
+struct ContactReceiver {
+    highp vec3 normal; // of the plane, towards the camera
+    highp vec3 rise;   // heights of the axes
+    highp float height; // of the camera
+    highp float bias;
+};
+
+ContactReceiver contactReceiver() {
+    mat4 axes = frameUniforms.worldFromClip, clip = frameUniforms.clipFromView;
+    highp float distance = max(-(frameUniforms.viewFromWorld * vec4(vertex_worldPosition, 1.0)).z, 0.0);
+    ContactReceiver receiver;
+    receiver.normal = dot(shading_facet, shading_facet) > 0.0 ? shading_facet : shading_geometricNormal;
+    if (dot(receiver.normal, vertex_worldPosition) > 0.0) receiver.normal = -receiver.normal;
+    receiver.rise = vec3(dot(receiver.normal, axes[0].xyz), dot(receiver.normal, axes[1].xyz),
+            dot(receiver.normal, axes[3].xyz));
+    receiver.height = dot(receiver.normal, vertex_worldPosition);
+    receiver.bias = distance * (kContactBias * 2.0) * passUniforms.target.w / max(abs(clip[1].y), 1e-6);
+    // With the ordinary range, depths far away are coarse.
+    receiver.bias += frameUniforms.exposure.w * distance * distance * kDepthUnit / max(abs(clip[3].z), 1e-30);
+    return receiver;
+}
+
+// 1: nothing stands between the fragment and the light. toLight: unit. reach: metres to the light. Towards what lies behind
+// the plane no ray leads: it is dark there anyway.
+highp float contactVisibility(bool isAsked, highp vec3 toLight, highp float reach) {
+    ContactReceiver receiver = contactReceiver();
+    bool isAbove = dot(receiver.normal, toLight) > 0.0;
+    highp vec4 effect = frameUniforms.contactShadows;
+    highp vec3 ray = toLight * min(effect.x, reach);
+    highp vec4 from = frameUniforms.clipFromWorld * vec4(vertex_worldPosition, 1.0);
+    highp vec4 along = frameUniforms.clipFromWorld * vec4(ray, 0.0);
+    highp float stride = 1.0 / max(effect.z, 1.0), visible = 1.0;
+    highp float t = stride * interleavedGradientNoise(floor(gl_FragCoord.xy));
+    // Once for every step, or not at all: drivers for CPUs compute both sides of a branch, but leave a loop that has ended.
+    int steps = isAsked && isAbove ? int(effect.z) : 0;
+    for (int i = 0; i < steps; ++i) {
+        highp vec3 at = from.xyw + along.xyw * t; // z: the distance along the view
+        highp vec2 pixel = floor((at.xy / at.z * 0.5 + 0.5) * passUniforms.target.xy);
+        bool isInside = at.z > 0.0 && pixel.x >= 0.0 && pixel.y >= 0.0 && pixel.x < passUniforms.target.x &&
+                pixel.y < passUniforms.target.y;
+        if (!isInside) break;
+        highp float seen = texelFetch(passSceneDepth, ivec2(pixel), 0).x;
+        highp vec2 place = (pixel + 0.5) * passUniforms.target.zw * 2.0 - 1.0;
+        highp float rise = (receiver.rise.x * place.x + receiver.rise.y * place.y + receiver.rise.z) * seen;
+        if (seen < at.z && at.z - seen < effect.y && rise - receiver.height > receiver.bias) {
+            visible = saturate((t - kContactFade) / (1.0 - kContactFade));
+            break;
+        }
+        t += stride;
+    }
+    return visible;
+}
