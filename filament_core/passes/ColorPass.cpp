@@ -4,6 +4,7 @@
 #include "filament_core/passes/DrawRecorder.h"
 #include "filament_core/passes/FullScreenDraw.h"
 #include "filament_core/passes/PassGroup.h"
+#include "filament_core/passes/PicturePass.h"
 #include "shaders/interface/ShaderInterface.h"
 
 namespace filament::passes {
@@ -14,9 +15,18 @@ using framegraph::FrameGraph;
 using framegraph::PassBuilder;
 using framegraph::PassContext;
 using framegraph::TextureId;
+using prepare::DrawCall;
+
+/// What of the view a pass draws.
+enum class ColorPart : uint8_t {
+    All,
+    Picture, ///< what refracting objects see: what is opaque, and the sky
+    Front,   ///< the rest, over the picture
+};
 
 struct Chosen {
     std::array<BindGroupHandle, shader::kSurfaceKinds> passGroups; // by PassKind
+    std::span<const DrawCall> opaqueDraws, blendedDraws;
     std::span<const PipelineHandle> opaque, blended;
     PipelineHandle sky, disc;
     BindGroupHandle skyGroup;
@@ -25,6 +35,7 @@ struct Chosen {
 
 /// What the pass declares besides its targets.
 struct ColorBlocks {
+    ColorPart part = ColorPart::All;
     PassBlock target;
     PassTextures textures;
     std::span<const PassBlock> discs; ///< parameters of the discs of suns
@@ -66,16 +77,15 @@ uint32_t blendedSlot(PassContext& pass, PassSettings const& settings, PipelineSo
     return pipelines.slot(slot);
 }
 
-Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks) {
+std::span<const DrawCall> blendedOf(prepare::ViewPacket const& view, ColorPart part) {
+    if (part == ColorPart::All) return view.blended;
+    return part == ColorPart::Picture ? view.blended.first(view.picture.lateDraws)
+                                      : view.blended.subspan(view.picture.lateDraws);
+}
+
+void chooseBackground(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks, uint32_t slot,
+                      Chosen& chosen) {
     PipelineSource const& pipelines = context.resources.pipelines;
-    prepare::ViewPacket const& view = context.packet.mainView();
-    PassSettings const& settings = context.settings;
-    const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
-    Chosen chosen;
-    chosen.passGroups = surfaceGroups(pass, context, blocks.target, blocks.textures);
-    chosen.opaque = choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant, view.channels);
-    chosen.blended = choosePipelines(pass, *context.arena, pipelines, blendedSlot(pass, settings, pipelines),
-                                     view.blended, view.variant, view.channels);
     if (context.packet.demand.needs(prepare::Effect::Sky)) {
         chosen.sky = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.skybox);
         chosen.skyGroup = skyGroup(pass, context);
@@ -84,6 +94,24 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
         chosen.disc = pipelines.fullscreenPipeline(pass.commands(), slot, *context.resources.sunDisc);
         chosen.discGroups = discGroups(pass, context, blocks.discs);
     }
+}
+
+Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks) {
+    PipelineSource const& pipelines = context.resources.pipelines;
+    prepare::ViewPacket const& view = context.packet.mainView();
+    PassSettings const& settings = context.settings;
+    const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
+    Chosen chosen;
+    chosen.passGroups = surfaceGroups(pass, context, blocks.target, blocks.textures);
+    chosen.blendedDraws = blendedOf(view, blocks.part);
+    if (blocks.part != ColorPart::Front) {
+        chosen.opaqueDraws = view.opaque;
+        chosen.opaque =
+                choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant, view.channels);
+        chooseBackground(pass, context, blocks, slot, chosen);
+    }
+    chosen.blended = choosePipelines(pass, *context.arena, pipelines, blendedSlot(pass, settings, pipelines),
+                                     chosen.blendedDraws, view.variant, view.channels);
     return chosen;
 }
 
@@ -95,53 +123,93 @@ void recordScene(PassContext& pass, FrameContext const& context, Chosen const& c
                              context.deformations,
                              context.settings.textureFilter,
                              view.packet.channels };
-    recordDrawRanges(pass, draws, view.packet.opaque, chosen.opaque);
+    recordDrawRanges(pass, draws, chosen.opaqueDraws, chosen.opaque);
     const BindGroupHandle unlit = chosen.passGroups[static_cast<size_t>(shader::PassKind::Unlit)];
     if (chosen.sky) recordFullScreen(pass.commands(), chosen.sky, view.group, unlit, std::span(&chosen.skyGroup, 1));
     if (chosen.disc) recordFullScreen(pass.commands(), chosen.disc, view.group, unlit, chosen.discGroups);
-    recordDrawRanges(pass, draws, view.packet.blended, chosen.blended);
+    recordDrawRanges(pass, draws, chosen.blendedDraws, chosen.blended);
+}
+
+/// What the parts of the view are drawn to.
+struct ColorAttachments {
+    TextureId color, samples, depth;
+    TextureId depthOfPicture{}; ///< the depth with one sample a pixel, if the picture is copied
+    bool hasDepth = false;      ///< the prepass left it
+};
+
+TextureId createLike(FrameGraph& graph, TextureId color, Format format, uint8_t samples, std::string_view name) {
+    framegraph::GraphTextureDesc desc = graph.texture(color).desc;
+    return graph.createTexture(
+            { .width = desc.width, .height = desc.height, .format = format, .samples = samples, .name = name });
+}
+
+ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, FrameTargets const& targets) {
+    const uint8_t samples = context.settings.samples;
+    ColorAttachments made{ .color = targets.color };
+    made.hasDepth = targets.depth && samples == 1 && context.view->quality.depthPrepass != DepthPrepass::Off;
+    made.depth = made.hasDepth ? targets.depth : createLike(graph, made.color, Format::D32F, samples, "depth");
+    made.samples = samples == 1
+                           ? made.color
+                           : createLike(graph, made.color, graph.texture(made.color).desc.format, samples, "samples");
+    if (context.packet.demand.needs(prepare::Effect::Refraction))
+        made.depthOfPicture =
+                samples == 1 ? made.depth : createLike(graph, made.color, Format::D32F, 1, "depth of the picture");
+    return made;
+}
+
+void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachments const& to, ColorPart part) {
+    PassSettings const& settings = context.settings;
+    const bool isFirst = part != ColorPart::Front;
+    framegraph::ColorTarget color{ .resolve = settings.samples == 1 ? TextureId{} : to.color };
+    const float4 clear = settings.clearColor;
+    if (isFirst) color.clear = std::array{ clear.x, clear.y, clear.z, clear.w };
+    pass.writeColor(0, to.samples, color);
+    framegraph::DepthTarget depth;
+    if (isFirst && !to.hasDepth) depth.clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
+    if (part == ColorPart::Picture && settings.samples > 1) depth.resolve = to.depthOfPicture;
+    pass.writeDepth(to.depth, depth);
+}
+
+void addPart(FrameGraph& graph, FrameContext const& context, ColorAttachments const& to, std::string_view name,
+             ColorBlocks const& blocks) {
+    graph.addPass(
+            name,
+            [&](PassBuilder& pass) {
+                declareTargets(pass, context, to, blocks.part);
+                declareReads(pass, blocks.textures);
+            },
+            [of = &context, blocks](PassContext& pass) { return choose(pass, *of, blocks); },
+            [of = &context](PassContext& pass, Chosen const& chosen) { recordScene(pass, *of, chosen); });
+}
+
+PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets) {
+    PassTextures textures{ .shadows = declareShadows(context, targets.shadows),
+                           .occlusion = targets.occlusion,
+                           .sceneDepth = targets.distances };
+    textures.shadows.hasMoments = context.packet.shadows.moments != prepare::ShadowMoments::None;
+    return textures;
 }
 
 } // namespace
 
 void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
-    PassSettings const& settings = context.settings;
-    const TextureId color = targets.color;
-    const framegraph::GraphTextureDesc like = graph.texture(color).desc;
-    PassTextures textures{ .shadows = declareShadows(context, targets.shadows),
-                           .occlusion = targets.occlusion,
-                           .sceneDepth = targets.distances };
-    textures.shadows.hasMoments = context.packet.shadows.moments != prepare::ShadowMoments::None;
-    const ColorBlocks blocks{ declareTarget(context, like, 0, settings.samples), textures, declareDiscs(context) };
-    const bool hasDepth = targets.depth && settings.samples == 1 &&
-                          context.view->quality.depthPrepass != DepthPrepass::Off; // the prepass left it
-    const TextureId depth = hasDepth ? targets.depth
-                                     : graph.createTexture({ .width = like.width,
-                                                             .height = like.height,
-                                                             .format = Format::D32F,
-                                                             .samples = settings.samples,
-                                                             .name = "depth" });
-    const TextureId samples = settings.samples == 1 ? color
-                                                    : graph.createTexture({ .width = like.width,
-                                                                            .height = like.height,
-                                                                            .format = like.format,
-                                                                            .samples = settings.samples,
-                                                                            .name = "samples" });
-    targets.depth = depth;
-    graph.addPass(
-            "color",
-            [&](PassBuilder& pass) {
-                const float4 clear = settings.clearColor;
-                pass.writeColor(0, samples,
-                                { .clear = std::array{ clear.x, clear.y, clear.z, clear.w },
-                                  .resolve = settings.samples == 1 ? TextureId{} : color });
-                declareReads(pass, blocks.textures);
-                framegraph::DepthTarget target;
-                if (!hasDepth) target.clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
-                pass.writeDepth(depth, target);
-            },
-            [of = &context, blocks](PassContext& pass) { return choose(pass, *of, blocks); },
-            [of = &context](PassContext& pass, Chosen const& chosen) { recordScene(pass, *of, chosen); });
+    const framegraph::GraphTextureDesc like = graph.texture(targets.color).desc;
+    const uint8_t samples = context.settings.samples;
+    ColorBlocks blocks{ .textures = texturesOf(context, targets) };
+    blocks.target = declareTarget(context, like, 0, samples);
+    blocks.discs = declareDiscs(context);
+    const ColorAttachments to = attachmentsOf(graph, context, targets);
+    targets.depth = to.depth;
+    const bool isRefracted = context.packet.demand.needs(prepare::Effect::Refraction);
+    blocks.part = isRefracted ? ColorPart::Picture : ColorPart::All;
+    addPart(graph, context, to, "color", blocks);
+    if (!isRefracted) return;
+    addPicturePasses(graph, context, to.depthOfPicture, targets);
+    blocks.part = ColorPart::Front;
+    blocks.target = declareTargetBeforePicture(context, like, samples);
+    blocks.textures.picture = targets.picture;
+    blocks.textures.pictureLevels = context.packet.mainView().picture.levels;
+    addPart(graph, context, to, "refraction", blocks);
 }
 
 } // namespace filament::passes

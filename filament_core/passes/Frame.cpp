@@ -34,12 +34,12 @@ uint8_t fogTermsOf(Fog const& fog, prepare::FramePacket const& packet) {
 
 ShadedScreen screenOf(View const& view, prepare::FramePacket const& packet) {
     prepare::SceneDemand const& demand = packet.demand;
-    Quality const& quality = view.quality;
     const bool hasOcclusion = demand.needs(prepare::Effect::AmbientOcclusion);
     return { .hasOcclusion = hasOcclusion,
-             .hasBentNormals = hasOcclusion && quality.aoBentNormals,
+             .hasBentNormals = hasOcclusion && view.quality.aoBentNormals,
              .hasRefraction = demand.needs(prepare::Effect::Refraction),
              .hasReflections = demand.needs(prepare::Effect::Reflections),
+             .showsLevels = view.debugView == DebugView::Refraction,
              .fogTerms = fogTermsOf(clamped(view.effects).fog, packet) };
 }
 

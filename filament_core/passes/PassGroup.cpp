@@ -11,19 +11,37 @@ namespace filament::passes {
 using namespace backend;
 using shader::PassKind;
 
-PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level,
-                        uint8_t samples) {
+namespace {
+
+shader::PassUniforms uniformsOf(framegraph::GraphTextureDesc const& texture, uint8_t level, uint8_t samples) {
     const auto width = static_cast<float>(std::max(1u, texture.width >> level));
     const auto height = static_cast<float>(std::max(1u, texture.height >> level));
-    const shader::PassUniforms block{ .target = { width, height, 1 / width, 1 / height },
-                                      .raster = { samples, 0, 0, 0 } };
+    return { .target = { width, height, 1 / width, 1 / height }, .raster = { samples, 0, 0, 0 }, .picture = float4(0) };
+}
+
+} // namespace
+
+PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level,
+                        uint8_t samples) {
+    const shader::PassUniforms block = uniformsOf(texture, level, samples);
+    return context.blocks->add(std::as_bytes(std::span(&block, 1)));
+}
+
+PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
+                                     uint8_t samples) {
+    prepare::PictureCopy const& copy = context.packet.mainView().picture;
+    const float2 first(copy.rect.x, copy.rect.y), size(copy.rect.width, copy.rect.height);
+    shader::PassUniforms block = uniformsOf(texture, 0, samples);
+    block.raster.z = static_cast<float>(copy.levels - 1);
+    block.picture = { first, first + size };
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel) {
     const auto side = static_cast<float>(size);
     const shader::PassUniforms block{ .target = { side, side, 1 / side, 1 / side },
-                                      .raster = { 1, static_cast<float>(channel), 0, 0 } };
+                                      .raster = { 1, static_cast<float>(channel), 0, 0 },
+                                      .picture = float4(0) };
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 
@@ -33,9 +51,9 @@ PassShadows declareShadows(FrameContext const& context, framegraph::TextureId ma
 }
 
 void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures) {
-    for (const framegraph::TextureId read :
-         { textures.shadows.maps, textures.occlusion, textures.sceneDepth, textures.picture })
+    for (const framegraph::TextureId read : { textures.shadows.maps, textures.occlusion, textures.sceneDepth })
         if (read) pass.readSampled(read);
+    if (textures.picture) pass.readSampled(textures.picture, { .levelCount = textures.pictureLevels });
 }
 
 namespace {
@@ -66,7 +84,10 @@ std::array<BindGroupEntry, 10> allEntries(framegraph::PassContext& pass, FrameCo
               .texture = orWhite(textures.sceneDepth),
               .sampler = samplers.nearest },
             { .binding = shader::kBindingFog, .texture = light.specular, .sampler = samplers.trilinear },
-            { .binding = shader::kBindingPicture, .texture = orWhite(textures.picture), .sampler = samplers.trilinear },
+            { .binding = shader::kBindingPicture,
+              .texture = orWhite(textures.picture),
+              .sampler = samplers.trilinear,
+              .range = { .levelCount = textures.pictureLevels } },
     } };
 }
 

@@ -17,6 +17,10 @@ namespace filament::passes {
 PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDesc const& texture, uint8_t level = 0,
                         uint8_t samples = 1);
 
+/// The same for a pass whose materials see the picture of ViewPacket::picture.
+PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
+                                     uint8_t samples);
+
 /// For a shadow map with texels for all colours, or for colour channel 1, 2 or 3 alone.
 PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32_t channel);
 
@@ -34,6 +38,7 @@ struct PassTextures {
     framegraph::TextureId occlusion{};  ///< FrameTargets::occlusion
     framegraph::TextureId sceneDepth{}; ///< FrameTargets::distances
     framegraph::TextureId picture{};    ///< FrameTargets::picture
+    uint8_t pictureLevels = 0;          ///< of it: those that are drawn
 };
 void declareReads(framegraph::PassBuilder& pass, PassTextures const& textures);
 

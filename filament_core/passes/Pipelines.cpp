@@ -236,6 +236,7 @@ PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Materia
     const bool isShadowed = (needed & shader::kVariantShadowReceiver) != 0;
     ShadingKey shading = material.isLit() || isShadowed ? at.shading : ofUnlit(at.shading);
     if ((needed & shader::kVariantPunctual) == 0) shading = withoutLightList(shading);
+    if (material.package.refractionMode != shader::RefractionMode::ScreenSpace) shading = withoutRefraction(shading);
     return { withPrecision(material, needed, at.precision), isShadowed ? shading : withoutShadows(shading) };
 }
 

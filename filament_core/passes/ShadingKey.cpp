@@ -10,7 +10,7 @@ namespace {
 
 // In the order of shader::kQualityConstants.
 constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 2, 2, 2, 2, 2, 2, 2,
-                                                                        2, 2, 1, 1, 1, 4, 2, 1, 1, 4 };
+                                                                        2, 2, 2, 1, 1, 4, 2, 1, 1, 4 };
 static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= 48, "a key and a variant are one number of 64 bits");
 
 constexpr size_t placeOf(uint32_t id) {
@@ -43,7 +43,9 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
              screen.hasBentNormals ? 2u
              : screen.hasOcclusion ? 1u
                                    : 0u,
-             screen.hasRefraction ? 1u : 0u,
+             !screen.hasRefraction ? 0u
+             : screen.showsLevels  ? 2u
+                                   : 1u,
              screen.hasReflections ? 1u : 0u,
              lights.hasContactShadows ? 1u : 0u,
              screen.fogTerms,
@@ -73,6 +75,8 @@ ShadingKey depthShadingKey(bool coloredShadows) {
 }
 
 ShadingKey withoutOcclusion(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenOcclusion); }
+
+ShadingKey withoutRefraction(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenRefraction); }
 
 ShadingKey ofUnlit(ShadingKey key) { return key & maskOf(shader::kQualityFog); }
 

@@ -29,7 +29,8 @@ struct ShadedLights {
 struct ShadedScreen {
     bool hasOcclusion = false, hasBentNormals = false;
     bool hasRefraction = false, hasReflections = false;
-    uint8_t fogTerms = 0; ///< shader::FogTerms
+    bool showsLevels = false; ///< of the refracted picture, instead of it
+    uint8_t fogTerms = 0;     ///< shader::FogTerms
 };
 
 /// `light`: how the environment of the scene is stored, which selects programs as well.
@@ -40,6 +41,8 @@ ShadingKey depthShadingKey(bool coloredShadows);
 
 /// For what leaves no depth: ambient occlusion is that of the surfaces behind it.
 ShadingKey withoutOcclusion(ShadingKey key);
+/// For what does not refract the picture, and for what is drawn before there is one.
+ShadingKey withoutRefraction(ShadingKey key);
 /// The choices of materials that are not lit.
 ShadingKey ofUnlit(ShadingKey key);
 /// Without the choices that only variants with kVariantPunctual have.

@@ -13,17 +13,18 @@ struct RangeDraws {
 
 // What drawing order depends on besides state. Nothing but casters is drawn into shadow maps, all of which leave their
 // depth once: there nothing is.
-uint32_t specialOrders(ViewKind kind) {
+uint32_t specialOrders(ViewKind kind, bool refractsPicture) {
     using scene::Drawables;
     if (kind == ViewKind::Shadow) return 0;
     return Drawables::kBlendedOrder | Drawables::kTwoPassesOrder | Drawables::kNoDepthWriteOrder |
-           Drawables::kNoDepthTestOrder;
+           Drawables::kNoDepthTestOrder | (refractsPicture ? Drawables::kSeesPictureOrder : 0);
 }
 
 uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden, uint32_t special) {
     using scene::Drawables;
     const auto depth = static_cast<uint32_t>(item.key);
     if (special & Drawables::kBlendedOrder) return blendedKey(depth);
+    if (special & Drawables::kSeesPictureOrder) return refractingKey(depth);
     if (special & (Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder))
         return lateKey(depth, (special & Drawables::kNoDepthTestOrder) != 0);
     return opaqueKey(use.order, item.draw, sliceStart(span, use.users >> hidden, coarseStep(depth)), depth);
@@ -76,11 +77,11 @@ uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem>
 } // namespace
 
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible, ViewKind kind) {
+                              VisibleItems const& visible, ViewKind kind, bool refractsPicture) {
     const auto items = arena.arrayForOverwrite<SortItem>(visible.count());
     // The visible share of the scene as a power of two: the members of a draw are assumed to be visible in the same
     // proportion.
-    const uint32_t specials = specialOrders(kind);
+    const uint32_t specials = specialOrders(kind, refractsPicture);
     const int hidden = static_cast<int>(std::bit_width(visible.slots.size()) - std::bit_width(items.size()));
     jobs::parallelFor<"sort keys">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
         const size_t range = begin / kCullRange;
@@ -96,9 +97,9 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
     return items;
 }
 
-std::span<const SortItem> beforeSky(std::span<const SortItem> sorted) {
-    const auto isEarly = [](SortItem const& item) { return item.key < kLateKey; };
-    return { sorted.begin(), std::ranges::partition_point(sorted, isEarly) };
+std::span<const SortItem> itemsBefore(std::span<const SortItem> sorted, uint64_t key) {
+    const auto isBefore = [=](SortItem const& item) { return item.key < key; };
+    return { sorted.begin(), std::ranges::partition_point(sorted, isBefore) };
 }
 
 DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
@@ -117,11 +118,14 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     });
     for (RangeDraws const& range : ranges) counts.triangles += range.triangles;
 
-    // The first item after the sky starts a draw, because items of one material share its place.
-    const size_t earlyItems = beforeSky(items).size();
-    const auto isEarly = [&](DrawCall const& draw) { return draw.firstObject < earlyItems; };
-    const auto early = static_cast<size_t>(std::ranges::partition_point(draws, isEarly) - draws.begin());
-    return { draws.first(early), draws.subspan(early) };
+    // The first item after the sky or the picture starts a draw, because items of one material share its place.
+    const auto drawsBefore = [&](uint64_t key) {
+        const size_t end = itemsBefore(items, key).size();
+        const auto isBefore = [&](DrawCall const& draw) { return draw.firstObject < end; };
+        return static_cast<size_t>(std::ranges::partition_point(draws, isBefore) - draws.begin());
+    };
+    const size_t early = drawsBefore(kLateKey);
+    return { draws.first(early), draws.subspan(early), drawsBefore(kPictureEndKey) - early };
 }
 
 } // namespace filament::prepare

@@ -17,15 +17,18 @@ namespace filament::prepare {
 /// Items that one job merges at a time: whole windows, so that every range begins a draw call.
 inline constexpr size_t kMergeRange = 16 * shader::kObjectsPerWindow;
 
-/// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene.
+/// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene. refractsPicture:
+/// what refracts the picture is drawn after what is in it; otherwise it is opaque like anything.
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible, ViewKind kind);
+                              VisibleItems const& visible, ViewKind kind, bool refractsPicture = false);
 
-/// The part of a sorted list that comes before the sky: what neither blends nor is late (SortKey.h).
-std::span<const SortItem> beforeSky(std::span<const SortItem> sorted);
+/// The part of a sorted list with keys below `key`: kLateKey for what comes before the sky, kPictureEndKey for what
+/// refracting objects see.
+std::span<const SortItem> itemsBefore(std::span<const SortItem> sorted, uint64_t key);
 
 struct DrawLists {
     std::span<const DrawCall> opaque, blended; ///< before and after the sky
+    size_t lateInPicture = 0;                  ///< the first of `blended`: refracting objects see them
 };
 
 /// Neighbours of one draw become one instanced draw call; none crosses a window of shader::kObjectsPerWindow objects.

@@ -8,6 +8,7 @@
 #pragma once
 
 #include "backend/api/Handles.h"
+#include "filament_core/prepare/PictureCopy.h"
 #include "filament_core/prepare/SceneDemand.h"
 #include "filament_core/prepare/ShadowMaps.h"
 #include "filament_core/prepare/SortKey.h"
@@ -110,6 +111,7 @@ struct ViewPacket {
     ObjectList objects;
     std::span<const DrawCall> opaque;  ///< opaque and masked, roughly front to back
     std::span<const DrawCall> blended; ///< back to front; none where nothing is shaded
+    PictureCopy picture{};             ///< what of `opaque` and the first of `blended` is refracted by the others
     ViewCounts counts;
 };
 

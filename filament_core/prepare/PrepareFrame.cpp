@@ -36,6 +36,7 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .hasIndirectLight = static_cast<bool>(packet.environment.specular),
                         .hasSky = static_cast<bool>(packet.environment.sky),
                         .deformed = countDeformed(packet.deformations),
+                        .copiedPixels = packet.mainView().picture.pixels(),
                         .quality = view.quality,
                         .fog = view.effects.fog,
                         .debugView = view.debugView,

@@ -57,10 +57,14 @@ uint8_t variantFor(ViewCounts const& counts) {
 /// The items to draw, in order; a view without light omits blended and late ones.
 std::span<const SortItem> drawnItems(std::span<const SortItem> sorted, ViewKind kind, ViewCounts& counts) {
     if (isShaded(kind)) return sorted;
-    const std::span<const SortItem> solid = beforeSky(sorted);
+    const std::span<const SortItem> solid = itemsBefore(sorted, kLateKey);
     counts.blendedLeftOut = static_cast<uint32_t>(sorted.size() - solid.size());
     counts.visible -= counts.blendedLeftOut;
     return solid;
+}
+
+std::span<const SortItem> itemsAfterPicture(std::span<const SortItem> sorted) {
+    return sorted.subspan(itemsBefore(sorted, kPictureEndKey).size());
 }
 
 } // namespace
@@ -89,7 +93,9 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
 
     scene::Renderables const& renderables = scene.renderables;
     prepared.visible = cullRenderables(jobs, arena, renderables, space, view.kind, packet.counts);
-    const std::span<SortItem> items = writeKeys(jobs, arena, renderables.drawables, prepared.visible, view.kind);
+    const bool refractsPicture = isShaded(view.kind) && view.quality.refraction == RefractionSource::Screen;
+    const std::span<SortItem> items =
+            writeKeys(jobs, arena, renderables.drawables, prepared.visible, view.kind, refractsPicture);
     const std::span<const SortItem> order = drawnItems(sortItems(jobs, arena, items), view.kind, packet.counts);
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
     besideCulling.wait();
@@ -97,6 +103,8 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
     if (isShaded(view.kind)) countDraws(draws, packet.counts);
+    if (refractsPicture && packet.counts.refractiveDraws > 0)
+        packet.picture = pictureCopy(renderables, itemsAfterPicture(order), space, view.size, draws.lateInPicture);
     const DrawnChannels drawn = isShaded(view.kind) ? channelsOf(packet) : DrawnChannels{};
     prepared.hasChannels = packet.counts.litDraws > 0 && (drawn.inCommon & lightsInCommon) == 0;
     if (prepared.hasChannels) dropUnseenLights(arena, lights, drawn.any, prepared);

@@ -47,10 +47,10 @@ EffectDemand demandOfOcclusion(DemandInput const& input) {
 }
 
 /// `draws` see the picture, if that is on.
-EffectDemand demandOfPicture(uint32_t draws, bool isOn) {
+EffectDemand demandOfPicture(uint32_t draws, bool isOn, uint32_t copiedPixels = 0) {
     if (draws == 0) return { .reason = DemandReason::NothingAsks };
     if (!isOn) return { .reason = DemandReason::SwitchedOff };
-    return { true, DemandReason::SeesPicture, draws };
+    return { true, DemandReason::SeesPicture, draws, copiedPixels };
 }
 
 EffectDemand demandOfContactShadows(ViewCounts const& counts) {
@@ -153,8 +153,8 @@ SceneDemand findDemand(DemandInput const& input) {
     set(Effect::Blending, demandOfDraws(counts.blendedDraws));
     set(Effect::Deformation, demandOfDraws(input.deformed));
     set(Effect::AmbientOcclusion, demandOfOcclusion(input));
-    set(Effect::Refraction,
-        demandOfPicture(counts.refractiveDraws, input.quality.refraction == RefractionSource::Screen));
+    set(Effect::Refraction, demandOfPicture(counts.refractiveDraws,
+                                            input.quality.refraction == RefractionSource::Screen, input.copiedPixels));
     set(Effect::Reflections, demandOfPicture(counts.reflectiveDraws, input.quality.ssr));
     set(Effect::ContactShadows, demandOfContactShadows(counts));
     set(Effect::Fog, demandOfFog(input));
@@ -252,7 +252,8 @@ std::string describe(Effect effect, EffectDemand const& demand) {
     case DemandReason::DarkensIndirectLight:
         return fmt::format("darkens indirect light of {} draws", demand.count);
     case DemandReason::SeesPicture:
-        return fmt::format("{} in view see{} the picture", demand.count, demand.count == 1 ? "s" : "");
+        return fmt::format("{} in view see{} the picture{}", demand.count, demand.count == 1 ? "s" : "",
+                           demand.others ? fmt::format(", of which {} pixels are copied", demand.others) : "");
     case DemandReason::LightsAskForIt:
         return fmt::format("{} light{} for them", demand.count, demand.count == 1 ? " asks" : "s ask");
     case DemandReason::LiesInBetween:

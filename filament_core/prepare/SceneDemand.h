@@ -56,7 +56,7 @@ enum class DemandReason : uint8_t {
     DepthIsRead,          ///< by `count` effects
     SwitchedOn,           ///< by Quality
     DarkensIndirectLight, ///< on `count` lit draws
-    SeesPicture,          ///< `count` draws do
+    SeesPicture,          ///< `count` draws do; `others` pixels of it are copied
     LightsAskForIt,       ///< `count` lights
     LiesInBetween,        ///< between the camera and what is visible
 
@@ -96,7 +96,8 @@ struct DemandInput {
     ViewCounts counts; ///< of the main view
     ShadowCounts shadows{};
     bool hasIndirectLight = false, hasSky = false;
-    uint32_t deformed = 0; ///< objects in view that skins or morph targets move
+    uint32_t deformed = 0;     ///< objects in view that skins or morph targets move
+    uint32_t copiedPixels = 0; ///< of the picture, for what refracts it
     Quality quality{};
     Fog fog{}; ///< within its ranges
     DebugView debugView = DebugView::None;

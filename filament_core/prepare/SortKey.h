@@ -8,9 +8,10 @@
 ///            30-41 instance   same parameters and textures together
 ///            10-29 drawable   same geometry: makes the draw unique, so that nothing comes between its instances
 ///             0- 9 depth      front to back inside of the slice, sixteen steps an octave
-///   late     63-62 10      opaque without depth writes or without depth test
-///            61    on top     without depth test
-///            30-60 depth      as of blended ones: the nearest object ends on top
+///   late     63-62 10      drawn after the sky
+///            60-61 class      0: opaque without depth writes; 1: refracts what is drawn so far; 2: without depth test
+///            29-59 depth      as of blended ones, the nearest object ends on top; of class 1, front to back: they leave
+///                             depth, and do not see each other
 ///   blended  63-62 11
 ///            31-61 depth      of the renderable, every bit, inverted: back to front
 ///
@@ -42,6 +43,8 @@ struct SortItem {
 static_assert(sizeof(SortItem) == 16, "sorting moves four of them a cache line");
 
 inline constexpr uint64_t kLateKey = 1ull << 63; ///< from here on: drawn after the sky
+inline constexpr uint64_t kPictureEndKey =
+        kLateKey | 1ull << 60; ///< from here on: not in the picture that is refracted
 inline constexpr uint64_t kBlendedKey = 3ull << 62;
 
 /// Set by writeKeys(): the two passes of an object follow each other, so that it shares no draw call.
@@ -95,7 +98,10 @@ constexpr uint64_t blendedKey(uint32_t depth) { return kBlendedKey | static_cast
 /// What is opaque, but has to be drawn after the sky.
 constexpr uint64_t lateKey(uint32_t depth, bool onTop) {
     const uint64_t inverted = ~depth & 0x7FFF'FFFFu;
-    return kLateKey | static_cast<uint64_t>(onTop) << 61 | inverted << 30;
+    return kLateKey | static_cast<uint64_t>(onTop) << 61 | inverted << 29;
 }
+
+/// What is opaque, but shows the picture behind it.
+constexpr uint64_t refractingKey(uint32_t depth) { return kPictureEndKey | static_cast<uint64_t>(depth) << 29; }
 
 } // namespace filament::prepare

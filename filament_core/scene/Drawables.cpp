@@ -10,6 +10,8 @@ namespace {
 uint32_t depthOrder(MaterialInstance const& instance) {
     if (instance.material->isBlended()) return Drawables::kBlendedOrder;
     if (!instance.raster.depthCulling) return Drawables::kNoDepthTestOrder;
+    if (instance.material->package.refractionMode == shader::RefractionMode::ScreenSpace)
+        return Drawables::kSeesPictureOrder | (instance.raster.depthWrite ? 0 : Drawables::kNoDepthWriteOrder);
     return instance.raster.depthWrite ? 0 : Drawables::kNoDepthWriteOrder;
 }
 

@@ -133,6 +133,7 @@ void defineFragment(StageText& out, MaterialDefinition const& definition, uint16
     const bool isThin = definition.package.refractionType == RefractionType::Thin;
     defineIf(out, refracts(definition), "REFRACTION");
     defineIf(out, refracts(definition) && isThin, "REFRACTION_THIN");
+    defineIf(out, definition.package.refractionMode == RefractionMode::ScreenSpace, "REFRACTION_OF_PICTURE");
     defineIf(out, definition.customSurfaceShading, "CUSTOM_SURFACE_SHADING");
     defineIf(out, definition.clothDistribution == ClothDistribution::Ashikhmin, "CLOTH_ASHIKHMIN");
     defineIf(out, definition.specularAmbientOcclusion != SpecularAmbientOcclusion::None, "SPECULAR_AMBIENT_OCCLUSION");

@@ -85,7 +85,8 @@ struct FrameUniforms {
 // ---- PassUniforms
 struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
-    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; zw: unused
+    float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind; w: unused
+    float4 picture; ///< pixels of the picture behind that there are: xy to zw
 };
 
 inline constexpr uint32_t kMaxShadowMaps = 128; ///< of a view
@@ -203,7 +204,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityLightProfiles = 1013, ///< 1: some light of the view has a profile
     kQualityColoredShadows = 1014, ///< 1: some shadow map of the view has three channels
     kQualityScreenOcclusion = 1015, ///< 0: none; 1: visibility; 2: with bent normals
-    kQualityScreenRefraction = 1016, ///< 1: the picture is seen through what refracts it
+    kQualityScreenRefraction = 1016, ///< 1: the picture is seen through what refracts it; 2: the level of the picture, as a negative number in red
     kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture
     kQualityContactShadows = 1018, ///< 1: some light of the view has them
     kQualityFog = 1019,  ///< FogTerms; unlit materials have this one, too

@@ -71,6 +71,7 @@ layout(set = 0, binding = 3, std430) readonly buffer FroxelBuffer {
 layout(set = 1, binding = 0, std140) uniform PassUniforms {
     vec4 target;
     vec4 raster;
+    vec4 picture;
 } passUniforms;
 
 layout(set = 1, binding = 1) uniform sampler2D passShadowMaps;

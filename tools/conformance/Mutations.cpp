@@ -52,7 +52,8 @@ private:
 std::vector<shader::MaterialPackage> const& litPackages() {
     static const std::vector<shader::MaterialPackage> packages = [] {
         std::vector<shader::MaterialPackage> read;
-        for (const char* name : { "gltf_lit_opaque", "gltf_lit_masked", "gltf_lit_blended" }) {
+        for (const char* name :
+             { "gltf_lit_opaque", "gltf_lit_masked", "gltf_lit_blended", "gltf_transmissive_solid_opaque" }) {
             if (auto package = shader::readPackage(shader::engineMaterial(name))) read.push_back(std::move(*package));
         }
         return read;
@@ -436,8 +437,8 @@ public:
     }
 };
 
-/// The pass that draws the scene believes that its target has 3 % fewer pixels each way: its block is the first.
-class TargetSizeEdit final : public PayloadEdit {
+/// Edits the blocks of PassUniforms and of the materials of full-screen passes.
+class PassBlocksEdit : public PayloadEdit {
 public:
     void inspect(CommandView commands) override {
         PayloadEdit::inspect(commands);
@@ -450,14 +451,39 @@ public:
     }
 
     using PayloadEdit::edit;
-    void edit(CmdUpdateBuffer& command) override {
-        if (!mBlocks.contains(command.buffer)) return;
-        Bytes& bytes = copy(command.bytes);
-        for (const size_t at : { size_t{ 0 }, sizeof(float) }) writeFloat(bytes, at, 0.97f * readFloat(bytes, at));
+    void edit(CmdUpdateBuffer& command) final {
+        if (mBlocks.contains(command.buffer)) editBlocks(copy(command.bytes));
     }
 
 private:
+    virtual void editBlocks(Bytes& bytes) = 0;
+
     std::set<BufferHandle> mBlocks;
+};
+
+/// The pass that draws the scene believes that its target has 3 % fewer pixels each way: its block is the first.
+class TargetSizeEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
+        for (const size_t at : { size_t{ 0 }, sizeof(float) }) writeFloat(bytes, at, 0.97f * readFloat(bytes, at));
+    }
+};
+
+/// The last blurred level of the picture that is refracted is not read. Of all PassUniforms only those of the pass that
+/// refracts have a third number in `raster`.
+class PictureLevelEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
+        for (size_t at = 0; at + sizeof(shader::PassUniforms) <= bytes.size(); at += sizeof(float4)) {
+            if (!isBeforePicture(bytes, at)) continue;
+            const size_t level = at + offsetof(shader::PassUniforms, raster) + 2 * sizeof(float);
+            writeFloat(bytes, level, readFloat(bytes, level) - 1);
+        }
+    }
+    static bool isBeforePicture(Bytes const& bytes, size_t at) {
+        const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
+        const auto isReciprocal = [&](size_t i) { return std::abs(number(i) * number(i + 2) - 1) < 1e-5f; };
+        return number(0) >= 1 && isReciprocal(0) && isReciprocal(1) && (number(4) == 1 || number(4) == 4) &&
+               number(6) >= 1 && number(10) > number(8);
+    }
 };
 
 class ShadowShiftEdit final : public StreamEdit {
@@ -508,6 +534,7 @@ std::unique_ptr<StreamEdit> roughness() { return std::make_unique<ParameterEdit>
 std::unique_ptr<StreamEdit> metallic() { return std::make_unique<ParameterEdit>("metallicFactor", 1, 0.98f); }
 std::unique_ptr<StreamEdit> emissive() { return std::make_unique<ParameterEdit>("emissiveFactor", 3, 1.02f); }
 std::unique_ptr<StreamEdit> lastMip() { return mipTexelEdit(kSmallestLevel, 0); }
+std::unique_ptr<StreamEdit> thickness() { return std::make_unique<ParameterEdit>("thickness", 1, 1.05f); }
 std::unique_ptr<StreamEdit> cutoff() { return std::make_unique<ParameterEdit>("_maskThreshold", 1, 1.05f); }
 
 constexpr Mutation kMutations[] = {
@@ -528,6 +555,8 @@ constexpr Mutation kMutations[] = {
     { "emissive", "emission + 2 %", emissive },
     { "cutoff", "alpha cutoff + 5 %", cutoff },
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
+    { "thickness", "thickness of solids + 5 %", thickness },
+    { "pictureLevel", "the refracted picture without its last blurred level", make<PictureLevelEdit> },
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },
     { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },

@@ -14,14 +14,11 @@
 namespace filament {
 namespace {
 
-/// The colour on the screen cannot be sampled yet.
+/// The picture cannot be reflected yet.
 void explainScreenSpace(scene::Material const& material) {
-    const auto say = [&](const char* property) {
-        log(Severity::Info, "material '{}': {} : screenspace shows the environment only in this version", material.name,
-            property);
-    };
-    if (material.package.reflections == shader::Reflections::ScreenSpace) say("reflections");
-    if (material.package.refractionMode == shader::RefractionMode::ScreenSpace) say("refractionMode");
+    if (material.package.reflections == shader::Reflections::ScreenSpace)
+        log(Severity::Info, "material '{}': reflections : screenspace shows the environment only in this version",
+            material.name);
 }
 
 } // namespace

@@ -21,6 +21,25 @@ highp vec3 reflectedOf(Surface surface) {
 // The share of ambient light that reaches what is below the specular lobe.
 vec3 leftBySpecular(Surface surface) { return 1.0 - surface.boundary; }
 
+#if defined(REFRACTION)
+
+// Of the environment behind, what the picture does not show.
+vec3 environmentSeen(Surface surface) {
+#if defined(REFRACTION_OF_PICTURE)
+    vec3 seen = vec3(0.0);
+    if (quality_screenRefraction == 0) {
+        seen = environmentBehind(surface.refraction);
+    } else if (dot(surface.behind.environment, vec3(1.0)) > 0.0) {
+        seen = environmentBehind(surface.refraction) * surface.behind.environment;
+    }
+    return seen;
+#else
+    return environmentBehind(surface.refraction);
+#endif
+}
+
+#endif
+
 highp vec3 baseOfEnvironment(Surface surface) {
     vec3 irradiance = environmentIrradiance(openNormal(surface.normal));
     vec3 diffuse = surface.diffuse * irradiance * leftBySpecular(surface);
@@ -30,7 +49,7 @@ highp vec3 baseOfEnvironment(Surface surface) {
     diffuse += seenDiffuse(behind * leftBySpecular(surface), surface.visibility, surface.transmitted);
 #endif
 #if defined(REFRACTION)
-    if (surface.refraction.transmission > 0.0) diffuse += surface.through * environmentBehind(surface.refraction);
+    if (surface.refraction.transmission > 0.0) diffuse += surface.through * environmentSeen(surface);
 #endif
 
     highp vec3 reflected = reflectedOf(surface);
@@ -72,6 +91,22 @@ highp vec3 addCoatOfEnvironment(Surface surface, highp vec3 below) {
     radiance = aboveHorizon(radiance, true, reflected);
 #endif
     return below * coatLeaves(coat) + radiance;
+}
+
+#endif
+
+#if defined(REFRACTION_OF_PICTURE)
+
+// The light of the picture, through the surface and the layers above. Unlike that of the environment it is pre-exposed.
+highp vec3 shadePicture(Surface surface) {
+    highp vec3 light = surface.through * surface.behind.light;
+#if defined(HAS_SHEEN)
+    if (hasSheen(surface.sheen)) light *= sheenLeaves(surface.sheen);
+#endif
+#if defined(HAS_CLEAR_COAT)
+    if (surface.coat.strength > 0.0) light *= coatLeaves(surface.coat);
+#endif
+    return light;
 }
 
 #endif

@@ -37,6 +37,9 @@ struct Surface {
 #if defined(REFRACTION)
     Refraction refraction;
     vec3 through;             // transmitted share of the light behind
+#if defined(REFRACTION_OF_PICTURE)
+    Behind behind;
+#endif
 #endif
 #if defined(HAS_DIFFUSE_TRANSMISSION)
     vec3 transmitted;         // albedo of the diffuse lobe behind the surface
@@ -206,6 +209,12 @@ void setThrough(inout Surface surface) {
         surface.energyCompensation *= 1.0 + far / max(surface.specularAlbedo, vec3(1e-4));
         surface.specularAlbedo += far;
     }
+#if defined(REFRACTION_OF_PICTURE)
+    surface.behind = nothingBehind();
+    if (quality_screenRefraction != 0 && surface.refraction.transmission > 0.0) {
+        surface.behind = behindOf(surface.refraction);
+    }
+#endif
 }
 
 #endif

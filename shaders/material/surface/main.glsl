@@ -14,6 +14,9 @@ void main() {
     Surface surface = surfaceOf(inputs);
     highp vec3 light = vec3(0.0);
     if (frameUniforms.ambient.x > 0.0) light = shadeEnvironment(surface) * frameUniforms.ambient.x; // else: none
+#if defined(REFRACTION_OF_PICTURE)
+    if (quality_screenRefraction != 0) light += shadePicture(surface);
+#endif
     addLights(surface, light);
 #if defined(BLEND_MODE_FADE)
     light *= inputs.baseColor.a;
@@ -24,6 +27,9 @@ void main() {
     blendPostLighting(inputs, color);
 #if defined(HAS_FOG)
     if (quality_fog != 0) applyFog(color);
+#endif
+#if defined(REFRACTION_OF_PICTURE)
+    if (quality_screenRefraction == 2) color.rgb = codeOfBehind(surface.behind);
 #endif
     fragment_color = color;
 }

@@ -1,8 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light from behind a surface, for models that transmit it: its direction, its blur, its colour. The environment stands
-// for the scene behind. Directions are in 32 bits, whatever the precision of the lighting.
+// for the scene behind, unless the material refracts the picture. Directions are in 32 bits, whatever the precision of the
+// lighting.
 
 #include "shaders/material/surface/transmission.glsl"
+#if defined(REFRACTION_OF_PICTURE)
+#include "shaders/material/surface/picture.glsl"
+#endif
 
 // What the far interface adds to the albedo f of the near one. A ball's is omitted: that light leaves elsewhere.
 vec3 farReflectedShare(Refraction refraction, vec3 f) {

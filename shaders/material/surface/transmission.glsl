@@ -7,6 +7,9 @@ struct Refraction {
     float ior;
     float dispersion;
     float perceptualRoughness; // for looking up the light behind
+#if defined(REFRACTION_OF_PICTURE)
+    highp float thickness;     // of a solid, in metres
+#endif
 };
 
 // The index that bends light, if both are set.
@@ -40,6 +43,13 @@ Refraction refractionOf(MaterialInputs material, vec3 color, float perceptualRou
     refraction.ior = max(ior, 1.0);
     refraction.tint = color * absorbedOnTheWay(material, refraction.ior);
     refraction.perceptualRoughness = refractionPerceptualRoughness(saturate(perceptualRoughness), refraction.ior);
+#if defined(REFRACTION_OF_PICTURE)
+#if !defined(REFRACTION_THIN) && defined(HAS_THICKNESS)
+    refraction.thickness = clamp(material.thickness, 0.0, kMaxSolidMeters);
+#else
+    refraction.thickness = 0.0;
+#endif
+#endif
 #if defined(HAS_DISPERSION)
     refraction.dispersion = max(material.dispersion, 0.0);
 #else

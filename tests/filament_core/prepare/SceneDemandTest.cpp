@@ -13,9 +13,13 @@ TEST(SceneDemand, OfAnEmptySceneIsNothing) {
     const SceneDemand demand = findDemand({});
     for (EffectDemand const& effect : demand.effects) {
         EXPECT_FALSE(effect.isNeeded);
-        const bool isOption = &effect == &demand.of(Effect::Shadows) || &effect == &demand.of(Effect::ColoredShadows);
-        EXPECT_EQ(effect.reason, isOption ? DemandReason::SwitchedOff : DemandReason::NotInScene);
     }
+    for (const Effect option : { Effect::Shadows, Effect::ColoredShadows, Effect::AmbientOcclusion, Effect::Fog })
+        EXPECT_EQ(demand.of(option).reason, DemandReason::SwitchedOff) << nameOf(option);
+    for (const Effect asked : { Effect::Refraction, Effect::Reflections, Effect::ContactShadows })
+        EXPECT_EQ(demand.of(asked).reason, DemandReason::NothingAsks) << nameOf(asked);
+    for (const Effect there : { Effect::Sun, Effect::LightList, Effect::IndirectLight, Effect::Sky, Effect::Blending })
+        EXPECT_EQ(demand.of(there).reason, DemandReason::NotInScene) << nameOf(there);
 }
 
 TEST(SceneDemand, NeedsColoursOfShadowsOnlyWhereACasterTransmitsLight) {
@@ -125,6 +129,18 @@ TEST(SceneDemand, OfEachEffectChangesWithItsOwnCauseAlone) {
 }
 
 std::string words(Effect effect, DemandInput const& input) { return describe(effect, findDemand(input).of(effect)); }
+
+TEST(SceneDemand, NeedsThePictureOnlyWhereItIsRefracted) {
+    DemandInput input{ .counts = { .litDraws = 2 } };
+    EXPECT_EQ(words(Effect::Refraction, input), "nothing in view refracts the picture");
+    input.counts.refractiveDraws = 2;
+    input.copiedPixels = 4096;
+    EXPECT_EQ(words(Effect::Refraction, input), "2 in view see the picture, of which 4096 pixels are copied");
+    EXPECT_TRUE(findDemand(input).needs(Effect::Refraction));
+    input.quality.refraction = RefractionSource::Environment;
+    EXPECT_EQ(words(Effect::Refraction, input), "switched off: refraction=environment");
+    EXPECT_FALSE(findDemand(input).needs(Effect::Refraction));
+}
 
 TEST(SceneDemand, SaysWhatDebugViewsShow) {
     const ViewCounts lists{ .lights = 40, .froxels = 4096, .longestFroxel = 7, .litDraws = 1 };

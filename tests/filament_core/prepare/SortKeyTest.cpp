@@ -45,13 +45,17 @@ TEST(SortKey, OpaqueBeforeBlendedWhateverElse) {
     EXPECT_LT(opaqueKey(~scene::Drawables::kBlendedOrder, drawOf(0xFFFFF, true), 255, ~0u), kLateKey);
 }
 
-TEST(SortKey, LateOnesBetweenOpaqueAndBlendedThoseWithoutTestLastAllBackToFront) {
+TEST(SortKey, LateOnesBetweenOpaqueAndBlendedThoseThatRefractThenThoseWithoutTest) {
     const uint32_t far = depthBits(kFarthest), near = depthBits(1e-3f);
     const uint64_t keys[] = { kLateKey,           lateKey(far, false), lateKey(near, false),
+                              refractingKey(0),   refractingKey(near), refractingKey(far),
                               lateKey(far, true), lateKey(near, true), blendedKey(far),
                               blendedKey(near) };
     for (size_t i = 1; i < std::size(keys); ++i) EXPECT_LT(keys[i - 1], keys[i]) << i;
     EXPECT_LT(lateKey(0, true), kBlendedKey);
+    EXPECT_LT(lateKey(0, false), kPictureEndKey);
+    EXPECT_EQ(refractingKey(0), kPictureEndKey);
+    EXPECT_LT(refractingKey(0x7FFF'FFFFu), lateKey(0x7FFF'FFFFu, true));
     EXPECT_GT(lateKey(depthBits(1.0f), false), lateKey(depthBits(std::nextafter(1.0f, 2.0f)), false));
 }
 

@@ -117,7 +117,7 @@ TEST_F(Interface, FroxelBufferHasWords) {
 
 TEST_F(Interface, PassUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kGroupPass, kBindingPass).base_type_id);
-    expectMembers(type, { MEMBER(PassUniforms, target), MEMBER(PassUniforms, raster) });
+    expectMembers(type, { MEMBER(PassUniforms, target), MEMBER(PassUniforms, raster), MEMBER(PassUniforms, picture) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(PassUniforms));
 }
 
@@ -132,7 +132,7 @@ TEST_F(Interface, ShadowUniformsAgree) {
 }
 
 TEST_F(Interface, EveryResourceIsInTheLayoutOfItsGroup) {
-    const std::array groups{ viewGroupLayout(), passGroupLayout(PassKind::Lit) };
+    const std::array groups{ viewGroupLayout(), passGroupLayout(PassKind::LitScreen) };
     const spirv_cross::ShaderResources resources = mCompiler.get_shader_resources();
     ASSERT_EQ(size_t{ groups[0].count } + groups[1].count,
               resources.uniform_buffers.size() + resources.storage_buffers.size() + resources.sampled_images.size());

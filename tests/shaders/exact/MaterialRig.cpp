@@ -223,7 +223,8 @@ std::vector<BindGroupEntry> entriesOf(BindGroupLayout const& layout, std::span<c
 
 BindGroupHandle MaterialRig::passGroup(CommandBuffer& commands, MaterialPackage const& package) {
     const PassUniforms pass{ .target = { kPictureSide, kPictureSide, 1.0f / kPictureSide, 1.0f / kPictureSide },
-                             .raster = { 1, 0, 0, 0 } };
+                             .raster = { 1, 0, 0, 0 },
+                             .picture = { 0, 0, kPictureSide, kPictureSide } };
     const BufferHandle passBuffer = buffer(commands, BufferUsage::Uniform, std::as_bytes(std::span(&pass, 1)));
     const std::vector<BindGroupEntry> entries{
         { .binding = kBindingPass, .buffer = passBuffer, .size = sizeof(PassUniforms) },

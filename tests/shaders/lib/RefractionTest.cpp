@@ -54,6 +54,40 @@ TEST(Refraction, TheSolidModelIsARayThroughABall) {
     }
 }
 
+TEST(Refraction, TheExitIsAtTheOtherEndOfTheChord) {
+    for (const double ior : kIors) {
+        for (const double nov : kCosines) {
+            const vec3 centre(0, 0, -1), exit = solidExit(kNormal, viewAt(nov), ior, 2.0);
+            EXPECT_NEAR(glm::length(exit - centre), 1, 1e-9) << "on the ball";
+            EXPECT_NEAR(glm::length(exit), solidPathLength(nov, ior, 2.0), 1e-12);
+        }
+    }
+}
+
+// Half of a lobe's light, and of a normal distribution's, on either side of an edge.
+TEST(Refraction, ARoughInterfaceBlursAnEdgeLikeANormalDistribution) {
+    for (const double roughness : { 0.1, 0.5, 1.0 }) {
+        const double alpha = roughness * roughness, within = alpha / std::sqrt(3.0);
+        EXPECT_NEAR(within / std::sqrt(alpha * alpha + within * within), 0.5, 1e-12); // of the slopes of GGX
+        const double deviation = transmittedDeviation(roughness);
+        EXPECT_NEAR(std::erf(2 * within / (deviation * std::sqrt(2.0))), 0.5, 1e-3);
+    }
+    EXPECT_EQ(transmittedDeviation(0.0), 0);
+}
+
+// The blur of each level, measured: its kernel convolved level by level, then linear weights between its texels.
+TEST(Refraction, ALevelOfThePictureIsBlurredAsMuchAsItsNumberSays) {
+    for (int level = 0; level <= 7; ++level) {
+        double variance = 0;
+        for (int n = 0; n < level; ++n) // weights 1, 3, 3, 1 at +-1/2 and +-3/2 texels of level n
+            variance += (2 * (3 * 0.25 + 1 * 2.25) / 8) * std::exp2(2 * n);
+        variance += std::exp2(2 * level) / 6;
+        EXPECT_NEAR(pictureLevel(std::sqrt(variance)), level == 0 ? 0.0 : level, 1e-9) << level;
+    }
+    EXPECT_EQ(pictureLevel(0.0), 0);
+    EXPECT_EQ(pictureLevel(0.4), 0);
+}
+
 TEST(Refraction, AnIndexOfOneChangesNothing) {
     for (const double nov : kCosines) {
         const vec3 view = viewAt(nov);

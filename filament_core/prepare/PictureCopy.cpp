@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/PictureCopy.h"
+
+#include <algorithm>
+#include <bit>
+#include <cmath>
+
+namespace filament::prepare {
+namespace {
+
+// A ray leaves an object of usual proportions within a quarter of its size beside it, and a blur as wide as the last
+// level reaches about an eighth of the view.
+constexpr float kReachOfObject = 0.25f;
+constexpr float kReachOfView = 0.125f;
+constexpr float kLeastReach = 8; // pixels
+
+uint32_t log2Floor(uint32_t x) { return static_cast<uint32_t>(std::bit_width(x)) - 1; }
+
+PixelBox around(PixelBox a, PixelBox b) { return { glm::min(a.least, b.least), glm::max(a.most, b.most) }; }
+
+bool seesPicture(scene::Renderables const& renderables, SortItem const& item) {
+    scene::Drawable const& drawable = renderables.drawables[drawableOf(item.draw)];
+    return drawable.material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
+}
+
+uint32_t wholeSteps(uint32_t pixels, uint32_t step) { return std::max((pixels + step - 1) / step, 2u) * step; }
+
+/// The first pixel and the one behind the last, in two or more whole texels of `step` pixels.
+uint2 spanOf(float least, float most, uint32_t size, uint32_t step) {
+    const auto pixelAt = [=](float at) {
+        return static_cast<uint32_t>(std::clamp(std::floor(at), 0.0f, static_cast<float>(size)));
+    };
+    const uint32_t whole = wholeSteps(size, step);
+    const uint32_t first = std::min(pixelAt(least) / step * step, whole - 2 * step);
+    return { first, std::min(first + wholeSteps(pixelAt(most) + 1 - first, step), whole) };
+}
+
+} // namespace
+
+uint8_t pictureLevels(uint2 view) {
+    return static_cast<uint8_t>(
+            std::clamp(log2Floor(std::max(1u, std::min(view.x, view.y))), 2u, kMostPictureLevels + 1) - 1);
+}
+
+uint2 pictureTextureSize(uint2 view) {
+    const uint32_t step = 1u << (pictureLevels(view) - 1);
+    return { wholeSteps(view.x, step), wholeSteps(view.y, step) };
+}
+
+PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfExtent, uint2 view) {
+    const float2 size(view);
+    PixelBox box{ size, float2(0.0f) };
+    for (uint32_t corner = 0; corner < 8; ++corner) {
+        const float3 sign(corner & 1 ? 1 : -1, corner & 2 ? 1 : -1, corner & 4 ? 1 : -1);
+        const float4 clip = clipFromWorld * float4(center + sign * halfExtent, 1.0f);
+        if (!(clip.w > 1e-4f)) return { float2(0.0f), size };
+        const float2 pixel = (float2(clip) / clip.w * 0.5f + 0.5f) * size;
+        if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return { float2(0.0f), size };
+        box = around(box, { pixel, pixel });
+    }
+    return box;
+}
+
+PictureCopy copyAround(PixelBox box, uint2 view) {
+    const float2 size(view);
+    const float2 least = glm::clamp(box.least, float2(0.0f), size), most = glm::clamp(box.most, float2(0.0f), size);
+    const float2 extent = glm::max(most - least, float2(0.0f));
+    const float reach = std::max(
+            { kLeastReach, kReachOfObject * std::max(extent.x, extent.y), kReachOfView * std::min(size.x, size.y) });
+    const float2 first = glm::max(least - reach, float2(0.0f)), end = glm::min(most + reach, size);
+    const float narrow = std::max(1.0f, std::min(end.x - first.x, end.y - first.y));
+    const uint8_t levels = static_cast<uint8_t>(
+            std::min<uint32_t>(pictureLevels(view), std::max(1u, log2Floor(static_cast<uint32_t>(narrow)))));
+    const uint32_t step = 1u << (levels - 1);
+    const uint2 x = spanOf(first.x, end.x, view.x, step), y = spanOf(first.y, end.y, view.y, step);
+    return { .rect = { static_cast<int32_t>(x.x), static_cast<int32_t>(y.x), x.y - x.x, y.y - y.x }, .levels = levels };
+}
+
+PictureCopy pictureCopy(scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space,
+                        uint2 view, size_t lateDraws) {
+    PixelBox box{ float2(view), float2(0.0f) };
+    for (SortItem const& item : items) {
+        if (!seesPicture(renderables, item)) continue;
+        const bool isBounded = (renderables.flags[item.renderable] & scene::kCulled) != 0;
+        const float3 center(renderables.bounds.centerAt(item.renderable) - space.cameraWorld);
+        box = around(box, isBounded ? projectedBox(space.clipFromWorld, center,
+                                                   renderables.bounds.halfExtentAt(item.renderable), view)
+                                    : PixelBox{ float2(0.0f), float2(view) });
+    }
+    PictureCopy copy = copyAround(box, view);
+    copy.lateDraws = static_cast<uint32_t>(lateDraws);
+    return copy;
+}
+
+} // namespace filament::prepare

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+/// PictureCopy: which part of the picture is copied for what refracts it, and with how many blurred levels.
+///   In      the boxes of the refracting objects, as the camera sees them.
+///   Out     a rectangle of pixels that holds what a refracted ray is expected to meet: the objects' own pixels and a margin.
+///           Beyond it, shaders fade to the environment.
+///   Thread  any; pure.   Memory: none.   Fails: never.
+#pragma once
+
+#include "backend/api/Descriptions.h"
+#include "base/math/Math.h"
+#include "filament_core/prepare/SortKey.h"
+#include "filament_core/prepare/ViewConstants.h"
+#include "filament_core/scene/Renderables.h"
+
+#include <cstdint>
+#include <span>
+
+namespace filament::prepare {
+
+inline constexpr uint32_t kMostPictureLevels = 9;
+
+/// Levels of the texture for a view of this size. The smallest is two texels high or more.
+uint8_t pictureLevels(uint2 view);
+/// Of that texture: every level halves the one before it exactly.
+uint2 pictureTextureSize(uint2 view);
+
+struct PictureCopy {
+    backend::Rect
+            rect{}; ///< pixels, in whole texels of the last level; may end beyond the view. Empty: nothing is copied
+    uint8_t levels = 0;     ///< that are drawn, with the copy itself
+    uint32_t lateDraws = 0; ///< of ViewPacket::blended: they belong to the picture
+
+    uint32_t pixels() const { return rect.width * rect.height; }
+};
+
+/// In pixels, and possibly outside of the view.
+struct PixelBox {
+    float2 least{ 0.0f }, most{ 0.0f };
+};
+
+/// What a box covers on the screen; all of the view if some of it is beside or behind the camera.
+PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfExtent, uint2 view);
+
+/// The part that is copied for objects in `box`.
+PictureCopy copyAround(PixelBox box, uint2 view);
+
+/// `items`: all that is drawn after the picture; those that refract it count.
+PictureCopy pictureCopy(scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space,
+                        uint2 view, size_t lateDraws);
+
+} // namespace filament::prepare
