@@ -82,20 +82,21 @@ std::vector<backend::ConstantValue> constantsFor(MaterialPackage const& package,
     return constants;
 }
 
-TEST(EngineMaterials, OfLevelThreeFitEveryDeviceWithAnyNineOfTheirTextures) {
+TEST(EngineMaterials, OfLevelThreeFitEveryDeviceWithAnyOfTheirTexturesThatTheBudgetLeaves) {
     uint32_t materials = 0;
     for (const std::string_view name : engineMaterialNames()) {
         MaterialPackage whole = read(name);
         if (whole.featureLevel < 3) continue;
         whole.variants.clear(); // their layouts follow from the package's
         const uint32_t all = samplerCount(whole.layout[kGroupMaterial]);
+        const uint32_t most = passKind(whole) == PassKind::LitScreen ? 8 : 9;
         EXPECT_EQ(all, 12u) << name << ": all of them need a device with " << all + engineShare(whole);
         for (uint32_t used = 0; used < 1u << all; ++used) {
             MaterialPackage package = whole;
             removeUnusedTextures(package, constantsFor(whole, used));
             const uint32_t left = samplerCount(package.layout[kGroupMaterial]);
             ASSERT_EQ(left, std::max(1, std::popcount(used))) << name << " " << used;
-            ASSERT_EQ(left + engineShare(whole) <= kSamplersOfEveryDevice, left <= 9u) << name << " " << used;
+            ASSERT_EQ(left + engineShare(whole) <= kSamplersOfEveryDevice, left <= most) << name << " " << used;
         }
         ++materials;
     }
