@@ -121,6 +121,13 @@ std::vector<Pair> pairs() {
                         scene.add(RectLight{ .positionWorld = { 50, 0, 0 }, .rangeMeters = 2 });
                     },
                     true });
+    const auto refracting = [](RefractionSource source) {
+        return [source](Scene&, View& view) { view.quality.refraction = source; };
+    };
+    all.push_back({ "refraction=screen", "TransmissionTest/TransmissionTest.glb",
+                    refracting(RefractionSource::Environment), refracting(RefractionSource::Screen) });
+    all.push_back({ "refraction, nothing asks", kHelmet, refracting(RefractionSource::Environment),
+                    refracting(RefractionSource::Screen), true });
     const auto disc = [](bool shown) {
         return [shown](Scene& scene, View& view) {
             scene.add(SunLight{ .directionWorld = { 0, 0, -1 }, .illuminance = Lux{ 60'000 }, .showsDisc = shown });

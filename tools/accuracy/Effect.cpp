@@ -87,6 +87,7 @@ void readReference(JsonReader& reader, Reference& reference) {
     reader.read("integral", reference.integral);
     reader.read("factor", reference.factor, 2, 16);
     reader.read("samples", reference.samples, 1, 1u << 20);
+    reader.read("paths", reference.hasPaths);
     if ((reference.kind == ReferenceKind::Scene) == reference.scene.empty())
         reader.complain("scene", "the other scene, for \"kind\": \"scene\" only");
     if ((reference.kind == ReferenceKind::Integral) == reference.integral.empty())
@@ -148,8 +149,9 @@ std::string describe(Reference const& reference) {
                 fmt::format("the engine with {0} x {0} samples a pixel, averaged in linear light", reference.factor),
                 reference.set);
     case ReferenceKind::Traced:
-        return withSettings(fmt::format("the path tracer in double precision, one reflection of light that nothing "
-                                        "blocks, {} samples a pixel",
+        return withSettings(fmt::format("the path tracer in double precision, {}, {} samples a pixel",
+                                        reference.hasPaths ? "all light with every bounce"
+                                                           : "one reflection of light that nothing blocks",
                                         reference.samples),
                             reference.set);
     case ReferenceKind::OtherBackend:

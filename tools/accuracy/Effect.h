@@ -24,7 +24,7 @@ enum class ReferenceKind : uint8_t {
     Setting,      ///< the engine with `set`: its most exact result
     Scene,        ///< the engine in another scene without the difficulty
     Supersampled, ///< the engine with `set` at `factor` times the resolution, averaged in linear light
-    Traced,       ///< tools/reference: one reflection of unoccluded light, with the terms of `set`
+    Traced,       ///< tools/reference: one reflection of unoccluded light, or whole paths, with the terms of `set`
     OtherBackend, ///< the engine with the same value on the second backend: how far the two APIs differ
     Furnace,      ///< a white furnace: a surface that reflects everything looks like its environment
     Integral,     ///< numbers instead of a picture: an integral in double precision, by name
@@ -37,6 +37,7 @@ struct Reference {
     std::string integral;  ///< Integral
     uint32_t factor = 8;   ///< Supersampled, [2, 16]
     uint32_t samples = 64; ///< Traced: per pixel
+    bool hasPaths = false; ///< Traced: all light, with every bounce
 };
 
 /// The scene of whole frames, unless a row or the command line names another.

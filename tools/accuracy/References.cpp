@@ -17,12 +17,14 @@ Result<Truth> shootTruth(ReferenceStage const& stage, SceneSpec const& scene, Se
 }
 
 Result<Truth> traceTruth(ReferenceStage const& stage, SceneSpec const& scene, Settings const& settings,
-                         uint32_t samples) {
+                         Reference const& reference) {
     Result<std::unique_ptr<Take>> take = stage.studio.take(scene, settings, scene.view.size, scene.linear);
     if (!take) return take.error();
     const Result<reference::ReferenceScene> traced = referenceSceneOf(scene, stage.folders, stage.jobs);
     if (!traced) return traced.error();
-    Result<TracedPicture> picture = trace(*traced, (*take)->view(), samples, stage.jobs);
+    Result<TracedPicture> picture =
+            trace(*traced, (*take)->view(), reference.samples, stage.jobs,
+                  reference.hasPaths ? reference::Integrator::Path : reference::Integrator::Unoccluded);
     if (!picture) return picture.error();
     return Truth{ std::move(picture->picture), Edges::Skip, picture->relativeError };
 }
@@ -70,7 +72,7 @@ Result<Truth> makeTruth(Reference const& reference, SceneSpec const& scene, std:
     case ReferenceKind::Supersampled:
         return shootTruth(stage, *drawn, *settings, reference.factor);
     case ReferenceKind::Traced:
-        return traceTruth(stage, *drawn, *settings, reference.samples);
+        return traceTruth(stage, *drawn, *settings, reference);
     case ReferenceKind::Furnace:
         return furnaceTruth(stage, *drawn, *settings);
     case ReferenceKind::OtherBackend:

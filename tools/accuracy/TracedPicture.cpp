@@ -107,8 +107,8 @@ reference::BsdfModel bsdfOf(Quality const& quality) {
 }
 
 Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint32_t samplesPerPixel,
-                            jobs::JobSystem& jobs) {
-    const reference::ReferenceSettings settings{ .integrator = reference::Integrator::Unoccluded,
+                            jobs::JobSystem& jobs, reference::Integrator integrator) {
+    const reference::ReferenceSettings settings{ .integrator = integrator,
                                                  .samplesPerPixel = samplesPerPixel,
                                                  .filter = reference::PixelFilter::Center,
                                                  .bsdf = bsdfOf(view.quality),

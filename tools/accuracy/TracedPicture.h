@@ -26,8 +26,9 @@ struct TracedPicture {
 };
 
 /// A single reflection of unoccluded light; with Quality::shadows, rays find what blocks that of suns, points and spots.
-/// `view`: that of the engine's picture.
+/// Integrator::Path: all light with every bounce. `view`: that of the engine's picture.
 Result<TracedPicture> trace(reference::ReferenceScene const& scene, View const& view, uint32_t samplesPerPixel,
-                            jobs::JobSystem& jobs);
+                            jobs::JobSystem& jobs,
+                            reference::Integrator integrator = reference::Integrator::Unoccluded);
 
 } // namespace filament::accuracy
