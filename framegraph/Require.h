@@ -16,7 +16,8 @@ namespace filament::framegraph {
 struct Rule {
     // Not std::source_location: clang 14, which builds the fuzzers, lacks it.
     template <size_t N>
-    consteval Rule(const char (&text)[N], const char* callersFile = __builtin_FILE(), int callersLine = __builtin_LINE())
+    consteval Rule(const char (&text)[N], const char* callersFile = __builtin_FILE(),
+                   int callersLine = __builtin_LINE())
             : format(text), file(callersFile), line(callersLine) {}
     const char* format;
     const char* file;

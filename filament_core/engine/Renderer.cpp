@@ -16,7 +16,10 @@
 #include "framegraph/CompiledGraph.h"
 #include "framegraph/Explain.h"
 
+#include <glm/ext/matrix_transform.hpp>
+
 #include <array>
+#include <optional>
 #include <utility>
 
 namespace filament {
@@ -73,9 +76,17 @@ struct Renderer::Impl {
         context.resources.shadowMoments = shadows.moments();
         blocks.begin();
         context.blocks = &blocks;
+        context.lastClipFromWorld = clipOfLastFrame(packet, view);
         passes::describeFrame(graph, context, output);
         plan = compile(graph, transients);
         return context;
+    }
+
+    /// Where the last frame showed a point of this frame's world; this frame, if there was none before.
+    float4x4 clipOfLastFrame(prepare::FramePacket const& packet, View const& view) const {
+        if (!last) return packet.mainView().uniforms.clipFromWorld;
+        const double3 moved = view.camera.position() - last->cameraWorld;
+        return float4x4(glm::translate(double4x4(last->clipFromWorld), moved));
     }
 
     /// Submits the commands when it returns.
@@ -107,6 +118,7 @@ struct Renderer::Impl {
         if (engine.options.hashFrames) stamps.packetHash = prepare::hashPacket(context.packet);
         recordFrame(context);
         stamps.recorded = clock();
+        last = { context.packet.mainView().uniforms.clipFromWorld, view.camera.position() };
         stamps.workerBusyNanoseconds = engine.jobs.busyNanoseconds() - busyBefore;
         timings.add(frame, stamps, timers);
         summary = engine::summarize(frame, context.packet, plan);
@@ -176,6 +188,12 @@ struct Renderer::Impl {
     engine::PixelReads pixels;
     engine::ImageTarget imageTarget;
     uint64_t frame = 0;
+    /// How the last frame was seen: effects find points of this one in its picture.
+    struct LastView {
+        float4x4 clipFromWorld;
+        double3 cameraWorld;
+    };
+    std::optional<LastView> last;
     engine::FrameSummary summary;
 };
 

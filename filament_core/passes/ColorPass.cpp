@@ -190,6 +190,22 @@ PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets
     return textures;
 }
 
+/// The whole of the last frame.
+PassPicture lastPicture(FrameContext const& context) { return { wholePicture(context), context.lastClipFromWorld }; }
+
+/// What of this frame is drawn so far.
+PassPicture picture(FrameContext const& context) {
+    prepare::ViewPacket const& view = context.packet.mainView();
+    return { view.picture, view.uniforms.clipFromWorld };
+}
+
+void showPicture(FrameContext const& context, framegraph::GraphTextureDesc const& target, PassPicture const& shown,
+                 TextureId texture, ColorBlocks& blocks) {
+    blocks.target = declareTargetBeforePicture(context, target, context.settings.samples, shown);
+    blocks.textures.picture = texture;
+    blocks.textures.pictureLevels = shown.copy.levels;
+}
+
 } // namespace
 
 void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
@@ -197,6 +213,8 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     const uint8_t samples = context.settings.samples;
     ColorBlocks blocks{ .textures = texturesOf(context, targets) };
     blocks.target = declareTarget(context, like, 0, samples);
+    if (targets.lastPicture.previous)
+        showPicture(context, like, lastPicture(context), targets.lastPicture.previous, blocks);
     blocks.discs = declareDiscs(context);
     const ColorAttachments to = attachmentsOf(graph, context, targets);
     targets.depth = to.depth;
@@ -206,9 +224,7 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     if (!isRefracted) return;
     addPicturePasses(graph, context, to.depthOfPicture, targets);
     blocks.part = ColorPart::Front;
-    blocks.target = declareTargetBeforePicture(context, like, samples);
-    blocks.textures.picture = targets.picture;
-    blocks.textures.pictureLevels = context.packet.mainView().picture.levels;
+    showPicture(context, like, picture(context), targets.picture, blocks);
     addPart(graph, context, to, "refraction", blocks);
 }
 

@@ -70,7 +70,7 @@ void addDepthPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     const framegraph::GraphTextureDesc desc{
         .width = settings.size.x, .height = settings.size.y, .format = Format::D32F, .name = "depth"
     };
-    targets.depth = graph.createTexture(desc);
+    targets.depth = targets.prepassDepth = graph.createTexture(desc);
     graph.addPass(
             "depth",
             [&](PassBuilder& pass) {

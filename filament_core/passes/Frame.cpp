@@ -4,6 +4,7 @@
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugViewPass.h"
 #include "filament_core/passes/DepthPass.h"
+#include "filament_core/passes/PicturePass.h"
 #include "filament_core/passes/ShadowPass.h"
 #include "filament_core/passes/ToneMapPass.h"
 
@@ -40,6 +41,7 @@ ShadedScreen screenOf(View const& view, prepare::FramePacket const& packet) {
              .hasRefraction = demand.needs(prepare::Effect::Refraction),
              .hasReflections = demand.needs(prepare::Effect::Reflections),
              .showsLevels = view.debugView == DebugView::Refraction,
+             .showsHits = view.debugView == DebugView::Reflections,
              .fogTerms = fogTermsOf(clamped(view.effects).fog, packet) };
 }
 
@@ -88,7 +90,9 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     FrameTargets targets = beginFrame(graph, context, output);
     addShadowPass(graph, context, targets);
     addDepthPass(graph, context, targets);
+    declareLastPicture(graph, context, targets);
     addColorPass(graph, context, targets);
+    addLastPicturePasses(graph, context, targets);
     if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);
     else if (targets.color != targets.output)

@@ -36,8 +36,9 @@ inline PassSlot fullScreenSlot(backend::PassLayout const& layout, uint8_t subpas
 struct FrameContext {
     prepare::FramePacket packet{};
     FrameResources resources{};
-    PassSettings settings{};    ///< of the main view
-    View const* view = nullptr; ///< the app's; until the graph is recorded
+    PassSettings settings{};            ///< of the main view
+    float4x4 lastClipFromWorld{ 1.0f }; ///< clip space of the last frame, from this frame's world
+    View const* view = nullptr;         ///< the app's; until the graph is recorded
     Arena* arena = nullptr;
     PassBlocks* blocks = nullptr; ///< passes add theirs while they declare themselves
 

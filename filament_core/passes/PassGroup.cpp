@@ -16,7 +16,11 @@ namespace {
 shader::PassUniforms uniformsOf(framegraph::GraphTextureDesc const& texture, uint8_t level, uint8_t samples) {
     const auto width = static_cast<float>(std::max(1u, texture.width >> level));
     const auto height = static_cast<float>(std::max(1u, texture.height >> level));
-    return { .target = { width, height, 1 / width, 1 / height }, .raster = { samples, 0, 0, 0 }, .picture = float4(0) };
+    return { .target = { width, height, 1 / width, 1 / height },
+             .raster = { samples, 0, 0, 0 },
+             .picture = float4(0),
+             .reflection = float4(0),
+             .pictureFromWorld = float4x4(1.0f) };
 }
 
 } // namespace
@@ -28,12 +32,15 @@ PassBlock declareTarget(FrameContext const& context, framegraph::GraphTextureDes
 }
 
 PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::GraphTextureDesc const& texture,
-                                     uint8_t samples) {
-    prepare::PictureCopy const& copy = context.packet.mainView().picture;
+                                     uint8_t samples, PassPicture const& picture) {
+    prepare::PictureCopy const& copy = picture.copy;
     const float2 first(copy.rect.x, copy.rect.y), size(copy.rect.width, copy.rect.height);
     shader::PassUniforms block = uniformsOf(texture, 0, samples);
     block.raster.z = static_cast<float>(copy.levels - 1);
     block.picture = { first, first + size };
+    ScreenReflections const& reflections = clamped(context.view->effects).reflections;
+    block.reflection = { context.view->quality.ssrSteps, reflections.distanceMeters, reflections.thicknessMeters, 0 };
+    block.pictureFromWorld = picture.clipFromWorld;
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 
@@ -41,7 +48,9 @@ PassBlock declareShadowTarget(FrameContext const& context, uint32_t size, uint32
     const auto side = static_cast<float>(size);
     const shader::PassUniforms block{ .target = { side, side, 1 / side, 1 / side },
                                       .raster = { 1, static_cast<float>(channel), 0, 0 },
-                                      .picture = float4(0) };
+                                      .picture = float4(0),
+                                      .reflection = float4(0),
+                                      .pictureFromWorld = float4x4(1.0f) };
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
 

@@ -28,22 +28,27 @@ Rect rectOfLevel(PictureCopy const& copy, uint32_t level) {
     return { copy.rect.x >> level, copy.rect.y >> level, copy.rect.width >> level, copy.rect.height >> level };
 }
 
-void addCopy(FrameGraph& graph, FrameContext const& context, TextureId depth, FrameTargets const& targets) {
-    const std::array inputs{ FullScreenInput{ .name = "color", .texture = targets.color },
-                             FullScreenInput{ .name = "depth", .texture = depth } };
-    const std::array tiles{ FullScreenTile{ .rect = rectOfLevel(context.packet.mainView().picture, 0) } };
+struct PictureSource {
+    TextureId color, depth;
+    PictureCopy copy;
+};
+
+void addCopy(FrameGraph& graph, FrameContext const& context, PictureSource const& from, TextureId picture) {
+    const std::array inputs{ FullScreenInput{ .name = "color", .texture = from.color },
+                             FullScreenInput{ .name = "depth", .texture = from.depth } };
+    const std::array tiles{ FullScreenTile{ .rect = rectOfLevel(from.copy, 0) } };
     addFullScreenPass(graph, context,
                       { .name = "picture",
                         .material = context.resources.effects->get("picture_copy", {}, kCopy),
                         .inputs = inputs,
-                        .target = targets.picture,
+                        .target = picture,
                         .tiles = tiles,
                         .clears = true });
 }
 
 /// From the level before it.
-void addBlurred(FrameGraph& graph, FrameContext const& context, uint8_t level, TextureId picture) {
-    PictureCopy const& copy = context.packet.mainView().picture;
+void addBlurred(FrameGraph& graph, FrameContext const& context, PictureCopy const& copy, uint8_t level,
+                TextureId picture) {
     const Rect from = rectOfLevel(copy, level - 1u);
     const float2 first(from.x, from.y), end = first + float2(from.width, from.height);
     const framegraph::GraphTextureDesc desc = graph.texture(picture).desc;
@@ -65,18 +70,41 @@ void addBlurred(FrameGraph& graph, FrameContext const& context, uint8_t level, T
                         .clears = true });
 }
 
+framegraph::GraphTextureDesc pictureDesc(FrameContext const& context, std::string_view name) {
+    const uint2 size = prepare::pictureTextureSize(context.settings.size);
+    return { .width = size.x,
+             .height = size.y,
+             .format = Format::RGBA16F,
+             .levels = prepare::pictureLevels(context.settings.size),
+             .name = name };
+}
+
+void addLevels(FrameGraph& graph, FrameContext const& context, PictureSource const& from, TextureId picture) {
+    addCopy(graph, context, from, picture);
+    for (uint8_t level = 1; level < from.copy.levels; ++level) addBlurred(graph, context, from.copy, level, picture);
+}
+
 } // namespace
 
+prepare::PictureCopy wholePicture(FrameContext const& context) {
+    const uint2 size = context.settings.size;
+    return prepare::copyAround({ float2(0.0f), float2(size) }, size);
+}
+
 void addPicturePasses(FrameGraph& graph, FrameContext const& context, TextureId depth, FrameTargets& targets) {
-    const uint2 size = prepare::pictureTextureSize(context.settings.size);
-    targets.picture = graph.createTexture({ .width = size.x,
-                                            .height = size.y,
-                                            .format = Format::RGBA16F,
-                                            .levels = prepare::pictureLevels(context.settings.size),
-                                            .name = "picture" });
-    addCopy(graph, context, depth, targets);
-    for (uint8_t level = 1; level < context.packet.mainView().picture.levels; ++level)
-        addBlurred(graph, context, level, targets.picture);
+    targets.picture = graph.createTexture(pictureDesc(context, "picture"));
+    addLevels(graph, context, { targets.color, depth, context.packet.mainView().picture }, targets.picture);
+}
+
+void declareLastPicture(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (!context.packet.demand.needs(prepare::Effect::Reflections)) return;
+    targets.lastPicture = graph.history(pictureDesc(context, "last picture"));
+}
+
+void addLastPicturePasses(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (!targets.lastPicture.current) return;
+    addLevels(graph, context, { targets.color, targets.prepassDepth, wholePicture(context) },
+              targets.lastPicture.current);
 }
 
 } // namespace filament::passes

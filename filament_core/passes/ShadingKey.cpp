@@ -10,7 +10,7 @@ namespace {
 
 // In the order of shader::kQualityConstants.
 constexpr std::array<uint32_t, shader::kQualityConstants.size()> kBits{ 2, 2, 2, 2, 2, 2, 2, 2, 2, 2,
-                                                                        2, 2, 2, 1, 1, 4, 2, 1, 1, 4 };
+                                                                        2, 2, 2, 2, 1, 4, 2, 1, 1, 4 };
 static_assert(std::accumulate(kBits.begin(), kBits.end(), 0u) <= 48, "a key and a variant are one number of 64 bits");
 
 constexpr size_t placeOf(uint32_t id) {
@@ -46,7 +46,9 @@ choices(Quality const& quality, scene::EnvironmentStorage const& light, ShadedLi
              !screen.hasRefraction ? 0u
              : screen.showsLevels  ? 2u
                                    : 1u,
-             screen.hasReflections ? 1u : 0u,
+             !screen.hasReflections ? 0u
+             : screen.showsHits     ? 2u
+                                    : 1u,
              lights.hasContactShadows ? 1u : 0u,
              screen.fogTerms,
              lights.hasAreas ? 1 + static_cast<uint32_t>(quality.areaLights) : 0u,

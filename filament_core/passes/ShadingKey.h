@@ -30,6 +30,7 @@ struct ShadedScreen {
     bool hasOcclusion = false, hasBentNormals = false;
     bool hasRefraction = false, hasReflections = false;
     bool showsLevels = false; ///< of the refracted picture, instead of it
+    bool showsHits = false;   ///< how far mirrored rays go, instead of what they hit
     uint8_t fogTerms = 0;     ///< shader::FogTerms
 };
 

@@ -121,6 +121,12 @@ void defineSurface(StageText& out, MaterialDefinition const& definition, Materia
     defineIf(out, !needs.callsPrepare && package.shading != ShadingModel::Unlit, "PREPARE_AFTER_MATERIAL");
 }
 
+/// Fibres and translucent media have no mirrored ray.
+bool reflectsPicture(MaterialPackage const& package) {
+    const bool isMirror = package.shading == ShadingModel::Lit || package.shading == ShadingModel::SpecularGlossiness;
+    return isMirror && package.reflections == Reflections::ScreenSpace;
+}
+
 void defineFragment(StageText& out, MaterialDefinition const& definition, uint16_t variantKey) {
     defineIf(out, (variantKey & kVariantSun) != 0, "VARIANT_SUN");
     defineIf(out, (variantKey & kVariantPunctual) != 0, "VARIANT_PUNCTUAL");
@@ -134,6 +140,7 @@ void defineFragment(StageText& out, MaterialDefinition const& definition, uint16
     defineIf(out, refracts(definition), "REFRACTION");
     defineIf(out, refracts(definition) && isThin, "REFRACTION_THIN");
     defineIf(out, definition.package.refractionMode == RefractionMode::ScreenSpace, "REFRACTION_OF_PICTURE");
+    defineIf(out, reflectsPicture(definition.package), "REFLECTION_OF_PICTURE");
     defineIf(out, definition.customSurfaceShading, "CUSTOM_SURFACE_SHADING");
     defineIf(out, definition.clothDistribution == ClothDistribution::Ashikhmin, "CLOTH_ASHIKHMIN");
     defineIf(out, definition.specularAmbientOcclusion != SpecularAmbientOcclusion::None, "SPECULAR_AMBIENT_OCCLUSION");
@@ -286,6 +293,8 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
         if (done && needs.has(layer.term)) done = out.include(layer.text);
     }
     if (done && refracts(definition)) done = out.include("shaders/material/surface/refraction.glsl");
+    if (done && reflectsPicture(definition.package))
+        done = includeAll(out, { "shaders/lib/reflection.glsl", "shaders/material/surface/reflections.glsl" });
     if (done) done = out.include(shadingText(definition.package.shading));
     if (done && definition.customSurfaceShading) done = out.include("shaders/material/surface/custom_light.glsl");
     if (done && (variantKey & kVariantPunctual) != 0) done = areaLights(out, definition);

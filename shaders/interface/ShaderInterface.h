@@ -87,6 +87,8 @@ struct PassUniforms {
     float4 target; ///< of the level that the pass draws to; xy: pixels, zw: 1 / pixels
     float4 raster; ///< x: samples a pixel; y: colour channel that a shadow map is drawn for, 1 to 3, 0: of all; z: last level of the picture behind; w: unused
     float4 picture; ///< pixels of the picture behind that there are: xy to zw
+    float4 reflection; ///< of mirrored rays; x: steps; y: metres; z: thickness of what they hit, metres; w: unused
+    float4x4 pictureFromWorld; ///< the clip space in which the picture shows a point of this frame's world
 };
 
 inline constexpr uint32_t kMaxShadowMaps = 128; ///< of a view
@@ -205,7 +207,7 @@ enum QualityConstantId : uint32_t { ///< behind the author's, which count from 0
     kQualityColoredShadows = 1014, ///< 1: some shadow map of the view has three channels
     kQualityScreenOcclusion = 1015, ///< 0: none; 1: visibility; 2: with bent normals
     kQualityScreenRefraction = 1016, ///< 1: the picture is seen through what refracts it; 2: the level of the picture, as a negative number in red
-    kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture
+    kQualityScreenReflections = 1017, ///< 1: what asks for it reflects the picture; 2: -1 - the metres to what is hit, in red
     kQualityContactShadows = 1018, ///< 1: some light of the view has them
     kQualityFog = 1019,  ///< FogTerms; unlit materials have this one, too
     kQualityShadowFilter = 1011, ///< read by variants with kVariantShadowReceiver only

@@ -72,6 +72,8 @@ layout(set = 1, binding = 0, std140) uniform PassUniforms {
     vec4 target;
     vec4 raster;
     vec4 picture;
+    vec4 reflection;
+    mat4 pictureFromWorld;
 } passUniforms;
 
 layout(set = 1, binding = 1) uniform sampler2D passShadowMaps;

@@ -48,6 +48,7 @@ namespace {
 #include "shaders/lib/occlusion.glsl"
 #include "shaders/lib/parallax.glsl"
 #include "shaders/lib/profiles.glsl"
+#include "shaders/lib/reflection.glsl"
 #include "shaders/lib/refraction.glsl"
 #include "shaders/lib/sampling.glsl"
 #include "shaders/lib/sheen.glsl"

@@ -37,6 +37,7 @@ Result<void> Take::checkDevice() {
 }
 
 Result<Picture> Take::shoot() {
+    for (uint32_t i = 1; i < mParts.frames; ++i) mRenderer.render(mParts.scene, mParts.view, mParts.target);
     mRenderer.render(mParts.scene, mParts.view, mParts.target);
     const Result<Image> image = mRenderer.waitPixels(mRenderer.readPixels(mParts.target));
     if (!image) return image.error();
@@ -134,6 +135,7 @@ Result<std::unique_ptr<Take>> Studio::take(SceneSpec const& spec, Settings const
     view.samples = settings.samples;
     view.colorGrading = settings.colorGrading;
     view.camera = cameraOf(spec, scene.bounds());
+    parts->frames = spec.frames;
     parts->target = engine.own(engine.create(SwapChainDesc{
             .size = size, .imageCount = 1, .format = linear ? Format::RGBA16F : Format::RGBA8, .name = "accuracy" }));
     return std::make_unique<Take>(engine, (*used)->renderer, std::move(*parts));

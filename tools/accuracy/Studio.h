@@ -40,6 +40,7 @@ struct TakeParts {
     Scene scene;                                    ///< ends before model and environment
     View view;
     Owned<SwapChain> target;
+    uint32_t frames = 1; ///< drawn for a picture: its effects may need those before
 };
 
 class Take {

@@ -468,8 +468,15 @@ class TargetSizeEdit final : public PassBlocksEdit {
     }
 };
 
-/// The last blurred level of the picture that is refracted is not read. Of all PassUniforms only those of the pass that
-/// refracts have a third number in `raster`.
+/// Of all PassUniforms only those of passes that refract or reflect a picture have a third number in `raster`.
+bool isBeforePicture(Bytes const& bytes, size_t at) {
+    const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
+    const auto isReciprocal = [&](size_t i) { return std::abs(number(i) * number(i + 2) - 1) < 1e-5f; };
+    return number(0) >= 1 && isReciprocal(0) && isReciprocal(1) && (number(4) == 1 || number(4) == 4) &&
+           number(6) >= 1 && number(10) > number(8);
+}
+
+/// The last blurred level of the picture that is refracted is not read.
 class PictureLevelEdit final : public PassBlocksEdit {
     void editBlocks(Bytes& bytes) override {
         for (size_t at = 0; at + sizeof(shader::PassUniforms) <= bytes.size(); at += sizeof(float4)) {
@@ -478,11 +485,16 @@ class PictureLevelEdit final : public PassBlocksEdit {
             writeFloat(bytes, level, readFloat(bytes, level) - 1);
         }
     }
-    static bool isBeforePicture(Bytes const& bytes, size_t at) {
-        const auto number = [&](size_t i) { return readFloat(bytes, at + i * sizeof(float)); };
-        const auto isReciprocal = [&](size_t i) { return std::abs(number(i) * number(i + 2) - 1) < 1e-5f; };
-        return number(0) >= 1 && isReciprocal(0) && isReciprocal(1) && (number(4) == 1 || number(4) == 4) &&
-               number(6) >= 1 && number(10) > number(8);
+};
+
+/// Mirrored rays end after 70 % of their reach.
+class ReflectionReachEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
+        constexpr size_t kSteps = offsetof(shader::PassUniforms, reflection), kReach = kSteps + sizeof(float);
+        for (size_t at = 0; at + sizeof(shader::PassUniforms) <= bytes.size(); at += sizeof(float4)) {
+            if (!isBeforePicture(bytes, at) || readFloat(bytes, at + kSteps) < 8) continue;
+            writeFloat(bytes, at + kReach, 0.7f * readFloat(bytes, at + kReach));
+        }
     }
 };
 
@@ -557,6 +569,7 @@ constexpr Mutation kMutations[] = {
     { "targetSize", "the scene's target 3 % smaller, for shaders", make<TargetSizeEdit> },
     { "thickness", "thickness of solids + 5 %", thickness },
     { "pictureLevel", "the refracted picture without its last blurred level", make<PictureLevelEdit> },
+    { "reflectionReach", "mirrored rays 30 % shorter", make<ReflectionReachEdit> },
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },
     { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },

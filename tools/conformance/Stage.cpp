@@ -105,8 +105,8 @@ Result<void> Stage::placeModel(SceneSpec const& spec) {
 
 Result<void> Stage::set(SceneSpec const& spec) {
     mScene.reset();
-    // Where maps lie in an atlas depends on the frames before; a picture must not.
-    if (spec.view.quality.shadows != ShadowFilter::Off) mRenderer.emplace(mEngine);
+    // Where maps lie in an atlas depends on the frames before, and so do reflections; a picture must not.
+    if (spec.view.quality.shadows != ShadowFilter::Off || spec.view.quality.ssr) mRenderer.emplace(mEngine);
     if (Result<void> loaded = loadModel(spec); !loaded) return loaded;
     if (Result<void> loaded = loadSky(spec); !loaded) return loaded;
     mScene.emplace(mEngine);

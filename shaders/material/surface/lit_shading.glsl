@@ -59,6 +59,9 @@ highp vec3 baseOfEnvironment(Surface surface) {
 #if defined(HAS_NORMAL)
     specular = aboveHorizon(specular, shading_isBumped, reflected);
 #endif
+#if defined(REFLECTION_OF_PICTURE)
+    if (quality_screenReflections != 0) specular *= 1.0 - surface.mirrored.weight; // the rest: shadePicture()
+#endif
     return diffuse + specular;
 }
 
@@ -95,11 +98,24 @@ highp vec3 addCoatOfEnvironment(Surface surface, highp vec3 below) {
 
 #endif
 
-#if defined(REFRACTION_OF_PICTURE)
+#if defined(REFRACTION_OF_PICTURE) || defined(REFLECTION_OF_PICTURE)
 
-// The light of the picture, through the surface and the layers above. Unlike that of the environment it is pre-exposed.
+// The light of the picture, through the surface or mirrored by its base, and through the layers above. Unlike that of the
+// environment it is pre-exposed. What surroundings hide is what the picture shows: nothing occludes it.
 highp vec3 shadePicture(Surface surface) {
-    highp vec3 light = surface.through * surface.behind.light;
+    highp vec3 light = vec3(0.0);
+#if defined(REFRACTION_OF_PICTURE)
+    if (quality_screenRefraction != 0) light += surface.through * surface.behind.light;
+#endif
+#if defined(REFLECTION_OF_PICTURE)
+    if (quality_screenReflections != 0) {
+        vec3 mirrored = surface.specularAlbedo * surface.mirrored.color * surface.mirrored.weight;
+#if defined(HAS_NORMAL)
+        mirrored = aboveHorizon(mirrored, shading_isBumped, shading_reflected);
+#endif
+        light += mirrored;
+    }
+#endif
 #if defined(HAS_SHEEN)
     if (hasSheen(surface.sheen)) light *= sheenLeaves(surface.sheen);
 #endif

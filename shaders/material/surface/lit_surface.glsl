@@ -41,6 +41,9 @@ struct Surface {
     Behind behind;
 #endif
 #endif
+#if defined(REFLECTION_OF_PICTURE)
+    PictureHit mirrored;
+#endif
 #if defined(HAS_DIFFUSE_TRANSMISSION)
     vec3 transmitted;         // albedo of the diffuse lobe behind the surface
 #endif
@@ -273,6 +276,10 @@ Surface surfaceOf(MaterialInputs material) {
 #endif
 #if defined(REFRACTION)
     setThrough(surface);
+#endif
+#if defined(REFLECTION_OF_PICTURE)
+    surface.mirrored = noHit();
+    if (quality_screenReflections != 0) surface.mirrored = reflectionInPicture(shading_reflected, roughness);
 #endif
     surface.diffuseExit = diffuseExitOf(surface);
     surface.visibility = ambientVisibility(material);

@@ -14,8 +14,8 @@ void main() {
     Surface surface = surfaceOf(inputs);
     highp vec3 light = vec3(0.0);
     if (frameUniforms.ambient.x > 0.0) light = shadeEnvironment(surface) * frameUniforms.ambient.x; // else: none
-#if defined(REFRACTION_OF_PICTURE)
-    if (quality_screenRefraction != 0) light += shadePicture(surface);
+#if defined(REFRACTION_OF_PICTURE) || defined(REFLECTION_OF_PICTURE)
+    if (quality_screenRefraction != 0 || quality_screenReflections != 0) light += shadePicture(surface);
 #endif
     addLights(surface, light);
 #if defined(BLEND_MODE_FADE)
@@ -30,6 +30,9 @@ void main() {
 #endif
 #if defined(REFRACTION_OF_PICTURE)
     if (quality_screenRefraction == 2) color.rgb = codeOfBehind(surface.behind);
+#endif
+#if defined(REFLECTION_OF_PICTURE)
+    if (quality_screenReflections == 2) color.rgb = codeOfHit(surface.mirrored);
 #endif
     fragment_color = color;
 }

@@ -4,8 +4,9 @@
 // the environment does.
 
 const highp float kPictureBorder = 0.0625; // of the view's height: beyond the picture its edge fades to the environment
-const highp float kTexelInset = 0.515625;  // off the centre of an outer texel: no sampler reads the one beyond it
 const highp float kLeastNearness = 1e-6;   // 1 / m
+
+#include "shaders/material/surface/picture_texel.glsl"
 
 struct Behind {
     highp vec3 light;       // pre-exposed, times its share
@@ -21,17 +22,6 @@ struct Look {
 };
 
 Behind nothingBehind() { return Behind(vec3(0.0), vec3(1.0), 0.0); }
-
-highp float alongView(highp vec3 point) {
-    highp mat4 view = frameUniforms.viewFromWorld;
-    return -(view[0].z * point.x + view[1].z * point.y + view[2].z * point.z + view[3].z);
-}
-
-highp vec4 pictureTexel(highp vec2 pixel, highp float level) {
-    highp float inset = kTexelInset * float(1 << int(ceil(level)));
-    highp vec2 at = clamp(pixel, passUniforms.picture.xy + inset, passUniforms.picture.zw - inset);
-    return textureLod(passPicture, at / vec2(textureSize(passPicture, 0)), level);
-}
 
 // How wide the lobe is, in pixels, that leaves at `distance` and ends at 1 / nearness, both along the view in metres.
 highp float blurredPixels(highp float deviation, highp float distance, highp float nearness) {

@@ -15,6 +15,38 @@ Row frameRow(std::string_view part, Call call) {
              .limits = absolute(1e-6, 1e-2, "a unit vector: the error is relative to its length") };
 }
 
+/// Weights of what a ray of the picture hits.
+Row pictureRow(std::string_view function, Call call, std::array<Argument, 4> arguments, Monotone monotone,
+               double highest, Limits const& limits) {
+    return { .file = "reflection",
+             .function = function,
+             .call = call,
+             .s = arguments,
+             .range = { 0, highest },
+             .monotone = monotone,
+             .limits = limits,
+             .fp32Only = "rays of the picture are in 32 bits" };
+}
+
+std::vector<Row> pictureRows() {
+    const Limits step = absolute(2e-6, 0, "a cubic of a rounded quotient");
+    return {
+        pictureRow("smoothUnit(float)", NUMERICS_CALL(smoothUnit(s.x)), { unit("x") }, Monotone::Rising, 1.0000002,
+                   absolute(4e-7, 0, "a cubic")),
+        pictureRow("insideWeight(vec2, float)", NUMERICS_CALL(insideWeight(vec2(s.x, s.y), s.z)),
+                   { unit("uv.x"), unit("uv.y"), number("border", 0.001, 0.5) }, Monotone::No, 1.0000004,
+                   absolute(3e-4, 0, "the distance to the border cancels: rounding over its width")),
+        pictureRow("awayWeight(float)", NUMERICS_CALL(awayWeight(s.x)), { number("cosine", -1, 1) }, Monotone::Falling,
+                   1, step),
+        pictureRow("reachWeight(float)", NUMERICS_CALL(reachWeight(s.x)), { unit("share") }, Monotone::Falling,
+                   1.0000002, step),
+        pictureRow("lobeRadius(float)", NUMERICS_CALL(lobeRadius(s.x)), { unit("alpha") }, Monotone::Rising, 1,
+                   relative(1e-6, 0, "1 - alpha^2 does not cancel before the limit")),
+        pictureRow("blurLevel(float)", NUMERICS_CALL(blurLevel(s.x)), { number("radius", 0, 1e6) }, Monotone::Rising,
+                   20.5, absolute(3e-6, 0, "absolute: a logarithm of at most 20")),
+    };
+}
+
 /// A direction from directionFromAngles().
 Row sampleRow(std::string_view function, Call call, std::array<Argument, 4> arguments) {
     return { .file = "sampling",
@@ -98,7 +130,8 @@ std::vector<Row> geometryRows() {
         frameRow("t", NUMERICS_CALL(tangentFrameTangent(s))),
         frameRow("b", NUMERICS_CALL(tangentFrameBitangent(s))),
     };
-    for (std::vector<Row> const& each : { sequenceRows(), more }) rows.insert(rows.end(), each.begin(), each.end());
+    for (std::vector<Row> const& each : { sequenceRows(), more, pictureRows() })
+        rows.insert(rows.end(), each.begin(), each.end());
     return rows;
 }
 

@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// Reflections of the picture on both APIs: a mirror on the floor shows the wall behind it where its image is, from the second
+// frame on.
+#include "tests/filament_core/engine/SkyStage.h"
+#include "tests/filament_core/engine/materials/MaterialFixture.h"
+
+#include <filament/Renderer.h>
+
+#include <glm/ext/matrix_transform.hpp>
+
+#include <functional>
+#include <vector>
+
+namespace filament {
+namespace {
+
+using test::halfPixel;
+
+constexpr double kFloorY = -0.5, kWallZ = -1.5, kWallSide = 4;
+
+std::string floorText(std::string_view properties, std::string_view code = "") {
+    return test::text(properties, "material.baseColor.rgb = vec3(1.0); material.metallic = 1.0; "
+                                  "material.roughness = 0.0; " +
+                                          std::string(code));
+}
+
+/// The wall's colour is linear in x and y.
+float3 colorOfWall(double3 at) { return float3(0.5 + 0.1 * at.x, 0.5 + 0.2 * at.y, 0.25); }
+
+/// A floor, and a wall behind it, without any other light.
+class MirrorRoom {
+public:
+    explicit MirrorRoom(Backend backend, std::string const& floor = floorText("reflections : screenspace"))
+            : mEngine(std::move(*Engine::create({ .backend = backend, .workers = 1, .validation = true }))),
+              mSquare(mEngine), mScene(mEngine), mRenderer(mEngine) {
+        const double4x4 flat = glm::rotate(double4x4(1.0), glm::radians(-90.0), double3(1, 0, 0));
+        mFloor = load(floor);
+        mSquare.add(
+                mScene, instance(mFloor),
+                glm::translate(double4x4(1.0), double3(0, kFloorY, 0)) * flat *
+                        double4x4(double4(2, 0, 0, 0), double4(0, 2, 0, 0), double4(0, 0, 2, 0), double4(0, 0, 0, 1)));
+        mWall = load(test::text("shadingModel : unlit, requires : [ uv0 ]",
+                                "vec2 at = (getUV0() * vec2(2.0, -2.0) + vec2(-1.0, 1.0)) * 4.0; "
+                                "material.baseColor = vec4(0.5 + 0.1 * at.x, 0.5 + 0.2 * at.y, 0.25, 1.0);"));
+        mSquare.add(mScene, instance(mWall), double3(0, 0, kWallZ), kWallSide);
+        view.camera = Camera::lookAt({ 0, 0.2, 1.5 }, { 0, -0.2, 0 }, { .verticalFovDegrees = 50 });
+        view.size = { 96, 64 };
+        view.quality.ssr = true;
+        view.quality.shadows = ShadowFilter::Off;
+        view.effects.reflections = { .distanceMeters = 20, .thicknessMeters = 0.5f };
+    }
+    ~MirrorRoom() { test::expectNoErrors(mEngine); }
+
+    Image draw() {
+        const Owned<SwapChain> target = mEngine.own(mEngine.create(
+                SwapChainDesc{ .size = view.size, .imageCount = 1, .format = Format::RGBA16F, .name = "linear" }));
+        mRenderer.render(mScene, view, target);
+        auto image = mRenderer.waitPixels(mRenderer.readPixels(target));
+        EXPECT_TRUE(image);
+        return image ? std::move(*image) : Image{};
+    }
+    FrameStatistics statistics() const { return mRenderer.statistics(); }
+    Engine& engine() { return mEngine; }
+    Scene& scene() { return mScene; }
+
+    View view;
+
+private:
+    Owned<Material> load(std::string const& text) { return test::loadMaterial(mEngine, text); }
+    MaterialInstance instance(Owned<Material> const& material) {
+        mInstances.push_back(mEngine.own(mEngine.createInstance(material)));
+        return mInstances.back();
+    }
+
+    Engine mEngine;
+    test::SquareMesh mSquare;
+    Scene mScene;
+    Renderer mRenderer;
+    Owned<Material> mFloor, mWall;
+    std::vector<Owned<MaterialInstance>> mInstances;
+};
+
+/// The pictures of both APIs after `frames`, which have the same bits.
+Image mirrored(
+        int frames, std::function<void(MirrorRoom&, int)> const& change = [](MirrorRoom&, int) {},
+        std::string const& floor = floorText("reflections : screenspace")) {
+    std::vector<Image> images;
+    for (const Backend backend : test::kBothApis) {
+        MirrorRoom room(backend, floor);
+        Image last;
+        for (int i = 0; i < frames; ++i) {
+            change(room, i);
+            last = room.draw();
+        }
+        images.push_back(std::move(last));
+    }
+    EXPECT_EQ(test::differingPixels(images[0], images[1]), 0u);
+    return std::move(images[0]);
+}
+
+struct ViewRay {
+    double3 from, direction;
+};
+
+ViewRay rayThrough(Camera const& camera, uint2 size, uint32_t x, uint32_t y) {
+    const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+    const double4x4 clip(camera.clipFromView(aspect));
+    const double2 at = (double2(x, y) + 0.5) / double2(size) * 2.0 - 1.0;
+    const double3 inView(at.x / clip[0].x, at.y / clip[1].y, -1);
+    return { camera.position(), double3(camera.worldFromView * double4(inView, 0)) };
+}
+
+/// Where the mirrored ray of a pixel of the floor meets the wall; nothing for other pixels.
+std::optional<double3> mirroredPoint(Camera const& camera, uint2 size, uint32_t x, uint32_t y) {
+    const ViewRay ray = rayThrough(camera, size, x, y);
+    if (ray.direction.y >= 0) return std::nullopt;
+    const double3 floor = ray.from + ray.direction * ((kFloorY - ray.from.y) / ray.direction.y);
+    if (floor.z <= kWallZ || std::abs(floor.x) > 2 || std::abs(floor.z) > 2) return std::nullopt;
+    const double3 up(ray.direction.x, -ray.direction.y, ray.direction.z);
+    return floor + up * ((kWallZ - floor.z) / up.z);
+}
+
+/// Whether a camera shows a point well inside of its picture.
+bool isShown(Camera const& camera, uint2 size, double3 point, double border) {
+    const float aspect = static_cast<float>(size.x) / static_cast<float>(size.y);
+    const double4 clip =
+            double4x4(camera.clipFromView(aspect)) * glm::inverse(camera.worldFromView) * double4(point, 1);
+    const double2 uv = double2(clip) / clip.w * 0.5 + 0.5;
+    return clip.w > 0 && std::min(std::min(uv.x, uv.y), std::min(1 - uv.x, 1 - uv.y)) > border;
+}
+
+/// Pixels of the floor that a frame after `before` must show as the wall's image; returns how many there were.
+uint32_t expectImageOfWall(Image const& picture, Camera const& camera, Camera const& before, float tolerance) {
+    const uint2 size(picture.width, picture.height);
+    uint32_t count = 0;
+    for (uint32_t y = 0; y < size.y; ++y) {
+        for (uint32_t x = 0; x < size.x; ++x) {
+            const auto point = mirroredPoint(camera, size, x, y);
+            if (!point || !isShown(before, size, *point, 0.1) || !isShown(camera, size, *point, 0.02)) continue;
+            const float3 seen(halfPixel(picture, x, y)), wanted = colorOfWall(*point);
+            for (int c = 0; c < 3; ++c)
+                EXPECT_NEAR(seen[c], wanted[c], tolerance) << x << ", " << y << " channel " << c;
+            ++count;
+        }
+    }
+    return count;
+}
+
+TEST(PictureReflection, AMirrorShowsTheWallWhereItsImageIs) {
+    const Image picture = mirrored(2);
+    const Camera camera = Camera::lookAt({ 0, 0.2, 1.5 }, { 0, -0.2, 0 }, { .verticalFovDegrees = 50 });
+    EXPECT_GT(expectImageOfWall(picture, camera, camera, 0.02f), 500u);
+}
+
+TEST(PictureReflection, TheFirstFrameKnowsNoPicture) {
+    const Image picture = mirrored(1);
+    const Camera camera = Camera::lookAt({ 0, 0.2, 1.5 }, { 0, -0.2, 0 }, { .verticalFovDegrees = 50 });
+    for (uint32_t y = 0; y < picture.height; ++y) {
+        if (!mirroredPoint(camera, { picture.width, picture.height }, 48, y)) continue;
+        EXPECT_EQ(float3(halfPixel(picture, 48, y)), float3(0)) << y;
+    }
+}
+
+TEST(PictureReflection, AMovingCameraFindsTheWallInTheLastPicture) {
+    const auto cameraOf = [](int frame) {
+        return Camera::lookAt({ 0.1 * frame, 0.2 + 0.03 * frame, 1.5 - 0.05 * frame }, { 0.05 * frame, -0.2, 0 },
+                              { .verticalFovDegrees = 50 });
+    };
+    const Image picture = mirrored(3, [&](MirrorRoom& room, int frame) { room.view.camera = cameraOf(frame); });
+    EXPECT_GT(expectImageOfWall(picture, cameraOf(2), cameraOf(1), 0.03f), 400u);
+}
+
+TEST(PictureReflection, ARoughMirrorBlursTheImageAndKeepsItsMean) {
+    const auto row = [](std::string_view roughness) {
+        const Image picture = mirrored(
+                2, [](MirrorRoom&, int) {}, floorText("reflections : screenspace", roughness));
+        float3 sum(0);
+        for (uint32_t x = 40; x < 56; ++x) sum += float3(halfPixel(picture, x, 50));
+        return sum / 16.0f;
+    };
+    const float3 smooth = row("material.roughness = 0.0;"), rough = row("material.roughness = 0.25;");
+    for (int c = 0; c < 3; ++c) EXPECT_NEAR(rough[c], smooth[c], 0.12f) << "channel " << c;
+}
+
+TEST(PictureReflection, NothingChangesWhereNoMaterialAsks) {
+    for (const Backend backend : test::kBothApis) {
+        MirrorRoom room(backend, floorText("shadingModel : lit"));
+        room.view.quality.ssr = false;
+        const Image off = room.draw();
+        const uint32_t passes = room.statistics().passesRun, draws = room.statistics().draws;
+        room.view.quality.ssr = true;
+        const Image on = room.draw();
+        EXPECT_EQ(test::differingPixels(off, on), 0u);
+        EXPECT_EQ(room.statistics().passesRun, passes);
+        EXPECT_EQ(room.statistics().draws, draws);
+    }
+}
+
+TEST(PictureReflection, SizesAndSamplesHaveTheSameBitsOnBothApis) {
+    for (const uint2 size : { uint2(33, 17), uint2(7, 65), uint2(1, 1), uint2(130, 64) }) {
+        for (const uint8_t samples : { uint8_t{ 1 }, uint8_t{ 4 } }) {
+            const Image picture = mirrored(3, [&](MirrorRoom& room, int frame) {
+                room.view.size = size;
+                room.view.samples = samples;
+                room.view.camera =
+                        Camera::lookAt({ 0.2 * frame, 0.2, 1.5 }, { 0, -0.2, 0 }, { .verticalFovDegrees = 50 });
+            });
+            test::extremesOf(picture); // all finite
+        }
+    }
+}
+
+TEST(PictureReflection, OptionsAtTheirEndsGiveNumbers) {
+    for (const float metres : { 1e-3f, 1e5f }) {
+        for (const float thickness : { 1e-4f, 1e4f }) {
+            const Image picture = mirrored(2, [&](MirrorRoom& room, int) {
+                room.view.effects.reflections = { .distanceMeters = metres, .thicknessMeters = thickness };
+                room.view.quality.ssrSteps = metres > 1 ? uint8_t{ 255 } : uint8_t{ 8 };
+            });
+            const test::Extremes found = test::extremesOf(picture);
+            EXPECT_GE(found.least, 0);
+            EXPECT_LE(found.most, 1.4f) << "no brighter than the wall";
+        }
+    }
+}
+
+} // namespace
+} // namespace filament
