@@ -199,8 +199,9 @@ std::vector<Row> colorRows() {
         { .file = "distance",
           .function = "distanceFromDepth(float, vec2, vec2)",
           .call = NUMERICS_CALL(distanceFromDepth(s.x, vec2(0.0f, s.y), vec2(-1.0f, 0.0f))),
-          .s = { number("depth", 1e-30, 1), number("near", 1e-6, 1e6) },
-          .range = { 0, 1e30 },
+          .s = { number("depth", 0, 1), number("near", 1e-6, 1e6) },
+          .range = { 0, 1.0000001e30 }, // the float next to 1e30
+          .monotone = Monotone::Falling,
           .limits = { .cpp = 2e-7, .gpu = 2e-7, .why = "a division" },
           .fp32Only = "depths far away are below the least 16-bit number" },
         { .file = "moments",
