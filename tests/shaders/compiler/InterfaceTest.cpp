@@ -81,14 +81,27 @@ protected:
 
 TEST_F(Interface, FrameUniformsAgree) {
     const auto& type = mCompiler.get_type(block(kGroupView, kBindingFrame).base_type_id);
-    expectMembers(type, { MEMBER(FrameUniforms, clipFromWorld), MEMBER(FrameUniforms, worldFromClip),
-                          MEMBER(FrameUniforms, viewFromWorld), MEMBER(FrameUniforms, clipFromView),
-                          MEMBER(FrameUniforms, cameraPosition), MEMBER(FrameUniforms, exposure),
-                          MEMBER(FrameUniforms, time), MEMBER(FrameUniforms, sunDirection),
-                          MEMBER(FrameUniforms, sunIlluminance), MEMBER(FrameUniforms, ambient),
-                          MEMBER(FrameUniforms, skyFactor), MEMBER(FrameUniforms, irradianceSh),
-                          MEMBER(FrameUniforms, worldFromEnvironment), MEMBER(FrameUniforms, materialGlobals),
-                          MEMBER(FrameUniforms, froxelGrid), MEMBER(FrameUniforms, froxelPlaces) });
+    expectMembers(type, { MEMBER(FrameUniforms, clipFromWorld),
+                          MEMBER(FrameUniforms, worldFromClip),
+                          MEMBER(FrameUniforms, viewFromWorld),
+                          MEMBER(FrameUniforms, clipFromView),
+                          MEMBER(FrameUniforms, cameraPosition),
+                          MEMBER(FrameUniforms, exposure),
+                          MEMBER(FrameUniforms, time),
+                          MEMBER(FrameUniforms, sunDirection),
+                          MEMBER(FrameUniforms, sunIlluminance),
+                          MEMBER(FrameUniforms, ambient),
+                          MEMBER(FrameUniforms, skyFactor),
+                          MEMBER(FrameUniforms, irradianceSh),
+                          MEMBER(FrameUniforms, worldFromEnvironment),
+                          MEMBER(FrameUniforms, materialGlobals),
+                          MEMBER(FrameUniforms, froxelGrid),
+                          MEMBER(FrameUniforms, froxelPlaces),
+                          MEMBER(FrameUniforms, fogMedium),
+                          MEMBER(FrameUniforms, fogLight),
+                          MEMBER(FrameUniforms, fogSun),
+                          MEMBER(FrameUniforms, fogSunDirection),
+                          MEMBER(FrameUniforms, contactShadows) });
     EXPECT_EQ(mCompiler.get_declared_struct_size(type), sizeof(FrameUniforms));
 }
 
