@@ -11,6 +11,7 @@
 
 namespace filament::shader::glsl {
 
+using glm::abs;
 using glm::acos;
 using glm::atan;
 using glm::clamp;
@@ -21,6 +22,7 @@ using glm::exp;
 using glm::exp2;
 using glm::floor;
 using glm::fract;
+using glm::inversesqrt;
 using glm::log;
 using glm::log2;
 using glm::max;

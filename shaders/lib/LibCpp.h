@@ -51,6 +51,7 @@ namespace {
 #include "shaders/lib/reflection.glsl"
 #include "shaders/lib/refraction.glsl"
 #include "shaders/lib/sampling.glsl"
+#include "shaders/lib/screen_occlusion.glsl"
 #include "shaders/lib/sheen.glsl"
 #include "shaders/lib/specular.glsl"
 #include "shaders/lib/subsurface.glsl"

@@ -101,6 +101,7 @@ std::vector<Row> colorRows();
 std::vector<Row> imageRows();    ///< aa, ao, ibl
 std::vector<Row> areaRows();     ///< ltc, profiles, and the range of areas of light
 std::vector<Row> geometryRows(); ///< light, sampling, tangent
+std::vector<Row> screenRows();   ///< screen_occlusion
 
 /// An argument that the row does not use has an empty interval.
 inline bool isUsed(Argument const& argument) { return argument.low != argument.high; }

@@ -7,7 +7,7 @@ std::span<const Row> rows() {
     static const std::vector<Row> all = [] {
         std::vector<Row> joined;
         for (auto const& source : { mathRows(), brdfRows(), layerRows(), scatterRows(), detailRows(), colorRows(),
-                                    imageRows(), areaRows(), geometryRows() })
+                                    imageRows(), areaRows(), geometryRows(), screenRows() })
             joined.insert(joined.end(), source.begin(), source.end());
         return joined;
     }();
