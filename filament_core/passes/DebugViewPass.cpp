@@ -35,12 +35,15 @@ PassShadows shadowsOrNone(FrameContext const& context, FrameTargets const& targe
 BindGroupHandle picturesOf(PassContext& pass, FrameContext const& context, FrameTargets const& targets) {
     shader::MaterialPackage const& package = context.resources.debugView->package;
     const SamplerHandle nearest = context.resources.samplers.nearest;
-    const std::array<BindGroupEntry, 2> entries{ {
+    const std::array<BindGroupEntry, 3> entries{ {
             { .binding = package.findParameter("picture")->binding,
               .texture = pass.texture(targets.color),
               .sampler = nearest },
             { .binding = package.findParameter("sceneDepth")->binding,
               .texture = pass.texture(targets.depth),
+              .sampler = nearest },
+            { .binding = package.findParameter("occlusion")->binding,
+              .texture = targets.occlusion ? pass.texture(targets.occlusion) : context.resources.white,
               .sampler = nearest },
     } };
     return pass.bindGroup(package.layout[shader::kGroupMaterial], entries, package.name);
@@ -65,6 +68,7 @@ void addDebugViewPass(FrameGraph& graph, FrameContext const& context, FrameTarge
                 pass.readSampled(targets.color);
                 pass.readSampled(targets.depth);
                 if (targets.shadowDepths) pass.readSampled(targets.shadowDepths);
+                if (targets.occlusion) pass.readSampled(targets.occlusion);
                 pass.writeColor(0, targets.output, { .overwrites = true });
             },
             [of = &context, inputs](PassContext& pass) { return choose(pass, *of, inputs); },

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/Frame.h"
 
+#include "filament_core/passes/AmbientOcclusionPass.h"
 #include "filament_core/passes/ColorPass.h"
 #include "filament_core/passes/DebugViewPass.h"
 #include "filament_core/passes/DepthPass.h"
@@ -90,6 +91,7 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     FrameTargets targets = beginFrame(graph, context, output);
     addShadowPass(graph, context, targets);
     addDepthPass(graph, context, targets);
+    addAmbientOcclusionPass(graph, context, targets);
     declareLastPicture(graph, context, targets);
     addColorPass(graph, context, targets);
     addLastPicturePasses(graph, context, targets);

@@ -39,6 +39,7 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .copiedPixels = packet.mainView().picture.pixels(),
                         .quality = view.quality,
                         .fog = view.effects.fog,
+                        .ambientOcclusion = view.effects.ambientOcclusion,
                         .debugView = view.debugView,
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,

@@ -43,6 +43,7 @@ void countDraws(DrawLists const& draws, ViewCounts& counts) {
     counts.litDraws = countLit(draws.opaque) + countLit(draws.blended);
     counts.blendedDraws = static_cast<uint32_t>(draws.blended.size());
     counts.opaqueDraws = static_cast<uint32_t>(draws.opaque.size());
+    counts.opaqueLitDraws = countLit(draws.opaque);
     counts.refractiveDraws = countRefractive(draws.opaque) + countRefractive(draws.blended);
     counts.reflectiveDraws = countReflective(draws.opaque) + countReflective(draws.blended);
 }

@@ -41,9 +41,10 @@ EffectDemand demandOfDiscs(uint32_t inView, uint32_t outOfView) {
 
 EffectDemand demandOfOcclusion(DemandInput const& input) {
     if (input.quality.ao == AmbientOcclusionTerm::Off) return { .reason = DemandReason::SwitchedOff };
+    if (input.ambientOcclusion.intensity == 0) return { .reason = DemandReason::HasNoIntensity };
     if (input.counts.opaqueDraws == 0) return { .reason = DemandReason::NothingOpaque };
-    if (!input.hasIndirectLight || input.counts.litDraws == 0) return { .reason = DemandReason::NothingIndirect };
-    return { true, DemandReason::DarkensIndirectLight, input.counts.litDraws };
+    if (!input.hasIndirectLight || input.counts.opaqueLitDraws == 0) return { .reason = DemandReason::NothingIndirect };
+    return { true, DemandReason::DarkensIndirectLight, input.counts.opaqueLitDraws };
 }
 
 /// `draws` see the picture, if that is on.
@@ -268,6 +269,8 @@ std::string describe(Effect effect, EffectDemand const& demand) {
         return describeNobody(effect);
     case DemandReason::HasNoDensity:
         return "its density or opacity is 0";
+    case DemandReason::HasNoIntensity:
+        return "its intensity is 0";
     case DemandReason::SwitchedOff:
         return describeSwitch(effect);
     case DemandReason::NothingReceives:

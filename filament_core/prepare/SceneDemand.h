@@ -73,6 +73,7 @@ enum class DemandReason : uint8_t {
     NothingOpaque,     ///< in view
     NothingAsks,       ///< no light in view, or no surface
     HasNoDensity,      ///< or no opacity
+    HasNoIntensity,    ///< it would change nothing
 };
 
 struct EffectDemand {
@@ -100,6 +101,7 @@ struct DemandInput {
     uint32_t copiedPixels = 0; ///< of the picture, for what refracts it
     Quality quality{};
     Fog fog{}; ///< within its ranges
+    AmbientOcclusion ambientOcclusion{};
     DebugView debugView = DebugView::None;
     uint32_t cascades = 0, atlasSize = 0;         ///< of the shadows
     uint32_t discsInView = 0, discsOutOfView = 0; ///< of suns that show theirs

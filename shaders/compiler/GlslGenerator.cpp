@@ -272,8 +272,9 @@ Result<void> litFragment(StageText& out, MaterialDefinition const& definition, M
     if (done && (variantKey & kVariantPunctual) != 0)
         done = includeAll(out, { "shaders/lib/ltc.glsl", "shaders/lib/profiles.glsl" });
     if (done && definition.specularAntiAliasing.enabled) done = out.include("shaders/lib/aa.glsl");
-    if (done) done = out.include("shaders/lib/occlusion.glsl");
-    if (done && needs.has("HAS_AMBIENT_OCCLUSION")) done = out.include("shaders/lib/ao.glsl");
+    if (done)
+        done = includeAll(out,
+                          { "shaders/lib/occlusion.glsl", "shaders/lib/ao.glsl", "shaders/lib/screen_occlusion.glsl" });
     if (done && needs.has("HAS_IRIDESCENCE"))
         done = includeAll(out, { "shaders/lib/iridescence.glsl", "shaders/lib/refraction.glsl" });
     if (done && refracts(definition))

@@ -51,7 +51,7 @@ enum PassBinding : uint8_t {
     kBindingSpecular = 3,    ///< samplerCube: pre-filtered environment, mip = roughness
     kBindingDfg = 4,         ///< sampler2D: split-sum terms
     kBindingIrradiance = 5,  ///< samplerCube: irradiance / pi
-    kBindingOcclusion = 6,   ///< sampler2D: ambient occlusion of what is opaque; r: visibility, or rgb: bent normal, a: visibility
+    kBindingOcclusion = 6,   ///< sampler2D: ambient occlusion of what is opaque; r: visibility; with bent normals gba: encodeLean() of the open direction
     kBindingSceneDepth = 7,  ///< sampler2D: distance along the view of what is opaque, in metres, with levels
     kBindingFog = 8,         ///< samplerCube: the environment, as fog sees it
     kBindingPicture = 9,     ///< sampler2D: what is opaque in the picture, pre-exposed, with blurred levels

@@ -1,8 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
-// Occlusion of ambient light by the surroundings (ambientOcclusion, bentNormal), and by the surface itself, of what
-// reaches a normal from a map from below.
+// Occlusion of ambient light by the surroundings, as the material knows them (ambientOcclusion, bentNormal) and as the
+// picture shows them (Quality::ao), and by the surface itself, of what reaches a normal from a map from below.
 
-float ambientVisibility(MaterialInputs material) {
+const int kOcclusionBent = 2; // of quality_screenOcclusion
+
+// What the picture shows: xyz: how far the mean open direction leans from the normal, w: visibility.
+highp vec4 screenOcclusion() {
+    highp vec4 open = vec4(0.0, 0.0, 0.0, 1.0);
+    if (quality_screenOcclusion != 0) {
+        highp vec4 texel = texelFetch(passOcclusion, ivec2(gl_FragCoord.xy), 0);
+        open.w = texel.x;
+        if (quality_screenOcclusion == kOcclusionBent) open.xyz = decodeLean(texel.yzw);
+    }
+    return open;
+}
+
+float materialVisibility(MaterialInputs material) {
 #if defined(HAS_AMBIENT_OCCLUSION)
     return saturate(material.ambientOcclusion);
 #else
@@ -10,19 +23,42 @@ float ambientVisibility(MaterialInputs material) {
 #endif
 }
 
+// Both know some of the same surroundings: the smaller one knows more of them.
+float ambientVisibility(MaterialInputs material) {
+    float visibility = materialVisibility(material);
+    if (quality_screenOcclusion != 0) visibility = min(visibility, screenOcclusion().w);
+    return visibility;
+}
+
 // The mean direction of the diffuse light.
 highp vec3 openNormal(highp vec3 normal) {
 #if defined(HAS_BENT_NORMAL)
-    return shading_bentNormal;
+    highp vec3 open = shading_bentNormal;
 #else
-    return normal;
+    highp vec3 open = normal;
+#endif
+    if (quality_screenOcclusion == kOcclusionBent) {
+        highp vec3 leaning = open + screenOcclusion().xyz;
+        if (dot(leaning, leaning) > 1e-4) open = normalizeOrZero(leaning);
+    }
+    return open;
+}
+
+// Whether anything knows of surroundings: otherwise the code that uses them is left out.
+bool isOccluded() {
+#if defined(HAS_AMBIENT_OCCLUSION)
+    return true;
+#else
+    return quality_screenOcclusion != 0;
 #endif
 }
 
 // Diffuse light, given the light without occlusion; the removed part bounces according to the albedo.
 vec3 seenDiffuse(vec3 light, float visibility, vec3 albedo) {
-#if defined(HAS_AMBIENT_OCCLUSION) && defined(MULTI_BOUNCE_AMBIENT_OCCLUSION)
-    return light * multiBounceAo(visibility, albedo);
+#if defined(MULTI_BOUNCE_AMBIENT_OCCLUSION)
+    vec3 seen = light;
+    if (isOccluded()) seen *= multiBounceAo(visibility, albedo);
+    return seen;
 #else
     return light * visibility;
 #endif
@@ -32,18 +68,20 @@ vec3 seenDiffuse(vec3 light, float visibility, vec3 albedo) {
 vec3 seenReflection(vec3 light, float visibility, float nov, highp vec3 reflected, float alpha,
         highp float perceptualRoughness, vec3 albedo) {
     vec3 seen = light;
-#if defined(HAS_AMBIENT_OCCLUSION) && defined(SPECULAR_AMBIENT_OCCLUSION)
+#if defined(SPECULAR_AMBIENT_OCCLUSION)
+    if (isOccluded()) {
 #if defined(SPECULAR_OCCLUSION_BENT_NORMALS)
-    highp float cosine = dot(openNormal(shading_normal), normalizeOrZero(reflected));
-    highp float visible = specularOcclusionCones(visibility, cosine, perceptualRoughness);
+        highp float cosine = dot(openNormal(shading_normal), normalizeOrZero(reflected));
+        highp float visible = specularOcclusionCones(visibility, cosine, perceptualRoughness);
 #else
-    highp float visible = specularOcclusion(nov, visibility, alpha);
+        highp float visible = specularOcclusion(nov, visibility, alpha);
 #endif
 #if defined(MULTI_BOUNCE_AMBIENT_OCCLUSION)
-    seen *= multiBounceAo(visible, albedo);
+        seen *= multiBounceAo(visible, albedo);
 #else
-    seen *= visible;
+        seen *= visible;
 #endif
+    }
 #endif
     return seen;
 }

@@ -70,6 +70,30 @@ TEST(SceneDemand, NeedsContactShadowsOnlyForLightsThatAskOverSurfacesThatReceive
     EXPECT_FALSE(demand(Effect::DepthPrepass).isNeeded);
 }
 
+TEST(SceneDemand, NeedsAmbientOcclusionOnlyWhereIndirectLightMeetsWhatIsOpaque) {
+    DemandInput input{ .counts = { .litDraws = 3, .opaqueDraws = 2, .opaqueLitDraws = 2 }, .hasIndirectLight = true };
+    const auto described = [&] {
+        const SceneDemand demand = findDemand(input);
+        EXPECT_EQ(demand.needs(Effect::DepthPrepass), demand.needs(Effect::AmbientOcclusion));
+        return describe(Effect::AmbientOcclusion, demand.of(Effect::AmbientOcclusion));
+    };
+    EXPECT_EQ(described(), "switched off: ao=off");
+    input.quality.ao = AmbientOcclusionTerm::Sao;
+    EXPECT_EQ(described(), "darkens indirect light of 2 draws");
+    EXPECT_TRUE(findDemand(input).needs(Effect::AmbientOcclusion));
+    input.ambientOcclusion.intensity = 0;
+    EXPECT_EQ(described(), "its intensity is 0");
+    input.ambientOcclusion.intensity = 1;
+    input.hasIndirectLight = false;
+    EXPECT_EQ(described(), "no indirect light is seen");
+    input.hasIndirectLight = true;
+    input.counts.opaqueLitDraws = 0; // what is lit blends
+    EXPECT_EQ(described(), "no indirect light is seen");
+    EXPECT_FALSE(findDemand(input).needs(Effect::AmbientOcclusion));
+    input.counts.opaqueDraws = 0;
+    EXPECT_EQ(described(), "nothing opaque is visible");
+}
+
 TEST(SceneDemand, NeedsLightOnlyWhereItMeetsALitSurface) {
     ViewCounts counts{ .lights = 2, .suns = 1, .litDraws = 1 };
     const Effect lights[] = { Effect::Sun, Effect::LightList, Effect::IndirectLight };

@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/passes/AmbientOcclusionPass.h"
+
+#include "filament_core/passes/FullScreenPass.h"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+namespace filament::passes {
+namespace {
+
+using backend::Format;
+using framegraph::FrameGraph;
+using framegraph::GraphTextureDesc;
+using framegraph::TextureId;
+
+constexpr std::string_view kPointInputs[] = { "distances" };
+constexpr FullScreenParameter kPointValues[] = { { "rays", ParameterType::Float4 },
+                                                 { "reach", ParameterType::Float4 },
+                                                 { "last", ParameterType::Float2 },
+                                                 { "intensity", ParameterType::Float } };
+constexpr FullScreenInterface kPoints{ .pass = "ambient occlusion", .inputs = kPointInputs, .values = kPointValues };
+constexpr std::string_view kFilterInputs[] = { "occlusion", "distances" };
+constexpr FullScreenParameter kBlurValues[] = { { "last", ParameterType::Float2 },
+                                                { "lastTexel", ParameterType::Float2 },
+                                                { "axis", ParameterType::Float2 },
+                                                { "stride", ParameterType::Float },
+                                                { "deviation", ParameterType::Float } };
+constexpr FullScreenInterface kOcclusionBlur{ .pass = "occlusion blur",
+                                              .inputs = kFilterInputs,
+                                              .values = kBlurValues };
+constexpr FullScreenParameter kUpsampleValues[] = { { "last", ParameterType::Float2 },
+                                                    { "lastTexel", ParameterType::Float2 } };
+constexpr FullScreenInterface kUpsample{ .pass = "occlusion upsample",
+                                         .inputs = kFilterInputs,
+                                         .values = kUpsampleValues };
+
+/// The grids of shaders/post/occlusion_places.glsl.
+struct OcclusionGrid {
+    int32_t code;
+    uint2 size;
+    uint2 stride; ///< pixels from texel to texel
+};
+
+OcclusionGrid gridOf(AmbientOcclusionResolution resolution, uint2 view) {
+    const uint2 half{ (view.x + 1) / 2, (view.y + 1) / 2 };
+    switch (resolution) {
+    case AmbientOcclusionResolution::Half:
+        return { 1, half, { 2, 2 } };
+    case AmbientOcclusionResolution::Checkerboard:
+        return { 2, { half.x, view.y }, { 2, 1 } };
+    case AmbientOcclusionResolution::Full:
+        break;
+    }
+    return { 0, view, { 1, 1 } };
+}
+
+float2 lastOf(uint2 size) { return { static_cast<float>(size.x - 1), static_cast<float>(size.y - 1) }; }
+
+/// How the rays of pixels are computed: rays = pixel * xy + zw, and (d * ray, -d) is the point of distance d.
+float4 raysOf(float4x4 const& clip, uint2 size) {
+    const double x = clip[0].x, y = clip[1].y;
+    return { static_cast<float>(2.0 / size.x / x), static_cast<float>(2.0 / size.y / y),
+             static_cast<float>((1.0 / size.x - 1.0 + clip[2].x) / x),
+             static_cast<float>((1.0 / size.y - 1.0 + clip[2].y) / y) };
+}
+
+/// The fixed inputs of all passes of the effect.
+struct OcclusionSource {
+    FrameContext const& context;
+    TextureId distances;
+    OcclusionGrid grid;
+    Format format;
+
+    TextureId texture(FrameGraph& graph, uint2 size, std::string_view name) const {
+        return graph.createTexture({ .width = size.x, .height = size.y, .format = format, .name = name });
+    }
+};
+
+TextureId addPoints(FrameGraph& graph, OcclusionSource const& from) {
+    FrameContext const& context = from.context;
+    Quality const& quality = context.view->quality;
+    const AmbientOcclusion effect = clamped(context.view->effects).ambientOcclusion;
+    const uint2 size = context.settings.size;
+    const float4 rays = raysOf(context.packet.mainView().uniforms.clipFromView, size);
+    const float radius = effect.radiusMeters;
+    const std::array constants{
+        EffectConstant{ "grid", from.grid.code },
+        EffectConstant{ "samples", quality.ao == AmbientOcclusionTerm::Sao ? int32_t{ quality.aoSamples } : 0 },
+        EffectConstant{ "slices", int32_t{ quality.aoSlices } }, EffectConstant{ "bentNormals", quality.aoBentNormals }
+    };
+    const std::array values{ FullScreenValue{ "rays", rays },
+                             FullScreenValue{ "reach", float4(radius, 1 / radius, radius / std::abs(rays.x),
+                                                              static_cast<float>(std::max(size.x, size.y)) / 2) },
+                             FullScreenValue{ "last", lastOf(size) },
+                             FullScreenValue{ "intensity", effect.intensity } };
+    const std::array inputs{ FullScreenInput{ .name = "distances", .texture = from.distances } };
+    const TextureId target = from.texture(graph, from.grid.size, "occlusion of points");
+    addFullScreenPass(graph, context,
+                      { .name = "ambient occlusion",
+                        .material = context.resources.effects->get("ambient_occlusion", constants, kPoints),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = target });
+    return target;
+}
+
+/// Surfaces closer together than this part of the radius share what hides them.
+constexpr float kDeviation = 0.1f;
+
+TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occlusion, bool alongX) {
+    FrameContext const& context = from.context;
+    const std::array constants{ EffectConstant{ "grid", from.grid.code } };
+    const float radius = clamped(context.view->effects).ambientOcclusion.radiusMeters;
+    const std::array values{ FullScreenValue{ "last", lastOf(context.settings.size) },
+                             FullScreenValue{ "lastTexel", lastOf(from.grid.size) },
+                             FullScreenValue{ "axis", alongX ? float2(1, 0) : float2(0, 1) },
+                             FullScreenValue{ "stride",
+                                              static_cast<float>(alongX ? from.grid.stride.x : from.grid.stride.y) },
+                             FullScreenValue{ "deviation", radius * kDeviation } };
+    const std::array inputs{ FullScreenInput{ .name = "occlusion", .texture = occlusion },
+                             FullScreenInput{ .name = "distances", .texture = from.distances } };
+    const TextureId target =
+            from.texture(graph, from.grid.size, alongX ? "occlusion, half blurred" : "occlusion, blurred");
+    addFullScreenPass(graph, context,
+                      { .name = "occlusion blur",
+                        .material = context.resources.effects->get("occlusion_blur", constants, kOcclusionBlur),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = target });
+    return target;
+}
+
+TextureId addUpsample(FrameGraph& graph, OcclusionSource const& from, TextureId occlusion) {
+    FrameContext const& context = from.context;
+    const std::array constants{ EffectConstant{ "grid", from.grid.code } };
+    const std::array values{ FullScreenValue{ "last", lastOf(context.settings.size) },
+                             FullScreenValue{ "lastTexel", lastOf(from.grid.size) } };
+    const std::array inputs{ FullScreenInput{ .name = "occlusion", .texture = occlusion },
+                             FullScreenInput{ .name = "distances", .texture = from.distances } };
+    const TextureId target = from.texture(graph, context.settings.size, "occlusion");
+    addFullScreenPass(graph, context,
+                      { .name = "occlusion upsample",
+                        .material = context.resources.effects->get("occlusion_upsample", constants, kUpsample),
+                        .inputs = inputs,
+                        .values = values,
+                        .target = target });
+    return target;
+}
+
+} // namespace
+
+void addAmbientOcclusionPass(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
+    if (!context.packet.demand.needs(prepare::Effect::AmbientOcclusion)) return;
+    FILAMENT_ASSERT(targets.distances, "a frame with ambient occlusion has distances");
+    Quality const& quality = context.view->quality;
+    const OcclusionSource from{ context, targets.distances, gridOf(quality.aoResolution, context.settings.size),
+                                quality.aoBentNormals ? Format::RGBA8 : Format::R8 };
+    targets.occlusion = addPoints(graph, from);
+    if (quality.aoBlur) {
+        targets.occlusion = addBlur(graph, from, targets.occlusion, true);
+        targets.occlusion = addBlur(graph, from, targets.occlusion, false);
+    }
+    if (from.grid.code != 0) targets.occlusion = addUpsample(graph, from, targets.occlusion);
+}
+
+} // namespace filament::passes

@@ -1,0 +1,304 @@
+// SPDX-License-Identifier: Apache-2.0
+// Quality::ao on both APIs: visibilities are compared with rays that are traced through the same squares on the CPU; what
+// it must not change has the bits that it had.
+#include "tests/filament_core/engine/ShadowStage.h"
+#include "tests/filament_core/engine/WhiteEnvironment.h"
+
+#include <array>
+
+namespace filament {
+namespace {
+
+using test::kBothApis;
+using Term = AmbientOcclusionTerm;
+using Resolution = AmbientOcclusionResolution;
+
+constexpr Term kTerms[] = { Term::Sao, Term::Gtao };
+constexpr Resolution kResolutions[] = { Resolution::Full, Resolution::Half, Resolution::Checkerboard };
+
+// ---- squares, on the device and on the CPU
+
+/// A square of half side 1, placed.
+using Placed = double4x4;
+
+Placed placed(double3 at, double3 halfSize = double3(1), double turn = 0, double3 axis = { 0, 1, 0 }) {
+    return glm::translate(double4x4(1), at) * glm::rotate(double4x4(1), turn, axis) *
+           glm::scale(double4x4(1), halfSize);
+}
+
+struct Ray {
+    double3 from, along;
+};
+
+/// The distance along a ray, or infinity.
+double distanceTo(Placed const& square, Ray const& ray) {
+    const double4x4 local = glm::inverse(square);
+    const double3 from(local * double4(ray.from, 1)), along(local * double4(ray.along, 0));
+    const double t = -from.z / along.z;
+    const double3 at = from + along * t;
+    const bool isHit = t > 1e-9 && std::abs(at.x) <= 1 && std::abs(at.y) <= 1;
+    return isHit ? t : std::numeric_limits<double>::infinity();
+}
+
+struct Found {
+    double distance = std::numeric_limits<double>::infinity();
+    double3 normal{ 0 };
+};
+
+Found nearestOf(std::span<const Placed> squares, Ray const& ray) {
+    Found found;
+    for (Placed const& square : squares) {
+        const double distance = distanceTo(square, ray);
+        if (distance >= found.distance) continue;
+        const double3 normal = glm::normalize(double3(square[2]));
+        found = { distance, glm::dot(normal, ray.along) < 0 ? normal : -normal };
+    }
+    return found;
+}
+
+/// The cosine-weighted part of the hemisphere in which nothing lies within the radius, by 24 x 48 rays.
+double openAt(std::span<const Placed> squares, double3 point, double3 normal, double radius) {
+    const double3 x =
+            glm::normalize(glm::cross(std::abs(normal.x) < 0.5 ? double3(1, 0, 0) : double3(0, 1, 0), normal));
+    const double3 y = glm::cross(normal, x);
+    int open = 0;
+    for (int i = 0; i < 24; ++i) {
+        for (int j = 0; j < 48; ++j) {
+            const double r = std::sqrt((i + 0.5) / 24), angle = 2 * glm::pi<double>() * (j + 0.5) / 48;
+            const double3 along = x * (r * std::cos(angle)) + y * (r * std::sin(angle)) + normal * std::sqrt(1 - r * r);
+            open += nearestOf(squares, { point + normal * 1e-6, along }).distance > radius;
+        }
+    }
+    return open / (24.0 * 48.0);
+}
+
+Ray rayOfPixel(View const& view, uint32_t x, uint32_t y) {
+    const double4x4 clip(view.camera.clipFromView(static_cast<float>(view.size.x) / static_cast<float>(view.size.y)));
+    const double2 ndc((x + 0.5) / view.size.x * 2 - 1, (y + 0.5) / view.size.y * 2 - 1);
+    const double3 along = double3x3(view.camera.worldFromView) * double3(ndc.x / clip[0][0], ndc.y / clip[1][1], -1);
+    return { view.camera.position(), glm::normalize(along) };
+}
+
+struct OcclusionStage : test::ShadowStage {
+    WhiteEnvironment environment{ engine };
+    Renderer renderer{ engine };
+
+    explicit OcclusionStage(Backend backend) : ShadowStage(backend) {}
+
+    Scene sceneOf(std::span<const Placed> squares, View const& view) {
+        Scene scene(engine);
+        for (Placed const& one : squares) square.add(scene, white, one);
+        environment.light(scene, view.camera);
+        return scene;
+    }
+    Image drawVisibility(Scene const& scene, View view) {
+        view.debugView = DebugView::Occlusion;
+        Result<Image> image = renderer.renderToImage(scene, view);
+        EXPECT_TRUE(image.ok());
+        return image ? std::move(*image) : Image{};
+    }
+};
+
+View occludedView(double3 eye, double3 at, Term term, double radius, uint2 size = { 96, 64 }) {
+    View view{ .camera = Camera::lookAt(eye, at, { .verticalFovDegrees = 50, .nearMeters = 0.05f }, {}, { 0, 0, 1 }),
+               .size = size };
+    view.quality.shadows = ShadowFilter::Off;
+    view.quality.ao = term;
+    view.quality.aoResolution = Resolution::Full;
+    view.effects.ambientOcclusion.radiusMeters = static_cast<float>(radius);
+    return view;
+}
+
+struct Error {
+    double mean = 0, rms = 0, largest = 0;
+};
+
+/// Of the visibilities of a picture, over all pixels that show a square.
+Error errorOf(Image const& image, View const& view, std::span<const Placed> squares) {
+    Error error;
+    int count = 0;
+    for (uint32_t y = 0; y < view.size.y; ++y) {
+        for (uint32_t x = 0; x < view.size.x; ++x) {
+            const Ray ray = rayOfPixel(view, x, y);
+            const Found found = nearestOf(squares, ray);
+            if (!std::isfinite(found.distance)) continue;
+            const double3 point = ray.from + ray.along * found.distance;
+            const double open = openAt(squares, point, found.normal, view.effects.ambientOcclusion.radiusMeters);
+            const double off = test::bytePixel(image, x, y).x - open;
+            error.mean += off, error.rms += off * off, ++count;
+            error.largest = std::max(error.largest, std::abs(off));
+        }
+    }
+    error.mean /= count;
+    error.rms = std::sqrt(error.rms / count);
+    return error;
+}
+
+// ---- closed forms
+
+TEST(AmbientOcclusion, APlaneIsOpenFromEveryDirection) {
+    const std::array squares{ placed({ 0, 0, 0 }, double3(10)) };
+    for (const Backend backend : kBothApis) {
+        OcclusionStage stage(backend);
+        for (const Term term : kTerms) {
+            for (const double3 eye : { double3(0.1, 0, 2), double3(2, 1, 0.6), double3(5, 0, 0.3) }) {
+                const View view = occludedView(eye, { 0, 0, 0 }, term, 0.5);
+                const Image image = stage.drawVisibility(stage.sceneOf(squares, view), view);
+                float least = 1;
+                for (uint32_t y = 0; y < view.size.y; ++y)
+                    for (uint32_t x = 0; x < view.size.x; ++x) least = std::min(least, test::bytePixel(image, x, y).x);
+                EXPECT_GE(least, 254.0f / 255) << toString(backend) << ' ' << toString(term) << ' ' << eye.z;
+            }
+        }
+    }
+}
+
+struct ClosedForm {
+    const char* name;
+    std::vector<Placed> squares;
+    double3 eye;
+    double mostOfSao, mostOfGtao; ///< root mean square
+};
+
+std::vector<ClosedForm> closedForms() {
+    const double quarter = glm::half_pi<double>();
+    const Placed floor = placed({ 0, 0, 0 }, double3(3));
+    std::vector<ClosedForm> forms;
+    forms.push_back(
+            { "an edge", { floor, placed({ -0.3, 0, 1 }, { 1, 3, 1 }, quarter) }, { 1.6, -0.8, 1.1 }, 0.08, 0.04 });
+    forms.push_back({ "a corner",
+                      { floor, placed({ -0.3, 0, 1 }, { 1, 3, 1 }, quarter),
+                        placed({ 0, 0.4, 1 }, { 3, 1, 1 }, quarter, { 1, 0, 0 }) },
+                      { 1.4, -1.2, 1.2 },
+                      0.08,
+                      0.05 });
+    forms.push_back({ "a gap", { floor, placed({ 0, 0, 0.1 }, { 0.4, 0.3, 1 }) }, { 1.5, -1.0, 0.5 }, 0.13, 0.06 });
+    return forms;
+}
+
+TEST(AmbientOcclusion, IsThatOfTracedRaysOfTheSameRadius) {
+    OcclusionStage stage(Backend::Vulkan);
+    for (ClosedForm const& form : closedForms()) {
+        for (const Term term : kTerms) {
+            View view = occludedView(form.eye, { 0, 0, 0.15 }, term, 0.4);
+            view.quality.aoSamples = 16;
+            view.quality.aoSlices = 3;
+            const Scene scene = stage.sceneOf(form.squares, view);
+            const Error error = errorOf(stage.drawVisibility(scene, view), view, form.squares);
+            const double most = term == Term::Sao ? form.mostOfSao : form.mostOfGtao;
+            EXPECT_LT(error.rms, most) << form.name << ' ' << toString(term);
+            RecordProperty(std::string(form.name) + toString(term), std::to_string(error.rms));
+            view.effects.ambientOcclusion.radiusMeters = 0.8f; // twice of what was asked: the bound notices
+            const Image wrong = stage.drawVisibility(scene, view);
+            view.effects.ambientOcclusion.radiusMeters = 0.4f;
+            EXPECT_GT(errorOf(wrong, view, form.squares).rms, most) << form.name << ' ' << toString(term);
+        }
+    }
+}
+
+// ---- any input
+
+TEST(AmbientOcclusion, IsFiniteForAnyRadiusAndPlace) {
+    const std::array squares{ placed({ 0, 0, 0 }), placed({ -0.3, 0, 1 }, double3(1), glm::half_pi<double>()) };
+    OcclusionStage stage(Backend::Vulkan);
+    for (const Term term : kTerms) {
+        for (const double radius : { 1e-3, 0.3, 1e3 }) {
+            View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, term, radius, { 33, 21 });
+            view.quality.aoBentNormals = true;
+            const Scene scene = stage.sceneOf(squares, view);
+            const Image image = test::renderLinear(stage.engine, scene, view);
+            const test::Extremes found = test::extremesOf(image);
+            EXPECT_GE(found.least, 0.0f);
+            EXPECT_LE(found.most, 1.001f) << "a furnace gains nothing";
+            const Image visibility = stage.drawVisibility(scene, view);
+            EXPECT_EQ(test::bytePixel(visibility, 0, 0).x, 1.0f) << "the sky is open";
+        }
+        // From 10^7 m away, through a lens of as much: as from nearby, but for the perspective.
+        View view = occludedView({ 1.6e7, -0.8e7, 1.1e7 }, { 0, 0, 0 }, term, 0.4, { 33, 21 });
+        view.camera.lens.verticalFovDegrees = 6e-6f;
+        const Image far = stage.drawVisibility(stage.sceneOf(squares, view), view);
+        for (uint32_t y = 0; y < far.height; ++y)
+            for (uint32_t x = 0; x < far.width; ++x) EXPECT_GE(test::bytePixel(far, x, y).x, 0.0f);
+    }
+}
+
+// ---- what it darkens
+
+TEST(AmbientOcclusion, LeavesEverythingElseAlone) {
+    const std::array squares{ placed({ 0, 0, 0 }), placed({ -0.3, 0, 1 }, double3(1), glm::half_pi<double>()) };
+    OcclusionStage stage(Backend::Vulkan);
+    View off = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, Term::Off, 0.4);
+    View on = off;
+    on.quality.ao = Term::Gtao;
+    Scene scene = stage.sceneOf(squares, off);
+    scene.add(SunLight{ .directionWorld = { -0.4f, 0.3f, -1 }, .illuminance = Lux{ 20'000 } });
+    const Image plain = test::renderLinear(stage.engine, scene, off),
+                dark = test::renderLinear(stage.engine, scene, on);
+    EXPECT_GT(test::differingPixels(plain, dark), 500u);
+    on.effects.ambientOcclusion.intensity = 0;
+    EXPECT_EQ(test::differingPixels(plain, test::renderLinear(stage.engine, scene, on)), 0u) << "an intensity of 0";
+    on.effects.ambientOcclusion.intensity = 1;
+    scene.setIndirectLight({}, {});
+    EXPECT_EQ(test::differingPixels(test::renderLinear(stage.engine, scene, off),
+                                    test::renderLinear(stage.engine, scene, on)),
+              0u)
+            << "direct light";
+}
+
+TEST(AmbientOcclusion, DarkensWhiteSurfacesByTheVisibilityThatItShows) {
+    const std::array squares{ placed({ 0, 0, 0 }), placed({ -0.3, 0, 1 }, double3(1), glm::half_pi<double>()) };
+    OcclusionStage stage(Backend::Vulkan);
+    const Owned<Material> chalk =
+            test::loadMaterial(stage.engine, R"(material { name : plaster, shadingModel : lit, doubleSided : true,
+                             multiBounceAmbientOcclusion : false, specularAmbientOcclusion : none }
+            fragment { void material(inout MaterialInputs material) {
+                prepareMaterial(material);
+                material.baseColor.rgb = vec3(0.5);
+                material.roughness = 1.0;
+                material.reflectance = 0.0;
+            } })");
+    const Owned<MaterialInstance> plaster = stage.engine.own(stage.engine.createInstance(chalk));
+    View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, Term::Gtao, 0.4);
+    Scene scene(stage.engine);
+    for (Placed const& one : squares) stage.square.add(scene, plaster, one);
+    stage.environment.light(scene, view.camera);
+    const Image dark = test::renderLinear(stage.engine, scene, view);
+    const Image visibility = stage.drawVisibility(scene, view);
+    for (uint32_t y = 0; y < view.size.y; ++y) {
+        for (uint32_t x = 0; x < view.size.x; ++x) {
+            if (!std::isfinite(nearestOf(squares, rayOfPixel(view, x, y)).distance)) continue;
+            EXPECT_NEAR(test::halfPixel(dark, x, y).x, 0.5f * test::bytePixel(visibility, x, y).x, 2e-3f);
+        }
+    }
+}
+
+// ---- the same bits
+
+TEST(AmbientOcclusion, HasTheSameBitsOnBothApis) {
+    std::vector<Placed> squares{ placed({ 0, 0, 0 }, double3(2)) };
+    prepare::Random random(7);
+    for (int i = 0; i < 12; ++i) {
+        const double3 at(random.within(-1, 1), random.within(-1, 1), random.within(0, 0.6));
+        squares.push_back(placed(at, double3(random.within(0.1, 0.5)), random.within(0, 3),
+                                 glm::normalize(double3(random.within(-1, 1), 1, random.within(-1, 1)))));
+    }
+    OcclusionStage vulkan(Backend::Vulkan), gles(Backend::Gles);
+    for (int i = 0; i < 24; ++i) {
+        View view = occludedView({ 1.6, -0.8, 1.1 }, { 0, 0, 0 }, kTerms[i % 2], random.within(0.05, 1),
+                                 { 31u + static_cast<uint32_t>(i % 5), 20u + static_cast<uint32_t>(i % 3) });
+        view.quality.aoResolution = kResolutions[i % 3];
+        view.quality.aoBlur = i % 4 != 3;
+        view.quality.aoBentNormals = i % 5 == 1 || i % 5 == 4;
+        view.quality.aoSamples = static_cast<uint8_t>(3 + i);
+        view.quality.aoSlices = static_cast<uint8_t>(1 + i / 2 % 3);
+        view.samples = i % 7 == 3 ? 4 : 1;
+        if (i % 6 == 5) view.quality.depthPrepass = DepthPrepass::Off;
+        view.effects.ambientOcclusion.intensity = i % 8 == 6 ? 1.7f : 1.0f;
+        const Image a = test::renderLinear(vulkan.engine, vulkan.sceneOf(squares, view), view);
+        const Image b = test::renderLinear(gles.engine, gles.sceneOf(squares, view), view);
+        EXPECT_EQ(test::differingPixels(a, b), 0u) << "view " << i;
+    }
+}
+
+} // namespace
+} // namespace filament
