@@ -19,7 +19,8 @@ struct Words {
     std::string integrator = "path", samples = "256", error, maxBounces = "64", seed = "1", filter = "box",
                 occlusion = "auto", visibility = "correlated", fresnel = "schlick", diffuse = "lambert",
                 energy = "compensated", coupling = "engine", lobes = "both", rotation = "0", threads,
-                specularLight = "integral", diffuseLight = "integral", solidTint = "each-interface";
+                specularLight = "integral", diffuseLight = "integral", solidTint = "each-interface",
+                occlusionRadius = "0", occlusionRays = "64";
 };
 
 template <class T, size_t N>
@@ -138,6 +139,14 @@ Result<void> convertNumbers(Words const& words, Options& options) {
     if (!bounces) return invalidOption("--max-bounces", words.maxBounces, "a whole number from 1 to 4096");
     options.settings.maxBounces = *bounces;
 
+    const auto radius = tools::finiteNumber(words.occlusionRadius);
+    if (!radius || *radius < 0) return invalidOption("--ao-radius", words.occlusionRadius, "metres, 0 for none");
+    options.settings.occlusionRadius = *radius;
+
+    const auto rays = wholeNumber(words.occlusionRays, 1, 65536);
+    if (!rays) return invalidOption("--ao-rays", words.occlusionRays, "a whole number from 1 to 65536");
+    options.settings.occlusionRays = *rays;
+
     const auto seed = wholeNumber(words.seed, 0, ~0u);
     if (!seed) return invalidOption("--seed", words.seed, "a whole number from 0 to 4294967295");
     options.settings.seed = *seed;
@@ -169,6 +178,10 @@ void declare(CLI::App& app, Words& words, Options& options) {
     app.add_option("--seed", words.seed, "seed of the noise (1)");
     app.add_option("--filter", words.filter, "box: the mean over a pixel; center: its middle (box)");
     app.add_option("--occlusion-map", words.occlusion, "on, off or auto: with unoccluded only (auto)");
+    app.add_option("--ao-radius", words.occlusionRadius,
+                   "with unoccluded: metres within which surfaces dim indirect light, as ambient occlusion does (0)");
+    app.add_option("--ao-rays", words.occlusionRays, "rays for that, each sample of a pixel (64)");
+    app.add_flag("--ao-bent", options.settings.occlusionBends, "diffuse light comes from the mean open direction");
     app.add_option("--visibility", words.visibility, "correlated, fast or uncorrelated (correlated)");
     app.add_option("--fresnel", words.fresnel, "schlick or exact (schlick)");
     app.add_option("--diffuse", words.diffuse, "lambert or disney (lambert)");

@@ -2,6 +2,7 @@
 #include "tools/reference/PathTracer.h"
 
 #include "shaders/lib/LibCppDouble.h"
+#include "tools/reference/AmbientOcclusion.h"
 #include "tools/reference/Material.h"
 #include "tools/reference/Mixture.h"
 
@@ -16,7 +17,7 @@ namespace {
 // Pairs of dimensions of the sample's numbers: pair 0 is the pixel's, then six per bounce; layers have their own.
 enum BounceDimension : uint32_t { kChoices, kEnvironment, kReflection, kRoulette, kEmission, kSource, kPerBounce };
 constexpr uint32_t kFirstBounce = 1, kFirstLayer = 1u << 20, kColor = 1u << 21, kMixture = 1u << 22,
-                   kAreaPoint = 1u << 23;
+                   kAreaPoint = 1u << 23, kOpenDirections = 1u << 24;
 
 constexpr uint32_t kRouletteFrom = 4;      // before this event, no path ends by roulette
 constexpr uint32_t kMostEvents = 1u << 16; // limit of the dimensions of a path
@@ -59,7 +60,7 @@ struct PathTracer::Path {
 PathTracer::PathTracer(TracedScene const& scene, ReferenceSettings const& settings, double exposure, double3 background,
                        FogMedium fog)
         : mScene(scene), mSettings(settings), mExposure(exposure), mBackground(background), mFog(fog),
-          mUseOcclusion(settings.occlusionMap == Switch::On ||
+          mUseOcclusion(settings.occlusionRadius > 0 || settings.occlusionMap == Switch::On ||
                         (settings.occlusionMap == Switch::Auto && settings.integrator == Integrator::Unoccluded)) {}
 
 double3 PathTracer::radiance(Ray const& ray, SampleStream const& numbers, uint64_t& rays) const {
@@ -78,6 +79,8 @@ double3 PathTracer::follow(Path& path, std::optional<SurfaceSample> surface) con
         if (surface->transmits()) enterSurface(path, *surface);
         if (surface->mixture) meetPart(*surface, path.numbers.pair(kMixture + path.events).x);
         coverWithFilm(*surface);
+        if (mSettings.occlusionRadius > 0 && surface->scatters && surface->opacity >= 1)
+            occludeAmbientLight(mScene, mSettings, numbers, kOpenDirections, *surface, rays);
         sum += path.throughput * surface->emitted * emissionWeight(path);
         if (!surface->scatters || path.bounce >= mSettings.maxBounces) return sum;
         const Bsdf bsdf = bsdfAt(*surface);

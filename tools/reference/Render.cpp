@@ -33,6 +33,12 @@ Result<void> check(ReferenceView const& view, ReferenceSettings const& settings)
     if (!(settings.relativeError >= 0) || settings.relativeError > 1) {
         return refuse("relative error", settings.relativeError, "a number from 0 to 1");
     }
+    if (!(settings.occlusionRadius >= 0) || !std::isfinite(settings.occlusionRadius))
+        return refuse("occlusion radius", settings.occlusionRadius, "metres, 0 for none");
+    if (settings.occlusionRadius > 0 && settings.integrator == Integrator::Path)
+        return refuse("occlusion radius", "with paths, which find all occlusion", "the integrator unoccluded");
+    if (settings.occlusionRays < 1 || settings.occlusionRays > 65536)
+        return refuse("occlusion rays", settings.occlusionRays, "1 to 65536");
     BsdfModel const& bsdf = settings.bsdf;
     const bool isPrefiltered =
             bsdf.specularLight == SpecularLight::SplitSum || bsdf.diffuseLight == DiffuseLight::Harmonics;

@@ -44,7 +44,7 @@ double3 StandardLobes::mirroredView(SurfaceSample const& surface) const {
 
 // Like shaders/material/surface/occlusion.glsl, without bounces between occluders.
 double StandardLobes::specularOcclusionOf(SurfaceSample const& surface) const {
-    if (surface.bentNormal) {
+    if (surface.bentNormal && surface.bendsReflections) {
         const double3 mirrored(-mView.x, -mView.y, mView.z);
         const double cosine = glm::dot(mFrame.toLocal(*surface.bentNormal), mirrored);
         return lib::specularOcclusionCones(surface.occlusion, cosine, mRoughness);

@@ -88,6 +88,7 @@ struct SurfaceSample {
     double perceptualRoughness = 1;
     double occlusion = 1;              ///< of the material's map, [0, 1]
     std::optional<double3> bentNormal; ///< mean direction of unoccluded light; occlusion is then a cone around it
+    bool bendsReflections = true;      ///< that cone occludes reflections, too; otherwise they know the occlusion alone
     double2 uv{ 0.0 };                 ///< of the first set
 
     double2 stretchedAlpha{ 0.0 }; ///< of an anisotropic lobe, along the tangent and across it; 0: isotropic
