@@ -108,12 +108,16 @@ reference::BsdfModel bsdfOf(Quality const& quality) {
 
 Result<TracedPicture> trace(ReferenceScene const& scene, View const& view, uint32_t samplesPerPixel,
                             jobs::JobSystem& jobs, reference::Integrator integrator) {
+    const bool isOccluded = view.quality.ao != AmbientOcclusionTerm::Off;
     const reference::ReferenceSettings settings{ .integrator = integrator,
                                                  .samplesPerPixel = samplesPerPixel,
                                                  .filter = reference::PixelFilter::Center,
                                                  .bsdf = bsdfOf(view.quality),
                                                  .lightsCastShadows = view.quality.shadows != ShadowFilter::Off,
-                                                 .coloredShadows = view.quality.coloredShadows };
+                                                 .coloredShadows = view.quality.coloredShadows,
+                                                 .occlusionRadius =
+                                                         isOccluded ? view.effects.ambientOcclusion.radiusMeters : 0.0,
+                                                 .occlusionBends = view.quality.aoBentNormals };
     Result<reference::ReferenceImage> image =
             reference::render(scene, { view.camera, view.size, view.clearColor, view.effects.fog }, settings, jobs);
     if (!image) return image.error();
