@@ -504,6 +504,34 @@ public:
     void edit(CmdSetViewport& command) override { command.viewport.x += 1; }
 };
 
+/// The reach of ambient occlusion in the blocks of passes: a radius below 1 m, followed by its reciprocal.
+class OcclusionRadiusEdit final : public PayloadEdit {
+public:
+    void inspect(CommandView commands) override {
+        PayloadEdit::inspect(commands);
+        replay(commands, *this);
+    }
+    template <class C>
+    void execute(C const&) {}
+    void execute(CmdCreateBuffer const& command) {
+        if (command.desc.debugName == "pass blocks") mBlocks.insert(command.handle);
+    }
+
+    using PayloadEdit::edit;
+    void edit(CmdUpdateBuffer& command) override {
+        if (!mBlocks.contains(command.buffer)) return;
+        Bytes& bytes = copy(command.bytes);
+        for (size_t at = 0; at + 16 <= bytes.size(); at += 16) {
+            const float radius = readFloat(bytes, at);
+            const bool isReach = radius > 0 && radius < 1 && readFloat(bytes, at + sizeof(float)) == 1 / radius;
+            if (isReach) writeFloat(bytes, at, 1.02f * radius);
+        }
+    }
+
+private:
+    std::set<BufferHandle> mBlocks;
+};
+
 class DepthCompareEdit final : public StreamEdit {
 public:
     using StreamEdit::edit;
@@ -576,6 +604,7 @@ constexpr Mutation kMutations[] = {
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
     { "contactReach", "contact shadows 10 % shorter", make<ContactReachEdit> },
+    { "occlusionRadius", "ambient occlusion reaches 2 % farther", make<OcclusionRadiusEdit> },
     { "discWider", "the discs of suns 1 % wider", make<DiscWiderEdit> },
     { "areaEdge", "the first area light 1 % wider", make<AreaEdgeEdit> },
     { "profileTurn", "the last light profile turned by half a degree", make<ProfileTurnEdit> },
