@@ -86,6 +86,42 @@ void addContactPairs(std::vector<Pair>& all, const char* file) {
     all.push_back({ "contact shadows of a lamp out of reach", file, lamp(false), lamp(true), true });
 }
 
+std::function<void(Scene&, View&)> withOcclusion(AmbientOcclusionTerm term, AmbientOcclusionResolution resolution,
+                                                 bool bentNormals = false) {
+    return [=](Scene&, View& view) {
+        view.quality.shadows = ShadowFilter::Off;
+        view.quality.ao = term;
+        view.quality.aoResolution = resolution;
+        view.quality.aoBentNormals = bentNormals;
+        view.effects.ambientOcclusion.radiusMeters = 0.1f; // the model is 1 m large
+    };
+}
+
+void addOcclusion(std::vector<Pair>& all) {
+    constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
+    constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
+    using Term = AmbientOcclusionTerm;
+    using Resolution = AmbientOcclusionResolution;
+    const auto plain = withOcclusion(Term::Off, Resolution::Full);
+    for (const char* file : { kHelmet, kTokyo }) {
+        all.push_back({ "ao=sao, full", file, plain, withOcclusion(Term::Sao, Resolution::Full) });
+        all.push_back({ "ao=sao, half", file, plain, withOcclusion(Term::Sao, Resolution::Half) });
+        all.push_back({ "ao=gtao, full", file, plain, withOcclusion(Term::Gtao, Resolution::Full) });
+        all.push_back({ "ao=gtao, half", file, plain, withOcclusion(Term::Gtao, Resolution::Half) });
+    }
+    all.push_back({ "ao=gtao, checkerboard", kHelmet, plain, withOcclusion(Term::Gtao, Resolution::Checkerboard) });
+    all.push_back({ "ao=gtao, full, bent", kHelmet, plain, withOcclusion(Term::Gtao, Resolution::Full, true) });
+    const auto withoutSky = [](Term term) {
+        return [=](Scene& scene, View& view) {
+            scene.setIndirectLight({}, {});
+            scene.add(SunLight{ .directionWorld = kSunDirection, .illuminance = Lux{ 60'000 } });
+            view.quality.shadows = ShadowFilter::Off;
+            view.quality.ao = term;
+        };
+    };
+    all.push_back({ "ao, no indirect light", kHelmet, withoutSky(Term::Off), withoutSky(Term::Gtao), true });
+}
+
 std::vector<Pair> pairs() {
     constexpr const char* kHelmet = "FlightHelmet/FlightHelmet.gltf";
     constexpr const char* kTokyo = "LittlestTokyo/LittlestTokyo.glb";
@@ -137,6 +173,7 @@ std::vector<Pair> pairs() {
     all.push_back({ "a sun's disc behind the camera", kHelmet, disc(false), disc(true), true });
     addFogPairs(all, kHelmet);
     addContactPairs(all, kHelmet);
+    addOcclusion(all);
     return all;
 }
 
