@@ -1,4 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
+// Size: a list of small classes, one for each defect, and their table.
 #include "tools/conformance/Mutations.h"
 
 #include "shaders/interface/LtcTable.h"

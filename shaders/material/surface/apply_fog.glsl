@@ -49,7 +49,8 @@ highp vec4 fogOfFragment() {
 
 // FOG_COVERS: alpha is how much of the pixel the surface covers, and the colour contains it. FOG_ADDS: the surface adds to
 // what is behind, which has fog of its own. FOG_FILTERS: it multiplies what is behind, and fog in front hides the filter.
-void applyFog(inout highp vec4 color) {
+// seen: light of the picture behind, in the colour, which has its fog already; share: how much of the surface shows it.
+void applyFog(inout highp vec4 color, highp vec3 seen, highp vec3 share) {
     highp vec4 fog = fogOfFragment();
     highp float left = 1.0 - fog.w;
 #if defined(FOG_FILTERS)
@@ -57,8 +58,8 @@ void applyFog(inout highp vec4 color) {
 #elif defined(FOG_ADDS)
     color.rgb *= left;
 #elif defined(FOG_COVERS)
-    color.rgb = color.rgb * left + fog.rgb * color.a;
+    color.rgb = (color.rgb - seen) * left + fog.rgb * (vec3(1.0) - share) * color.a + seen;
 #else
-    color.rgb = color.rgb * left + fog.rgb;
+    color.rgb = (color.rgb - seen) * left + fog.rgb * (vec3(1.0) - share) + seen;
 #endif
 }

@@ -60,7 +60,7 @@ highp vec3 baseOfEnvironment(Surface surface) {
     specular = aboveHorizon(specular, shading_isBumped, reflected);
 #endif
 #if defined(REFLECTION_OF_PICTURE)
-    if (quality_screenReflections != 0) specular *= 1.0 - surface.mirrored.weight; // the rest: shadePicture()
+    if (quality_screenReflections != 0) specular *= 1.0 - surface.mirrored.weight; // the rest: reflectedPicture()
 #endif
     return diffuse + specular;
 }
@@ -100,22 +100,8 @@ highp vec3 addCoatOfEnvironment(Surface surface, highp vec3 below) {
 
 #if defined(REFRACTION_OF_PICTURE) || defined(REFLECTION_OF_PICTURE)
 
-// The light of the picture, through the surface or mirrored by its base, and through the layers above. Unlike that of the
-// environment it is pre-exposed. What surroundings hide is what the picture shows: nothing occludes it.
-highp vec3 shadePicture(Surface surface) {
-    highp vec3 light = vec3(0.0);
-#if defined(REFRACTION_OF_PICTURE)
-    if (quality_screenRefraction != 0) light += surface.through * surface.behind.light;
-#endif
-#if defined(REFLECTION_OF_PICTURE)
-    if (quality_screenReflections != 0) {
-        vec3 mirrored = surface.specularAlbedo * surface.mirrored.color * surface.mirrored.weight;
-#if defined(HAS_NORMAL)
-        mirrored = aboveHorizon(mirrored, shading_isBumped, shading_reflected);
-#endif
-        light += mirrored;
-    }
-#endif
+// What the layers above leave of light from the base.
+highp vec3 throughLayers(Surface surface, highp vec3 light) {
 #if defined(HAS_SHEEN)
     if (hasSheen(surface.sheen)) light *= sheenLeaves(surface.sheen);
 #endif
@@ -123,6 +109,27 @@ highp vec3 shadePicture(Surface surface) {
     if (surface.coat.strength > 0.0) light *= coatLeaves(surface.coat);
 #endif
     return light;
+}
+
+#endif
+
+// Light of the picture. Unlike that of the environment it is pre-exposed. What surroundings hide is what the picture shows:
+// nothing occludes it.
+#if defined(REFRACTION_OF_PICTURE)
+
+highp vec3 refractedPicture(Surface surface) {
+    return throughLayers(surface, surface.through * surface.behind.light);
+}
+
+#endif
+#if defined(REFLECTION_OF_PICTURE)
+
+highp vec3 reflectedPicture(Surface surface) {
+    vec3 mirrored = surface.specularAlbedo * surface.mirrored.color * surface.mirrored.weight;
+#if defined(HAS_NORMAL)
+    mirrored = aboveHorizon(mirrored, shading_isBumped, shading_reflected);
+#endif
+    return throughLayers(surface, mirrored);
 }
 
 #endif

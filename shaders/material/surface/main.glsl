@@ -14,8 +14,11 @@ void main() {
     Surface surface = surfaceOf(inputs);
     highp vec3 light = vec3(0.0);
     if (frameUniforms.ambient.x > 0.0) light = shadeEnvironment(surface) * frameUniforms.ambient.x; // else: none
-#if defined(REFRACTION_OF_PICTURE) || defined(REFLECTION_OF_PICTURE)
-    if (quality_screenRefraction != 0 || quality_screenReflections != 0) light += shadePicture(surface);
+#if defined(REFRACTION_OF_PICTURE)
+    if (quality_screenRefraction != 0) light += refractedPicture(surface);
+#endif
+#if defined(REFLECTION_OF_PICTURE)
+    if (quality_screenReflections != 0) light += reflectedPicture(surface);
 #endif
     addLights(surface, light);
 #if defined(BLEND_MODE_FADE)
@@ -26,7 +29,19 @@ void main() {
     addEmissive(inputs, color);
     blendPostLighting(inputs, color);
 #if defined(HAS_FOG)
-    if (quality_fog != 0) applyFog(color);
+    if (quality_fog != 0) {
+        highp vec3 seen = vec3(0.0), share = vec3(0.0);
+#if defined(REFRACTION_OF_PICTURE)
+        if (quality_screenRefraction != 0) {
+            seen = refractedPicture(surface);
+            share = saturate(surface.through * (vec3(1.0) - surface.behind.environment));
+#if defined(BLEND_MODE_FADE)
+            seen *= inputs.baseColor.a;
+#endif
+        }
+#endif
+        applyFog(color, seen, share);
+    }
 #endif
 #if defined(REFRACTION_OF_PICTURE)
     if (quality_screenRefraction == 2) color.rgb = codeOfBehind(surface.behind);

@@ -20,7 +20,7 @@ void main() {
 #endif
     blendPostLighting(inputs, color);
 #if defined(HAS_FOG)
-    if (quality_fog != 0) applyFog(color);
+    if (quality_fog != 0) applyFog(color, vec3(0.0), vec3(0.0));
 #endif
     fragment_color = color;
 }
