@@ -525,7 +525,10 @@ public:
         for (size_t at = 0; at + 16 <= bytes.size(); at += 16) {
             const float radius = readFloat(bytes, at);
             const bool isReach = radius > 0 && radius < 1 && readFloat(bytes, at + sizeof(float)) == 1 / radius;
-            if (isReach) writeFloat(bytes, at, 1.02f * radius);
+            if (!isReach) continue;
+            writeFloat(bytes, at, 1.02f * radius);
+            writeFloat(bytes, at + sizeof(float), 1 / (1.02f * radius));
+            writeFloat(bytes, at + 2 * sizeof(float), 1.02f * readFloat(bytes, at + 2 * sizeof(float)));
         }
     }
 
