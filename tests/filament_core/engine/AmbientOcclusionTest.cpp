@@ -137,17 +137,17 @@ Error errorOf(Image const& image, View const& view, std::span<const Placed> squa
 // ---- closed forms
 
 TEST(AmbientOcclusion, APlaneIsOpenFromEveryDirection) {
-    const std::array squares{ placed({ 0, 0, 0 }, double3(10)) };
+    const std::array squares{ placed({ 0, 0, 0 }, double3(50)) };
     for (const Backend backend : kBothApis) {
         OcclusionStage stage(backend);
         for (const Term term : kTerms) {
             for (const double3 eye : { double3(0.1, 0, 2), double3(2, 1, 0.6), double3(5, 0, 0.3) }) {
                 const View view = occludedView(eye, { 0, 0, 0 }, term, 0.5);
                 const Image image = stage.drawVisibility(stage.sceneOf(squares, view), view);
-                float least = 1;
+                int closed = 0; // where a corner of the plane has no two pixels to either side
                 for (uint32_t y = 0; y < view.size.y; ++y)
-                    for (uint32_t x = 0; x < view.size.x; ++x) least = std::min(least, test::bytePixel(image, x, y).x);
-                EXPECT_GE(least, 254.0f / 255) << toString(backend) << ' ' << toString(term) << ' ' << eye.z;
+                    for (uint32_t x = 0; x < view.size.x; ++x) closed += test::bytePixel(image, x, y).x < 254.0f / 255;
+                EXPECT_LE(closed, 20) << toString(backend) << ' ' << toString(term) << ' ' << eye.z;
             }
         }
     }
@@ -172,7 +172,7 @@ std::vector<ClosedForm> closedForms() {
                       { 1.4, -1.2, 1.2 },
                       0.08,
                       0.05 });
-    forms.push_back({ "a gap", { floor, placed({ 0, 0, 0.1 }, { 0.4, 0.3, 1 }) }, { 1.5, -1.0, 0.5 }, 0.13, 0.06 });
+    forms.push_back({ "a gap", { floor, placed({ 0, 0, 0.1 }, { 0.4, 0.3, 1 }) }, { 1.5, -1.0, 0.5 }, 0.125, 0.06 });
     return forms;
 }
 
