@@ -94,11 +94,11 @@ FrameTargets describeFrame(FrameGraph& graph, FrameContext const& context, Frame
     addAmbientOcclusionPass(graph, context, targets);
     declareLastPicture(graph, context, targets);
     addColorPass(graph, context, targets);
-    addLastPicturePasses(graph, context, targets);
     if (showsDecisions(context))
         addDebugViewPass(graph, context, targets);
     else if (targets.color != targets.output)
         addToneMapPass(graph, context, targets);
+    addLastPicturePasses(graph, context, targets); // last: the tone mapper merges with the colour pass
     return targets;
 }
 

@@ -80,7 +80,7 @@ double3 PathTracer::follow(Path& path, std::optional<SurfaceSample> surface) con
         if (surface->mixture) meetPart(*surface, path.numbers.pair(kMixture + path.events).x);
         coverWithFilm(*surface);
         if (mSettings.occlusionRadius > 0 && surface->scatters && surface->opacity >= 1)
-            occludeAmbientLight(mScene, mSettings, numbers, kOpenDirections, *surface, rays);
+            occludeAmbientLight(mScene, mSettings, path.numbers, kOpenDirections, *surface, path.rays);
         sum += path.throughput * surface->emitted * emissionWeight(path);
         if (!surface->scatters || path.bounce >= mSettings.maxBounces) return sum;
         const Bsdf bsdf = bsdfAt(*surface);

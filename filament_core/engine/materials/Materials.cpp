@@ -12,16 +12,7 @@
 #include <utility>
 
 namespace filament {
-namespace {
-
-/// The picture cannot be reflected yet.
-void explainScreenSpace(scene::Material const& material) {
-    if (material.package.reflections == shader::Reflections::ScreenSpace)
-        log(Severity::Info, "material '{}': reflections : screenspace shows the environment only in this version",
-            material.name);
-}
-
-} // namespace
+namespace {} // namespace
 
 Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     auto loaded = engine::loadMaterial(desc);
@@ -35,7 +26,6 @@ Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     }
     const Result<void> fits = engine::checkSamplers(*loaded, stream->info().limits.maxTextureUnits, device.device);
     if (!fits) return fits.error();
-    explainScreenSpace(*loaded);
     loaded->id = materialNumbers.take();
     try {
         return materials.add(std::move(*loaded));

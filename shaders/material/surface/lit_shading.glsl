@@ -113,8 +113,8 @@ highp vec3 throughLayers(Surface surface, highp vec3 light) {
 
 #endif
 
-// Light of the picture. Unlike that of the environment it is pre-exposed. What surroundings hide is what the picture shows:
-// nothing occludes it.
+// Light of the picture. Unlike that of the environment it is pre-exposed. What surroundings hide is what the picture
+// shows: nothing occludes it.
 #if defined(REFRACTION_OF_PICTURE)
 
 highp vec3 refractedPicture(Surface surface) {

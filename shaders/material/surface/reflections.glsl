@@ -1,9 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflections of the picture, for lit materials with `reflections : screenspace`: the mirrored ray is followed through the
-// distances of what is opaque, pixel by pixel in steps that grow away from the surface. What it hits has the colour that the
-// picture shows there: for opaque surfaces the last frame's picture, at the place where the hit was then.
-//   After   McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": lines of the picture are walked, and what is
-//           linear in the world is interpolated as a fraction of w.
+// Reflections of the picture, for lit materials with `reflections : screenspace`: the mirrored ray is followed through
+// the distances of what is opaque, pixel by pixel in steps that grow away from the surface. What it hits has the colour
+// that the picture shows there: for opaque surfaces the last frame's picture, at the place where the hit was then.
+//   After   McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": lines of the picture are walked, and what
+//           is linear in the world is interpolated as a fraction of w.
 
 const highp float kReflectionBorder = 0.08;     // of the picture, over which hits fade
 const highp float kReflectionBias = 0.0009765625; // of the distance: what counts as the same surface
@@ -72,11 +72,13 @@ highp float distanceOfPicture(PictureRay ray, highp float s) {
 highp float hitOfRay(PictureRay ray) {
     int steps = int(passUniforms.reflection.x);
     highp float thickness = passUniforms.reflection.z;
-    highp float before = 0.0, found = -1.0;
-    highp float distanceBefore = distanceOfRay(ray, 0.0);
+    highp float onePixel = 1.0 / max(max(abs(ray.along.x), abs(ray.along.y)), 1e-6);
+    highp float before = onePixel, found = -1.0;
+    highp float distanceBefore = distanceOfRay(ray, before);
     for (int i = 1; i <= steps; ++i) {
         highp float u = float(i) / passUniforms.reflection.x;
-        highp float s = ray.end * u * u;
+        highp float s = max(ray.end * u * u, onePixel * (float(i) + 1.0)); // its own pixel is the surface itself
+        if (s > ray.end) break;
         highp float distance = distanceOfRay(ray, s);
         highp float surface = distanceOfPicture(ray, s);
         bool isBehind = distance > surface + surface * kReflectionBias;
