@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Quality::ao on both APIs: visibilities are compared with rays that are traced through the same squares on the CPU; what
-// it must not change has the bits that it had.
+// Quality::ao on both APIs: visibilities are compared with rays that are traced through the same squares on the CPU;
+// what it must not change has the bits that it had.
 #include "tests/filament_core/engine/ShadowStage.h"
 #include "tests/filament_core/engine/WhiteEnvironment.h"
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Contact shadows on both APIs: a thin pole darkens what a ray towards the light says, a bare plane stays bright under any
-// light and at any scale, and only lights that ask for them have them.
+// Contact shadows on both APIs: a thin pole darkens what a ray towards the light says, a bare plane stays bright under
+// any light and at any scale, and only lights that ask for them have them.
 #include "tests/filament_core/engine/ShadowStage.h"
 
 #include <array>
@@ -53,7 +53,8 @@ std::optional<double3> planePointOf(View const& view, uint32_t x, uint32_t y) {
     return view.camera.position() + ray * (-view.camera.position().z / ray.z);
 }
 
-/// Where a ray enters and leaves a box of the pole's size, grown by a margin on all sides; first above second: it misses.
+/// Where a ray enters and leaves a box of the pole's size, grown by a margin on all sides; first above second: it
+/// misses.
 double2 passesPole(double3 from, double3 direction, double margin) {
     const double3 low = double3(-kPoleHalf, -kPoleHalf, 0) - margin,
                   high = double3(kPoleHalf, kPoleHalf, kPoleHeight) + margin;

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Fog on both APIs: colours of surfaces and skies against the closed form, for every way of blending; and what stays as it is
-// without fog. Pictures are scene-linear half floats, so tolerances are those of their rounding.
+// Fog on both APIs: colours of surfaces and skies against the closed form, for every way of blending; and what stays as
+// it is without fog. Pictures are scene-linear half floats, so tolerances are those of their rounding.
 #include "tests/filament_core/engine/SkyStage.h"
 
 #include <glm/gtc/matrix_transform.hpp>

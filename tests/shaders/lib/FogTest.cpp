@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// fog.glsl: the closed form against an integral that is summed up in steps, from rays of a millimetre to those of a million
-// kilometres.
+// fog.glsl: the closed form against an integral that is summed up in steps, from rays of a millimetre to those of a
+// million kilometres.
 #include "tests/shaders/lib/Furnace.h"
 #include "tests/shaders/lib/Numeric.h"
 
@@ -13,8 +13,8 @@ struct FogCase {
     double logDensity = 0, falloff = 0, rise = 0, from = 0, to = 0;
 };
 
-/// By Gauss and Legendre's rule with five points, in steps of a fortieth of an e-folding at most, from the dense end to where
-/// nothing is left. Infinite densities count as e^700.
+/// By Gauss and Legendre's rule with five points, in steps of a fortieth of an e-folding at most, from the dense end to
+/// where nothing is left. Infinite densities count as e^700.
 double summedDepth(FogCase const& fog) {
     constexpr double kAt[] = { 0, 0.5384693101056831, -0.5384693101056831, 0.9061798459386640, -0.9061798459386640 };
     constexpr double kWeight[] = { 0.5688888888888889, 0.4786286704993665, 0.4786286704993665, 0.2369268850561891,

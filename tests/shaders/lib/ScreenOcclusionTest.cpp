@@ -62,7 +62,8 @@ TEST(ScreenOcclusionArc, HalfSlicesAreTheIntegralsOfTheirDirections) {
     }
 }
 
-/// Mean over slices of what a half slice leaves open, for horizons that `cosine` gives by azimuth, seen along the normal.
+/// Mean over slices of what a half slice leaves open, for horizons that `cosine` gives by azimuth, seen along the
+/// normal.
 template <class F>
 double openOf(F const& cosine) {
     double sum = 0;

@@ -41,6 +41,13 @@ uint32_t bindingOf(std::vector<uint32_t> const& words, uint32_t id) {
     return ~0u;
 }
 
+/// The first unit behind the textures of the pass.
+int firstUnit() { return static_cast<int>(samplerCount(passGroupLayout(PassKind::Lit))); }
+
+std::string cubeAt(int unit) {
+    return "layout(binding = " + std::to_string(unit) + ") uniform highp samplerCube cube;\n";
+}
+
 std::string samplerAt(int unit, std::string const& name) {
     return "layout(binding = " + std::to_string(unit) + ") uniform highp sampler2D " + name + ";\n";
 }
@@ -64,13 +71,13 @@ MaterialPackage fourTextures() {
         package.parameters.push_back(parameter);
         group.bindings[group.count++] = { .binding = n, .type = BindingType::SampledTexture };
     }
-    // Units: four of the pass, five of the material, then that of the Deformation group.
+    // Units: those of the pass, five of the material, then that of the Deformation group.
     std::string essl = "layout(binding = 4, std140) uniform MaterialParams\n{ vec4 x; };\n" + samplerAt(2, "passDfg");
-    for (int n = 1; n <= 4; ++n) essl += samplerAt(3 + n, names[n - 1]);
-    essl += "layout(binding = 8) uniform highp samplerCube cube;\n";
+    for (int n = 0; n < 4; ++n) essl += samplerAt(firstUnit() + n, names[n]);
+    essl += cubeAt(firstUnit() + 4);
     package.variants.push_back({ .key = kVariantSkinning,
                                  .fragmentSpirv = module(5),
-                                 .vertexEssl = samplerAt(9, "morphDeltas"),
+                                 .vertexEssl = samplerAt(firstUnit() + 5, "morphDeltas"),
                                  .fragmentEssl = essl });
     return package;
 }
@@ -115,14 +122,14 @@ TEST(RemoveUnusedTextures, MovesTheUnitsOfOpenGlUpInEveryGroupBehind) {
     removeUnusedTextures(package, std::vector<ConstantValue>{ { 1, 1 } });
     Variant const& variant = package.variants[0];
     const std::string expected = "layout(binding = 4, std140) uniform MaterialParams\n{ vec4 x; };\n" +
-                                 samplerAt(2, "passDfg") + samplerAt(4, "always") + samplerAt(4, "a") +
-                                 samplerAt(5, "b") + samplerAt(4, "c") +
-                                 "layout(binding = 6) uniform highp samplerCube cube;\n";
+                                 samplerAt(2, "passDfg") + samplerAt(firstUnit(), "always") +
+                                 samplerAt(firstUnit(), "a") + samplerAt(firstUnit() + 1, "b") +
+                                 samplerAt(firstUnit(), "c") + cubeAt(firstUnit() + 2);
     EXPECT_EQ(variant.fragmentEssl, expected);
-    EXPECT_EQ(variant.vertexEssl, samplerAt(7, "morphDeltas"));
+    EXPECT_EQ(variant.vertexEssl, samplerAt(firstUnit() + 3, "morphDeltas"));
     const backend::ProgramLayout layout = programLayout(package, kVariantSkinning);
-    EXPECT_EQ(backend::flatBinding(layout, kGroupMaterial, 5), 6);
-    EXPECT_EQ(backend::flatBinding(layout, kGroupDeformation, kBindingMorphDeltas), 7);
+    EXPECT_EQ(backend::flatBinding(layout, kGroupMaterial, 5), firstUnit() + 2);
+    EXPECT_EQ(backend::flatBinding(layout, kGroupDeformation, kBindingMorphDeltas), firstUnit() + 3);
 }
 
 TEST(RemoveUnusedTextures, KeepsOneOfAKindWhereNoneIsUsed) {

@@ -116,7 +116,8 @@ TEST_F(Matc, CompilesTheStandardMaterialQuicklyIntoASmallPackage) {
     std::printf("standard lit material, both APIs, all variants, one thread: %.2f s, %.0f KB\n", seconds,
                 static_cast<double>(bytes) / 1000);
     RecordProperty("bytes", static_cast<int>(bytes));
-    EXPECT_LT(bytes, 400'000u) << "shadows and area lights are most of it";
+    // 400 000 until lit variants held what they read of the picture, contact shadows and fog, behind constants.
+    EXPECT_LT(bytes, 500'000u) << "shadows and area lights are most of it";
 #if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__)
     EXPECT_LT(seconds, 3 * 1.5) << "1.5 s on a quiet machine";
 #endif

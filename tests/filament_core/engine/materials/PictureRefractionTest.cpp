@@ -130,7 +130,8 @@ TEST(PictureRefraction, ATurnedBlockShiftsAnEdgeAsFarAsSnellsLawSays) {
                                          kNoLights),
                           { { .halfSide = 3 } }, turned);
             });
-            // Snell: sin(inside) = sin(angle) / ior; the chord is kThickness cos(inside), turned from the view by the difference.
+            // Snell: sin(inside) = sin(angle) / ior; the chord is kThickness cos(inside), turned from the view by the
+            // difference.
             const double inside = std::asin(std::sin(std::abs(angle)) / ior);
             const double aside = kThickness * std::cos(inside) * std::sin(std::abs(angle) - inside);
             const double shift = (angle > 0 ? 1 : -1) * aside * kSide / (2 * kEye * std::tan(glm::radians(kFov / 2)));
