@@ -2,8 +2,8 @@
 /// Depth prepass: the depths of what is opaque or masked, before anything is shaded.
 ///   Draws   targets.depth, one sample a pixel: the opaque list of the main view by variants that compute nothing but
 ///           positions and what cuts holes. Then targets.distances, if an effect reads depths.
-///   Why     effects that look at the surroundings of a pixel read them; and with one sample a pixel the colour pass goes on
-///           with this depth: its test, which lets equal depths pass, then shades each pixel once.
+///   Why     effects that look at the surroundings of a pixel read them; and with one sample a pixel the colour pass
+///           goes on with this depth: its test, which lets equal depths pass, then shades each pixel once.
 ///   Skips   all of it, unless the frame's demand needs it.
 #pragma once
 

@@ -38,7 +38,8 @@ struct PassShadows {
 };
 PassShadows declareShadows(FrameContext const& context, framegraph::TextureId maps);
 
-/// What a pass declares to read of what others have drawn; none by default: its materials then have white or black instead.
+/// What a pass declares to read of what others have drawn; none by default: its materials then have white or black
+/// instead.
 struct PassTextures {
     PassShadows shadows{};
     framegraph::TextureId occlusion{};  ///< FrameTargets::occlusion

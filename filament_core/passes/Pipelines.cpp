@@ -96,14 +96,15 @@ bool drawsNothing(scene::InstanceRaster const& raster) {
     return raster.culling == shader::Culling::FrontAndBack && !raster.cullingDisabled;
 }
 
-// The faces that are drawn stop light, so hulls whose far side alone is seen (outlines) do not darken what they enclose.
+// The faces that are drawn stop light, so hulls whose far side alone is seen (outlines) do not darken what they
+// enclose.
 PipelineDesc leavingShadow(PipelineDesc desc, scene::InstanceRaster const& raster) {
     desc.depthStencil = { .depthCompare = CompareOp::GreaterEqual, .depthWrite = !drawsNothing(raster) };
     return desc;
 }
 
-// Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface. Devices write no depth
-// while the test is off, so "no test" is a test that always passes.
+// Equal depths pass, too: the sky lies exactly on the far plane, decals exactly on their surface. Devices write no
+// depth while the test is off, so "no test" is a test that always passes.
 DepthStencilState depthState(scene::InstanceRaster const& raster, DepthRange range) {
     const CompareOp nearer = range == DepthRange::Reversed ? CompareOp::GreaterEqual : CompareOp::LessEqual;
     const bool writes = raster.depthWrite && !drawsNothing(raster);

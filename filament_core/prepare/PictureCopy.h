@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// PictureCopy: which part of the picture is copied for what refracts it, and with how many blurred levels.
 ///   In      the boxes of the refracting objects, as the camera sees them.
-///   Out     a rectangle of pixels that holds what a refracted ray is expected to meet: the objects' own pixels and a margin.
-///           Beyond it, shaders fade to the environment.
+///   Out     a rectangle of pixels that holds what a refracted ray is expected to meet: the objects' own pixels and a
+///           margin. Beyond it, shaders fade to the environment.
 ///   Thread  any; pure.   Memory: none.   Fails: never.
 #pragma once
 

@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SceneDemand: which effects a frame needs, and why. What is visible decides, not what the scene contains: lights
 /// that reach no lit surface of the view are neither uploaded nor part of any shader (PrepareView.cpp applies the same
-/// counts to each view). The colour pass draws the sky by it. Every effect that is added to the engine gets a line here.
+/// counts to each view). The colour pass draws the sky by it. Every effect that is added to the engine gets a line
+/// here.
 ///   In      what preparing the frame has found out.   Out: a plain value.
 ///   Thread  any; pure.   Memory: none; the words of describe() are on the heap.   Fails: never.
 #pragma once

@@ -10,7 +10,8 @@
 ///             0- 9 depth      front to back inside of the slice, sixteen steps an octave
 ///   late     63-62 10      drawn after the sky
 ///            60-61 class      0: opaque without depth writes; 1: refracts what is drawn so far; 2: without depth test
-///            29-59 depth      as of blended ones, the nearest object ends on top; of class 1, front to back: they leave
+///            29-59 depth      as of blended ones, the nearest object ends on top; of class 1, front to back: they
+///            leave
 ///                             depth, and do not see each other
 ///   blended  63-62 11
 ///            31-61 depth      of the renderable, every bit, inverted: back to front

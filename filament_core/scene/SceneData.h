@@ -35,8 +35,8 @@ struct LightRecord {
     bool isTwoSided = false;     ///< rectangles and discs
     float3 sideWorld{ 1, 0, 0 }; ///< of areas: along the first of halfExtent, unit; of tubes the axis
     float2 halfExtent{ 0.0f };   ///< metres: half sides, radii, half length and radius
-    /// Of points and spots: the words of shader::kProfileHeaderWords. None: as bright in all directions. The light shines
-    /// along directionWorld, and the profile's +X is along sideWorld.
+    /// Of points and spots: the words of shader::kProfileHeaderWords. None: as bright in all directions. The light
+    /// shines along directionWorld, and the profile's +X is along sideWorld.
     std::shared_ptr<const std::vector<uint32_t>> profile{};
     bool showsDisc = false; ///< suns
     float haloSize = 1, haloFalloff = 0;

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 /// SamplerBudget: how many textures a fragment stage can sample, and how they are divided.
-///   Every device has 16: the minimum of GL_MAX_TEXTURE_IMAGE_UNITS in OpenGL ES 3.1 and of maxPerStageDescriptorSamplers
-///   in Vulkan. Vulkan counts the textures of a program's layout, read or not.
+///   Every device has 16: the minimum of GL_MAX_TEXTURE_IMAGE_UNITS in OpenGL ES 3.1 and of
+///   maxPerStageDescriptorSamplers in Vulkan. Vulkan counts the textures of a program's layout, read or not.
 ///
 ///     material            its own   of the engine, with every effect on
 ///     lit                    9        7
@@ -11,12 +11,12 @@
 ///     featureLevel 3        16        as above; using all 16 needs a device with more than 16
 ///
 ///   The engine's textures are in the Pass group; the View group has none. kEngineTextures is the only list of them:
-///   bind group layouts, the rules of the material compiler and the tests are derived from it. A new effect gives its row
-///   a binding and adds a line to interface.glsl.
+///   bind group layouts, the rules of the material compiler and the tests are derived from it. A new effect gives its
+///   row a binding and adds a line to interface.glsl.
 ///   What keeps the numbers small: the tables of area lights become layers of the split-sum table's texture, and a
 ///   material removes the textures that it does not use (usedIf, shaders/package/RemoveUnusedTextures.h).
-///   Beyond the budget: the compiler rejects the material at the line of the texture. The engine rejects a material that
-///   the device cannot draw, and names the material, its textures and the limit.
+///   Beyond the budget: the compiler rejects the material at the line of the texture. The engine rejects a material
+///   that the device cannot draw, and names the material, its textures and the limit.
 #pragma once
 
 #include "shaders/interface/ShaderInterface.h"

@@ -122,16 +122,17 @@ struct ObjectUniforms {
 inline constexpr uint32_t kMaxPunctualLights = 4096; ///< of a view
 inline constexpr uint32_t kMaxLightsOfFroxel = 256;
 
-/// The word of a froxel: bits 0 to 8 count the lights of its list; the others say where it begins, in words from the first
-/// word of the view. An entry of a list is the light's place among those of the view; entries ascend.
+/// The word of a froxel: bits 0 to 8 count the lights of its list; the others say where it begins, in words from the
+/// first word of the view. An entry of a list is the light's place among those of the view; entries ascend.
 inline constexpr uint32_t kFroxelCountBits = 9;
 
 /// Of PunctualLight::offset.z: the light has contact shadows.
 inline constexpr uint32_t kContactShadowBit = 128;
 
 /// What colorIntensity.w says of a light of the list. Of areas, positionRange is the centre, colorIntensity rgb the
-/// pre-exposed luminance, and the half edges X = directionScale.xyz and Y = (directionScale.w, offset.x, offset.w): radii
-/// of a disc; of a tube X is half its axis and Y.x its radius. cross(X, Y) is against the direction in which it shines.
+/// pre-exposed luminance, and the half edges X = directionScale.xyz and Y = (directionScale.w, offset.x, offset.w):
+/// radii of a disc; of a tube X is half its axis and Y.x its radius. cross(X, Y) is against the direction in which it
+/// shines.
 enum LightShape : uint8_t {
     kShapeSpot = 1,
     kShapeRect = 2,
@@ -148,8 +149,9 @@ struct PunctualLight {
     float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: a set: bit n: face n has a map; bit 6: these are a cube's; bit 7: it has contact shadows; w: its ProfiledLight + 1, 0: none
 };
 
-/// Words of the light profiles of a view, behind the froxels: first what belongs to one light, its x axis, as float bits,
-/// and where its table begins, counted from the first of these words. The frame of the profile: directionScale.xyz is -z.
+/// Words of the light profiles of a view, behind the froxels: first what belongs to one light, its x axis, as float
+/// bits, and where its table begins, counted from the first of these words. The frame of the profile:
+/// directionScale.xyz is -z.
 inline constexpr uint32_t kProfiledLightWords = 4;
 /// Then the tables: rows, columns, rows a radian as float bits; then LightProfileTable::words.
 inline constexpr uint32_t kProfileHeaderWords = 3;

@@ -9,9 +9,10 @@ const float kFogInfinity = 1e15f;
 // lead down. Here the lower of the two points is the origin: with x = falloff |rise| length, the integral is
 //     density(lower) length (1 - e^-x) / x,
 // whose last factor is in (0, 1], whatever the ray. It is 1 on level rays.
-// logDensity: the logarithm of the density, in 1/m, at the height where the ray begins (distance 0); falloff: 1/m, [0, 1e3];
-// rise: metres up for each metre of the ray, [-1, 1]; from, to: metres along the ray, [0, kFogInfinity]. Returns [0, 3e37]; 0
-// unless `to` is beyond `from`. Relative error: that of falloff * height + logDensity, absolute. fp32 only.
+// logDensity: the logarithm of the density, in 1/m, at the height where the ray begins (distance 0); falloff: 1/m, [0,
+// 1e3]; rise: metres up for each metre of the ray, [-1, 1]; from, to: metres along the ray, [0, kFogInfinity]. Returns
+// [0, 3e37]; 0 unless `to` is beyond `from`. Relative error: that of falloff * height + logDensity, absolute. fp32
+// only.
 float fogOpticalDepth(float logDensity, float falloff, float rise, float from, float to) {
     float length = max(to - from, 0.0f);
     float lowest = min(rise * from, rise * to);
@@ -24,7 +25,8 @@ float fogOpticalDepth(float logDensity, float falloff, float rise, float from, f
 // The share of light that fog of this optical depth replaces (Beer and Lambert). largest: [0, 1]. fp32 only.
 float fogOpacity(float opticalDepth, float largest) { return min(oneMinusExp(opticalDepth), largest); }
 
-// The glow of fog around a light, relative to that towards it: a power of the cosine between both directions. With the factor
-// (exponent + 1) / (2 pi) it sums to 1 over the sphere: all light that the fog takes, it scatters (Lewis 1994, "Making Shaders
-// More Physically Plausible", section 4, for the lobe of Phong). cosine: [-1, 1]; exponent: [0, 1e3]. fp32 only.
+// The glow of fog around a light, relative to that towards it: a power of the cosine between both directions. With the
+// factor (exponent + 1) / (2 pi) it sums to 1 over the sphere: all light that the fog takes, it scatters (Lewis 1994,
+// "Making Shaders More Physically Plausible", section 4, for the lobe of Phong). cosine: [-1, 1]; exponent: [0, 1e3].
+// fp32 only.
 float fogGlow(float cosine, float exponent) { return cosine > 0.0f ? pow(min(cosine, 1.0f), exponent) : 0.0f; }

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-// Reflections of what a picture shows: how far one of them can be trusted, and how blurred it is. All of it is fp32 only: rays
-// of the picture are.
+// Reflections of what a picture shows: how far one of them can be trusted, and how blurred it is. All of it is fp32
+// only: rays of the picture are.
 
 // A smooth step from 0 to 1 over [0, 1]. Returns [0, 1]. fp32 only.
 float smoothUnit(float x) {
@@ -20,16 +20,16 @@ float insideWeight(vec2 uv, float border) {
 // direction on. cosine: between ray and the direction to the camera, [-1, 1]. Returns [0, 1]. fp32 only.
 float awayWeight(float cosine) { return 1.0f - smoothUnit(2.0f * cosine); }
 
-// The last quarter of a ray fades, so that what comes into its reach does not pop up. share: of the ray's length, [0, 1].
-// Returns [0, 1]. fp32 only.
+// The last quarter of a ray fades, so that what comes into its reach does not pop up. share: of the ray's length, [0,
+// 1]. Returns [0, 1]. fp32 only.
 float reachWeight(float share) { return smoothUnit((1.0f - share) * 4.0f); }
 
-// Radius of the lobe around a mirrored ray, in units of the ray's length, within which half of its facets reflect: facets
-// lean by up to atan(alpha) (the NDF of GGX, Walter et al. 2007, eq. 35 for one half), the ray by twice that. Limited to
-// 45 degrees. alpha in [0, 1]. Returns [0, 1]. fp32 only.
+// Radius of the lobe around a mirrored ray, in units of the ray's length, within which half of its facets reflect:
+// facets lean by up to atan(alpha) (the NDF of GGX, Walter et al. 2007, eq. 35 for one half), the ray by twice that.
+// Limited to 45 degrees. alpha in [0, 1]. Returns [0, 1]. fp32 only.
 float lobeRadius(float alpha) { return min(2.0f * alpha / max(1.0f - alpha * alpha, 1e-3f), 1.0f); }
 
-// The level of a chain of blurred pictures that is as blurred as a disc of this radius: level n blurs as a Gaussian with a
-// deviation of about 0.6 2^n pixels, and a Gaussian has one half within 1.18 deviations. radius in pixels, >= 0.
+// The level of a chain of blurred pictures that is as blurred as a disc of this radius: level n blurs as a Gaussian
+// with a deviation of about 0.6 2^n pixels, and a Gaussian has one half within 1.18 deviations. radius in pixels, >= 0.
 // Returns >= 0. fp32 only.
 float blurLevel(float radius) { return log2(max(1.41f * radius, 1.0f)); }

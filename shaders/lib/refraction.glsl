@@ -81,16 +81,17 @@ float refractionPerceptualRoughness(float perceptualRoughness, float ior) {
 }
 
 // The standard deviation of the tangent by which a rough interface spreads transmitted light, for a normal distribution
-// that blurs an edge alike: half of the light is within the same distance. The lobe is that of reflection, mirrored, as in
-// KHR_materials_transmission's implementation notes: half vectors of GGX have slopes with the distribution
-// a^2 / 2 (a^2 + x^2)^(-3/2) along one axis (Walter et al. 2007, eq. 33, integrated over the other), half of them within
-// a / sqrt(3); light deviates twice as far. A normal distribution has half within 0.6745 deviations.
+// that blurs an edge alike: half of the light is within the same distance. The lobe is that of reflection, mirrored, as
+// in KHR_materials_transmission's implementation notes: half vectors of GGX have slopes with the distribution
+// a^2 / 2 (a^2 + x^2)^(-3/2) along one axis (Walter et al. 2007, eq. 33, integrated over the other), half of them
+// within a / sqrt(3); light deviates twice as far. A normal distribution has half within 0.6745 deviations.
 // perceptualRoughness in [0, 1]. Returns [0, 1.712].
 float transmittedDeviation(float perceptualRoughness) { return 1.712f * perceptualRoughness * perceptualRoughness; }
 
-// The level of a picture whose texels, read with linear weights, are blurred by this standard deviation in pixels. Each level
-// is the one before it with the weights 1, 3, 3, 1, which have the variance 3/4 of its texels: (4^n - 1) / 4 in all. Linear
-// weights have 1/6 of a texel: 4^n / 6. Returns 0 below a half of a pixel. pixels >= 0. fp32 only: squares exceed 65504.
+// The level of a picture whose texels, read with linear weights, are blurred by this standard deviation in pixels. Each
+// level is the one before it with the weights 1, 3, 3, 1, which have the variance 3/4 of its texels: (4^n - 1) / 4 in
+// all. Linear weights have 1/6 of a texel: 4^n / 6. Returns 0 below a half of a pixel. pixels >= 0. fp32 only: squares
+// exceed 65504.
 float pictureLevel(float pixels) { return 0.5f * log2(max((pixels * pixels + 0.25f) * 2.4f, 1.0f)); }
 
 // The indices for red, green and blue. KHR_materials_dispersion: dispersion is 20 over the Abbe number (ior - 1) /

@@ -25,9 +25,9 @@ uint32_t samplerCount(backend::BindGroupLayout const& group);
 /// Every DeformationBinding. Of the vertex stage alone: uniforms that fragments see cost far more to bind again.
 backend::BindGroupLayout deformationGroupLayout();
 
-/// The layout for the programs of a variant: that of the package, with the Deformation group if the variant deforms, and
-/// with subpass inputs instead of currentPixel textures if it is merged. These read colour attachments 0, 1, ... in the
-/// order of the parameters.
+/// The layout for the programs of a variant: that of the package, with the Deformation group if the variant deforms,
+/// and with subpass inputs instead of currentPixel textures if it is merged. These read colour attachments 0, 1, ... in
+/// the order of the parameters.
 backend::ProgramLayout programLayout(MaterialPackage const& package, uint16_t variantKey);
 
 } // namespace filament::shader

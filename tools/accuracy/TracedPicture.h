@@ -25,8 +25,8 @@ struct TracedPicture {
     double relativeError = 0; ///< standard error of the picture, relative to its mean
 };
 
-/// A single reflection of unoccluded light; with Quality::shadows, rays find what blocks that of suns, points and spots.
-/// Integrator::Path: all light with every bounce. `view`: that of the engine's picture.
+/// A single reflection of unoccluded light; with Quality::shadows, rays find what blocks that of suns, points and
+/// spots. Integrator::Path: all light with every bounce. `view`: that of the engine's picture.
 Result<TracedPicture> trace(reference::ReferenceScene const& scene, View const& view, uint32_t samplesPerPixel,
                             jobs::JobSystem& jobs,
                             reference::Integrator integrator = reference::Integrator::Unoccluded);

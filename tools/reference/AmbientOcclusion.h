@@ -1,7 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
-/// What the engine's ambient occlusion approximates: the cosine-weighted part of the hemisphere over a triangle in which
-/// nothing lies within ReferenceSettings::occlusionRadius, and its mean direction, by rays of that length.
-///   Out     a number for shading with the engine's own formula, as if a map of the material held it: the smaller of both.
+/// What the engine's ambient occlusion approximates: the cosine-weighted part of the hemisphere over a triangle in
+/// which nothing lies within ReferenceSettings::occlusionRadius, and its mean direction, by rays of that length.
+///   Out     a number for shading with the engine's own formula, as if a map of the material held it: the smaller of
+///           both.
 ///   Rays    ReferenceSettings::occlusionRays for each sample of a pixel, evenly spread and turned at random.
 ///   Thread  any; pure.   Memory: none.
 #pragma once

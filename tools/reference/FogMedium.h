@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
-/// FogMedium: the fog between the camera and what a camera ray meets first, by the definition of docs/fog.md: the density
-/// along the ray is summed up, where the engine has a closed form.
+/// FogMedium: the fog between the camera and what a camera ray meets first, by the definition of docs/fog.md: the
+/// density along the ray is summed up, where the engine has a closed form.
 ///   Limits  Fog::colorFromEnvironment is not traced: the colour is as it is without it.
 ///   Thread  read-only after construction. Memory: none.
 #pragma once
@@ -27,8 +27,8 @@ public:
     /// `height`: of the camera, in the world.
     FogMedium(Fog const& fog, double height, FogLight const& light);
 
-    /// `color` as the camera sees it from `distance` (infinite: a sky) in this unit direction, if what it sees there covers
-    /// this share of it, of which `color` is the light.
+    /// `color` as the camera sees it from `distance` (infinite: a sky) in this unit direction, if what it sees there
+    /// covers this share of it, of which `color` is the light.
     double3 inFront(double3 color, double3 share, double3 direction, double distance) const;
 
 private:

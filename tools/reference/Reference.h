@@ -109,7 +109,8 @@ struct ReferenceSettings {
     bool lightsCastShadows = false; ///< of Unoccluded; Path always does
     bool coloredShadows =
             false; ///< of these lights: they pass straight through what transmits light, which else stops them
-    /// > 0: Unoccluded dims indirect light by what lies within so many metres, with the engine's formula (AmbientOcclusion.h)
+    /// > 0: Unoccluded dims indirect light by what lies within so many metres, with the engine's formula
+    /// (AmbientOcclusion.h)
     double occlusionRadius = 0;
     uint32_t occlusionRays = 64;        ///< for that, each sample of a pixel; [1, 65536]
     bool occlusionBends = false;        ///< diffuse light comes from the mean open direction

@@ -65,8 +65,8 @@ struct FilmSample {
 };
 
 /// What a glTF material mixes: a metal, a dielectric that transmits, and one that does not (glTF 2.0, appendix B.2;
-/// KHR_materials_transmission). If it transmits, a path meets one of them, chosen by its share. If not, their lobes differ in f0
-/// alone and are summed: StandardLobes.
+/// KHR_materials_transmission). If it transmits, a path meets one of them, chosen by its share. If not, their lobes
+/// differ in f0 alone and are summed: StandardLobes.
 struct MixtureSample {
     double3 color{ 1.0 }; ///< of metal and dielectric
     double3 dielectricF0{ 0.04 };

@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
-/// Effects: what the effects of a View show: how far they reach, how strong they are, which colour they have. How exactly
-/// they are computed, and whether at all, is Quality's. Plain values that may change every frame and cost nothing to change.
+/// Effects: what the effects of a View show: how far they reach, how strong they are, which colour they have. How
+/// exactly they are computed, and whether at all, is Quality's. Plain values that may change every frame and cost
+/// nothing to change.
 ///   Demand   an effect runs only if something visible asks for it: Renderer::explain() says what runs and why.
 ///   Names    those of effectOptions(), as in filament-render --set fog.density=0.2 and in scene files.
-///   Ranges   stated at each field. setEffect() refuses what lies outside; values that a program sets itself are clamped,
-///            and NaN counts as the default.
+///   Ranges   stated at each field. setEffect() refuses what lies outside; values that a program sets itself are
+///            clamped, and NaN counts as the default.
 ///   Thread   any.   Fails: setEffect() for unknown names and values, and says which are valid.
 #pragma once
 

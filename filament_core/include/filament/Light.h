@@ -4,8 +4,8 @@
 ///   Fails   assertions of Scene::add, which name the rule: positions, intensities, colours and ranges are finite,
 ///           directions not zero, cones 0 <= inner < outer <= pi/2; intensities, colours and ranges are not negative.
 ///   Limits  of lights other than the sun: 4096 that reach into a view, and 256 that reach any froxel, a cell a
-///           sixteenth of the picture wide and at most half as deep as it is far away. Beyond, the dimmest at the camera
-///           are left out; Renderer::explain() says how many.
+///           sixteenth of the picture wide and at most half as deep as it is far away. Beyond, the dimmest at the
+///           camera are left out; Renderer::explain() says how many.
 ///   Cost    that of the lights whose range includes what is drawn: give lamps a range. An unlimited light shades every
 ///           fragment.
 #pragma once
@@ -19,23 +19,23 @@
 
 namespace filament {
 
-/// Bit n: channel n. A light shines on a renderable if they share a channel. By default both are on channel 0 only. What
-/// a light shines on does not matter for its shadows: every renderable that casts darkens it. No channel: the light is
-/// off, the renderable has the light of the environment only.
+/// Bit n: channel n. A light shines on a renderable if they share a channel. By default both are on channel 0 only.
+/// What a light shines on does not matter for its shadows: every renderable that casts darkens it. No channel: the
+/// light is off, the renderable has the light of the environment only.
 using LightChannels = uint8_t;
 inline constexpr LightChannels kDefaultLightChannels = 1;
 
 /// Parallel light; a scene has any number. The brightest is the sun of the uniforms and of the directional shader
-/// variant. The others are among the 4096 lights of a view, in the order of the scene: they cost what an unlimited point
-/// costs, and materials compiled without dynamic lighting do not see them.
+/// variant. The others are among the 4096 lights of a view, in the order of the scene: they cost what an unlimited
+/// point costs, and materials compiled without dynamic lighting do not see them.
 struct SunLight {
     float3 directionWorld{ 0, -1, 0 }; ///< the direction in which the light travels; any length except zero
     Lux illuminance{ 110'000 };        ///< on a surface facing it, >= 0
     LinearColor color{ 1.0f };
     /// Half of its diameter in the sky, [0, 20]: how soft its shadows are with ShadowFilter::Pcss.
     float angularRadiusDegrees = 0.2665f;
-    /// In views that see the sky: a disc of that radius, and a halo around it. Their size in the picture changes no light on
-    /// surfaces. docs/lights.md, "A sun in the sky".
+    /// In views that see the sky: a disc of that radius, and a halo around it. Their size in the picture changes no
+    /// light on surfaces. docs/lights.md, "A sun in the sky".
     bool showsDisc = false;
     float haloSize = 10;      ///< radius of the halo over that of the disc, [1, 1000]; 1: none
     float haloFalloff = 80;   ///< exponent by which it fades, [0, 10'000]
@@ -52,7 +52,8 @@ struct PointLight {
     Candela intensity{ 100 }; ///< >= 0; Photometry.h: from lumens, watts and lux
     LinearColor color{ 1.0f };
     float rangeMeters = 0; ///< the light is exactly zero beyond this range; 0: unlimited
-    /// Of the ball that shines, >= 0: how soft its shadows are with ShadowFilter::Pcss. It is lit as if from the centre.
+    /// Of the ball that shines, >= 0: how soft its shadows are with ShadowFilter::Pcss. It is lit as if from the
+    /// centre.
     float sourceRadiusMeters = 0;
     bool castsShadows = true;
     bool contactShadows = false; ///< see SunLight
@@ -64,9 +65,9 @@ struct PointLight {
     float3 upWorld{ 0, 1, 0 };
 };
 
-/// The intensity is that of the inner cone, whatever the cone: a narrower one gives less light. spotIntensity() keeps that
-/// for lumens; focusedSpotIntensity() makes a narrower cone brighter. With a profile it is that of the profile's brightest
-/// direction, and the cone cuts the profile.
+/// The intensity is that of the inner cone, whatever the cone: a narrower one gives less light. spotIntensity() keeps
+/// that for lumens; focusedSpotIntensity() makes a narrower cone brighter. With a profile it is that of the profile's
+/// brightest direction, and the cone cuts the profile.
 struct SpotLight {
     double3 positionWorld{ 0 };
     float3 directionWorld{ 0, 0, -1 };

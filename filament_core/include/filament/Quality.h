@@ -112,14 +112,14 @@ enum class ShadowFilter : uint8_t {
     Pcf5, ///< 6 x 6 texels: a tent as wide as five
     /// 16 texels of a disc as wide as five texels, turned by a pattern of the picture's pixels: noise instead of steps.
     Poisson,
-    /// As wide as the penumbra that the size of the light makes (SunLight::angularRadiusDegrees, sourceRadiusMeters), from
-    /// 16 look-ups for what casts and 32 of that disc. Fernando 2005, "Percentage-Closer Soft Shadows".
+    /// As wide as the penumbra that the size of the light makes (SunLight::angularRadiusDegrees, sourceRadiusMeters),
+    /// from 16 look-ups for what casts and 32 of that disc. Fernando 2005, "Percentage-Closer Soft Shadows".
     Pcss,
-    /// Two moments of each map, blurred and with mip levels: one look-up, smooth at any distance. Light bleeds where casters
-    /// overlap, and contact shadows thin out. Donnelly and Lauritzen 2006, "Variance Shadow Maps".
+    /// Two moments of each map, blurred and with mip levels: one look-up, smooth at any distance. Light bleeds where
+    /// casters overlap, and contact shadows thin out. Donnelly and Lauritzen 2006, "Variance Shadow Maps".
     Vsm,
-    /// Four moments of warped depths: bleeds less, and the moments take twice the memory. Lauritzen and McCool 2008, "Layered Variance
-    /// Shadow Maps".
+    /// Four moments of warped depths: bleeds less, and the moments take twice the memory. Lauritzen and McCool 2008,
+    /// "Layered Variance Shadow Maps".
     Evsm,
 };
 
@@ -134,8 +134,8 @@ enum class AmbientOcclusionTerm : uint8_t {
     Off,
     /// Scalable ambient obscurance: Quality::aoSamples points of a spiral (McGuire, Mara and Luebke 2012).
     Sao,
-    /// The visible part of the hemisphere between the horizons of Quality::aoSlices slices (Jimenez et al. 2016, "Practical
-    /// Realtime Strategies for Accurate Indirect Occlusion").
+    /// The visible part of the hemisphere between the horizons of Quality::aoSlices slices (Jimenez et al. 2016,
+    /// "Practical Realtime Strategies for Accurate Indirect Occlusion").
     Gtao,
 };
 
@@ -200,8 +200,8 @@ struct Quality {
     uint16_t shadowAtlasMegabytes = 64; ///< for all maps, [1, 256]: beyond, maps get smaller and the least important go
     uint8_t shadowBlurTexels = 2; ///< of Vsm and Evsm: half the width of the blur, [0, 16]. A map's margin limits it:
                                   ///< a sixteenth of its width
-    /// What transmits light (a material's `transmission` and `absorption`) casts shadows of that colour: three maps instead
-    /// of one where something does. Off: it stops all light.
+    /// What transmits light (a material's `transmission` and `absorption`) casts shadows of that colour: three maps
+    /// instead of one where something does. Off: it stops all light.
     bool coloredShadows = false;
     AreaLightTerm areaLights = AreaLightTerm::Ltc;
     AmbientOcclusionTerm ao = AmbientOcclusionTerm::Off;

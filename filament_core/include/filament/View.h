@@ -27,8 +27,8 @@ struct ColorGrading {
     bool dither = false; ///< adds interleaved gradient noise of one least significant bit before rounding to 8 bits
 };
 
-/// What the engine decides for each pixel, instead of the picture: for tools and tests. docs/shadows.md and docs/lights.md
-/// ("Debug views") say what the colours mean. Such a frame has one sample a pixel and no tone mapper.
+/// What the engine decides for each pixel, instead of the picture: for tools and tests. docs/shadows.md and
+/// docs/lights.md ("Debug views") say what the colours mean. Such a frame has one sample a pixel and no tone mapper.
 enum class DebugView : uint8_t {
     None,
     Cascades,    ///< the picture in grey, tinted by the cascade of the sun that shades each pixel
@@ -41,7 +41,8 @@ enum class DebugView : uint8_t {
     Refraction,  ///< the blurred level of the picture that is seen through each refracting pixel
     Fog,         ///< the share of each pixel that is fog
 };
-/// "none", "cascades", "atlas", "froxels", "lights", "occlusion", "bentNormals", "reflections", "refraction" and "fog", as in filament-render --set debugView=froxels.
+/// "none", "cascades", "atlas", "froxels", "lights", "occlusion", "bentNormals", "reflections", "refraction" and "fog",
+/// as in filament-render --set debugView=froxels.
 const char* toString(DebugView debugView);
 std::optional<DebugView> debugViewFromName(std::string_view name);
 

@@ -5,8 +5,8 @@ const int kFogFromEnvironment = 2;
 const int kFogFromRgbm = 4;
 const int kFogSun = 8;
 
-// Lit materials know their point. Others do not need it for anything else; they have it from the depth, or from its inverse
-// as it was before the projection, which is as exact with any depth range.
+// Lit materials know their point. Others do not need it for anything else; they have it from the depth, or from its
+// inverse as it was before the projection, which is as exact with any depth range.
 FogRay fogRayOfFragment() {
 #if defined(FOG_POINT_IS_KNOWN)
     highp vec4 point = vec4(vertex_worldPosition, 1.0);
@@ -47,9 +47,10 @@ highp vec4 fogOfFragment() {
     return vec4(light, opacity);
 }
 
-// FOG_COVERS: alpha is how much of the pixel the surface covers, and the colour contains it. FOG_ADDS: the surface adds to
-// what is behind, which has fog of its own. FOG_FILTERS: it multiplies what is behind, and fog in front hides the filter.
-// seen: light of the picture behind, in the colour, which has its fog already; share: how much of the surface shows it.
+// FOG_COVERS: alpha is how much of the pixel the surface covers, and the colour contains it. FOG_ADDS: the surface adds
+// to what is behind, which has fog of its own. FOG_FILTERS: it multiplies what is behind, and fog in front hides the
+// filter. seen: light of the picture behind, in the colour, which has its fog already; share: how much of the surface
+// shows it.
 void applyFog(inout highp vec4 color, highp vec3 seen, highp vec3 share) {
     highp vec4 fog = fogOfFragment();
     highp float left = 1.0 - fog.w;

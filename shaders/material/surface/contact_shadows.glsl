@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
-// Shadows of what is too small or too near for shadow maps: a ray from the fragment towards the light through the depths of
-// the picture (docs/shadows.md, "Contact shadows"). All of it is in 32 bits.
+// Shadows of what is too small or too near for shadow maps: a ray from the fragment towards the light through the
+// depths of the picture (docs/shadows.md, "Contact shadows"). All of it is in 32 bits.
 
 const highp float kContactBias = 0.25; // of a pixel's width: what rises less above the plane of the fragment is that plane
 const highp float kContactFade = 0.75; // of the ray: what is farther away fades
 const highp float kDepthUnit = 1.2e-7; // of a depth buffer with floats near 1
 
-// What all rays of a fragment have in common. A pixel at `place`, in [-1, 1], sees a point at the distance d along the view
-// at (axes x place.x + axes y place.y + axes w) d; these are its heights above the fragment's plane, in metres.
+// What all rays of a fragment have in common. A pixel at `place`, in [-1, 1], sees a point at the distance d along the
+// view at (axes x place.x + axes y place.y + axes w) d; these are its heights above the fragment's plane, in metres.
 struct ContactReceiver {
     highp vec3 normal; // of the plane, towards the camera
     highp vec3 rise;   // heights of the axes
@@ -30,8 +30,8 @@ ContactReceiver contactReceiver() {
     return receiver;
 }
 
-// 1: nothing stands between the fragment and the light. toLight: unit. reach: metres to the light. Towards what lies behind
-// the plane no ray leads: it is dark there anyway.
+// 1: nothing stands between the fragment and the light. toLight: unit. reach: metres to the light. Towards what lies
+// behind the plane no ray leads: it is dark there anyway.
 highp float contactVisibility(bool isAsked, highp vec3 toLight, highp float reach) {
     ContactReceiver receiver = contactReceiver();
     bool isAbove = dot(receiver.normal, toLight) > 0.0;
@@ -41,7 +41,8 @@ highp float contactVisibility(bool isAsked, highp vec3 toLight, highp float reac
     highp vec4 along = frameUniforms.clipFromWorld * vec4(ray, 0.0);
     highp float stride = 1.0 / max(effect.z, 1.0), visible = 1.0;
     highp float t = stride * interleavedGradientNoise(floor(gl_FragCoord.xy));
-    // Once for every step, or not at all: drivers for CPUs compute both sides of a branch, but leave a loop that has ended.
+    // Once for every step, or not at all: drivers for CPUs compute both sides of a branch, but leave a loop that has
+    // ended.
     int steps = isAsked && isAbove ? int(effect.z) : 0;
     for (int i = 0; i < steps; ++i) {
         highp vec3 at = from.xyw + along.xyw * t; // z: the distance along the view

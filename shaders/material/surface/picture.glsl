@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
-// What a refracting surface sees of the picture (kBindingPicture): the light of the pixel at which the ray leaves the object,
-// blurred as much as the object's roughness blurs what is that far behind it. Where the picture does not show what is behind,
-// the environment does.
+// What a refracting surface sees of the picture (kBindingPicture): the light of the pixel at which the ray leaves the
+// object, blurred as much as the object's roughness blurs what is that far behind it. Where the picture does not show
+// what is behind, the environment does.
 
 const highp float kPictureBorder = 0.0625; // of the view's height: beyond the picture its edge fades to the environment
 const highp float kLeastNearness = 1e-6;   // 1 / m

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // Light from behind a surface, for models that transmit it: its direction, its blur, its colour. The environment stands
-// for the scene behind, unless the material refracts the picture. Directions are in 32 bits, whatever the precision of the
-// lighting.
+// for the scene behind, unless the material refracts the picture. Directions are in 32 bits, whatever the precision of
+// the lighting.
 
 #include "shaders/material/surface/transmission.glsl"
 #if defined(REFRACTION_OF_PICTURE)

@@ -4,11 +4,12 @@
 // Every texel of a filter is compared with the depth that the receiving plane, the triangle's own, has at the centre of
 // that texel. The map holds the same depth there if nothing is in between, so surfaces do not shadow themselves however
 // flat the light is, and a bias of a fraction of a texel is enough for creases (after Isidoro 2006, "Shadow Mapping:
-// GPU-based Tips and Techniques", whose plane comes from derivatives of the map's coordinates). Depths are reversed: 0 is
-// where nothing is, however far a plane goes beyond.
+// GPU-based Tips and Techniques", whose plane comes from derivatives of the map's coordinates). Depths are reversed: 0
+// is where nothing is, however far a plane goes beyond.
 //
-// Where some caster lets light through (Quality::coloredShadows), each colour channel has a map of its own, in which the
-// caster fills as many texels as it stops of that colour (McGuire and Enderton 2011, "Colored Stochastic Shadow Maps").
+// Where some caster lets light through (Quality::coloredShadows), each colour channel has a map of its own, in which
+// the caster fills as many texels as it stops of that colour (McGuire and Enderton 2011, "Colored Stochastic Shadow
+// Maps").
 
 #if defined(VARIANT_SHADOW_RECEIVER)
 
@@ -126,8 +127,8 @@ highp float shadowOfTent(ShadowReceiver receiver, int pairs) {
 }
 
 // From one point of Vogel's spiral to the next: the golden angle. Its points are uniform over a disc and keep their
-// distance from each other, as those of a Poisson disc do, and need no table. Vogel 1979, "A Better Way to Construct the
-// Sunflower Head".
+// distance from each other, as those of a Poisson disc do, and need no table. Vogel 1979, "A Better Way to Construct
+// the Sunflower Head".
 const highp vec2 kGoldenAngle = vec2(-0.737368878, 0.675490294); // cosine, sine
 
 // The x axis of the disc at this pixel, unit.
@@ -179,8 +180,8 @@ highp float shadowOfPenumbra(ShadowReceiver receiver) {
 
 #if defined(HAS_SHADOW_MOMENTS)
 
-// From the mip levels whose texels are as wide as this pixel. Nothing beyond the tile is read: on each level it ends half a
-// texel before its edge.
+// From the mip levels whose texels are as wide as this pixel. Nothing beyond the tile is read: on each level it ends
+// half a texel before its edge.
 highp float shadowOfBlurred(ShadowReceiver receiver) {
     highp float level = clamp(log2(receiver.pixel), 0.0, kLastMomentLevel);
     highp float halfTexel = 0.5 * exp2(ceil(level));
