@@ -30,6 +30,7 @@ View viewOfAll() {
                                         { .verticalFovDegrees = static_cast<float>(degrees) }),
                .size = { kSize, kSize } };
     view.colorGrading.toneMapper = ToneMapper::Linear;
+    view.quality.refraction = RefractionSource::Environment; // its sky is white: colours are those of glass alone
     return view;
 }
 

@@ -337,21 +337,5 @@ TEST(ShadowMultiplier, WithoutAShadowThePlaneIsInvisible) {
     EXPECT_NE(drawn("blending : transparent", { { 0, kRed } }, background), background);
 }
 
-TEST(ScreenSpace, ReflectionsOfThePictureAreTakenFromTheEnvironmentAndALineSaysSoOnce) {
-    std::vector<std::string> lines;
-    const LogSink before = setLogSink([&](Severity, std::string_view line) { lines.emplace_back(line); });
-    auto engine = test::makeEngine(Backend::Null);
-    ASSERT_TRUE(engine);
-    {
-        MaterialStage stage(*engine);
-        stage.material("material { name : mirror, reflections : screenspace }\n"
-                       "fragment { void material(inout MaterialInputs material) { prepareMaterial(material); } }");
-    }
-    setLogSink(before);
-    ASSERT_THAT(lines, testing::SizeIs(1));
-    EXPECT_THAT(lines[0],
-                testing::HasSubstr("material 'mirror': reflections : screenspace shows the environment only"));
-}
-
 } // namespace
 } // namespace filament

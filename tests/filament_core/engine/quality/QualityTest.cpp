@@ -322,9 +322,13 @@ std::vector<Image> renderEveryValue(Backend backend) {
     return images;
 }
 
-/// Choices without effect on a flat, untextured patch that faces the camera: QualityViewTest.cpp, QualityToneTest.cpp and
-/// the conformance scenes quality, shadows, area-lights and materials-sheen have pictures for them.
+/// Choices without effect on a flat, untextured patch that faces the camera: QualityViewTest.cpp, QualityToneTest.cpp
+/// and the conformance scenes quality, shadows, area-lights, materials-sheen, ambient-occlusion, contact-shadows,
+/// refraction and reflections have pictures for them.
 bool isOfTheView(std::string_view name) {
+    if (name.starts_with("ao") || name.starts_with("ssr") || name == "refraction" || name == "contactSteps" ||
+        name == "depthPrepass")
+        return true;
     return name == "textureFilter" || name == "depthRange" || name == "cameraRelative" || name == "toneMapping" ||
            name == "specularLookUps" || name == "anisotropicLookUps" || name == "areaLights" ||
            name == "coloredShadows" || name.starts_with("shadow");
