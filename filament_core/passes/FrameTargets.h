@@ -15,7 +15,7 @@ struct FrameTargets {
     framegraph::TextureId color;        ///< pre-exposed scene-linear light, one sample a pixel; may be `output` itself
     framegraph::TextureId depth; ///< of the main view; none before the depth prepass, or else the colour pass. That
                                  ///< of the prepass has one sample a pixel, that of the colour pass as many as the view
-    framegraph::TextureId distances;    ///< of what is opaque along the view, in metres, R32F with levels; none: unread
+    framegraph::TextureId distances;    ///< of what is opaque along the view, in metres, R32F; none: unread
     framegraph::TextureId occlusion;    ///< as kBindingOcclusion says; none: not needed
     framegraph::TextureId prepassDepth; ///< that of the prepass, also when `depth` is another one; none: not drawn
     framegraph::History lastPicture;    ///< the whole picture of the last frame, and of this one; none: not needed

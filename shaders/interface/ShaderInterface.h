@@ -52,7 +52,7 @@ enum PassBinding : uint8_t {
     kBindingDfg = 4,         ///< sampler2D: split-sum terms
     kBindingIrradiance = 5,  ///< samplerCube: irradiance / pi
     kBindingOcclusion = 6,   ///< sampler2D: ambient occlusion of what is opaque; r: visibility; with bent normals gba: encodeLean() of the open direction
-    kBindingSceneDepth = 7,  ///< sampler2D: distance along the view of what is opaque, in metres, with levels
+    kBindingSceneDepth = 7,  ///< sampler2D: distance along the view of what is opaque, in metres
     kBindingFog = 8,         ///< samplerCube: the environment, as fog sees it
     kBindingPicture = 9,     ///< sampler2D: what is opaque in the picture, pre-exposed, with blurred levels
 };

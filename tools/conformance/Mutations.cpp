@@ -506,22 +506,8 @@ public:
 };
 
 /// The reach of ambient occlusion in the blocks of passes: a radius below 1 m, followed by its reciprocal.
-class OcclusionRadiusEdit final : public PayloadEdit {
-public:
-    void inspect(CommandView commands) override {
-        PayloadEdit::inspect(commands);
-        replay(commands, *this);
-    }
-    template <class C>
-    void execute(C const&) {}
-    void execute(CmdCreateBuffer const& command) {
-        if (command.desc.debugName == "pass blocks") mBlocks.insert(command.handle);
-    }
-
-    using PayloadEdit::edit;
-    void edit(CmdUpdateBuffer& command) override {
-        if (!mBlocks.contains(command.buffer)) return;
-        Bytes& bytes = copy(command.bytes);
+class OcclusionRadiusEdit final : public PassBlocksEdit {
+    void editBlocks(Bytes& bytes) override {
         for (size_t at = 0; at + 16 <= bytes.size(); at += 16) {
             const float radius = readFloat(bytes, at);
             const bool isReach = radius > 0 && radius < 1 && readFloat(bytes, at + sizeof(float)) == 1 / radius;
@@ -531,9 +517,6 @@ public:
             writeFloat(bytes, at + 2 * sizeof(float), 1.02f * readFloat(bytes, at + 2 * sizeof(float)));
         }
     }
-
-private:
-    std::set<BufferHandle> mBlocks;
 };
 
 class DepthCompareEdit final : public StreamEdit {

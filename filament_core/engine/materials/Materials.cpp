@@ -12,7 +12,6 @@
 #include <utility>
 
 namespace filament {
-namespace {} // namespace
 
 Result<Material> Engine::Impl::createMaterial(MaterialDesc const& desc) {
     auto loaded = engine::loadMaterial(desc);
