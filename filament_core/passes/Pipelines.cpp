@@ -238,6 +238,7 @@ PipelineCache::ProgramChoice PipelineCache::choose(uint32_t slot, scene::Materia
     ShadingKey shading = material.isLit() || isShadowed ? at.shading : ofUnlit(at.shading);
     if ((needed & shader::kVariantPunctual) == 0) shading = withoutLightList(shading);
     if (material.package.refractionMode != shader::RefractionMode::ScreenSpace) shading = withoutRefraction(shading);
+    if (material.package.reflections != shader::Reflections::ScreenSpace) shading = withoutReflections(shading);
     return { withPrecision(material, needed, at.precision), isShadowed ? shading : withoutShadows(shading) };
 }
 

@@ -80,6 +80,8 @@ ShadingKey withoutOcclusion(ShadingKey key) { return key & ~maskOf(shader::kQual
 
 ShadingKey withoutRefraction(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenRefraction); }
 
+ShadingKey withoutReflections(ShadingKey key) { return key & ~maskOf(shader::kQualityScreenReflections); }
+
 ShadingKey ofUnlit(ShadingKey key) { return key & maskOf(shader::kQualityFog); }
 
 ShadingKey withoutShadows(ShadingKey key) {

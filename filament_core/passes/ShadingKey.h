@@ -44,6 +44,8 @@ ShadingKey depthShadingKey(bool coloredShadows);
 ShadingKey withoutOcclusion(ShadingKey key);
 /// For what does not refract the picture, and for what is drawn before there is one.
 ShadingKey withoutRefraction(ShadingKey key);
+/// For what does not mirror the picture.
+ShadingKey withoutReflections(ShadingKey key);
 /// The choices of materials that are not lit.
 ShadingKey ofUnlit(ShadingKey key);
 /// Without the choices that only variants with kVariantPunctual have.

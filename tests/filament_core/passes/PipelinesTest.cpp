@@ -108,6 +108,25 @@ TEST(ChoosePipelines, HalfPrecisionTakesAProgramOfItsOwnWhereTheMaterialHasOneAn
     EXPECT_EQ(fixture.pipelines->programCount(fixture.materials[1]), 1u);
 }
 
+TEST(ChoosePipelines, APictureThatIsMirroredOrRefractedChangesOnlyMaterialsThatReadIt) {
+    DrawFixture fixture(3, 3, 1);
+    fixture.materials[1].package.refractionMode = shader::RefractionMode::ScreenSpace;
+    fixture.materials[2].package.reflections = shader::Reflections::ScreenSpace;
+    fixture.materials[2].package.shading = shader::ShadingModel::Lit;
+    const std::vector<DrawCall> draws{ fixture.draw(0, 0, 0), fixture.draw(1, 0, 1), fixture.draw(2, 0, 2) };
+    CommandBuffer setup;
+    const auto chooseWith = [&](ShadedScreen const& screen) {
+        fixture.slot = fixture.pipelines->slot({ .shading = shadingKey({}, {}, {}, screen) });
+        (void)fixture.choose(draws, setup);
+    };
+    chooseWith({});
+    chooseWith({ .hasRefraction = true });
+    chooseWith({ .hasReflections = true });
+    EXPECT_EQ(fixture.pipelines->programCount(fixture.materials[0]), 1u);
+    EXPECT_EQ(fixture.pipelines->programCount(fixture.materials[1]), 2u);
+    EXPECT_EQ(fixture.pipelines->programCount(fixture.materials[2]), 2u);
+}
+
 /// The pipelines of both passes of a material that blends, in a pass with a depth buffer.
 std::vector<PipelineDesc> twoPassesOf(shader::TransparencyMode transparency, bool depthWrite) {
     DrawFixture fixture(1, 1, 1);
