@@ -81,7 +81,7 @@ struct OcclusionSource {
 TextureId addPoints(FrameGraph& graph, OcclusionSource const& from) {
     FrameContext const& context = from.context;
     Quality const& quality = context.view->quality;
-    const AmbientOcclusion effect = clamped(context.view->effects).ambientOcclusion;
+    const AmbientOcclusion effect = context.packet.effects.ambientOcclusion;
     const uint2 size = context.settings.size;
     const float4 rays = raysOf(context.packet.mainView().uniforms.clipFromView, size);
     const float radius = effect.radiusMeters;
@@ -112,7 +112,7 @@ constexpr float kDeviation = 0.1f;
 TextureId addBlur(FrameGraph& graph, OcclusionSource const& from, TextureId occlusion, bool alongX) {
     FrameContext const& context = from.context;
     const std::array constants{ EffectConstant{ "grid", from.grid.code } };
-    const float radius = clamped(context.view->effects).ambientOcclusion.radiusMeters;
+    const float radius = context.packet.effects.ambientOcclusion.radiusMeters;
     const std::array values{ FullScreenValue{ "last", lastOf(context.settings.size) },
                              FullScreenValue{ "lastTexel", lastOf(from.grid.size) },
                              FullScreenValue{ "axis", alongX ? float2(1, 0) : float2(0, 1) },

@@ -23,7 +23,8 @@ ShadedLights lightsOf(prepare::FramePacket const& packet) {
 }
 
 /// What there is to compute: the colour of an environment, and light of a sun, if there is one.
-uint8_t fogTermsOf(Fog const& fog, prepare::FramePacket const& packet) {
+uint8_t fogTermsOf(prepare::FramePacket const& packet) {
+    Fog const& fog = packet.effects.fog;
     if (!packet.demand.needs(prepare::Effect::Fog)) return 0;
     uint32_t terms = shader::kFogOn;
     if (fog.colorFromEnvironment && packet.environment.specular) {
@@ -43,7 +44,7 @@ ShadedScreen screenOf(View const& view, prepare::FramePacket const& packet) {
              .hasReflections = demand.needs(prepare::Effect::Reflections),
              .showsLevels = view.debugView == DebugView::Refraction,
              .showsHits = view.debugView == DebugView::Reflections,
-             .fogTerms = fogTermsOf(clamped(view.effects).fog, packet) };
+             .fogTerms = fogTermsOf(packet) };
 }
 
 PassSettings settingsOf(View const& view, FrameResources const& resources, prepare::FramePacket const& packet) {

@@ -38,7 +38,7 @@ PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::Gr
     shader::PassUniforms block = uniformsOf(texture, 0, samples);
     block.raster.z = static_cast<float>(copy.levels - 1);
     block.picture = { first, first + size };
-    const ScreenReflections reflections = clamped(context.view->effects).reflections;
+    const ScreenReflections reflections = context.packet.effects.reflections;
     block.reflection = { context.view->quality.ssrSteps, reflections.distanceMeters, reflections.thicknessMeters, 0 };
     block.pictureFromWorld = picture.clipFromWorld;
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));

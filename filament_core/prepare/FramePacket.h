@@ -140,6 +140,7 @@ struct FramePacket {
     std::span<const SunDisc> discs; ///< of the main view, in the order of the scene
     uint32_t discsOutOfView = 0;
     SceneDemand demand; ///< of the main view
+    Effects effects;    ///< of the main view
 
     /// Of the picture that the user asked for.
     ViewPacket const& mainView() const { return views[0]; }

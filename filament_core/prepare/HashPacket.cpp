@@ -28,6 +28,13 @@ uint64_t hashShadows(ShadowPacket const& shadows, uint64_t seed) {
     return hashWords(seed, shadows.atlasSize, shadows.keepsAtlas);
 }
 
+// Fog and contact shadows are in the uniforms of the views, but for two switches.
+uint64_t hashEffects(Effects const& effects, uint64_t seed) {
+    seed = hashBytes(std::as_bytes(std::span(&effects.ambientOcclusion, 1)), seed);
+    seed = hashBytes(std::as_bytes(std::span(&effects.reflections, 1)), seed);
+    return hashWords(seed, effects.fog.enabled, effects.fog.colorFromEnvironment);
+}
+
 } // namespace
 
 uint64_t hashPacket(FramePacket const& packet) {
@@ -36,6 +43,7 @@ uint64_t hashPacket(FramePacket const& packet) {
     hash = hashDeformations(packet.deformations, hash);
     if (!packet.shadows.maps.empty()) hash = hashShadows(packet.shadows, hash);
     if (!packet.discs.empty()) hash = hashBytes(std::as_bytes(packet.discs), hash);
+    hash = hashEffects(packet.effects, hash);
     EnvironmentPacket const& environment = packet.environment;
     return hashWords(hash, environment.specular.bits, environment.irradiance.bits, environment.sky.bits,
                      environment.storage.isRgbm, environment.storage.mapping, environment.skyIsRgbm);

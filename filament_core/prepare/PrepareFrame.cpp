@@ -38,8 +38,8 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .deformed = countDeformed(packet.deformations),
                         .copiedPixels = packet.mainView().picture.pixels(),
                         .quality = view.quality,
-                        .fog = view.effects.fog,
-                        .ambientOcclusion = view.effects.ambientOcclusion,
+                        .fog = packet.effects.fog,
+                        .ambientOcclusion = packet.effects.ambientOcclusion,
                         .debugView = view.debugView,
                         .cascades = cascadesOf(packet.shadows),
                         .atlasSize = packet.shadows.atlasSize,
@@ -78,7 +78,8 @@ FramePacket prepareFrame(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     FramePacket packet{ .views = packets,
                         .deformations = placeDeformations(arena, scene, visible),
                         .shadows = behindViews(arena, shadows.packet, static_cast<uint32_t>(asked.size())),
-                        .environment = environmentOf(scene) };
+                        .environment = environmentOf(scene),
+                        .effects = views[0].effects };
     const SunDiscs discs = findSunDiscs(arena, scene.lights, views[0]);
     packet.discs = discs.inView;
     packet.discsOutOfView = discs.outOfView;
