@@ -78,6 +78,9 @@ EffectDemand demandOfPrepass(DemandInput const& input, uint32_t readers) {
 EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& demand) {
     ViewCounts const& counts = input.counts;
     const uint32_t lights = counts.litDraws ? counts.lights : 0; // otherwise no list is made
+    const auto showsEffect = [&](Effect effect) -> EffectDemand {
+        return { true, DemandReason::ShowsEffect, demand.needs(effect), static_cast<uint32_t>(input.debugView) };
+    };
     switch (input.debugView) {
     case DebugView::None:
         return {};
@@ -91,13 +94,13 @@ EffectDemand demandOfDebugView(DemandInput const& input, SceneDemand const& dema
         return { true, DemandReason::ShowsLights, lights };
     case DebugView::Occlusion:
     case DebugView::BentNormals:
-        return { true, DemandReason::ShowsEffect, demand.needs(Effect::AmbientOcclusion) };
+        return showsEffect(Effect::AmbientOcclusion);
     case DebugView::Reflections:
-        return { true, DemandReason::ShowsEffect, demand.needs(Effect::Reflections) };
+        return showsEffect(Effect::Reflections);
     case DebugView::Refraction:
-        return { true, DemandReason::ShowsEffect, demand.needs(Effect::Refraction) };
+        return showsEffect(Effect::Refraction);
     case DebugView::Fog:
-        return { true, DemandReason::ShowsEffect, demand.needs(Effect::Fog) };
+        return showsEffect(Effect::Fog);
     }
     return {};
 }
@@ -115,7 +118,8 @@ std::string describeDebugView(EffectDemand const& demand) {
         return demand.others ? fmt::format("debugView=froxels: at most {} lights", demand.count)
                              : fmt::format("debugView=froxels: no grid, {} lights everywhere", demand.count);
     case DemandReason::ShowsEffect:
-        return demand.count ? "an effect" : "an effect that does not run (its line says why)";
+        return fmt::format("debugView={}{}", toString(static_cast<DebugView>(demand.others)),
+                           demand.count ? "" : ": its effect does not run (its line says why)");
     default:
         return fmt::format("debugView=lights: at most {}", demand.count);
     }

@@ -53,7 +53,7 @@ enum class DemandReason : uint8_t {
     ShowsAtlas,           ///< `count` maps in `others` texels a side; 0: there is no atlas
     ShowsFroxels,         ///< `others`, the longest list of which has `count` lights; 0: there is one list of `count`
     ShowsLights,          ///< `count` are in the list
-    ShowsEffect,          ///< the effect that this debug view is about runs, or (`count` is 0) does not
+    ShowsEffect,          ///< `others`, a DebugView, whose effect runs, or (`count` is 0) does not
     DepthIsRead,          ///< by `count` effects
     SwitchedOn,           ///< by Quality
     DarkensIndirectLight, ///< on `count` lit draws
