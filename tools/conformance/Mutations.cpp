@@ -303,7 +303,7 @@ class AreaEdgeEdit final : public FrameEdit {
             const size_t color = at + offsetof(shader::PunctualLight, colorIntensity);
             const size_t edge = at + offsetof(shader::PunctualLight, directionScale);
             Bytes& bytes = copy(command.bytes);
-            if (readFloat(bytes, color + 3 * sizeof(float)) < shader::kShapeRect) continue;
+            if (readFloat(bytes, color + 3 * sizeof(float)) < float{ shader::kShapeRect }) continue;
             for (size_t i = 0; i < 3; ++i) writeFloat(bytes, edge + 4 * i, 1.01f * readFloat(bytes, edge + 4 * i));
             return;
         }

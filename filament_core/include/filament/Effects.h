@@ -36,10 +36,9 @@ struct ScreenReflections {
 /// Fog that thins out exponentially with height, and light that it scatters.
 struct Fog {
     bool enabled = false;
-    float density = 0.1f;  ///< at heightMeters, [0, 1e4] 1/m
-    float startMeters = 0; ///< no fog nearer to the camera, [0, 1e6]
-    float cutOffMeters =
-            0; ///< nothing farther away has fog, for skies that have their own; 0: everything has, [0, 1e9]
+    float density = 0.1f;     ///< at heightMeters, [0, 1e4] 1/m
+    float startMeters = 0;    ///< no fog nearer to the camera, [0, 1e6]
+    float cutOffMeters = 0;   ///< no fog farther away, for skies that have their own; 0: no limit, [0, 1e9]
     float heightMeters = 0;   ///< world height at which `density` holds, [-1e6, 1e6]
     float heightFalloff = 0;  ///< [0, 1e3] 1/m: density changes by exp(-heightFalloff * metres above heightMeters)
     float maximumOpacity = 1; ///< [0, 1]

@@ -39,7 +39,7 @@ highp float insidePicture(highp float start, highp float along, highp float size
     return clamp(end, 0.0, 1.0);
 }
 
-// `reach`: how much of the ray lies in front of the camera is kept.
+// `meters`: how far the ray goes; less, where it would pass behind the camera.
 PictureRay pictureRay(highp vec3 from, highp vec3 direction, inout highp float meters) {
     highp vec4 first = frameUniforms.clipFromWorld * vec4(from, 1.0);
     highp vec4 last = frameUniforms.clipFromWorld * vec4(from + direction * meters, 1.0);
