@@ -56,10 +56,10 @@ void putSize(std::span<std::byte> out, size_t size) {
 } // namespace
 
 std::vector<std::byte> deflateBytes(std::span<const std::byte> bytes) {
+    constexpr int kLevel = 7;       // level 9 makes packages 2.3 % smaller, and compiling materials 14 % longer
     constexpr int kMemoryLevel = 9; // of 1 to 9; zlib's largest
     Stream stream(deflateEnd);
-    checkMemory(
-            deflateInit2(&stream.state, Z_BEST_COMPRESSION, Z_DEFLATED, kRawDeflate, kMemoryLevel, Z_DEFAULT_STRATEGY));
+    checkMemory(deflateInit2(&stream.state, kLevel, Z_DEFLATED, kRawDeflate, kMemoryLevel, Z_DEFAULT_STRATEGY));
     const size_t bound = deflateBound(&stream.state, bytes.size());
     FILAMENT_ASSERT(bound <= std::numeric_limits<uInt>::max(), "less than 4 GiB can be deflated");
     std::vector<std::byte> out(kSizeBytes + bound);
