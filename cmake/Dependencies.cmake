@@ -61,6 +61,7 @@ add_library(embree INTERFACE)
 target_include_directories(embree SYSTEM INTERFACE ${EMBREE_INCLUDE})
 target_link_libraries(embree INTERFACE ${EMBREE_LIBRARY})
 
+find_library(JEMALLOC_LIBRARY jemalloc REQUIRED) # filament_fast_heap()
 find_package(CLI11 REQUIRED)
 if(FILAMENT_BUILD_TESTS)
     find_package(GTest REQUIRED)

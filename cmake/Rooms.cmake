@@ -117,6 +117,16 @@ function(filament_program name)
     set_target_properties(${name} PROPERTIES RUNTIME_OUTPUT_DIRECTORY ${CMAKE_BINARY_DIR}/bin)
 endfunction()
 
+# For programs that compile materials: glslang and SPIRV-Tools allocate so much that jemalloc's heap saves them 20 to 30 %
+# of their time. Sanitizers bring a heap of their own.
+function(filament_fast_heap)
+    if(NOT FILAMENT_SANITIZE)
+        foreach(program IN LISTS ARGN)
+            target_link_libraries(${program} PRIVATE ${JEMALLOC_LIBRARY})
+        endforeach()
+    endif()
+endfunction()
+
 # The code of tests runs once: beyond -O1, compiling takes longer than the tests save. HOT programs, which compute for
 # seconds in their own objects, keep the preset's level and do without the precompiled header.
 set(FILAMENT_TEST_OPTIONS $<$<CONFIG:Release>:-O1>)
