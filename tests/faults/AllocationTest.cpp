@@ -260,6 +260,7 @@ struct Sweeper {
     Whose whose;
     Lasting lasting = Lasting::Once;
     uint64_t stride = 1;
+    uint64_t modelStride = stride; ///< of loading a model, whose two thousand allocations take long
 
     Sweep of(const char* scenario) const {
         return { fmt::format("{} {}", scenario, name), whose, lasting, Callers::All, stride };
@@ -273,10 +274,10 @@ const StageOptions kAlone{}, kPlain{ .validation = false },
 
 class OutOfMemory : public testing::TestWithParam<Sweeper> {};
 INSTANTIATE_TEST_SUITE_P(Sweeps, OutOfMemory,
-                         testing::Values(Sweeper{ "app", kAlone, Whose::App },
+                         testing::Values(Sweeper{ "app", kAlone, Whose::App, Lasting::Once, 1, 5 },
                                          Sweeper{ "driver", kAlone, Whose::Driver },
                                          Sweeper{ "plain_driver", kPlain, Whose::Driver },
-                                         Sweeper{ "app_onwards", kAlone, Whose::App, Lasting::Onwards },
+                                         Sweeper{ "app_onwards", kAlone, Whose::App, Lasting::Onwards, 1, 5 },
                                          Sweeper{ "driver_onwards", kAlone, Whose::Driver, Lasting::Onwards },
                                          Sweeper{ "app_with_workers", kCrowd, Whose::App, Lasting::Once, 211 },
                                          Sweeper{ "jobs", kCrowd, Whose::Jobs }),
@@ -306,7 +307,9 @@ TEST_P(OutOfMemory, EverythingEnds) {
 
 TEST_P(OutOfMemory, AModelIsLoadedOrRefused) {
     const std::filesystem::path file = modelFile();
-    sweepAllocations(GetParam().of("model"), [&] { return std::make_unique<LoadsModel>(GetParam().options, file); });
+    Sweep sweep = GetParam().of("model");
+    sweep.stride = GetParam().modelStride;
+    sweepAllocations(sweep, [&] { return std::make_unique<LoadsModel>(GetParam().options, file); });
 }
 
 TEST(EnvironmentWithoutMemory, IsLoadedOrRefused) {

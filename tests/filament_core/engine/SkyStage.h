@@ -65,10 +65,6 @@ inline void addSphere(MaterialStage& stage, MaterialInstance instance) {
     stage.add(instance, vertices, sphere.indices, double4x4(1.0));
 }
 
-/// Variants that a picture does not need, for MaterialStage::material().
-inline constexpr uint16_t kNoLights = shader::kVariantSun | shader::kVariantPunctual,
-                          kSunOnly = shader::kVariantPunctual;
-
 /// Text of a material with this code in main() and these properties.
 inline std::string text(std::string_view properties, std::string_view code) {
     return fmt::format("material {{ name : stage, {} }}\nfragment {{ void material(inout MaterialInputs material) {{\n"

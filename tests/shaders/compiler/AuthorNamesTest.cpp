@@ -25,8 +25,9 @@ std::string withDeclarations(std::string const& declarations, std::string const&
                        model, declarations, use, declarations, use);
 }
 
+/// As written: names are a matter of the front end, and the optimiser takes most of the time.
 Result<MaterialPackage> compileWith(std::string const& declarations, std::string const& use, const char* model) {
-    return compileMaterial(withDeclarations(declarations, use, model), "a.mat");
+    return compileMaterial(withDeclarations(declarations, use, model), "a.mat", { .optimization = Optimization::None });
 }
 
 struct Own {

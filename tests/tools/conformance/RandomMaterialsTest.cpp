@@ -60,7 +60,7 @@ std::string readFile(std::filesystem::path const& path) {
 uint64_t fetchingSeed(uint64_t seed) {
     for (;; ++seed) {
         const std::string text = print(generateMaterial(seed));
-        if (text.size() < 3000 && has(text, "texture(")) return seed;
+        if (text.size() < 1500 && has(text, "texture(")) return seed;
     }
 }
 

@@ -2,7 +2,7 @@
 /// Materials from their text, and a picture that one of them fills.
 #pragma once
 
-#include "shaders/compiler/MaterialCompiler.h"
+#include "tests/filament_core/engine/CompiledMaterials.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
 #include <array>
@@ -12,18 +12,9 @@
 
 namespace filament::test {
 
-/// The package of a .mat text; the test fails if it does not compile.
-inline std::vector<std::byte> compilePackage(std::string_view text, shader::CompileOptions const& options = {}) {
-    const Result<shader::MaterialPackage> package = shader::compileMaterial(text, "test.mat", options);
-    if (package) return shader::writePackage(*package);
-    ADD_FAILURE() << package.error().message;
-    return {};
-}
-
 inline Owned<Material> loadMaterial(Engine& engine, std::string_view text,
                                     std::vector<MaterialConstant> constants = {}) {
-    const std::vector<std::byte> bytes = compilePackage(text);
-    auto material = engine.create(MaterialDesc{ .package = bytes, .constants = std::move(constants) });
+    auto material = engine.create(MaterialDesc{ .package = compiledPackage(text), .constants = std::move(constants) });
     if (material) return engine.own(*material);
     ADD_FAILURE() << material.error().message;
     return {};

@@ -225,7 +225,7 @@ TEST_P(MaterialParameters, ConstantsOfEveryTypeAreFixedWhenTheMaterialIsLoaded) 
     const Owned<MaterialInstance> b = mEngine->own(mEngine->createInstance(other));
     EXPECT_EQ(test::shownBy(*mEngine, a), float4(1, -3, 0.25f, 1));
     EXPECT_EQ(test::shownBy(*mEngine, b), float4(0, 7, 0.5f, 1));
-    const std::vector<std::byte> bytes = test::compilePackage(kConstants);
+    const std::span<const std::byte> bytes = test::compiledPackage(kConstants);
     const auto wrong = mEngine->create(MaterialDesc{ .package = bytes, .constants = { { "steps", 1.0f } } });
     ASSERT_FALSE(wrong);
     EXPECT_EQ(wrong.error().message, "constant 'steps' of material 'switches' is int, but was given float");

@@ -4,7 +4,7 @@
 ///   returns the picture: scene-linear half floats.
 #pragma once
 
-#include "shaders/compiler/MaterialCompiler.h"
+#include "tests/filament_core/engine/CompiledMaterials.h"
 #include "tests/filament_core/engine/RenderFixture.h"
 
 #include <array>
@@ -38,14 +38,7 @@ public:
     /// None, and a test failure, if the text does not compile. Filter variants that a test does not need: they only
     /// take time.
     MaterialInstance material(std::string_view text, uint16_t filteredVariants = 0) {
-        const Result<shader::MaterialPackage> package =
-                shader::compileMaterial(text, "stage.mat", { .filteredVariants = filteredVariants });
-        if (!package) {
-            ADD_FAILURE() << package.error().message;
-            return {};
-        }
-        const std::vector<std::byte> bytes = shader::writePackage(*package);
-        Result<Material> material = engine.create(MaterialDesc{ .package = bytes });
+        Result<Material> material = engine.create(MaterialDesc{ .package = compiledPackage(text, filteredVariants) });
         if (!material) {
             ADD_FAILURE() << material.error().message;
             return {};

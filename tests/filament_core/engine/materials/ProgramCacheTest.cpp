@@ -33,7 +33,7 @@ fragment {
 class ProgramCache : public testing::TestWithParam<Backend> {
 protected:
     void SetUp() override {
-        mPackage = test::compilePackage(kMaterial);
+        mPackage = test::compiledPackage(kMaterial);
         mBefore = setLogSink([this](Severity, std::string_view line) { mLines.emplace_back(line); });
     }
     void TearDown() override {
@@ -85,7 +85,7 @@ protected:
 
     const fs::path mFolder =
             fs::temp_directory_path() / ("program_cache_test_" + std::to_string(getpid()) + "_" + toString(GetParam()));
-    std::vector<std::byte> mPackage;
+    std::span<const std::byte> mPackage; // kept by compiledPackage()
     LogSink mBefore;
     std::vector<std::string> mLines;
 };

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+/// Materials from .mat text, each text compiled once per process: tests draw the same material on several engines, and
+/// compiling it takes longer than drawing it.
+///   Thread  one.   Memory: the packages are kept.   Fails: by failing the running test.
+#pragma once
+
+#include "shaders/compiler/MaterialCompiler.h"
+#include "shaders/package/Package.h"
+
+#include <gtest/gtest.h>
+
+#include <cstddef>
+#include <cstdint>
+#include <map>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+namespace filament::test {
+
+/// Variants that a picture does not need.
+inline constexpr uint16_t kNoLights = shader::kVariantSun | shader::kVariantPunctual,
+                          kSunOnly = shader::kVariantPunctual;
+
+/// Empty, and a test failure, if the text does not compile. Filter variants that a test does not need: they only take
+/// time.
+inline std::span<const std::byte> compiledPackage(std::string_view text, uint16_t filteredVariants = 0) {
+    static std::map<std::pair<std::string, uint16_t>, std::vector<std::byte>> known;
+    std::vector<std::byte>& bytes = known[{ std::string(text), filteredVariants }];
+    if (!bytes.empty()) return bytes;
+    const Result<shader::MaterialPackage> package =
+            shader::compileMaterial(text, "test.mat", { .filteredVariants = filteredVariants });
+    if (package)
+        bytes = shader::writePackage(*package);
+    else
+        ADD_FAILURE() << package.error().message;
+    return bytes;
+}
+
+} // namespace filament::test
