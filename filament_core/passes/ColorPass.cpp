@@ -17,11 +17,11 @@ using framegraph::PassContext;
 using framegraph::TextureId;
 using prepare::DrawCall;
 
-/// What of the view a pass draws.
-enum class ColorPart : uint8_t {
-    All,
-    Picture, ///< what refracting objects see: what is opaque, and the sky
-    Front,   ///< the rest, over the picture
+/// What of the view a pass draws: all, or what is drawn before the first copy of the picture, between two, or after
+/// the last.
+struct ColorPart {
+    bool isFirst = true, isLast = true; ///< the first draws what is opaque, and the sky
+    std::span<const DrawCall> blended;
 };
 
 struct Chosen {
@@ -35,7 +35,7 @@ struct Chosen {
 
 /// What the pass declares besides its targets.
 struct ColorBlocks {
-    ColorPart part = ColorPart::All;
+    ColorPart part;
     PassBlock target;
     PassTextures textures;
     std::span<const PassBlock> discs; ///< parameters of the discs of suns
@@ -77,10 +77,12 @@ uint32_t blendedSlot(PassContext& pass, PassSettings const& settings, PipelineSo
     return pipelines.slot(slot);
 }
 
-std::span<const DrawCall> blendedOf(prepare::ViewPacket const& view, ColorPart part) {
-    if (part == ColorPart::All) return view.blended;
-    return part == ColorPart::Picture ? view.blended.first(view.picture.lateDraws)
-                                      : view.blended.subspan(view.picture.lateDraws);
+/// The draws over the nth copy of the picture; 0: those before the first.
+ColorPart partOf(prepare::ViewPacket const& view, size_t nth) {
+    const size_t first = nth == 0 ? 0 : view.pictures[nth - 1].firstDraw;
+    const bool isLast = nth == view.pictures.size();
+    const size_t end = isLast ? view.blended.size() : view.pictures[nth].firstDraw;
+    return { nth == 0, isLast, view.blended.subspan(first, end - first) };
 }
 
 void chooseBackground(PassContext& pass, FrameContext const& context, ColorBlocks const& blocks, uint32_t slot,
@@ -103,8 +105,8 @@ Chosen choose(PassContext& pass, FrameContext const& context, ColorBlocks const&
     const uint32_t slot = pipelines.slot(slotOf(settings, pass.passLayout(), pass.subpass()));
     Chosen chosen;
     chosen.passGroups = surfaceGroups(pass, context, blocks.target, blocks.textures);
-    chosen.blendedDraws = blendedOf(view, blocks.part);
-    if (blocks.part != ColorPart::Front) {
+    chosen.blendedDraws = blocks.part.blended;
+    if (blocks.part.isFirst) {
         chosen.opaqueDraws = view.opaque;
         chosen.opaque =
                 choosePipelines(pass, *context.arena, pipelines, slot, view.opaque, view.variant, view.channels);
@@ -157,16 +159,15 @@ ColorAttachments attachmentsOf(FrameGraph& graph, FrameContext const& context, F
     return made;
 }
 
-void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachments const& to, ColorPart part) {
+void declareTargets(PassBuilder& pass, FrameContext const& context, ColorAttachments const& to, ColorPart const& part) {
     PassSettings const& settings = context.settings;
-    const bool isFirst = part != ColorPart::Front;
     framegraph::ColorTarget color{ .resolve = settings.samples == 1 ? TextureId{} : to.color };
     const float4 clear = settings.clearColor;
-    if (isFirst) color.clear = std::array{ clear.x, clear.y, clear.z, clear.w };
+    if (part.isFirst) color.clear = std::array{ clear.x, clear.y, clear.z, clear.w };
     pass.writeColor(0, to.samples, color);
     framegraph::DepthTarget depth;
-    if (isFirst && !to.hasDepth) depth.clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
-    if (part == ColorPart::Picture && settings.samples > 1) depth.resolve = to.depthOfPicture;
+    if (part.isFirst && !to.hasDepth) depth.clear = settings.depthRange == DepthRange::Reversed ? 0.0f : 1.0f;
+    if (!part.isLast && settings.samples > 1) depth.resolve = to.depthOfPicture;
     pass.writeDepth(to.depth, depth);
 }
 
@@ -194,9 +195,8 @@ PassTextures texturesOf(FrameContext const& context, FrameTargets const& targets
 PassPicture lastPicture(FrameContext const& context) { return { wholePicture(context), context.lastClipFromWorld }; }
 
 /// What of this frame is drawn so far.
-PassPicture picture(FrameContext const& context) {
-    prepare::ViewPacket const& view = context.packet.mainView();
-    return { view.picture, view.uniforms.clipFromWorld };
+PassPicture picture(FrameContext const& context, prepare::PictureCopy const& copy) {
+    return { copy, context.packet.mainView().uniforms.clipFromWorld };
 }
 
 void showPicture(FrameContext const& context, framegraph::GraphTextureDesc const& target, PassPicture const& shown,
@@ -218,14 +218,15 @@ void addColorPass(FrameGraph& graph, FrameContext const& context, FrameTargets& 
     blocks.discs = declareDiscs(context);
     const ColorAttachments to = attachmentsOf(graph, context, targets);
     targets.depth = to.depth;
-    const bool isRefracted = context.packet.demand.needs(prepare::Effect::Refraction);
-    blocks.part = isRefracted ? ColorPart::Picture : ColorPart::All;
+    prepare::ViewPacket const& view = context.packet.mainView();
+    blocks.part = partOf(view, 0);
     addPart(graph, context, to, "color", blocks);
-    if (!isRefracted) return;
-    addPicturePasses(graph, context, to.depthOfPicture, targets);
-    blocks.part = ColorPart::Front;
-    showPicture(context, like, picture(context), targets.picture, blocks);
-    addPart(graph, context, to, "refraction", blocks);
+    for (size_t i = 0; i < view.pictures.size(); ++i) {
+        targets.picture = addPicturePasses(graph, context, to.color, to.depthOfPicture, view.pictures[i]);
+        showPicture(context, like, picture(context, view.pictures[i]), targets.picture, blocks);
+        blocks.part = partOf(view, i + 1);
+        addPart(graph, context, to, "refraction", blocks);
+    }
 }
 
 } // namespace filament::passes

@@ -91,9 +91,11 @@ prepare::PictureCopy wholePicture(FrameContext const& context) {
     return prepare::copyAround({ float2(0.0f), float2(size) }, size);
 }
 
-void addPicturePasses(FrameGraph& graph, FrameContext const& context, TextureId depth, FrameTargets& targets) {
-    targets.picture = graph.createTexture(pictureDesc(context, "picture"));
-    addLevels(graph, context, { targets.color, depth, context.packet.mainView().picture }, targets.picture);
+TextureId addPicturePasses(FrameGraph& graph, FrameContext const& context, TextureId color, TextureId depth,
+                           PictureCopy const& copy) {
+    const TextureId picture = graph.createTexture(pictureDesc(context, "picture"));
+    addLevels(graph, context, { color, depth, copy }, picture);
+    return picture;
 }
 
 void declareLastPicture(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {

@@ -11,9 +11,10 @@
 
 namespace filament::passes {
 
-/// targets.picture: the rectangle and the levels of ViewPacket::picture.
-void addPicturePasses(framegraph::FrameGraph& graph, FrameContext const& context, framegraph::TextureId depth,
-                      FrameTargets& targets);
+/// The rectangle and the levels of `copy`.
+framegraph::TextureId addPicturePasses(framegraph::FrameGraph& graph, FrameContext const& context,
+                                       framegraph::TextureId color, framegraph::TextureId depth,
+                                       prepare::PictureCopy const& copy);
 
 /// Before the colour pass, if something reflects the picture: targets.lastPicture, all of the last frame's, empty if
 /// there was none.

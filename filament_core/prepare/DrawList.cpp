@@ -13,25 +13,28 @@ struct RangeDraws {
 
 // What drawing order depends on besides state. Nothing but casters is drawn into shadow maps, all of which leave their
 // depth once: there nothing is.
-uint32_t specialOrders(ViewKind kind, bool refractsPicture) {
+uint32_t specialOrders(ViewKind kind, RefractionOrder refraction) {
     using scene::Drawables;
     if (kind == ViewKind::Shadow) return 0;
     return Drawables::kBlendedOrder | Drawables::kTwoPassesOrder | Drawables::kNoDepthWriteOrder |
-           Drawables::kNoDepthTestOrder | (refractsPicture ? Drawables::kSeesPictureOrder : 0);
+           Drawables::kNoDepthTestOrder | (refraction == RefractionOrder::Any ? 0 : Drawables::kSeesPictureOrder);
 }
 
-uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden, uint32_t special) {
+uint64_t keyOf(scene::Drawables::Use use, SortItem const& item, DepthSpan span, int hidden, uint32_t special,
+               RefractionOrder refraction) {
     using scene::Drawables;
     const auto depth = static_cast<uint32_t>(item.key);
     if (special & Drawables::kBlendedOrder) return blendedKey(depth);
-    if (special & Drawables::kSeesPictureOrder) return refractingKey(depth);
+    if (special & Drawables::kSeesPictureOrder)
+        return refraction == RefractionOrder::BackToFront ? layeredKey(depth) : refractingKey(depth);
     if (special & (Drawables::kNoDepthWriteOrder | Drawables::kNoDepthTestOrder))
         return lateKey(depth, (special & Drawables::kNoDepthTestOrder) != 0);
     return opaqueKey(use.order, item.draw, sliceStart(span, use.users >> hidden, coarseStep(depth)), depth);
 }
 
 bool startsDraw(std::span<const SortItem> items, size_t i) {
-    return i % shader::kObjectsPerWindow == 0 || items[i].draw != items[i - 1].draw || isDrawnTwice(items[i].draw);
+    return i % shader::kObjectsPerWindow == 0 || items[i].draw != items[i - 1].draw || isDrawnTwice(items[i].draw) ||
+           isLayered(items[i].key);
 }
 
 uint32_t countDraws(std::span<const SortItem> items, size_t begin, size_t end) {
@@ -77,11 +80,11 @@ uint64_t writeDraws(scene::Drawables const& drawables, std::span<const SortItem>
 } // namespace
 
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible, ViewKind kind, bool refractsPicture) {
+                              VisibleItems const& visible, ViewKind kind, RefractionOrder refraction) {
     const auto items = arena.arrayForOverwrite<SortItem>(visible.count());
     // The visible share of the scene as a power of two: the members of a draw are assumed to be visible in the same
     // proportion.
-    const uint32_t specials = specialOrders(kind, refractsPicture);
+    const uint32_t specials = specialOrders(kind, refraction);
     const int hidden = static_cast<int>(std::bit_width(visible.slots.size()) - std::bit_width(items.size()));
     jobs::parallelFor<"sort keys">(jobs, visible.slots.size(), kCullRange, [&](size_t begin, size_t) {
         const size_t range = begin / kCullRange;
@@ -90,7 +93,7 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
             const scene::Drawables::Use use = drawables.use(drawableOf(from->draw));
             static_assert(scene::Drawables::kTwoPassesOrder << 1 == kDrawnTwice);
             const uint32_t special = use.order & specials;
-            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden, special), from->renderable,
+            items[i] = { keyOf(use, *from, visible.spanOf(from->draw), hidden, special, refraction), from->renderable,
                          from->draw | (special & scene::Drawables::kTwoPassesOrder) << 1 };
         }
     });
@@ -100,6 +103,11 @@ std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawab
 std::span<const SortItem> itemsBefore(std::span<const SortItem> sorted, uint64_t key) {
     const auto isBefore = [=](SortItem const& item) { return item.key < key; };
     return { sorted.begin(), std::ranges::partition_point(sorted, isBefore) };
+}
+
+size_t drawsBefore(std::span<const DrawCall> draws, size_t item) {
+    const auto isBefore = [=](DrawCall const& draw) { return draw.firstObject < item; };
+    return static_cast<size_t>(std::ranges::partition_point(draws, isBefore) - draws.begin());
 }
 
 DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
@@ -119,13 +127,8 @@ DrawLists mergeInstances(jobs::JobSystem& jobs, Arena& arena, scene::Drawables c
     for (RangeDraws const& range : ranges) counts.triangles += range.triangles;
 
     // The first item after the sky or the picture starts a draw, because items of one material share its place.
-    const auto drawsBefore = [&](uint64_t key) {
-        const size_t end = itemsBefore(items, key).size();
-        const auto isBefore = [&](DrawCall const& draw) { return draw.firstObject < end; };
-        return static_cast<size_t>(std::ranges::partition_point(draws, isBefore) - draws.begin());
-    };
-    const size_t early = drawsBefore(kLateKey);
-    return { draws.first(early), draws.subspan(early), drawsBefore(kPictureEndKey) - early };
+    const size_t early = drawsBefore(draws, itemsBefore(items, kLateKey).size());
+    return { draws.first(early), draws.subspan(early) };
 }
 
 } // namespace filament::prepare

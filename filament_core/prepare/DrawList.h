@@ -17,18 +17,27 @@ namespace filament::prepare {
 /// Items that one job merges at a time: whole windows, so that every range begins a draw call.
 inline constexpr size_t kMergeRange = 16 * shader::kObjectsPerWindow;
 
-/// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene. refractsPicture:
-/// what refracts the picture is drawn after what is in it; otherwise it is opaque like anything.
+/// When what refracts the picture is drawn.
+enum class RefractionOrder : uint8_t {
+    Any,         ///< like anything opaque: no picture is refracted
+    FrontToBack, ///< after what is in the picture
+    BackToFront, ///< the same; each sees those behind it
+};
+
+/// The visible renderables without gaps, with their keys (SortKey.h), still in the order of the scene.
 std::span<SortItem> writeKeys(jobs::JobSystem& jobs, Arena& arena, scene::Drawables const& drawables,
-                              VisibleItems const& visible, ViewKind kind, bool refractsPicture = false);
+                              VisibleItems const& visible, ViewKind kind,
+                              RefractionOrder refraction = RefractionOrder::Any);
 
 /// The part of a sorted list with keys below `key`: kLateKey for what comes before the sky, kPictureEndKey for what
 /// refracting objects see.
 std::span<const SortItem> itemsBefore(std::span<const SortItem> sorted, uint64_t key);
 
+/// How many of `draws` draw items before this one, which starts a draw.
+size_t drawsBefore(std::span<const DrawCall> draws, size_t item);
+
 struct DrawLists {
     std::span<const DrawCall> opaque, blended; ///< before and after the sky
-    size_t lateInPicture = 0;                  ///< the first of `blended`: refracting objects see them
 };
 
 /// Neighbours of one draw become one instanced draw call; none crosses a window of shader::kObjectsPerWindow objects.

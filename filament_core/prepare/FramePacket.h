@@ -109,9 +109,9 @@ struct ViewPacket {
     bool hasAreaLights = false; ///< among `lights`
     ProfileLists profiles;      ///< of `lights`
     ObjectList objects;
-    std::span<const DrawCall> opaque;  ///< opaque and masked, roughly front to back
-    std::span<const DrawCall> blended; ///< back to front; none where nothing is shaded
-    PictureCopy picture{};             ///< what of `opaque` and the first of `blended` is refracted by the others
+    std::span<const DrawCall> opaque;      ///< opaque and masked, roughly front to back
+    std::span<const DrawCall> blended;     ///< back to front; none where nothing is shaded
+    std::span<const PictureCopy> pictures; ///< for what of `blended` refracts what is drawn before it; none: nothing
     ViewCounts counts;
 };
 

@@ -94,8 +94,9 @@ uint64_t hashView(ViewPacket const& view, uint64_t seed) {
     for (DrawCall const& draw : view.blended) seed = hashDraw(draw, seed);
     seed = hashWords(seed, view.kind, view.variant, view.hasAreaLights, view.lights.size(), view.objects.size(),
                      view.opaque.size(), view.blended.size());
-    seed = hashWords(seed, view.picture.rect.x, view.picture.rect.y, view.picture.rect.width, view.picture.rect.height,
-                     view.picture.levels, view.picture.lateDraws);
+    for (PictureCopy const& copy : view.pictures)
+        seed = hashWords(seed, copy.rect.x, copy.rect.y, copy.rect.width, copy.rect.height, copy.levels,
+                         copy.firstDraw);
     return hashCounts(view.counts, seed);
 }
 

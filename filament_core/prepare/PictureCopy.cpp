@@ -16,13 +16,6 @@ constexpr float kLeastReach = 8; // pixels
 
 uint32_t log2Floor(uint32_t x) { return static_cast<uint32_t>(std::bit_width(x)) - 1; }
 
-PixelBox around(PixelBox a, PixelBox b) { return { glm::min(a.least, b.least), glm::max(a.most, b.most) }; }
-
-bool seesPicture(scene::Renderables const& renderables, SortItem const& item) {
-    scene::Drawable const& drawable = renderables.drawables[drawableOf(item.draw)];
-    return drawable.material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
-}
-
 uint32_t wholeSteps(uint32_t pixels, uint32_t step) { return std::max((pixels + step - 1) / step, 2u) * step; }
 
 /// The first pixel and the one behind the last, in two or more whole texels of `step` pixels.
@@ -47,6 +40,8 @@ uint2 pictureTextureSize(uint2 view) {
     return { wholeSteps(view.x, step), wholeSteps(view.y, step) };
 }
 
+PixelBox unionOf(PixelBox a, PixelBox b) { return { glm::min(a.least, b.least), glm::max(a.most, b.most) }; }
+
 PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfExtent, uint2 view) {
     const float2 size(view);
     PixelBox box{ size, float2(0.0f) };
@@ -56,7 +51,7 @@ PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfE
         if (!(clip.w > 1e-4f)) return { float2(0.0f), size };
         const float2 pixel = (float2(clip) / clip.w * 0.5f + 0.5f) * size;
         if (!std::isfinite(pixel.x) || !std::isfinite(pixel.y)) return { float2(0.0f), size };
-        box = around(box, { pixel, pixel });
+        box = unionOf(box, { pixel, pixel });
     }
     return box;
 }
@@ -74,22 +69,6 @@ PictureCopy copyAround(PixelBox box, uint2 view) {
     const uint32_t step = 1u << (levels - 1);
     const uint2 x = spanOf(first.x, end.x, view.x, step), y = spanOf(first.y, end.y, view.y, step);
     return { .rect = { static_cast<int32_t>(x.x), static_cast<int32_t>(y.x), x.y - x.x, y.y - y.x }, .levels = levels };
-}
-
-PictureCopy pictureCopy(scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space,
-                        uint2 view, size_t lateDraws) {
-    PixelBox box{ float2(view), float2(0.0f) };
-    for (SortItem const& item : items) {
-        if (!seesPicture(renderables, item)) continue;
-        const bool isBounded = (renderables.flags[item.renderable] & scene::kCulled) != 0;
-        const float3 center(renderables.bounds.centerAt(item.renderable) - space.cameraWorld);
-        box = around(box, isBounded ? projectedBox(space.clipFromWorld, center,
-                                                   renderables.bounds.halfExtentAt(item.renderable), view)
-                                    : PixelBox{ float2(0.0f), float2(view) });
-    }
-    PictureCopy copy = copyAround(box, view);
-    copy.lateDraws = static_cast<uint32_t>(lateDraws);
-    return copy;
 }
 
 } // namespace filament::prepare

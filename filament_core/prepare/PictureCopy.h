@@ -8,12 +8,8 @@
 
 #include "backend/api/Descriptions.h"
 #include "base/math/Math.h"
-#include "filament_core/prepare/SortKey.h"
-#include "filament_core/prepare/ViewConstants.h"
-#include "filament_core/scene/Renderables.h"
 
 #include <cstdint>
-#include <span>
 
 namespace filament::prepare {
 
@@ -25,10 +21,9 @@ uint8_t pictureLevels(uint2 view);
 uint2 pictureTextureSize(uint2 view);
 
 struct PictureCopy {
-    backend::Rect
-            rect{}; ///< pixels, in whole texels of the last level; may end beyond the view. Empty: nothing is copied
+    backend::Rect rect{};   ///< pixels, in whole texels of the last level; may end beyond the view
     uint8_t levels = 0;     ///< that are drawn, with the copy itself
-    uint32_t lateDraws = 0; ///< of ViewPacket::blended: they belong to the picture
+    uint32_t firstDraw = 0; ///< of ViewPacket::blended: what is drawn over the copy; those before it are in it
 
     uint32_t pixels() const { return rect.width * rect.height; }
 };
@@ -38,14 +33,12 @@ struct PixelBox {
     float2 least{ 0.0f }, most{ 0.0f };
 };
 
+PixelBox unionOf(PixelBox a, PixelBox b);
+
 /// What a box covers on the screen; all of the view if some of it is beside or behind the camera.
 PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfExtent, uint2 view);
 
 /// The part that is copied for objects in `box`.
 PictureCopy copyAround(PixelBox box, uint2 view);
-
-/// `items`: all that is drawn after the picture; those that refract it count.
-PictureCopy pictureCopy(scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space,
-                        uint2 view, size_t lateDraws);
 
 } // namespace filament::prepare

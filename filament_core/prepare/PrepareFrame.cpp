@@ -26,6 +26,12 @@ uint32_t countDeformed(DeformationList const& list) {
     }));
 }
 
+uint32_t copiedPixels(std::span<const PictureCopy> pictures) {
+    uint32_t pixels = 0;
+    for (PictureCopy const& copy : pictures) pixels += copy.pixels();
+    return pixels;
+}
+
 uint32_t cascadesOf(ShadowPacket const& shadows) {
     return shadows.uniforms ? static_cast<uint32_t>(shadows.uniforms->sun.y) : 0;
 }
@@ -36,7 +42,7 @@ SceneDemand demandOf(FramePacket const& packet, ShadowCounts const& shadows, Vie
                         .hasIndirectLight = static_cast<bool>(packet.environment.specular),
                         .hasSky = static_cast<bool>(packet.environment.sky),
                         .deformed = countDeformed(packet.deformations),
-                        .copiedPixels = packet.mainView().picture.pixels(),
+                        .copiedPixels = copiedPixels(packet.mainView().pictures),
                         .quality = view.quality,
                         .fog = packet.effects.fog,
                         .ambientOcclusion = packet.effects.ambientOcclusion,

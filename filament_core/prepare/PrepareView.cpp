@@ -4,6 +4,7 @@
 #include "filament_core/prepare/DrawList.h"
 #include "filament_core/prepare/Froxels.h"
 #include "filament_core/prepare/LightChannels.h"
+#include "filament_core/prepare/PictureLayers.h"
 #include "filament_core/prepare/PlaceProfiles.h"
 #include "filament_core/prepare/SelectLights.h"
 #include "filament_core/prepare/SortItems.h"
@@ -64,8 +65,9 @@ std::span<const SortItem> drawnItems(std::span<const SortItem> sorted, ViewKind 
     return solid;
 }
 
-std::span<const SortItem> itemsAfterPicture(std::span<const SortItem> sorted) {
-    return sorted.subspan(itemsBefore(sorted, kPictureEndKey).size());
+RefractionOrder refractionOrder(ViewInput const& view) {
+    if (!isShaded(view.kind) || view.quality.refraction != RefractionSource::Screen) return RefractionOrder::Any;
+    return view.quality.refractionLayers > 1 ? RefractionOrder::BackToFront : RefractionOrder::FrontToBack;
 }
 
 } // namespace
@@ -94,9 +96,9 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
 
     scene::Renderables const& renderables = scene.renderables;
     prepared.visible = cullRenderables(jobs, arena, renderables, space, view.kind, packet.counts);
-    const bool refractsPicture = isShaded(view.kind) && view.quality.refraction == RefractionSource::Screen;
+    const RefractionOrder refraction = refractionOrder(view);
     const std::span<SortItem> items =
-            writeKeys(jobs, arena, renderables.drawables, prepared.visible, view.kind, refractsPicture);
+            writeKeys(jobs, arena, renderables.drawables, prepared.visible, view.kind, refraction);
     const std::span<const SortItem> order = drawnItems(sortItems(jobs, arena, items), view.kind, packet.counts);
     const DrawLists draws = mergeInstances(jobs, arena, renderables.drawables, order, packet.counts);
     besideCulling.wait();
@@ -104,8 +106,9 @@ PreparedView prepareView(jobs::JobSystem& jobs, Arena& arena, scene::SceneData c
     packet.opaque = draws.opaque;
     packet.blended = draws.blended;
     if (isShaded(view.kind)) countDraws(draws, packet.counts);
-    if (refractsPicture && packet.counts.refractiveDraws > 0)
-        packet.picture = pictureCopy(renderables, itemsAfterPicture(order), space, view.size, draws.lateInPicture);
+    if (refraction != RefractionOrder::Any && packet.counts.refractiveDraws > 0)
+        packet.pictures = pictureLayers(arena, renderables, order, packet.blended, space, view.size,
+                                        view.quality.refractionLayers);
     const DrawnChannels drawn = isShaded(view.kind) ? channelsOf(packet) : DrawnChannels{};
     prepared.hasChannels = packet.counts.litDraws > 0 && (drawn.inCommon & lightsInCommon) == 0;
     if (prepared.hasChannels) dropUnseenLights(arena, lights, drawn.any, prepared);

@@ -10,9 +10,9 @@
 ///             0- 9 depth      front to back inside of the slice, sixteen steps an octave
 ///   late     63-62 10      drawn after the sky
 ///            60-61 class      0: opaque without depth writes; 1: refracts what is drawn so far; 2: without depth test
-///            29-59 depth      as of blended ones, the nearest object ends on top; of class 1, front to back: they
-///            leave
-///                             depth, and do not see each other
+///            29-59 depth      as of blended ones, the nearest object ends on top; of class 1, front to back where
+///                             they do not see each other, because they leave depth
+///             0    alone      of class 1: a draw call of its own, because those behind it may be seen through it
 ///   blended  63-62 11
 ///            31-61 depth      of the renderable, every bit, inverted: back to front
 ///
@@ -46,6 +46,8 @@ static_assert(sizeof(SortItem) == 16, "sorting moves four of them a cache line")
 inline constexpr uint64_t kLateKey = 1ull << 63; ///< from here on: drawn after the sky
 inline constexpr uint64_t kPictureEndKey =
         kLateKey | 1ull << 60; ///< from here on: not in the picture that is refracted
+inline constexpr uint64_t kRefractingEndKey =
+        kLateKey | 2ull << 60; ///< from here on: neither in the picture, nor opaque and refracting it
 inline constexpr uint64_t kBlendedKey = 3ull << 62;
 
 /// Set by writeKeys(): the two passes of an object follow each other, so that it shares no draw call.
@@ -104,5 +106,9 @@ constexpr uint64_t lateKey(uint32_t depth, bool onTop) {
 
 /// What is opaque, but shows the picture behind it.
 constexpr uint64_t refractingKey(uint32_t depth) { return kPictureEndKey | static_cast<uint64_t>(depth) << 29; }
+
+/// The same, back to front: it may show others of its kind.
+constexpr uint64_t layeredKey(uint32_t depth) { return refractingKey(~depth & 0x7FFF'FFFFu) | 1; }
+constexpr bool isLayered(uint64_t key) { return key >> 60 == kPictureEndKey >> 60 && (key & 1) != 0; }
 
 } // namespace filament::prepare

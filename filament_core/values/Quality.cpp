@@ -44,6 +44,7 @@ constexpr std::string_view kAoSamples[] = { "3", "7", "16", "32" };
 constexpr std::string_view kAoSlices[] = { "1", "2", "3" };
 constexpr std::string_view kAmbientOcclusionResolutions[] = { "half", "full", "checkerboard" };
 constexpr std::string_view kRefractionSources[] = { "screen", "environment" };
+constexpr std::string_view kRefractionLayers[] = { "1", "2", "4", "8" };
 constexpr std::string_view kSsrSteps[] = { "16", "48", "128" };
 constexpr std::string_view kContactSteps[] = { "8", "16", "32" };
 constexpr std::string_view kDepthPrepasses[] = { "auto", "on", "off" };
@@ -127,6 +128,7 @@ constexpr std::array kFields{
     enumField<&Quality::aoBlur>("aoBlur", kBooleans),
     enumField<&Quality::aoBentNormals>("aoBentNormals", kBooleans),
     enumField<&Quality::refraction>("refraction", kRefractionSources),
+    numberField<&Quality::refractionLayers, 1, 8>("refractionLayers", kRefractionLayers, "a whole number from 1 to 8"),
     enumField<&Quality::ssr>("ssr", kBooleans),
     numberField<&Quality::ssrSteps, 8, 255>("ssrSteps", kSsrSteps, "a whole number from 8 to 255"),
     numberField<&Quality::contactSteps, 4, 64>("contactSteps", kContactSteps, "a whole number from 4 to 64"),

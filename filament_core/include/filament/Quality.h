@@ -211,6 +211,9 @@ struct Quality {
     bool aoBlur = true;         ///< smooths the noise of the samples, along surfaces and not across their edges
     bool aoBentNormals = false; ///< diffuse light comes from the mean direction that is open, reflections by its cone
     RefractionSource refraction = RefractionSource::Screen;
+    /// How often the picture is copied for what refracts it, [1, 8]. 1: refracting objects show what is opaque. n: they
+    /// are drawn from back to front, and each of the n - 1 nearest also shows those behind it; farther ones show none.
+    uint8_t refractionLayers = 1;
     bool ssr = false;          ///< reflections of the picture, on materials that ask for them
     uint8_t ssrSteps = 48;     ///< of a reflected ray, [8, 255]
     uint8_t contactSteps = 16; ///< of a contact shadow's ray, [4, 64]

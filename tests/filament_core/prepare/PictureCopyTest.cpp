@@ -22,6 +22,12 @@ struct PictureCopyTest : testing::Test, BoxScene {
         return prepareFrame(jobs, arena, scene, views, {});
     }
 
+    /// Of the one copy of the view; 0: there is none.
+    uint32_t copiedPixels() {
+        ViewPacket const& packet = frame().mainView();
+        return packet.pictures.empty() ? 0 : packet.pictures.front().pixels();
+    }
+
     scene::MaterialInstance* glass(shader::Blending blending = shader::Blending::Opaque) {
         scene::MaterialInstance* look = material(blending);
         look->material->package.refractionMode = shader::RefractionMode::ScreenSpace;
@@ -92,13 +98,12 @@ TEST_F(PictureCopyTest, TheRectangleHoldsTheBoxAndItsReach) {
 
 TEST_F(PictureCopyTest, OnlyTheSurroundingsOfWhatRefractsAreCopied) {
     add(double3(0, 0, 0), material());
-    EXPECT_EQ(frame().mainView().picture.pixels(), 0u);
+    EXPECT_EQ(copiedPixels(), 0u);
     add(double3(0, 0, -2), glass());
-    const PictureCopy small = frame().mainView().picture;
-    EXPECT_GT(small.pixels(), 0u);
-    EXPECT_LT(small.pixels(), 640u * 480u);
+    EXPECT_GT(copiedPixels(), 0u);
+    EXPECT_LT(copiedPixels(), 640u * 480u);
     add(double3(0, 0, 9.9), glass(), 1, 30); // around the camera
-    EXPECT_GE(frame().mainView().picture.pixels(), 640u * 480u);
+    EXPECT_GE(copiedPixels(), 640u * 480u);
 }
 
 TEST_F(PictureCopyTest, WhatRefractsIsDrawnAfterTheSkyAndBeforeWhatBlends) {
@@ -113,7 +118,8 @@ TEST_F(PictureCopyTest, WhatRefractsIsDrawnAfterTheSkyAndBeforeWhatBlends) {
     ViewPacket const& packet = frame().mainView();
     ASSERT_EQ(packet.opaque.size(), 1u);
     ASSERT_EQ(packet.blended.size(), 5u);
-    EXPECT_EQ(packet.picture.lateDraws, 1u);
+    ASSERT_EQ(packet.pictures.size(), 1u);
+    EXPECT_EQ(packet.pictures[0].firstDraw, 1u);
     EXPECT_EQ(packet.blended[0].material, late);
     EXPECT_EQ(packet.blended[1].material, looks[2]);
     EXPECT_EQ(packet.blended[2].material, onTop);
@@ -127,7 +133,7 @@ TEST_F(PictureCopyTest, NothingChangesPlacesWhereTheEnvironmentIsRefracted) {
     ViewPacket const& packet = frame().mainView();
     EXPECT_EQ(packet.opaque.size(), 2u);
     EXPECT_TRUE(packet.blended.empty());
-    EXPECT_EQ(packet.picture.pixels(), 0u);
+    EXPECT_TRUE(packet.pictures.empty());
     EXPECT_FALSE(frame().demand.needs(Effect::Refraction));
 }
 
@@ -140,6 +146,37 @@ TEST_F(PictureCopyTest, RefractingObjectsAreFrontToBack) {
     EXPECT_EQ(packet.objects.order[0].renderable, 1u);
     EXPECT_EQ(packet.objects.order[2].renderable, 0u);
     EXPECT_EQ(packet.blended.size(), 1u) << "instances of one draw";
+}
+
+TEST_F(PictureCopyTest, LayersAreBackToFrontAndTheNearestHaveOneEach) {
+    scene::MaterialInstance* const look = glass();
+    for (const double z : { -3.0, 2.0, -1.0, 0.0, 1.0 }) add(double3(z, 0, z), look, 1);
+    add(double3(0, 0, -4), glass(shader::Blending::Fade), 2);
+    scene::MaterialInstance* const late = material();
+    late->raster.depthWrite = false;
+    add(double3(0, 0, 3), late, 3);
+    for (const uint8_t layers : { uint8_t{ 2 }, uint8_t{ 3 }, uint8_t{ 5 }, uint8_t{ 8 }, uint8_t{ 255 } }) {
+        view.quality.refractionLayers = layers;
+        ViewPacket const& packet = frame().mainView();
+        ASSERT_EQ(packet.blended.size(), 7u) << "none is an instance of another";
+        for (uint32_t i = 0; i < 5; ++i) {
+            constexpr uint32_t kByDistance[] = { 0, 2, 3, 4, 1 };
+            EXPECT_EQ(packet.objects.order[packet.blended[1 + i].firstObject].renderable, kByDistance[i]);
+        }
+        const size_t count = std::min<size_t>(layers, 5);
+        ASSERT_EQ(packet.pictures.size(), count);
+        EXPECT_EQ(packet.pictures[0].firstDraw, 1u);
+        for (size_t i = 1; i < count; ++i) EXPECT_EQ(packet.pictures[i].firstDraw, 6 - (count - i));
+        EXPECT_GT(packet.pictures[count - 1].pixels(), 0u);
+    }
+}
+
+TEST_F(PictureCopyTest, WithOneObjectOrOnlyBlendedOnesThereIsOneLayer) {
+    view.quality.refractionLayers = 4;
+    add(double3(0, 0, 0), glass(shader::Blending::Fade), 1);
+    EXPECT_EQ(frame().mainView().pictures.size(), 1u);
+    add(double3(1, 0, 0), glass(), 2);
+    EXPECT_EQ(frame().mainView().pictures.size(), 1u);
 }
 
 } // namespace

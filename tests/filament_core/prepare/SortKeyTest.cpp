@@ -56,6 +56,14 @@ TEST(SortKey, LateOnesBetweenOpaqueAndBlendedThoseThatRefractThenThoseWithoutTes
     EXPECT_LT(lateKey(0, false), kPictureEndKey);
     EXPECT_EQ(refractingKey(0), kPictureEndKey);
     EXPECT_LT(refractingKey(0x7FFF'FFFFu), lateKey(0x7FFF'FFFFu, true));
+    EXPECT_LT(layeredKey(far), layeredKey(near));
+    EXPECT_LT(layeredKey(0), kRefractingEndKey);
+    EXPECT_GE(layeredKey(0x7FFF'FFFFu), kPictureEndKey);
+    EXPECT_GE(lateKey(0x7FFF'FFFFu, true), kRefractingEndKey);
+    EXPECT_TRUE(isLayered(layeredKey(far)) && isLayered(layeredKey(0)));
+    for (const uint64_t key : { refractingKey(far), lateKey(near, true), lateKey(near, false), blendedKey(near),
+                                opaqueKey(7, drawOf(3, true), 9, near | 1u << 19) })
+        EXPECT_FALSE(isLayered(key)) << key;
     EXPECT_GT(lateKey(depthBits(1.0f), false), lateKey(depthBits(std::nextafter(1.0f, 2.0f)), false));
 }
 

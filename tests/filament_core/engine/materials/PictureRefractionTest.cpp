@@ -314,6 +314,45 @@ TEST(PictureRefraction, LateOpaqueObjectsBelongToThePictureAndBlendedOnesLieOver
     EXPECT_EQ(test::differingPixels(draw(true), draw(false)), 0u);
 }
 
+// ---- layers
+
+/// A wall of 1 behind panes of index 1 that let a half, a third, a fifth and a seventh through, from the back.
+float4 throughPanes(int panes, uint8_t layers, uint8_t samples) {
+    return centerPixel(seen({ 12, 12 }, [&](MaterialStage& stage) {
+        stage.view.samples = samples;
+        stage.view.quality.refractionLayers = layers;
+        addWall(stage, "c = vec3(1.0);", -3, 8);
+        const char* const kTints[] = { "vec3(1.0 / 2.0)", "vec3(1.0 / 3.0)", "vec3(1.0 / 5.0)", "vec3(1.0 / 7.0)" };
+        for (int i = 0; i < panes; ++i) {
+            const std::string tint = fmt::format("material.baseColor.rgb = {};", kTints[i]);
+            stage.add(stage.material(text(kSheet, kNothing + tint), kNoLights),
+                      { { .z = 0.4f * static_cast<float>(i) } });
+        }
+    }));
+}
+
+TEST(PictureRefraction, EachOfTheNearestLayersShowsThePanesBehindIt) {
+    for (const uint8_t samples : { uint8_t{ 1 }, uint8_t{ 4 } }) {
+        EXPECT_NEAR(throughPanes(4, 1, samples).x, 1 / 7.0f, 1e-3f) << "the nearest shows the wall";
+        EXPECT_NEAR(throughPanes(4, 2, samples).x, 1 / (5.0f * 7.0f), 1e-3f) << "the nearest of those that share one";
+        EXPECT_NEAR(throughPanes(4, 3, samples).x, 1 / (3.0f * 5.0f * 7.0f), 1e-3f);
+        EXPECT_NEAR(throughPanes(4, 4, samples).x, 1 / (2.0f * 3.0f * 5.0f * 7.0f), 1e-3f);
+        EXPECT_NEAR(throughPanes(2, 8, samples).x, 1 / 6.0f, 1e-3f);
+    }
+}
+
+TEST(PictureRefraction, LayersChangeNoBitWhereOneObjectRefracts) {
+    const auto draw = [&](uint8_t layers) {
+        return seen({ 64, 48 }, [&](MaterialStage& stage) {
+            stage.view.quality.refractionLayers = layers;
+            addWall(stage, kPattern, -1, 1.5f);
+            stage.add(stage.material(text(kBlock, "material.roughness = 0.2; material.thickness = 0.4;"), kNoLights),
+                      { { .halfSide = 0.8f } });
+        });
+    };
+    EXPECT_EQ(test::differingPixels(draw(1), draw(8)), 0u);
+}
+
 /// Draws the same scene with two qualities.
 struct TwoFrames {
     Image first, second;

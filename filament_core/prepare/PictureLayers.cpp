@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+#include "filament_core/prepare/PictureLayers.h"
+
+#include "filament_core/prepare/DrawList.h"
+
+#include <algorithm>
+
+namespace filament::prepare {
+namespace {
+
+constexpr size_t kMostLayers = 8;
+
+bool seesPicture(scene::Renderables const& renderables, SortItem const& item) {
+    scene::Drawable const& drawable = renderables.drawables[drawableOf(item.draw)];
+    return drawable.material->material->package.refractionMode == shader::RefractionMode::ScreenSpace;
+}
+
+/// What those of `items` cover that see the picture.
+PixelBox boxOf(scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space,
+               uint2 view) {
+    PixelBox box{ float2(view), float2(0.0f) };
+    for (SortItem const& item : items) {
+        if (!seesPicture(renderables, item)) continue;
+        const bool isBounded = (renderables.flags[item.renderable] & scene::kCulled) != 0;
+        const float3 center(renderables.bounds.centerAt(item.renderable) - space.cameraWorld);
+        box = unionOf(box, isBounded ? projectedBox(space.clipFromWorld, center,
+                                                    renderables.bounds.halfExtentAt(item.renderable), view)
+                                     : PixelBox{ float2(0.0f), float2(view) });
+    }
+    return box;
+}
+
+} // namespace
+
+std::span<const PictureCopy> pictureLayers(Arena& arena, scene::Renderables const& renderables,
+                                           std::span<const SortItem> order, std::span<const DrawCall> blended,
+                                           ViewSpace const& space, uint2 view, uint32_t mostLayers) {
+    const size_t begin = itemsBefore(order, kPictureEndKey).size();
+    const size_t end = itemsBefore(order, kRefractingEndKey).size();
+    const auto layers = arena.array<PictureCopy>(
+            std::clamp<size_t>(end - begin, 1, std::clamp<size_t>(mostLayers, 1, kMostLayers)));
+    const auto firstItem = [&](size_t layer) { return layer == 0 ? begin : end - (layers.size() - layer); };
+    for (size_t i = 0; i < layers.size(); ++i) {
+        const size_t first = firstItem(i), next = i + 1 < layers.size() ? firstItem(i + 1) : order.size();
+        layers[i] = copyAround(boxOf(renderables, order.subspan(first, next - first), space, view), view);
+        layers[i].firstDraw = static_cast<uint32_t>(drawsBefore(blended, first));
+    }
+    return layers;
+}
+
+} // namespace filament::prepare
