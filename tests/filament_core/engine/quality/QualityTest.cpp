@@ -326,7 +326,7 @@ std::vector<Image> renderEveryValue(Backend backend) {
 /// and the conformance scenes quality, shadows, area-lights, materials-sheen, ambient-occlusion, contact-shadows,
 /// refraction and reflections have pictures for them.
 bool isOfTheView(std::string_view name) {
-    if (name.starts_with("ao") || name.starts_with("ssr") || name == "refraction" || name == "contactSteps" ||
+    if (name.starts_with("ao") || name.starts_with("ssr") || name.starts_with("refraction") || name == "contactSteps" ||
         name == "depthPrepass")
         return true;
     return name == "textureFilter" || name == "depthRange" || name == "cameraRelative" || name == "toneMapping" ||
