@@ -48,7 +48,7 @@ public:
     Take(Engine& engine, Renderer& renderer, TakeParts parts);
     /// Draws and reads back.
     Result<Picture> shoot();
-    /// Draws; returns the device's milliseconds for all passes.
+    /// Draws two frames; returns the device's milliseconds for all passes of the second, that of a still scene.
     Result<double> time();
     View const& view() const { return mParts.view; }
 
