@@ -196,7 +196,7 @@ TEST_P(FroxelBits, RandomScenesHaveTheBitsOfOneList) {
     Stage stage(GetParam());
     uint32_t grids = 0, lit = 0;
     size_t noticed = 0;
-    for (uint32_t seed = 1; seed <= 300; ++seed) {
+    for (uint32_t seed = 1; seed <= 120; ++seed) {
         const RandomScene random(stage, seed);
         const Image lists = stage.draw(random.scene, random.view, OneList::Mode::Off);
         grids += stage.renderer.explain().find("longest list") != std::string::npos;
@@ -206,9 +206,9 @@ TEST_P(FroxelBits, RandomScenesHaveTheBitsOfOneList) {
         if (seed % 10 == 0)
             noticed += test::differingPixels(lists, stage.draw(random.scene, random.view, OneList::Mode::ShortLists));
     }
-    EXPECT_GT(grids, 250u);
-    EXPECT_GT(lit, 200u);
-    EXPECT_GT(noticed, 1000u) << "lists without their last lights are noticed";
+    EXPECT_GT(grids, 100u);
+    EXPECT_GT(lit, 80u);
+    EXPECT_GT(noticed, 400u) << "lists without their last lights are noticed";
     test::expectNoErrors(stage.engine);
 }
 

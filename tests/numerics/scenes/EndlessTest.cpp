@@ -100,7 +100,7 @@ TEST_P(Endless, EnginesComeAndGoInTheSameMemory) {
         for (int i = 0; i < count && !HasFatalFailure(); ++i) liveOnce(GetParam());
     };
     live(10); // memory that drivers and the C library keep
-    expectFlat(repetitions(GetParam(), 200), live);
+    expectFlat(repetitions(GetParam(), 100), live);
 }
 
 TEST_P(Endless, SwapChainsOfEverySizeComeAndGoInTheSameMemory) {
