@@ -20,12 +20,16 @@ void add(FrameSummary::Totals& totals, prepare::ViewPacket const& view) {
 
 constexpr std::array<const char*, prepare::kViewKinds> kKindNames{ "color", "depth", "shadow" };
 
-/// Timers are of groups: the first pass of a group has its time.
+/// Timers are of groups, in their order: the first pass of a group has its time. Groups may have one name.
 double millisecondsOf(framegraph::CompiledGraph const& plan, size_t pass, std::span<const PassTiming> times) {
     framegraph::PassDecision const& decision = plan.passes[pass];
     if (!decision.runs() || plan.order[plan.groups[decision.group].first] != pass) return 0;
-    const auto found = std::ranges::find(times, plan.groups[decision.group].name, &PassTiming::name);
-    return found == times.end() ? 0 : found->gpuMilliseconds;
+    const auto isAlike = [name = plan.groups[decision.group].name](auto const& one) { return one.name == name; };
+    auto before = std::count_if(plan.groups.begin(), plan.groups.begin() + decision.group, isAlike);
+    for (PassTiming const& time : times) {
+        if (isAlike(time) && before-- == 0) return time.gpuMilliseconds;
+    }
+    return 0;
 }
 
 std::string table(std::vector<EffectDecision> const& decisions) {

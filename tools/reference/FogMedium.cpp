@@ -20,6 +20,10 @@ double brightnessOf(SunLight const& sun) {
 
 FogMedium::FogMedium(Fog const& fog, double height, FogLight const& light)
         : mFog(fog), mHeight(height - double(fog.heightMeters)), mColor(double3(fog.color) * light.ambient) {
+    if (fog.colorFromEnvironment && light.environment && !light.environment->isBlack()) {
+        mEnvironment = light.environment;
+        mColor = double3(fog.color) * light.exposure;
+    }
     if (!(fog.inScatteringSize > 0) || light.suns.empty()) return;
     SunLight const& sun = *std::ranges::max_element(light.suns, {}, brightnessOf);
     mSun = double3(sun.color) * (double(sun.illuminance.value) * light.exposure * (double(fog.inScatteringSize) + 1) /
@@ -44,11 +48,15 @@ double FogMedium::opacity(double3 direction, double from, double to) const {
     return std::min(opaque, double(mFog.maximumOpacity));
 }
 
+double3 FogMedium::colorTowards(double3 direction) const {
+    return mEnvironment ? mColor * mEnvironment->harmonicIrradiance(direction) : mColor;
+}
+
 double3 FogMedium::inFront(double3 color, double3 share, double3 direction, double distance) const {
     const bool isCutOff = mFog.cutOffMeters > 0 && distance > double(mFog.cutOffMeters);
     if (!mFog.enabled || mFog.density <= 0 || isCutOff) return color;
     const double to = std::min(distance, kFarthestFog), start = double(mFog.startMeters);
-    const double3 fogged = glm::mix(color, share * mColor, opacity(direction, start, to));
+    const double3 fogged = glm::mix(color, share * colorTowards(direction), opacity(direction, start, to));
     const double cosine = glm::dot(direction, mTowardsSun);
     if (mSun == double3(0.0) || cosine <= 0) return fogged;
     const double scattered = opacity(direction, std::max(start, double(mFog.inScatteringStartMeters)), to);

@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 /// FogMedium: the fog between the camera and what a camera ray meets first, by the definition of docs/fog.md: the
 /// density along the ray is summed up, where the engine has a closed form.
-///   Limits  Fog::colorFromEnvironment is not traced: the colour is as it is without it.
-///   Thread  read-only after construction. Memory: none.
+///   Colour  with Fog::colorFromEnvironment, what a mirror of roughness 1 shows: D of GGX is constant there, so the
+///           lobe of the engine's last level is the cosine, and the colour is irradiance / pi around the ray, here by
+///           three bands of harmonics.
+///   Thread  read-only after construction.   Memory: none; the environment outlives it.
 #pragma once
 
 #include "base/math/Math.h"
+#include "tools/reference/EnvironmentLight.h"
 
 #include <filament/Effects.h>
 #include <filament/Light.h>
@@ -18,7 +21,8 @@ namespace filament::reference {
 struct FogLight {
     double ambient = 1; ///< times Fog::color
     double exposure = 1;
-    std::span<const SunLight> suns{}; ///< the brightest makes the glow
+    std::span<const SunLight> suns{};              ///< the brightest makes the glow
+    EnvironmentLight const* environment = nullptr; ///< for Fog::colorFromEnvironment; none: as without that
 };
 
 class FogMedium {
@@ -32,11 +36,13 @@ public:
     double3 inFront(double3 color, double3 share, double3 direction, double distance) const;
 
 private:
+    double3 colorTowards(double3 direction) const;
     double opticalDepth(double rise, double from, double to) const;
     double opacity(double3 direction, double from, double to) const;
 
     Fog mFog{};
     double mHeight = 0;
+    EnvironmentLight const* mEnvironment = nullptr;
     double3 mColor{ 0.0 }, mSun{ 0.0 }, mTowardsSun{ 0, 1, 0 };
 };
 

@@ -92,7 +92,9 @@ private:
 FogMedium fogOf(TracedScene const& scene, ReferenceView const& view) {
     const auto exposure = double(view.camera.exposure.factor());
     const double lux = scene.environmentLux();
-    return { view.fog, view.camera.position().y, { lux > 0 ? lux * exposure : 1.0, exposure, scene.suns() } };
+    return { view.fog,
+             view.camera.position().y,
+             { lux > 0 ? lux * exposure : 1.0, exposure, scene.suns(), &scene.environment() } };
 }
 
 bool isFinite(double3 v) { return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z); }

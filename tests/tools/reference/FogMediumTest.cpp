@@ -7,6 +7,7 @@
 
 #include <array>
 #include <limits>
+#include <memory>
 
 namespace filament::reference {
 namespace {
@@ -46,6 +47,29 @@ TEST(FogMedium, GlowsAroundTheBrightestSunOnly) {
     EXPECT_EQ(medium.inFront(double3(1), double3(1), { 0, 0, -1 }, everything), double3(0.0));
     EXPECT_EQ(medium.inFront(double3(1), double3(0), { 0, 0, 1 }, everything), double3(0.0)) << "a share of nothing";
     EXPECT_EQ(FogMedium().inFront(double3(0.5), double3(1), { 0, 0, 1 }, 10), double3(0.5)) << "off";
+}
+
+/// Red from above, green from below.
+std::shared_ptr<const assets::HdrImage> twoHalves() {
+    auto image = std::make_shared<assets::HdrImage>(assets::HdrImage{ .width = 64, .height = 32, .pixels = {} });
+    for (uint32_t i = 0; i < 64 * 32; ++i) image->pixels.push_back(i < 64 * 16 ? float3(1, 0, 0) : float3(0, 1, 0));
+    return image;
+}
+
+TEST(FogMedium, TakesItsColourFromTheEnvironmentOfItsDirection) {
+    const EnvironmentLight sky(twoHalves(), 100, 0);
+    const Fog fog{ .enabled = true, .density = 1, .color = float3(0.5f), .colorFromEnvironment = true };
+    const FogMedium medium(fog, 0, { .ambient = 7, .exposure = 0.02, .environment = &sky });
+    const double everything = std::numeric_limits<double>::infinity();
+    const auto colorTowards = [&](double3 direction) {
+        return medium.inFront(double3(0.0), double3(1), direction, everything);
+    };
+    EXPECT_NEAR(colorTowards({ 0, 1, 0 }).x, 100 * 0.02 * 0.5, 0.03) << "irradiance / pi of a half is its radiance";
+    EXPECT_NEAR(colorTowards({ 0, 1, 0 }).y, 0, 0.03);
+    EXPECT_NEAR(colorTowards({ 0, -1, 0 }).y, 1, 0.03);
+    EXPECT_NEAR(colorTowards({ 1, 0, 0 }).x, 0.5, 0.03) << "half of either";
+    const FogMedium without(fog, 0, { .ambient = 7 });
+    EXPECT_NEAR(without.inFront(double3(0.0), double3(1), { 0, 1, 0 }, everything).x, 3.5, 1e-9) << "there is none";
 }
 
 } // namespace

@@ -353,6 +353,25 @@ TEST(PictureRefraction, LayersChangeNoBitWhereOneObjectRefracts) {
     EXPECT_EQ(test::differingPixels(draw(1), draw(8)), 0u);
 }
 
+TEST(PictureRefraction, EveryBlurredLevelHasATimeOfItsOwn) {
+    auto engine = test::makeEngine(Backend::Vulkan);
+    ASSERT_TRUE(engine);
+    MaterialStage stage(*engine);
+    stage.view.size = { 512, 384 };
+    addWall(stage, kPattern, -1, 2);
+    stage.add(stage.material(text(kSheet, kNothing), kNoLights), { { .halfSide = 1 } });
+    Renderer renderer(*engine, { .passTimers = true });
+    for (int i = 0; i < 2; ++i) ASSERT_TRUE(renderer.renderToImage(stage.scene, stage.view).ok());
+    std::vector<double> times;
+    for (EffectDecision const& one : renderer.decisions()) {
+        if (one.name == "picture blur") times.push_back(one.gpuMilliseconds);
+    }
+    ASSERT_GE(times.size(), 5u);
+    for (const double time : times) EXPECT_GT(time, 0);
+    EXPECT_GT(times.front(), times.back()) << "a quarter of the pixels, again and again";
+    test::expectNoErrors(*engine);
+}
+
 /// Draws the same scene with two qualities.
 struct TwoFrames {
     Image first, second;
