@@ -5,12 +5,20 @@
 
 namespace filament::framegraph {
 
+namespace {
+
+/// Of one layer.
+uint64_t bytesOfLevel(GraphTextureDesc const& desc, uint32_t level) {
+    const uint64_t texels = uint64_t{ std::max(1u, desc.width >> level) } * std::max(1u, desc.height >> level);
+    return texels * desc.samples * backend::formatInfo(desc.format).bytesPerBlock;
+}
+
+} // namespace
+
 uint64_t bytesOf(GraphTextureDesc const& desc) {
-    backend::FormatInfo const& format = backend::formatInfo(desc.format);
-    uint64_t texels = 0;
-    for (uint32_t level = 0; level < desc.levels; ++level)
-        texels += uint64_t{ std::max(1u, desc.width >> level) } * std::max(1u, desc.height >> level);
-    return texels * desc.layers * desc.samples * format.bytesPerBlock;
+    uint64_t bytes = 0;
+    for (uint32_t level = 0; level < desc.levels; ++level) bytes += bytesOfLevel(desc, level);
+    return bytes * desc.layers;
 }
 
 AttachmentMemory attachmentMemory(CompiledGraph const& plan) {
@@ -32,7 +40,8 @@ uint64_t attachmentBytes(CompiledGraph const& plan, size_t pass) {
     if (!plan.passes[pass].runs()) return 0;
     uint64_t bytes = 0;
     for (Access const& access : plan.graph->accesses(plan.graph->passes()[pass])) {
-        if (isAttachment(access.kind)) bytes += bytesOf(plan.graph->texture(access.texture).desc);
+        if (isAttachment(access.kind))
+            bytes += bytesOfLevel(plan.graph->texture(access.texture).desc, access.range.level);
     }
     return bytes;
 }

@@ -19,7 +19,8 @@ struct AttachmentMemory {
 };
 AttachmentMemory attachmentMemory(CompiledGraph const& plan);
 
-/// What the attachments of a pass that runs occupy; 0 for one that does not.
+/// What the attachments of a pass that runs occupy, of each the level and layer that it draws to; 0 for one that does
+/// not run.
 uint64_t attachmentBytes(CompiledGraph const& plan, size_t pass);
 
 } // namespace filament::framegraph

@@ -38,5 +38,22 @@ TEST_F(GraphMemoryTest, SharedTexturesAreSavedAndThoseOfCulledPassesAreNothing) 
             << toText(plan);
 }
 
+TEST_F(GraphMemoryTest, APassOccupiesTheLevelThatItDrawsTo) {
+    const TextureId mips =
+            graph.createTexture({ .width = 64, .height = 32, .format = Format::RGBA8, .levels = 4, .name = "mips" });
+    const TextureId out = target();
+    std::array<uint32_t, 4> levels{};
+    for (uint8_t level = 0; level < 4; ++level) {
+        levels[level] = pass("level", [&](PassBuilder& p) {
+            if (level > 0) p.readSampled(mips, backend::oneLevel(static_cast<uint8_t>(level - 1)));
+            p.writeColor(0, mips, { .overwrites = true, .level = level });
+        });
+    }
+    pass("last", [&](PassBuilder& p) { p.readSampled(mips), p.writeColor(0, out, { .overwrites = true }); });
+    const CompiledGraph plan = compile(graph, *pool);
+    for (uint32_t level = 0; level < 4; ++level)
+        EXPECT_EQ(attachmentBytes(plan, levels[level]), (64u >> level) * (32 >> level) * 4) << level;
+}
+
 } // namespace
 } // namespace filament::framegraph
