@@ -48,6 +48,14 @@ std::function<void(Scene&, View&)> withSun(ShadowFilter filter) {
     };
 }
 
+std::function<void(Scene&, View&)> withThreeSuns(ShadowFilter filter) {
+    return [filter](Scene& scene, View& view) {
+        for (const float turn : { -1.0f, 0.0f, 1.0f })
+            scene.add(SunLight{ .directionWorld = kSunDirection + float3(turn, 0, 0), .illuminance = Lux{ 20'000 } });
+        view.quality.shadows = filter;
+    };
+}
+
 std::function<void(Scene&, View&)> withFog(Fog const& fog) {
     return [fog](Scene&, View& view) {
         view.quality.shadows = ShadowFilter::Off;
@@ -128,6 +136,8 @@ std::vector<Pair> pairs() {
     std::vector<Pair> all;
     for (const char* file : { kHelmet, "ClearCoatTest/ClearCoatTest.glb", "SheenChair/SheenChair.gltf", kTokyo })
         all.push_back({ "shadows=pcf3", file, withSun(ShadowFilter::Off), withSun(ShadowFilter::Pcf3) });
+    all.push_back(
+            { "shadows=pcf3, three suns", file, withThreeSuns(ShadowFilter::Off), withThreeSuns(ShadowFilter::Pcf3) });
     for (const ShadowFilter filter :
          { ShadowFilter::Hard, ShadowFilter::Pcf2, ShadowFilter::Pcf5, ShadowFilter::Poisson, ShadowFilter::Pcss,
            ShadowFilter::Vsm, ShadowFilter::Evsm })

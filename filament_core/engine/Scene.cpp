@@ -10,6 +10,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
 namespace filament {
 namespace {
@@ -96,13 +97,22 @@ LightRecord areaRecord(LightRecord::Type type, AreaLight const& light) {
              .color = light.color,
              .intensity = nits > 0 && std::isfinite(nits) ? nits : 0.0f,
              .rangeMeters = light.rangeMeters,
-             .castsShadows = false };
+             .castsShadows = light.castsShadows,
+             .channels = light.lightChannels };
 }
 
 float2 halfExtentOf(float x, float y) {
     FILAMENT_ASSERT(x >= 0 && y >= 0 && std::isfinite(x) && std::isfinite(y),
                     "the sizes of a light are finite and not negative");
     return { x, y };
+}
+
+/// Its shadows are as soft as those of a disc that shows as many square metres.
+void setExtent(LightRecord& record, float2 halfExtent) {
+    const double square = double{ halfExtent.x } * double{ halfExtent.y };
+    const double area = record.type == LightRecord::Type::Disc ? std::numbers::pi * square : 4 * square;
+    record.halfExtent = halfExtent;
+    record.sourceRadius = static_cast<float>(std::sqrt(area / std::numbers::pi));
 }
 
 // Adds a light whose record is in world space, or in the space of its node.
@@ -213,7 +223,7 @@ Light Scene::add(RectLight const& light, Node node) {
     record.directionWorld = unitDirection(light.directionWorld);
     const float3 up = acrossDirection(record.directionWorld, light.upWorld);
     record.sideWorld = glm::cross(record.directionWorld, up);
-    record.halfExtent = halfExtentOf(light.widthMeters / 2, light.heightMeters / 2);
+    setExtent(record, halfExtentOf(light.widthMeters / 2, light.heightMeters / 2));
     record.isTwoSided = light.isTwoSided;
     return addLight(mImpl->data, record, node);
 }
@@ -222,7 +232,7 @@ Light Scene::add(DiscLight const& light, Node node) {
     LightRecord record = areaRecord(LightRecord::Type::Disc, light);
     record.directionWorld = unitDirection(light.directionWorld);
     record.sideWorld = acrossDirection(record.directionWorld, {});
-    record.halfExtent = halfExtentOf(light.radiusMeters, light.radiusMeters);
+    setExtent(record, halfExtentOf(light.radiusMeters, light.radiusMeters));
     record.isTwoSided = light.isTwoSided;
     return addLight(mImpl->data, record, node);
 }
@@ -230,7 +240,7 @@ Light Scene::add(DiscLight const& light, Node node) {
 Light Scene::add(TubeLight const& light, Node node) {
     LightRecord record = areaRecord(LightRecord::Type::Tube, light);
     record.sideWorld = unitDirection(light.axisWorld);
-    record.halfExtent = halfExtentOf(light.lengthMeters / 2, light.radiusMeters);
+    setExtent(record, halfExtentOf(light.lengthMeters / 2, light.radiusMeters));
     return addLight(mImpl->data, record, node);
 }
 

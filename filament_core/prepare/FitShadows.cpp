@@ -3,6 +3,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 
 namespace filament::prepare {
 namespace {
@@ -85,6 +86,14 @@ double3 faceDirection(uint32_t face) {
     return direction;
 }
 
+/// Around its direction: where the light shines.
+double coneOf(scene::LightRecord const& light) {
+    using Type = scene::LightRecord::Type;
+    if (light.type == Type::Spot) return static_cast<double>(light.outerConeRadians);
+    const bool hasBack = light.isArea() && light.type != Type::Tube && !light.isTwoSided;
+    return hasBack ? std::numbers::pi / 2 : std::numbers::pi;
+}
+
 } // namespace
 
 double3x3 worldFromLight(double3 const& direction) {
@@ -144,15 +153,13 @@ FittedShadow fitCascade(ViewSpace const& mainView, DepthSlice const& slice, doub
 }
 
 bool takesCube(scene::LightRecord const& light) {
-    return light.type == scene::LightRecord::Type::Point ||
-           static_cast<double>(light.outerConeRadians) > kWidestSpotRadians;
+    return light.type != scene::LightRecord::Type::Sun && coneOf(light) > kWidestSpotRadians;
 }
 
 bool shinesThrough(scene::LightRecord const& light, uint32_t face) {
-    if (light.type == scene::LightRecord::Type::Point) return true;
     constexpr double kCornerOfFace = 0.9553166; // atan(sqrt(2)): from its axis
     const double away = std::acos(std::clamp(glm::dot(faceDirection(face), double3(light.directionWorld)), -1.0, 1.0));
-    return away <= static_cast<double>(light.outerConeRadians) + kCornerOfFace + 1e-3;
+    return away <= coneOf(light) + kCornerOfFace + 1e-3;
 }
 
 FittedShadow fitPunctual(scene::LightRecord const& light, uint32_t face) {

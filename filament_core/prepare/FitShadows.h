@@ -7,7 +7,7 @@
 ///           again once in many frames. A scene that is smaller than the sphere is enclosed whole, and then the map
 ///           does not depend on the camera.
 ///   Spot    one projection around its cone; cones wider than 60 degrees to each side take the faces of a cube.
-///   Point   the six faces of a cube.
+///   Point   the six faces of a cube; those of areas, too, less the one behind an area that shines to one side.
 ///   Space   light space: the view space of the map; x right, y up, the light travels along -z. Double precision.
 ///   Thread  any; pure.   Memory: none.   Fails: never. What is not finite is left out of the fit.
 #pragma once
@@ -62,7 +62,7 @@ FittedShadow fitCascade(ViewSpace const& mainView, DepthSlice const& slice, doub
 
 /// True: the light is seen through the faces of a cube.
 bool takesCube(scene::LightRecord const& light);
-/// False: all of a face of the cube, +x, -x, +y, -y, +z, -z, lies outside of a spot's cone.
+/// False: all of a face of the cube, +x, -x, +y, -y, +z, -z, lies where the light does not shine.
 bool shinesThrough(scene::LightRecord const& light, uint32_t face);
 /// `face`: 0 for a spot that takes no cube; else +x, -x, +y, -y, +z, -z.
 FittedShadow fitPunctual(scene::LightRecord const& light, uint32_t face);

@@ -27,7 +27,8 @@ constexpr uint32_t kMarginTexels = 16;   // of this many there is one around a m
 struct Caster {
     uint32_t record = 0; ///< of scene.lights
     uint32_t listed = 0; ///< of the lights of the main view, or kSunOfUniforms
-    float pixels = 0;    ///< of the picture that its reach covers, in one direction
+    float pixels = 0;    ///< of the picture that its reach covers, in one direction; of suns infinite
+    uint32_t order = 0;  ///< among lights of equal reach
 };
 
 /// A map with something in it.
@@ -41,8 +42,9 @@ struct Candidate {
 
 float3 relative(double3 const& world, ViewSpace const& space) { return float3(world - space.cameraWorld); }
 
-/// Pixels across a sphere of the picture; everything if the camera is inside.
+/// Pixels across a sphere of the picture; everything if the camera is inside; infinite for suns.
 float pixelsOf(LightRecord const& light, ViewSpace const& space, uint2 size) {
+    if (light.type == LightRecord::Type::Sun) return INFINITY;
     const auto all = static_cast<float>(std::max(size.x, size.y));
     const float range = light.rangeMeters, distance = glm::length(relative(light.positionWorld, space));
     if (range <= 0 || distance <= range) return all;
@@ -86,22 +88,21 @@ public:
     }
 
 private:
-    /// The most important first: the sun, then by the pixels that they light, then in the order of the list.
+    /// The most important first: the sun, further suns, then by the pixels that they light, then in the order of the list.
     std::span<const Caster> findCasters() {
         std::span<const uint32_t> listed = mMain.lightRecords;
         const auto casters = mArena.arrayForOverwrite<Caster>(listed.size() + 1);
         size_t count = 0;
         if (mMain.sunRecord && mScene.lights.records[*mMain.sunRecord].castsShadows)
-            casters[count++] = { *mMain.sunRecord, kSunOfUniforms, INFINITY };
+            casters[count++] = { *mMain.sunRecord, kSunOfUniforms, INFINITY, 0 };
         for (uint32_t i = 0; i < listed.size(); ++i) {
             LightRecord const& light = mScene.lights.records[listed[i]];
-            if (!light.castsShadows || light.type == LightRecord::Type::Sun) continue;
-            if (mReceivers.count == 0 || !reaches(light, mReceivers)) continue;
-            casters[count++] = { listed[i], i, pixelsOf(light, mSpace, mView.size) };
+            if (!light.castsShadows || mReceivers.count == 0 || !reaches(light, mReceivers)) continue;
+            casters[count++] = { listed[i], i, pixelsOf(light, mSpace, mView.size), i + 1 };
         }
         const std::span<Caster> found = casters.first(count);
         std::ranges::sort(found, [](Caster const& a, Caster const& b) {
-            return a.pixels != b.pixels ? a.pixels > b.pixels : a.listed < b.listed;
+            return a.pixels != b.pixels ? a.pixels > b.pixels : a.order < b.order;
         });
         return found;
     }
@@ -259,7 +260,7 @@ private:
         return static_cast<float>(std::min<uint32_t>(mView.quality.shadowBlurTexels, margin > 2 ? margin - 2 : 0));
     }
 
-    /// Maps of a light are neighbours; a cube's faces without casters are left out.
+    /// Maps of a light are neighbours; cascades and a cube's faces without casters are left out.
     void assign(Caster const& caster, uint32_t part, uint32_t map) {
         if (caster.listed == kSunOfUniforms) {
             if (mUniforms->sun.y == 0) mUniforms->sun.x = static_cast<float>(map);
@@ -269,7 +270,7 @@ private:
         float4& light = mLights[caster.listed].offset;
         if (light.y == 0) {
             light.y = static_cast<float>(map + 1);
-            light.z += takesCube(mScene.lights.records[caster.record]) ? static_cast<float>(1u << kCubeFaces) : 0.0f;
+            if (takesCube(mScene.lights.records[caster.record])) light.z += static_cast<float>(1u << kCubeFaces);
         }
         light.z += static_cast<float>(1u << part);
     }

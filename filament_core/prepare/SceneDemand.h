@@ -24,7 +24,7 @@ enum class Effect : uint8_t {
     LightList,      ///< points, spots, areas and all other suns
     AreaLights,     ///< those of the list that are rectangles, discs or tubes
     LightProfiles,  ///< those of the list whose light a file distributes
-    Shadows,        ///< of the brightest sun, points and spots
+    Shadows,        ///< of suns, points, spots and areas
     ColoredShadows, ///< of what transmits light
     IndirectLight,
     Sky,

@@ -29,7 +29,7 @@ struct LightRecord {
     float intensity = 0; ///< lux (sun), candela, or nits of areas
     float rangeMeters = 0;
     float innerConeRadians = 0, outerConeRadians = 0;
-    float sourceRadius = 0; ///< metres; of suns: for each metre of distance
+    float sourceRadius = 0; ///< of the disc that softens shadows, metres; of suns: for each metre of distance
     bool castsShadows = true, contactShadows = false;
     uint8_t channels = 1;        ///< bit n: channel n
     bool isTwoSided = false;     ///< rectangles and discs

@@ -132,7 +132,7 @@ inline constexpr uint32_t kContactShadowBit = 128;
 /// What colorIntensity.w says of a light of the list. Of areas, positionRange is the centre, colorIntensity rgb the
 /// pre-exposed luminance, and the half edges X = directionScale.xyz and Y = (directionScale.w, offset.x, offset.w):
 /// radii of a disc; of a tube X is half its axis and Y.x its radius. cross(X, Y) is against the direction in which it
-/// shines.
+/// shines. offset.yz are the maps, as of other lights.
 enum LightShape : uint8_t {
     kShapeSpot = 1,
     kShapeRect = 2,
@@ -146,7 +146,7 @@ struct PunctualLight {
     float4 positionRange;   ///< xyz: relative to the camera, or towards a sun, unit; w: 1 / range^2 (0: unlimited)
     float4 colorIntensity;  ///< rgb: pre-exposed linear colour x candela; x lux for suns; w: 1 for spots, 0 for points, -1 for suns; LightShape of areas
     float4 directionScale;  ///< xyz: direction in which a spot shines, unit; w: spot scale 1 / (cosInner - cosOuter)
-    float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: a set: bit n: face n has a map; bit 6: these are a cube's; bit 7: it has contact shadows; w: its ProfiledLight + 1, 0: none
+    float4 offset;          ///< x: spot offset -cosOuter * scale; y: first shadow map + 1, 0: none; z: a set: bit n: face n, or cascade n of a sun, has a map; bit 6: these are a cube's; bit 7: it has contact shadows; w: its ProfiledLight + 1, 0: none
 };
 
 /// Words of the light profiles of a view, behind the froxels: first what belongs to one light, its x axis, as float

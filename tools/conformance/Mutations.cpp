@@ -274,6 +274,15 @@ class ContactReachEdit final : public FrameEdit {
     }
 };
 
+/// The maps of lights of the list are not read.
+class ListedShadowsEdit final : public FrameEdit {
+    void changeLights(CmdUpdateBuffer& command) override {
+        Bytes& bytes = copy(command.bytes);
+        const size_t map = offsetof(shader::PunctualLight, offset) + sizeof(float);
+        for (size_t at = map; at < bytes.size(); at += sizeof(shader::PunctualLight)) writeFloat(bytes, at, 0);
+    }
+};
+
 /// What area lights read behind the froxels.
 bool isLtcTable(CmdUpdateBuffer const& command) { return command.bytes.size() == sizeof(shader::kLtcTable); }
 
@@ -588,6 +597,7 @@ constexpr Mutation kMutations[] = {
     { "froxelEnd", "froxels without their last light", make<FroxelEndEdit> },
     { "channelsOff", "every light shines on everything, whatever the channels", make<ChannelsOffEdit> },
     { "shadowShift", "shadow maps drawn one texel to the side", make<ShadowShiftEdit> },
+    { "listedShadows", "no shadows of lights besides the brightest sun", make<ListedShadowsEdit> },
     { "fogDensity", "fog 1 % denser", make<FogDensityEdit> },
     { "fogGlow", "the glow of the sun in the fog 2 % narrower", make<FogGlowEdit> },
     { "contactReach", "contact shadows 10 % shorter", make<ContactReachEdit> },

@@ -74,7 +74,7 @@ template <class L>
 void readShared(JsonReader& reader, L& light) {
     readColor(reader, light.color);
     reader.read("castsShadows", light.castsShadows);
-    reader.read("contactShadows", light.contactShadows);
+    if constexpr (requires { light.contactShadows; }) reader.read("contactShadows", light.contactShadows);
     readLightChannels(reader, light.lightChannels);
 }
 
@@ -101,8 +101,8 @@ template <class AreaLight>
 void readArea(JsonReader& reader, AreaLight& light) {
     reader.read("at", light.positionWorld);
     reader.read("nits", light.luminance.value, 0, kBrightestLight);
-    readColor(reader, light.color);
     reader.read("range", light.rangeMeters, 0, kFarthestRange);
+    readShared(reader, light);
     if constexpr (requires { light.isTwoSided; }) {
         readDirection(reader, light.directionWorld);
         reader.read("twoSided", light.isTwoSided);

@@ -35,7 +35,8 @@ template <class AreaLight>
 DirectLights::Light DirectLights::areaOf(AreaLight const& area, double factor) {
     return { .position = area.positionWorld,
              .intensity = double3(area.color) * (double(area.luminance.value) * factor),
-             .inverseSquaredRange = inverseSquare(area.rangeMeters) };
+             .inverseSquaredRange = inverseSquare(area.rangeMeters),
+             .castsShadows = area.castsShadows };
 }
 
 void DirectLights::add(RectLight const& rect, double factor) {
@@ -172,7 +173,10 @@ DirectSample DirectLights::arrivingFromArea(Light const& light, double3 position
     const double facing = -glm::dot(direction, emitter.normal);
     const double cosine = light.isTwoSided ? std::abs(facing) : std::max(facing, 0.0);
     const double window = lib::rangeWindow(light.position - position, light.inverseSquaredRange);
-    return { direction, light.intensity * (cosine * window * light.area / (distance * distance)), distance };
+    return { .direction = direction,
+             .illuminance = light.intensity * (cosine * window * light.area / (distance * distance)),
+             .distance = distance,
+             .castsShadows = light.castsShadows };
 }
 
 /// For the choice among lights: more than 0 wherever the light shines.

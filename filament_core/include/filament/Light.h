@@ -39,7 +39,7 @@ struct SunLight {
     bool showsDisc = false;
     float haloSize = 10;      ///< radius of the halo over that of the disc, [1, 1000]; 1: none
     float haloFalloff = 80;   ///< exponent by which it fades, [0, 10'000]
-    bool castsShadows = true; ///< in views with Quality::shadows; of several suns only the brightest does
+    bool castsShadows = true; ///< in views with Quality::shadows
     /// Finds what is too small for shadow maps in the depths of the picture: Effects::contactShadows. docs/shadows.md.
     bool contactShadows = false;
     LightChannels lightChannels = kDefaultLightChannels;
@@ -89,7 +89,8 @@ struct SpotLight {
 //   Units     luminance, or by luminanceFromFlux() the luminous flux of the whole light. A luminance that is not a
 //             number, infinite or negative counts as 0. Sizes are finite and >= 0; without an area there is no light.
 //   Range     at the distance rangeMeters from its centre the light has faded to exactly zero; 0: unlimited.
-//   Shadows   they cast none.
+//   Shadows   those of a point in the middle of the area, which ShadowFilter::Pcss softens as those of a disc that shows as
+//             many square metres. A mesh that shows the light must not cast: it would stop all of it.
 //   Nodes     turn and move them; a scale does not change their size.
 
 /// A rectangle around a position. Heitz, Dupuy, Hill and Neubelt 2016, "Real-Time Polygonal-Light Shading with Linearly
@@ -103,6 +104,8 @@ struct RectLight {
     LinearColor color{ 1.0f };
     float rangeMeters = 0;
     bool isTwoSided = false; ///< also shines against its direction, as bright
+    bool castsShadows = true;
+    LightChannels lightChannels = kDefaultLightChannels;
 };
 
 /// A disc around a position: a polygon of 16 corners that has its area.
@@ -114,6 +117,8 @@ struct DiscLight {
     LinearColor color{ 1.0f };
     float rangeMeters = 0;
     bool isTwoSided = false;
+    bool castsShadows = true;
+    LightChannels lightChannels = kDefaultLightChannels;
 };
 
 /// The side of a cylinder, without its ends: at every point it is the rectangle that covers it in view of that point.
@@ -124,6 +129,8 @@ struct TubeLight {
     Nits luminance{ 1000 };
     LinearColor color{ 1.0f };
     float rangeMeters = 0;
+    bool castsShadows = true;
+    LightChannels lightChannels = kDefaultLightChannels;
 };
 
 /// The luminance of a light of this size that gives off `flux` in total. An area A that shines equally into all

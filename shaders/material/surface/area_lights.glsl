@@ -14,6 +14,7 @@ struct AreaLight {
     highp vec3 center;       // from the point that is shaded
     highp vec3 halfX, halfY; // their cross product points away from a point that it shines on
     highp vec3 luminance;    // pre-exposed
+    highp vec3 visibility;   // [0, 1]: what shadow maps leave of it
     bool isDisc;
     bool isTwoSided;
 };
@@ -48,6 +49,7 @@ AreaLight areaLightAt(int index, highp vec3 center, highp vec4 colorIntensity) {
     area.isTwoSided = shape > kShapeTube;
     area.isDisc = shape == kShapeDisc || shape == kShapeDisc + kShapeTwoSided;
     area.luminance = colorIntensity.rgb;
+    area.visibility = vec3(1.0);
     return area;
 }
 
@@ -92,11 +94,11 @@ Light representativeOf(AreaFrame frame, AreaLight area, highp vec3 integral) {
     Light arriving;
     arriving.direction = normalizeOrZero(toLight);
     highp vec3 illuminance = area.luminance * sqrt(dot(toLight, toLight));
-    arriving.illuminance = illuminance;
+    arriving.illuminance = illuminance * area.visibility;
 #if defined(CUSTOM_SURFACE_SHADING)
-    arriving.color = illuminance;
+    arriving.color = tintedByShadow(illuminance, area.visibility);
     arriving.attenuation = 1.0;
-    arriving.visibility = 1.0;
+    arriving.visibility = max3(area.visibility);
     arriving.position = vertex_worldPosition + area.center;
 #endif
     return arriving;

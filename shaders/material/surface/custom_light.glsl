@@ -1,5 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
-// shadeLight() of materials with customSurfaceShading: the author's function, also for lights behind the surface.
+// Lights for materials with customSurfaceShading: shadeLight() is the author's function, also for lights behind the
+// surface.
+
+// LightData::visibility is one number: what a coloured shadow is beyond it goes into the light's colour.
+highp vec3 tintedByShadow(highp vec3 color, highp vec3 visibility) {
+#if defined(VARIANT_SHADOW_RECEIVER)
+    highp float most = max3(visibility);
+    if (quality_coloredShadows != 0 && most > 0.0) color *= visibility / most;
+#endif
+    return color;
+}
 
 highp vec3 shadeLight(Surface surface, Light light) {
     LightData data;

@@ -8,38 +8,20 @@
 #define SKIP_IN_SHADOW(visibility) if (max3(visibility) <= 0.0) continue;
 #endif
 
-#if defined(CUSTOM_SURFACE_SHADING)
-
-// LightData::visibility is one number: what a coloured shadow is beyond it goes into the light's colour.
-highp vec3 tintedByShadow(highp vec3 color, highp vec3 visibility) {
-#if defined(VARIANT_SHADOW_RECEIVER)
-    highp float most = max3(visibility);
-    if (quality_coloredShadows != 0 && most > 0.0) color *= visibility / most;
-#endif
-    return color;
-}
-
-#endif
-
 #if defined(VARIANT_PUNCTUAL)
 
 #include "shaders/material/surface/light_list.glsl"
 
-highp vec3 areaLight(Surface surface, int index, highp vec4 positionRange, highp vec4 colorIntensity) {
-    highp vec3 center = positionRange.xyz - vertex_worldPosition;
-    highp float window = rangeWindow(center, positionRange.w);
-    highp vec3 reflected = vec3(0.0);
-    if (window > 0.0) {
-        AreaLight area = areaLightAt(index, center, colorIntensity);
-        area.luminance *= window;
+highp vec3 areaLight(Surface surface, AreaLight area) {
+    highp vec3 reflected;
 #if defined(AREA_LIGHTS_BY_LTC)
-        if (quality_areaLights == kAreaLightsLtc) {
-            reflected = shadeAreaByLtc(surface, area);
-        } else
+    if (quality_areaLights == kAreaLightsLtc) {
+        area.luminance *= area.visibility;
+        reflected = shadeAreaByLtc(surface, area);
+    } else
 #endif
-        {
-            reflected = shadeAreaAsPoint(surface, area);
-        }
+    {
+        reflected = shadeAreaAsPoint(surface, area);
     }
     return reflected;
 }
@@ -54,22 +36,24 @@ highp vec3 punctualLights(Surface surface) {
         index += firstLight;
         highp vec4 positionRange = lightBuffer.lights[index].positionRange;
         highp vec4 colorIntensity = lightBuffer.lights[index].colorIntensity;
-        if (quality_areaLights != 0 && isArea(colorIntensity.w)) {
-            sum += areaLight(surface, index, positionRange, colorIntensity);
-            continue;
-        }
         bool isSun = colorIntensity.w < 0.0; // its position is the direction towards it
+        bool isAnArea = quality_areaLights != 0 && isArea(colorIntensity.w);
         highp vec3 toLight = isSun ? positionRange.xyz : positionRange.xyz - vertex_worldPosition;
-        highp float attenuation = isSun ? 1.0 : distanceAttenuation(toLight, positionRange.w);
+        highp float attenuation = 1.0;
+        if (isAnArea) {
+            attenuation = rangeWindow(toLight, positionRange.w);
+        } else if (!isSun) {
+            attenuation = distanceAttenuation(toLight, positionRange.w);
+        }
         if (attenuation <= 0.0) continue; // out of range
         highp vec3 direction = isSun ? toLight : normalizeOrZero(toLight);
-        if (colorIntensity.w > 0.0) {
+        if (colorIntensity.w > 0.0 && !isAnArea) {
             highp vec4 directionScale = lightBuffer.lights[index].directionScale;
             highp float offset = lightBuffer.lights[index].offset.x;
             attenuation *= spotAttenuation(direction, directionScale.xyz, directionScale.w, offset);
             if (attenuation <= 0.0) continue; // outside the cone
         }
-        if (quality_lightProfiles != 0) {
+        if (quality_lightProfiles != 0 && !isAnArea) {
             highp float profiled = lightBuffer.lights[index].offset.w;
             if (profiled > 0.0) {
                 highp vec3 forward = lightBuffer.lights[index].directionScale.xyz;
@@ -79,7 +63,7 @@ highp vec3 punctualLights(Surface surface) {
         }
         highp vec3 visibility = vec3(1.0);
 #if defined(VARIANT_SHADOW_RECEIVER)
-        visibility = punctualVisibility(lightBuffer.lights[index].offset.yz, toLight);
+        visibility = listedVisibility(lightBuffer.lights[index].offset.yz, isSun, toLight);
         SKIP_IN_SHADOW(visibility)
 #endif
         if (quality_contactShadows != 0) {
@@ -87,6 +71,13 @@ highp vec3 punctualLights(Surface surface) {
             highp float reach = isSun ? frameUniforms.contactShadows.x : sqrt(dot(toLight, toLight));
             visibility *= contactVisibility(isAsked, direction, reach);
             SKIP_IN_SHADOW(visibility)
+        }
+        if (isAnArea) {
+            AreaLight area = areaLightAt(index, toLight, colorIntensity);
+            area.luminance *= attenuation;
+            area.visibility = visibility;
+            sum += areaLight(surface, area);
+            continue;
         }
         Light arriving;
         arriving.direction = direction;

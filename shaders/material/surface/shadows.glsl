@@ -242,13 +242,14 @@ highp vec3 shadowOfChannels(ShadowReceiver receiver) {
     return light;
 }
 
-// Of the sun of the uniforms: by the first cascade that contains the point; beyond all of them there is no shadow.
-highp vec3 sunVisibility() {
+// Through the maps from `first` to before `end`. Of a sun's cascades the first that contains the point counts, and beyond
+// all of them there is no shadow; other lights have one map for a direction, or none. A loop for one map, too: see
+// shadowOfPenumbra().
+highp vec3 visibilityThrough(int first, int end, bool isSun, highp vec3 toLight) {
     highp vec3 light = vec3(1.0);
-    int first = int(shadowUniforms.sun.x), end = first + int(shadowUniforms.sun.y);
     for (int map = first; map < end; ++map) {
-        ShadowReceiver receiver = shadowReceiver(map, frameUniforms.sunDirection.xyz);
-        if (receiver.isInside) {
+        ShadowReceiver receiver = shadowReceiver(map, toLight);
+        if (!isSun || receiver.isInside) {
             light = shadowOfChannels(receiver);
             break;
         }
@@ -256,7 +257,13 @@ highp vec3 sunVisibility() {
     return light;
 }
 
-// The map of a point or spot that holds a direction; below 0: nothing casts there. `maps`: PunctualLight::offset.yz.
+// Of the sun of the uniforms.
+highp vec3 sunVisibility() {
+    int first = int(shadowUniforms.sun.x);
+    return visibilityThrough(first, first + int(shadowUniforms.sun.y), true, frameUniforms.sunDirection.xyz);
+}
+
+// The map of a point, spot or area that holds a direction; below 0: nothing casts there. `maps`: PunctualLight::offset.yz.
 int punctualMap(highp vec2 maps, highp vec3 fromLight) {
     int map = int(maps.x) - 1, bits = int(maps.y) & 127;
     if (map >= 0 && bits >= 64) {
@@ -272,13 +279,11 @@ int punctualMap(highp vec2 maps, highp vec3 fromLight) {
     return map;
 }
 
-highp vec3 punctualVisibility(highp vec2 maps, highp vec3 toLight) {
-    highp vec3 light = vec3(1.0);
-    // Once or not at all: see shadowOfPenumbra().
-    for (int map = punctualMap(maps, -toLight); map >= 0; map = -1) {
-        light = shadowOfChannels(shadowReceiver(map, toLight));
-    }
-    return light;
+// Of a light of the list. `maps`: PunctualLight::offset.yz.
+highp vec3 listedVisibility(highp vec2 maps, bool isSun, highp vec3 toLight) {
+    int first = isSun ? int(maps.x) - 1 : punctualMap(maps, -toLight);
+    int count = isSun ? bitCount(int(maps.y) & 15) : first >= 0 ? 1 : 0;
+    return visibilityThrough(first, first + count, isSun, toLight);
 }
 
 #endif

@@ -152,6 +152,11 @@ TEST(ShadowFilters, PenumbraeAreAsWideAsTheSizeOfTheLightMakesThem) {
                                     .intensity = Candela{ 50'000 },
                                     .sourceRadiusMeters = static_cast<float>(radius) };
             expectPenumbra(stage, point, radius);
+            const DiscLight disc{ .positionWorld = { 0, 0, 2 },
+                                  .directionWorld = { 0, 0, -1 },
+                                  .radiusMeters = static_cast<float>(radius),
+                                  .luminance = Nits{ 1e6f } };
+            expectPenumbra(stage, disc, radius);
         }
     }
 }

@@ -73,6 +73,20 @@ inline void addCrowd(ShadowStage& stage, Scene& scene, prepare::Random& random, 
                              .rangeMeters = range,
                              .outerConeRadians = static_cast<float>(random.within(0.1, 1.5)) });
     }
+    scene.add(SunLight{ .directionWorld = direction(), .illuminance = Lux{ 10'000 } });
+    const double3 overhead(random.within(-3, 3) * scale, random.within(-3, 3) * scale, 3 * scale);
+    scene.add(RectLight{ .positionWorld = overhead,
+                         .directionWorld = direction(),
+                         .widthMeters = static_cast<float>(random.within(0.1, 1) * scale),
+                         .heightMeters = static_cast<float>(0.3 * scale),
+                         .luminance = Nits{ 100'000 },
+                         .rangeMeters = range });
+    scene.add(TubeLight{ .positionWorld = -overhead + double3(0, 0, 4 * scale),
+                         .axisWorld = direction(),
+                         .lengthMeters = static_cast<float>(scale),
+                         .radiusMeters = static_cast<float>(0.1 * scale),
+                         .luminance = Nits{ 100'000 },
+                         .rangeMeters = range });
 }
 
 } // namespace filament::test

@@ -5,6 +5,8 @@
 
 #include <gtest/gtest.h>
 
+#include <bit>
+
 namespace filament::prepare {
 namespace {
 
@@ -278,6 +280,49 @@ TEST_F(PrepareShadowsTest, SpotsTakeOneMapAndWideOnesACube) {
     EXPECT_EQ(frame().mainView().lights[0].offset.z, 1);
     scene.lights.records[0].outerConeRadians = 1.5f;
     EXPECT_GE(frame().mainView().lights[0].offset.z, 1 << kCubeFaces);
+}
+
+TEST_F(PrepareShadowsTest, EverySunTakesItsCascades) {
+    add({ 4000, 0, -4000 }, lit, 7);
+    view.quality.shadowCascades = 3;
+    addLight(scene, { .type = LightRecord::Type::Sun,
+                      .directionWorld = glm::normalize(float3(1, -1, 0)),
+                      .intensity = 10,
+                      .contactShadows = true });
+    const FramePacket packet = frame();
+    const uint32_t ofBrightest = static_cast<uint32_t>(packet.shadows.uniforms->sun.y);
+    ASSERT_EQ(packet.mainView().lights.size(), 1u);
+    const float4 offset = packet.mainView().lights[0].offset;
+    EXPECT_EQ(packet.shadows.uniforms->sun.x, 0) << "the brightest sun comes first";
+    EXPECT_EQ(offset.y, static_cast<float>(ofBrightest + 1));
+    const auto bits = static_cast<uint32_t>(offset.z);
+    EXPECT_EQ(ofBrightest + static_cast<uint32_t>(std::popcount(bits & 15)), packet.shadows.maps.size());
+    EXPECT_GT(std::popcount(bits & 15), 1);
+    EXPECT_EQ(bits & ~15u, shader::kContactShadowBit);
+    EXPECT_EQ(frame().shadows.drawn, 0u);
+}
+
+TEST_F(PrepareShadowsTest, AreasTakeTheFacesThatTheyShineThrough) {
+    removeLight(scene, sun);
+    LightRecord area = lamp({ 0, 2, 0 }, 30); // between the slab and the box
+    area.type = LightRecord::Type::Rect;
+    area.directionWorld = { 0, -1, 0 };
+    area.sideWorld = { 1, 0, 0 };
+    area.halfExtent = float2(0.1f);
+    addLight(scene, area);
+    const auto faces = [&] {
+        const FramePacket packet = frame();
+        return packet.mainView().lights.empty() ? 0u : static_cast<uint32_t>(packet.mainView().lights[0].offset.z);
+    };
+    constexpr uint32_t kUp = 1 << 2, kDown = 1 << 3, kCube = 1 << kCubeFaces;
+    EXPECT_EQ(faces() & (kUp | kDown | kCube), kDown | kCube) << "the box is behind it";
+    scene.lights.records[0].isTwoSided = true;
+    EXPECT_EQ(faces() & (kUp | kDown | kCube), kUp | kDown | kCube);
+    scene.lights.records[0].isTwoSided = false;
+    scene.lights.records[0].type = LightRecord::Type::Tube;
+    EXPECT_EQ(faces() & (kUp | kDown | kCube), kUp | kDown | kCube);
+    scene.lights.records[0].castsShadows = false;
+    expectNone(DemandReason::NotInScene);
 }
 
 TEST_F(PrepareShadowsTest, LightsOutOfReachOfWhatIsSeenTakeNone) {
