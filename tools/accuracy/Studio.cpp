@@ -153,7 +153,8 @@ Result<TakeParts> Studio::partsOf(Equipment& used, SceneSpec const& spec, Settin
         Result<tools::MaterialStand> stand = conformance::makeMaterialModel(used.engine, spec);
         if (!stand) return stand.error();
         parts.material = std::make_shared<tools::MaterialStand>(std::move(*stand));
-        for (double4x4 const& copy : placedCopies(spec)) parts.material->addTo(parts.scene, copy);
+        Result<void> added = conformance::addMaterialCopies(used.engine, parts.scene, spec, *parts.material);
+        if (!added) return added.error();
         return parts;
     }
     Result<std::shared_ptr<Model>> loaded = model(used, spec, settings);

@@ -33,6 +33,7 @@ struct Inputs {
     double transmission = 1;
     double3 absorption{ 0.0 };
     double thickness = 0.5, microThickness = 0, dispersion = 0;
+    double3 emissive{ 0.0 };
     double wallHeight = 0; // 0: no wall at the mesh's edge
 };
 
@@ -55,6 +56,7 @@ constexpr std::pair<std::string_view, double3 Inputs::*> kColors[] = {
     { "baseColor", &Inputs::baseColor },
     { "sheenColor", &Inputs::sheenColor },
     { "absorption", &Inputs::absorption },
+    { "emissive", &Inputs::emissive },
 };
 
 bool read(std::string const& words, std::span<double> numbers) {
@@ -161,7 +163,7 @@ backend::VertexLayout layoutOfMesh() {
 }
 
 std::shared_ptr<const assets::ModelData> modelOf(tools::MaterialMesh const& mesh, std::string const& name,
-                                                 bool isDoubleSided) {
+                                                 double3 emissive, bool isDoubleSided) {
     assets::PrimitiveData primitive;
     primitive.layout = layoutOfMesh();
     const auto vertices = std::as_bytes(std::span(mesh.vertices)), indices = std::as_bytes(std::span(mesh.indices));
@@ -174,7 +176,7 @@ std::shared_ptr<const assets::ModelData> modelOf(tools::MaterialMesh const& mesh
     primitive.boundsMin = float3(-1), primitive.boundsMax = float3(1);
     auto model = std::make_shared<assets::ModelData>();
     model->name = name;
-    model->materials.push_back({ .name = name, .doubleSided = isDoubleSided });
+    model->materials.push_back({ .name = name, .emissiveFactor = float3(emissive), .doubleSided = isDoubleSided });
     model->meshes.push_back({ name, { std::move(primitive) } });
     model->nodes.push_back({ .name = name, .mesh = 0 });
     return model;
@@ -182,7 +184,7 @@ std::shared_ptr<const assets::ModelData> modelOf(tools::MaterialMesh const& mesh
 
 } // namespace
 
-Result<TracedMaterial> tracedMaterialOf(SceneSpec const& spec) {
+Result<TracedMaterial> tracedMaterialOf(SceneSpec const& spec, size_t copy) {
     const Result<conformance::MaterialModelFile> read = conformance::readMaterialModel(spec);
     if (!read) return read.error();
     shader::MaterialPackage const& package = read->file->package;
@@ -190,17 +192,20 @@ Result<TracedMaterial> tracedMaterialOf(SceneSpec const& spec) {
         return fail(ErrorCode::Unsupported, "{}: the path tracer has no model for this material; use lit or cloth",
                     spec.name);
     }
+    if (package.parameters.empty()) {
+        return fail(ErrorCode::Unsupported,
+                    "{}: the path tracer knows a material by its parameters, and this one has none", spec.name);
+    }
     const std::string name = read->mesh.empty() ? read->file->show.mesh : read->mesh;
     const std::optional<tools::MaterialMesh> mesh = tools::makeMaterialMesh(name);
     if (!mesh) return fail(ErrorCode::NotFound, "{}: there is no mesh '{}'", spec.name, name);
     Inputs inputs;
-    for (auto const* values : { &read->file->show.values, &read->values }) {
-        for (auto const& [key, words] : *values) {
-            if (const Result<void> done = setInput(inputs, spec.name, key, words); !done) return done.error();
-        }
+    for (auto const& [key, words] : valuesOfCopy(*read, spec, copy)) {
+        if (const Result<void> done = setInput(inputs, spec.name, key, words); !done) return done.error();
     }
     TracedMaterial traced;
-    traced.model.data = modelOf(*mesh, spec.name, package.doubleSided || package.culling == Culling::None);
+    traced.model.data =
+            modelOf(*mesh, spec.name, inputs.emissive, package.doubleSided || package.culling == Culling::None);
     traced.model.finish = [inputs, package](SurfaceSample& surface) { applyTo(surface, inputs, package); };
     traced.features = { .coat = inputs.clearCoat > 0,
                         .sheen = inputs.sheenColor != double3(0.0),

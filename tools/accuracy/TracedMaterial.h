@@ -3,11 +3,11 @@
 /// the same mesh, with the parameter values interpreted by their names.
 ///   Names   parameters are named like the members of MaterialInputs that they set: baseColor, metallic, roughness,
 ///           reflectance, ior, clearCoat, clearCoatRoughness, sheenColor, sheenRoughness, anisotropy, transmission,
-///           absorption, thickness, microThickness, dispersion. Anything else in the material's text is unknown here:
-///           the material must not do more. wallHeight stands for the occlusion of scenes/materials/corner.mat.
+///           absorption, thickness, microThickness, dispersion, emissive (rgb, not exposed). Anything else in the material's text is unknown here:
+///           the material must not do more, and has some parameter. wallHeight stands for the occlusion of scenes/materials/corner.mat.
 ///   Model   lit and cloth; refraction through solids or sheets as the material declares.
 ///   Thread  any; compiles the material.
-///   Fails   NotFound with the nearest name; Unsupported: scene and shading model; errors of the compiler.
+///   Fails   NotFound with the nearest name; Unsupported: the shading model, or no parameter; errors of the compiler.
 #pragma once
 
 #include "tools/conformance/SceneFile.h"
@@ -26,6 +26,7 @@ struct TracedMaterial {
     MaterialFeatures features;
 };
 
-Result<TracedMaterial> tracedMaterialOf(conformance::SceneSpec const& spec);
+/// Of one of the scene's copies.
+Result<TracedMaterial> tracedMaterialOf(conformance::SceneSpec const& spec, size_t copy = 0);
 
 } // namespace filament::accuracy

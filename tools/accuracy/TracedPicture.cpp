@@ -45,10 +45,11 @@ Result<reference::ProfilePtr> profileOf(std::filesystem::path const& file) {
     return std::make_shared<const assets::IesFile>(std::move(*profile));
 }
 
-Result<reference::ReferenceModel> modelOf(SceneSpec const& spec, conformance::SceneFolders const& folders,
+/// Copies of a material may differ, those of a model do not.
+Result<reference::ReferenceModel> modelOf(SceneSpec const& spec, size_t copy, conformance::SceneFolders const& folders,
                                           jobs::JobSystem& jobs, MaterialFeatures* features) {
     if (conformance::isMaterialModel(spec)) {
-        Result<TracedMaterial> traced = tracedMaterialOf(spec);
+        Result<TracedMaterial> traced = tracedMaterialOf(spec, copy);
         if (!traced) return traced.error();
         if (features) *features = traced->features;
         return std::move(traced->model);
@@ -64,11 +65,15 @@ Result<reference::ReferenceModel> modelOf(SceneSpec const& spec, conformance::Sc
 
 Result<ReferenceScene> referenceSceneOf(SceneSpec const& spec, conformance::SceneFolders const& folders,
                                         jobs::JobSystem& jobs, MaterialFeatures* features) {
-    Result<reference::ReferenceModel> model = modelOf(spec, folders, jobs, features);
+    Result<reference::ReferenceModel> model = modelOf(spec, 0, folders, jobs, features);
     if (!model) return model.error();
     ReferenceScene scene;
-    for (double4x4 const& copy : placedCopies(spec)) {
-        model->worldFromModel = copy;
+    const std::vector<double4x4> copies = placedCopies(spec);
+    for (size_t i = 0; i < copies.size(); ++i) {
+        const bool hasOwnValues = i > 0 && i < spec.copyValues.size() && spec.copyValues[i] != spec.copyValues[i - 1];
+        if (hasOwnValues) model = modelOf(spec, i, folders, jobs, features);
+        if (!model) return model.error();
+        model->worldFromModel = copies[i];
         scene.models.push_back(*model);
     }
     const std::vector<LightSpec> lights = placedLights(spec);

@@ -70,6 +70,16 @@ void JsonReader::read(const char* key, std::vector<std::string>& values) {
     values = found->get<std::vector<std::string>>();
 }
 
+void JsonReader::read(const char* key, std::vector<std::pair<std::string, std::string>>& values) {
+    Json const* found = find(key);
+    if (!found) return;
+    if (!found->is_object()) return complain(key, "expected an object of texts");
+    for (auto const& [name, value] : found->items()) {
+        if (!value.is_string()) return complain(key, fmt::format("'{}': expected a text", name));
+        values.emplace_back(name, value.get<std::string>());
+    }
+}
+
 std::vector<Json const*> JsonReader::list(const char* key) {
     std::vector<Json const*> elements;
     Json const* found = find(key);

@@ -34,6 +34,8 @@ public:
     void read(const char* key, float& value, double low, double high);
     void read(const char* key, uint32_t& value, uint32_t low, uint32_t high);
     void read(const char* key, std::vector<std::string>& values);
+    /// An object of texts, ascending by name.
+    void read(const char* key, std::vector<std::pair<std::string, std::string>>& values);
     /// `count` numbers from `low` to `high`.
     void numbers(const char* key, double* values, size_t count, double low, double high);
     template <int N, class T>

@@ -1,36 +1,25 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "tools/conformance/MaterialModel.h"
 
+#include "tools/conformance/SceneAssets.h"
+
 #include <nlohmann/json.hpp>
 
+#include <algorithm>
+
 namespace filament::conformance {
-namespace {
-
-using Words = std::vector<std::pair<std::string, std::string>>;
-
-void readWords(JsonReader& reader, const char* key, Words& words) {
-    Json const* object = reader.raw(key);
-    if (!object) return;
-    if (!object->is_object()) return reader.complain(key, "expected an object of strings");
-    for (auto const& [name, value] : object->items()) {
-        if (!value.is_string()) return reader.complain(key, fmt::format("'{}': expected a string", name));
-        words.emplace_back(name, value.get<std::string>());
-    }
-}
-
-} // namespace
 
 bool isMaterialModel(SceneSpec const& spec) { return spec.modelObject && spec.modelObject->contains("material"); }
 
 Result<MaterialModelFile> readMaterialModel(SceneSpec const& spec) {
     std::string path;
     MaterialModelFile model;
-    Words edits;
+    NamedWords edits;
     JsonReader reader(*spec.modelObject, spec.name + ": model");
     reader.read("material", path);
     reader.read("mesh", model.mesh);
-    readWords(reader, "edits", edits);
-    readWords(reader, "values", model.values);
+    reader.read("edits", edits);
+    reader.read("values", model.values);
     if (const Result<void> done = reader.finish(); !done) return done.error();
     Result<std::shared_ptr<const tools::MaterialFile>> file = tools::readMaterialFile(spec.folder / path, edits);
     if (!file) return file.error();
@@ -42,6 +31,36 @@ Result<tools::MaterialStand> makeMaterialModel(Engine& engine, SceneSpec const& 
     const Result<MaterialModelFile> model = readMaterialModel(spec);
     if (!model) return model.error();
     return tools::MaterialStand::make(engine, *model->file, model->values, model->mesh);
+}
+
+tools::MaterialValues valuesOfCopy(MaterialModelFile const& model, SceneSpec const& spec, size_t copy) {
+    tools::MaterialValues values = model.file->show.values;
+    const auto setAll = [&](tools::MaterialValues const& more) {
+        for (auto const& value : more) {
+            std::erase_if(values, [&](auto const& old) { return old.first == value.first; });
+            values.push_back(value);
+        }
+    };
+    setAll(model.values);
+    if (copy < spec.copyValues.size()) setAll(spec.copyValues[copy]);
+    return values;
+}
+
+Result<void> addMaterialCopies(Engine& engine, Scene& scene, SceneSpec const& spec, tools::MaterialStand& stand) {
+    const Result<MaterialModelFile> model = readMaterialModel(spec);
+    if (!model) return model.error();
+    const std::vector<double4x4> copies = placedCopies(spec);
+    for (size_t i = 0; i < copies.size(); ++i) {
+        const LightChannels channels = i < spec.copyChannels.size() ? spec.copyChannels[i] : kDefaultLightChannels;
+        MaterialInstance instance = stand.instance();
+        if (i < spec.copyValues.size() && !spec.copyValues[i].empty()) {
+            const Result<MaterialInstance> other = stand.vary(engine, *model->file, valuesOfCopy(*model, spec, i));
+            if (!other) return other.error();
+            instance = *other;
+        }
+        stand.addTo(scene, copies[i], channels, instance);
+    }
+    return {};
 }
 
 } // namespace filament::conformance

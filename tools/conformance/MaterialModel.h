@@ -23,4 +23,9 @@ bool isMaterialModel(SceneSpec const& spec);
 Result<MaterialModelFile> readMaterialModel(SceneSpec const& spec);
 Result<tools::MaterialStand> makeMaterialModel(Engine& engine, SceneSpec const& spec);
 
+/// All values of a copy: the file's, the model's, its own; later ones replace earlier ones.
+tools::MaterialValues valuesOfCopy(MaterialModelFile const& model, SceneSpec const& spec, size_t copy);
+/// All copies of the scene: those with values of their own as other instances of the stand's material.
+Result<void> addMaterialCopies(Engine& engine, Scene& scene, SceneSpec const& spec, tools::MaterialStand& stand);
+
 } // namespace filament::conformance

@@ -27,6 +27,7 @@ void readCopy(JsonReader& reader, SceneSpec& spec) {
     LightChannels channels = kDefaultLightChannels;
     readLightChannels(reader, channels);
     spec.copyChannels.push_back(channels);
+    reader.read("values", spec.copyValues.emplace_back());
 }
 
 void readEnvironment(JsonReader& reader, SceneSpec& spec) {
@@ -168,7 +169,11 @@ Result<SceneSpec> readCase(Json const& json, std::filesystem::path const& file, 
     if (spec.copies.empty()) {
         spec.copies.push_back(double4x4(1.0));
         spec.copyChannels.push_back(kDefaultLightChannels);
+        spec.copyValues.emplace_back();
     }
+    const bool hasValues = std::ranges::any_of(spec.copyValues, [](NamedWords const& words) { return !words.empty(); });
+    if (hasValues && !(spec.modelObject && spec.modelObject->contains("material")))
+        reader.complain("copies", "'values' belong to a model that is a material");
     reader.read("origin", spec.origin);
     reader.object("camera", [&](JsonReader& r) { readCamera(r, spec); });
     reader.object("exposure", [&](JsonReader& r) { readExposure(r, spec.exposure); });

@@ -34,6 +34,9 @@ struct Comparator {
     double flipMean = 0.01, flipP99 = 0.1; ///< Flip: upper bounds, [0, 1]
 };
 
+/// Values by name, as words: "0.5", "1,0,0.2".
+using NamedWords = std::vector<std::pair<std::string, std::string>>;
+
 using LightSpec = std::variant<SunLight, PointLight, SpotLight, RectLight, DiscLight, TubeLight>;
 
 struct SceneSpec {
@@ -51,6 +54,7 @@ struct SceneSpec {
     std::vector<std::string> lightProfiles;  ///< of each light: a photometric file, named as models are; empty: none
     std::vector<double4x4> copies;           ///< transforms of the model; never empty
     std::vector<LightChannels> copyChannels; ///< one for each copy; missing ones are the default
+    std::vector<NamedWords> copyValues;      ///< of each copy: parameters of a material that differ from the model's
     double3 origin{ 0.0 };                   ///< of everything: model, lights, camera
     std::optional<double3> eye;              ///< none: a place from which the whole model is visible
     double3 at{ 0.0 };

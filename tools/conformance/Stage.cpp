@@ -76,15 +76,12 @@ Result<void> Stage::loadSky(SceneSpec const& spec) {
 }
 
 Result<void> Stage::placeModel(SceneSpec const& spec) {
+    if (mMaterial) return addMaterialCopies(mEngine, *mScene, spec, *mMaterial);
     uint64_t nodesOfOne = 0;
     const std::vector<double4x4> copies = placedCopies(spec);
     for (size_t i = 0; i < copies.size(); ++i) {
         double4x4 const& copy = copies[i];
         const LightChannels channels = i < spec.copyChannels.size() ? spec.copyChannels[i] : kDefaultLightChannels;
-        if (mMaterial) {
-            mMaterial->addTo(*mScene, copy, channels);
-            continue;
-        }
         const uint64_t nodes = mScene->nodeCount();
         if (nodes + nodesOfOne > kMaxObjects || mScene->renderableCount() + mModel->renderableCount() > kMaxObjects) {
             return fail(ErrorCode::InvalidArgument, "{}: copies: {} copies of the model are more than {} objects",

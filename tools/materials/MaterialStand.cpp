@@ -83,24 +83,36 @@ Result<void> MaterialStand::addSlab(Engine& engine) {
 }
 
 Result<void> MaterialStand::set(Engine& engine, MaterialFile const& file, MaterialValues const& values) {
+    return setAll(engine, mInstance, file, values);
+}
+
+Result<MaterialInstance> MaterialStand::vary(Engine& engine, MaterialFile const& file, MaterialValues const& values) {
+    Owned<MaterialInstance> instance = engine.own(engine.createInstance(mMaterial, file.name));
+    if (Result<void> done = setAll(engine, instance, file, values); !done) return done.error();
+    mVariations.push_back(std::move(instance));
+    return mVariations.back().get();
+}
+
+Result<void> MaterialStand::setAll(Engine& engine, MaterialInstance instance, MaterialFile const& file,
+                                   MaterialValues const& values) {
     for (auto const& [name, value] : values) {
-        if (Result<void> done = setOne(engine, file, name, value); !done) return done;
+        if (Result<void> done = setOne(engine, instance, file, name, value); !done) return done;
     }
     return {};
 }
 
-Result<void> MaterialStand::setOne(Engine& engine, MaterialFile const& file, std::string const& name,
-                                   std::string const& value) {
+Result<void> MaterialStand::setOne(Engine& engine, MaterialInstance instance, MaterialFile const& file,
+                                   std::string const& name, std::string const& value) {
     shader::Parameter const* parameter = file.package.findParameter(name);
     if (!parameter) {
         if (file.package.findConstant(name)) return {}; // set when the material was created
         return unknownValue(file, name);
     }
-    if (!shader::isTexture(parameter->type)) return setMaterialValue(engine, mInstance, *parameter, value);
+    if (!shader::isTexture(parameter->type)) return setMaterialValue(engine, instance, *parameter, value);
     Result<MaterialPicture> picture = makeMaterialPicture(engine, value);
     if (!picture) return picture.error();
     mPictures.push_back(std::move(*picture));
-    return engine.set(mInstance, name, mPictures.back().texture, mPictures.back().sampler);
+    return engine.set(instance, name, mPictures.back().texture, mPictures.back().sampler);
 }
 
 Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& file, MaterialValues const& values,
@@ -131,11 +143,12 @@ Result<MaterialStand> MaterialStand::make(Engine& engine, MaterialFile const& fi
     return stand;
 }
 
-void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject, LightChannels channels) const {
+void MaterialStand::addTo(Scene& scene, double4x4 const& worldFromObject, LightChannels channels,
+                          MaterialInstance instance) const {
     for (uint32_t i = 0; i < mInstances; ++i) {
         scene.add({ .vertices = mMesh.vertices,
                     .indices = mMesh.indices,
-                    .material = mInstance,
+                    .material = instance ? instance : mInstance.get(),
                     .boundsMin = float3(-1),
                     .boundsMax = float3(1),
                     .worldFromObject = worldFromObject * placeInRow(i, mInstances),

@@ -25,14 +25,20 @@ public:
 
     /// Changes the values of its parameters; constants cannot change.
     Result<void> set(Engine& engine, MaterialFile const& file, MaterialValues const& values);
+    /// Another instance of the material, which lives as long as the stand; constants stay.
+    Result<MaterialInstance> vary(Engine& engine, MaterialFile const& file, MaterialValues const& values);
+    /// `instance`: none for that of the stand.
     void addTo(Scene& scene, double4x4 const& worldFromObject = double4x4(1.0),
-               LightChannels channels = kDefaultLightChannels) const;
+               LightChannels channels = kDefaultLightChannels, MaterialInstance instance = {}) const;
     Material material() const { return mMaterial; }
     MaterialInstance instance() const { return mInstance; }
 
 private:
     Result<void> addSlab(Engine& engine);
-    Result<void> setOne(Engine& engine, MaterialFile const& file, std::string const& name, std::string const& value);
+    Result<void> setAll(Engine& engine, MaterialInstance instance, MaterialFile const& file,
+                        MaterialValues const& values);
+    Result<void> setOne(Engine& engine, MaterialInstance instance, MaterialFile const& file, std::string const& name,
+                        std::string const& value);
 
     struct Geometry {
         Owned<VertexBuffer> vertices;
@@ -41,6 +47,7 @@ private:
     std::string mName;
     Owned<Material> mMaterial, mSlabMaterial;
     Owned<MaterialInstance> mInstance, mSlabInstance;
+    std::vector<Owned<MaterialInstance>> mVariations;
     Geometry mMesh, mBox;
     std::vector<MaterialPicture> mPictures;
     uint32_t mInstances = 1;
