@@ -9,6 +9,7 @@ using passes::FrameResources;
 constexpr Sampler kTrilinear{ Filter::Linear, Filter::Linear, MipFilter::Linear };
 constexpr Sampler kBilinear{ Filter::Linear, Filter::Linear, MipFilter::None };
 constexpr Sampler kNearest{};
+constexpr Sampler kNearestOfLevels{ Filter::Nearest, Filter::Nearest, MipFilter::Nearest };
 
 uint32_t toneTableSize(ToneMapping mapping) {
     return mapping == ToneMapping::Table16 ? 16 : mapping == ToneMapping::Table32 ? 32 : 64;
@@ -40,6 +41,7 @@ FrameResources FrameResourceCache::find(View const& view, prepare::FramePacket c
 passes::FrameSamplers FrameResourceCache::samplers() {
     return { .nearest = mEngine.samplers.get(kNearest, mEngine.pending),
              .bilinear = mEngine.samplers.get(kBilinear, mEngine.pending),
+             .nearestOfLevels = mEngine.samplers.get(kNearestOfLevels, mEngine.pending),
              .trilinear = mEngine.samplers.get(kTrilinear, mEngine.pending) };
 }
 

@@ -5,7 +5,9 @@
 #include "filament_core/passes/FullScreenPass.h"
 #include "filament_core/passes/PassGroup.h"
 
+#include <algorithm>
 #include <array>
+#include <bit>
 
 namespace filament::passes {
 namespace {
@@ -43,20 +45,42 @@ bool isDepthRead(prepare::SceneDemand const& demand) {
 
 constexpr std::string_view kDistanceInputs[] = { "depth" };
 constexpr FullScreenInterface kDistance{ .pass = "distances", .inputs = kDistanceInputs };
+constexpr std::string_view kPyramidInputs[] = { "level" };
+constexpr FullScreenInterface kPyramid{ .pass = "distance pyramid", .inputs = kPyramidInputs };
+
+/// From the level before it.
+void addPyramidLevel(FrameGraph& graph, FrameContext const& context, uint8_t level, TextureId distances) {
+    const std::array inputs{ FullScreenInput{
+            .name = "level", .texture = distances, .range = oneLevel(static_cast<uint8_t>(level - 1)) } };
+    addFullScreenPass(graph, context,
+                      { .name = "distance pyramid",
+                        .material = context.resources.effects->get("distance_pyramid", {}, kPyramid),
+                        .inputs = inputs,
+                        .target = distances,
+                        .level = level });
+}
 
 void addDistances(FrameGraph& graph, FrameContext const& context, FrameTargets& targets) {
     const uint2 size = context.settings.size;
-    targets.distances =
-            graph.createTexture({ .width = size.x, .height = size.y, .format = Format::R32F, .name = "distances" });
+    const bool isMarched = context.packet.demand.needs(prepare::Effect::Reflections);
+    const uint8_t levels = isMarched ? pyramidLevels(size) : uint8_t{ 1 };
+    targets.distances = graph.createTexture(
+            { .width = size.x, .height = size.y, .format = Format::R32F, .levels = levels, .name = "distances" });
     const std::array inputs{ FullScreenInput{ .name = "depth", .texture = targets.depth } };
     addFullScreenPass(graph, context,
                       { .name = "distances",
                         .material = context.resources.effects->get("scene_distance", {}, kDistance),
                         .inputs = inputs,
                         .target = targets.distances });
+    for (uint8_t level = 1; level < levels; ++level) addPyramidLevel(graph, context, level, targets.distances);
 }
 
 } // namespace
+
+uint8_t pyramidLevels(uint2 view) {
+    constexpr uint32_t kMost = 7; // cells of 64 pixels
+    return static_cast<uint8_t>(std::clamp<uint32_t>(std::bit_width(std::min(view.x, view.y)), 2, kMost + 1) - 1);
+}
 
 PassSlot depthSlot(DepthRange range) {
     PassSlot slot{ .layout = { .depthFormat = Format::D32F }, .depthRange = range, .depthOnly = true };

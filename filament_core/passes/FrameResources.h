@@ -19,7 +19,7 @@ struct LightingTextures {
 /// They clamp to the edge.
 struct FrameSamplers {
     backend::SamplerHandle nearest, bilinear; ///< of the first level
-    backend::SamplerHandle trilinear;
+    backend::SamplerHandle nearestOfLevels, trilinear;
 };
 
 struct FrameResources {

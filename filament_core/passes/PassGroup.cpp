@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/passes/PassGroup.h"
 
+#include "filament_core/passes/DepthPass.h"
 #include "framegraph/FrameGraph.h"
 #include "shaders/interface/ShaderInterface.h"
 
@@ -39,7 +40,8 @@ PassBlock declareTargetBeforePicture(FrameContext const& context, framegraph::Gr
     block.raster.z = static_cast<float>(copy.levels - 1);
     block.picture = { first, first + size };
     const ScreenReflections reflections = context.packet.effects.reflections;
-    block.reflection = { context.view->quality.ssrSteps, reflections.distanceMeters, reflections.thicknessMeters, 0 };
+    block.reflection = { context.view->quality.ssrSteps, reflections.distanceMeters, reflections.thicknessMeters,
+                         pyramidLevels(context.settings.size) - 1 };
     block.pictureFromWorld = picture.clipFromWorld;
     return context.blocks->add(std::as_bytes(std::span(&block, 1)));
 }
@@ -91,7 +93,7 @@ std::array<BindGroupEntry, 10> allEntries(framegraph::PassContext& pass, FrameCo
               .sampler = samplers.nearest },
             { .binding = shader::kBindingSceneDepth,
               .texture = orWhite(textures.sceneDepth),
-              .sampler = samplers.nearest },
+              .sampler = samplers.nearestOfLevels },
             { .binding = shader::kBindingFog, .texture = light.specular, .sampler = samplers.trilinear },
             { .binding = shader::kBindingPicture,
               .texture = orWhite(textures.picture),

@@ -215,7 +215,7 @@ struct Quality {
     /// are drawn from back to front, and each of the n - 1 nearest also shows those behind it; farther ones show none.
     uint8_t refractionLayers = 1;
     bool ssr = false;          ///< reflections of the picture, on materials that ask for them
-    uint8_t ssrSteps = 48;     ///< of a reflected ray, [8, 255]
+    uint8_t ssrSteps = 48;     ///< cells of the pyramid of distances that a reflected ray visits at most, [8, 255]
     uint8_t contactSteps = 16; ///< of a contact shadow's ray, [4, 64]
     DepthPrepass depthPrepass = DepthPrepass::Auto;
     ToneMapping toneMapping = ToneMapping::Analytic;

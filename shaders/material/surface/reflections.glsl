@@ -1,13 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // Reflections of the picture, for lit materials with `reflections : screenspace`: the mirrored ray is followed through
-// the distances of what is opaque, pixel by pixel in steps that grow away from the surface. What it hits has the colour
-// that the picture shows there: for opaque surfaces the last frame's picture, at the place where the hit was then.
+// the pyramid of distances of what is opaque, from cell to cell: through cells of which it stays in front in one step,
+// through the others by way of their parts, down to pixels. What it hits has the colour that the picture shows there:
+// for opaque surfaces the last frame's picture, at the place where the hit was then.
 //   After   McGuire and Mara 2014, "Efficient GPU Screen-Space Ray Tracing": lines of the picture are walked, and what
-//           is linear in the world is interpolated as a fraction of w.
+//           is linear in the world is interpolated as a fraction of w. Uludag 2014, "Hi-Z Screen-Space Cone-Traced
+//           Reflections", GPU Pro 5: the pyramid.
 
 const highp float kReflectionBorder = 0.08;     // of the picture, over which hits fade
 const highp float kReflectionBias = 0.0009765625; // of the distance: what counts as the same surface
-const int kReflectionBisections = 6;
+const highp float kIntoNextCell = 0.03125; // pixels: beyond the border, whatever rounding does
 
 #include "shaders/material/surface/picture_texel.glsl"
 
@@ -63,43 +65,56 @@ highp float distanceOfRay(PictureRay ray, highp float s) {
     return (ray.distances.x + (ray.distances.y - ray.distances.x) * s) / (ray.w.x + (ray.w.y - ray.w.x) * s);
 }
 
-highp float distanceOfPicture(PictureRay ray, highp float s) {
-    highp vec2 pixel = clamp(floor(ray.start + ray.along * s), vec2(0.0), passUniforms.target.xy - 1.0);
-    return texelFetch(passSceneDepth, ivec2(pixel), 0).x;
+// The nearest distance in a cell of a level.
+highp float distanceOfCell(highp vec2 cell, int level) {
+    ivec2 last = max(ivec2(passUniforms.target.xy) >> level, ivec2(1)) - 1; // it takes what is left over
+    return texelFetch(passSceneDepth, clamp(ivec2(cell), ivec2(0), last), level).x;
+}
+
+// Where on the line the ray leaves a cell that is `width` pixels wide.
+highp float endOfCell(PictureRay ray, highp vec2 cell, highp float width) {
+    highp vec2 border = (cell + vec2(ray.along.x > 0.0 ? 1.0 : 0.0, ray.along.y > 0.0 ? 1.0 : 0.0)) * width;
+    highp vec2 beyond = border - ray.start + vec2(ray.along.x > 0.0 ? kIntoNextCell : -kIntoNextCell,
+                                                     ray.along.y > 0.0 ? kIntoNextCell : -kIntoNextCell);
+    highp float x = abs(ray.along.x) > 1e-6 ? beyond.x / ray.along.x : 1.0;
+    highp float y = abs(ray.along.y) > 1e-6 ? beyond.y / ray.along.y : 1.0;
+    return min(x, y);
+}
+
+// Where on [begin, end] the ray is as far away as `distance`; begin, if it is farther there already.
+highp float meetsDistance(PictureRay ray, highp float begin, highp float end, highp float distance) {
+    highp float over = distance * ray.w.x - ray.distances.x;
+    highp float under = (ray.distances.y - ray.distances.x) - distance * (ray.w.y - ray.w.x);
+    return under > 0.0 ? clamp(over / under, begin, end) : begin;
 }
 
 // Where on the line the ray goes behind a surface; below 0: nowhere.
 highp float hitOfRay(PictureRay ray) {
-    int steps = int(passUniforms.reflection.x);
+    int cells = int(passUniforms.reflection.x);
     highp float thickness = passUniforms.reflection.z;
-    highp float onePixel = 1.0 / max(max(abs(ray.along.x), abs(ray.along.y)), 1e-6);
-    highp float before = onePixel, found = -1.0;
-    highp float distanceBefore = distanceOfRay(ray, before);
-    for (int i = 1; i <= steps; ++i) {
-        highp float u = float(i) / passUniforms.reflection.x;
-        highp float s = max(ray.end * u * u, onePixel * (float(i) + 1.0)); // its own pixel is the surface itself
-        if (s > ray.end) break;
-        highp float distance = distanceOfRay(ray, s);
-        highp float surface = distanceOfPicture(ray, s);
-        bool isBehind = distance > surface + surface * kReflectionBias;
-        if (isBehind && min(distance, distanceBefore) <= surface + thickness) {
-            found = s;
+    int last = int(passUniforms.reflection.w);
+    // Its own pixel is the surface itself.
+    highp float begin = 1.0 / max(max(abs(ray.along.x), abs(ray.along.y)), 1e-6);
+    highp float atBegin = distanceOfRay(ray, begin);
+    highp float found = -1.0;
+    int level = 0;
+    for (int i = 0; i < cells; ++i) {
+        if (begin >= ray.end) break;
+        highp float width = float(1 << level);
+        highp vec2 cell = floor((ray.start + ray.along * begin) / width);
+        highp float end = min(max(endOfCell(ray, cell, width), begin), ray.end);
+        highp float atEnd = distanceOfRay(ray, end);
+        highp float nearest = distanceOfCell(cell, level);
+        bool isBefore = max(atBegin, atEnd) <= nearest + nearest * kReflectionBias;
+        if (!isBefore && level == 0 && min(atBegin, atEnd) <= nearest + thickness) {
+            found = meetsDistance(ray, begin, end, nearest);
             break;
         }
-        before = s;
-        distanceBefore = distance;
-    }
-    if (found >= 0.0) {
-        for (int i = 0; i < kReflectionBisections; ++i) {
-            highp float middle = (before + found) * 0.5;
-            highp float surface = distanceOfPicture(ray, middle);
-            if (distanceOfRay(ray, middle) > surface + surface * kReflectionBias) {
-                found = middle;
-            } else {
-                before = middle;
-            }
+        if (isBefore || level == 0) {
+            begin = end;
+            atBegin = atEnd;
         }
-        if (distanceOfRay(ray, found) > distanceOfPicture(ray, found) + thickness) found = -1.0; // beside an edge
+        level = isBefore ? min(level + 1, last) : max(level - 1, 0);
     }
     return found;
 }
