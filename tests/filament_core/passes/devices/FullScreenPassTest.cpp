@@ -4,15 +4,18 @@
 
 #include "backend/create/CreateDriver.h"
 #include "backend/layers/Validated.h"
+#include "filament_core/passes/DepthPass.h"
 #include "filament_core/prepare/PrepareFrame.h"
 #include "framegraph/CompiledGraph.h"
 #include "shaders/compiler/MaterialCompiler.h"
+#include "tools/paths/Paths.h"
 
 #include <gtest/gtest.h>
 
 #include <bit>
 #include <cstring>
 #include <deque>
+#include <fstream>
 #include <memory>
 #include <string>
 #include <vector>
@@ -51,16 +54,17 @@ public:
 
     /// A material from the text between "material {" and the end of the fragment block.
     scene::Material& material(std::string const& properties, std::string const& code) {
-        const Result<shader::MaterialPackage> package = shader::compileMaterial(
+        return keep(shader::compileMaterial(
                 "material { name : effect, domain : postprocess,\n" + properties +
                         "}\nfragment { void postProcess(inout PostProcessInputs inputs) {\n" + code + "\n} }",
-                "effect.mat");
-        EXPECT_TRUE(package) << (package ? "" : package.error().message);
-        scene::Material& made = mMaterials.emplace_back();
-        made.id = static_cast<uint32_t>(mMaterials.size());
-        made.name = "effect";
-        if (package) made.package = *package;
-        return made;
+                "effect.mat"));
+    }
+
+    /// One of the engine's.
+    scene::Material& materialOfFile(std::string const& path) {
+        std::ifstream file(tools::sourceDir() / path);
+        const std::string text{ std::istreambuf_iterator<char>(file), {} };
+        return keep(shader::compileMaterial(text, path));
     }
 
     /// describe(graph, context, target) declares the passes; returns the RGBA values of the target, top row first.
@@ -99,6 +103,15 @@ public:
     }
 
 private:
+    scene::Material& keep(Result<shader::MaterialPackage> const& package) {
+        EXPECT_TRUE(package) << (package ? "" : package.error().message);
+        scene::Material& made = mMaterials.emplace_back();
+        made.id = static_cast<uint32_t>(mMaterials.size());
+        made.name = "effect";
+        if (package) made.package = *package;
+        return made;
+    }
+
     static std::unique_ptr<CommandStream> start(BackendType type) {
         auto stream = CommandStream::start([type](ResultSink& sink) -> Result<std::unique_ptr<Driver>> {
             Result<std::unique_ptr<Driver>> driver = createDriver(type, { .validation = true }, sink);
@@ -306,6 +319,48 @@ TEST_F(FullScreenPasses, OfSteadyFramesMakeNothingNew) {
         ASSERT_EQ(picture[0], value) << "values are of their frame";
     }
     EXPECT_EQ(stage.stream().statistics().programsCreated, 1u);
+}
+
+/// From the level before it, as DepthPass.cpp adds it.
+void addLevel(framegraph::FrameGraph& graph, FrameContext const& context, scene::Material const& material,
+              uint8_t level, TextureId target) {
+    const std::array inputs{ FullScreenInput{
+            .name = "level", .texture = target, .range = oneLevel(static_cast<uint8_t>(level - 1)) } };
+    addFullScreenPass(graph, context,
+                      { .name = "pyramid", .material = material, .inputs = inputs, .target = target, .level = level });
+}
+
+// Every pixel is below one cell of each level, also where rows and columns are left over.
+TEST_F(FullScreenPasses, OfThePyramidKeepTheNearestDistanceBelowEachCell) {
+    const auto pattern = [](uint32_t x, uint32_t y) { return static_cast<float>((x * 73 + y * 179) % 251 + 1); };
+    for (const uint2 size : { uint2(8, 8), uint2(13, 7), uint2(33, 17), uint2(64, 48), uint2(5, 40), uint2(130, 67) }) {
+        const auto levels = static_cast<uint8_t>(pyramidLevels(size));
+        for (uint8_t level = 1; level < levels; ++level) {
+            const Floats picture = onBoth([&](Stage& stage) {
+                scene::Material& source = stage.material(
+                        "", "inputs.color = vec4(float((getPixel().x * 73 + getPixel().y * 179) % 251 + 1));");
+                scene::Material& pyramid = stage.materialOfFile("shaders/post/distance_pyramid.mat");
+                return stage.draw({ size.x, size.y, levels, level },
+                                  [&](framegraph::FrameGraph& graph, FrameContext const& context, TextureId target) {
+                                      addFullScreenPass(graph, context,
+                                                        { .name = "source", .material = source, .target = target });
+                                      for (uint8_t at = 1; at <= level; ++at)
+                                          addLevel(graph, context, pyramid, at, target);
+                                  });
+            });
+            const uint32_t width = size.x >> level, height = size.y >> level;
+            ASSERT_EQ(picture.size(), size_t{ width } * height * 4);
+            Floats nearest(size_t{ width } * height, 1e9f);
+            for (uint32_t y = 0; y < size.y; ++y) {
+                for (uint32_t x = 0; x < size.x; ++x) {
+                    float& cell = nearest[std::min(y >> level, height - 1) * width + std::min(x >> level, width - 1)];
+                    cell = std::min(cell, pattern(x, y));
+                }
+            }
+            for (size_t i = 0; i < nearest.size(); ++i)
+                ASSERT_EQ(picture[4 * i], nearest[i]) << size.x << " x " << size.y << ", level " << int{ level };
+        }
+    }
 }
 
 } // namespace
