@@ -128,6 +128,7 @@ private:
             : mOptions(options), mEngine(std::move(engine)), mFloor(std::move(floor)), mRenderer(mEngine) {
         mView.camera = Camera::lookAt({ 0, -9, 7 }, { 0, 0.5, 0 }, { .verticalFovDegrees = 50 }, {}, { 0, 0, 1 });
         mView.size = options.size;
+        mView.quality.shadows = ShadowFilter::Off; // effects_bench measures them
         mTarget = mEngine.own(mEngine.create(SwapChainDesc{ .size = mView.size, .name = "lights_bench" }));
     }
 
