@@ -15,9 +15,11 @@ namespace {
 /// How one field is read, written and kept in range.
 struct EffectField {
     EffectOption option;
-    bool (*set)(Effects& effects, std::string_view value); ///< false: not a value of its range
+    bool (*set)(EffectField const& field, Effects& effects,
+                std::string_view value); ///< false: not a value of its range
     std::string (*get)(Effects const& effects);
-    void (*clamp)(Effects& effects);
+    void (*clamp)(EffectField const& field, Effects& effects);
+    float least = 0, most = 0; ///< of numbers and components
 };
 
 std::optional<float> numberOf(std::string_view text, float least, float most) {
@@ -28,31 +30,33 @@ std::optional<float> numberOf(std::string_view text, float least, float most) {
     return number;
 }
 
-template <auto Group, auto Member, float Least, float Most>
-constexpr EffectField numberField(std::string_view name, std::string_view range) {
+template <auto Group, auto Member>
+constexpr EffectField numberField(std::string_view name, float least, float most, std::string_view range) {
     return { { name, range },
-             [](Effects& effects, std::string_view value) {
-                 const std::optional<float> number = numberOf(value, Least, Most);
+             [](EffectField const& field, Effects& effects, std::string_view value) {
+                 const std::optional<float> number = numberOf(value, field.least, field.most);
                  if (number) effects.*Group.*Member = *number;
                  return number.has_value();
              },
              [](Effects const& effects) { return fmt::format("{}", effects.*Group.*Member); },
-             [](Effects& effects) {
+             [](EffectField const& field, Effects& effects) {
                  float& number = effects.*Group.*Member;
-                 number = std::isnan(number) ? Effects{}.*Group.*Member : std::clamp(number, Least, Most);
-             } };
+                 number = std::isnan(number) ? Effects{}.*Group.*Member : std::clamp(number, field.least, field.most);
+             },
+             least,
+             most };
 }
 
 template <auto Group, auto Member>
 constexpr EffectField switchField(std::string_view name) {
     return { { name, "off or on" },
-             [](Effects& effects, std::string_view value) {
+             [](EffectField const&, Effects& effects, std::string_view value) {
                  if (value != "on" && value != "off") return false;
                  effects.*Group.*Member = value == "on";
                  return true;
              },
              [](Effects const& effects) { return std::string(effects.*Group.*Member ? "on" : "off"); },
-             [](Effects&) {} };
+             [](EffectField const&, Effects&) {} };
 }
 
 std::optional<LinearColor> colorOf(std::string_view text, float most) {
@@ -68,11 +72,11 @@ std::optional<LinearColor> colorOf(std::string_view text, float most) {
     return color;
 }
 
-template <auto Group, auto Member, float Most>
-constexpr EffectField colorField(std::string_view name, std::string_view range) {
+template <auto Group, auto Member>
+constexpr EffectField colorField(std::string_view name, float most, std::string_view range) {
     return { { name, range },
-             [](Effects& effects, std::string_view value) {
-                 const std::optional<LinearColor> color = colorOf(value, Most);
+             [](EffectField const& field, Effects& effects, std::string_view value) {
+                 const std::optional<LinearColor> color = colorOf(value, field.most);
                  if (color) effects.*Group.*Member = *color;
                  return color.has_value();
              },
@@ -80,12 +84,14 @@ constexpr EffectField colorField(std::string_view name, std::string_view range) 
                  LinearColor const& color = effects.*Group.*Member;
                  return fmt::format("{},{},{}", color.x, color.y, color.z);
              },
-             [](Effects& effects) {
+             [](EffectField const& field, Effects& effects) {
                  LinearColor& color = effects.*Group.*Member;
                  const LinearColor initial = Effects{}.*Group.*Member;
                  for (int i = 0; i < 3; ++i)
-                     color[i] = std::isnan(color[i]) ? initial[i] : std::clamp(color[i], 0.0f, Most);
-             } };
+                     color[i] = std::isnan(color[i]) ? initial[i] : std::clamp(color[i], field.least, field.most);
+             },
+             0,
+             most };
 }
 
 constexpr auto kAo = &Effects::ambientOcclusion;
@@ -94,28 +100,28 @@ constexpr auto kFog = &Effects::fog;
 constexpr auto kContact = &Effects::contactShadows;
 
 constexpr std::array kEffectFields{
-    numberField<kAo, &AmbientOcclusion::radiusMeters, 1e-4f, 1e4f>("ao.radiusMeters", "metres from 0.0001 to 10000"),
-    numberField<kAo, &AmbientOcclusion::intensity, 0.0f, 8.0f>("ao.intensity", "a number from 0 to 8"),
-    numberField<kSsr, &ScreenReflections::distanceMeters, 1e-3f, 1e5f>("ssr.distanceMeters",
-                                                                       "metres from 0.001 to 100000"),
-    numberField<kSsr, &ScreenReflections::thicknessMeters, 1e-4f, 1e4f>("ssr.thicknessMeters",
-                                                                        "metres from 0.0001 to 10000"),
+    numberField<kAo, &AmbientOcclusion::radiusMeters>("ao.radiusMeters", 1e-4f, 1e4f, "metres from 0.0001 to 10000"),
+    numberField<kAo, &AmbientOcclusion::intensity>("ao.intensity", 0.0f, 8.0f, "a number from 0 to 8"),
+    numberField<kSsr, &ScreenReflections::distanceMeters>("ssr.distanceMeters", 1e-3f, 1e5f,
+                                                          "metres from 0.001 to 100000"),
+    numberField<kSsr, &ScreenReflections::thicknessMeters>("ssr.thicknessMeters", 1e-4f, 1e4f,
+                                                           "metres from 0.0001 to 10000"),
     switchField<kFog, &Fog::enabled>("fog"),
-    numberField<kFog, &Fog::density, 0.0f, 1e4f>("fog.density", "1/m from 0 to 10000"),
-    numberField<kFog, &Fog::startMeters, 0.0f, 1e6f>("fog.startMeters", "metres from 0 to 1000000"),
-    numberField<kFog, &Fog::cutOffMeters, 0.0f, 1e9f>("fog.cutOffMeters", "metres from 0 to 1000000000"),
-    numberField<kFog, &Fog::heightMeters, -1e6f, 1e6f>("fog.heightMeters", "metres from -1000000 to 1000000"),
-    numberField<kFog, &Fog::heightFalloff, 0.0f, 1e3f>("fog.heightFalloff", "1/m from 0 to 1000"),
-    numberField<kFog, &Fog::maximumOpacity, 0.0f, 1.0f>("fog.maximumOpacity", "a number from 0 to 1"),
-    colorField<kFog, &Fog::color, 1e3f>("fog.color", "R,G,B, each from 0 to 1000"),
+    numberField<kFog, &Fog::density>("fog.density", 0.0f, 1e4f, "1/m from 0 to 10000"),
+    numberField<kFog, &Fog::startMeters>("fog.startMeters", 0.0f, 1e6f, "metres from 0 to 1000000"),
+    numberField<kFog, &Fog::cutOffMeters>("fog.cutOffMeters", 0.0f, 1e9f, "metres from 0 to 1000000000"),
+    numberField<kFog, &Fog::heightMeters>("fog.heightMeters", -1e6f, 1e6f, "metres from -1000000 to 1000000"),
+    numberField<kFog, &Fog::heightFalloff>("fog.heightFalloff", 0.0f, 1e3f, "1/m from 0 to 1000"),
+    numberField<kFog, &Fog::maximumOpacity>("fog.maximumOpacity", 0.0f, 1.0f, "a number from 0 to 1"),
+    colorField<kFog, &Fog::color>("fog.color", 1e3f, "R,G,B, each from 0 to 1000"),
     switchField<kFog, &Fog::colorFromEnvironment>("fog.colorFromEnvironment"),
-    numberField<kFog, &Fog::inScatteringStartMeters, 0.0f, 1e6f>("fog.inScatteringStartMeters",
-                                                                 "metres from 0 to 1000000"),
-    numberField<kFog, &Fog::inScatteringSize, 0.0f, 1e3f>("fog.inScatteringSize", "a number from 0 to 1000"),
-    numberField<kContact, &ContactShadows::distanceMeters, 1e-4f, 1e4f>("contactShadows.distanceMeters",
-                                                                        "metres from 0.0001 to 10000"),
-    numberField<kContact, &ContactShadows::thicknessMeters, 1e-5f, 1e4f>("contactShadows.thicknessMeters",
-                                                                         "metres from 0.00001 to 10000"),
+    numberField<kFog, &Fog::inScatteringStartMeters>("fog.inScatteringStartMeters", 0.0f, 1e6f,
+                                                     "metres from 0 to 1000000"),
+    numberField<kFog, &Fog::inScatteringSize>("fog.inScatteringSize", 0.0f, 1e3f, "a number from 0 to 1000"),
+    numberField<kContact, &ContactShadows::distanceMeters>("contactShadows.distanceMeters", 1e-4f, 1e4f,
+                                                           "metres from 0.0001 to 10000"),
+    numberField<kContact, &ContactShadows::thicknessMeters>("contactShadows.thicknessMeters", 1e-5f, 1e4f,
+                                                            "metres from 0.00001 to 10000"),
 };
 
 EffectField const* findEffect(std::string_view name) {
@@ -140,7 +146,7 @@ Result<void> setEffect(Effects& effects, std::string_view name, std::string_view
         return fail(ErrorCode::NotFound, "there is no effect option '{}'{}", name,
                     suggestion(name, namesOf(effectOptions())));
     }
-    if (field->set(effects, value)) return {};
+    if (field->set(*field, effects, value)) return {};
     return fail(ErrorCode::InvalidArgument, "effect option {}: '{}' is not {}", name, value, field->option.range);
 }
 
@@ -151,7 +157,7 @@ std::optional<std::string> effectValue(Effects const& effects, std::string_view 
 
 Effects clamped(Effects const& effects) {
     Effects result = effects;
-    for (EffectField const& field : kEffectFields) field.clamp(result);
+    for (EffectField const& field : kEffectFields) field.clamp(field, result);
     return result;
 }
 
