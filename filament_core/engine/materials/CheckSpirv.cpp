@@ -34,8 +34,8 @@ public:
     /// Empty: everything that it names is in `layout`.
     std::string outside(backend::ProgramLayout const& layout) const {
         for (auto const& [id, place] : mPlaces) {
-            const auto [set, binding] = place;
-            const auto isIt = [&](backend::BindingDesc const& desc) { return desc.binding == place.second; };
+            const uint32_t set = place.first, binding = place.second;
+            const auto isIt = [&](backend::BindingDesc const& desc) { return desc.binding == binding; };
             const bool isKnown = set < layout.size() &&
                                  std::ranges::any_of(std::span(layout[set].bindings).first(layout[set].count), isIt);
             if (!isKnown)
