@@ -88,7 +88,7 @@ public:
     }
 
 private:
-    /// The most important first: the sun, further suns, then by the pixels that they light, then in the order of the list.
+    /// The most important first: the sun, further suns, then by the pixels that they light; then in the list's order.
     std::span<const Caster> findCasters() {
         std::span<const uint32_t> listed = mMain.lightRecords;
         const auto casters = mArena.arrayForOverwrite<Caster>(listed.size() + 1);

@@ -3,8 +3,9 @@
 /// the same mesh, with the parameter values interpreted by their names.
 ///   Names   parameters are named like the members of MaterialInputs that they set: baseColor, metallic, roughness,
 ///           reflectance, ior, clearCoat, clearCoatRoughness, sheenColor, sheenRoughness, anisotropy, transmission,
-///           absorption, thickness, microThickness, dispersion, emissive (rgb, not exposed). Anything else in the material's text is unknown here:
-///           the material must not do more, and has some parameter. wallHeight stands for the occlusion of scenes/materials/corner.mat.
+///           absorption, thickness, microThickness, dispersion, emissive (rgb, not exposed). Anything else in the
+///           material's text is unknown here: the material must not do more, and has some parameter. wallHeight stands
+///           for the occlusion of scenes/materials/corner.mat.
 ///   Model   lit and cloth; refraction through solids or sheets as the material declares.
 ///   Thread  any; compiles the material.
 ///   Fails   NotFound with the nearest name; Unsupported: the shading model, or no parameter; errors of the compiler.
