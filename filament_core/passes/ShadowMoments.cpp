@@ -93,7 +93,7 @@ void addMips(FrameGraph& graph, FrameContext const& context, TextureId moments) 
     scene::Material const& material = context.resources.effects->get("shadow_mip", {}, kMip);
     for (uint8_t level = 1; level < kShadowMomentLevels; ++level) {
         const std::array inputs{ FullScreenInput{
-                .name = "moments", .texture = moments, .range = backend::oneLevel(level - 1u) } };
+                .name = "moments", .texture = moments, .range = backend::oneLevel(static_cast<uint8_t>(level - 1)) } };
         addFullScreenPass(graph, context,
                           { .name = "shadow mips",
                             .material = material,

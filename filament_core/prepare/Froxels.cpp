@@ -38,11 +38,12 @@ std::span<const LightBounds> findBounds(Arena& arena, std::span<const PunctualLi
 // Square metres of an area; 1 for others.
 float extentOf(PunctualLight const& light) {
     const float shape = light.colorIntensity.w;
-    if (shape < shader::kShapeRect) return 1;
+    if (shape < float{ shader::kShapeRect }) return 1;
     const float3 x(light.directionScale), y(light.directionScale.w, light.offset.x, light.offset.w);
     const float square = glm::length(x) * glm::length(y);
-    return (shape == shader::kShapeDisc || shape == shader::kShapeDisc + shader::kShapeTwoSided ? 3.14159265f : 4.0f) *
-           square;
+    const bool isDisc =
+            shape == float{ shader::kShapeDisc } || shape == float{ shader::kShapeDisc + shader::kShapeTwoSided };
+    return (isDisc ? 3.14159265f : 4.0f) * square;
 }
 
 // As SelectLights: the luminance that arrives at the camera.

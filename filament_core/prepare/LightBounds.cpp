@@ -26,7 +26,7 @@ LightCone coneOf(shader::PunctualLight const& light, float3 apex, ViewSpace cons
     const float3 axis(light.directionScale);
     const float cosine = -light.offset.x / light.directionScale.w - margins.cosine();
     const bool isUnit = std::abs(glm::dot(axis, axis) - 1) < 1e-5f;
-    if (light.colorIntensity.w != shader::kShapeSpot || !isUnit || !(cosine > 0)) return cone;
+    if (light.colorIntensity.w != float{ shader::kShapeSpot } || !isUnit || !(cosine > 0)) return cone;
     cone.apex = apex;
     cone.axis = depthSpace(space, axis);
     cone.cosine = std::min(cosine, 1.0f);

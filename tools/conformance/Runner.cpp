@@ -184,10 +184,10 @@ Result<std::vector<Actor>> openActors(std::vector<Configuration> const& configur
 }
 
 void showCase(size_t index, size_t count, std::string const& name) {
-    constexpr size_t kWidth = 30;
-    const size_t done = index * kWidth / count;
-    tools::showProgress(fmt::format("[{}{}] {}/{} {}", std::string(done, '#'), std::string(kWidth - done, ' '), index,
-                                    count, name));
+    constexpr size_t kBarWidth = 30;
+    const size_t done = index * kBarWidth / count;
+    tools::showProgress(fmt::format("[{}{}] {}/{} {}", std::string(done, '#'), std::string(kBarWidth - done, ' '),
+                                    index, count, name));
 }
 
 Result<SceneSpec> findCase(std::vector<SceneSpec> const& cases, std::string const& name) {
