@@ -90,8 +90,6 @@ constexpr Contradiction kContradictions[] = {
          return d.find("clothDistribution") != nullptr && d.package.shading != ShadingModel::Cloth;
      },
       "clothDistribution", "clothDistribution is for shadingModel : cloth" },
-    { [](MaterialDefinition const& d) { return d.package.reflections != Reflections::Default && isUnlit(d); },
-      "reflections", "an unlit material cannot reflect; use shadingModel : lit" },
 };
 
 bool hasFog(MaterialPackage const& package) { return (package.filteredVariants & kVariantFog) == 0; }
@@ -141,6 +139,16 @@ Result<void> checkSamplers(MaterialDefinition const& definition) {
 } // namespace
 
 uint32_t samplerBudget(MaterialDefinition const& definition) { return budgetOfLevel(definition.package); }
+
+void leaveOutReflections(MaterialDefinition& definition) {
+    MaterialPackage& package = definition.package;
+    const bool isMirror = package.shading == ShadingModel::Lit || package.shading == ShadingModel::SpecularGlossiness;
+    if (package.reflections == Reflections::Default || isMirror) return;
+    package.reflections = Reflections::Default;
+    definition.warnings.push_back(
+            definition.errorAbout("reflections", "this shadingModel mirrors nothing: reflections has no effect")
+                    .message);
+}
 
 Result<void> checkRules(MaterialDefinition const& definition) {
     std::vector<Error> errors;

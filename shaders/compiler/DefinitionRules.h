@@ -9,6 +9,10 @@ namespace filament::shader {
 
 Result<void> checkRules(MaterialDefinition const& definition);
 
+/// What neither mirrors light nor is lit has no reflections of the picture: the property is left out, with a warning.
+/// One text can so serve several shading models (Filament's glTF materials do that).
+void leaveOutReflections(MaterialDefinition& definition);
+
 /// Materials guide, table 13 and chapter 7: by feature level, shading model and filter. Below level 3 it is what
 /// shaders/interface/SamplerBudget.h leaves to a material that every device can draw, or less.
 uint32_t samplerBudget(MaterialDefinition const& definition);

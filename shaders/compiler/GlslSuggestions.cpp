@@ -149,6 +149,7 @@ std::string hintFor(std::string_view line, MaterialDefinition const& definition)
         const bool isAttribute = name == "uv0" || name == "uv1" || name == "color"; // of MaterialVertexInputs
         if (isAttribute) return fmt::format("; add requires : [ {} ]", name);
         if (std::string hint = aboutMember(name, definition); !hint.empty()) return hint;
+        if (std::string hint = aboutPrefix(name, definition); !hint.empty()) return hint; // the member has its name
     } else {
         if (const std::string attribute = missingAttribute(name, definition); !attribute.empty())
             return fmt::format("; add requires : [ {} ]", attribute);

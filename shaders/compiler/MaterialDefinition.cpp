@@ -102,6 +102,7 @@ Result<MaterialDefinition> defineMaterial(MaterialText text, std::string_view fi
     definition.fragment = std::move(*text.fragment);
     definition.vertex = std::move(text.vertex);
     completeDefaults(definition);
+    leaveOutReflections(definition);
     if (Result<void> checked = checkRules(definition); !checked) return checked.error();
     if (Result<void> laidOut = layOutParameters(definition); !laidOut) return laidOut.error();
     return definition;

@@ -113,8 +113,6 @@ constexpr Broken kContradictions[] = {
       "shadingData, const LightData lightData), as customSurfaceShading : true says" },
     { "material {\n customSurfaceShading : true, shadingModel : cloth }" GOOD_FRAGMENT,
       "a.mat:2: customSurfaceShading works with shadingModel : lit only" },
-    { "material {\n reflections : screenspace, shadingModel : unlit }" GOOD_FRAGMENT,
-      "a.mat:2: an unlit material cannot reflect; use shadingModel : lit" },
     { "material {\n domain : postprocess,\n shadingModel : lit }" GOOD_FRAGMENT,
       "a.mat:3: a material of the domain postprocess cannot be lit" },
     { "material { constants : [ { name : hasX, type : bool } ],\n parameters : [ { name : x, type : sampler2d, usedIf "
@@ -158,6 +156,9 @@ constexpr Broken kMisspelt[] = {
     { "material { parameters : [ { name : albedo, type : float4 } ] }\n" FRAGMENT(
               "prepareMaterial(material);\nmaterial.baseColor = materialParams.albdo;"),
       "a.mat:5: 'albdo' : no such field in structure 'materialParams'; did you mean 'albedo'?" },
+    { "material { parameters : [ { name : albedo, type : float4 } ] }\n" FRAGMENT(
+              "prepareMaterial(material);\nmaterial.baseColor = material.albedo;"),
+      "a.mat:5: 'albedo' : no such field in structure 'material'; the parameter is materialParams.albedo" },
     { "material { parameters : [ { name : albedo, type : sampler2d } ], requires : [ uv0 ] }\n" FRAGMENT(
               "prepareMaterial(material);\nmaterial.baseColor = texture(materialParams_albdo, getUV0());"),
       "a.mat:5: 'materialParams_albdo' : undeclared identifier; did you mean 'materialParams_albedo'?" },

@@ -64,6 +64,15 @@ TEST(Warnings, NameTheLineOfAConstantThatIsNoNumber) {
                      "number" });
 }
 
+TEST(Warnings, NameReflectionsOfWhatMirrorsNothing) {
+    for (const char* model : { "unlit", "cloth", "subsurface" }) {
+        const std::string text = std::string("material { shadingModel : ") + model + ",\nreflections : screenspace }" +
+                                 fragment("prepareMaterial(material);");
+        EXPECT_EQ(warningsOf(text), Lines{ "a.mat:2: this shadingModel mirrors nothing: reflections has no effect" });
+        EXPECT_EQ(compileMaterial(text, "a.mat", {})->reflections, Reflections::Default);
+    }
+}
+
 TEST(Warnings, NameAnAttributeThatIsRequiredTwice) {
     EXPECT_EQ(warningsOf("material {\nrequires : [ uv0,\nuv0 ] }" +
                          fragment("prepareMaterial(material); material.baseColor.rg = getUV0();")),
