@@ -45,7 +45,7 @@ ROOMS = {
                                   "shaders/package", "filament_core/include", "filament_core/scene",
                                   "filament_core/assets/files", "filament_core/assets/image",
                                   "filament_core/assets/environment", "filament_core/assets/tables"],
-    "filament_core/prepare": ["base", "base/math", "jobsystem", "backend/api", "shaders/interface",
+    "filament_core/prepare": ["base", "base/math", "jobsystem", "backend/api", "shaders/interface", "shaders/lib",
                               "filament_core/include", "filament_core/scene"],
     "filament_core/passes": ["base", "base/math", "jobsystem", "backend/api", "backend/stream", "framegraph",
                              "shaders/interface", "shaders/package", "filament_core/include", "filament_core/scene",

@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 #include "filament_core/prepare/PictureCopy.h"
 
+#include "shaders/lib/LibCpp.h"
+
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -69,6 +71,14 @@ PictureCopy copyAround(PixelBox box, uint2 view) {
     const uint32_t step = 1u << (levels - 1);
     const uint2 x = spanOf(first.x, end.x, view.x, step), y = spanOf(first.y, end.y, view.y, step);
     return { .rect = { static_cast<int32_t>(x.x), static_cast<int32_t>(y.x), x.y - x.x, y.y - y.x }, .levels = levels };
+}
+
+// What is infinitely far behind is blurred most, and between two levels both are read.
+uint8_t levelsOfRoughness(float perceptualRoughness, float pixelsPerTangent) {
+    if (perceptualRoughness <= 0) return 1;
+    const float deviation = shader::lib::transmittedDeviation(std::min(perceptualRoughness, 1.0f));
+    const float level = shader::lib::pictureLevel(deviation * pixelsPerTangent);
+    return static_cast<uint8_t>(std::min(level, static_cast<float>(kMostPictureLevels)) + 2);
 }
 
 } // namespace filament::prepare

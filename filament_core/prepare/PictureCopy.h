@@ -41,4 +41,7 @@ PixelBox projectedBox(float4x4 const& clipFromWorld, float3 center, float3 halfE
 /// The part that is copied for objects in `box`.
 PictureCopy copyAround(PixelBox box, uint2 view);
 
+/// Levels that surfaces of no more than this roughness read in perspective views; `pixelsPerTangent`: of the middle.
+uint8_t levelsOfRoughness(float perceptualRoughness, float pixelsPerTangent);
+
 } // namespace filament::prepare

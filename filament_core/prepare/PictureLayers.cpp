@@ -4,6 +4,8 @@
 #include "filament_core/prepare/DrawList.h"
 
 #include <algorithm>
+#include <cmath>
+#include <cstring>
 
 namespace filament::prepare {
 namespace {
@@ -30,6 +32,27 @@ PixelBox boxOf(scene::Renderables const& renderables, std::span<const SortItem> 
     return box;
 }
 
+/// What an instance's roughness does not exceed.
+float mostRoughness(scene::MaterialInstance const& instance) {
+    float roughness = 1;
+    if (instance.material->roughnessBound)
+        std::memcpy(&roughness, instance.parameters.data() + *instance.material->roughnessBound, sizeof(float));
+    return roughness >= 0 ? roughness : roughness < 0 ? 0.0f : 1.0f; // NaN is rough
+}
+
+/// Levels that those of `items` read that see the picture.
+uint8_t levelsFor(scene::Renderables const& renderables, std::span<const SortItem> items, ViewSpace const& space,
+                  uint2 view) {
+    if (space.clipFromView[3].w != 0) return kMostPictureLevels; // parallel: blur grows with the distance behind
+    float roughness = 0;
+    for (SortItem const& item : items) {
+        if (seesPicture(renderables, item))
+            roughness = std::max(roughness, mostRoughness(*renderables.drawables[drawableOf(item.draw)].material));
+    }
+    const float pixelsPerTangent = 0.5f * std::abs(space.clipFromView[1].y) * static_cast<float>(view.y);
+    return levelsOfRoughness(roughness, pixelsPerTangent);
+}
+
 } // namespace
 
 std::span<const PictureCopy> pictureLayers(Arena& arena, scene::Renderables const& renderables,
@@ -42,7 +65,9 @@ std::span<const PictureCopy> pictureLayers(Arena& arena, scene::Renderables cons
     const auto firstItem = [&](size_t layer) { return layer == 0 ? begin : end - (layers.size() - layer); };
     for (size_t i = 0; i < layers.size(); ++i) {
         const size_t first = firstItem(i), next = i + 1 < layers.size() ? firstItem(i + 1) : order.size();
-        layers[i] = copyAround(boxOf(renderables, order.subspan(first, next - first), space, view), view);
+        const std::span<const SortItem> items = order.subspan(first, next - first);
+        layers[i] = copyAround(boxOf(renderables, items, space, view), view);
+        layers[i].levels = std::min(layers[i].levels, levelsFor(renderables, items, space, view));
         layers[i].firstDraw = static_cast<uint32_t>(drawsBefore(blended, first));
     }
     return layers;

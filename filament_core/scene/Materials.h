@@ -27,6 +27,8 @@ struct Material {
     std::vector<backend::ConstantValue> constants;
     uint32_t instanceCount = 0;
     MaterialDescription description;
+    /// Where an instance's parameters hold a float that its roughness does not exceed anywhere; none: not known.
+    std::optional<uint32_t> roughnessBound{};
 
     /// Lights and shading do not affect the others.
     bool isLit() const { return package.shading != shader::ShadingModel::Unlit; }

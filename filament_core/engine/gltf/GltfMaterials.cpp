@@ -22,6 +22,15 @@ void require(Result<void> const& result) {
     FILAMENT_ASSERT(result.ok(), "the glTF materials have the parameters that GltfMaterialSettings names");
 }
 
+/// A map only lowers the factor. Anisotropy makes one direction rougher.
+std::optional<uint32_t> roughnessBound(GltfMaterialSettings const& settings, shader::MaterialPackage const& package) {
+    shader::Parameter const* factor = package.findParameter("roughnessFactor");
+    const bool isAnisotropic = std::ranges::any_of(settings.constants, [](MaterialConstant const& constant) {
+        return constant.name == "hasAnisotropy" && constant.value == MaterialConstant{ "", true }.value;
+    });
+    return factor && !isAnisotropic ? std::optional(factor->offset) : std::nullopt;
+}
+
 } // namespace
 
 size_t GltfMaterials::maxMaps() const {
@@ -38,6 +47,8 @@ Material GltfMaterials::materialFor(GltfMaterialSettings const& settings) {
         if (!created) log(Severity::Error, "{}", created.error().message);
         FILAMENT_ASSERT(created.ok(), "the glTF materials have the constants that GltfMaterialSettings names");
         shared = mModel.materials.back() = *created;
+        scene::Material& state = mEngine.materials.get(shared);
+        state.roughnessBound = roughnessBound(settings, state.package);
     }
     return shared;
 }

@@ -6,6 +6,9 @@
 
 #include <gtest/gtest.h>
 
+#include <cstring>
+#include <limits>
+
 namespace filament::prepare {
 namespace {
 
@@ -177,6 +180,38 @@ TEST_F(PictureCopyTest, WithOneObjectOrOnlyBlendedOnesThereIsOneLayer) {
     EXPECT_EQ(frame().mainView().pictures.size(), 1u);
     add(double3(1, 0, 0), glass(), 2);
     EXPECT_EQ(frame().mainView().pictures.size(), 1u);
+}
+
+TEST_F(PictureCopyTest, LevelsAreThoseThatTheRoughnessReads) {
+    EXPECT_EQ(levelsOfRoughness(0, 1000), 1);
+    EXPECT_EQ(levelsOfRoughness(-1, 1000), 1);
+    EXPECT_EQ(levelsOfRoughness(1, 1e9f), kMostPictureLevels + 2) << "more than any picture has";
+    // A lobe of p pixels reads level log2(2.4 (p^2 + 1/4)) / 2 and the one behind it.
+    EXPECT_EQ(levelsOfRoughness(0.1f, 100), 3) << "1.7 pixels: level 1.45";
+    EXPECT_EQ(levelsOfRoughness(0.3f, 600), 9) << "92 pixels: level 7.2";
+    uint8_t before = 1;
+    for (float roughness = 0.02f; roughness < 1; roughness += 0.02f) {
+        const uint8_t levels = levelsOfRoughness(roughness, 600);
+        EXPECT_GE(levels, before);
+        before = levels;
+    }
+}
+
+TEST_F(PictureCopyTest, FewerLevelsLieInTheSameRectangle) {
+    scene::MaterialInstance* const look = glass();
+    look->parameters.resize(16);
+    add(double3(0, 0, 0), look, 1);
+    const PictureCopy all = frame().mainView().pictures[0];
+    look->material->roughnessBound = 4;
+    for (const float roughness : { 0.0f, 0.05f, 1.0f, std::numeric_limits<float>::quiet_NaN() }) {
+        std::memcpy(look->parameters.data() + 4, &roughness, sizeof(float));
+        const PictureCopy copy = frame().mainView().pictures[0];
+        EXPECT_EQ(copy.rect, all.rect);
+        if (roughness < 0.1f)
+            EXPECT_LT(copy.levels, all.levels) << roughness;
+        else
+            EXPECT_EQ(copy.levels, all.levels) << roughness;
+    }
 }
 
 } // namespace

@@ -114,13 +114,13 @@ double crossing(Image const& image, uint32_t y, double share) {
 // The chord of the ball, for a view along -z and a slab turned about y by `angle`.
 TEST(PictureRefraction, ATurnedBlockShiftsAnEdgeAsFarAsSnellsLawSays) {
     constexpr uint32_t kSide = 128;
-    constexpr double kFov = 2, kEye = 60, kWallZ = -0.6, kThickness = 0.4;
+    constexpr double kFov = 2, kEye = 60, kBehindZ = -0.6, kThickness = 0.4;
     for (const double degrees : { 0.0, 20.0, 45.0, -45.0, 60.0 }) {
         for (const double ior : { 1.0, 1.5, 2.4 }) {
             const double angle = glm::radians(degrees);
             const Image picture = seen({ kSide, kSide }, [&](MaterialStage& stage) {
                 stage.view.camera = Camera::lookAt({ 0, 0, kEye }, { 0, 0, 0 }, { .verticalFovDegrees = kFov });
-                addWall(stage, kEdge, static_cast<float>(kWallZ), 8);
+                addWall(stage, kEdge, static_cast<float>(kBehindZ), 8);
                 double4x4 turned(1.0);
                 turned[0] = double4(std::cos(angle), 0, -std::sin(angle), 0);
                 turned[2] = double4(std::sin(angle), 0, std::cos(angle), 0);
